@@ -1,0 +1,113 @@
+// What a board offers to the firmware. One type per concern, handed to app as template arguments, so
+// that every call in the real-time path is direct. A contract is this comment plus a compile-time
+// check of the member functions; noexcept is part of their types.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "firmware/base/pulse_frame.hpp"
+#include "firmware/base/span.hpp"
+
+namespace cusp::hal {
+
+// PulsePlayer plays pulse frames back to back, one a millisecond, exactly two in flight.
+//
+//   try_play(frame)  takes over a copy of the frame and returns true, or returns false at once where
+//                    two frames are in flight already. Context: servo tick. Bounded time.
+//   underrun()       whether a frame was missing while motion went on: steps are low, and the player
+//                    plays nothing more until clear_underrun(). Context: any.
+//   clear_underrun() Context: main loop.
+template <class T>
+constexpr bool is_pulse_player()
+{
+    static_assert(std::is_same_v<decltype(&T::try_play), bool (T::*)(const PulseFrame&) noexcept>);
+    static_assert(std::is_same_v<decltype(&T::underrun), bool (T::*)() const noexcept>);
+    static_assert(std::is_same_v<decltype(&T::clear_underrun), void (T::*)() noexcept>);
+    return true;
+}
+
+// ByteLink carries the serial line. Context: main loop; neither call waits.
+//
+//   try_read(byte)   one received byte, or false where none waits.
+//   overrun()        whether received bytes were lost since the last call; clears the mark.
+//   write_room()     bytes that write() takes now.
+//   write(bytes)     precondition: bytes.size() <= write_room().
+template <class T>
+constexpr bool is_byte_link()
+{
+    static_assert(std::is_same_v<decltype(&T::try_read), bool (T::*)(std::uint8_t&) noexcept>);
+    static_assert(std::is_same_v<decltype(&T::overrun), bool (T::*)() noexcept>);
+    static_assert(std::is_same_v<decltype(&T::write_room), std::uint32_t (T::*)() const noexcept>);
+    static_assert(
+        std::is_same_v<decltype(&T::write), void (T::*)(Span<const std::uint8_t>) noexcept>);
+    return true;
+}
+
+// Levels of the inputs, one bit each, raw: machine/ inverts and debounces as the settings say.
+enum InputBit : std::uint16_t {
+    kLimitX = 1U << 0U,
+    kLimitY = 1U << 1U,
+    kLimitZ = 1U << 2U,
+    kProbe = 1U << 3U,
+    kDoor = 1U << 4U,
+    kHoldButton = 1U << 5U,
+    kStartButton = 1U << 6U,
+    kResetButton = 1U << 7U,
+};
+
+// What the outputs other than steps shall be.
+struct OutputLevels {
+    bool spindle_on{false};
+    bool spindle_reverse{false};
+    std::uint16_t spindle_pwm{0};  // 0 to 1000 per mille
+    bool flood{false};
+    bool mist{false};
+    bool drives_enabled{false};
+};
+
+// Panel reads inputs and sets outputs. Context: main loop and servo tick; bounded time.
+//
+//   inputs()      bits of InputBit; 1 = the pin is high.
+//   set(levels)   takes effect at once.
+template <class T>
+constexpr bool is_panel()
+{
+    static_assert(std::is_same_v<decltype(&T::inputs), std::uint16_t (T::*)() const noexcept>);
+    static_assert(std::is_same_v<decltype(&T::set), void (T::*)(const OutputLevels&) noexcept>);
+    return true;
+}
+
+// SettingsStore keeps bytes over a power cycle: a log of two sectors, written in words, that may fail
+// at any write. machine/ puts records with sequence numbers and CRC into it. Context: main loop, in
+// idle or alarm, never with frames in flight.
+//
+//   sector_size()                 bytes in each of the two sectors; a multiple of 4.
+//   read(sector, offset, bytes)   offset and size within the sector; erased bytes are 0xFF.
+//   write(sector, offset, bytes)  false where the write failed; offset and size multiples of 4; only
+//                                 erased bytes may be written.
+//   erase(sector)                 false where it failed.
+template <class T>
+constexpr bool is_settings_store()
+{
+    static_assert(std::is_same_v<decltype(&T::sector_size), std::uint32_t (T::*)() const noexcept>);
+    static_assert(std::is_same_v<decltype(&T::read),
+                                 void (T::*)(unsigned, std::uint32_t, Span<std::uint8_t>)
+                                     const noexcept>);
+    static_assert(std::is_same_v<decltype(&T::write),
+                                 bool (T::*)(unsigned, std::uint32_t, Span<const std::uint8_t>) noexcept>);
+    static_assert(std::is_same_v<decltype(&T::erase), bool (T::*)(unsigned) noexcept>);
+    return true;
+}
+
+// A Board bundles the four: member types PulsePlayer, ByteLink, Panel, SettingsStore and an object of
+// each, named pulse_player, byte_link, panel, settings_store.
+template <class Board>
+constexpr bool is_board()
+{
+    return is_pulse_player<decltype(Board::pulse_player)>() &&
+           is_byte_link<decltype(Board::byte_link)>() && is_panel<decltype(Board::panel)>() &&
+           is_settings_store<decltype(Board::settings_store)>();
+}
+
+}  // namespace cusp::hal

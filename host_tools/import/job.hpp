@@ -1,0 +1,93 @@
+// The job file: what to cut, with which tool, how. Everything in millimetres, whatever the file's units.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "host_tools/nurbs/nurbs.hpp"
+#include "host_tools/toolpath/toolpath.hpp"
+
+namespace cusp::host {
+
+// Input that can't be used: exit status 2. The text names file, line or key, quantity, value and limit.
+class InputError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+enum class OutputForm : std::uint8_t { kLines, kArcs, kNurbs };
+enum class ToleranceSide : std::uint8_t { kOutside, kBoth };
+enum class CutDirection : std::uint8_t { kClimb, kConventional };
+enum class EntryKind : std::uint8_t { kAuto, kHelix, kRamp, kPlunge };
+enum class Traversal : std::uint8_t { kZigzag, kOneWay };
+
+// A closed chain of curves, in order, counter-clockwise seen from above; z is ignored.
+using Loop = std::vector<Curve>;
+
+struct Operation {
+    std::string strategy;
+    std::vector<Surface> floor;
+    std::vector<std::string> floor_files;
+    std::optional<Loop> boundary;
+    std::string boundary_file;
+    std::vector<Loop> islands;
+    std::vector<std::string> island_files;
+    Tool tool;
+    std::vector<Tool> tools;  // hull_rough: the choice; else just `tool`
+    OutputForm output{OutputForm::kLines};
+    double plan_tolerance{};
+    double floor_tolerance{};
+    ToleranceSide tolerance_side{ToleranceSide::kOutside};
+    std::optional<double> scallop;
+    CutDirection direction_of_cut{CutDirection::kClimb};
+    EntryKind entry{EntryKind::kAuto};
+    Traversal traversal{Traversal::kZigzag};
+    double allowance{};
+    std::optional<double> max_depth;
+    std::optional<double> min_depth;
+    std::vector<double> layers;  // depths below stock.top
+    // adaptive_isocurve
+    std::optional<double> iso_distance;
+    char direction{'u'};
+    bool roughing{false};
+    // grid_pocket
+    double grid_x{};
+    double grid_y{};
+    std::vector<char> zigzag;  // 'x', 'y'
+    double arc_tolerance{};
+    double max_arc_radius{};
+    std::optional<double> max_roughness;
+    // hull_rough
+    double overlap{};
+    int extra_subdivision{};
+    bool contour_clearing{false};
+    // complete_isocurves, parallel_planes
+    std::optional<double> step_over;
+};
+
+struct Job {
+    std::string file;
+    bool inch{false};  // of the G-code written; everything in this struct is mm
+    std::vector<Tool> tools;
+    double feed{};         // mm/min
+    double plunge_feed{};  // mm/min
+    double spindle{};      // rpm
+    double stock_top{};
+    double clearance{};    // above stock_top
+    std::optional<double> stock_bottom;
+    std::optional<std::array<double, 2>> stock_x;
+    std::optional<std::array<double, 2>> stock_y;
+    std::vector<Operation> operations;
+};
+
+// Reads a TOML job and the parts it names. Throws InputError.
+Job read_job(const std::string& file);
+
+// Geometry by itself. Throws InputError.
+std::vector<Surface> read_surfaces(const std::string& file);
+Loop read_loop(const std::string& file);  // closed to 1e-3 mm, oriented counter-clockwise
+
+}  // namespace cusp::host

@@ -1,0 +1,104 @@
+// NURBS curves and surfaces of any size on the host: evaluate, derive, insert knots, split.
+// Millimetres and doubles throughout. Evaluation outside the domain is clamped to it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "firmware/base/vec.hpp"
+
+namespace cusp::host {
+
+struct Vec2d {
+    double x{};
+    double y{};
+    friend Vec2d operator+(Vec2d a, Vec2d b) { return {a.x + b.x, a.y + b.y}; }
+    friend Vec2d operator-(Vec2d a, Vec2d b) { return {a.x - b.x, a.y - b.y}; }
+    friend Vec2d operator*(Vec2d a, double k) { return {a.x * k, a.y * k}; }
+    friend Vec2d operator*(double k, Vec2d a) { return a * k; }
+};
+
+inline double dot(Vec2d a, Vec2d b) { return a.x * b.x + a.y * b.y; }
+inline double cross(Vec2d a, Vec2d b) { return a.x * b.y - a.y * b.x; }
+double norm(Vec2d a);
+
+// A rational B-spline curve. Invariants (checked by the reader in host_tools/import, assumed here):
+// degree >= 1, points.size() == weights.size() >= degree + 1, knots.size() == points.size() + degree + 1,
+// knots non-decreasing, domain not empty, weights > 0.
+struct Curve {
+    int degree{};
+    std::vector<double> knots;
+    std::vector<Vec3d> points;
+    std::vector<double> weights;
+
+    double domain_begin() const { return knots[static_cast<std::size_t>(degree)]; }
+    double domain_end() const { return knots[points.size()]; }
+};
+
+// A point with the first and second derivative by the parameter.
+struct CurvePoint {
+    Vec3d point;
+    Vec3d first;
+    Vec3d second;
+};
+
+Vec3d point_at(const Curve& curve, double u);
+CurvePoint derivatives_at(const Curve& curve, double u);
+
+// The same curve with knot u inserted so that its multiplicity is `degree`; parts on either side share it.
+std::array<Curve, 2> split_at(const Curve& curve, double u);
+
+// The pieces of the curve between distinct knots, each with full multiplicity at its ends.
+std::vector<Curve> bezier_pieces(const Curve& curve);
+
+Curve reversed(const Curve& curve);
+
+// A rational tensor-product surface; control point (i, j) stands at points[i * size_v + j].
+struct Surface {
+    int degree_u{};
+    int degree_v{};
+    std::vector<double> knots_u;
+    std::vector<double> knots_v;
+    int size_u{};
+    int size_v{};
+    std::vector<Vec3d> points;
+    std::vector<double> weights;
+    // Trimming loops in (u, v): curves in order, z = 0; the outer loop first, counter-clockwise. Empty: not trimmed.
+    std::vector<std::vector<Curve>> trims;
+
+    double u_begin() const { return knots_u[static_cast<std::size_t>(degree_u)]; }
+    double u_end() const { return knots_u[static_cast<std::size_t>(size_u)]; }
+    double v_begin() const { return knots_v[static_cast<std::size_t>(degree_v)]; }
+    double v_end() const { return knots_v[static_cast<std::size_t>(size_v)]; }
+};
+
+// A surface point with derivatives up to the second.
+struct SurfacePoint {
+    Vec3d point;
+    Vec3d du;
+    Vec3d dv;
+    Vec3d duu;
+    Vec3d duv;
+    Vec3d dvv;
+};
+
+Vec3d point_at(const Surface& surface, double u, double v);
+SurfacePoint derivatives_at(const Surface& surface, double u, double v);
+
+// Unit normal, pointing up (z >= 0); for a vertical tangent plane to the left of du. Zero where the
+// derivatives are parallel.
+Vec3d upward_normal(const SurfacePoint& s);
+
+// Rational Bezier patches of the surface, row by row in u then v; each with its box of the domain.
+struct BezierPatch {
+    Surface surface;  // one span in u and v
+    double u_begin, u_end, v_begin, v_end;
+};
+std::vector<BezierPatch> bezier_patches(const Surface& surface);
+
+// The isocurve at constant v (a curve over u), or at constant u (over v).
+Curve isocurve_at_v(const Surface& surface, double v);
+Curve isocurve_at_u(const Surface& surface, double u);
+
+}  // namespace cusp::host
