@@ -44,10 +44,14 @@ template <class T>
 SinCos<T> rotate_by_quadrants(T sine, T cosine, std::int32_t quadrant) noexcept
 {
     switch (static_cast<std::uint32_t>(quadrant) & 3U) {
-        case 0: return {sine, cosine};
-        case 1: return {cosine, -sine};
-        case 2: return {-sine, -cosine};
-        default: return {-cosine, sine};
+        case 0:
+            return {sine, cosine};
+        case 1:
+            return {cosine, -sine};
+        case 2:
+            return {-sine, -cosine};
+        default:
+            return {-cosine, sine};
     }
 }
 
@@ -102,8 +106,8 @@ double atan2(double y, double x) noexcept
     }
     // Into the first octant, then down to at most pi/16 by subtracting a multiple of pi/8.
     double t = b <= a ? b / a : a / b;
-    constexpr double kTanEighth = 0.41421356237309504880;   // tan(pi/8)
-    constexpr double kTanSixteenth = 0.19891236737965800691;  // tan(pi/16)
+    constexpr double kTanEighth = 0.41421356237309504880;      // tan(pi/8)
+    constexpr double kTanSixteenth = 0.19891236737965800691;   // tan(pi/16)
     constexpr double kTan3Sixteenth = 0.66817863791929891999;  // tan(3 pi/16)
     double offset = 0;
     if (t > kTan3Sixteenth) {

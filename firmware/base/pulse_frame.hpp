@@ -12,7 +12,8 @@ inline constexpr std::uint32_t kPulseTicksPerFrame = 1000;
 inline constexpr std::uint32_t kServoTicksPerSecond = 1000;
 
 // The six lines of a frame, one bit each: steps of X Y Z in bits 0 to 2, directions in bits 3 to 5.
-// Logical levels: a step is a rising edge, direction 1 moves towards plus. Boards invert at the pin.
+// Logical levels: a step is a rising edge, direction 1 moves towards plus. Boards invert at the
+// pin.
 using PulseLines = std::uint8_t;
 
 constexpr PulseLines step_line(unsigned axis) noexcept

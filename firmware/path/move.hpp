@@ -15,12 +15,12 @@ enum class MoveKind : std::uint8_t {
 struct Move {
     MoveKind kind{MoveKind::kFeed};
     Path path{Line{}};
-    Position start;          // machine coordinates
+    Position start;  // machine coordinates
     Position end;
-    float feed{0};           // mm/s along the path, > 0 for kFeed
+    float feed{0};  // mm/s along the path, > 0 for kFeed
     // How far the tool may leave the path, mm; 0 is the exact path (G61).
     float tolerance{0};
-    std::uint32_t line{0};   // of the program, for reports
+    std::uint32_t line{0};  // of the program, for reports
 };
 
 // Length of the path in mm, within 1e-9 relative for lines and arcs and 1e-6 for Bezier pieces.

@@ -1,7 +1,7 @@
 // The geometry of one move: a line, an arc or helix, or one rational Bezier piece.
 //
-// All three are relative to the start of the move, in millimetres; start and end themselves are exact
-// positions (Move). Parameters run over [0, length] by arc length where a name says `at`.
+// All three are relative to the start of the move, in millimetres; start and end themselves are
+// exact positions (Move). Parameters run over [0, length] by arc length where a name says `at`.
 #pragma once
 
 #include <cstdint>
@@ -46,18 +46,18 @@ struct ArcWords {
     Position start;
     Position end;
     Plane plane;
-    bool clockwise;        // G2, seen from the plane's positive normal
+    bool clockwise;                 // G2, seen from the plane's positive normal
     std::int64_t first_offset_nm;   // start to centre along the plane's first axis (I, K, J)
     std::int64_t second_offset_nm;  // along its second (J, I, K)
-    std::int32_t turns;    // P word: 1 for the plain arc; a full circle where start and end agree
+    std::int32_t turns;  // P word: 1 for the plain arc; a full circle where start and end agree
 };
 
 // Makes an arc of centre offsets.
 //
 // Errors:
 //   kGcodeInvalidTarget  the radii at start and end differ by more than 0.005 mm and 0.1 %, or by
-//                        more than 0.5 mm, or one of them is 0. Within that the radius goes linearly
-//                        in angle from one to the other.
+//                        more than 0.5 mm, or one of them is 0. Within that the radius goes
+//                        linearly in angle from one to the other.
 Result<Arc> make_arc(const ArcWords& words) noexcept;
 
 // The centre offsets of a radius word: fills the offsets of `words`.

@@ -32,17 +32,16 @@ class Planner;
 //       Position tick();                         // next set point, machine nm; servo tick
 //       bool at_rest() const;                    // filters empty, nothing moves now
 //       void reset(Position at);                 // at rest at `at`
-//       void hold(); void resume(); bool holding() const;   // at_rest() tells when a hold is complete
-//       void set_feed_override(unsigned percent); void set_rapid_override(unsigned percent);
-//       std::uint32_t executing_line() const;
-//       float speed() const;                     // mm/s along the path, now
-//       Position position() const;               // last set point
+//       void hold(); void resume(); bool holding() const;   // at_rest() tells when a hold is
+//       complete void set_feed_override(unsigned percent); void set_rapid_override(unsigned
+//       percent); std::uint32_t executing_line() const; float speed() const;                     //
+//       mm/s along the path, now Position position() const;               // last set point
 //   };
 //
 // and in firmware/pulse/pulse_maker.hpp:
 //
-//   struct StepSettings { Vec3f steps_per_mm; std::uint16_t pulse_us, low_us, direction_setup_us; };
-//   class PulseMaker {
+//   struct StepSettings { Vec3f steps_per_mm; std::uint16_t pulse_us, low_us, direction_setup_us;
+//   }; class PulseMaker {
 //       explicit PulseMaker(const StepSettings&);
 //       void make_frame(Position set_point, PulseFrame& frame);   // one servo tick
 //       bool idle() const;                       // all lines low, nothing pending

@@ -1,6 +1,6 @@
-// What a board offers to the firmware. One type per concern, handed to app as template arguments, so
-// that every call in the real-time path is direct. A contract is this comment plus a compile-time
-// check of the member functions; noexcept is part of their types.
+// What a board offers to the firmware. One type per concern, handed to app as template arguments,
+// so that every call in the real-time path is direct. A contract is this comment plus a
+// compile-time check of the member functions; noexcept is part of their types.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,11 @@ namespace cusp::hal {
 
 // PulsePlayer plays pulse frames back to back, one a millisecond, exactly two in flight.
 //
-//   try_play(frame)  takes over a copy of the frame and returns true, or returns false at once where
+//   try_play(frame)  takes over a copy of the frame and returns true, or returns false at once
+//   where
 //                    two frames are in flight already. Context: servo tick. Bounded time.
-//   underrun()       whether a frame was missing while motion went on: steps are low, and the player
+//   underrun()       whether a frame was missing while motion went on: steps are low, and the
+//   player
 //                    plays nothing more until clear_underrun(). Context: any.
 //   clear_underrun() Context: main loop.
 template <class T>
@@ -78,30 +80,32 @@ constexpr bool is_panel()
     return true;
 }
 
-// SettingsStore keeps bytes over a power cycle: a log of two sectors, written in words, that may fail
-// at any write. machine/ puts records with sequence numbers and CRC into it. Context: main loop, in
-// idle or alarm, never with frames in flight.
+// SettingsStore keeps bytes over a power cycle: a log of two sectors, written in words, that may
+// fail at any write. machine/ puts records with sequence numbers and CRC into it. Context: main
+// loop, in idle or alarm, never with frames in flight.
 //
 //   sector_size()                 bytes in each of the two sectors; a multiple of 4.
 //   read(sector, offset, bytes)   offset and size within the sector; erased bytes are 0xFF.
-//   write(sector, offset, bytes)  false where the write failed; offset and size multiples of 4; only
+//   write(sector, offset, bytes)  false where the write failed; offset and size multiples of 4;
+//   only
 //                                 erased bytes may be written.
 //   erase(sector)                 false where it failed.
 template <class T>
 constexpr bool is_settings_store()
 {
     static_assert(std::is_same_v<decltype(&T::sector_size), std::uint32_t (T::*)() const noexcept>);
-    static_assert(std::is_same_v<decltype(&T::read),
-                                 void (T::*)(unsigned, std::uint32_t, Span<std::uint8_t>)
-                                     const noexcept>);
-    static_assert(std::is_same_v<decltype(&T::write),
-                                 bool (T::*)(unsigned, std::uint32_t, Span<const std::uint8_t>) noexcept>);
+    static_assert(
+        std::is_same_v<decltype(&T::read),
+                       void (T::*)(unsigned, std::uint32_t, Span<std::uint8_t>) const noexcept>);
+    static_assert(
+        std::is_same_v<decltype(&T::write),
+                       bool (T::*)(unsigned, std::uint32_t, Span<const std::uint8_t>) noexcept>);
     static_assert(std::is_same_v<decltype(&T::erase), bool (T::*)(unsigned) noexcept>);
     return true;
 }
 
-// A Board bundles the four: member types PulsePlayer, ByteLink, Panel, SettingsStore and an object of
-// each, named pulse_player, byte_link, panel, settings_store.
+// A Board bundles the four: member types PulsePlayer, ByteLink, Panel, SettingsStore and an object
+// of each, named pulse_player, byte_link, panel, settings_store.
 template <class Board>
 constexpr bool is_board()
 {

@@ -1,4 +1,5 @@
-// The job file: what to cut, with which tool, how. Everything in millimetres, whatever the file's units.
+// The job file: what to cut, with which tool, how. Everything in millimetres, whatever the file's
+// units.
 #pragma once
 
 #include <map>
@@ -12,7 +13,8 @@
 
 namespace cusp::host {
 
-// Input that can't be used: exit status 2. The text names file, line or key, quantity, value and limit.
+// Input that can't be used: exit status 2. The text names file, line or key, quantity, value and
+// limit.
 class InputError : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
@@ -76,7 +78,7 @@ struct Job {
     double plunge_feed{};  // mm/min
     double spindle{};      // rpm
     double stock_top{};
-    double clearance{};    // above stock_top
+    double clearance{};  // above stock_top
     std::optional<double> stock_bottom;
     std::optional<std::array<double, 2>> stock_x;
     std::optional<std::array<double, 2>> stock_y;

@@ -24,8 +24,8 @@ inline double cross(Vec2d a, Vec2d b) { return a.x * b.y - a.y * b.x; }
 double norm(Vec2d a);
 
 // A rational B-spline curve. Invariants (checked by the reader in host_tools/import, assumed here):
-// degree >= 1, points.size() == weights.size() >= degree + 1, knots.size() == points.size() + degree + 1,
-// knots non-decreasing, domain not empty, weights > 0.
+// degree >= 1, points.size() == weights.size() >= degree + 1, knots.size() == points.size() +
+// degree + 1, knots non-decreasing, domain not empty, weights > 0.
 struct Curve {
     int degree{};
     std::vector<double> knots;
@@ -46,7 +46,8 @@ struct CurvePoint {
 Vec3d point_at(const Curve& curve, double u);
 CurvePoint derivatives_at(const Curve& curve, double u);
 
-// The same curve with knot u inserted so that its multiplicity is `degree`; parts on either side share it.
+// The same curve with knot u inserted so that its multiplicity is `degree`; parts on either side
+// share it.
 std::array<Curve, 2> split_at(const Curve& curve, double u);
 
 // The pieces of the curve between distinct knots, each with full multiplicity at its ends.
@@ -64,7 +65,8 @@ struct Surface {
     int size_v{};
     std::vector<Vec3d> points;
     std::vector<double> weights;
-    // Trimming loops in (u, v): curves in order, z = 0; the outer loop first, counter-clockwise. Empty: not trimmed.
+    // Trimming loops in (u, v): curves in order, z = 0; the outer loop first, counter-clockwise.
+    // Empty: not trimmed.
     std::vector<std::vector<Curve>> trims;
 
     double u_begin() const { return knots_u[static_cast<std::size_t>(degree_u)]; }

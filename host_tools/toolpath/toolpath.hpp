@@ -20,7 +20,8 @@ struct Tool {
     double corner_radius{};  // mm: radius for a ball, 0 for a flat end mill
 };
 
-// Height of the tool's lower side over its tip at distance `d` from its axis; infinity beyond the radius.
+// Height of the tool's lower side over its tip at distance `d` from its axis; infinity beyond the
+// radius.
 double profile_height(const Tool& tool, double d);
 
 // One move of the tool tip; it starts where the one before ended.
@@ -29,8 +30,8 @@ enum class MoveKind : std::uint8_t { kRapid, kPlunge, kCut, kLink };
 struct LineTo {
     Vec3d end;
 };
-// An arc in a coordinate plane; the rest of the travel is linear (helix). Centre: the two coordinates
-// of the plane are used.
+// An arc in a coordinate plane; the rest of the travel is linear (helix). Centre: the two
+// coordinates of the plane are used.
 enum class ArcPlane : std::uint8_t { kXY, kZX, kYZ };
 struct ArcTo {
     Vec3d end;
@@ -48,7 +49,8 @@ struct ToolMove {
 };
 
 // The moves of one operation with one tool, millimetres, from the clearance height and back to it.
-// The first move is a rapid; `start` is where it comes from in x and y (unknown for the first operation).
+// The first move is a rapid; `start` is where it comes from in x and y (unknown for the first
+// operation).
 struct Toolpath {
     Tool tool;
     double feed{};         // mm/min, cuts and links
@@ -68,8 +70,9 @@ struct OperationStats {
     double gouge_bound_mm{};
     double scallop_bound_mm{};
     double planning_s{};
-    std::vector<std::pair<std::string, double>> counts;    // loops, isocurves, layers, cells, backtracks...
-    std::vector<std::string> warnings;                     // rest material, slots: for people
+    std::vector<std::pair<std::string, double>>
+        counts;                         // loops, isocurves, layers, cells, backtracks...
+    std::vector<std::string> warnings;  // rest material, slots: for people
 };
 
 // A planned operation.

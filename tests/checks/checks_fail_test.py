@@ -1,0 +1,92 @@
+#!/usr/bin/env python3
+"""Shows that each check of the tree fails where it should: a check that finds nothing is no check."""
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = pathlib.Path(__file__).resolve().parent
+TABLE = "| firmware/base | |\n| firmware/path | firmware/base |\n"
+
+
+class ChecksOfTheTree(unittest.TestCase):
+    def setUp(self):
+        self.top = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.top)
+        self.write("docs/architecture.md", TABLE)
+
+    def write(self, place, text):
+        file = self.top / place
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(text)
+
+    def run_check(self, name, *arguments):
+        program = [sys.executable] if name.endswith(".py") else ["sh"]
+        run = subprocess.run([*program, str(HERE / name), str(self.top), *arguments],
+                             capture_output=True, text=True)
+        return run.returncode, run.stdout + run.stderr
+
+    def test_includes_passes_an_allowed_arrow(self):
+        self.write("firmware/path/line.hpp", '#include "firmware/base/vec.hpp"\n#include <array>\n')
+        self.assertEqual(self.run_check("includes.py")[0], 0)
+
+    def test_includes_refuses_an_arrow_that_is_not_in_the_table(self):
+        self.write("firmware/base/vec.hpp", '\n#include "firmware/path/line.hpp"\n')
+        status, text = self.run_check("includes.py")
+        self.assertEqual(status, 1)
+        self.assertIn("firmware/base/vec.hpp:2", text)
+
+    def test_includes_refuses_a_folder_without_a_row(self):
+        self.write("firmware/new/thing.hpp", "")
+        self.assertEqual(self.run_check("includes.py")[0], 1)
+
+    def test_includes_refuses_the_heap_in_firmware(self):
+        self.write("firmware/base/vec.hpp", "#include <vector>\n")
+        self.assertEqual(self.run_check("includes.py")[0], 1)
+
+    def test_includes_refuses_a_path_that_does_not_start_at_the_top(self):
+        self.write("firmware/base/vec.hpp", '#include "axis.hpp"\n')
+        self.assertEqual(self.run_check("includes.py")[0], 1)
+
+    def test_includes_needs_a_table_and_sources(self):
+        self.assertEqual(self.run_check("includes.py")[0], 2)
+        self.write("docs/architecture.md", "none\n")
+        self.assertEqual(self.run_check("includes.py")[0], 2)
+
+    def test_format_refuses_a_badly_laid_out_file(self):
+        shutil.copy(HERE.parent.parent / ".clang-format", self.top)
+        self.write("firmware/base/vec.hpp", "#pragma once\nint  x ;\n")
+        self.assertEqual(self.run_check("format.sh")[0], 1)
+        self.assertEqual(self.run_check("format.sh", "--fix")[0], 0)
+        self.assertEqual(self.run_check("format.sh")[0], 0)
+
+    def test_format_needs_sources(self):
+        shutil.copy(HERE.parent.parent / ".clang-format", self.top)
+        self.assertEqual(self.run_check("format.sh")[0], 2)
+
+    def test_doc_names_refuses_names_that_do_not_exist(self):
+        self.write("firmware/base/vec.hpp", "int norm(int x);\n")
+        self.write("docs/life.md", "`norm()` is in `firmware/base/vec.hpp`\n")
+        self.assertEqual(self.run_check("doc_names.py", "docs/life.md")[0], 0)
+        self.write("docs/life.md", "`norm()` then `Vec::dot()`\n")
+        self.assertEqual(self.run_check("doc_names.py", "docs/life.md")[0], 1)
+        self.write("docs/life.md", "in `firmware/base/vector.hpp`\n")
+        self.assertEqual(self.run_check("doc_names.py", "docs/life.md")[0], 1)
+
+    def test_doc_names_needs_the_document(self):
+        self.assertEqual(self.run_check("doc_names.py", "docs/none.md")[0], 2)
+
+    def test_headers_refuses_one_that_leans_on_its_reader(self):
+        self.write("firmware/base/vec.hpp", "#pragma once\nstd::size_t size();\n")
+        self.assertEqual(self.run_check("headers.py", "g++")[0], 1)
+
+    def test_headers_refuses_two_of_one_name(self):
+        self.write("firmware/base/vec.hpp", "#pragma once\n")
+        self.write("firmware/path/vec.hpp", "#pragma once\n")
+        self.assertEqual(self.run_check("headers.py", "g++")[0], 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,89 @@
+#!/usr/bin/env python3
+"""Compares every #include of the tree with the arrows that docs/architecture.md allows.
+
+usage: includes.py TOP
+Exit status: 0 every arrow is in the table, 1 some are not, 2 the tree or its table can't be read.
+"""
+import pathlib
+import re
+import sys
+
+TOP_FOLDERS = ("firmware", "hal", "boards", "host_tools")
+# What firmware may take from the standard library: nothing of it allocates, throws or differs.
+FREESTANDING_HEADERS = {
+    "algorithm", "array", "atomic", "cmath", "cstddef", "cstdint", "limits", "optional",
+    "string_view", "tuple", "type_traits", "utility", "variant",
+}
+INCLUDE = re.compile(r'^[ \t]*#[ \t]*include\s*([<"])([^>"]+)[>"]', re.M)
+ROW = re.compile(r"^\|\s*((?:%s)/[\w/]+)\s*\|([^|]*)\|" % "|".join(TOP_FOLDERS), re.M)
+
+
+def read_table(path):
+    """The allowed arrows: module -> set of modules."""
+    table = {}
+    for module, allowed in ROW.findall(path.read_text()):
+        if module in table:
+            raise ValueError(f"{path}: {module} has two rows")
+        table[module] = set(allowed.split())
+    if not table:
+        raise ValueError(f"{path}: no table of arrows")
+    for module, allowed in table.items():
+        for other in sorted(allowed - table.keys()):
+            raise ValueError(f"{path}: {module} may include {other}, which has no row")
+    return table
+
+
+def module_of(place, table):
+    """The module that a file lies in, or None: the longest row that is a folder above it."""
+    folders = place.split("/")[:-1]
+    for size in range(len(folders), 0, -1):
+        name = "/".join(folders[:size])
+        if name in table:
+            return name
+    return None
+
+
+def is_freestanding(module):
+    return module.startswith("firmware/") or module in ("hal/contract", "hal/stm32f4")
+
+
+def complaints(file, place, table):
+    module = module_of(place, table)
+    if module is None:
+        yield f"{place}: lies in no module of docs/architecture.md"
+        return
+    text = file.read_text()
+    for match in INCLUDE.finditer(text):
+        line = text.count("\n", 0, match.start()) + 1
+        bracket, target = match.groups()
+        if target.split("/")[0] in TOP_FOLDERS:
+            other = module_of(target, table)
+            if other != module and other not in table[module]:
+                yield f"{place}:{line}: {module} may not include {target}"
+        elif bracket == '"' and "/" not in target:
+            yield f"{place}:{line}: {target}: includes start at the top of the tree"
+        elif is_freestanding(module) and target not in FREESTANDING_HEADERS:
+            yield f"{place}:{line}: <{target}> is not for firmware"
+
+
+def main(arguments):
+    top = pathlib.Path(arguments[1])
+    try:
+        table = read_table(top / "docs/architecture.md")
+    except (OSError, ValueError) as error:
+        print(f"includes: {error}", file=sys.stderr)
+        return 2
+    count, found = 0, []
+    for folder in TOP_FOLDERS:
+        for file in sorted((top / folder).rglob("*.[hc]pp")):
+            count += 1
+            found += complaints(file, file.relative_to(top).as_posix(), table)
+    if not count:
+        print(f"includes: no sources below {top}", file=sys.stderr)
+        return 2
+    print("\n".join(found) if found else f"includes: {count} files keep to the arrows")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv))
