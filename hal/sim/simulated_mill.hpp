@@ -1,0 +1,71 @@
+// SimulatedMill: the iron of the virtual machine tool: slides that follow the pulses, limit
+// switches at both ends of each travel, a probe plate, buttons, and a spindle that only remembers.
+//
+// Distances are of the iron, in millimetres from the upper end of each travel, in the manner of
+// Grbl's machine space: the table is free to move from -travel to 0. What the controller believes
+// is its own affair; homing makes the two agree.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "firmware/base/axis.hpp"
+#include "firmware/base/vec.hpp"
+#include "hal/contract/board.hpp"
+#include "hal/sim/simulated_player.hpp"
+
+namespace cusp::hal {
+
+struct MillGeometry {
+    Vec3d steps_per_mm{800.0, 800.0, 800.0};
+    Vec3d travel{300.0, 200.0, 80.0};
+    Vec3d start{-50.0, -30.0, -10.0};
+    // A switch trips this far beyond the end of the travel.
+    double switch_distance{0.0};
+    // Height of the probe plate over the place where the tool starts, mm; none: it touches nothing.
+    std::optional<double> plate_above_start;
+    // Directions whose direction line the drives invert, one bit an axis (setting 3 is applied by
+    // the firmware, so it stays 0 unless a wiring fault is wanted).
+    std::uint8_t inverted_directions{0};
+};
+
+// The contract's Panel; what follows it belongs to the simulation.
+class SimulatedMill : public FrameListener {
+public:
+    explicit SimulatedMill(const MillGeometry& geometry) : geometry_{geometry} {}
+
+    std::uint16_t inputs() const noexcept;
+    void set(const OutputLevels& levels) noexcept;
+
+    void frame_played(std::uint64_t start_tick, const PulseFrame& frame) override;
+
+    void set_geometry(const MillGeometry& geometry);
+
+    // Where the tool is, mm from the upper ends of the travel.
+    Vec3d place() const noexcept;
+    // Steps taken since the start, both ways, and their balance.
+    const PerAxis<std::uint64_t>& steps_taken() const noexcept { return steps_taken_; }
+    const PerAxis<std::int64_t>& steps() const noexcept { return steps_; }
+    const OutputLevels& outputs() const noexcept { return outputs_; }
+    // Counts the calls of set() that changed something.
+    std::uint32_t output_changes() const noexcept { return output_changes_; }
+
+    // Fault injection, or a person at the panel: bits of InputBit that read high, or low, whatever
+    // the switches say.
+    void force_high(std::uint16_t inputs) noexcept { forced_high_ = inputs; }
+    void force_low(std::uint16_t inputs) noexcept { forced_low_ = inputs; }
+
+private:
+    void take_step(unsigned axis) noexcept;
+
+    MillGeometry geometry_;
+    PerAxis<std::int64_t> steps_{};
+    PerAxis<std::uint64_t> steps_taken_{};
+    PulseLines levels_{0};
+    OutputLevels outputs_{};
+    std::uint32_t output_changes_{0};
+    std::uint16_t forced_high_{0};
+    std::uint16_t forced_low_{0};
+};
+
+}  // namespace cusp::hal

@@ -1,0 +1,55 @@
+// SimulatedStore: two sectors of flash in memory, kept in a file if wanted, with power cuts on
+// demand.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "hal/contract/board.hpp"
+
+namespace cusp::hal {
+
+// The contract's SettingsStore; what follows it belongs to the simulation.
+class SimulatedStore {
+public:
+    static constexpr std::uint32_t kSectorSize = 16 * 1024;
+
+    SimulatedStore();
+
+    std::uint32_t sector_size() const noexcept { return kSectorSize; }
+    void read(unsigned sector, std::uint32_t offset, Span<std::uint8_t> bytes) const noexcept;
+    bool write(unsigned sector, std::uint32_t offset, Span<const std::uint8_t> bytes) noexcept;
+    bool erase(unsigned sector) noexcept;
+
+    // Keeps the sectors in this file from now on; what it holds already is loaded. A file of
+    // another size is refused.
+    //
+    // Returns false where the file can't be read or written.
+    bool keep_in(const std::filesystem::path& file);
+
+    // Fault injection: after this many more words (an erased sector counts as one) the power fails;
+    // nothing is written from then on, and every write says so. None: never.
+    void cut_power_after(std::optional<std::uint64_t> words) noexcept { words_left_ = words; }
+    bool power_is_cut() const noexcept { return words_left_ && *words_left_ == 0; }
+    // Words written and sectors erased so far.
+    std::uint64_t words_written() const noexcept { return words_written_; }
+
+    // Fault injection: flips bits of one byte.
+    void damage(unsigned sector, std::uint32_t offset, std::uint8_t bits);
+
+private:
+    bool spend_word() noexcept;
+    bool save() const noexcept;
+
+    std::array<std::vector<std::uint8_t>, 2> sectors_;
+    std::optional<std::uint64_t> words_left_;
+    std::uint64_t words_written_{0};
+    std::filesystem::path file_;
+};
+
+static_assert(is_settings_store<SimulatedStore>());
+
+}  // namespace cusp::hal
