@@ -4,21 +4,14 @@
 
 #include <map>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "host_tools/input_error/input_error.hpp"
 #include "host_tools/nurbs/nurbs.hpp"
 #include "host_tools/toolpath/toolpath.hpp"
 
 namespace cusp::host {
-
-// Input that can't be used: exit status 2. The text names file, line or key, quantity, value and
-// limit.
-class InputError : public std::runtime_error {
-public:
-    using std::runtime_error::runtime_error;
-};
 
 enum class OutputForm : std::uint8_t { kLines, kArcs, kNurbs };
 enum class ToleranceSide : std::uint8_t { kOutside, kBoth };
