@@ -1,0 +1,104 @@
+// Text of the value change dump.
+#include "host_tools/simulate/vcd_writer.hpp"
+
+#include <array>
+#include <string_view>
+
+namespace cusp::host {
+namespace {
+
+// Order of declaration. Identifiers are '!' and up.
+constexpr std::array<std::string_view, 8> kWires{"step_x", "dir_x", "step_y",  "dir_y",
+                                                 "step_z", "dir_z", "spindle", "coolant"};
+constexpr unsigned kSpindleWire = 6;
+constexpr unsigned kCoolantWire = 7;
+
+constexpr char identifier(unsigned wire) { return static_cast<char>('!' + wire); }
+
+}  // namespace
+
+VcdWriter::VcdWriter(const std::string& file, const hal::SimulatedMill& mill)
+    : file_{file}, mill_{mill}
+{
+    file_.write("$version cusp sim $end\n$timescale 1 us $end\n$scope module mill $end\n");
+    for (unsigned wire = 0; wire < kWires.size(); ++wire) {
+        file_.write("$var wire 1 ");
+        file_.write(identifier(wire));
+        file_.write(' ');
+        file_.write(kWires[wire]);
+        file_.write(" $end\n");
+    }
+    file_.write("$upscope $end\n$enddefinitions $end\n#0\n$dumpvars\n");
+    for (unsigned wire = 0; wire < kWires.size(); ++wire) {
+        write_level(false, wire);
+    }
+    file_.write("$end\n");
+}
+
+void VcdWriter::frame_played(std::uint64_t start_tick, const PulseFrame& frame)
+{
+    watch_outputs(start_tick);
+    for (const PulseEdge& edge : frame.edges) {
+        const auto now = static_cast<PulseLines>((levels_ | edge.raise) & ~unsigned{edge.lower});
+        const auto changed = static_cast<PulseLines>(now ^ levels_);
+        levels_ = now;
+        if (changed != 0) {
+            write_changes(start_tick + edge.tick, changed);
+        }
+    }
+    end_ = start_tick + kPulseTicksPerFrame;
+}
+
+void VcdWriter::close()
+{
+    write_time(end_);
+    file_.close();
+}
+
+void VcdWriter::write_time(std::uint64_t tick)
+{
+    if (tick == last_written_) {
+        return;
+    }
+    last_written_ = tick;
+    file_.write('#');
+    file_.write_number(static_cast<std::int64_t>(tick));
+    file_.write('\n');
+}
+
+void VcdWriter::write_level(bool level, unsigned wire)
+{
+    const std::array<char, 3> text{level ? '1' : '0', identifier(wire), '\n'};
+    file_.write(std::string_view{text.data(), text.size()});
+}
+
+void VcdWriter::write_changes(std::uint64_t tick, PulseLines changed)
+{
+    write_time(tick);
+    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+        if ((changed & direction_line(axis)) != 0) {
+            write_level((levels_ & direction_line(axis)) != 0, 2 * axis + 1);
+        }
+        if ((changed & step_line(axis)) != 0) {
+            write_level((levels_ & step_line(axis)) != 0, 2 * axis);
+        }
+    }
+}
+
+void VcdWriter::watch_outputs(std::uint64_t tick)
+{
+    const hal::OutputLevels& outputs = mill_.outputs();
+    const bool coolant = outputs.flood || outputs.mist;
+    if (outputs.spindle_on != spindle_) {
+        spindle_ = outputs.spindle_on;
+        write_time(tick);
+        write_level(spindle_, kSpindleWire);
+    }
+    if (coolant != coolant_) {
+        coolant_ = coolant;
+        write_time(tick);
+        write_level(coolant_, kCoolantWire);
+    }
+}
+
+}  // namespace cusp::host

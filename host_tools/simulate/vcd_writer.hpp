@@ -1,0 +1,40 @@
+// VcdWriter: the pulse trace as a value change dump (IEEE 1364), timescale 1 us.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "hal/sim/simulated_mill.hpp"
+#include "hal/sim/simulated_player.hpp"
+#include "host_tools/simulate/text_file.hpp"
+
+namespace cusp::host {
+
+// Wires step_x dir_x step_y dir_y step_z dir_z (logical levels: a step is a rising edge, dir 1 is
+// plus), spindle and coolant. Spindle and coolant change at the start of a servo tick.
+class VcdWriter : public hal::FrameListener {
+public:
+    // Watches the outputs of `mill`, which outlives it. Throws InputError.
+    VcdWriter(const std::string& file, const hal::SimulatedMill& mill);
+
+    void frame_played(std::uint64_t start_tick, const PulseFrame& frame) override;
+
+    // Ends the dump with the time at which the last frame is over.
+    void close();
+
+private:
+    void write_time(std::uint64_t tick);
+    void write_level(bool level, unsigned wire);
+    void write_changes(std::uint64_t tick, PulseLines changed);
+    void watch_outputs(std::uint64_t tick);
+
+    TextFile file_;
+    const hal::SimulatedMill& mill_;
+    PulseLines levels_{0};
+    bool spindle_{false};
+    bool coolant_{false};
+    std::uint64_t last_written_{0};
+    std::uint64_t end_{0};
+};
+
+}  // namespace cusp::host
