@@ -1,51 +1,84 @@
 // The planner: moves become blocks with geometry, speed limits and an always feasible way to stop.
 //
 // Main loop side: push() a Move when has_room(); close() when no further move is at hand. The
-// interpolator reads the blocks from the servo tick; only raising of speeds happens under its eyes.
+// interpolator reads the queue from the servo tick; only raising of speeds happens under its eyes.
+//
+//   Move -> blocks (block_maker) -> joints and limits (joint, speed_limit)
+//        -> intervals (interval_builder) -> envelope (look_ahead)
 #pragma once
+
+#include <optional>
 
 #include "firmware/base/machine_limits.hpp"
 #include "firmware/path/move.hpp"
+#include "firmware/planner/block_maker.hpp"
+#include "firmware/planner/interval_builder.hpp"
+#include "firmware/planner/joint.hpp"
+#include "firmware/planner/path_queue.hpp"
 
 namespace cusp::planner {
 
-class Planner;
+// Context: main loop.
+class Planner {
+public:
+    explicit Planner(const MachineLimits& limits) noexcept : builder_{queue_} { set_limits(limits); }
+    Planner(const Planner&) = delete;
+    Planner& operator=(const Planner&) = delete;
 
-// What machine/ relies on; defined in this module:
-//
-//   class Planner {
-//       explicit Planner(const MachineLimits&);
-//       void set_limits(const MachineLimits&);   // precondition: empty()
-//       void reset(Position at);                 // forgets all moves; the next starts at `at`
-//       bool has_room() const;                   // push() takes one more move of any kind
-//       void push(const Move&);                  // precondition: has_room(), move.start == tail()
-//       void close();                            // plan what is held back for blending
-//       bool empty() const;                      // every move is played to its end
-//       Position tail() const;                   // where the last pushed move ends
-//       std::uint32_t free_blocks() const;       // for Bf:
-//   };
-//
-// and in firmware/interpolator/interpolator.hpp:
-//
-//   class Interpolator {
-//       explicit Interpolator(Planner&);
-//       Position tick();                         // next set point, machine nm; servo tick
-//       bool at_rest() const;                    // filters empty, nothing moves now
-//       void reset(Position at);                 // at rest at `at`
-//       void hold(); void resume(); bool holding() const;   // at_rest() tells when a hold is
-//       complete void set_feed_override(unsigned percent); void set_rapid_override(unsigned
-//       percent); std::uint32_t executing_line() const; float speed() const;                     //
-//       mm/s along the path, now Position position() const;               // last set point
-//   };
-//
-// and in firmware/pulse/pulse_maker.hpp:
-//
-//   struct StepSettings { Vec3f steps_per_mm; std::uint16_t pulse_us, low_us, direction_setup_us;
-//   }; class PulseMaker {
-//       explicit PulseMaker(const StepSettings&);
-//       void make_frame(Position set_point, PulseFrame& frame);   // one servo tick
-//       bool idle() const;                       // all lines low, nothing pending
-//       PerAxis<std::int32_t> position_steps() const;
-//   };
+    // Precondition: empty().
+    void set_limits(const MachineLimits& limits) noexcept;
+    const MachineLimits& limits() const noexcept { return limits_; }
+
+    // Forgets all moves; the next starts at `at`. The interpolator must be reset with it.
+    void reset(Position at) noexcept;
+
+    // Whether push() takes a move. Works on the move before, as far as there is room for its blocks.
+    bool has_room() noexcept;
+
+    // Precondition: has_room() and move.start == tail(). A move of no length is dropped.
+    void push(const path::Move& move) noexcept;
+
+    // No move follows for now: the path stops at its end.
+    void close() noexcept;
+
+    // Whether every move is played to its end.
+    bool empty() const noexcept;
+
+    // Where the last pushed move ends.
+    Position tail() const noexcept { return tail_; }
+
+    std::uint32_t free_blocks() const noexcept { return queue_.free_blocks(); }
+
+    PathQueue& queue() noexcept { return queue_; }
+
+    // Length of the filter on the travel along the path, servo ticks.
+    std::uint32_t path_filter() const noexcept { return path_filter_; }
+
+private:
+    void work() noexcept;
+    void add_block(const Block& block) noexcept;
+    void join(const EndGeometry& after, const Block& block) noexcept;
+    void add_stretches(const Block& block) noexcept;
+    void stop() noexcept;
+
+    struct RecentJoint {
+        Joint joint;
+        float distance;  // mm, back from the end of the path
+    };
+    static constexpr std::size_t kRecentJoints = 16;
+
+    MachineLimits limits_{};
+    std::uint32_t path_filter_{1};
+    PathQueue queue_;
+    IntervalBuilder builder_;
+    BlockMaker maker_;
+    Position tail_{};
+    path::Move move_{};
+    bool close_requested_{false};
+    // The end of the path so far, where it does not stop there.
+    std::optional<EndGeometry> end_;
+    AxisFilter end_filter_{};
+    StaticVector<RecentJoint, kRecentJoints> joints_;
+};
 
 }  // namespace cusp::planner

@@ -1,0 +1,80 @@
+// The interpolator: the path ahead becomes one set point a servo tick.
+//
+//   path servo: travel along the path, limited in speed and acceleration
+//   path filter: a moving average of it, which limits jerk without leaving the path
+//   position on the block
+//   axis filters: two short moving averages an axis, for jumps of direction and curvature
+//
+// Fixed work a tick, integers and float only.
+#pragma once
+
+#include "firmware/interpolator/box_filter.hpp"
+#include "firmware/interpolator/path_servo.hpp"
+#include "firmware/planner/planner.hpp"
+
+namespace cusp::interpolator {
+
+// Context: servo tick, but for reset(), set_... and hold(), resume(): main loop, any time (reset: at
+// rest only).
+class Interpolator {
+public:
+    explicit Interpolator(planner::Planner& planner) noexcept;
+    Interpolator(const Interpolator&) = delete;
+    Interpolator& operator=(const Interpolator&) = delete;
+
+    // Stands at `at`, filters empty. The planner must have been reset with it.
+    void reset(Position at) noexcept;
+
+    // The next set point, machine nanometres.
+    Position tick() noexcept;
+
+    // Whether nothing moves: all filters are empty.
+    bool at_rest() const noexcept { return at_rest_; }
+
+    // Feed hold: slows down on the path and stays. at_rest() tells when it is complete.
+    void hold() noexcept { holding_ = true; }
+    void resume() noexcept { holding_ = false; }
+    bool holding() const noexcept { return holding_; }
+
+    // Per cent of the programmed feed, 10 to 200, and of rapids, 25 to 100.
+    void set_feed_override(unsigned percent) noexcept;
+    void set_rapid_override(unsigned percent) noexcept;
+
+    // Line of the program that the tool is on; the last one while it stands at an end.
+    std::uint32_t executing_line() const noexcept { return line_; }
+
+    // Speed along the path in this tick, mm/s.
+    float speed() const noexcept;
+
+    Position position() const noexcept { return position_; }
+
+private:
+    static constexpr std::uint32_t kMaxAxisFilter = 12;
+
+    struct AxisState {
+        RunningSum<kMaxAxisFilter> first;
+        RunningSum<kMaxAxisFilter> second;
+        ExactDivision division;
+    };
+    void set_axis_filter(planner::AxisFilter filter) noexcept;
+    PathOffset travel(std::int32_t along) noexcept;
+    bool filters_drained() const noexcept;
+
+    planner::Planner& planner_;
+    planner::PathQueue& queue_;
+    PathServo servo_;
+    RunningSum<kMaxPathFilter> path_filter_;
+    ExactDivision path_division_;
+    PerAxis<AxisState> axes_{};
+    planner::AxisFilter axis_filter_{};
+    std::uint32_t offset_{0};  // path units into the first block
+    PathOffset place_{};       // relative to its start
+    Position position_{};
+    std::int32_t along_{0};    // path units travelled in this tick
+    std::uint32_t line_{0};
+    OverrideFactors factors_{};
+    bool holding_{false};
+    bool at_rest_{true};
+};
+
+}  // namespace cusp::interpolator

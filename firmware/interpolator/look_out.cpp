@@ -1,0 +1,90 @@
+// Minimum of the speed envelope over a sliding window.
+#include "firmware/interpolator/look_out.hpp"
+
+#include <algorithm>
+
+namespace cusp::interpolator {
+
+using planner::Interval;
+using planner::PathQueue;
+
+float limit_before_end(const Interval& interval, float distance) noexcept
+{
+    return std::min(interval.limit.cap, interval.end_speed + 2.0F * interval.slope * distance);
+}
+
+float feed_before_end(const Interval& interval,
+                      float distance,
+                      const OverrideFactors& factors) noexcept
+{
+    const float origin = factors.of(interval.origin_is_rapid);
+    const float line =
+        interval.feed_end + 2.0F * interval.slope * distance - (1.0F - origin) * interval.feed_origin;
+    return std::min(factors.of(interval.rapid) * interval.limit.feed, line);
+}
+
+float allowed_before_end(const Interval& interval,
+                         float distance,
+                         const OverrideFactors& factors) noexcept
+{
+    return std::min(limit_before_end(interval, distance),
+                    feed_before_end(interval, distance, factors));
+}
+
+void LookOut::restart(std::uint32_t interval, std::uint64_t end_position) noexcept
+{
+    begin_ = 0;
+    end_ = 0;
+    interval_ = interval;
+    interval_end_ = end_position;
+    started_ = true;
+}
+
+void LookOut::push(const Entry& entry) noexcept
+{
+    Entry added = entry;
+    while (end_ != begin_ && entries_[(end_ - 1) % kEntries].speed >= added.speed) {
+        --end_;
+    }
+    if (end_ - begin_ == kEntries) {
+        // Full: the newest two become one, as strict as both for as long as both.
+        Entry& last = entries_[(end_ - 1) % kEntries];
+        last.position = added.position;
+        return;
+    }
+    entries_[end_ % kEntries] = added;
+    ++end_;
+}
+
+float LookOut::least_between(const PathQueue& queue,
+                             std::uint64_t from,
+                             std::uint64_t to,
+                             const OverrideFactors& factors) noexcept
+{
+    while (begin_ != end_ && entries_[begin_ % kEntries].position < from) {
+        ++begin_;
+    }
+    const std::uint32_t published = queue.published();
+    if (interval_ == published) {
+        return 0;
+    }
+    for (std::uint32_t i = 0; interval_end_ < to; ++i) {
+        const Interval& passed = queue.interval(interval_);
+        if (interval_ + 1 == published || passed.stop_at_end || i == kIntervalsPerTick) {
+            const bool at_end = i != kIntervalsPerTick;
+            return at_end ? std::min(0.0F, passed.end_speed) : 0.0F;
+        }
+        push({interval_end_, allowed_before_end(passed, 0.0F, factors)});
+        ++interval_;
+        interval_end_ += queue.interval(interval_).length;
+    }
+    const float left = static_cast<float>(static_cast<std::uint32_t>(interval_end_ - to)) /
+                       kPathUnitsPerMillimetre;
+    float least = allowed_before_end(queue.interval(interval_), left, factors);
+    if (begin_ != end_) {
+        least = std::min(least, entries_[begin_ % kEntries].speed);
+    }
+    return least;
+}
+
+}  // namespace cusp::interpolator

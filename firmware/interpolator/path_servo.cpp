@@ -1,0 +1,171 @@
+// The speed along the path, one tick at a time.
+#include "firmware/interpolator/path_servo.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cusp::interpolator {
+namespace {
+
+using planner::Interval;
+using planner::kUnlimited;
+
+// Intervals that one tick may pass at most.
+constexpr std::uint32_t kIntervalsPerTick = 16;
+// Nearer to a stop than this the tool is there: a quarter of a nanometre.
+constexpr std::uint32_t kArrived = 4;
+
+float millimetres(std::uint32_t path_units) noexcept
+{
+    return static_cast<float>(path_units) / kPathUnitsPerMillimetre;
+}
+
+// Greatest speed v, held for one tick from a place where the squared envelope is `allowed` and falls by
+// 2 slope a mm, that is still under the envelope after it: v^2 <= allowed - 2 slope v tick.
+float speed_under(float allowed, float slope) noexcept
+{
+    const float drop = slope * kServoTick;
+    return std::sqrt(drop * drop + std::max(allowed, 0.0F)) - drop;
+}
+
+}  // namespace
+
+void PathServo::reset(std::uint32_t filter) noexcept
+{
+    accelerations_.clear();
+    accelerations_.set_length(filter);
+    look_out_ = LookOut{};
+    offset_ = 0;
+    position_ = 0;
+    speed_ = 0;
+    residue_ = 0;
+    last_step_ = 0;
+}
+
+std::int32_t PathServo::tick(const OverrideFactors& factors, bool drained) noexcept
+{
+    const float speed = enter_path(drained) ? next_speed(factors) : 0.0F;
+    const std::int32_t step = speed > 0 ? advance(speed) : 0;
+    if (speed <= 0) {
+        residue_ = 0;
+    }
+    speed_ = speed;
+    accelerations_.add(step - last_step_);
+    last_step_ = step;
+    return step;
+}
+
+// Leaves intervals that are passed. False where no path is ahead, or the filters must drain first.
+bool PathServo::enter_path(bool drained) noexcept
+{
+    while (queue_.interval_begin() != queue_.published()) {
+        const Interval& here = queue_.interval(queue_.interval_begin());
+        if (offset_ < here.length) {
+            return true;
+        }
+        if (here.stop_at_end && !drained) {
+            return false;
+        }
+        if (!here.stop_at_end && queue_.interval_begin() + 1 == queue_.published()) {
+            return false;
+        }
+        offset_ -= here.length;
+        queue_.drop_interval();
+    }
+    return false;
+}
+
+PathServo::Bounds PathServo::bounds(float greatest, const OverrideFactors& factors) const noexcept
+{
+    Bounds least{greatest, kUnlimited, kUnlimited};
+    const float square = speed_ * speed_;
+    std::uint32_t index = queue_.interval_begin();
+    const std::uint32_t published = queue_.published();
+    float to_end = -millimetres(offset_);
+    for (std::uint32_t i = 0;; ++i) {
+        const Interval& interval = queue_.interval(index);
+        to_end += millimetres(interval.length);
+        const float slope = interval.slope;
+        const float line = interval.end_speed + 2.0F * slope * to_end;
+        const float held = speed_under(line, slope);
+        least.speed = std::min({least.speed, held, std::sqrt(interval.limit.cap)});
+        const float feed_line = interval.feed_end + 2.0F * slope * to_end -
+                                (1.0F - factors.of(interval.origin_is_rapid)) * interval.feed_origin;
+        const float own = factors.of(interval.rapid) * interval.limit.feed;
+        least.feed = std::min({least.feed, speed_under(feed_line, slope), std::sqrt(own)});
+        // Implicit in the speed after the tick, where less acceleration may be left.
+        const float drop = (interval.limit.u0 - interval.limit.u1) / interval.limit.cap;
+        const float here = interval.limit.acceleration_at(square);
+        least.acceleration =
+            std::min(least.acceleration, here / (1.0F + 2.0F * drop * speed_ * kServoTick));
+        ++index;
+        const bool last = interval.stop_at_end || index == published;
+        if (last || least.speed * kServoTick <= to_end) {
+            return least;
+        }
+        if (i == kIntervalsPerTick) {
+            least.speed = to_end / kServoTick;
+            return least;
+        }
+    }
+}
+
+float PathServo::next_speed(const OverrideFactors& factors) noexcept
+{
+    // Between acceleration and braking, one path filter long, neither: so that the filtered
+    // acceleration, a difference over one filter, changes by at most one limit.
+    const float before = static_cast<float>(accelerations_.oldest()) /
+                         (kPathUnitsPerTick * kServoTick);
+    const float reach = speed_ + queue_.interval(queue_.interval_begin()).limit.u0 * kServoTick;
+    const Bounds bound = bounds(reach, factors);
+    const float most = bound.acceleration;
+    const float up = std::max(0.0F, most - std::max(0.0F, -before));
+    const float down = std::max(0.0F, most - std::max(0.0F, before));
+    const float slowest = std::max(0.0F, speed_ - down * kServoTick);
+    float wanted = speed_ + up * kServoTick;
+    wanted = std::min(wanted, std::max(slowest, bound.feed));
+    wanted = std::min(wanted, bound.speed);
+    if (wanted > speed_) {
+        wanted = std::max(speed_, coasting_speed(wanted, factors));
+        wanted = std::min(wanted, std::max(bound.speed, slowest));
+    }
+    return wanted;
+}
+
+// The greatest speed up to `wanted` that could be kept for one path filter.
+float PathServo::coasting_speed(float wanted, const OverrideFactors& factors) noexcept
+{
+    const auto ticks = static_cast<float>(accelerations_.length() + 2);
+    const auto travel = static_cast<std::uint64_t>(wanted * kPathUnitsPerTick * ticks);
+    const std::uint32_t begin = queue_.interval_begin();
+    if (!look_out_.started() || queue_.take_changed_from() <= look_out_.interval() ||
+        look_out_.interval() < begin) {
+        look_out_.restart(begin, position_ - offset_ + queue_.interval(begin).length);
+    }
+    const float least = look_out_.least_between(queue_, position_, position_ + travel, factors);
+    return least >= wanted * wanted ? wanted : std::sqrt(std::max(least, 0.0F));
+}
+
+std::int32_t PathServo::advance(float speed) noexcept
+{
+    const float travel = speed * kPathUnitsPerTick + residue_;
+    auto step = static_cast<std::uint32_t>(travel);
+    residue_ = travel - static_cast<float>(step);
+    // Never past a stop or the end of what is published.
+    std::uint32_t index = queue_.interval_begin();
+    std::uint32_t left = queue_.interval(index).length - offset_;
+    while (step + kArrived > left && !queue_.interval(index).stop_at_end &&
+           index + 1 != queue_.published()) {
+        ++index;
+        left += queue_.interval(index).length;
+    }
+    if (step + kArrived >= left) {
+        step = left;
+        residue_ = 0;
+    }
+    offset_ += step;
+    position_ += step;
+    return static_cast<std::int32_t>(step);
+}
+
+}  // namespace cusp::interpolator

@@ -1,0 +1,50 @@
+// PathServo: how far along the path, tick by tick: as fast as the envelope, the feed and the
+// acceleration allow. Its output still jumps in acceleration; the path filter makes that jerk.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/interpolator/box_filter.hpp"
+#include "firmware/interpolator/look_out.hpp"
+#include "firmware/planner/path_queue.hpp"
+
+namespace cusp::interpolator {
+
+// Context: servo tick.
+class PathServo {
+public:
+    explicit PathServo(planner::PathQueue& queue) noexcept : queue_{queue} {}
+
+    // Precondition: at rest. `filter` is the length of the path filter in ticks.
+    void reset(std::uint32_t filter) noexcept;
+
+    // Advances by one tick. Returns the travel in path units.
+    //   factors   of squared speeds, by the overrides; {0, 0} holds.
+    //   drained   whether the tool stands where the servo does, with all filters empty.
+    std::int32_t tick(const OverrideFactors& factors, bool drained) noexcept;
+
+    bool standing() const noexcept { return speed_ == 0; }
+
+private:
+    struct Bounds {
+        float speed;         // mm/s, by the envelope
+        float feed;          // mm/s, by feed and override
+        float acceleration;  // mm/s^2
+    };
+    bool enter_path(bool drained) noexcept;
+    Bounds bounds(float greatest, const OverrideFactors& factors) const noexcept;
+    float next_speed(const OverrideFactors& factors) noexcept;
+    float coasting_speed(float wanted, const OverrideFactors& factors) noexcept;
+    std::int32_t advance(float speed) noexcept;
+
+    planner::PathQueue& queue_;
+    RunningSum<kMaxPathFilter> accelerations_;  // path units per tick^2
+    LookOut look_out_;
+    std::uint32_t offset_{0};    // path units into the first interval
+    std::uint64_t position_{0};  // path units since the reset
+    float speed_{0};             // mm/s
+    float residue_{0};           // path units not yet travelled, in [0, 1)
+    std::int32_t last_step_{0};
+};
+
+}  // namespace cusp::interpolator

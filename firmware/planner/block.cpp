@@ -1,0 +1,186 @@
+// Lines and arcs as the servo tick sees them.
+#include "firmware/planner/block.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/base/assert.hpp"
+#include "firmware/base/math.hpp"
+
+namespace cusp::planner {
+namespace {
+
+constexpr unsigned kStretchesPerQuadrant = 6;
+
+float length_mm(const Block& block) noexcept
+{
+    return static_cast<float>(block.length) / kPathUnitsPerMillimetre;
+}
+
+Vec3f displacement_mm(const Block& block) noexcept
+{
+    return Vec3f{static_cast<float>(block.displacement.x),
+                 static_cast<float>(block.displacement.y),
+                 static_cast<float>(block.displacement.z)} /
+           kPathUnitsPerMillimetre;
+}
+
+PathOffset line_position(const Block& block, std::uint32_t offset) noexcept
+{
+    const auto part = static_cast<std::int64_t>(fraction(block, offset));
+    const auto scale = [part](std::int32_t whole) {
+        return static_cast<std::int32_t>((whole * part + (std::int64_t{1} << 30)) >> 31);
+    };
+    return {scale(block.displacement.x), scale(block.displacement.y), scale(block.displacement.z)};
+}
+
+// To the nearest integer. Precondition: |x| < 2^31.
+std::int32_t rounded(float x) noexcept
+{
+    return static_cast<std::int32_t>(x + (x < 0 ? -0.5F : 0.5F));
+}
+
+PathOffset arc_position(const ArcBlock& arc, std::uint32_t offset) noexcept
+{
+    const float angle = static_cast<float>(offset) * arc.angle_per_unit;
+    // Half angles keep 1 - cos exact for small angles.
+    const auto [sine, cosine] = sin_cos(0.5F * angle);
+    const float along = 2.0F * sine * cosine;
+    const float inward = 2.0F * sine * sine;
+    const float grown = arc.spread * angle;
+    const Vec3f place = arc.tangent * ((arc.radius + grown) * along) +
+                        arc.normal * (arc.radius * inward - grown * (1.0F - inward)) +
+                        arc.axial * angle;
+    return {rounded(place.x * kPathUnitsPerMillimetre), rounded(place.y * kPathUnitsPerMillimetre),
+            rounded(place.z * kPathUnitsPerMillimetre)};
+}
+
+// Unit vectors of an arc turned by `angle`.
+struct ArcFrame {
+    Vec3f tangent;
+    Vec3f normal;
+};
+
+ArcFrame frame_at(const ArcBlock& arc, float angle) noexcept
+{
+    const auto [sine, cosine] = sin_cos(angle);
+    return {arc.tangent * cosine + arc.normal * sine, arc.normal * cosine - arc.tangent * sine};
+}
+
+float radians_per_mm(const ArcBlock& arc) noexcept
+{
+    return arc.angle_per_unit * kPathUnitsPerMillimetre;
+}
+
+EndGeometry arc_geometry(const ArcBlock& arc, float angle) noexcept
+{
+    const ArcFrame frame = frame_at(arc, angle);
+    const float rate = radians_per_mm(arc);
+    const float radius = arc.radius + arc.spread * angle;
+    return {(frame.tangent * radius - frame.normal * arc.spread + arc.axial) * rate,
+            (frame.normal * radius + frame.tangent * (2.0F * arc.spread)) * (rate * rate)};
+}
+
+// Largest |a cos h + b sin h| over h in [from, to], to - from <= pi/2.
+float largest_turned(float a, float b, float from, float to) noexcept
+{
+    const auto [sine0, cosine0] = sin_cos(from);
+    const auto [sine1, cosine1] = sin_cos(to);
+    const float ends = std::max(std::fabs(a * cosine0 + b * sine0),
+                                std::fabs(a * cosine1 + b * sine1));
+    const float slope0 = b * cosine0 - a * sine0;
+    const float slope1 = b * cosine1 - a * sine1;
+    const bool peak_inside = (slope0 > 0) != (slope1 > 0);
+    return peak_inside ? std::sqrt(a * a + b * b) : ends;
+}
+
+PathDerivatives arc_derivatives(const ArcBlock& arc, float from, float to) noexcept
+{
+    const float rate = radians_per_mm(arc);
+    const float widest = arc.radius + std::max(0.0F, arc.spread * to);
+    const float spread = std::fabs(arc.spread);
+    PathDerivatives bound{};
+    for (unsigned i = 0; i < 3; ++i) {
+        const float tangent = arc.tangent[i];
+        const float normal = arc.normal[i];
+        const float along = largest_turned(tangent, normal, from, to);
+        const float inward = largest_turned(normal, -tangent, from, to);
+        bound.first[i] = (widest * along + spread * inward + std::fabs(arc.axial[i])) * rate;
+        bound.second[i] = (widest * inward + 2.0F * spread * along) * rate * rate;
+        bound.third[i] = (widest * along + 3.0F * spread * inward) * rate * rate * rate;
+    }
+    return bound;
+}
+
+}  // namespace
+
+void set_length(Block& block, std::uint32_t length) noexcept
+{
+    CUSP_ASSERT(length > 0);
+    block.length = length;
+    // The reciprocal has its top bit set: 2^(31 + shift) / length in [2^31, 2^32).
+    std::uint8_t shift = 0;
+    while (shift < 31 && (std::uint32_t{2} << shift) <= length) {
+        ++shift;
+    }
+    const std::uint64_t scaled = (std::uint64_t{1} << (31U + shift)) * 1U;
+    block.reciprocal = static_cast<std::uint32_t>(
+        std::min<std::uint64_t>((scaled + scaled) / length, 0xFFFFFFFFU));
+    block.reciprocal_shift = shift;
+}
+
+std::uint32_t fraction(const Block& block, std::uint32_t offset) noexcept
+{
+    const std::uint64_t product = static_cast<std::uint64_t>(offset) * block.reciprocal;
+    return static_cast<std::uint32_t>(product >> (block.reciprocal_shift + 1U));
+}
+
+PathOffset position_at(const Block& block, std::uint32_t offset) noexcept
+{
+    if (offset >= block.length) {
+        return block.displacement;
+    }
+    if (block.shape == BlockShape::kArc) {
+        return arc_position(block.arc, offset);
+    }
+    return line_position(block, offset);
+}
+
+EndGeometry start_geometry(const Block& block) noexcept
+{
+    if (block.shape == BlockShape::kArc) {
+        return arc_geometry(block.arc, 0.0F);
+    }
+    return {displacement_mm(block) / length_mm(block), {}};
+}
+
+EndGeometry end_geometry(const Block& block) noexcept
+{
+    if (block.shape == BlockShape::kArc) {
+        return arc_geometry(block.arc,
+                            static_cast<float>(block.length) * block.arc.angle_per_unit);
+    }
+    return start_geometry(block);
+}
+
+PathDerivatives derivatives_over(const Block& block, float from, float to) noexcept
+{
+    if (block.shape == BlockShape::kArc) {
+        const float sweep = static_cast<float>(block.length) * block.arc.angle_per_unit;
+        return arc_derivatives(block.arc, from * sweep, to * sweep);
+    }
+    const Vec3f tangent = start_geometry(block).tangent;
+    return {{std::fabs(tangent.x), std::fabs(tangent.y), std::fabs(tangent.z)}, {}, {}};
+}
+
+unsigned stretch_count(const Block& block) noexcept
+{
+    if (block.shape != BlockShape::kArc) {
+        return 1;
+    }
+    const float sweep = static_cast<float>(block.length) * block.arc.angle_per_unit;
+    const float quadrants = sweep * static_cast<float>(2.0 / kPi);
+    return 1U + static_cast<unsigned>(quadrants * static_cast<float>(kStretchesPerQuadrant));
+}
+
+}  // namespace cusp::planner

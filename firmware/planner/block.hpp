@@ -1,0 +1,72 @@
+// Block: a piece of path of at most 64 mm, in the form that the servo tick evaluates.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/base/path_units.hpp"
+#include "firmware/base/vec.hpp"
+#include "firmware/planner/speed_limit.hpp"
+
+namespace cusp::planner {
+
+enum class BlockShape : std::uint8_t { kLine, kArc };
+
+// The axis filters of a block: two box filters, their lengths in servo ticks.
+struct AxisFilter {
+    std::uint8_t first{1};
+    std::uint8_t second{1};
+    friend constexpr bool operator==(AxisFilter a, AxisFilter b) noexcept
+    {
+        return a.first == b.first && a.second == b.second;
+    }
+    friend constexpr bool operator!=(AxisFilter a, AxisFilter b) noexcept { return !(a == b); }
+};
+
+// An arc or helix of at most a quarter turn. With h the angle from its start:
+//   (radius + spread h) turned by h, plus axial h.
+struct ArcBlock {
+    Vec3f tangent;         // unit vector of the motion in the plane at the start
+    Vec3f normal;          // unit vector from the start to the centre
+    Vec3f axial;           // mm per radian
+    float radius;          // mm
+    float spread;          // mm per radian: how the radius changes
+    float angle_per_unit;  // radians per path unit
+};
+
+struct Block {
+    PathOffset displacement;         // from start to end
+    std::uint32_t length;            // path units, > 0, <= 64 mm
+    std::uint32_t reciprocal;        // of the length: see fraction()
+    std::uint8_t reciprocal_shift;
+    BlockShape shape;
+    bool rapid;
+    AxisFilter filter;
+    std::uint32_t line;
+    ArcBlock arc;  // for kArc
+};
+
+// Sets length and what depends on it. Precondition: 0 < length <= 64 mm.
+void set_length(Block& block, std::uint32_t length) noexcept;
+
+// offset / length in units of 2^-31, within 2^-30. Precondition: offset <= length.
+std::uint32_t fraction(const Block& block, std::uint32_t offset) noexcept;
+
+// The place at `offset` path units from the start, relative to the start; the exact displacement at
+// the end. Within 1 nm of the true path on lines, 2 nm on arcs. Context: servo tick.
+PathOffset position_at(const Block& block, std::uint32_t offset) noexcept;
+
+// Direction and curvature vector of the block at one of its ends, for the joint with its neighbour.
+struct EndGeometry {
+    Vec3f tangent;    // dP/ds
+    Vec3f curvature;  // d2P/ds2, 1/mm
+};
+EndGeometry start_geometry(const Block& block) noexcept;
+EndGeometry end_geometry(const Block& block) noexcept;
+
+// Bounds of the derivatives over the fractions [from, to] of the block's length.
+PathDerivatives derivatives_over(const Block& block, float from, float to) noexcept;
+
+// Number of stretches of nearly constant direction to cut the block into.
+unsigned stretch_count(const Block& block) noexcept;
+
+}  // namespace cusp::planner

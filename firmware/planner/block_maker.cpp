@@ -1,0 +1,107 @@
+// Moves into blocks of at most 64 mm and, for arcs, a quarter turn.
+#include "firmware/planner/block_maker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "firmware/base/math.hpp"
+
+namespace cusp::planner {
+namespace {
+
+// Arcs are evaluated in float: over 16 mm they stay within 2 nm.
+constexpr double kMaxArcLength = 16.0;
+constexpr double kMaxArcAngle = kPi / 2;
+
+Vec3f to_float(Vec3d a) noexcept
+{
+    return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
+}
+
+PathOffset path_offset(Position from, Position to) noexcept
+{
+    const auto scaled = [](std::int64_t nm) {
+        return static_cast<std::int32_t>(nm * kPathUnitsPerNanometre);
+    };
+    return {scaled(to.x - from.x), scaled(to.y - from.y), scaled(to.z - from.z)};
+}
+
+std::uint32_t units(double mm) noexcept
+{
+    return static_cast<std::uint32_t>(mm * static_cast<double>(kPathUnitsPerMillimetre) + 0.5);
+}
+
+std::uint32_t pieces(double whole, double most) noexcept
+{
+    return 1U + static_cast<std::uint32_t>(whole / most);
+}
+
+// The point of an arc at parameter t, exact start and end excepted.
+Vec3d arc_point(const path::Arc& arc, double t) noexcept
+{
+    const auto [sine, cosine] = sin_cos(t * arc.sweep);
+    const double radius = arc.radius + t * arc.radius_change;
+    return arc.centre + arc.u * (radius * cosine) + arc.v * (radius * sine) + arc.axial * t;
+}
+
+}  // namespace
+
+void BlockMaker::start(const path::Move& move, AxisFilter filter) noexcept
+{
+    filter_ = filter;
+    next_ = 0;
+    count_ = 0;
+    at_ = move.start;
+    length_ = path::length(move);
+    if (length_ <= 0) {
+        return;
+    }
+    if (const auto* arc = std::get_if<path::Arc>(&move.path)) {
+        count_ = std::max(pieces(length_, kMaxArcLength), pieces(arc->sweep, kMaxArcAngle));
+    } else {
+        count_ = pieces(length_, kMaxBlockLength);
+    }
+}
+
+bool BlockMaker::make(const path::Move& move, Block& block) noexcept
+{
+    ++next_;
+    const double t = static_cast<double>(next_) / count_;
+    const auto* arc = std::get_if<path::Arc>(&move.path);
+    const Position from = at_;
+    Position to = move.end;
+    if (next_ != count_) {
+        const Vec3d whole = to_millimetres(move.end) - to_millimetres(move.start);
+        to = move.start + to_position(arc != nullptr ? arc_point(*arc, t) : whole * t);
+    }
+    if (from == to && arc == nullptr) {
+        return false;
+    }
+    at_ = to;
+    block = Block{};
+    block.displacement = path_offset(from, to);
+    block.rapid = move.kind == path::MoveKind::kRapid;
+    block.filter = filter_;
+    block.line = move.line;
+    if (arc == nullptr) {
+        block.shape = BlockShape::kLine;
+        const Vec3d along = to_millimetres(to - from);
+        set_length(block, std::max(units(norm(along)), std::uint32_t{1}));
+        return true;
+    }
+    const double t0 = static_cast<double>(next_ - 1) / count_;
+    const auto [sine, cosine] = sin_cos(t0 * arc->sweep);
+    block.shape = BlockShape::kArc;
+    set_length(block, std::max(units(length_ / count_), std::uint32_t{1}));
+    block.arc.tangent = to_float(arc->v * cosine - arc->u * sine);
+    block.arc.normal = to_float(-(arc->u * cosine) - arc->v * sine);
+    block.arc.axial = to_float(arc->axial / arc->sweep);
+    block.arc.radius = static_cast<float>(arc->radius + t0 * arc->radius_change);
+    block.arc.spread = static_cast<float>(arc->radius_change / arc->sweep);
+    block.arc.angle_per_unit =
+        static_cast<float>(arc->sweep / count_ / static_cast<double>(block.length));
+    return true;
+}
+
+}  // namespace cusp::planner

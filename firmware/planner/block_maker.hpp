@@ -1,0 +1,31 @@
+// BlockMaker: cuts a move into blocks, one at a time.
+#pragma once
+
+#include "firmware/path/move.hpp"
+#include "firmware/planner/block.hpp"
+
+namespace cusp::planner {
+
+// Blocks end at exact nanometres and together at the end of the move.
+class BlockMaker {
+public:
+    // Starts on a move. A move of no length is done at once.
+    void start(const path::Move& move, AxisFilter filter) noexcept;
+
+    bool done() const noexcept { return next_ == count_; }
+
+    // Precondition: !done(). Returns false where the piece has no length: take the next.
+    bool make(const path::Move& move, Block& block) noexcept;
+
+private:
+    Block line(const path::Move& move, Position from, Position to) const noexcept;
+    Block arc(const path::Arc& arc, Position from, Position to) const noexcept;
+
+    AxisFilter filter_{};
+    std::uint32_t next_{0};
+    std::uint32_t count_{0};
+    double length_{0};
+    Position at_{};
+};
+
+}  // namespace cusp::planner

@@ -1,0 +1,70 @@
+// IntervalBuilder: turns speed limits along the path into limits along the *unfiltered* path.
+//
+// The interpolator plans speeds at a point that runs ahead of the tool by up to one path filter. For
+// a limit V to hold where the tool is, it must hold over half a filter of travel, V filter/2, on either
+// side: every limit is spread that far, back over intervals not yet published and forward over those
+// to come. Proof: docs/numerics.md, "Spreading limits".
+#pragma once
+
+#include "firmware/base/static_vector.hpp"
+#include "firmware/planner/path_queue.hpp"
+
+namespace cusp::planner {
+
+// A limit to spread, and factors on the accelerations (for what a joint takes of them).
+struct Restriction {
+    SpeedLimit limit{kNoLimit};
+    float scale0{1};
+    float scale1{1};
+};
+
+class IntervalBuilder {
+public:
+    explicit IntervalBuilder(PathQueue& queue) noexcept : queue_{queue} {}
+
+    // Greatest travel times, s, over which limits, feeds and joints are spread.
+    struct Reach {
+        float limit;
+        float feed;
+        float joint;
+    };
+    void set_reach(const Reach& reach) noexcept { reach_ = reach; }
+
+    // Intervals that append() may need at most, splits included.
+    static constexpr std::uint32_t kMostPerAppend = 12;
+
+    // Adds a stretch at the end of the path.
+    void append(std::uint32_t length, const SpeedLimit& limit, bool rapid) noexcept;
+
+    // Spreads what the joint at the end of the path so far demands.
+    void add_joint(const Restriction& restriction, float speed) noexcept;
+
+    // The path stops at its end: all of it may be published, and nothing is spread over the stop.
+    void stop() noexcept;
+
+    // Publishes what no later limit can reach. Where the queue is too short for that, slows the path
+    // down until it is not.
+    void publish(bool queue_full) noexcept;
+
+    void clear() noexcept;
+
+private:
+    struct Carry {
+        float distance;  // mm, still to come
+        Restriction restriction;
+    };
+    static constexpr std::uint32_t kCarries = 8;
+
+    void spread_back(float distance, const Restriction& restriction) noexcept;
+    void carry(float distance, const Restriction& restriction) noexcept;
+    void append_piece(std::uint32_t length, const SpeedLimit& limit, bool rapid) noexcept;
+    void refresh_time(Interval& interval) noexcept;
+    void restrict(Interval& interval, const Restriction& restriction) noexcept;
+
+    PathQueue& queue_;
+    Reach reach_{};
+    StaticVector<Carry, kCarries> carries_;
+    std::uint64_t pending_time_{0};  // of the intervals not published, units of 0.1 us
+};
+
+}  // namespace cusp::planner

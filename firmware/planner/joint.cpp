@@ -1,0 +1,83 @@
+// Speeds at joints, from what the axis filters make of a jump.
+#include "firmware/planner/joint.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cusp::planner {
+namespace {
+
+constexpr unsigned kBisections = 20;
+
+Vec3f magnitude(Vec3f a) noexcept { return {std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)}; }
+
+// Share of the axes' acceleration and jerk left over by the curves that the joint takes at v.
+float share_at(const Joint& joint, const MachineLimits& limits, AxisFilter filter, float v) noexcept
+{
+    const float first = static_cast<float>(filter.first) * kServoTick;
+    const float second = static_cast<float>(filter.second) * kServoTick;
+    const float square = v * v;
+    const float bend_jerk = joint.bend * joint.bend * square * v;
+    float share = 0;
+    for (unsigned i = 0; i < 3; ++i) {
+        const float jump = v * joint.direction[i];
+        const float acceleration_left = limits.acceleration[i] - joint.bend * square;
+        const float jerk_left = limits.jerk[i] - bend_jerk;
+        if (acceleration_left <= 0 || jerk_left <= 0) {
+            if (jump > 0 || joint.curvature[i] > 0) {
+                return 1;
+            }
+            continue;
+        }
+        const float acceleration = jump / first;
+        const float jerk = acceleration / second +
+                           (joint.curvature[i] * square +
+                            joint.direction[i] * limits.acceleration[i]) / first;
+        share = std::max({share, acceleration / acceleration_left, jerk / jerk_left});
+    }
+    return share;
+}
+
+}  // namespace
+
+Joint make_joint(const EndGeometry& before, const EndGeometry& after) noexcept
+{
+    const Vec3f direction = after.tangent - before.tangent;
+    return {magnitude(direction), magnitude(after.curvature - before.curvature),
+            std::max(norm(before.curvature), norm(after.curvature)), norm(direction)};
+}
+
+Joint together(const Joint& a, const Joint& b) noexcept
+{
+    return {a.direction + b.direction, a.curvature + b.curvature, std::max(a.bend, b.bend),
+            a.turn + b.turn};
+}
+
+JointShare joint_share(const Joint& joint,
+                       const MachineLimits& limits,
+                       AxisFilter filter,
+                       float max_share,
+                       float max_speed,
+                       float deviation) noexcept
+{
+    // A corner turned by the filters leaves the vertex by v turn/2 times the mean of |t| under their
+    // kernel: at most t1/4 + t2/12.
+    const float mean_time = (static_cast<float>(filter.first) / 4.0F +
+                             static_cast<float>(filter.second) / 12.0F) * kServoTick;
+    float fast = max_speed;
+    if (joint.turn * fast * mean_time > 2.0F * deviation) {
+        fast = 2.0F * deviation / (joint.turn * mean_time);
+    }
+    const float share = share_at(joint, limits, filter, fast);
+    if (share <= max_share) {
+        return {share, fast};
+    }
+    float slow = 0;
+    for (unsigned i = 0; i < kBisections; ++i) {
+        const float middle = 0.5F * (slow + fast);
+        (share_at(joint, limits, filter, middle) <= max_share ? slow : fast) = middle;
+    }
+    return {share_at(joint, limits, filter, slow), slow};
+}
+
+}  // namespace cusp::planner

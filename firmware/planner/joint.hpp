@@ -1,0 +1,43 @@
+// Where two blocks meet: how fast the jumps of direction and curvature may be passed.
+#pragma once
+
+#include "firmware/planner/block.hpp"
+
+namespace cusp::planner {
+
+// The jumps at a joint, per axis.
+struct Joint {
+    Vec3f direction;  // |change of dP/ds|
+    Vec3f curvature;  // |change of d2P/ds2|, 1/mm
+    float bend;       // largest |d2P/ds2| of both sides, 1/mm
+    float turn;       // length of the change of direction: about the angle, radians
+};
+
+Joint make_joint(const EndGeometry& before, const EndGeometry& after) noexcept;
+
+// A sum of joints that one window of the axis filters may hold.
+Joint together(const Joint& a, const Joint& b) noexcept;
+
+// What a joint may take of the axes' acceleration and jerk.
+struct JointShare {
+    float share;   // in (0, 1)
+    float speed;   // mm/s, greatest that keeps it
+};
+
+// The axis filters turn a jump of direction into acceleration of at most v jump/t1 and jerk of at most
+// v jump/(t1 t2), and a jump of acceleration into jerk of at most jump/t1.
+//
+//   max_share  greatest share of acceleration and jerk that the joint may take.
+//   max_speed  mm/s, of the path around it.
+//   deviation  mm, > 0: how far the filters may leave the corner.
+//
+// Returns the greatest speed, at most max_speed, and the share taken at it.
+// Source: docs/numerics.md, "Joints".
+JointShare joint_share(const Joint& joint,
+                       const MachineLimits& limits,
+                       AxisFilter filter,
+                       float max_share,
+                       float max_speed,
+                       float deviation) noexcept;
+
+}  // namespace cusp::planner

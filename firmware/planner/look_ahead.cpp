@@ -1,0 +1,77 @@
+// The backward pass over the published intervals.
+#include "firmware/planner/look_ahead.hpp"
+
+#include <algorithm>
+#include <atomic>
+
+namespace cusp::planner {
+namespace {
+
+// Braking acceleration over an interval that ends at the squared speed `end`.
+float braking(const SpeedLimit& limit, float end, float length) noexcept
+{
+    // Implicit step: the acceleration at the highest speed of the interval, which is the least.
+    const float drop = (limit.u0 - limit.u1) / limit.cap;
+    const float start = (end + 2.0F * length * limit.u0) / (1.0F + 2.0F * length * drop);
+    return limit.acceleration_at(std::min(start, limit.cap));
+}
+
+// What the path after an interval allows at the interval's end.
+struct Ahead {
+    float speed;
+    float feed;
+    float feed_origin;
+    bool origin_is_rapid;
+};
+
+Ahead start_of(const Interval& interval) noexcept
+{
+    const float length = static_cast<float>(interval.length) / kPathUnitsPerMillimetre;
+    const float speed = interval.end_speed + 2.0F * interval.slope * length;
+    const float feed = interval.feed_end + 2.0F * interval.slope * length;
+    const bool own = interval.limit.feed <= feed;
+    return {std::min(interval.limit.cap, speed), own ? interval.limit.feed : feed,
+            own ? interval.limit.feed : interval.feed_origin,
+            own ? interval.rapid : interval.origin_is_rapid};
+}
+
+// False where nothing changed.
+bool update(Interval& interval, const Ahead& ahead) noexcept
+{
+    const bool stops = interval.stop_at_end;
+    const float end = stops ? 0.0F : std::min(interval.limit.cap, ahead.speed);
+    const float feed = stops ? interval.limit.feed : ahead.feed;
+    const bool feed_is_own = stops || interval.limit.feed <= feed;
+    const float feed_end = feed_is_own ? interval.limit.feed : feed;
+    if (end == interval.end_speed && feed_end == interval.feed_end && interval.slope > 0) {
+        return false;
+    }
+    const float length = static_cast<float>(interval.length) / kPathUnitsPerMillimetre;
+    // A higher end may mean less braking over the interval: that first, or the tick could see the
+    // higher end with the stronger brake.
+    interval.slope = braking(interval.limit, end, length);
+    interval.feed_origin = feed_is_own ? interval.limit.feed : ahead.feed_origin;
+    interval.origin_is_rapid = feed_is_own ? interval.rapid : ahead.origin_is_rapid;
+    std::atomic_signal_fence(std::memory_order_seq_cst);
+    interval.end_speed = end;
+    interval.feed_end = feed_end;
+    return true;
+}
+
+}  // namespace
+
+void look_ahead(PathQueue& queue) noexcept
+{
+    Ahead ahead{0.0F, kUnlimited, kUnlimited, false};
+    const std::uint32_t begin = queue.interval_begin();
+    for (std::uint32_t i = queue.published(); i != begin; --i) {
+        Interval& interval = queue.interval(i - 1);
+        if (!update(interval, ahead)) {
+            return;
+        }
+        queue.note_change(i - 1);
+        ahead = start_of(interval);
+    }
+}
+
+}  // namespace cusp::planner

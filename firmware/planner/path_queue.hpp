@@ -1,0 +1,113 @@
+// PathQueue: the path ahead, shared by the planner (main loop) and the interpolator (servo tick).
+//
+// Two views of the same path: blocks hold where it runs, intervals how fast it may be followed; both
+// add up to the same length. The planner appends; the interpolator consumes from the front. Intervals
+// up to published() are final except that their envelope may still rise.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+
+#include "firmware/planner/block.hpp"
+#include "firmware/planner/speed_limit.hpp"
+
+namespace cusp::planner {
+
+// A stretch of path with one speed limit, and the envelope of speeds from which the machine can
+// always brake. Speeds are squared. Over the interval, d mm before its end, the envelope is
+// min(limit.cap, end_speed + 2 slope d).
+struct Interval {
+    std::uint32_t length;  // path units
+    SpeedLimit limit;
+    float end_speed;  // squared, at the end
+    float slope;      // braking, mm/s^2
+    // The same for the feed alone: min(limit.feed, feed_end + 2 feed_slope d). An override scales the
+    // part of it that stems from a programmed feed, feed_origin.
+    float feed_end;
+    float feed_origin;
+    std::uint32_t least_time;  // units of 0.1 us, to pass at the greatest speed
+    bool stop_at_end;          // the filters drain there before the path goes on
+    bool rapid;
+    bool origin_is_rapid;
+};
+
+inline constexpr std::uint32_t kBlockCount = 256;
+inline constexpr std::uint32_t kIntervalCount = 1024;
+
+// Counters run freely; an element's place is its counter modulo the ring's size.
+class PathQueue {
+public:
+    Block& block(std::uint32_t index) noexcept { return blocks_[index % kBlockCount]; }
+    const Block& block(std::uint32_t index) const noexcept { return blocks_[index % kBlockCount]; }
+    Interval& interval(std::uint32_t index) noexcept { return intervals_[index % kIntervalCount]; }
+    const Interval& interval(std::uint32_t index) const noexcept
+    {
+        return intervals_[index % kIntervalCount];
+    }
+
+    std::uint32_t block_begin() const noexcept { return load(block_begin_); }
+    std::uint32_t block_end() const noexcept { return load(block_end_); }
+    std::uint32_t interval_begin() const noexcept { return load(interval_begin_); }
+    std::uint32_t published() const noexcept { return load(published_); }
+    std::uint32_t interval_end() const noexcept { return interval_end_; }
+
+    std::uint32_t free_blocks() const noexcept
+    {
+        return kBlockCount - (block_end() - block_begin());
+    }
+    std::uint32_t free_intervals() const noexcept
+    {
+        return kIntervalCount - (interval_end() - interval_begin());
+    }
+
+    // Context: main loop.
+    void append_block(const Block& block) noexcept;
+    void append_interval(const Interval& interval) noexcept;
+    void insert_interval(std::uint32_t before, const Interval& interval) noexcept;
+    void publish(std::uint32_t end) noexcept { store(published_, end); }
+
+    // Notes that the envelope of intervals from `first` on has risen.
+    void note_change(std::uint32_t first) noexcept
+    {
+        if (first - interval_begin() < changed_from_.load(std::memory_order_relaxed) - interval_begin()) {
+            changed_from_.store(first, std::memory_order_relaxed);
+        }
+    }
+
+    // Context: servo tick.
+    // The first interval whose envelope rose since the last call; far ahead where none did.
+    std::uint32_t take_changed_from() noexcept
+    {
+        const std::uint32_t first = changed_from_.load(std::memory_order_relaxed);
+        changed_from_.store(interval_begin() - 1, std::memory_order_relaxed);
+        return first;
+    }
+    void drop_block() noexcept { store(block_begin_, block_begin() + 1); }
+    void drop_interval() noexcept { store(interval_begin_, interval_begin() + 1); }
+
+    // Context: main loop, while the interpolator is at rest and does not tick.
+    void clear() noexcept;
+
+private:
+    using Counter = std::atomic<std::uint32_t>;
+    static std::uint32_t load(const Counter& counter) noexcept
+    {
+        return counter.load(std::memory_order_acquire);
+    }
+    static void store(Counter& counter, std::uint32_t value) noexcept
+    {
+        counter.store(value, std::memory_order_release);
+    }
+
+    std::array<Block, kBlockCount> blocks_{};
+    std::array<Interval, kIntervalCount> intervals_{};
+    Counter block_begin_{0};
+    Counter block_end_{0};
+    Counter interval_begin_{0};
+    Counter published_{0};
+    Counter changed_from_{0};
+    std::uint32_t interval_end_{0};
+};
+
+}  // namespace cusp::planner

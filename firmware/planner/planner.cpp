@@ -1,0 +1,203 @@
+// Moves in, path queue out.
+#include "firmware/planner/planner.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/base/assert.hpp"
+#include "firmware/planner/look_ahead.hpp"
+
+namespace cusp::planner {
+namespace {
+
+// A change of direction above this is a corner: the exact path stops there. 0.5 degrees.
+constexpr float kCornerTurn = 0.00872665F;
+// Slower than this, passing a joint takes longer than stopping at it.
+constexpr float kLeastJointSpeed = 1.5F;  // mm/s
+// What a joint may take of the axes' acceleration and jerk; the rest is for the curves around it.
+constexpr float kJointShare = 0.9F;
+// Keeps rounding of set points and speeds below the limits.
+constexpr float kRoundingMargin = 0.997F;
+constexpr float kGreatestSpeed = 2000.0F;  // mm/s
+
+// Deviation, mm, left to the axis filters on the exact path and as a share of a tolerance.
+constexpr float kExactDeviation = 0.0009F;
+constexpr float kFilterShareOfTolerance = 0.45F;
+
+struct FilterChoice {
+    AxisFilter filter;
+    float deviation;  // mm
+};
+
+FilterChoice filter_for(float tolerance) noexcept
+{
+    if (tolerance <= 0) {
+        return {{5, 2}, kExactDeviation};
+    }
+    const float deviation = std::max(kExactDeviation, kFilterShareOfTolerance * tolerance);
+    return {{deviation < 2 * kExactDeviation ? std::uint8_t{5} : std::uint8_t{9}, 2}, deviation};
+}
+
+// Two boxes leave a circle by a (t1^2 + t2^2)/24.
+float max_centripetal(const FilterChoice& choice) noexcept
+{
+    const float first = static_cast<float>(choice.filter.first) * kServoTick;
+    const float second = static_cast<float>(choice.filter.second) * kServoTick;
+    return 24.0F * choice.deviation / (first * first + second * second);
+}
+
+MachineLimits scaled(const MachineLimits& limits, float factor) noexcept
+{
+    return {limits.velocity * factor, limits.acceleration * factor, limits.jerk * factor};
+}
+
+}  // namespace
+
+void Planner::set_limits(const MachineLimits& limits) noexcept
+{
+    limits_ = scaled(limits, kRoundingMargin);
+    float longest = 0;
+    for (unsigned i = 0; i < kAxisCount; ++i) {
+        longest = std::max(longest, limits.acceleration[i] / limits.jerk[i]);
+    }
+    path_filter_ = std::clamp(static_cast<std::uint32_t>(std::ceil(longest / kServoTick - 0.001F)),
+                              std::uint32_t{1}, kMaxPathFilter);
+    const float half = 0.5F * static_cast<float>(path_filter_) * kServoTick + 2.0F * kServoTick;
+    constexpr float kLongestAxisFilter = 11.0F * kServoTick;
+    builder_.set_reach({half, half + kLongestAxisFilter, half + kLongestAxisFilter});
+}
+
+void Planner::reset(Position at) noexcept
+{
+    queue_.clear();
+    builder_.clear();
+    maker_ = BlockMaker{};
+    joints_.clear();
+    end_.reset();
+    close_requested_ = false;
+    tail_ = at;
+}
+
+bool Planner::has_room() noexcept
+{
+    work();
+    return maker_.done();
+}
+
+void Planner::push(const path::Move& move) noexcept
+{
+    CUSP_ASSERT(maker_.done());
+    CUSP_ASSERT(move.start == tail_);
+    close_requested_ = false;
+    move_ = move;
+    tail_ = move.end;
+    maker_.start(move, filter_for(move.tolerance).filter);
+    work();
+}
+
+void Planner::close() noexcept
+{
+    close_requested_ = true;
+    work();
+}
+
+bool Planner::empty() const noexcept
+{
+    return maker_.done() && queue_.block_begin() == queue_.block_end();
+}
+
+void Planner::work() noexcept
+{
+    constexpr std::uint32_t kIntervalsOfABlock = 8 * IntervalBuilder::kMostPerAppend;
+    Block block;
+    while (!maker_.done() && queue_.free_blocks() > 0 && queue_.free_intervals() > kIntervalsOfABlock) {
+        if (maker_.make(move_, block)) {
+            add_block(block);
+        }
+    }
+    if (maker_.done() && close_requested_) {
+        stop();
+        close_requested_ = false;
+    }
+    builder_.publish(!maker_.done());
+    look_ahead(queue_);
+}
+
+void Planner::add_block(const Block& block) noexcept
+{
+    if (end_) {
+        join(start_geometry(block), block);
+    }
+    queue_.append_block(block);
+    add_stretches(block);
+    end_ = end_geometry(block);
+    end_filter_ = block.filter;
+    const float length = static_cast<float>(block.length) / kPathUnitsPerMillimetre;
+    for (RecentJoint& recent : joints_) {
+        recent.distance += length;
+    }
+}
+
+void Planner::join(const EndGeometry& after, const Block& block) noexcept
+{
+    const Joint joint = make_joint(*end_, after);
+    if (joint.turn > kCornerTurn || end_filter_ != block.filter) {
+        stop();
+        return;
+    }
+    const FilterChoice choice = filter_for(move_.tolerance);
+    JointShare share =
+        joint_share(joint, limits_, block.filter, kJointShare, kGreatestSpeed, choice.deviation);
+    // Joints within one window of the axis filters add up.
+    const float window = static_cast<float>(block.filter.first + block.filter.second) * kServoTick;
+    Joint sum = joint;
+    for (std::size_t i = joints_.size(); i-- > 0 && joints_[i].distance < share.speed * window;) {
+        sum = together(sum, joints_[i].joint);
+        share = joint_share(sum, limits_, block.filter, kJointShare, share.speed, choice.deviation);
+    }
+    if (share.speed < kLeastJointSpeed) {
+        stop();
+        return;
+    }
+    if (joints_.full()) {
+        for (std::size_t i = 1; i < joints_.size(); ++i) {
+            joints_[i - 1] = joints_[i];
+        }
+        joints_.pop_back();
+    }
+    (void)joints_.try_push_back({joint, 0.0F});
+    const float cap = share.speed * share.speed;
+    // The share grows with the speed at least as its root does: at rest half of it may remain.
+    builder_.add_joint({{cap, kUnlimited, kUnlimited, kUnlimited}, 1.0F - 0.5F * share.share, 1.0F - share.share}, share.speed);
+}
+
+void Planner::add_stretches(const Block& block) noexcept
+{
+    const FilterChoice choice = filter_for(move_.tolerance);
+    const float filter_s = static_cast<float>(path_filter_) * kServoTick;
+    const float feed = block.rapid ? kGreatestSpeed : std::min(move_.feed, kGreatestSpeed);
+    const unsigned count = stretch_count(block);
+    std::uint32_t done = 0;
+    for (unsigned i = 0; i < count; ++i) {
+        const float from = static_cast<float>(i) / static_cast<float>(count);
+        const float to = static_cast<float>(i + 1) / static_cast<float>(count);
+        SpeedLimit limit = speed_limit(derivatives_over(block, from, to), limits_, 1.0F, filter_s,
+                                       max_centripetal(choice), kGreatestSpeed);
+        limit.feed = feed * feed;
+        const std::uint32_t end =
+            i + 1 == count ? block.length : static_cast<std::uint32_t>(static_cast<float>(block.length) * to);
+        if (end > done) {
+            builder_.append(end - done, limit, block.rapid);
+        }
+        done = end;
+    }
+}
+
+void Planner::stop() noexcept
+{
+    builder_.stop();
+    joints_.clear();
+    end_.reset();
+}
+
+}  // namespace cusp::planner
