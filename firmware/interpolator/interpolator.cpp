@@ -10,11 +10,6 @@ float squared_part(unsigned percent) noexcept
     return part * part;
 }
 
-PathOffset operator-(PathOffset a, PathOffset b) noexcept
-{
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
 }  // namespace
 
 Interpolator::Interpolator(planner::Planner& planner) noexcept

@@ -14,8 +14,8 @@
 
 namespace cusp::interpolator {
 
-// Context: servo tick, but for reset(), set_... and hold(), resume(): main loop, any time (reset: at
-// rest only).
+// Context: servo tick, but for reset(), set_... and hold(), resume(): main loop, any time (reset:
+// at rest only).
 class Interpolator {
 public:
     explicit Interpolator(planner::Planner& planner) noexcept;
@@ -70,7 +70,7 @@ private:
     std::uint32_t offset_{0};  // path units into the first block
     PathOffset place_{};       // relative to its start
     Position position_{};
-    std::int32_t along_{0};    // path units travelled in this tick
+    std::int32_t along_{0};  // path units travelled in this tick
     std::uint32_t line_{0};
     OverrideFactors factors_{};
     bool holding_{false};

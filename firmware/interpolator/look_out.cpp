@@ -18,8 +18,8 @@ float feed_before_end(const Interval& interval,
                       const OverrideFactors& factors) noexcept
 {
     const float origin = factors.of(interval.origin_is_rapid);
-    const float line =
-        interval.feed_end + 2.0F * interval.slope * distance - (1.0F - origin) * interval.feed_origin;
+    const float line = interval.feed_end + 2.0F * interval.slope * distance -
+                       (1.0F - origin) * interval.feed_origin;
     return std::min(factors.of(interval.rapid) * interval.limit.feed, line);
 }
 

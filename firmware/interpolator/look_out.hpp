@@ -27,8 +27,8 @@ float feed_before_end(const planner::Interval& interval,
                       float distance,
                       const OverrideFactors& factors) noexcept;
 
-// A window that only moves forward, with the minimum over it: a queue of ends of intervals in rising
-// order of their speeds. Context: servo tick.
+// A window that only moves forward, with the minimum over it: a queue of ends of intervals in
+// rising order of their speeds. Context: servo tick.
 class LookOut {
 public:
     // Starts over at an interval, `distance` path units being left of it.
@@ -37,7 +37,8 @@ public:
     std::uint32_t interval() const noexcept { return interval_; }
 
     // Least squared speed allowed between two positions along the path, path units. 0 where the
-    // window reaches over more intervals than one tick may look at; the next ticks go on from there.
+    // window reaches over more intervals than one tick may look at; the next ticks go on from
+    // there.
     float least_between(const planner::PathQueue& queue,
                         std::uint64_t from,
                         std::uint64_t to,

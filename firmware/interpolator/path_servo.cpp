@@ -20,8 +20,9 @@ float millimetres(std::uint32_t path_units) noexcept
     return static_cast<float>(path_units) / kPathUnitsPerMillimetre;
 }
 
-// Greatest speed v, held for one tick from a place where the squared envelope is `allowed` and falls by
-// 2 slope a mm, that is still under the envelope after it: v^2 <= allowed - 2 slope v tick.
+// Greatest speed v, held for one tick from a place where the squared envelope is `allowed` and
+// falls by 2 slope a mm, that is still under the envelope after it: v^2 <= allowed - 2 slope v
+// tick.
 float speed_under(float allowed, float slope) noexcept
 {
     const float drop = slope * kServoTick;
@@ -81,16 +82,17 @@ PathServo::Bounds PathServo::bounds(float greatest, const OverrideFactors& facto
     const float square = speed_ * speed_;
     std::uint32_t index = queue_.interval_begin();
     const std::uint32_t published = queue_.published();
-    float to_end = -millimetres(offset_);
+    float to_end = 0;
     for (std::uint32_t i = 0;; ++i) {
         const Interval& interval = queue_.interval(index);
-        to_end += millimetres(interval.length);
+        to_end += millimetres(i == 0 ? interval.length - offset_ : interval.length);
         const float slope = interval.slope;
         const float line = interval.end_speed + 2.0F * slope * to_end;
         const float held = speed_under(line, slope);
         least.speed = std::min({least.speed, held, std::sqrt(interval.limit.cap)});
-        const float feed_line = interval.feed_end + 2.0F * slope * to_end -
-                                (1.0F - factors.of(interval.origin_is_rapid)) * interval.feed_origin;
+        const float feed_line =
+            interval.feed_end + 2.0F * slope * to_end -
+            (1.0F - factors.of(interval.origin_is_rapid)) * interval.feed_origin;
         const float own = factors.of(interval.rapid) * interval.limit.feed;
         least.feed = std::min({least.feed, speed_under(feed_line, slope), std::sqrt(own)});
         // Implicit in the speed after the tick, where less acceleration may be left.
@@ -114,8 +116,8 @@ float PathServo::next_speed(const OverrideFactors& factors) noexcept
 {
     // Between acceleration and braking, one path filter long, neither: so that the filtered
     // acceleration, a difference over one filter, changes by at most one limit.
-    const float before = static_cast<float>(accelerations_.oldest()) /
-                         (kPathUnitsPerTick * kServoTick);
+    const float before =
+        static_cast<float>(accelerations_.oldest()) / (kPathUnitsPerTick * kServoTick);
     const float reach = speed_ + queue_.interval(queue_.interval_begin()).limit.u0 * kServoTick;
     const Bounds bound = bounds(reach, factors);
     const float most = bound.acceleration;
@@ -132,18 +134,46 @@ float PathServo::next_speed(const OverrideFactors& factors) noexcept
     return wanted;
 }
 
-// The greatest speed up to `wanted` that could be kept for one path filter.
+// The greatest speed up to `wanted` that can surely be kept for one path filter: what the envelope
+// allows at its lowest over the travel at `wanted`; or, where that reaches too far (to a stop,
+// say), what follows from the envelope here, since ahead it falls by at most its steepest slope.
 float PathServo::coasting_speed(float wanted, const OverrideFactors& factors) noexcept
 {
     const auto ticks = static_cast<float>(accelerations_.length() + 2);
     const auto travel = static_cast<std::uint64_t>(wanted * kPathUnitsPerTick * ticks);
     const std::uint32_t begin = queue_.interval_begin();
-    if (!look_out_.started() || queue_.take_changed_from() <= look_out_.interval() ||
-        look_out_.interval() < begin) {
-        look_out_.restart(begin, position_ - offset_ + queue_.interval(begin).length);
+    const Interval& here = queue_.interval(begin);
+    if (!look_out_.started() ||
+        queue_.take_changed_from() - begin <= look_out_.interval() - begin ||
+        look_out_.interval() - begin > planner::kIntervalCount) {
+        look_out_.restart(begin, position_ - offset_ + here.length);
     }
     const float least = look_out_.least_between(queue_, position_, position_ + travel, factors);
-    return least >= wanted * wanted ? wanted : std::sqrt(std::max(least, 0.0F));
+    if (least >= wanted * wanted) {
+        return wanted;
+    }
+    const float steepest = steepest_slope(look_out_.interval());
+    const float left = millimetres(here.length - offset_);
+    const float time = ticks * kServoTick;
+    const float drop = steepest * time;
+    const float allowed = std::max(0.0F, allowed_before_end(here, left, factors));
+    const float surely = std::sqrt(drop * drop + allowed) - drop;
+    return std::min(wanted, std::max(std::sqrt(std::max(least, 0.0F)), surely));
+}
+
+// Largest slope of the envelope from here through interval `last`.
+float PathServo::steepest_slope(std::uint32_t last) const noexcept
+{
+    constexpr std::uint32_t kIntervalsToLookAt = 8;
+    const std::uint32_t begin = queue_.interval_begin();
+    if (last - begin > kIntervalsToLookAt) {
+        return queue_.steepest_slope();
+    }
+    float steepest = 0;
+    for (std::uint32_t i = begin; i - begin <= last - begin && i != queue_.published(); ++i) {
+        steepest = std::max(steepest, queue_.interval(i).slope);
+    }
+    return steepest;
 }
 
 std::int32_t PathServo::advance(float speed) noexcept

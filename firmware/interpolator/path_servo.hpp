@@ -35,6 +35,7 @@ private:
     Bounds bounds(float greatest, const OverrideFactors& factors) const noexcept;
     float next_speed(const OverrideFactors& factors) noexcept;
     float coasting_speed(float wanted, const OverrideFactors& factors) noexcept;
+    float steepest_slope(std::uint32_t last) const noexcept;
     std::int32_t advance(float speed) noexcept;
 
     planner::PathQueue& queue_;

@@ -19,8 +19,7 @@ float length_mm(const Block& block) noexcept
 
 Vec3f displacement_mm(const Block& block) noexcept
 {
-    return Vec3f{static_cast<float>(block.displacement.x),
-                 static_cast<float>(block.displacement.y),
+    return Vec3f{static_cast<float>(block.displacement.x), static_cast<float>(block.displacement.y),
                  static_cast<float>(block.displacement.z)} /
            kPathUnitsPerMillimetre;
 }
@@ -86,8 +85,8 @@ float largest_turned(float a, float b, float from, float to) noexcept
 {
     const auto [sine0, cosine0] = sin_cos(from);
     const auto [sine1, cosine1] = sin_cos(to);
-    const float ends = std::max(std::fabs(a * cosine0 + b * sine0),
-                                std::fabs(a * cosine1 + b * sine1));
+    const float ends =
+        std::max(std::fabs(a * cosine0 + b * sine0), std::fabs(a * cosine1 + b * sine1));
     const float slope0 = b * cosine0 - a * sine0;
     const float slope1 = b * cosine1 - a * sine1;
     const bool peak_inside = (slope0 > 0) != (slope1 > 0);
@@ -157,8 +156,7 @@ EndGeometry start_geometry(const Block& block) noexcept
 EndGeometry end_geometry(const Block& block) noexcept
 {
     if (block.shape == BlockShape::kArc) {
-        return arc_geometry(block.arc,
-                            static_cast<float>(block.length) * block.arc.angle_per_unit);
+        return arc_geometry(block.arc, static_cast<float>(block.length) * block.arc.angle_per_unit);
     }
     return start_geometry(block);
 }

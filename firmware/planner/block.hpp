@@ -34,9 +34,9 @@ struct ArcBlock {
 };
 
 struct Block {
-    PathOffset displacement;         // from start to end
-    std::uint32_t length;            // path units, > 0, <= 64 mm
-    std::uint32_t reciprocal;        // of the length: see fraction()
+    PathOffset displacement;   // from start to end
+    std::uint32_t length;      // path units, > 0, <= 64 mm
+    std::uint32_t reciprocal;  // of the length: see fraction()
     std::uint8_t reciprocal_shift;
     BlockShape shape;
     bool rapid;

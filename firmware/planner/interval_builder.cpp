@@ -37,7 +37,8 @@ float greatest_speed(const SpeedLimit& limit, bool rapid) noexcept
 void IntervalBuilder::refresh_time(Interval& interval) noexcept
 {
     const float speed = greatest_speed(interval.limit, interval.rapid);
-    const float time = std::min(millimetres(interval.length) / std::max(speed, 1e-6F), kLongestTime);
+    const float time =
+        std::min(millimetres(interval.length) / std::max(speed, 1e-6F), kLongestTime);
     const auto units = static_cast<std::uint32_t>(time * kTimeUnitsPerSecond);
     pending_time_ += units;
     pending_time_ -= interval.least_time;
@@ -118,9 +119,11 @@ void IntervalBuilder::spread_back(float distance, const Restriction& restriction
         Interval& interval = queue_.interval(at - 1);
         const float length = millimetres(interval.length);
         const SpeedLimit& limit = restriction.limit;
-        const bool binds = scales || limit.cap < interval.limit.cap || limit.u0 < interval.limit.u0 ||
-                           limit.u1 < interval.limit.u1 || limit.feed < interval.limit.feed;
-        const bool split = binds && length - left > kShortestPiece && queue_.free_intervals() > kMostPerAppend;
+        const bool binds = scales || limit.cap < interval.limit.cap ||
+                           limit.u0 < interval.limit.u0 || limit.u1 < interval.limit.u1 ||
+                           limit.feed < interval.limit.feed;
+        const bool split =
+            binds && length - left > kShortestPiece && queue_.free_intervals() > kMostPerAppend;
         if (split) {
             // Only the end of this interval is in reach.
             Interval front = interval;
@@ -186,7 +189,8 @@ void IntervalBuilder::publish(bool queue_full) noexcept
 {
     const auto hold_back =
         static_cast<std::uint64_t>((reach_.joint + reach_.feed) * kTimeUnitsPerSecond);
-    if (queue_full && queue_.published() == queue_.interval_begin() && pending_time_ < 2 * hold_back) {
+    if (queue_full && queue_.published() == queue_.interval_begin() &&
+        pending_time_ < 2 * hold_back) {
         // The whole queue is shorter than the reach: pass it more slowly.
         const float factor = 0.25F;
         for (std::uint32_t i = queue_.published(); i != queue_.interval_end(); ++i) {
@@ -197,7 +201,8 @@ void IntervalBuilder::publish(bool queue_full) noexcept
         }
     }
     std::uint32_t end = queue_.published();
-    while (end != queue_.interval_end() && pending_time_ - queue_.interval(end).least_time >= hold_back) {
+    while (end != queue_.interval_end() &&
+           pending_time_ - queue_.interval(end).least_time >= hold_back) {
         pending_time_ -= queue_.interval(end).least_time;
         ++end;
     }

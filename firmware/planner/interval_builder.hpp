@@ -1,9 +1,9 @@
 // IntervalBuilder: turns speed limits along the path into limits along the *unfiltered* path.
 //
-// The interpolator plans speeds at a point that runs ahead of the tool by up to one path filter. For
-// a limit V to hold where the tool is, it must hold over half a filter of travel, V filter/2, on either
-// side: every limit is spread that far, back over intervals not yet published and forward over those
-// to come. Proof: docs/numerics.md, "Spreading limits".
+// The interpolator plans speeds at a point that runs ahead of the tool by up to one path filter.
+// For a limit V to hold where the tool is, it must hold over half a filter of travel, V filter/2,
+// on either side: every limit is spread that far, back over intervals not yet published and forward
+// over those to come. Proof: docs/numerics.md, "Spreading limits".
 #pragma once
 
 #include "firmware/base/static_vector.hpp"
@@ -42,8 +42,8 @@ public:
     // The path stops at its end: all of it may be published, and nothing is spread over the stop.
     void stop() noexcept;
 
-    // Publishes what no later limit can reach. Where the queue is too short for that, slows the path
-    // down until it is not.
+    // Publishes what no later limit can reach. Where the queue is too short for that, slows the
+    // path down until it is not.
     void publish(bool queue_full) noexcept;
 
     void clear() noexcept;

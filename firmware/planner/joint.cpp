@@ -30,9 +30,9 @@ float share_at(const Joint& joint, const MachineLimits& limits, AxisFilter filte
             continue;
         }
         const float acceleration = jump / first;
-        const float jerk = acceleration / second +
-                           (joint.curvature[i] * square +
-                            joint.direction[i] * limits.acceleration[i]) / first;
+        const float jerk =
+            acceleration / second +
+            (joint.curvature[i] * square + joint.direction[i] * limits.acceleration[i]) / first;
         share = std::max({share, acceleration / acceleration_left, jerk / jerk_left});
     }
     return share;
@@ -60,10 +60,11 @@ JointShare joint_share(const Joint& joint,
                        float max_speed,
                        float deviation) noexcept
 {
-    // A corner turned by the filters leaves the vertex by v turn/2 times the mean of |t| under their
-    // kernel: at most t1/4 + t2/12.
-    const float mean_time = (static_cast<float>(filter.first) / 4.0F +
-                             static_cast<float>(filter.second) / 12.0F) * kServoTick;
+    // A corner turned by the filters leaves the vertex by v turn/2 times the mean of |t| under
+    // their kernel: at most t1/4 + t2/12.
+    const float mean_time =
+        (static_cast<float>(filter.first) / 4.0F + static_cast<float>(filter.second) / 12.0F) *
+        kServoTick;
     float fast = max_speed;
     if (joint.turn * fast * mean_time > 2.0F * deviation) {
         fast = 2.0F * deviation / (joint.turn * mean_time);

@@ -20,12 +20,12 @@ Joint together(const Joint& a, const Joint& b) noexcept;
 
 // What a joint may take of the axes' acceleration and jerk.
 struct JointShare {
-    float share;   // in (0, 1)
-    float speed;   // mm/s, greatest that keeps it
+    float share;  // in (0, 1)
+    float speed;  // mm/s, greatest that keeps it
 };
 
-// The axis filters turn a jump of direction into acceleration of at most v jump/t1 and jerk of at most
-// v jump/(t1 t2), and a jump of acceleration into jerk of at most jump/t1.
+// The axis filters turn a jump of direction into acceleration of at most v jump/t1 and jerk of at
+// most v jump/(t1 t2), and a jump of acceleration into jerk of at most jump/t1.
 //
 //   max_share  greatest share of acceleration and jerk that the joint may take.
 //   max_speed  mm/s, of the path around it.

@@ -1,8 +1,8 @@
 // PathQueue: the path ahead, shared by the planner (main loop) and the interpolator (servo tick).
 //
-// Two views of the same path: blocks hold where it runs, intervals how fast it may be followed; both
-// add up to the same length. The planner appends; the interpolator consumes from the front. Intervals
-// up to published() are final except that their envelope may still rise.
+// Two views of the same path: blocks hold where it runs, intervals how fast it may be followed;
+// both add up to the same length. The planner appends; the interpolator consumes from the front.
+// Intervals up to published() are final except that their envelope may still rise.
 #pragma once
 
 #include <array>
@@ -22,8 +22,8 @@ struct Interval {
     SpeedLimit limit;
     float end_speed;  // squared, at the end
     float slope;      // braking, mm/s^2
-    // The same for the feed alone: min(limit.feed, feed_end + 2 feed_slope d). An override scales the
-    // part of it that stems from a programmed feed, feed_origin.
+    // The same for the feed alone: min(limit.feed, feed_end + 2 feed_slope d). An override scales
+    // the part of it that stems from a programmed feed, feed_origin.
     float feed_end;
     float feed_origin;
     std::uint32_t least_time;  // units of 0.1 us, to pass at the greatest speed
@@ -61,6 +61,10 @@ public:
         return kIntervalCount - (interval_end() - interval_begin());
     }
 
+    // No interval's envelope is steeper, mm/s^2. Set before the first move.
+    float steepest_slope() const noexcept { return steepest_slope_; }
+    void set_steepest_slope(float slope) noexcept { steepest_slope_ = slope; }
+
     // Context: main loop.
     void append_block(const Block& block) noexcept;
     void append_interval(const Interval& interval) noexcept;
@@ -70,7 +74,8 @@ public:
     // Notes that the envelope of intervals from `first` on has risen.
     void note_change(std::uint32_t first) noexcept
     {
-        if (first - interval_begin() < changed_from_.load(std::memory_order_relaxed) - interval_begin()) {
+        if (first - interval_begin() <
+            changed_from_.load(std::memory_order_relaxed) - interval_begin()) {
             changed_from_.store(first, std::memory_order_relaxed);
         }
     }
@@ -108,6 +113,7 @@ private:
     Counter published_{0};
     Counter changed_from_{0};
     std::uint32_t interval_end_{0};
+    float steepest_slope_{0};
 };
 
 }  // namespace cusp::planner

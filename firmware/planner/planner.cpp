@@ -64,6 +64,7 @@ void Planner::set_limits(const MachineLimits& limits) noexcept
                               std::uint32_t{1}, kMaxPathFilter);
     const float half = 0.5F * static_cast<float>(path_filter_) * kServoTick + 2.0F * kServoTick;
     constexpr float kLongestAxisFilter = 11.0F * kServoTick;
+    queue_.set_steepest_slope(norm(limits_.acceleration));
     builder_.set_reach({half, half + kLongestAxisFilter, half + kLongestAxisFilter});
 }
 
@@ -110,7 +111,8 @@ void Planner::work() noexcept
 {
     constexpr std::uint32_t kIntervalsOfABlock = 8 * IntervalBuilder::kMostPerAppend;
     Block block;
-    while (!maker_.done() && queue_.free_blocks() > 0 && queue_.free_intervals() > kIntervalsOfABlock) {
+    while (!maker_.done() && queue_.free_blocks() > 0 &&
+           queue_.free_intervals() > kIntervalsOfABlock) {
         if (maker_.make(move_, block)) {
             add_block(block);
         }
@@ -168,7 +170,9 @@ void Planner::join(const EndGeometry& after, const Block& block) noexcept
     (void)joints_.try_push_back({joint, 0.0F});
     const float cap = share.speed * share.speed;
     // The share grows with the speed at least as its root does: at rest half of it may remain.
-    builder_.add_joint({{cap, kUnlimited, kUnlimited, kUnlimited}, 1.0F - 0.5F * share.share, 1.0F - share.share}, share.speed);
+    builder_.add_joint(
+        {{cap, kUnlimited, kUnlimited, kUnlimited}, 1.0F - 0.5F * share.share, 1.0F - share.share},
+        share.speed);
 }
 
 void Planner::add_stretches(const Block& block) noexcept
@@ -185,7 +189,8 @@ void Planner::add_stretches(const Block& block) noexcept
                                        max_centripetal(choice), kGreatestSpeed);
         limit.feed = feed * feed;
         const std::uint32_t end =
-            i + 1 == count ? block.length : static_cast<std::uint32_t>(static_cast<float>(block.length) * to);
+            i + 1 == count ? block.length
+                           : static_cast<std::uint32_t>(static_cast<float>(block.length) * to);
         if (end > done) {
             builder_.append(end - done, limit, block.rapid);
         }

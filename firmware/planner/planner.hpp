@@ -9,6 +9,7 @@
 
 #include <optional>
 
+#include "firmware/base/axis.hpp"
 #include "firmware/base/machine_limits.hpp"
 #include "firmware/path/move.hpp"
 #include "firmware/planner/block_maker.hpp"
@@ -21,7 +22,10 @@ namespace cusp::planner {
 // Context: main loop.
 class Planner {
 public:
-    explicit Planner(const MachineLimits& limits) noexcept : builder_{queue_} { set_limits(limits); }
+    explicit Planner(const MachineLimits& limits) noexcept : builder_{queue_}
+    {
+        set_limits(limits);
+    }
     Planner(const Planner&) = delete;
     Planner& operator=(const Planner&) = delete;
 
@@ -32,7 +36,8 @@ public:
     // Forgets all moves; the next starts at `at`. The interpolator must be reset with it.
     void reset(Position at) noexcept;
 
-    // Whether push() takes a move. Works on the move before, as far as there is room for its blocks.
+    // Whether push() takes a move. Works on the move before, as far as there is room for its
+    // blocks.
     bool has_room() noexcept;
 
     // Precondition: has_room() and move.start == tail(). A move of no length is dropped.

@@ -17,8 +17,8 @@ struct PathDerivatives {
 PathDerivatives larger(const PathDerivatives& a, const PathDerivatives& b) noexcept;
 
 // Speed and acceleration along the path that keep every axis inside its limits. Speeds are squared,
-// in (mm/s)^2. The acceleration may be u0 at rest and u1 at the cap; in between linear in the squared
-// speed, which is below the true bound because that is concave.
+// in (mm/s)^2. The acceleration may be u0 at rest and u1 at the cap; in between linear in the
+// squared speed, which is below the true bound because that is concave.
 struct SpeedLimit {
     float cap;   // of the squared speed
     float u0;    // mm/s^2
@@ -47,9 +47,9 @@ inline constexpr float kCurvatureJerkShare = 0.8F;
 //
 //   limits      of the axes.
 //   jerk_share  of the axes' jerk that the stretch may use, in (0, 1].
-//   filter_s    length of the path filter, s, > 0: jerk along the path is at most acceleration/filter_s.
-//   max_centripetal  largest |d2P/ds2| v^2, mm/s^2: bounds the deviation by the axis filters.
-//   max_speed   mm/s; another bound of the speed.
+//   filter_s    length of the path filter, s, > 0: jerk along the path is at most
+//   acceleration/filter_s. max_centripetal  largest |d2P/ds2| v^2, mm/s^2: bounds the deviation by
+//   the axis filters. max_speed   mm/s; another bound of the speed.
 //
 // Each axis keeps  |P'| u + |P''| v^2 <= a  and  |P'| u/filter_s + 3 |P''| v u + |P'''| v^3 <= j.
 // Source: docs/numerics.md, "Limits along the path".

@@ -1,0 +1,70 @@
+// Set points become pulse frames: every edge of the step and direction lines with its tick.
+#pragma once
+
+#include <array>
+
+#include "firmware/base/axis.hpp"
+#include "firmware/base/pulse_frame.hpp"
+#include "firmware/base/vec.hpp"
+
+namespace cusp::pulse {
+
+struct StepSettings {
+    // Thousandths of a step per millimetre: $100 to $102 have three decimals. In [1, 10 000 000].
+    PerAxis<std::uint32_t> millisteps_per_mm{800000, 800000, 800000};
+    std::uint16_t pulse_us{2};            // $0: high time, and least low time
+    std::uint16_t direction_setup_us{5};  // $29: from a change of direction to the step after it
+};
+
+// Context: servo tick. Exact: after any number of frames the steps counted are the set point in
+// steps, rounded to nearest.
+class PulseMaker {
+public:
+    // Precondition: pulse_us and direction_setup_us in [1, 100].
+    explicit PulseMaker(const StepSettings& settings) noexcept { configure(settings); }
+
+    // Precondition: idle().
+    void configure(const StepSettings& settings) noexcept;
+
+    // Stands at `at`; makes no edge. Precondition: idle().
+    void reset(Position at) noexcept;
+
+    // Takes the set point at the end of the next tick and makes the frame of the tick before it:
+    // the shape of a tick needs the travel of its two neighbours. Edges come kDelayTicks and
+    // delay_us() after their set points.
+    void make_frame(Position set_point, PulseFrame& frame) noexcept;
+
+    // Whether all lines are low and the last set points are played.
+    bool idle() const noexcept;
+
+    static constexpr unsigned kDelayTicks = 1;
+    // All steps come this much later, so that a direction can be set before the first of a tick.
+    std::uint16_t delay_us() const noexcept { return settings_.direction_setup_us; }
+
+    PerAxis<std::int32_t> position_steps() const noexcept;
+
+private:
+    struct AxisState {
+        std::int64_t set_point{};  // the latest, 1e-9 steps
+        std::int64_t next{};       // travel of the tick to come, 1e-9 steps
+        std::int64_t now{};        // travel of the tick whose frame is made
+        std::int32_t remainder{};  // of the position at its start, in [-5e8, 5e8)
+        std::int32_t steps{};
+        std::int32_t last_rise{};  // pulse ticks from the start of the frame, <= 0
+        bool forward{false};
+        bool direction_known{false};
+    };
+    void play_axis(unsigned axis, std::int64_t before) noexcept;
+    void add_step(unsigned axis, std::int32_t rise, bool forward) noexcept;
+    void compress(PulseFrame& frame) noexcept;
+
+    // Edges of the frame being made and the beginning of the next: raised lines in the low byte,
+    // lowered ones in the high byte.
+    static constexpr std::size_t kOverhang = 512;
+    StepSettings settings_{};
+    PerAxis<AxisState> axes_{};
+    std::array<std::uint16_t, kPulseTicksPerFrame + kOverhang> edges_{};
+    bool overhang_used_{false};
+};
+
+}  // namespace cusp::pulse

@@ -1,0 +1,48 @@
+// Roots of the tick's cubic by Newton steps inside a bracket.
+#include "firmware/pulse/step_times.hpp"
+
+#include <cmath>
+
+namespace cusp::pulse {
+
+TickCubic tick_cubic(float start, float before, float now, float after) noexcept
+{
+    const float first = 0.5F * (before + now);
+    const float last = 0.5F * (now + after);
+    return {start, first, 3.0F * now - 2.0F * first - last, first + last - 2.0F * now};
+}
+
+float crossing_time(const TickCubic& cubic, float level, float from) noexcept
+{
+    constexpr unsigned kMostSteps = 24;
+    constexpr float kCloseTime = 2e-5F;
+    constexpr float kCloseLevel = 1e-6F;
+    float low = from;
+    float high = 1.0F;
+    const bool rising = cubic.at(1.0F) > level;
+    float t = from;
+    for (unsigned i = 0; i < kMostSteps; ++i) {
+        const float error = cubic.at(t) - level;
+        const float slope = cubic.slope_at(t);
+        ((error > 0) == rising ? high : low) = t;
+        const float step = slope != 0.0F ? -error / slope : 2.0F;
+        if (std::fabs(error) < kCloseLevel) {
+            return t;
+        }
+        const float next = t + step;
+        if (next <= low || next >= high) {
+            t = 0.5F * (low + high);
+        } else {
+            t = next;
+            if (std::fabs(step) < kCloseTime) {
+                return t;
+            }
+        }
+        if (high - low < kCloseTime) {
+            return t;
+        }
+    }
+    return t;
+}
+
+}  // namespace cusp::pulse

@@ -1,0 +1,88 @@
+// MotionRig: planner and interpolator alone, fed with moves as fast as they take them.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "firmware/interpolator/interpolator.hpp"
+#include "firmware/planner/planner.hpp"
+
+namespace cusp::test {
+
+struct MotionRig {
+    explicit MotionRig(const MachineLimits& limits = {})
+        : planner{std::make_unique<planner::Planner>(limits)},
+          interpolator{std::make_unique<interpolator::Interpolator>(*planner)}
+    {
+    }
+
+    void start_at(Position at)
+    {
+        planner->reset(at);
+        interpolator->reset(at);
+    }
+
+    // Plays the moves to their end; one set point a tick. Gives up after a million seconds of ticks
+    // without end, returning what was played.
+    std::vector<Position> run(const std::vector<path::Move>& moves)
+    {
+        std::vector<Position> samples;
+        std::size_t next = 0;
+        std::size_t idle = 0;
+        while (idle < 3) {
+            while (next < moves.size() && planner->has_room()) {
+                planner->push(moves[next]);
+                ++next;
+            }
+            if (next == moves.size() && planner->has_room()) {
+                planner->close();
+            }
+            samples.push_back(interpolator->tick());
+            idle =
+                next == moves.size() && planner->empty() && interpolator->at_rest() ? idle + 1 : 0;
+            if (samples.size() > kMostTicks) {
+                break;
+            }
+        }
+        return samples;
+    }
+
+    static constexpr std::size_t kMostTicks = 4'000'000;
+    std::unique_ptr<planner::Planner> planner;
+    std::unique_ptr<interpolator::Interpolator> interpolator;
+};
+
+// Largest |difference| of set points per axis as a part of the limit, rounding allowed for.
+struct LimitUse {
+    Vec3d velocity, acceleration, jerk;
+};
+
+// Rounding of whole nanometres makes differences of 1, 2 and 4 nm in the first three orders.
+inline LimitUse limit_use(const std::vector<Position>& samples,
+                          Position start,
+                          const MachineLimits& limits)
+{
+    LimitUse use{};
+    for (unsigned axis = 0; axis < 3; ++axis) {
+        std::int64_t p[4] = {start[axis], start[axis], start[axis], start[axis]};
+        for (const Position& sample : samples) {
+            p[0] = p[1], p[1] = p[2], p[2] = p[3], p[3] = sample[axis];
+            const auto part = [](std::int64_t nm, int rounding, double scale, float limit) {
+                const double excess = std::fabs(static_cast<double>(nm)) - rounding;
+                return excess * 1e-6 * scale / static_cast<double>(limit);
+            };
+            use.velocity[axis] =
+                std::max(use.velocity[axis], part(p[3] - p[2], 1, 1e3, limits.velocity[axis]));
+            use.acceleration[axis] =
+                std::max(use.acceleration[axis],
+                         part(p[3] - 2 * p[2] + p[1], 2, 1e6, limits.acceleration[axis]));
+            use.jerk[axis] = std::max(
+                use.jerk[axis], part(p[3] - 3 * p[2] + 3 * p[1] - p[0], 4, 1e9, limits.jerk[axis]));
+        }
+    }
+    return use;
+}
+
+}  // namespace cusp::test
