@@ -46,8 +46,8 @@ struct CurvePoint {
 Vec3d point_at(const Curve& curve, double u);
 CurvePoint derivatives_at(const Curve& curve, double u);
 
-// The same curve with knot u inserted so that its multiplicity is `degree`; parts on either side
-// share it.
+// The parts of the curve before and after u, each ending or starting in a knot of multiplicity
+// degree + 1. Precondition: domain_begin() < u < domain_end().
 std::array<Curve, 2> split_at(const Curve& curve, double u);
 
 // The pieces of the curve between distinct knots, each with full multiplicity at its ends.

@@ -1,0 +1,120 @@
+// Boehm's knot insertion on rows of homogeneous control points.
+#include "host_tools/nurbs/knot_insertion.hpp"
+
+#include <algorithm>
+
+#include "host_tools/nurbs/spline_basis.hpp"
+
+namespace cusp::host {
+namespace {
+
+HomogeneousPoint homogeneous(Vec3d p, double w) { return {p.x * w, p.y * w, p.z * w, w}; }
+
+HomogeneousPoint blend(const HomogeneousPoint& a, const HomogeneousPoint& b, double share)
+{
+    const double rest = 1 - share;
+    return {rest * a.x + share * b.x, rest * a.y + share * b.y, rest * a.z + share * b.z,
+            rest * a.w + share * b.w};
+}
+
+// Source: Boehm 1980; Piegl and Tiller (5.11), one knot at a time.
+void insert_once(ControlRows& rows, double u)
+{
+    const auto p = static_cast<std::size_t>(rows.degree);
+    const auto above = std::upper_bound(rows.knots.begin(), rows.knots.end(), u);
+    const auto k = static_cast<std::size_t>(above - rows.knots.begin()) - 1;
+    const std::size_t s = multiplicity(rows.knots, u);
+    std::vector<HomogeneousPoint> points;
+    points.reserve(rows.points.size() + rows.width);
+    for (std::size_t i = 0; i <= rows.rows(); ++i) {
+        const HomogeneousPoint* row = rows.points.data() + i * rows.width;
+        if (i + p <= k) {
+            points.insert(points.end(), row, row + rows.width);
+        } else if (i + s > k) {
+            points.insert(points.end(), row - rows.width, row);
+        } else {
+            const double share = (u - rows.knots[i]) / (rows.knots[i + p] - rows.knots[i]);
+            for (std::size_t j = 0; j < rows.width; ++j) {
+                points.push_back(blend(*(row + j - rows.width), row[j], share));
+            }
+        }
+    }
+    rows.points = std::move(points);
+    rows.knots.insert(above, u);
+}
+
+}  // namespace
+
+ControlRows control_rows(const Curve& curve)
+{
+    ControlRows rows{curve.degree, curve.knots, 1, {}};
+    for (std::size_t i = 0; i < curve.points.size(); ++i) {
+        rows.points.push_back(homogeneous(curve.points[i], curve.weights[i]));
+    }
+    return rows;
+}
+
+ControlRows control_rows_along_u(const Surface& surface)
+{
+    ControlRows rows{
+        surface.degree_u, surface.knots_u, static_cast<std::size_t>(surface.size_v), {}};
+    for (std::size_t i = 0; i < surface.points.size(); ++i) {
+        rows.points.push_back(homogeneous(surface.points[i], surface.weights[i]));
+    }
+    return rows;
+}
+
+ControlRows control_rows_along_v(const Surface& surface)
+{
+    const auto size_u = static_cast<std::size_t>(surface.size_u);
+    const auto size_v = static_cast<std::size_t>(surface.size_v);
+    ControlRows rows{surface.degree_v, surface.knots_v, size_u, {}};
+    for (std::size_t j = 0; j < size_v; ++j) {
+        for (std::size_t i = 0; i < size_u; ++i) {
+            const std::size_t at = i * size_v + j;
+            rows.points.push_back(homogeneous(surface.points[at], surface.weights[at]));
+        }
+    }
+    return rows;
+}
+
+Curve to_curve(const ControlRows& rows)
+{
+    Curve curve{rows.degree, rows.knots, {}, {}};
+    for (const HomogeneousPoint& h : rows.points) {
+        curve.points.push_back({h.x / h.w, h.y / h.w, h.z / h.w});
+        curve.weights.push_back(h.w);
+    }
+    return curve;
+}
+
+std::size_t multiplicity(const std::vector<double>& knots, double u)
+{
+    const auto [first, last] = std::equal_range(knots.begin(), knots.end(), u);
+    return static_cast<std::size_t>(last - first);
+}
+
+void insert_to_degree(ControlRows& rows, double u)
+{
+    const auto p = static_cast<std::size_t>(rows.degree);
+    for (std::size_t s = multiplicity(rows.knots, u); s < p; ++s) {
+        insert_once(rows, u);
+    }
+}
+
+std::vector<double> distinct_knots(const std::vector<double>& knots, int degree, std::size_t count)
+{
+    std::vector<double> distinct(knots.begin() + degree,
+                                 knots.begin() + static_cast<std::ptrdiff_t>(count) + 1);
+    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+    return distinct;
+}
+
+void insert_all_to_degree(ControlRows& rows)
+{
+    for (const double u : distinct_knots(rows.knots, rows.degree, rows.rows())) {
+        insert_to_degree(rows, u);
+    }
+}
+
+}  // namespace cusp::host
