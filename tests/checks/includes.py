@@ -44,7 +44,8 @@ def module_of(place, table):
 
 
 def is_freestanding(module):
-    return module.startswith("firmware/") or module in ("hal/contract", "hal/stm32f4")
+    return module.startswith("firmware/") or module in (
+        "hal/contract", "hal/freestanding", "hal/qemu", "hal/stm32f4")
 
 
 def complaints(file, place, table):

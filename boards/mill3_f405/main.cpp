@@ -1,0 +1,39 @@
+// The mill controller's image: every object of the firmware is a static of this file.
+#include "boards/mill3_f405/board_traits.hpp"
+#include "boards/mill3_f405/mill_board.hpp"
+#include "firmware/app/app.hpp"
+#include "hal/stm32f4/vectors.hpp"
+
+namespace {
+
+using namespace cusp;
+using Traits = boards::ChipTraits;
+using Board = boards::MillBoard<Traits>;
+static_assert(hal::is_board<Board>());
+
+Board board;
+app::App<Board> application{board};
+
+void on_servo_tick() { application.tick(); }
+
+void on_player()
+{
+    if (board.pulse_player.on_interrupt()) {
+        hal::stm32f4::pend_servo_tick<Traits::Chip>();
+    }
+}
+
+void on_serial() { board.byte_link.on_interrupt(); }
+
+constexpr std::array<hal::stm32f4::InterruptEntry, 2> kInterrupts{{
+    {hal::stm32f4::kDma2Stream1Interrupt, on_player},
+    {hal::stm32f4::kUsart1Interrupt, on_serial},
+}};
+
+__attribute__((section(".vectors"), used)) constexpr hal::stm32f4::VectorTable kVectors =
+    hal::stm32f4::make_vectors(
+        &cusp_stack_top, cusp_reset, cusp_exception, on_servo_tick, kInterrupts);
+
+}  // namespace
+
+void cusp_main() { Traits::run(board, application); }

@@ -1,0 +1,107 @@
+// QemuTraits: the mill controller on QEMU's netduinoplus2 (an STM32F405 without its DMA, its
+// clocks, its flash controller and most of its timers): all that differs from the chip stands here.
+//
+// Arguments (-semihosting-config arg=...): `program FILE`, `script FILE`, `trace FILE`, `real`.
+// With a program the run is deterministic: the main loop runs until nothing is left to do, then
+// comes one servo tick, and so on to the program's end. Without one the serial line is live.
+#pragma once
+
+#include <cstdint>
+
+#include "boards/mill3_f405/mill_panel.hpp"
+#include "hal/qemu/edge_player.hpp"
+#include "hal/qemu/edge_trace.hpp"
+#include "hal/qemu/memory_settings.hpp"
+#include "hal/qemu/qemu_link.hpp"
+#include "hal/qemu/run_arguments.hpp"
+#include "hal/qemu/semihosting.hpp"
+#include "hal/stm32f4/chip.hpp"
+
+namespace cusp::boards {
+
+struct QemuTraits {
+    using Chip = hal::stm32f4::Chip;
+    using PulsePlayer = hal::qemu::EdgePlayer<Chip, StepPort<Chip>, hal::qemu::EdgeTrace>;
+    using ByteLink = hal::qemu::QemuLink<Chip, QemuTraits>;
+    using Panel = MillPanel<Chip, QemuTraits>;
+    using SettingsStore = hal::qemu::MemorySettings;
+
+    // QEMU 7.2 never raises the transmit interrupt of this port; its timer 3 would count
+    // nanoseconds.
+    static constexpr bool kTransmitInterrupt = false;
+    static constexpr bool kSpindleTimer = false;
+
+    // Clocks and peripheral clocks are not modelled: nothing to switch on, nothing to wait for.
+    template <class Board>
+    static void start(Board& board) noexcept
+    {
+        using namespace hal::stm32f4;
+        const hal::qemu::RunArguments arguments;
+        Panel::start();
+        set_field(Chip::system().shpr3, 16, 8, kServoTickPriority);
+        if (arguments.trace()[0] != '\0') {
+            board.pulse_player.trace().open(arguments.trace());
+        }
+        if (arguments.program()[0] != '\0') {
+            board.byte_link.program().open(arguments.program(), arguments.script());
+        } else {
+            enable_interrupt<Chip>(kUsart1Interrupt, kSerialPriority);
+            board.byte_link.line().start(kFastBusHz, 115200);
+        }
+        board.pulse_player.start(arguments.real_pace());
+    }
+
+    // QEMU's virtual time is exact to the instruction only where the core never sleeps.
+    static void idle() noexcept { __asm volatile("nop"); }
+
+    template <class Board, class Application>
+    [[noreturn]] static void run(Board& board, Application& application) noexcept
+    {
+        if (board.byte_link.program().is_open()) {
+            hal::qemu::exit_qemu(run_program(board, application));
+        }
+        live_ = true;
+        hal::stm32f4::pend_servo_tick<Chip>();
+        for (;;) {
+            if (!application.poll()) {
+                idle();
+            }
+        }
+    }
+
+    // Whether the player's interrupt calls for the servo tick; a program's run makes its own.
+    static bool live() noexcept { return live_; }
+
+private:
+    static inline bool live_{false};
+
+    // Returns the status of the run: 0 done, 1 a line was refused or an alarm came.
+    template <class Board, class Application>
+    static std::uint32_t run_program(Board& board, Application& application) noexcept
+    {
+        auto& program = board.byte_link.program();
+        constexpr std::uint64_t kReportEvery = 20;
+        for (std::uint64_t tick = 0;; ++tick) {
+            program.set_tick(tick);
+            if (program.finished() && tick % kReportEvery == 0) {
+                program.ask_for_report();
+            }
+            while (application.poll()) {
+            }
+            if (program.refused() || (program.finished() && program.reported_idle())) {
+                break;
+            }
+            while (!board.pulse_player.has_room()) {
+                idle();
+            }
+            application.tick();
+        }
+        while (!board.pulse_player.silent()) {
+            idle();
+        }
+        board.pulse_player.trace().flush();
+        return program.refused() ? 1 : 0;
+    }
+};
+
+}  // namespace cusp::boards

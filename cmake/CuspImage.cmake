@@ -1,0 +1,25 @@
+# Images: programs for a chip, without a C library, laid out by a linker script.
+
+# cusp_image(NAME <name> SCRIPT <linker script> SOURCES <file>... DEPENDS <target>...)
+#
+# Builds <name>.elf, <name>.bin, <name>.hex and <name>.map into the build's bin folder.
+function(cusp_image)
+  cmake_parse_arguments(PARSE_ARGV 0 ARG "" "NAME;SCRIPT" "SOURCES;DEPENDS")
+  set(out ${PROJECT_BINARY_DIR}/bin)
+  set(script ${CMAKE_CURRENT_SOURCE_DIR}/${ARG_SCRIPT})
+  add_executable(${ARG_NAME} ${ARG_SOURCES})
+  set_target_properties(${ARG_NAME} PROPERTIES
+    SUFFIX .elf RUNTIME_OUTPUT_DIRECTORY ${out}
+    LINK_DEPENDS "${script};${PROJECT_SOURCE_DIR}/hal/stm32f4/sections.ld")
+  target_include_directories(${ARG_NAME} PRIVATE ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${ARG_NAME} PRIVATE cusp_freestanding ${ARG_DEPENDS})
+  # The runtime comes last and again: what the compiler calls on its own is known only at the link.
+  target_link_libraries(${ARG_NAME} PRIVATE
+    $<TARGET_FILE:cusp_hal_stm32f4> $<TARGET_FILE:cusp_hal_freestanding> gcc)
+  target_link_options(${ARG_NAME} PRIVATE
+    -nostartfiles -nostdlib -T ${script} -L ${PROJECT_SOURCE_DIR}
+    -Wl,--gc-sections -Wl,-Map=${out}/${ARG_NAME}.map -Wl,--print-memory-usage)
+  add_custom_command(TARGET ${ARG_NAME} POST_BUILD
+    COMMAND ${CMAKE_OBJCOPY} -O binary $<TARGET_FILE:${ARG_NAME}> ${out}/${ARG_NAME}.bin
+    COMMAND ${CMAKE_OBJCOPY} -O ihex $<TARGET_FILE:${ARG_NAME}> ${out}/${ARG_NAME}.hex)
+endfunction()

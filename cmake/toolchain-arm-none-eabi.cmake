@@ -1,0 +1,7 @@
+# What all Cortex-M targets share; the file of the core sets CUSP_CORE_FLAGS and includes this one.
+set(CMAKE_SYSTEM_NAME Generic)
+set(CMAKE_CXX_COMPILER arm-none-eabi-g++)
+set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
+# -fno-math-errno: sqrtf is the one instruction, not a call that sets errno.
+string(JOIN " " CMAKE_CXX_FLAGS_INIT ${CUSP_CORE_FLAGS} -mthumb -mfloat-abi=hard
+  -ffunction-sections -fdata-sections -fno-math-errno)

@@ -1,0 +1,15 @@
+// What the library calls where a promise of its own is broken: the same as a broken promise of
+// ours.
+#include "firmware/base/assert.hpp"
+
+extern "C" {
+
+[[noreturn]] void abort();
+int __aeabi_atexit(void* object, void (*destroy)(void*), void* dso);
+void* __dso_handle = nullptr;
+
+void abort() { cusp::fault("abort", __FILE__, __LINE__); }
+
+// An image never ends: the destructors of its static objects never run.
+int __aeabi_atexit(void*, void (*)(void*), void*) { return 0; }
+}

@@ -1,0 +1,44 @@
+// QemuLink: the serial line, or a program from a file in its place.
+#pragma once
+
+#include <cstdint>
+
+#include "hal/qemu/program_link.hpp"
+#include "hal/stm32f4/usart_link.hpp"
+
+namespace cusp::hal::qemu {
+
+template <class Chip, class Rules>
+class QemuLink {
+public:
+    using Line = stm32f4::UsartLink<Chip, Rules>;
+
+    Line& line() noexcept { return line_; }
+    ProgramLink& program() noexcept { return program_; }
+
+    // See hal/contract/board.hpp.
+    bool try_read(std::uint8_t& byte) noexcept
+    {
+        return program_.is_open() ? program_.try_read(byte) : line_.try_read(byte);
+    }
+    bool overrun() noexcept { return program_.is_open() ? false : line_.overrun(); }
+    std::uint32_t write_room() const noexcept
+    {
+        return program_.is_open() ? program_.write_room() : line_.write_room();
+    }
+    void write(Span<const std::uint8_t> bytes) noexcept
+    {
+        if (program_.is_open()) {
+            program_.write(bytes);
+        } else {
+            line_.write(bytes);
+        }
+    }
+    void on_interrupt() noexcept { line_.on_interrupt(); }
+
+private:
+    Line line_;
+    ProgramLink program_;
+};
+
+}  // namespace cusp::hal::qemu

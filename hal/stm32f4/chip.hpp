@@ -1,0 +1,79 @@
+// Where the blocks of the STM32F405 lie (RM0090 table 1), and its interrupts (table 62).
+#pragma once
+
+#include "hal/stm32f4/registers.hpp"
+
+namespace cusp::hal::stm32f4 {
+
+// Only the target may call this: the address is that of the chip's block.
+template <class Block>
+Block& block_at(std::uintptr_t address) noexcept
+{
+    return *reinterpret_cast<Block*>(address);
+}
+
+// The chip as the drivers of this folder see it: a type with one function a block. Tests hand them
+// one that yields models instead.
+struct Chip {
+    using Word = DeviceWord;
+
+    static Rcc<Word>& rcc() noexcept { return block_at<Rcc<Word>>(0x40023800); }
+    static Flash<Word>& flash() noexcept { return block_at<Flash<Word>>(0x40023C00); }
+    static Power<Word>& power() noexcept { return block_at<Power<Word>>(0x40007000); }
+    static Gpio<Word>& port_a() noexcept { return block_at<Gpio<Word>>(0x40020000); }
+    static Gpio<Word>& port_b() noexcept { return block_at<Gpio<Word>>(0x40020400); }
+    static Gpio<Word>& port_c() noexcept { return block_at<Gpio<Word>>(0x40020800); }
+    static Dma<Word>& dma2() noexcept { return block_at<Dma<Word>>(0x40026400); }
+    static Timer<Word>& timer1() noexcept { return block_at<Timer<Word>>(0x40010000); }
+    static Timer<Word>& timer2() noexcept { return block_at<Timer<Word>>(0x40000000); }
+    static Timer<Word>& timer3() noexcept { return block_at<Timer<Word>>(0x40000400); }
+    static Timer<Word>& timer5() noexcept { return block_at<Timer<Word>>(0x40000C00); }
+    static Timer<Word>& timer8() noexcept { return block_at<Timer<Word>>(0x40010400); }
+    static Usart<Word>& usart1() noexcept { return block_at<Usart<Word>>(0x40011000); }
+    static Watchdog<Word>& watchdog() noexcept { return block_at<Watchdog<Word>>(0x40003000); }
+    static InterruptController<Word>& interrupts() noexcept
+    {
+        return block_at<InterruptController<Word>>(0xE000E100);
+    }
+    static SystemControl<Word>& system() noexcept
+    {
+        return block_at<SystemControl<Word>>(0xE000ED00);
+    }
+
+    // What a word of memory is called on the bus: DMA and flash see the same addresses as the core.
+    static std::uint32_t bus_address(const volatile void* memory) noexcept
+    {
+        return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(memory));
+    }
+    static volatile std::uint32_t* flash_word(std::uint32_t address) noexcept
+    {
+        return reinterpret_cast<volatile std::uint32_t*>(std::uintptr_t{address});
+    }
+};
+
+inline constexpr unsigned kTimer2Interrupt = 28;
+inline constexpr unsigned kUsart1Interrupt = 37;
+inline constexpr unsigned kDma2Stream1Interrupt = 57;
+inline constexpr unsigned kInterruptCount = 82;
+
+// Priorities: the higher the number, the less urgent; the chip has sixteen steps of 16.
+inline constexpr std::uint32_t kPlayerPriority = 0x00;
+inline constexpr std::uint32_t kSerialPriority = 0x40;
+inline constexpr std::uint32_t kServoTickPriority = 0xC0;
+
+template <class Chip>
+void enable_interrupt(unsigned number, std::uint32_t priority) noexcept
+{
+    set_field(Chip::interrupts().ipr[number / 4], number % 4 * 8, 8, priority);
+    Chip::interrupts().iser[number / 32].write(1U << number % 32);
+}
+
+// The servo tick runs in PendSV, below every interrupt that has a deadline of microseconds.
+template <class Chip>
+void pend_servo_tick() noexcept
+{
+    constexpr std::uint32_t kPendSvSet = 1U << 28U;
+    Chip::system().icsr.write(kPendSvSet);
+}
+
+}  // namespace cusp::hal::stm32f4

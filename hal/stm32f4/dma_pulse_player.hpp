@@ -1,0 +1,230 @@
+// DmaPulsePlayer: plays pulse frames by DMA, so that no interrupt makes a step.
+//
+// Timer 8 asks DMA2 for one word each microsecond; the stream takes it from a ring of two halves, a
+// frame each, and writes it to the port's set/reset register: bits 0 to 15 raise pins, bits 16 to
+// 31 lower them, 0 changes nothing. While one half plays, the servo tick fills the other.
+//
+// At each change of half the interrupt erases the half that has just played, so that no word is
+// ever played twice: a frame that comes late finds silence, never yesterday's steps. If motion went
+// on and the next frame is not there, the stream is stopped with the steps low: an underrun.
+//
+// Never tried on silicon. tests/unit/hal_stm32f4 runs it against a model of timer, stream and port.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+
+#include "firmware/base/pulse_frame.hpp"
+#include "hal/contract/board.hpp"
+#include "hal/stm32f4/registers.hpp"
+
+namespace cusp::hal::stm32f4 {
+
+// Lines X Y Z step on pins 0 to 2 of the port and X Y Z direction on pins 3 to 5; `inverted` has a
+// 1 for each line whose pin is low where the line is high.
+constexpr std::uint32_t port_word(PulseLines raise, PulseLines lower, PulseLines inverted) noexcept
+{
+    const auto pins_up = static_cast<std::uint32_t>((raise & ~inverted) | (lower & inverted));
+    const auto pins_down = static_cast<std::uint32_t>((lower & ~inverted) | (raise & inverted));
+    return pins_up | pins_down << 16U;
+}
+
+inline constexpr PulseLines kStepLines = 0x07;
+
+// `Chip` as in hal/stm32f4/chip.hpp; `Port` has a static function gpio() that yields the port of
+// the six lines and a constant kInvertedLines.
+template <class Chip, class Port>
+class DmaPulsePlayer {
+public:
+    // Sets the timer and the stream up and starts them on silence. Precondition: the clocks of DMA2
+    // and timer 8 are on. `timer_hz` is the frequency that timer 8 counts.
+    void start(std::uint32_t timer_hz) noexcept;
+
+    // See hal/contract/board.hpp; takes the frame and drops it after an underrun. Also false, and
+    // nothing written, where less than kFillTime is left of the half that plays. A frame that is
+    // still being written when its half begins is an underrun, even from rest: its first edges may
+    // have played.
+    bool try_play(const PulseFrame& frame) noexcept;
+    bool underrun() const noexcept { return underrun_.load(std::memory_order_relaxed); }
+    void clear_underrun() noexcept;
+
+    // The stream's interrupt. True where the servo tick is due. Context: the most urgent interrupt;
+    // integers only.
+    bool on_interrupt() noexcept;
+
+    // Stops the stream at once with the steps low. Context: any; used by the fault handler.
+    static void stop() noexcept;
+
+private:
+    using Half = std::array<std::uint32_t, kPulseTicksPerFrame>;
+    static constexpr std::uint32_t kWords = 2 * kPulseTicksPerFrame;
+    // Longest time from the first word of a frame to the last, in words: 1000 edges at some ten
+    // instructions, and the interrupts of the serial port in between.
+    static constexpr std::uint32_t kFillTime = 150;
+    // The stream fetches a word ahead of its turn.
+    static constexpr std::uint32_t kFetchedAhead = 4;
+
+    // Stream 1 of DMA2 in the flags registers, and its settings (RM0090 sections 10.5.1 to 10.5.5).
+    static constexpr std::uint32_t kFifoError = 1U << 6U;
+    static constexpr std::uint32_t kDirectModeError = 1U << 8U;
+    static constexpr std::uint32_t kTransferError = 1U << 9U;
+    static constexpr std::uint32_t kHalfTransfer = 1U << 10U;
+    static constexpr std::uint32_t kTransferComplete = 1U << 11U;
+    static constexpr std::uint32_t kErrors = kDirectModeError | kTransferError;
+    static constexpr std::uint32_t kAllFlags =
+        kErrors | kFifoError | kHalfTransfer | kTransferComplete;
+    static constexpr std::uint32_t kStreamEnable = 1U << 0U;
+    static constexpr std::uint32_t kStreamSettings = 7U << 25U    // channel 7: timer 8's update
+                                                     | 3U << 16U  // most urgent stream
+                                                     | 2U << 13U  // words from memory
+                                                     | 2U << 11U  // words to the port
+                                                     | 1U << 10U  // memory address goes on
+                                                     | 1U << 8U   // round and round
+                                                     | 1U << 6U   // memory to peripheral
+                                                     | 1U << 4U | 1U << 3U | 1U << 2U | 1U << 1U;
+    static constexpr std::uint32_t kTimerEnable = 1U << 0U;
+    static constexpr std::uint32_t kUpdateRequest = 1U << 8U;
+    // A stream that is switched off finishes its word first: some 20 bus cycles.
+    static constexpr unsigned kDisableRounds = 1000;
+
+    static auto& stream() noexcept { return Chip::dma2().stream[1]; }
+    void start_stream() noexcept;
+    // Which half plays, and how many of its words are left.
+    struct Place {
+        unsigned half;
+        std::uint32_t words_left;
+    };
+    static Place place() noexcept;
+    void fail() noexcept;
+
+    std::array<Half, 2> halves_{};
+    // Written by the servo tick, taken by the interrupt.
+    std::array<std::atomic<bool>, 2> ready_{};
+    // Whether the frame in this half has an edge.
+    std::array<bool, 2> has_edges_{};
+    std::atomic<bool> underrun_{false};
+};
+
+template <class Chip, class Port>
+void DmaPulsePlayer<Chip, Port>::start(std::uint32_t timer_hz) noexcept
+{
+    auto& timer = Chip::timer8();
+    timer.cr1.write(0);
+    timer.psc.write(0);
+    timer.arr.write(timer_hz / (kPulseTicksPerFrame * kServoTicksPerSecond) - 1);
+    timer.dier.write(kUpdateRequest);
+    start_stream();
+}
+
+template <class Chip, class Port>
+void DmaPulsePlayer<Chip, Port>::start_stream() noexcept
+{
+    stop();
+    for (unsigned half = 0; half < 2; ++half) {
+        halves_[half].fill(0);
+        ready_[half].store(false, std::memory_order_relaxed);
+        has_edges_[half] = false;
+    }
+    auto& dma = stream();
+    Chip::dma2().lifcr.write(kAllFlags);
+    dma.par.write(Chip::bus_address(&Port::gpio().bsrr));
+    dma.m0ar.write(Chip::bus_address(halves_.data()));
+    dma.ndtr.write(kWords);
+    dma.fcr.write(0);
+    dma.cr.write(kStreamSettings);
+    dma.cr.write(kStreamSettings | kStreamEnable);
+    Chip::timer8().cr1.write(kTimerEnable);
+}
+
+template <class Chip, class Port>
+void DmaPulsePlayer<Chip, Port>::stop() noexcept
+{
+    Chip::timer8().cr1.write(0);
+    auto& dma = stream();
+    dma.cr.write(kStreamSettings);
+    for (unsigned round = 0; round < kDisableRounds && (dma.cr.read() & kStreamEnable) != 0;
+         ++round) {
+    }
+    Port::gpio().bsrr.write(port_word(0, kStepLines, Port::kInvertedLines));
+}
+
+template <class Chip, class Port>
+typename DmaPulsePlayer<Chip, Port>::Place DmaPulsePlayer<Chip, Port>::place() noexcept
+{
+    const std::uint32_t left = stream().ndtr.read();
+    if (left > kPulseTicksPerFrame) {
+        return {0, left - kPulseTicksPerFrame};
+    }
+    return {1, left};
+}
+
+template <class Chip, class Port>
+bool DmaPulsePlayer<Chip, Port>::try_play(const PulseFrame& frame) noexcept
+{
+    const Place before = place();
+    const unsigned half = 1U - before.half;
+    if (underrun()) {
+        return true;
+    }
+    if (ready_[half].load(std::memory_order_relaxed) || before.words_left < kFillTime) {
+        return false;
+    }
+    Half& words = halves_[half];
+    for (const PulseEdge& edge : frame.edges) {
+        words[edge.tick] = port_word(edge.raise, edge.lower, Port::kInvertedLines);
+    }
+    has_edges_[half] = !frame.edges.empty();
+    ready_[half].store(true, std::memory_order_release);
+    const Place after = place();
+    if (after.half == before.half && after.words_left >= kFetchedAhead && !underrun()) {
+        return true;
+    }
+    fail();
+    return false;
+}
+
+template <class Chip, class Port>
+bool DmaPulsePlayer<Chip, Port>::on_interrupt() noexcept
+{
+    const std::uint32_t flags = Chip::dma2().lisr.read();
+    Chip::dma2().lifcr.write(flags & kAllFlags);
+    if ((flags & kErrors) != 0) {
+        fail();
+        return true;
+    }
+    if (underrun() || (flags & (kHalfTransfer | kTransferComplete)) == 0) {
+        return false;
+    }
+    const unsigned playing = place().half;
+    const unsigned played = 1U - playing;
+    const bool both = (flags & kHalfTransfer) != 0 && (flags & kTransferComplete) != 0;
+    const bool was_moving = has_edges_[played];
+    halves_[played].fill(0);
+    has_edges_[played] = false;
+    ready_[played].store(false, std::memory_order_relaxed);
+    // Both flags: a whole half went by unserved, and the one that plays may be playing again.
+    if (both ? was_moving || has_edges_[playing]
+             : was_moving && !ready_[playing].load(std::memory_order_acquire)) {
+        fail();
+    }
+    return true;
+}
+
+template <class Chip, class Port>
+void DmaPulsePlayer<Chip, Port>::fail() noexcept
+{
+    stop();
+    underrun_.store(true, std::memory_order_relaxed);
+}
+
+template <class Chip, class Port>
+void DmaPulsePlayer<Chip, Port>::clear_underrun() noexcept
+{
+    if (underrun()) {
+        start_stream();
+        underrun_.store(false, std::memory_order_relaxed);
+    }
+}
+
+}  // namespace cusp::hal::stm32f4

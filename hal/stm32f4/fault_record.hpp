@@ -1,0 +1,30 @@
+// FaultRecord: why the firmware stopped last time, in memory that a reset leaves alone.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/base/assert.hpp"
+
+namespace cusp::hal::stm32f4 {
+
+struct FaultRecord {
+    // Says that what follows was written by fault() and is not what the memory came up with.
+    static constexpr std::uint32_t kWritten = 0x46415544;
+
+    std::uint32_t mark;
+    const char* expression;  // of the promise that was broken; null for a fault of the core
+    const char* file;
+    std::int32_t line;
+    std::uint32_t exception;  // number of the core's exception; 0 for a broken promise
+    std::uint32_t program_counter;
+    std::uint32_t link_register;
+    std::uint32_t fault_status;  // CFSR, PM0214 section 4.4.10
+};
+
+// A fault of the core or an interrupt that nobody expects: records it and ends as fault() does.
+[[noreturn]] void core_fault(std::uint32_t exception,
+                             std::uint32_t program_counter,
+                             std::uint32_t link_register,
+                             std::uint32_t fault_status) noexcept;
+
+}  // namespace cusp::hal::stm32f4

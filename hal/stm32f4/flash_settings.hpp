@@ -1,0 +1,106 @@
+// FlashSettings: flash sectors 1 and 2 as the settings store. Sector 0 holds the vectors and the
+// code starts in sector 3, so that neither is touched.
+//
+// The core stops while the flash is busy, up to 0.8 s for a sector: never with frames in flight.
+// Never tried on silicon. tests/unit/hal_stm32f4 runs it against a model that loses power anywhere.
+#pragma once
+
+#include <cstdint>
+
+#include "hal/contract/board.hpp"
+#include "hal/stm32f4/registers.hpp"
+
+namespace cusp::hal::stm32f4 {
+
+template <class Chip>
+class FlashSettings {
+public:
+    // See hal/contract/board.hpp. `sector` is 0 or 1: the chip's 1 or 2.
+    std::uint32_t sector_size() const noexcept { return kSectorSize; }
+
+    void read(unsigned sector, std::uint32_t offset, Span<std::uint8_t> bytes) const noexcept
+    {
+        for (std::uint32_t i = 0; i < bytes.size(); ++i) {
+            const std::uint32_t word = *word_at(sector, (offset + i) & ~3U);
+            bytes[i] = static_cast<std::uint8_t>(word >> (offset + i) % 4 * 8);
+        }
+    }
+
+    bool write(unsigned sector, std::uint32_t offset, Span<const std::uint8_t> bytes) noexcept
+    {
+        unlock();
+        bool written = wait_ready();
+        Chip::flash().cr.write(kProgram | kWordWide);
+        for (std::uint32_t i = 0; i + 4 <= bytes.size() && written; i += 4) {
+            const std::uint32_t word = bytes[i] | static_cast<std::uint32_t>(bytes[i + 1]) << 8U |
+                                       static_cast<std::uint32_t>(bytes[i + 2]) << 16U |
+                                       static_cast<std::uint32_t>(bytes[i + 3]) << 24U;
+            volatile auto* place = word_at(sector, offset + i);
+            *place = word;
+            written = wait_ready() && *place == word;
+        }
+        lock();
+        return written;
+    }
+
+    bool erase(unsigned sector) noexcept
+    {
+        unlock();
+        bool erased = wait_ready();
+        if (erased) {
+            const std::uint32_t command = kSectorErase | kWordWide | (kFirstSector + sector) << 3U;
+            Chip::flash().cr.write(command);
+            Chip::flash().cr.write(command | kStart);
+            erased = wait_ready();
+        }
+        lock();
+        return erased;
+    }
+
+private:
+    static constexpr std::uint32_t kSectorSize = 16 * 1024;
+    static constexpr unsigned kFirstSector = 1;
+    static constexpr std::uint32_t kFirstAddress = 0x08004000;
+    // RM0090 section 3.9.
+    static constexpr std::uint32_t kFirstKey = 0x45670123;
+    static constexpr std::uint32_t kSecondKey = 0xCDEF89AB;
+    static constexpr std::uint32_t kProgram = 1U << 0U;
+    static constexpr std::uint32_t kSectorErase = 1U << 1U;
+    static constexpr std::uint32_t kWordWide = 2U << 8U;
+    static constexpr std::uint32_t kStart = 1U << 16U;
+    static constexpr std::uint32_t kLock = 1U << 31U;
+    static constexpr std::uint32_t kBusy = 1U << 16U;
+    static constexpr std::uint32_t kErrors = 0xF2;
+    // The slowest sector of 16 KB takes 0.8 s (data sheet, table 42); a round some ten cycles.
+    static constexpr std::uint32_t kBusyRounds = 40000000;
+
+    static auto* word_at(unsigned sector, std::uint32_t offset) noexcept
+    {
+        return Chip::flash_word(kFirstAddress + sector * kSectorSize + offset);
+    }
+    static bool wait_ready() noexcept
+    {
+        auto& flash = Chip::flash();
+        for (std::uint32_t round = 0; round < kBusyRounds; ++round) {
+            const std::uint32_t state = flash.sr.read();
+            if ((state & kBusy) == 0) {
+                flash.sr.write(state & kErrors);
+                return (state & kErrors) == 0;
+            }
+        }
+        return false;
+    }
+    static void unlock() noexcept
+    {
+        auto& flash = Chip::flash();
+        if ((flash.cr.read() & kLock) != 0) {
+            flash.keyr.write(kFirstKey);
+            flash.keyr.write(kSecondKey);
+        }
+        // Errors that a broken write of the past has left.
+        flash.sr.write(kErrors);
+    }
+    static void lock() noexcept { Chip::flash().cr.write(kLock); }
+};
+
+}  // namespace cusp::hal::stm32f4

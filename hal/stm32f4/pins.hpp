@@ -1,0 +1,35 @@
+// Pins: what each is for, set once at the start.
+#pragma once
+
+#include <cstdint>
+
+#include "hal/stm32f4/registers.hpp"
+
+namespace cusp::hal::stm32f4 {
+
+enum class PinMode : std::uint8_t { kInput = 0, kOutput = 1, kAlternate = 2 };
+enum class Pull : std::uint8_t { kNone = 0, kUp = 1, kDown = 2 };
+
+template <class Word>
+void set_pin(Gpio<Word>& port, unsigned pin, PinMode mode, Pull pull = Pull::kNone) noexcept
+{
+    set_field(port.pupdr, pin * 2, 2, static_cast<std::uint32_t>(pull));
+    set_field(port.moder, pin * 2, 2, static_cast<std::uint32_t>(mode));
+}
+
+// Gives the pin to a peripheral: `function` as in the data sheet's table of alternate functions.
+template <class Word>
+void set_pin_function(Gpio<Word>& port, unsigned pin, unsigned function) noexcept
+{
+    set_field(pin < 8 ? port.afrl : port.afrh, pin % 8 * 4, 4, function);
+    set_pin(port, pin, PinMode::kAlternate, Pull::kUp);
+}
+
+// Sets an output to a level. One store: no interrupt can come between.
+template <class Word>
+void set_level(Gpio<Word>& port, unsigned pin, bool level) noexcept
+{
+    port.bsrr.write(level ? 1U << pin : 1U << (pin + 16));
+}
+
+}  // namespace cusp::hal::stm32f4

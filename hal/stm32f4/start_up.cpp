@@ -1,0 +1,54 @@
+// From reset to cusp_main(): the floating-point unit, the initial values of the statics, their
+// constructors. And from a fault of the core to fault_entry(), with what the core has saved.
+#include <cstdint>
+
+#include "hal/stm32f4/chip.hpp"
+#include "hal/stm32f4/fault_record.hpp"
+#include "hal/stm32f4/vectors.hpp"
+
+namespace {
+
+using Chip = cusp::hal::stm32f4::Chip;
+using Constructor = void (*)();
+
+}  // namespace
+
+extern "C" {
+extern std::uint32_t cusp_data_load, cusp_data_begin, cusp_data_end;
+extern std::uint32_t cusp_zero_begin, cusp_zero_end;
+extern Constructor cusp_constructors_begin, cusp_constructors_end;
+
+void cusp_reset()
+{
+    // The compiler may use float registers anywhere, so the unit goes on before all else.
+    constexpr std::uint32_t kFullAccess = 0xFU << 20U;
+    cusp::hal::stm32f4::set_bits(Chip::system().cpacr, kFullAccess);
+    __asm volatile("dsb\n isb" ::: "memory");
+
+    const std::uint32_t* from = &cusp_data_load;
+    for (std::uint32_t* to = &cusp_data_begin; to < &cusp_data_end; ++to) {
+        *to = *from++;
+    }
+    for (std::uint32_t* to = &cusp_zero_begin; to < &cusp_zero_end; ++to) {
+        *to = 0;
+    }
+    for (const Constructor* constructor = &cusp_constructors_begin;
+         constructor != &cusp_constructors_end; ++constructor) {
+        (*constructor)();
+    }
+    cusp_main();
+}
+
+[[noreturn]] void cusp_exception_with_frame(const std::uint32_t* frame)
+{
+    // The core saves r0 to r3, r12, lr, pc, psr.
+    cusp::hal::stm32f4::core_fault(Chip::system().icsr.read() & 0x1FFU, frame[6], frame[5],
+                                   Chip::system().cfsr.read());
+}
+
+// The saved registers lie on the stack that was in use; only the main one is used here.
+__attribute__((naked)) void cusp_exception()
+{
+    __asm volatile("mrs r0, msp\n b cusp_exception_with_frame");
+}
+}

@@ -1,0 +1,58 @@
+// The vector table: where the core finds the stack and the function of each interrupt.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "hal/stm32f4/chip.hpp"
+
+namespace cusp::hal::stm32f4 {
+
+using InterruptFunction = void (*)();
+
+// Exceptions of the core take the first fifteen places, the chip's interrupts the rest.
+inline constexpr unsigned kCoreExceptions = 15;
+inline constexpr unsigned kPendSvException = 14;
+
+struct VectorTable {
+    const void* stack_top;
+    std::array<InterruptFunction, kCoreExceptions + kInterruptCount> functions;
+};
+
+struct InterruptEntry {
+    unsigned number;  // of the chip's interrupts
+    InterruptFunction function;
+};
+
+// A table with `reset`, `servo_tick` at PendSV, the entries, and `fault` everywhere else: an
+// interrupt that nobody expects is a fault.
+template <std::size_t N>
+constexpr VectorTable make_vectors(const void* stack_top,
+                                   InterruptFunction reset,
+                                   InterruptFunction fault,
+                                   InterruptFunction servo_tick,
+                                   const std::array<InterruptEntry, N>& entries) noexcept
+{
+    VectorTable table{stack_top, {}};
+    for (InterruptFunction& function : table.functions) {
+        function = fault;
+    }
+    table.functions[0] = reset;
+    table.functions[kPendSvException - 1] = servo_tick;
+    for (const InterruptEntry& entry : entries) {
+        table.functions[kCoreExceptions + entry.number] = entry.function;
+    }
+    return table;
+}
+
+}  // namespace cusp::hal::stm32f4
+
+extern "C" {
+// By the linker script.
+extern std::uint32_t cusp_stack_top;
+// By hal/stm32f4/start_up.cpp.
+void cusp_reset();
+void cusp_exception();
+// By the board: what runs after the start. Not main(), which has no C linkage without a C library.
+[[noreturn]] void cusp_main();
+}

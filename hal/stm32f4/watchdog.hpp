@@ -1,0 +1,43 @@
+// The independent watchdog, and the clocks of the blocks that the drivers use.
+#pragma once
+
+#include <cstdint>
+
+#include "hal/stm32f4/registers.hpp"
+
+namespace cusp::hal::stm32f4 {
+
+// Resets the chip when feed_watchdog() stays away for 3 s (2 to 5.6 s: the chip's slow oscillator
+// is coarse). The longest that the core can be held up is the erasing of a settings sector, 0.8 s.
+template <class Chip>
+void start_watchdog() noexcept
+{
+    constexpr std::uint32_t kDivideBy256 = 6;
+    constexpr std::uint32_t kReload = 375;
+    auto& watchdog = Chip::watchdog();
+    watchdog.kr.write(0xCCCC);
+    watchdog.kr.write(0x5555);
+    watchdog.pr.write(kDivideBy256);
+    watchdog.rlr.write(kReload);
+}
+
+template <class Chip>
+void feed_watchdog() noexcept
+{
+    Chip::watchdog().kr.write(0xAAAA);
+}
+
+// Switches on the ports A to C, DMA2, timers 3 and 8 and USART1.
+template <class Chip>
+void start_peripherals() noexcept
+{
+    auto& rcc = Chip::rcc();
+    set_bits(rcc.ahb1enr, 1U << 0U | 1U << 1U | 1U << 2U | 1U << 22U);
+    set_bits(rcc.apb1enr, 1U << 1U | 1U << 28U);
+    set_bits(rcc.apb2enr, 1U << 1U | 1U << 4U);
+    // The clock arrives two bus cycles after the bit is set.
+    static_cast<void>(rcc.apb2enr.read());
+    static_cast<void>(rcc.apb2enr.read());
+}
+
+}  // namespace cusp::hal::stm32f4
