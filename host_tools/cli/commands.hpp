@@ -1,0 +1,24 @@
+// The commands of `cusp`: each adds itself to the command line and hands back its work.
+#pragma once
+
+#include <functional>
+
+#include "CLI/App.hpp"
+
+namespace cusp::host {
+
+// Exit statuses, the same for every command.
+enum ExitStatus : int {
+    kDone = 0,
+    kFoundWrong = 1,  // the work found something wrong: a limit broken, an alarm, a gouge
+    kCannotUse = 2,   // the input or the call can't be used
+};
+
+// The work of the command that was called; returns the exit status, throws InputError (status 2).
+using Work = std::function<int()>;
+
+// Adds one subcommand to `app`; its callback sets `work`. A new command is one file
+// <name>_command.cpp with such a function, one line here and one in main.cpp.
+using AddCommand = void (*)(CLI::App& app, Work& work);
+
+}  // namespace cusp::host

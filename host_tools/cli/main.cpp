@@ -1,0 +1,64 @@
+// The one host program: `cusp COMMAND ...`.
+#include <cstdio>
+#include <exception>
+#include <vector>
+
+#include "host_tools/cli/commands.hpp"
+#include "host_tools/input_error/input_error.hpp"
+
+#include "CLI/CLI.hpp"
+
+namespace {
+
+using namespace cusp::host;
+
+constexpr const char* kDescription =
+    "From a sculptured surface to stepper pulses: plan tool paths over NURBS parts, run them\n"
+    "through the controller's own motion core, look at every pulse, and cut the part in memory.\n"
+    "\n"
+    "  cusp plan JOB.toml -o PART.ngc        plan the operations of a job\n"
+    "  cusp verify JOB.toml PART.ngc         cut it in memory: gouge, scallop, what is left\n"
+    "  cusp sim PART.ngc --stats RUN.json    run it: time, limits, pulses\n"
+    "  cusp stream /dev/ttyUSB0 PART.ngc     send it to a controller\n";
+
+constexpr const char* kFooter =
+    "'cusp COMMAND --help' explains a command.\n"
+    "Exit status: 0 done; 1 the work found something wrong (a limit broken, an alarm, a gouge);\n"
+    "2 the input or the call can't be used.";
+
+// In the order of --help.
+const std::vector<AddCommand>& commands()
+{
+    static const std::vector<AddCommand> all{};
+    return all;
+}
+
+int run(int argc, char** argv)
+{
+    CLI::App app{kDescription, "cusp"};
+    app.footer(kFooter);
+    app.set_version_flag("--version", "cusp " CUSP_VERSION);
+    app.require_subcommand(1);
+    Work work;
+    for (const AddCommand add : commands()) {
+        add(app, work);
+    }
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? kDone : kCannotUse;
+    }
+    return work();
+}
+
+}  // namespace
+
+int main(int argc, char** argv)
+{
+    try {
+        return run(argc, argv);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "cusp: %s\n", error.what());
+        return kCannotUse;
+    }
+}
