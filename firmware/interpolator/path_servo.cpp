@@ -20,13 +20,15 @@ float millimetres(std::uint32_t path_units) noexcept
     return static_cast<float>(path_units) / kPathUnitsPerMillimetre;
 }
 
-// Greatest speed v, held for one tick from a place where the squared envelope is `allowed` and
-// falls by 2 slope a mm, that is still under the envelope after it: v^2 <= allowed - 2 slope v
-// tick.
-float speed_under(float allowed, float slope) noexcept
+// Greatest speed v, held for one tick, that is still under an envelope which falls by 2 slope a mm
+// and is `end` after `distance` mm (squared speeds): v^2 <= end + 2 slope (distance - v tick), or
+// past the end v^2 <= end.
+float speed_under(float end, float slope, float distance) noexcept
 {
     const float drop = slope * kServoTick;
-    return std::sqrt(drop * drop + std::max(allowed, 0.0F)) - drop;
+    const float under =
+        std::sqrt(drop * drop + std::max(end + 2.0F * slope * distance, 0.0F)) - drop;
+    return std::max(under, std::sqrt(std::max(end, 0.0F)));
 }
 
 }  // namespace
@@ -87,14 +89,14 @@ PathServo::Bounds PathServo::bounds(float greatest, const OverrideFactors& facto
         const Interval& interval = queue_.interval(index);
         to_end += millimetres(i == 0 ? interval.length - offset_ : interval.length);
         const float slope = interval.slope;
-        const float line = interval.end_speed + 2.0F * slope * to_end;
-        const float held = speed_under(line, slope);
-        least.speed = std::min({least.speed, held, std::sqrt(interval.limit.cap)});
-        const float feed_line =
-            interval.feed_end + 2.0F * slope * to_end -
+        least.speed = std::min({least.speed, speed_under(interval.end_speed, slope, to_end),
+                                std::sqrt(interval.limit.cap)});
+        const float scaled_off =
             (1.0F - factors.of(interval.origin_is_rapid)) * interval.feed_origin;
         const float own = factors.of(interval.rapid) * interval.limit.feed;
-        least.feed = std::min({least.feed, speed_under(feed_line, slope), std::sqrt(own)});
+        least.feed =
+            std::min({least.feed, speed_under(interval.feed_end - scaled_off, slope, to_end),
+                      std::sqrt(own)});
         // Implicit in the speed after the tick, where less acceleration may be left.
         const float drop = (interval.limit.u0 - interval.limit.u1) / interval.limit.cap;
         const float here = interval.limit.acceleration_at(square);
