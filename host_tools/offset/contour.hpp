@@ -1,0 +1,85 @@
+// Closed contours of lines and true arcs in the plane, and the regions they bound. Millimetres.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "host_tools/nurbs/nurbs.hpp"
+
+namespace cusp::host {
+
+// A line or an arc. turn: 0 straight, +1 counter-clockwise (centre on the left), -1 clockwise.
+// An arc sweeps less than half a turn, so its points are ordered along its chord.
+struct Edge {
+    Vec2d start;
+    Vec2d end;
+    Vec2d centre;
+    double radius{};
+    int turn{};
+};
+
+// A closed chain: each edge starts where the one before ends; the last ends where the first starts.
+using Contour = std::vector<Edge>;
+
+// The points to the left of all contours: outer contours run counter-clockwise, holes clockwise.
+struct Region2d {
+    std::vector<Contour> contours;
+};
+
+inline Edge line_edge(Vec2d start, Vec2d end) { return {start, end, {}, 0.0, 0}; }
+
+// The arc from start to end about centre. Precondition: both lie on the circle, sweep below half a
+// turn.
+Edge arc_edge(Vec2d start, Vec2d end, Vec2d centre, int turn);
+
+inline Vec2d left_normal(Vec2d t) { return {-t.y, t.x}; }
+inline double distance(Vec2d a, Vec2d b) { return std::hypot(a.x - b.x, a.y - b.y); }
+Vec2d unit(Vec2d a);
+
+double length(const Edge& edge);
+double sweep(const Edge& edge);  // radians, >= 0; 0 for a line
+Vec2d tangent_at_start(const Edge& edge);
+Vec2d tangent_at_end(const Edge& edge);
+
+// The point at a share of the edge's length, and the unit tangent there. share in [0, 1].
+Vec2d point_on(const Edge& edge, double share);
+Vec2d tangent_on(const Edge& edge, double share);
+
+double distance_to(const Edge& edge, Vec2d point);
+Vec2d nearest_on(const Edge& edge, Vec2d point);
+Edge reversed(const Edge& edge);
+
+// The part of the edge between two points on it.
+Edge between(const Edge& edge, Vec2d from, Vec2d to);
+
+double length(const Contour& contour);
+double area(const Contour& contour);  // > 0 where it runs counter-clockwise
+Contour reversed(const Contour& contour);
+
+// True where the contour runs around the point, whichever way.
+bool surrounds(const Contour& contour, Vec2d point);
+
+// True where the point belongs to the region; points on a contour count either way.
+bool contains(const Region2d& region, Vec2d point);
+
+// Least distance from the point to the contours' edges, by brute force.
+double distance_to(const Region2d& region, Vec2d point);
+
+struct Box2d {
+    double x0{1e300};
+    double y0{1e300};
+    double x1{-1e300};
+    double y1{-1e300};
+};
+Box2d box_of(const Edge& edge);
+
+// An outer contour with the holes directly inside it; indices into Region2d::contours.
+struct RegionPart {
+    std::size_t outer;
+    std::vector<std::size_t> holes;
+};
+
+// The connected parts of a region.
+std::vector<RegionPart> connected_parts(const Region2d& region);
+
+}  // namespace cusp::host

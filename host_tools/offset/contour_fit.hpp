@@ -1,0 +1,19 @@
+// Curves as lines and arcs: exact where they are lines or circles, biarcs within a tolerance
+// elsewhere.
+#pragma once
+
+#include "host_tools/offset/contour.hpp"
+
+namespace cusp::host {
+
+// Edges from the curve's start to its end, joined with a common tangent inside the curve.
+//
+//   tolerance  mm, > 0: largest distance of the edges from a free curve. Curves that are circles or
+//              lines to 1e-8 mm are taken as such.
+std::vector<Edge> fit_edges(const Curve& curve, double tolerance);
+
+// The closed contour of a loop of curves in order. Gaps of up to 1e-3 mm (what the reader accepts)
+// are closed by moving ends.
+Contour fit_contour(const std::vector<Curve>& loop, double tolerance);
+
+}  // namespace cusp::host

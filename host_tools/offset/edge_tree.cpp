@@ -1,0 +1,131 @@
+// Builds the tree by halving at the median of the longer side; halving keeps its depth below 40.
+#include "host_tools/offset/edge_tree.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace cusp::host {
+
+namespace {
+
+constexpr std::uint32_t kLeafSize = 4;
+
+void grow(Box2d& box, const Box2d& by)
+{
+    box.x0 = std::min(box.x0, by.x0);
+    box.y0 = std::min(box.y0, by.y0);
+    box.x1 = std::max(box.x1, by.x1);
+    box.y1 = std::max(box.y1, by.y1);
+}
+
+double square_distance(const Box2d& box, Vec2d p)
+{
+    const double dx = std::max({box.x0 - p.x, 0.0, p.x - box.x1});
+    const double dy = std::max({box.y0 - p.y, 0.0, p.y - box.y1});
+    return dx * dx + dy * dy;
+}
+
+}  // namespace
+
+EdgeTree::EdgeTree(const std::vector<Edge>& edges) : edges_{edges}, index_(edges.size())
+{
+    std::iota(index_.begin(), index_.end(), 0U);
+    boxes_.reserve(edges.size());
+    for (const Edge& edge : edges) {
+        boxes_.push_back(box_of(edge));
+    }
+    if (edges.empty()) {
+        return;
+    }
+    nodes_.reserve(edges.size());
+    nodes_.push_back({});
+    build(0, 0, static_cast<std::uint32_t>(edges.size()));
+    std::vector<Edge> sorted;
+    std::vector<Box2d> sorted_boxes;
+    for (const std::uint32_t i : index_) {
+        sorted.push_back(edges_[i]);
+        sorted_boxes.push_back(boxes_[i]);
+    }
+    edges_ = std::move(sorted);
+    boxes_ = std::move(sorted_boxes);
+}
+
+void EdgeTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t count)
+{
+    Box2d box;
+    for (std::uint32_t i = first; i < first + count; ++i) {
+        grow(box, boxes_[index_[i]]);
+    }
+    if (count <= kLeafSize) {
+        nodes_[node] = {box, first, count};
+        return;
+    }
+    const bool wide = box.x1 - box.x0 > box.y1 - box.y0;
+    const auto centre = [&](std::uint32_t i) {
+        return wide ? boxes_[i].x0 + boxes_[i].x1 : boxes_[i].y0 + boxes_[i].y1;
+    };
+    const auto begin = index_.begin() + first;
+    const std::uint32_t half = count / 2;
+    std::nth_element(begin, begin + half, begin + count,
+                     [&](std::uint32_t a, std::uint32_t b) { return centre(a) < centre(b); });
+    const auto child = static_cast<std::uint32_t>(nodes_.size());
+    nodes_[node] = {box, child, 0};
+    nodes_.resize(nodes_.size() + 2);
+    build(child, first, half);
+    build(child + 1, first + half, count - half);
+}
+
+bool EdgeTree::any_nearer(Vec2d point, double reach) const
+{
+    const double square = reach * reach;
+    std::uint32_t stack[64];
+    int depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0 && !nodes_.empty()) {
+        const Node& node = nodes_[stack[--depth]];
+        if (square_distance(node.box, point) >= square) {
+            continue;
+        }
+        if (node.count == 0) {
+            stack[depth++] = node.first;
+            stack[depth++] = node.first + 1;
+            continue;
+        }
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+            if (square_distance(boxes_[i], point) < square &&
+                distance_to(edges_[i], point) < reach) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+double EdgeTree::nearest(Vec2d point, double limit) const
+{
+    double best = limit;
+    std::uint32_t stack[64];
+    int depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0 && !nodes_.empty()) {
+        const Node& node = nodes_[stack[--depth]];
+        if (square_distance(node.box, point) >= best * best) {
+            continue;
+        }
+        if (node.count == 0) {
+            const double left = square_distance(nodes_[node.first].box, point);
+            const double right = square_distance(nodes_[node.first + 1].box, point);
+            stack[depth++] = left < right ? node.first + 1 : node.first;
+            stack[depth++] = left < right ? node.first : node.first + 1;
+            continue;
+        }
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+            if (square_distance(boxes_[i], point) < best * best) {
+                best = std::min(best, distance_to(edges_[i], point));
+            }
+        }
+    }
+    return best;
+}
+
+}  // namespace cusp::host

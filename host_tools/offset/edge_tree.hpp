@@ -1,0 +1,68 @@
+// A static tree of boxes over edges: nearest distance in O(log n) for edges spread over the plane.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "host_tools/offset/contour.hpp"
+
+namespace cusp::host {
+
+class EdgeTree {
+public:
+    explicit EdgeTree(const std::vector<Edge>& edges);
+
+    // True where some edge lies nearer to the point than `reach`.
+    bool any_nearer(Vec2d point, double reach) const;
+
+    // Least distance to an edge, at most `limit`.
+    double nearest(Vec2d point, double limit) const;
+
+    // Indices of the edges whose boxes meet the given one.
+    template <class Visit>
+    void visit_meeting(const Box2d& box, Visit visit) const;
+
+private:
+    struct Node {
+        Box2d box;
+        std::uint32_t first;  // edge of a leaf, or left child; the right child is next to it
+        std::uint32_t count;  // 0 for an inner node
+    };
+    void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
+
+    std::vector<Edge> edges_;
+    std::vector<Box2d> boxes_;
+    std::vector<std::uint32_t> index_;  // of edges_[i] in the caller's list
+    std::vector<Node> nodes_;
+};
+
+inline bool meet(const Box2d& a, const Box2d& b)
+{
+    return a.x0 <= b.x1 && b.x0 <= a.x1 && a.y0 <= b.y1 && b.y0 <= a.y1;
+}
+
+template <class Visit>
+void EdgeTree::visit_meeting(const Box2d& box, Visit visit) const
+{
+    std::uint32_t stack[64];
+    int depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0 && !nodes_.empty()) {
+        const Node& node = nodes_[stack[--depth]];
+        if (!meet(node.box, box)) {
+            continue;
+        }
+        if (node.count == 0) {
+            stack[depth++] = node.first;
+            stack[depth++] = node.first + 1;
+            continue;
+        }
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+            if (meet(boxes_[i], box)) {
+                visit(index_[i]);
+            }
+        }
+    }
+}
+
+}  // namespace cusp::host

@@ -1,0 +1,120 @@
+// Offsets edge by edge and closes outer corners with arcs about the corner.
+#include "host_tools/offset/raw_offset.hpp"
+
+namespace cusp::host {
+
+namespace {
+
+constexpr double kSamePoint = 1e-7;
+
+// What the offset makes of an edge: an arc may shrink to its centre, which still joins its
+// neighbours, or turn inside out.
+enum class Fate { kKept, kPoint, kLost };
+
+Fate fate_of(const Edge& edge, double distance)
+{
+    if (edge.turn <= 0 || edge.radius - distance > kSamePoint) {
+        return Fate::kKept;
+    }
+    return edge.radius - distance > -kSamePoint ? Fate::kPoint : Fate::kLost;
+}
+
+Edge moved(const Edge& edge, Vec2d start, Vec2d end, double distance)
+{
+    return {start, end, edge.centre, edge.radius - edge.turn * distance, edge.turn};
+}
+
+// The arc about the corner from one offset end to the next start, in halves where it turns far.
+void add_corner(std::vector<RawPiece>& pieces, Vec2d corner, Vec2d from, Vec2d to, double distance)
+{
+    const Vec2d a = unit(from - corner);
+    const Vec2d b = unit(to - corner);
+    if (dot(a, b) < -0.5) {
+        // Halfway round clockwise; for an exact reversal the sum of a and b says nothing.
+        const Vec2d ahead = left_normal(a) * -1.0;
+        const double turned = std::atan2(cross(b, a), dot(a, b));
+        const double half = 0.5 * (turned < 0.0 ? turned + 6.283185307179586 : turned);
+        const Vec2d middle = corner + (a * std::cos(half) + ahead * std::sin(half)) * distance;
+        pieces.push_back({{from, middle, corner, distance, -1}, true, false});
+        pieces.push_back({{middle, to, corner, distance, -1}, true, false});
+        return;
+    }
+    pieces.push_back({{from, to, corner, distance, -1}, true, false});
+}
+
+class ContourOffset {
+public:
+    ContourOffset(const Contour& contour, double distance, std::vector<RawPiece>& pieces)
+        : contour_{contour}, distance_{distance}, pieces_{pieces}, first_{pieces.size()}
+    {
+    }
+
+    void run()
+    {
+        for (std::size_t i = 0; i < contour_.size(); ++i) {
+            add_edge(contour_[i], contour_[(i + 1) % contour_.size()]);
+        }
+        if (pieces_.size() > first_) {
+            pieces_.back().last = true;
+            // What the walk says of its end is about the contour's first edge.
+            pieces_.back().joined =
+                pieces_.back().joined && fate_of(contour_[0], distance_) != Fate::kLost;
+        }
+    }
+
+private:
+    void add_edge(const Edge& edge, const Edge& next)
+    {
+        const Vec2d leaving = tangent_at_end(edge);
+        const Vec2d entering = tangent_at_start(next);
+        const Vec2d end = edge.end + left_normal(leaving) * distance_;
+        const Vec2d onward = next.start + left_normal(entering) * distance_;
+        const bool smooth = cusp::host::distance(end, onward) < kSamePoint;
+        const double bend = cross(leaving, entering);
+        const bool corner = !smooth && (bend < 0.0 || dot(leaving, entering) < -0.9999);
+        const bool next_lost = fate_of(next, distance_) == Fate::kLost;
+        switch (fate_of(edge, distance_)) {
+            case Fate::kKept: {
+                const Vec2d start = edge.start + left_normal(tangent_at_start(edge)) * distance_;
+                const Vec2d finish = smooth ? onward : end;
+                pieces_.push_back({moved(edge, start, finish, distance_),
+                                   (corner || smooth) && !(smooth && next_lost), false});
+                break;
+            }
+            case Fate::kPoint:
+                if (pieces_.size() > first_ && !(corner || (smooth && !next_lost))) {
+                    pieces_.back().joined = false;
+                }
+                break;
+            case Fate::kLost:
+                break;
+        }
+        if (corner) {
+            add_corner(pieces_, edge.end, end, onward, distance_);
+            pieces_.back().joined = !next_lost;
+        }
+    }
+
+    const Contour& contour_;
+    double distance_;
+    std::vector<RawPiece>& pieces_;
+    std::size_t first_;
+};
+
+}  // namespace
+
+std::vector<RawPiece> raw_offset(const Region2d& source, double distance)
+{
+    std::vector<RawPiece> pieces;
+    std::size_t count = 0;
+    for (const Contour& contour : source.contours) {
+        count += contour.size();
+    }
+    pieces.reserve(count + count / 2);
+    for (const Contour& contour : source.contours) {
+        ContourOffset{contour, distance, pieces}.run();
+    }
+    return pieces;
+}
+
+}  // namespace cusp::host

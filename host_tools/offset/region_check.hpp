@@ -1,0 +1,30 @@
+// Whether contours bound a region: closed, free of crossings, holes inside.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "host_tools/offset/contour.hpp"
+
+namespace cusp::host {
+
+enum class RegionFaultKind : std::uint8_t {
+    kNoLength,       // an edge of contours[first] at `where` is shorter than 1e-7 mm
+    kCrossesItself,  // contours[first] at `where`
+    kCross,          // contours[first] and contours[second] at `where`
+    kHoleOutside,    // contours[second] lies outside contours[first]
+    kHoleInHole,     // contours[second] lies inside the hole contours[first]
+};
+
+struct RegionFault {
+    RegionFaultKind kind;
+    std::size_t first;
+    std::size_t second;
+    Vec2d where;
+};
+
+// The first fault of a region whose first contour is the outer one and all others are holes in it.
+// Contours that only touch in a point are no fault.
+std::optional<RegionFault> find_fault(const Region2d& region);
+
+}  // namespace cusp::host

@@ -1,0 +1,183 @@
+// Offsets of random regions, judged by brute-force distance and by Clipper.
+#include <algorithm>
+#include <clipper.hpp>
+#include <cstdio>
+#include <cstdlib>
+
+#include "host_tools/offset/offset.hpp"
+#include "host_tools/offset/region_check.hpp"
+#include "tests/property/offset/random_regions.hpp"
+
+// Last: CppUTest redefines new, which the standard headers can not bear.
+#include "CppUTest/TestHarness.h"
+
+namespace cusp::host {
+namespace {
+
+// Source profiles tried: CUSP_PROPERTY_CASES, or ten thousand.
+int cases()
+{
+    const char* const text = std::getenv("CUSP_PROPERTY_CASES");
+    return text != nullptr ? std::atoi(text) : 10000;
+}
+
+Region2d random_region(Random& random)
+{
+    const double grid = uniform(random, 0.0, 1.0) < 0.3 ? 5.0 : 0.0;
+    while (true) {
+        Region2d region;
+        const int corners = static_cast<int>(uniform(random, 3.0, 12.0));
+        region.contours.push_back(random_star(random, {0.0, 0.0}, 60.0, corners, grid));
+        const int islands = static_cast<int>(uniform(random, 0.0, 4.0));
+        for (int i = 0; i < islands; ++i) {
+            const Vec2d centre{uniform(random, -35.0, 35.0), uniform(random, -35.0, 35.0)};
+            const int sides = static_cast<int>(uniform(random, 3.0, 7.0));
+            region.contours.push_back(
+                reversed(random_star(random, centre, uniform(random, 4.0, 14.0), sides, grid)));
+        }
+        const bool turned = std::any_of(
+            region.contours.begin(), region.contours.end(), [&](const Contour& contour) {
+                const bool outer = &contour == &region.contours.front();
+                return (area(contour) > 1.0) != outer || std::abs(area(contour)) < 1.0;
+            });
+        if (!turned && !find_fault(region)) {
+            return region;
+        }
+    }
+}
+
+// Largest departure of the result's points from the distance asked for; wrong side counts as 1.
+double worst_distance(const Region2d& source, const Region2d& result, double distance)
+{
+    double worst = 0.0;
+    for (const Contour& contour : result.contours) {
+        for (const Vec2d p : samples(contour, 5)) {
+            worst = std::max(worst, std::abs(distance_to(source, p) - distance));
+            if (!contains(source, p)) {
+                worst = std::max(worst, 1.0);
+            }
+        }
+        for (std::size_t i = 0; i < contour.size(); ++i) {
+            const Vec2d next = contour[(i + 1) % contour.size()].start;
+            worst = std::max(worst, cusp::host::distance(contour[i].end, next));
+        }
+    }
+    return worst;
+}
+
+// Random points whose membership of the result differs from their distance.
+int wrong_points(Random& random, const Region2d& source, const Region2d& result, double distance)
+{
+    int wrong = 0;
+    for (int i = 0; i < 60; ++i) {
+        const Vec2d p{uniform(random, -65.0, 65.0), uniform(random, -65.0, 65.0)};
+        const double apart = distance_to(source, p);
+        if (std::abs(apart - distance) > 1e-5) {
+            const bool expected = contains(source, p) && apart > distance;
+            wrong += contains(result, p) != expected ? 1 : 0;
+        }
+    }
+    return wrong;
+}
+
+TEST_GROUP(RandomOffset){};
+
+TEST(RandomOffset, KeepsItsDistanceAndMissesNothing)
+{
+    constexpr unsigned kSeed = 20260;
+    Random random{kSeed};
+    int offsets = 0;
+    for (int i = 0; i < cases(); ++i) {
+        const Region2d source = random_region(random);
+        const RegionOffset kernel{source};
+        for (int k = 0; k < 4; ++k) {
+            const bool whole = uniform(random, 0.0, 1.0) < 0.3;
+            const double any = uniform(random, 0.2, 14.0);
+            const double distance = whole ? std::max(0.5, std::round(any * 2.0) / 2.0) : any;
+            const Region2d result = kernel.at(distance);
+            const double worst = worst_distance(source, result, distance);
+            const int wrong = wrong_points(random, source, result, distance);
+            if (worst > 1e-6 || wrong > 0) {
+                std::printf("seed %u case %d distance %.9g: worst %.3g mm, %d wrong points\n",
+                            kSeed, i, distance, worst, wrong);
+            }
+            CHECK(worst <= 1e-6);
+            LONGS_EQUAL(0, wrong);
+            ++offsets;
+        }
+    }
+    LONGS_EQUAL(4 * cases(), offsets);
+}
+
+constexpr double kClipperUnit = 1e6;
+
+ClipperLib::Paths polygons(const Region2d& region)
+{
+    ClipperLib::Paths paths;
+    for (const Contour& contour : region.contours) {
+        ClipperLib::Path path;
+        for (const Edge& edge : contour) {
+            const int n = edge.turn == 0 ? 1 : 64;
+            for (int i = 0; i < n; ++i) {
+                const Vec2d p = point_on(edge, static_cast<double>(i) / n);
+                path.emplace_back(static_cast<ClipperLib::cInt>(std::llround(p.x * kClipperUnit)),
+                                  static_cast<ClipperLib::cInt>(std::llround(p.y * kClipperUnit)));
+            }
+        }
+        paths.push_back(path);
+    }
+    return paths;
+}
+
+double clipper_area(const Region2d& source, double distance)
+{
+    ClipperLib::ClipperOffset offset{2.0, 1e-3 * kClipperUnit};
+    offset.AddPaths(polygons(source), ClipperLib::jtRound, ClipperLib::etClosedPolygon);
+    ClipperLib::Paths result;
+    offset.Execute(result, -distance * kClipperUnit);
+    double sum = 0.0;
+    for (const ClipperLib::Path& path : result) {
+        sum += ClipperLib::Area(path);
+    }
+    return sum / (kClipperUnit * kClipperUnit);
+}
+
+TEST(RandomOffset, EnclosesTheAreaThatClipperFinds)
+{
+    constexpr unsigned kSeed = 4711;
+    Random random{kSeed};
+    for (int i = 0; i < cases() / 20; ++i) {
+        const Region2d source = random_region(random);
+        const RegionOffset kernel{source};
+        const double distance = uniform(random, 0.5, 10.0);
+        const Region2d result = kernel.at(distance);
+        double mine = 0.0;
+        double border = 1.0;
+        for (const Contour& contour : result.contours) {
+            mine += area(contour);
+            border += length(contour);
+        }
+        // Clipper's arcs and the chords of ours both stay within some 3 um.
+        DOUBLES_EQUAL(clipper_area(source, distance), mine, 0.02 + 0.005 * border);
+    }
+}
+
+TEST(RandomOffset, TakenInStepsEqualsOneOffset)
+{
+    constexpr unsigned kSeed = 99;
+    Random random{kSeed};
+    for (int i = 0; i < cases() / 20; ++i) {
+        const Region2d source = random_region(random);
+        const RegionOffset kernel{source};
+        const double distance = uniform(random, 1.0, 8.0);
+        const Region2d half = kernel.at(0.5 * distance);
+        const Region2d chained = RegionOffset{half}.at(0.5 * distance);
+        const Region2d direct = kernel.at(distance);
+        LONGS_EQUAL(0, wrong_points(random, source, chained, distance));
+        CHECK(worst_distance(source, direct, distance) <= 1e-6);
+        CHECK(worst_distance(source, chained, distance) <= 4e-6);
+    }
+}
+
+}  // namespace
+}  // namespace cusp::host
