@@ -45,9 +45,13 @@ struct Chip {
     {
         return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(memory));
     }
-    static volatile std::uint32_t* flash_word(std::uint32_t address) noexcept
+    static std::uint32_t read_memory(std::uint32_t address) noexcept
     {
-        return reinterpret_cast<volatile std::uint32_t*>(std::uintptr_t{address});
+        return block_at<Word>(address).read();
+    }
+    static void write_memory(std::uint32_t address, std::uint32_t value) noexcept
+    {
+        block_at<Word>(address).write(value);
     }
 };
 

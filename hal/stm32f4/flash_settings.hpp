@@ -21,7 +21,7 @@ public:
     void read(unsigned sector, std::uint32_t offset, Span<std::uint8_t> bytes) const noexcept
     {
         for (std::uint32_t i = 0; i < bytes.size(); ++i) {
-            const std::uint32_t word = *word_at(sector, (offset + i) & ~3U);
+            const std::uint32_t word = Chip::read_memory(address_of(sector, (offset + i) & ~3U));
             bytes[i] = static_cast<std::uint8_t>(word >> (offset + i) % 4 * 8);
         }
     }
@@ -35,9 +35,9 @@ public:
             const std::uint32_t word = bytes[i] | static_cast<std::uint32_t>(bytes[i + 1]) << 8U |
                                        static_cast<std::uint32_t>(bytes[i + 2]) << 16U |
                                        static_cast<std::uint32_t>(bytes[i + 3]) << 24U;
-            volatile auto* place = word_at(sector, offset + i);
-            *place = word;
-            written = wait_ready() && *place == word;
+            const std::uint32_t address = address_of(sector, offset + i);
+            Chip::write_memory(address, word);
+            written = wait_ready() && Chip::read_memory(address) == word;
         }
         lock();
         return written;
@@ -74,9 +74,9 @@ private:
     // The slowest sector of 16 KB takes 0.8 s (data sheet, table 42); a round some ten cycles.
     static constexpr std::uint32_t kBusyRounds = 40000000;
 
-    static auto* word_at(unsigned sector, std::uint32_t offset) noexcept
+    static constexpr std::uint32_t address_of(unsigned sector, std::uint32_t offset) noexcept
     {
-        return Chip::flash_word(kFirstAddress + sector * kSectorSize + offset);
+        return kFirstAddress + sector * kSectorSize + offset;
     }
     static bool wait_ready() noexcept
     {

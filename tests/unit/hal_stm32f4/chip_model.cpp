@@ -1,0 +1,216 @@
+// What each register of the modelled chip does, after RM0090.
+#include "tests/unit/hal_stm32f4/chip_model.hpp"
+
+namespace cusp::test {
+namespace {
+
+constexpr std::uint32_t kStreamEnable = 1U << 0U;
+constexpr std::uint32_t kTransferError = 1U << 9U;
+constexpr std::uint32_t kHalfTransfer = 1U << 10U;
+constexpr std::uint32_t kTransferComplete = 1U << 11U;
+constexpr std::uint32_t kStreamFlags = 0xF40;
+constexpr std::uint32_t kFlashLock = 1U << 31U;
+constexpr std::uint32_t kFlashStart = 1U << 16U;
+constexpr std::uint32_t kFlashBusy = 1U << 16U;
+constexpr std::uint32_t kWriteProtectionError = 1U << 4U;
+constexpr std::uint32_t kErased = 0xFFFFFFFF;
+
+}  // namespace
+
+ChipModel* ChipModel::current = nullptr;
+
+ChipModel::ChipModel()
+{
+    current = this;
+    flash.cr.value = kFlashLock;
+    usart1.sr.value = 1U << 7U;
+}
+ChipModel::~ChipModel() { current = nullptr; }
+
+std::uint32_t ModelWord::read() const { return ChipModel::current->on_read(*this); }
+void ModelWord::write(std::uint32_t written) { ChipModel::current->on_write(*this, written); }
+
+std::uint32_t ChipModel::bus_address(const volatile void* memory)
+{
+    addresses_.push_back(memory);
+    return static_cast<std::uint32_t>(addresses_.size() - 1);
+}
+
+std::uint32_t ChipModel::on_read(const ModelWord& word)
+{
+    if (&word == &flash.sr && busy_reads_ > 0) {
+        --busy_reads_;
+        return word.value | kFlashBusy;
+    }
+    return word.value;
+}
+
+void ChipModel::on_write(ModelWord& word, std::uint32_t value)
+{
+    auto& stream = dma2.stream[1];
+    const bool runs = (stream.cr.value & kStreamEnable) != 0;
+    if (&word == &port_c.bsrr) {
+        write_port(value);
+    } else if (&word == &stream.cr) {
+        write_stream_control(value);
+    } else if (&word == &stream.ndtr || &word == &stream.par || &word == &stream.m0ar ||
+               &word == &stream.fcr) {
+        // Section 10.5.6 and on: protected, may be written only while the stream is off.
+        if (runs) {
+            ++violations;
+        } else {
+            word.value = value;
+        }
+    } else if (&word == &dma2.lifcr) {
+        dma2.lisr.value &= ~value;
+    } else if (&word == &flash.keyr) {
+        keys_ = keys_ == 0 && value == 0x45670123 ? 1 : keys_ == 1 && value == 0xCDEF89AB ? 2 : 0;
+        if (keys_ == 2) {
+            flash.cr.value &= ~kFlashLock;
+            keys_ = 0;
+        }
+    } else if (&word == &flash.cr) {
+        write_flash_control(value);
+    } else if (&word == &flash.sr) {
+        word.value &= ~value;
+    } else {
+        word.value = value;
+    }
+}
+
+void ChipModel::write_port(std::uint32_t word)
+{
+    const auto raise = word & 0xFFFFU;
+    const auto lower = word >> 16U;
+    // Section 8.4.7: where both bits are set, the set bit has priority.
+    const std::uint32_t levels = (port_c.odr.value & ~lower) | raise;
+    if (levels != port_c.odr.value) {
+        port_c.odr.value = levels;
+        changes.push_back({now_, static_cast<std::uint16_t>(levels)});
+    }
+}
+
+void ChipModel::write_stream_control(std::uint32_t value)
+{
+    auto& stream = dma2.stream[1];
+    const bool ran = (stream.cr.value & kStreamEnable) != 0;
+    const bool runs = (value & kStreamEnable) != 0;
+    if (ran && runs && value != stream.cr.value) {
+        ++violations;
+        return;
+    }
+    stream.cr.value = value;
+    if (!ran && runs) {
+        // Section 10.3.17: the flags of the stream have to be cleared before it is enabled.
+        if ((dma2.lisr.value & kStreamFlags) != 0) {
+            ++violations;
+        }
+        start_count_ = stream.ndtr.value;
+        fetched_ = word_of_memory(0);
+    }
+}
+
+std::uint32_t ChipModel::word_of_memory(std::uint32_t index) const
+{
+    const auto* words =
+        static_cast<const volatile std::uint32_t*>(addresses_.at(dma2.stream[1].m0ar.value));
+    return words[index];
+}
+
+void ChipModel::run_microsecond()
+{
+    auto& stream = dma2.stream[1];
+    const bool asks = (timer8.cr1.value & 1U) != 0 && (timer8.dier.value & 1U << 8U) != 0 &&
+                      timer8.arr.value == 167 && timer8.psc.value == 0;
+    const bool listens = (stream.cr.value & kStreamEnable) != 0 && stream.cr.value >> 25U == 7;
+    if (asks && listens) {
+        if (addresses_.at(stream.par.value) == &port_c.bsrr) {
+            write_port(fetched_);
+        }
+        --stream.ndtr.value;
+        if (stream.ndtr.value == start_count_ / 2) {
+            dma2.lisr.value |= kHalfTransfer;
+        }
+        if (stream.ndtr.value == 0) {
+            dma2.lisr.value |= kTransferComplete;
+            stream.ndtr.value = start_count_;
+        }
+        fetched_ = word_of_memory(start_count_ - stream.ndtr.value);
+    }
+    ++now_;
+}
+
+bool ChipModel::interrupt_pending() const
+{
+    const std::uint32_t cr = dma2.stream[1].cr.value;
+    const std::uint32_t flags = dma2.lisr.value;
+    return ((cr & 1U << 4U) != 0 && (flags & kTransferComplete) != 0) ||
+           ((cr & 1U << 3U) != 0 && (flags & kHalfTransfer) != 0) ||
+           ((cr & 1U << 2U) != 0 && (flags & kTransferError) != 0);
+}
+
+void ChipModel::raise_transfer_error()
+{
+    // Section 10.3.18: the stream is switched off by the controller itself.
+    dma2.lisr.value |= kTransferError;
+    dma2.stream[1].cr.value &= ~kStreamEnable;
+}
+
+bool ChipModel::spend_power()
+{
+    if (power_left <= 0) {
+        return false;
+    }
+    --power_left;
+    return power_left > 0;
+}
+
+std::uint32_t ChipModel::read_memory(std::uint32_t address) const
+{
+    const auto found = flash_words.find(address);
+    return found == flash_words.end() ? kErased : found->second;
+}
+
+void ChipModel::write_memory(std::uint32_t address, std::uint32_t value)
+{
+    const bool programs = (flash.cr.value & (kFlashLock | 1U)) == 1U &&
+                          (flash.cr.value >> 8U & 3U) == 2 && busy_reads_ == 0;
+    if (!programs) {
+        ++violations;
+        flash.sr.value |= kWriteProtectionError;
+        return;
+    }
+    const std::uint32_t before = read_memory(address);
+    if (before != kErased && before != value) {
+        ++violations;
+    }
+    const bool was_on = power_left > 0;
+    if (spend_power()) {
+        flash_words[address] = before & value;
+    } else if (was_on) {
+        // The power fails amid the write: some of the bits are cleared.
+        flash_words[address] = before & (value | 0x0F0F3355U);
+    }
+    busy_reads_ = 3;
+}
+
+void ChipModel::write_flash_control(std::uint32_t value)
+{
+    if ((flash.cr.value & kFlashLock) != 0) {
+        ++violations;
+        return;
+    }
+    flash.cr.value = value & ~kFlashStart;
+    const bool erases = (value & kFlashStart) != 0 && (value & 2U) != 0;
+    if (!erases) {
+        return;
+    }
+    const bool was_on = power_left > 0;
+    const bool finishes = spend_power();
+    const std::uint32_t begin = 0x08000000 + (value >> 3U & 0xFU) * 0x4000;
+    const std::uint32_t end = begin + (finishes ? 0x4000 : was_on ? 0x2000 : 0);
+    flash_words.erase(flash_words.lower_bound(begin), flash_words.lower_bound(end));
+    busy_reads_ = 50;
+}
+
+}  // namespace cusp::test
