@@ -1,0 +1,49 @@
+// Answer: one line that a Grbl controller says, understood.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "firmware/base/vec.hpp"
+
+namespace cusp::host {
+
+// A status report `<State[:sub]|MPos:...|...>`. What it does not say is absent.
+struct ControllerStatus {
+    std::string state;  // "Idle", "Run", "Hold", "Jog", "Alarm", "Door", "Check", "Home", "Sleep"
+    int substate{-1};
+    std::optional<Vec3d> machine_position;  // as reported: mm, or inches with $13=1
+    std::optional<Vec3d> work_position;
+    std::optional<Vec3d> work_offset;
+    std::optional<std::uint32_t> line;
+    std::optional<double> feed;
+    std::optional<int> feed_override;  // per cent
+};
+
+enum class AnswerKind : std::uint8_t {
+    kOk,
+    kError,    // code
+    kAlarm,    // code
+    kStatus,   // status
+    kBanner,   // the controller has just started
+    kMessage,  // text between [ and ]
+    kOther,
+};
+
+struct Answer {
+    AnswerKind kind{AnswerKind::kOther};
+    int code{0};
+    ControllerStatus status;
+    std::string text;
+};
+
+//   line  without its end
+Answer parse_answer(std::string_view line);
+
+// What Grbl's documents say of an error or alarm code; "unknown" where they say nothing.
+std::string_view error_text(int code);
+std::string_view alarm_text(int code);
+
+}  // namespace cusp::host

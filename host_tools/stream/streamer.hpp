@@ -1,0 +1,139 @@
+// Streamer: sends a program to a Grbl controller line by line, keeps its buffer full, and tells
+// what became of it.
+//
+// Flow control is by counting characters (FlowWindow). Realtime bytes go past the lines that wait.
+// Nothing of the program is held but the lines not yet answered.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "host_tools/stream/answer.hpp"
+#include "host_tools/stream/flow_window.hpp"
+#include "host_tools/stream/program_lines.hpp"
+#include "host_tools/stream/transport.hpp"
+
+namespace cusp::host {
+
+struct StreamOptions {
+    // Bytes of the controller's receive buffer; 0: ask it, 128 where it does not say.
+    std::size_t window{0};
+    std::chrono::milliseconds status_interval{200};
+    // Silence after which the link counts as lost, though status was asked for all the while.
+    std::chrono::milliseconds silence_limit{5000};
+    // How long a controller may take to say its first word.
+    std::chrono::milliseconds greeting_limit{5000};
+};
+
+struct StreamProgress {
+    std::uint64_t lines_sent{0};
+    std::uint64_t lines_answered{0};
+    std::uint64_t line{0};      // of the file, answered last
+    double sent_fraction{0.0};  // of the file's bytes
+    ControllerStatus status;    // the latest
+    Vec3d work_offset;
+    int feed_override{100};
+};
+
+enum class StreamKey : std::uint8_t {
+    kNone,
+    kHold,
+    kResume,
+    kFeedNormal,
+    kFeedUpTen,
+    kFeedDownTen,
+    kFeedUpOne,
+    kFeedDownOne,
+    kAbort,
+};
+
+// Whoever watches and steers a transfer.
+class StreamWatcher {
+public:
+    StreamWatcher() = default;
+    StreamWatcher(const StreamWatcher&) = delete;
+    StreamWatcher& operator=(const StreamWatcher&) = delete;
+    virtual ~StreamWatcher() = default;
+
+    // Called some fifty times a second.
+    virtual void progress(const StreamProgress& progress) = 0;
+    // One sentence for the person at the machine.
+    virtual void notice(const std::string& text) = 0;
+    // What the person wants; kNone where nothing.
+    virtual StreamKey key() = 0;
+};
+
+enum class StreamOutcome : std::uint8_t {
+    kDone,
+    kStopped,  // by the person: held, then reset
+    kError,    // the controller refused a line
+    kAlarm,
+    kLinkLost,
+    kNotReady,  // the controller is in alarm, or does not answer: nothing was sent
+};
+
+struct StreamReport {
+    StreamOutcome outcome{StreamOutcome::kDone};
+    std::string text;  // what happened, in words; empty where all went well
+    StreamProgress progress;
+    // The first line that was perhaps not executed: where to resume.
+    std::uint64_t resume_line{0};
+};
+
+class Streamer {
+public:
+    // All three outlive the streamer.
+    Streamer(Transport& transport, StreamWatcher& watcher, const StreamOptions& options);
+
+    // Sends the program and waits until the machine has come to rest.
+    //
+    //   stop  set by a signal handler: holds, then resets; set to 2 or more: resets at once
+    StreamReport run(ProgramLines& program, const std::atomic<int>& stop);
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    // Each throws Ending where the transfer is over.
+    struct Ending {
+        StreamOutcome outcome;
+        std::string text;
+    };
+    void greet();
+    void learn_window();
+    void send_program(ProgramLines& program);
+    void wait_for_rest();
+    void hold_and_reset();
+
+    void send_waiting();
+    void send_line(std::uint64_t number, std::string text);
+    void send_realtime(char byte);
+    void pump(std::chrono::milliseconds wait);
+    void take_line(const std::string& line);
+    void take_status(const ControllerStatus& status);
+    void take_answer(const Answer& answer);
+    void take_key(StreamKey key);
+    void check_silence();
+    bool is_state(const char* state) const { return progress_.status.state == state; }
+
+    Transport& transport_;
+    StreamWatcher& watcher_;
+    StreamOptions options_;
+    const std::atomic<int>* stop_{nullptr};
+    std::string file_;
+    FlowWindow window_;
+    StreamProgress progress_;
+    std::string incoming_;
+    std::string outgoing_;
+    Clock::time_point last_heard_;
+    Clock::time_point last_asked_;
+    std::uint64_t statuses_{0};
+    std::uint64_t banners_{0};
+    std::uint64_t own_answers_{0};
+    bool stopping_{false};
+    std::string last_message_;
+};
+
+}  // namespace cusp::host

@@ -1,0 +1,188 @@
+// The streamer against a scripted controller.
+#include "host_tools/stream/streamer.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <functional>
+#include <thread>
+#include <vector>
+
+#include "CppUTest/TestHarness.h"
+
+#include "tests/support/temporary_folder.hpp"
+#include "tests/unit/stream/scripted_transport.hpp"
+
+namespace {
+
+using namespace cusp::host;
+
+struct QuietWatcher : StreamWatcher {
+    void progress(const StreamProgress& now) override { last = now; }
+    void notice(const std::string& text) override { notices.push_back(text); }
+    StreamKey key() override
+    {
+        const StreamKey pressed = next_key;
+        next_key = StreamKey::kNone;
+        return pressed;
+    }
+    StreamKey next_key{StreamKey::kNone};
+    StreamProgress last;
+    std::vector<std::string> notices;
+};
+
+StreamOptions quick()
+{
+    StreamOptions options;
+    options.silence_limit = options.greeting_limit = std::chrono::milliseconds{200};
+    options.status_interval = std::chrono::milliseconds{5};
+    return options;
+}
+
+}  // namespace
+
+TEST_GROUP(Streamer)
+{
+    cusp::test::TemporaryFolder folder;
+    cusp::test::ScriptedTransport controller;
+    QuietWatcher watcher;
+    StreamOptions options = quick();
+    std::atomic<int> stop{0};
+
+    StreamReport send(const std::string& text)
+    {
+        ProgramLines program{folder.with("part.ngc", text)};
+        return Streamer{controller, watcher, options}.run(program, stop);
+    }
+    static std::string many_lines(int count)
+    {
+        std::string text;
+        for (int i = 0; i < count; ++i) {
+            text += "G1 X" + std::to_string(i) + " F1000 (cut)\n";
+        }
+        return text;
+    }
+};
+
+TEST(Streamer, SendsEveryLineOnceInOrderWithoutComments)
+{
+    const StreamReport report = send("%\nG21 (mm)\n\n; nothing\nG1 X1 F100\r\nM2\n%\n");
+    CHECK(report.outcome == StreamOutcome::kDone);
+    LONGS_EQUAL(4, controller.lines.size());
+    STRCMP_EQUAL("$I", controller.lines[0].c_str());
+    STRCMP_EQUAL("G21", controller.lines[1].c_str());
+    STRCMP_EQUAL("G1X1F100", controller.lines[2].c_str());
+    STRCMP_EQUAL("M2", controller.lines[3].c_str());
+    LONGS_EQUAL(3, report.progress.lines_answered);
+}
+
+TEST(Streamer, NeverHasMoreBytesUnansweredThanAStockGrblHolds)
+{
+    controller.delay = 3;
+    LONGS_EQUAL(StreamOutcome::kDone, send(many_lines(300)).outcome);
+    LONGS_EQUAL(301, controller.lines.size());
+    CHECK(controller.most_unanswered <= 128);
+    CHECK(controller.most_unanswered > 100);
+}
+
+TEST(Streamer, FillsTheBufferThatTheControllerTellsOf)
+{
+    controller.delay = 20;
+    controller.answer = [](const std::string& line) -> std::string {
+        return line == "$I" ? "[VER:1.1h.20190825:Grbl]\r\n[OPT:V,255,1024]\r\nok\r\n" : "ok\r\n";
+    };
+    send(many_lines(300));
+    CHECK(controller.most_unanswered <= 1024);
+    CHECK(controller.most_unanswered > 1000);
+}
+
+TEST(Streamer, LosesNothingWhenTheLineTakesOneByteAtATime)
+{
+    controller.mouthful = 1;
+    LONGS_EQUAL(StreamOutcome::kDone, send(many_lines(50)).outcome);
+    LONGS_EQUAL(51, controller.lines.size());
+    STRCMP_EQUAL("G1X49F1000", controller.lines.back().c_str());
+}
+
+TEST(Streamer, StopsAtTheFirstErrorHoldsAndResets)
+{
+    controller.answer = [](const std::string& line) -> std::string {
+        return line == "G1X3F1000" ? "error:20\r\n" : "ok\r\n";
+    };
+    controller.delay = 3;
+    const StreamReport report = send(many_lines(100));
+    LONGS_EQUAL(StreamOutcome::kError, report.outcome);
+    CHECK(report.text.find("part.ngc:4: error:20: ") != std::string::npos);
+    STRCMP_EQUAL("!\x18", controller.realtime_bytes.c_str());
+    CHECK(controller.lines.size() < 20);
+}
+
+TEST(Streamer, TellsOfAnAlarm)
+{
+    controller.answer = [](const std::string& line) -> std::string {
+        return line == "G1X3F1000" ? "ALARM:1\r\n" : "ok\r\n";
+    };
+    const StreamReport report = send(many_lines(10));
+    LONGS_EQUAL(StreamOutcome::kAlarm, report.outcome);
+    CHECK(report.text.find("hard limit") != std::string::npos);
+}
+
+TEST(Streamer, HoldsAndResetsWhenItIsInterrupted)
+{
+    controller.answer = [this](const std::string& line) -> std::string {
+        if (line == "G1X3F1000") {
+            stop = 1;
+        }
+        return "ok\r\n";
+    };
+    LONGS_EQUAL(StreamOutcome::kStopped, send(many_lines(100)).outcome);
+    STRCMP_EQUAL("!\x18", controller.realtime_bytes.c_str());
+}
+
+TEST(Streamer, SaysWhenTheLinkIsLost)
+{
+    controller.answer = [this](const std::string& line) -> std::string {
+        controller.gone = line == "G1X3F1000";
+        return "ok\r\n";
+    };
+    const StreamReport report = send(many_lines(100));
+    LONGS_EQUAL(StreamOutcome::kLinkLost, report.outcome);
+    CHECK(report.text.find("unplugged") != std::string::npos);
+}
+
+TEST(Streamer, NoticesAControllerThatStartsAnew)
+{
+    controller.answer = [this](const std::string& line) -> std::string {
+        if (line == "G1X3F1000") {
+            controller.say("\r\nGrbl 1.1h ['$' for help]\r\n");
+        }
+        return "ok\r\n";
+    };
+    LONGS_EQUAL(StreamOutcome::kLinkLost, send(many_lines(100)).outcome);
+}
+
+TEST(Streamer, SendsNothingToAControllerInAlarm)
+{
+    controller.state = "Alarm";
+    const StreamReport report = send(many_lines(3));
+    LONGS_EQUAL(StreamOutcome::kNotReady, report.outcome);
+    LONGS_EQUAL(0, controller.lines.size());
+}
+
+TEST(Streamer, PassesKeysOnAsRealtimeBytes)
+{
+    controller.answer = [this](const std::string& line) -> std::string {
+        if (line == "G1X3F1000") {
+            watcher.next_key = StreamKey::kFeedUpTen;
+        }
+        return "ok\r\n";
+    };
+    LONGS_EQUAL(StreamOutcome::kDone, send(many_lines(10)).outcome);
+    STRCMP_EQUAL("\x91", controller.realtime_bytes.c_str());
+}
+
+TEST(Streamer, ShowsWhereTheMachineIs)
+{
+    send(many_lines(10));
+    DOUBLES_EQUAL(2.0, watcher.last.status.machine_position->y, 0.0);
+    STRCMP_EQUAL("Idle", watcher.last.status.state.c_str());
+}
