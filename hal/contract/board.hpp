@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "firmware/base/panel.hpp"
 #include "firmware/base/pulse_frame.hpp"
 #include "firmware/base/span.hpp"
 
@@ -46,27 +47,18 @@ constexpr bool is_byte_link()
     return true;
 }
 
-// Levels of the inputs, one bit each, raw: machine/ inverts and debounces as the settings say.
-enum InputBit : std::uint16_t {
-    kLimitX = 1U << 0U,
-    kLimitY = 1U << 1U,
-    kLimitZ = 1U << 2U,
-    kProbe = 1U << 3U,
-    kDoor = 1U << 4U,
-    kHoldButton = 1U << 5U,
-    kStartButton = 1U << 6U,
-    kResetButton = 1U << 7U,
-};
-
-// What the outputs other than steps shall be.
-struct OutputLevels {
-    bool spindle_on{false};
-    bool spindle_reverse{false};
-    std::uint16_t spindle_pwm{0};  // 0 to 1000 per mille
-    bool flood{false};
-    bool mist{false};
-    bool drives_enabled{false};
-};
+// The words of the panel are firmware/base/panel.hpp's. Inputs are raw: machine/ inverts and
+// filters them as the settings say.
+using cusp::InputBit;
+using cusp::kDoor;
+using cusp::kHoldButton;
+using cusp::kLimitX;
+using cusp::kLimitY;
+using cusp::kLimitZ;
+using cusp::kProbe;
+using cusp::kResetButton;
+using cusp::kStartButton;
+using cusp::OutputLevels;
 
 // Panel reads inputs and sets outputs. Context: main loop and servo tick; bounded time.
 //
