@@ -1,0 +1,48 @@
+// Numbers and checks of lines.
+#include "firmware/protocol/checked_lines.hpp"
+
+namespace cusp::protocol {
+
+void CheckedLines::switch_on() noexcept
+{
+    on_ = true;
+    expected_ = 1;
+    repetitions_ = 0;
+}
+
+std::optional<std::string_view> CheckedLines::accept(const LineAssembler& line) noexcept
+{
+    const std::string_view text = line.checked_part();
+    if (!line.check().good || line.overflow() || text.size() < 2 || text[0] != 'N') {
+        return std::nullopt;
+    }
+    constexpr std::size_t kMostDigits = 9;
+    std::uint32_t number = 0;
+    std::size_t end = 1;
+    while (end < text.size() && end <= kMostDigits && text[end] >= '0' && text[end] <= '9') {
+        number = number * 10U + static_cast<std::uint32_t>(text[end] - '0');
+        ++end;
+    }
+    if (end == 1 || number != expected_) {
+        return std::nullopt;
+    }
+    ++expected_;
+    return text.substr(end);
+}
+
+bool CheckedLines::accept_realtime(std::uint8_t byte) noexcept
+{
+    if (!on_ || byte == '?') {
+        return true;
+    }
+    repetitions_ =
+        byte == last_realtime_ ? static_cast<std::uint8_t>(repetitions_ + 1) : std::uint8_t{1};
+    last_realtime_ = byte;
+    if (repetitions_ < kRepetitions) {
+        return false;
+    }
+    repetitions_ = 0;
+    return true;
+}
+
+}  // namespace cusp::protocol

@@ -1,0 +1,47 @@
+// CheckedLines: lines with a number and a CRC, so that a bad serial line can't cut a wrong part.
+//
+//   N<number> <G-code or $ command>*<CRC-32 of all before the '*', eight hexadecimal digits>
+//
+// A line runs only if its CRC is right and its number is the one expected: each runs exactly once
+// and in order. Everything else is refused with the number expected. docs/protocol.md has a worked
+// dump.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "firmware/protocol/line_assembler.hpp"
+
+namespace cusp::protocol {
+
+// Context: main loop.
+class CheckedLines {
+public:
+    bool on() const noexcept { return on_; }
+    // The number that the next line must carry.
+    std::uint32_t expected() const noexcept { return expected_; }
+
+    // From now on lines are checked; the first is number 1.
+    void switch_on() noexcept;
+    void switch_off() noexcept { on_ = false; }
+
+    // What is to be executed of a complete line, without number and check: it then counts as run,
+    // and the next number is expected. None: refuse it with expected(). Precondition: on().
+    std::optional<std::string_view> accept(const LineAssembler& line) noexcept;
+
+    // Whether a realtime byte counts. On a checked line noise could make one of a text byte, so all
+    // but '?' count at their third repetition in a row; text bytes in between are told by text().
+    bool accept_realtime(std::uint8_t byte) noexcept;
+    void text() noexcept { repetitions_ = 0; }
+
+private:
+    static constexpr std::uint8_t kRepetitions = 3;
+
+    std::uint32_t expected_{1};
+    bool on_{false};
+    std::uint8_t last_realtime_{0};
+    std::uint8_t repetitions_{0};
+};
+
+}  // namespace cusp::protocol
