@@ -61,13 +61,8 @@ bool Interpolator::filters_drained() const noexcept
 
 Position Interpolator::tick() noexcept
 {
-    const bool drained = at_rest_;
-    if (drained && queue_.block_begin() != queue_.block_end() && offset_ == 0 &&
-        queue_.block(queue_.block_begin()).filter != axis_filter_) {
-        set_axis_filter(queue_.block(queue_.block_begin()).filter);
-    }
     const OverrideFactors factors = holding_ ? OverrideFactors{0, 0} : factors_;
-    const std::int32_t step = servo_.tick(factors, drained);
+    const std::int32_t step = servo_.tick(factors, ready_to_go_on());
     along_ = path_division_.divide(path_filter_.add(step));
     const PathOffset moved = travel(along_);
     for (unsigned i = 0; i < kAxisCount; ++i) {
@@ -76,6 +71,24 @@ Position Interpolator::tick() noexcept
     }
     at_rest_ = servo_.standing() && filters_drained();
     return position_;
+}
+
+// Whether the path may go on after a stop: the tool stands there. Its axis filters need not be
+// empty: with no speed and no acceleration left they leave the corner by less than a nanometre.
+// They must be where the next block has others.
+bool Interpolator::ready_to_go_on() noexcept
+{
+    if (!servo_.standing() || !path_filter_.drained()) {
+        return false;
+    }
+    if (queue_.block_begin() == queue_.block_end() || offset_ != 0 ||
+        queue_.block(queue_.block_begin()).filter == axis_filter_) {
+        return true;
+    }
+    if (at_rest_) {
+        set_axis_filter(queue_.block(queue_.block_begin()).filter);
+    }
+    return at_rest_;
 }
 
 // Moves on along the blocks and returns by how much, per axis, path units.

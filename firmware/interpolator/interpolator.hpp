@@ -59,6 +59,7 @@ private:
     void set_axis_filter(planner::AxisFilter filter) noexcept;
     PathOffset travel(std::int32_t along) noexcept;
     bool filters_drained() const noexcept;
+    bool ready_to_go_on() noexcept;
 
     planner::Planner& planner_;
     planner::PathQueue& queue_;

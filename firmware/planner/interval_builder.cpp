@@ -48,8 +48,8 @@ void IntervalBuilder::refresh_time(Interval& interval) noexcept
 void IntervalBuilder::restrict(Interval& interval, const Restriction& restriction) noexcept
 {
     interval.limit = stricter(interval.limit, restriction.limit);
-    interval.limit.u0 *= restriction.scale0;
-    interval.limit.u1 *= restriction.scale1;
+    interval.scale0 = std::min(interval.scale0, restriction.scale0);
+    interval.scale1 = std::min(interval.scale1, restriction.scale1);
     refresh_time(interval);
 }
 
@@ -60,6 +60,8 @@ void IntervalBuilder::append_piece(std::uint32_t length,
     Interval interval{};
     interval.length = length;
     interval.limit = limit;
+    interval.scale0 = 1;
+    interval.scale1 = 1;
     interval.rapid = rapid;
     refresh_time(interval);
     queue_.append_interval(interval);
@@ -79,8 +81,8 @@ void IntervalBuilder::append(std::uint32_t length, const SpeedLimit& limit, bool
         Restriction over{};
         for (const Carry& carried : carries_) {
             over.limit = stricter(over.limit, carried.restriction.limit);
-            over.scale0 *= carried.restriction.scale0;
-            over.scale1 *= carried.restriction.scale1;
+            over.scale0 = std::min(over.scale0, carried.restriction.scale0);
+            over.scale1 = std::min(over.scale1, carried.restriction.scale1);
             const std::uint32_t reach = path_units(std::max(carried.distance, kShortestPiece));
             piece = std::min(piece, carried.distance < 60.0F ? reach : piece);
         }
@@ -114,12 +116,12 @@ void IntervalBuilder::spread_back(float distance, const Restriction& restriction
 {
     float left = distance;
     std::uint32_t at = queue_.interval_end();
-    const bool scales = restriction.scale0 < 1 || restriction.scale1 < 1;
     while (left > 0 && at != queue_.published()) {
         Interval& interval = queue_.interval(at - 1);
         const float length = millimetres(interval.length);
         const SpeedLimit& limit = restriction.limit;
-        const bool binds = scales || limit.cap < interval.limit.cap ||
+        const bool binds = restriction.scale0 < interval.scale0 ||
+                           restriction.scale1 < interval.scale1 || limit.cap < interval.limit.cap ||
                            limit.u0 < interval.limit.u0 || limit.u1 < interval.limit.u1 ||
                            limit.feed < interval.limit.feed;
         const bool split =
@@ -154,8 +156,8 @@ void IntervalBuilder::carry(float distance, const Restriction& restriction) noex
         Carry& last = carries_.back();
         last.distance = std::max(last.distance, distance);
         last.restriction.limit = stricter(last.restriction.limit, restriction.limit);
-        last.restriction.scale0 *= restriction.scale0;
-        last.restriction.scale1 *= restriction.scale1;
+        last.restriction.scale0 = std::min(last.restriction.scale0, restriction.scale0);
+        last.restriction.scale1 = std::min(last.restriction.scale1, restriction.scale1);
         return;
     }
     // One that is nowhere stricter and ends no later is not needed.
@@ -163,8 +165,9 @@ void IntervalBuilder::carry(float distance, const Restriction& restriction) noex
     const SpeedLimit& added = restriction.limit;
     for (const Carry& carried : carries_) {
         const SpeedLimit& old = carried.restriction.limit;
-        const bool plain = carried.restriction.scale0 == 1 && carried.restriction.scale1 == 1;
-        const bool needless = plain && carried.distance <= distance && added.cap <= old.cap &&
+        const bool scales = carried.restriction.scale0 < restriction.scale0 ||
+                            carried.restriction.scale1 < restriction.scale1;
+        const bool needless = !scales && carried.distance <= distance && added.cap <= old.cap &&
                               added.u0 <= old.u0 && added.u1 <= old.u1 && added.feed <= old.feed;
         if (!needless) {
             (void)still.try_push_back(carried);
@@ -181,8 +184,7 @@ void IntervalBuilder::stop() noexcept
         return;
     }
     queue_.interval(queue_.interval_end() - 1).stop_at_end = true;
-    queue_.publish(queue_.interval_end());
-    pending_time_ = 0;
+    publish_to(queue_.interval_end());
 }
 
 void IntervalBuilder::publish(bool queue_full) noexcept
@@ -201,10 +203,21 @@ void IntervalBuilder::publish(bool queue_full) noexcept
         }
     }
     std::uint32_t end = queue_.published();
-    while (end != queue_.interval_end() &&
-           pending_time_ - queue_.interval(end).least_time >= hold_back) {
-        pending_time_ -= queue_.interval(end).least_time;
+    std::uint64_t pending = pending_time_;
+    while (end != queue_.interval_end() && pending >= hold_back + queue_.interval(end).least_time) {
+        pending -= queue_.interval(end).least_time;
         ++end;
+    }
+    publish_to(end);
+}
+
+void IntervalBuilder::publish_to(std::uint32_t end) noexcept
+{
+    for (std::uint32_t i = queue_.published(); i != end; ++i) {
+        Interval& interval = queue_.interval(i);
+        interval.limit.u0 *= interval.scale0;
+        interval.limit.u1 *= interval.scale1;
+        pending_time_ -= interval.least_time;
     }
     queue_.publish(end);
 }

@@ -58,6 +58,7 @@ private:
     void spread_back(float distance, const Restriction& restriction) noexcept;
     void carry(float distance, const Restriction& restriction) noexcept;
     void append_piece(std::uint32_t length, const SpeedLimit& limit, bool rapid) noexcept;
+    void publish_to(std::uint32_t end) noexcept;
     void refresh_time(Interval& interval) noexcept;
     void restrict(Interval& interval, const Restriction& restriction) noexcept;
 

@@ -20,6 +20,9 @@ namespace cusp::planner {
 struct Interval {
     std::uint32_t length;  // path units
     SpeedLimit limit;
+    // Factors on the accelerations, for what joints take of them; worked in when published.
+    float scale0;
+    float scale1;
     float end_speed;  // squared, at the end
     float slope;      // braking, mm/s^2
     // The same for the feed alone: min(limit.feed, feed_end + 2 feed_slope d). An override scales
@@ -33,7 +36,7 @@ struct Interval {
 };
 
 inline constexpr std::uint32_t kBlockCount = 256;
-inline constexpr std::uint32_t kIntervalCount = 1024;
+inline constexpr std::uint32_t kIntervalCount = 512;
 
 // Counters run freely; an element's place is its counter modulo the ring's size.
 class PathQueue {
