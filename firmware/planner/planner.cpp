@@ -15,9 +15,9 @@ constexpr float kCornerTurn = 0.00872665F;
 // Slower than this, passing a joint takes longer than stopping at it.
 constexpr float kLeastJointSpeed = 1.5F;  // mm/s
 // What a joint may take of the axes' acceleration and jerk; the rest is for the curves around it.
-constexpr float kJointShare = 0.9F;
+constexpr float kJointShare = 0.98F;
 // Keeps rounding of set points and speeds below the limits.
-constexpr float kRoundingMargin = 0.997F;
+constexpr float kRoundingMargin = 0.9995F;
 constexpr float kGreatestSpeed = 2000.0F;  // mm/s
 
 // Deviation, mm, left to the axis filters on the exact path and as a share of a tolerance.
