@@ -2,7 +2,8 @@
 // units.
 #pragma once
 
-#include <map>
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -81,8 +82,11 @@ struct Job {
 // Reads a TOML job and the parts it names. Throws InputError.
 Job read_job(const std::string& file);
 
-// Geometry by itself. Throws InputError.
-std::vector<Surface> read_surfaces(const std::string& file);
-Loop read_loop(const std::string& file);  // closed to 1e-3 mm, oriented counter-clockwise
+// Geometry by itself, with clamped ends. Throws InputError.
+//
+// millimetres  of one unit of the file: 1 or 25.4
+std::vector<Surface> read_surfaces(const std::string& file, double millimetres = 1.0);
+// Closed to 1e-3 mm, simple, oriented counter-clockwise.
+Loop read_loop(const std::string& file, double millimetres = 1.0);
 
 }  // namespace cusp::host

@@ -117,4 +117,74 @@ void insert_all_to_degree(ControlRows& rows)
     }
 }
 
+void clamp_ends(ControlRows& rows)
+{
+    const auto p = static_cast<std::ptrdiff_t>(rows.degree);
+    const double begin = rows.knots[static_cast<std::size_t>(p)];
+    const double end = rows.knots[rows.rows()];
+    insert_to_degree(rows, begin);
+    insert_to_degree(rows, end);
+    const auto width = static_cast<std::ptrdiff_t>(rows.width);
+    // the last knot at the begin and the first at the end bound the spans that stay
+    const auto last = std::upper_bound(rows.knots.begin(), rows.knots.end(), begin) - 1;
+    const auto first = std::lower_bound(rows.knots.begin(), rows.knots.end(), end);
+    const auto first_row = (last - rows.knots.begin()) - p;
+    const auto end_row = first - rows.knots.begin();
+    std::vector<double> knots(static_cast<std::size_t>(p), begin);
+    knots.insert(knots.end(), last, first + 1);
+    knots.insert(knots.end(), static_cast<std::size_t>(p), end);
+    rows.points = {rows.points.begin() + first_row * width, rows.points.begin() + end_row * width};
+    rows.knots = std::move(knots);
+}
+
+namespace {
+
+bool ends_are_clamped(const std::vector<double>& knots, int degree)
+{
+    const auto p = static_cast<std::size_t>(degree);
+    return knots[0] == knots[p] && knots.back() == knots[knots.size() - 1 - p];
+}
+
+}  // namespace
+
+Curve clamped(const Curve& curve)
+{
+    if (ends_are_clamped(curve.knots, curve.degree)) {
+        return curve;
+    }
+    ControlRows rows = control_rows(curve);
+    clamp_ends(rows);
+    return to_curve(rows);
+}
+
+Surface clamped(const Surface& surface)
+{
+    Surface out = surface;
+    if (!ends_are_clamped(out.knots_u, out.degree_u)) {
+        ControlRows rows = control_rows_along_u(out);
+        clamp_ends(rows);
+        const Curve net = to_curve(rows);
+        out.knots_u = rows.knots;
+        out.size_u = static_cast<int>(rows.rows());
+        out.points = net.points;
+        out.weights = net.weights;
+    }
+    if (!ends_are_clamped(out.knots_v, out.degree_v)) {
+        ControlRows rows = control_rows_along_v(out);
+        clamp_ends(rows);
+        out.knots_v = rows.knots;
+        out.size_v = static_cast<int>(rows.rows());
+        out.points.clear();
+        out.weights.clear();
+        for (std::size_t i = 0; i < rows.width; ++i) {
+            for (std::size_t j = 0; j < rows.rows(); ++j) {
+                const HomogeneousPoint& h = rows.points[j * rows.width + i];
+                out.points.push_back({h.x / h.w, h.y / h.w, h.z / h.w});
+                out.weights.push_back(h.w);
+            }
+        }
+    }
+    return out;
+}
+
 }  // namespace cusp::host

@@ -29,6 +29,10 @@ ControlRows control_rows_along_v(const Surface& surface);
 
 Curve to_curve(const ControlRows& rows);
 
+// The surface with its ends clamped in both directions, if they are not already.
+Surface clamped(const Surface& surface);
+Curve clamped(const Curve& curve);
+
 // Multiplicity of u among the knots.
 std::size_t multiplicity(const std::vector<double>& knots, double u);
 
@@ -42,5 +46,8 @@ std::vector<double> distinct_knots(const std::vector<double>& knots, int degree,
 // Inserts every knot of the domain to the degree. Span [knots[s], knots[s + 1]] then is a Bezier
 // piece of rows s - degree to s.
 void insert_all_to_degree(ControlRows& rows);
+
+// Cuts the rows to their domain: knots of multiplicity degree + 1 at both ends, the same shape.
+void clamp_ends(ControlRows& rows);
 
 }  // namespace cusp::host

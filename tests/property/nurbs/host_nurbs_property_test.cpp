@@ -7,6 +7,7 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "host_tools/nurbs/knot_insertion.hpp"
 #include "host_tools/nurbs/nurbs.hpp"
 
 using namespace cusp;
@@ -322,6 +323,25 @@ TEST(RandomNurbs, AReversedCurveRunsBackwards)
         const double length = c.domain_end() - c.domain_begin();
         check_near(oracle(c, c.domain_begin() + share * length),
                    point_at(back, back.domain_end() - share * length), 1e-8);
+    }
+}
+
+TEST(RandomNurbs, ClampedEndsLeaveTheShape)
+{
+    for (int n = 0; n < 1000; ++n) {
+        const Curve c = random.curve();
+        const Curve cut = clamped(c);
+        const double u = random.between(c.domain_begin(), c.domain_end());
+        check_near(oracle(c, u), point_at(cut, u), kTight);
+        check_near(oracle(c, c.domain_begin()), cut.points.front(), kTight);
+        check_near(oracle(c, c.domain_end()), cut.points.back(), kTight);
+        LONGS_EQUAL(cut.points.size() + static_cast<std::size_t>(cut.degree) + 1, cut.knots.size());
+        const Surface s = random.surface();
+        const Surface trimmed = clamped(s);
+        const double a = random.between(s.u_begin(), s.u_end());
+        const double b = random.between(s.v_begin(), s.v_end());
+        check_near(oracle(s, a, b), point_at(trimmed, a, b), kTight);
+        check_near(oracle(s, s.u_begin(), s.v_begin()), trimmed.points.front(), kTight);
     }
 }
 

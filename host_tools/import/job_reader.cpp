@@ -1,0 +1,404 @@
+// Reads the TOML job: every key with its range, inches to millimetres, the parts it names.
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "host_tools/import/job.hpp"
+#include "host_tools/import/job_table.hpp"
+#include "host_tools/import/loop_shape.hpp"
+#include "host_tools/import/text_of_file.hpp"
+
+#include "fmt/format.h"
+
+namespace cusp::host {
+namespace {
+
+constexpr double kMillimetresPerInch = 25.4;
+constexpr double kDefaultTolerance = 0.02;  // mm
+constexpr double kDefaultClearance = 5.0;   // mm
+constexpr double kDefaultLargestArcRadius = 1000.0;
+// Tool numbers as controllers take them.
+constexpr Range kToolNumber{1, 9999};
+
+const std::vector<std::string> kStrategies{"contour_pocket",     "adaptive_isocurve",
+                                           "grid_pocket",        "hull_rough",
+                                           "complete_isocurves", "parallel_planes"};
+
+class JobReader {
+public:
+    explicit JobReader(const std::string& file) : file_{file} { job_.file = file; }
+
+    Job read();
+
+private:
+    void read_units(JobTable& top);
+    Tool read_tool(const toml::table& table, std::size_t index);
+    void read_tools(JobTable& top);
+    void read_cutting(JobTable& top);
+    void read_stock(JobTable& top);
+    std::optional<std::array<double, 2>> read_interval(JobTable& stock, const char* key);
+    Operation read_operation(const toml::table& table, std::size_t index);
+    void read_common(JobTable& table, Operation& operation);
+    void read_depths(JobTable& table, Operation& operation);
+    void read_tool_choice(JobTable& table, Operation& operation);
+    void read_strategy_keys(JobTable& table, Operation& operation);
+    void read_grid(JobTable& table, Operation& operation);
+    void read_parts(JobTable& table, Operation& operation);
+    void check_strategy(const JobTable& table, const Operation& operation) const;
+    const Tool& tool_numbered(const JobTable& table, const char* key, int number) const;
+    std::string path_of(const std::string& name) const;
+
+    double length(JobTable& table, const char* key, Range range, double otherwise_mm) const
+    {
+        const auto value = table.number(key, range);
+        return value ? *value * unit_ : otherwise_mm;
+    }
+    std::optional<double> length(JobTable& table, const char* key, Range range) const
+    {
+        const auto value = table.number(key, range);
+        return value ? std::optional{*value * unit_} : std::nullopt;
+    }
+
+    std::string file_;
+    double unit_{1.0};  // mm
+    Job job_;
+    std::map<std::string, Loop> loops_;
+    std::map<std::string, std::vector<Surface>> surfaces_;
+};
+
+std::string JobReader::path_of(const std::string& name) const
+{
+    const std::filesystem::path path{name};
+    return path.is_absolute() ? name : (std::filesystem::path(file_).parent_path() / path).string();
+}
+
+void JobReader::read_units(JobTable& top)
+{
+    job_.inch = top.one_of("units", {"mm", "inch"}).value_or("mm") == "inch";
+    unit_ = job_.inch ? kMillimetresPerInch : 1.0;
+}
+
+Tool JobReader::read_tool(const toml::table& table, std::size_t index)
+{
+    JobTable keys{table, file_, fmt::format("tool {}", index)};
+    Tool tool;
+    tool.number = keys.whole_number("number", kToolNumber).value_or(static_cast<int>(index));
+    const std::string shape = keys.one_of("shape", {"ball", "flat", "bull"}).value_or("");
+    if (shape.empty()) {
+        keys.refuse("shape", "is missing: \"ball\", \"flat\" or \"bull\"");
+    }
+    tool.shape = shape == "ball"   ? ToolShape::kBall
+                 : shape == "flat" ? ToolShape::kFlat
+                                   : ToolShape::kBull;
+    tool.radius = keys.required_number("diameter", kPositive) * unit_ / 2;
+    const auto corner = length(keys, "corner_radius", kPositive);
+    if (tool.shape == ToolShape::kBull && !corner) {
+        keys.refuse("corner_radius", "is missing: a bull tool needs it");
+    }
+    if (tool.shape != ToolShape::kBull && corner) {
+        keys.refuse("corner_radius", fmt::format("belongs to a bull tool, this one is {}", shape));
+    }
+    tool.corner_radius = tool.shape == ToolShape::kBall ? tool.radius : corner.value_or(0);
+    if (tool.corner_radius > tool.radius) {
+        keys.refuse("corner_radius", fmt::format("is {:g} mm, the tool's radius is only {:g} mm",
+                                                 tool.corner_radius, tool.radius));
+    }
+    keys.refuse_unknown_keys();
+    return tool;
+}
+
+void JobReader::read_tools(JobTable& top)
+{
+    const auto tables = top.tables("tool");
+    if (tables.empty()) {
+        top.refuse("tool", "is missing: a table [tool] or several [[tool]]");
+    }
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+        const Tool tool = read_tool(*tables[i], i + 1);
+        for (const Tool& other : job_.tools) {
+            if (other.number == tool.number) {
+                top.refuse("tool", fmt::format("two tools have the number {}", tool.number));
+            }
+        }
+        job_.tools.push_back(tool);
+    }
+}
+
+void JobReader::read_cutting(JobTable& top)
+{
+    const toml::table* table = top.table("cutting");
+    if (table == nullptr) {
+        top.refuse("cutting", "is missing: a table [cutting] with at least feed");
+    }
+    JobTable keys{*table, file_, "cutting"};
+    job_.feed = keys.required_number("feed", kPositive) * unit_;
+    // a quarter of the feed is what cutter makers give for plunging where they give nothing else
+    job_.plunge_feed = length(keys, "plunge_feed", kPositive, job_.feed / 4);
+    job_.spindle = keys.number("spindle", kNotNegative).value_or(0);
+    keys.refuse_unknown_keys();
+}
+
+std::optional<std::array<double, 2>> JobReader::read_interval(JobTable& stock, const char* key)
+{
+    const auto values = stock.numbers(key, kAnyNumber);
+    if (!values) {
+        return std::nullopt;
+    }
+    if (values->size() != 2 || !((*values)[0] < (*values)[1])) {
+        stock.refuse(key, "two numbers [min, max] are needed, min below max");
+    }
+    return std::array{(*values)[0] * unit_, (*values)[1] * unit_};
+}
+
+void JobReader::read_stock(JobTable& top)
+{
+    static const toml::table kNothing;
+    const toml::table* table = top.table("stock");
+    JobTable keys{table == nullptr ? kNothing : *table, file_, "stock"};
+    job_.stock_top = length(keys, "top", kAnyNumber, 0.0);
+    job_.clearance = length(keys, "clearance", kPositive, kDefaultClearance);
+    job_.stock_bottom = length(keys, "bottom", kAnyNumber);
+    if (job_.stock_bottom && !(*job_.stock_bottom < job_.stock_top)) {
+        keys.refuse("bottom", fmt::format("is {:g} mm, not below the top at {:g} mm",
+                                          *job_.stock_bottom, job_.stock_top));
+    }
+    job_.stock_x = read_interval(keys, "x");
+    job_.stock_y = read_interval(keys, "y");
+    keys.refuse_unknown_keys();
+}
+
+const Tool& JobReader::tool_numbered(const JobTable& table, const char* key, int number) const
+{
+    for (const Tool& tool : job_.tools) {
+        if (tool.number == number) {
+            return tool;
+        }
+    }
+    table.refuse(key, fmt::format("is {}, no [[tool]] has that number", number));
+}
+
+void JobReader::read_tool_choice(JobTable& table, Operation& operation)
+{
+    operation.tool = job_.tools.front();
+    if (const auto number = table.whole_number("tool", kToolNumber)) {
+        operation.tool = tool_numbered(table, "tool", *number);
+    }
+    if (const auto numbers = table.numbers("tools", kToolNumber)) {
+        for (const double number : *numbers) {
+            operation.tools.push_back(tool_numbered(table, "tools", static_cast<int>(number)));
+        }
+    }
+    if (operation.tools.empty()) {
+        operation.tools.push_back(operation.tool);
+    }
+}
+
+void JobReader::read_common(JobTable& table, Operation& operation)
+{
+    const auto output = table.one_of("output", {"lines", "arcs", "nurbs"}).value_or("lines");
+    operation.output = output == "lines"  ? OutputForm::kLines
+                       : output == "arcs" ? OutputForm::kArcs
+                                          : OutputForm::kNurbs;
+    operation.plan_tolerance = length(table, "plan_tolerance", kPositive, kDefaultTolerance);
+    operation.floor_tolerance = length(table, "floor_tolerance", kPositive, kDefaultTolerance);
+    operation.tolerance_side =
+        table.one_of("tolerance_side", {"outside", "both"}).value_or("outside") == "both"
+            ? ToleranceSide::kBoth
+            : ToleranceSide::kOutside;
+    operation.scallop = length(table, "scallop", kPositive);
+    if (operation.scallop && operation.tolerance_side == ToleranceSide::kOutside &&
+        *operation.scallop <= operation.floor_tolerance) {
+        table.refuse("scallop",
+                     fmt::format("is {:g} mm, not above the floor_tolerance of {:g} mm that it "
+                                 "includes; raise it or say tolerance_side = \"both\"",
+                                 *operation.scallop, operation.floor_tolerance));
+    }
+    operation.direction_of_cut =
+        table.one_of("direction_of_cut", {"climb", "conventional"}).value_or("climb") == "climb"
+            ? CutDirection::kClimb
+            : CutDirection::kConventional;
+    const auto entry = table.one_of("entry", {"auto", "helix", "ramp", "plunge"}).value_or("auto");
+    operation.entry = entry == "auto"    ? EntryKind::kAuto
+                      : entry == "helix" ? EntryKind::kHelix
+                      : entry == "ramp"  ? EntryKind::kRamp
+                                         : EntryKind::kPlunge;
+    operation.traversal =
+        table.one_of("traversal", {"zigzag", "one_way"}).value_or("zigzag") == "zigzag"
+            ? Traversal::kZigzag
+            : Traversal::kOneWay;
+    operation.allowance = length(table, "allowance", kNotNegative, 0.0);
+}
+
+void JobReader::read_depths(JobTable& table, Operation& operation)
+{
+    operation.max_depth = length(table, "max_depth", kPositive);
+    operation.min_depth = length(table, "min_depth", kPositive);
+    if (operation.max_depth && operation.min_depth && *operation.min_depth > *operation.max_depth) {
+        table.refuse("min_depth", fmt::format("is {:g} mm, above the max_depth of {:g} mm",
+                                              *operation.min_depth, *operation.max_depth));
+    }
+    double above = 0;
+    for (const double depth : table.numbers("layers", kPositive).value_or(std::vector<double>{})) {
+        if (depth * unit_ <= above) {
+            table.refuse("layers", "depths below stock.top must grow from layer to layer");
+        }
+        above = depth * unit_;
+        operation.layers.push_back(above);
+    }
+}
+
+void JobReader::read_grid(JobTable& table, Operation& operation)
+{
+    const auto grid = table.numbers("grid", kPositive).value_or(std::vector<double>{});
+    if (!grid.empty()) {
+        operation.grid_x = grid[0] * unit_;
+        operation.grid_y = grid.back() * unit_;
+    }
+    if (grid.size() > 2) {
+        table.refuse("grid", "two numbers [gx, gy] are needed");
+    }
+    for (const std::string& axis : table.texts("zigzag").value_or(std::vector<std::string>{})) {
+        if (axis != "x" && axis != "y") {
+            table.refuse("zigzag", fmt::format("holds \"{}\", known are \"x\" and \"y\"", axis));
+        }
+        operation.zigzag.push_back(axis[0]);
+    }
+    operation.arc_tolerance = length(table, "arc_tolerance", kPositive, operation.floor_tolerance);
+    operation.max_arc_radius = length(table, "max_arc_radius", kPositive, kDefaultLargestArcRadius);
+    operation.max_roughness = length(table, "max_roughness", kPositive);
+}
+
+void JobReader::read_strategy_keys(JobTable& table, Operation& operation)
+{
+    constexpr Range kSubdivisions{0, 8};
+    operation.iso_distance = length(table, "iso_distance", kPositive);
+    operation.direction = table.one_of("direction", {"u", "v"}).value_or("u")[0];
+    operation.roughing = table.flag("roughing").value_or(false);
+    read_grid(table, operation);
+    operation.overlap = length(table, "overlap", kNotNegative, 0.0);
+    operation.extra_subdivision =
+        table.whole_number("extra_subdivision", kSubdivisions).value_or(0);
+    operation.contour_clearing =
+        table.one_of("clearing", {"zigzag", "contour"}).value_or("zigzag") == "contour";
+    operation.step_over = length(table, "step_over", kPositive);
+}
+
+void JobReader::read_parts(JobTable& table, Operation& operation)
+{
+    for (const std::string& name : table.texts("floor").value_or(std::vector<std::string>{})) {
+        const std::string path = path_of(name);
+        if (surfaces_.count(path) == 0) {
+            surfaces_[path] = read_surfaces(path, unit_);
+        }
+        operation.floor_files.push_back(path);
+        operation.floor.insert(operation.floor.end(), surfaces_[path].begin(),
+                               surfaces_[path].end());
+    }
+    if (operation.floor.empty()) {
+        table.refuse("floor", "is missing: files with the surfaces to cut");
+    }
+    const auto loop = [&](const std::string& path) {
+        if (loops_.count(path) == 0) {
+            loops_[path] = read_loop(path, unit_);
+        }
+        return loops_[path];
+    };
+    if (const auto name = table.text("boundary")) {
+        operation.boundary_file = path_of(*name);
+        operation.boundary = loop(operation.boundary_file);
+    }
+    for (const std::string& name : table.texts("islands").value_or(std::vector<std::string>{})) {
+        operation.island_files.push_back(path_of(name));
+        operation.islands.push_back(loop(operation.island_files.back()));
+    }
+}
+
+void check_islands(const Operation& operation)
+{
+    constexpr double kChord = 1e-3;
+    if (!operation.boundary) {
+        return;
+    }
+    const auto outer = loop_polyline(*operation.boundary, kChord);
+    for (std::size_t i = 0; i < operation.islands.size(); ++i) {
+        if (lies_outside(loop_polyline(operation.islands[i], kChord), outer)) {
+            throw InputError(fmt::format("{}: the island lies outside the boundary {}",
+                                         operation.island_files[i], operation.boundary_file));
+        }
+    }
+}
+
+void JobReader::check_strategy(const JobTable& table, const Operation& operation) const
+{
+    const std::string& strategy = operation.strategy;
+    const auto need = [&](bool there, const char* key, const char* what) {
+        if (!there) {
+            table.refuse(key, fmt::format("is missing: {} needs {}", strategy, what));
+        }
+    };
+    if (strategy == "contour_pocket") {
+        need(operation.boundary.has_value(), "boundary", "the loop that bounds the pocket");
+        need(operation.scallop.has_value(), "scallop", "the height of the ridges that may stay");
+    } else if (strategy == "grid_pocket") {
+        need(operation.boundary.has_value(), "boundary", "the loop that bounds the pocket");
+        need(operation.grid_x > 0, "grid", "the size of its cells, [gx, gy]");
+    } else if (strategy == "hull_rough") {
+        need(operation.max_depth.has_value(), "max_depth", "the depth of cut of a layer");
+    } else if (strategy == "parallel_planes") {
+        need(operation.step_over || operation.scallop, "step_over", "it or scallop");
+    } else {
+        need(operation.iso_distance || operation.scallop || operation.step_over, "iso_distance",
+             "it or scallop");
+    }
+}
+
+Operation JobReader::read_operation(const toml::table& entry, std::size_t index)
+{
+    JobTable table{entry, file_, fmt::format("operation {}", index)};
+    Operation operation;
+    const auto strategy = table.one_of("strategy", kStrategies);
+    if (!strategy) {
+        table.refuse("strategy", "is missing");
+    }
+    operation.strategy = *strategy;
+    read_tool_choice(table, operation);
+    read_common(table, operation);
+    read_depths(table, operation);
+    read_strategy_keys(table, operation);
+    read_parts(table, operation);
+    table.refuse_unknown_keys();
+    check_strategy(table, operation);
+    check_islands(operation);
+    return operation;
+}
+
+Job JobReader::read()
+{
+    toml::table document;
+    try {
+        document = toml::parse(text_of_file(file_), file_);
+    } catch (const toml::parse_error& error) {
+        throw InputError(fmt::format("{}:{}: not TOML: {}", file_, error.source().begin.line,
+                                     error.description()));
+    }
+    JobTable top{document, file_, ""};
+    read_units(top);
+    read_tools(top);
+    read_cutting(top);
+    read_stock(top);
+    const auto operations = top.tables("operation");
+    top.refuse_unknown_keys();
+    if (operations.empty()) {
+        top.refuse("operation", "is missing: at least one [[operation]]");
+    }
+    for (std::size_t i = 0; i < operations.size(); ++i) {
+        job_.operations.push_back(read_operation(*operations[i], i + 1));
+    }
+    return job_;
+}
+
+}  // namespace
+
+Job read_job(const std::string& file) { return JobReader{file}.read(); }
+
+}  // namespace cusp::host

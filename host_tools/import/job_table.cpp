@@ -1,0 +1,220 @@
+// Typed access to a TOML table, with places in every complaint.
+#include "host_tools/import/job_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host_tools/input_error/input_error.hpp"
+
+#include "fmt/format.h"
+#include "fmt/ranges.h"
+
+namespace cusp::host {
+namespace {
+
+// Letters to insert, remove or replace to make one word of the other.
+std::size_t letters_apart(const std::string& a, const std::string& b)
+{
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+        row[j] = j;
+    }
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
+        }
+    }
+    return row[b.size()];
+}
+
+std::string range_in_words(Range range)
+{
+    const char* low = range.above_low ? "above" : "at least";
+    return fmt::format("it must be {} {:g} and at most {:g}", low, range.low, range.high);
+}
+
+}  // namespace
+
+JobTable::JobTable(const toml::table& table, std::string file, std::string place)
+    : table_{table}, file_{std::move(file)}, place_{std::move(place)}
+{
+}
+
+void JobTable::refuse(const char* key, const std::string& reason) const
+{
+    const toml::node* node = table_.get(key);
+    const auto line = (node != nullptr ? node->source() : table_.source()).begin.line;
+    const std::string dot = place_.empty() ? "" : place_ + ": ";
+    throw InputError(fmt::format("{}:{}: {}{}: {}", file_, std::max(line, toml::source_index{1}),
+                                 dot, key, reason));
+}
+
+const toml::node* JobTable::find(const char* key)
+{
+    asked_.emplace_back(key);
+    return table_.get(key);
+}
+
+double JobTable::checked(const toml::node& node, const char* key, Range range) const
+{
+    const auto value = node.value<double>();
+    if (!value || !node.is_number()) {
+        refuse(key, "a number is needed");
+    }
+    const bool low_enough = *value <= range.high;
+    const bool high_enough = range.above_low ? *value > range.low : *value >= range.low;
+    if (!low_enough || !high_enough) {
+        refuse(key, fmt::format("is {:g}, {}", *value, range_in_words(range)));
+    }
+    return *value;
+}
+
+std::optional<double> JobTable::number(const char* key, Range range)
+{
+    const toml::node* node = find(key);
+    return node == nullptr ? std::nullopt : std::optional{checked(*node, key, range)};
+}
+
+std::optional<int> JobTable::whole_number(const char* key, Range range)
+{
+    const std::optional<double> value = number(key, range);
+    if (!value) {
+        return std::nullopt;
+    }
+    if (*value != std::floor(*value)) {
+        refuse(key, fmt::format("is {:g}, a whole number is needed", *value));
+    }
+    return static_cast<int>(*value);
+}
+
+std::optional<bool> JobTable::flag(const char* key)
+{
+    const toml::node* node = find(key);
+    if (node == nullptr) {
+        return std::nullopt;
+    }
+    if (!node->is_boolean()) {
+        refuse(key, "true or false is needed");
+    }
+    return node->value<bool>();
+}
+
+std::optional<std::string> JobTable::text(const char* key)
+{
+    const toml::node* node = find(key);
+    if (node == nullptr) {
+        return std::nullopt;
+    }
+    if (!node->is_string()) {
+        refuse(key, "a text in quotes is needed");
+    }
+    return node->value<std::string>();
+}
+
+std::optional<std::string> JobTable::one_of(const char* key,
+                                            const std::vector<std::string>& allowed)
+{
+    const std::optional<std::string> value = text(key);
+    if (value && std::find(allowed.begin(), allowed.end(), *value) == allowed.end()) {
+        refuse(key,
+               fmt::format("is \"{}\", known are \"{}\"", *value, fmt::join(allowed, "\", \"")));
+    }
+    return value;
+}
+
+std::optional<std::vector<double>> JobTable::numbers(const char* key, Range range)
+{
+    const toml::node* node = find(key);
+    if (node == nullptr) {
+        return std::nullopt;
+    }
+    if (!node->is_array()) {
+        refuse(key, "a list of numbers is needed");
+    }
+    std::vector<double> out;
+    for (const toml::node& entry : *node->as_array()) {
+        out.push_back(checked(entry, key, range));
+    }
+    return out;
+}
+
+std::optional<std::vector<std::string>> JobTable::texts(const char* key)
+{
+    const toml::node* node = find(key);
+    if (node == nullptr) {
+        return std::nullopt;
+    }
+    if (const auto single = node->value<std::string>(); single && node->is_string()) {
+        return std::vector<std::string>{*single};
+    }
+    std::vector<std::string> out;
+    if (node->is_array()) {
+        for (const toml::node& entry : *node->as_array()) {
+            if (entry.is_string()) {
+                out.push_back(*entry.value<std::string>());
+            }
+        }
+    }
+    if (!node->is_array() || out.size() != node->as_array()->size()) {
+        refuse(key, "a list of texts in quotes is needed");
+    }
+    return out;
+}
+
+const toml::table* JobTable::table(const char* key)
+{
+    const toml::node* node = find(key);
+    if (node != nullptr && !node->is_table()) {
+        refuse(key, fmt::format("a table [{}] is needed", key));
+    }
+    return node == nullptr ? nullptr : node->as_table();
+}
+
+std::vector<const toml::table*> JobTable::tables(const char* key)
+{
+    const toml::node* node = find(key);
+    std::vector<const toml::table*> out;
+    if (node == nullptr) {
+        return out;
+    }
+    if (node->is_table()) {
+        out.push_back(node->as_table());
+    } else if (node->is_array_of_tables()) {
+        for (const toml::node& entry : *node->as_array()) {
+            out.push_back(entry.as_table());
+        }
+    } else {
+        refuse(key, fmt::format("tables [[{}]] are needed", key));
+    }
+    return out;
+}
+
+double JobTable::required_number(const char* key, Range range)
+{
+    const std::optional<double> value = number(key, range);
+    if (!value) {
+        refuse(key, "is missing");
+    }
+    return *value;
+}
+
+void JobTable::refuse_unknown_keys() const
+{
+    for (const auto& entry : table_) {
+        const std::string key{entry.first.str()};
+        if (std::find(asked_.begin(), asked_.end(), key) != asked_.end()) {
+            continue;
+        }
+        const auto nearest = std::min_element(
+            asked_.begin(), asked_.end(), [&](const std::string& a, const std::string& b) {
+                return letters_apart(a, key) < letters_apart(b, key);
+            });
+        refuse(key.c_str(), fmt::format("unknown key; the nearest known one is {}", *nearest));
+    }
+}
+
+}  // namespace cusp::host

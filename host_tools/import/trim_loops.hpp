@@ -1,0 +1,22 @@
+// Trimming loops of a surface, in its parameters: chained, nested and oriented.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host_tools/nurbs/nurbs.hpp"
+
+namespace cusp::host {
+
+// curves  in order, as the file lists them; each closed alone or with those after it. Their
+//         direction says what stays: outer loops counter-clockwise, holes clockwise.
+//
+// Returns the loops, an outer one first; where the file gives holes only, the edge of the domain is
+// the outer loop.
+// Errors: an open loop, one that leaves the domain, loops whose directions contradict their
+// nesting.
+std::vector<std::vector<Curve>> trim_loops(const std::vector<Curve>& curves,
+                                           const Surface& surface,
+                                           const std::string& place);
+
+}  // namespace cusp::host

@@ -1,0 +1,23 @@
+// The lower side of a tool.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host_tools/toolpath/toolpath.hpp"
+
+namespace cusp::host {
+
+double profile_height(const Tool& tool, double d)
+{
+    if (!(d <= tool.radius)) {
+        return std::numeric_limits<double>::infinity();
+    }
+    const double beyond_flat = d - (tool.radius - tool.corner_radius);
+    if (beyond_flat <= 0) {
+        return 0.0;
+    }
+    const double corner = tool.corner_radius;
+    return corner - std::sqrt(std::max(0.0, corner * corner - beyond_flat * beyond_flat));
+}
+
+}  // namespace cusp::host

@@ -1,0 +1,45 @@
+// Lengths, counts and times of tool paths.
+#pragma once
+
+#include <array>
+
+#include "host_tools/toolpath/toolpath.hpp"
+
+namespace cusp::host {
+
+struct MoveCounts {
+    int lines{};
+    int arcs{};
+    int nurbs{};
+    int rapids{};
+};
+
+struct PathMeasure {
+    MoveCounts moves;
+    double cut_length_mm{};   // all feed moves: cuts, links and plunges
+    double link_length_mm{};  // the links of them
+    double rapid_length_mm{};
+    double estimated_s{};
+    Vec3d end;
+};
+
+// What the estimate of time reckons with; the default is the controller's default machine.
+struct MachineRates {
+    Vec3d velocity{100, 100, 50};         // mm/s
+    Vec3d acceleration{1000, 1000, 500};  // mm/s^2
+    bool exact_stop{true};                // G61: every corner over 0.5 degrees is a stop
+};
+
+// start  where the tool is before the path's first move
+//
+// estimated_s is the time of trapezoids with look-ahead, without jerk; the simulator knows the
+// time to the tick.
+PathMeasure measure(const Toolpath& path, Vec3d start, const MachineRates& rates = {});
+
+// Points of a move from `start`, chords within `tolerance` mm of it, the end included and the start
+// not.
+std::vector<Vec3d> points_of(const ToolMove& move, Vec3d start, double tolerance);
+
+Vec3d end_of(const ToolMove& move);
+
+}  // namespace cusp::host

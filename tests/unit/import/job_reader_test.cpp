@@ -1,0 +1,214 @@
+// Job files: every key, its default, its range.
+#include <cstdlib>
+#include <string>
+
+#include "CppUTest/TestHarness.h"
+
+#include "host_tools/import/job.hpp"
+#include "tests/unit/import/scratch_folder.hpp"
+
+using namespace cusp;
+using namespace cusp::host;
+
+namespace {
+
+const std::string kParts = CUSP_SOURCE_DIR "/tests/parts/";
+
+const std::string kHead = R"(units = "mm"
+[tool]
+number = 3
+shape = "ball"
+diameter = 12.0
+[cutting]
+feed = 1200.0
+plunge_feed = 300
+spindle = 12000
+[stock]
+top = 0.0
+clearance = 5.0
+)";
+
+std::string pocket(const std::string& more = "")
+{
+    return "[[operation]]\nstrategy = \"contour_pocket\"\nfloor = [\"" + kParts +
+           "suh-lee-floor.json\"]\nboundary = \"" + kParts +
+           "suh-lee-boundary.json\"\nislands = [\"" + kParts + "suh-lee-island.json\"]\n" +
+           (more.find("scallop") == std::string::npos ? "scallop = 0.4\n" : "") + more;
+}
+
+}  // namespace
+
+TEST_GROUP(JobReader)
+{
+    ScratchFolder folder;
+
+    Job read(const std::string& text) { return read_job(folder.write("job.toml", text)); }
+    std::string refused(const std::string& text)
+    {
+        return refusal([&] { read(text); });
+    }
+    // The head with one piece of text replaced.
+    std::string refused_head(const std::string& from, const std::string& to)
+    {
+        std::string head = kHead;
+        head.replace(head.find(from), from.size(), to);
+        return refused(head + pocket());
+    }
+};
+
+TEST(JobReader, ReadsTheDemo)
+{
+    const Job job = read(kHead + pocket("floor_tolerance = 0.01\noutput = \"arcs\"\n"));
+    LONGS_EQUAL(3, job.tools[0].number);
+    DOUBLES_EQUAL(6.0, job.tools[0].radius, 0);
+    DOUBLES_EQUAL(6.0, job.tools[0].corner_radius, 0);
+    DOUBLES_EQUAL(1200, job.feed, 0);
+    const Operation& operation = job.operations.at(0);
+    STRCMP_EQUAL("contour_pocket", operation.strategy.c_str());
+    LONGS_EQUAL(1, operation.floor.size());
+    LONGS_EQUAL(1, operation.islands.size());
+    DOUBLES_EQUAL(0.4, *operation.scallop, 0);
+    DOUBLES_EQUAL(0.01, operation.floor_tolerance, 0);
+    CHECK(operation.output == OutputForm::kArcs);
+    CHECK(operation.tolerance_side == ToleranceSide::kOutside);
+    LONGS_EQUAL(3, operation.tool.number);
+}
+
+TEST(JobReader, TurnsInchesIntoMillimetresEverywhere)
+{
+    const std::string text =
+        "units = \"inch\"\n[tool]\nshape = \"bull\"\ndiameter = 0.25\n"
+        "corner_radius = 0.05\n[cutting]\nfeed = 20\nplunge_feed = 5\n"
+        "spindle = 8000\n[stock]\ntop = 0.5\nclearance = 0.2\nbottom = -2\n"
+        "x = [0, 4]\ny = [-1, 4]\n[[operation]]\nstrategy = \"grid_pocket\"\n"
+        "floor = \"" +
+        kParts + "choi-polygon-floor.json\"\nboundary = \"" + kParts +
+        "choi-polygon-boundary.json\"\ngrid = [0.125, 0.0625]\n"
+        "max_arc_radius = 10\nzigzag = [\"x\", \"y\"]\nlayers = [0.25, 1]\n"
+        "max_depth = 0.5\nallowance = 0.01\n";
+    const Job job = read(text);
+    CHECK(job.inch);
+    DOUBLES_EQUAL(3.175, job.tools[0].radius, 1e-12);
+    DOUBLES_EQUAL(1.27, job.tools[0].corner_radius, 1e-12);
+    DOUBLES_EQUAL(508, job.feed, 1e-9);
+    DOUBLES_EQUAL(127, job.plunge_feed, 1e-9);
+    DOUBLES_EQUAL(8000, job.spindle, 0);
+    DOUBLES_EQUAL(12.7, job.stock_top, 1e-12);
+    DOUBLES_EQUAL(5.08, job.clearance, 1e-12);
+    DOUBLES_EQUAL(-50.8, *job.stock_bottom, 1e-12);
+    DOUBLES_EQUAL(101.6, (*job.stock_x)[1], 1e-12);
+    DOUBLES_EQUAL(-25.4, (*job.stock_y)[0], 1e-12);
+    const Operation& operation = job.operations.at(0);
+    DOUBLES_EQUAL(3.175, operation.grid_x, 1e-12);
+    DOUBLES_EQUAL(1.5875, operation.grid_y, 1e-12);
+    DOUBLES_EQUAL(254, operation.max_arc_radius, 1e-9);
+    DOUBLES_EQUAL(25.4, operation.layers[1], 1e-9);
+    DOUBLES_EQUAL(12.7, *operation.max_depth, 1e-9);
+    DOUBLES_EQUAL(0.254, operation.allowance, 1e-9);
+    DOUBLES_EQUAL(0.02, operation.floor_tolerance, 0);
+    LONGS_EQUAL('y', operation.zigzag[1]);
+    DOUBLES_EQUAL(2.5 * 25.4, (*operation.boundary)[0].points.back().x, 1e-9);
+}
+
+TEST(JobReader, ReadsTheChoiceOfTools)
+{
+    const std::string text =
+        "[[tool]]\nnumber = 1\nshape = \"flat\"\ndiameter = 20\n[[tool]]\nnumber = 2\n"
+        "shape = \"flat\"\ndiameter = 12\n[cutting]\nfeed = 1000\n[[operation]]\n"
+        "strategy = \"hull_rough\"\nfloor = [\"" +
+        kParts + "chuang-pan-tap.json\"]\nmax_depth = 2\nmin_depth = 1\ntools = [1, 2]\ntool = 2\n";
+    const Operation operation = read(text).operations.at(0);
+    LONGS_EQUAL(2, operation.tools.size());
+    DOUBLES_EQUAL(6, operation.tool.radius, 0);
+    DOUBLES_EQUAL(0, operation.tool.corner_radius, 0);
+}
+
+TEST(JobReader, RefusesAnUnknownKeyAndNamesTheNearest)
+{
+    const std::string text = refused(kHead + pocket("scalop = 0.4\nscallop = 0.4\n"));
+    STRCMP_CONTAINS("scalop: unknown key; the nearest known one is scallop", text.c_str());
+    STRCMP_CONTAINS("job.toml:18", text.c_str());
+    STRCMP_CONTAINS("nearest known one is feed",
+                    refused_head("feed = 1200.0", "feed = 1\nfed = 2").c_str());
+    STRCMP_CONTAINS("nearest known one is units",
+                    refused_head("units = \"mm\"", "unit = \"mm\"").c_str());
+}
+
+TEST(JobReader, RefusesBrokenTomlWithItsLine)
+{
+    STRCMP_CONTAINS("job.toml:2: not TOML", refused("units = \"mm\"\n[tool\n").c_str());
+}
+
+TEST(JobReader, RefusesAMissingJob)
+{
+    STRCMP_CONTAINS("No such file", refusal([&] { read_job(folder.path("none.toml")); }).c_str());
+}
+
+TEST(JobReader, RefusesNumbersOutOfRange)
+{
+    STRCMP_CONTAINS("job.toml:5: tool 1: diameter: is -1, it must be above 0",
+                    refused_head("diameter = 12.0", "diameter = -1").c_str());
+    STRCMP_CONTAINS("feed: is 0", refused_head("feed = 1200.0", "feed = 0").c_str());
+    STRCMP_CONTAINS("clearance: is -5", refused_head("clearance = 5.0", "clearance = -5").c_str());
+    STRCMP_CONTAINS("top: is nan", refused_head("top = 0.0", "top = nan").c_str());
+    STRCMP_CONTAINS("feed: is inf", refused_head("feed = 1200.0", "feed = inf").c_str());
+    STRCMP_CONTAINS("number: is 1.5", refused_head("number = 3", "number = 1.5").c_str());
+}
+
+TEST(JobReader, RefusesValuesOfAnotherKind)
+{
+    STRCMP_CONTAINS("a number is needed", refused_head("12.0", "\"twelve\"").c_str());
+    STRCMP_CONTAINS("in quotes", refused_head("shape = \"ball\"", "shape = 3").c_str());
+    STRCMP_CONTAINS("known are \"ball\", \"flat\", \"bull\"",
+                    refused_head("\"ball\"", "\"cone\"").c_str());
+    STRCMP_CONTAINS("list of numbers", refused(kHead + pocket("layers = 3\n")).c_str());
+    STRCMP_CONTAINS("true or false", refused(kHead + pocket("roughing = 1\n")).c_str());
+}
+
+TEST(JobReader, RefusesABullToolWithoutOrWithTooLargeACorner)
+{
+    STRCMP_CONTAINS("corner_radius: is missing", refused_head("\"ball\"", "\"bull\"").c_str());
+    STRCMP_CONTAINS("radius is only 6 mm",
+                    refused_head("\"ball\"", "\"bull\"\ncorner_radius = 7").c_str());
+}
+
+TEST(JobReader, RefusesAScallopBelowItsTolerance)
+{
+    STRCMP_CONTAINS("not above the floor_tolerance",
+                    refused(kHead + pocket("scallop = 0.02\n")).c_str());
+    STRCMP_EQUAL("",
+                 refused(kHead + pocket("scallop = 0.02\ntolerance_side = \"both\"\n")).c_str());
+}
+
+TEST(JobReader, RefusesAnUnknownStrategyAndAnUnknownTool)
+{
+    STRCMP_CONTAINS("known are \"contour_pocket\"",
+                    refused(kHead + "[[operation]]\nstrategy = \"magic\"\n").c_str());
+    STRCMP_CONTAINS("no [[tool]] has that number", refused(kHead + pocket("tool = 9\n")).c_str());
+}
+
+TEST(JobReader, RefusesAnOperationWithoutWhatItNeeds)
+{
+    STRCMP_CONTAINS("floor: is missing",
+                    refused(kHead + "[[operation]]\nstrategy = \"contour_pocket\"\n").c_str());
+    STRCMP_CONTAINS("boundary: is missing",
+                    refused(kHead +
+                            "[[operation]]\nstrategy = \"contour_pocket\"\nscallop = 0.4\n"
+                            "floor = \"" +
+                            kParts + "suh-lee-floor.json\"\n")
+                        .c_str());
+    STRCMP_CONTAINS("operation: is missing", refused(kHead).c_str());
+}
+
+TEST(JobReader, RefusesAnIslandOutsideTheBoundary)
+{
+    const std::string square =
+        R"({"shape": {"type": "curve", "data": [{"degree": 1, "knotvector": [0, 0, 1, 2, 3, 3],
+        "control_points": {"points": [[500, 500], [510, 500], [505, 510], [500, 500]]}}]}})";
+    const std::string island = folder.write("island.json", square);
+    const std::string text =
+        "[[operation]]\nstrategy = \"contour_pocket\"\nscallop = 0.4\nfloor = \"" + kParts +
+        "suh-lee-floor.json\"\nboundary = \"" + kParts +
+        "suh-lee-boundary.json\"\nislands = [\"island.json\"]\n";
+    STRCMP_CONTAINS("the island lies outside the boundary", refused(kHead + text).c_str());
+}

@@ -1,0 +1,84 @@
+// Trims: outer loops and holes, and trims that contradict each other.
+#include "host_tools/import/trim_loops.hpp"
+
+#include "CppUTest/TestHarness.h"
+
+#include "host_tools/import/loop_shape.hpp"
+#include "tests/unit/import/scratch_folder.hpp"
+
+using namespace cusp;
+using namespace cusp::host;
+
+namespace {
+
+Surface unit_square()
+{
+    return {1,
+            1,
+            {0, 0, 1, 1},
+            {0, 0, 1, 1},
+            2,
+            2,
+            {{0, 0, 0}, {0, 1, 0}, {1, 0, 0}, {1, 1, 0}},
+            {1, 1, 1, 1},
+            {}};
+}
+
+// A closed polygon of degree 1, counter-clockwise.
+Curve square(double low, double high)
+{
+    return {1,
+            {0, 0, 1, 2, 3, 4, 4},
+            {{low, low, 0}, {high, low, 0}, {high, high, 0}, {low, high, 0}, {low, low, 0}},
+            {1, 1, 1, 1, 1}};
+}
+
+}  // namespace
+
+TEST_GROUP(TrimLoops){};
+
+TEST(TrimLoops, PutsTheOuterLoopFirst)
+{
+    const auto loops =
+        trim_loops({reversed(square(0.4, 0.6)), square(0.1, 0.9)}, unit_square(), "s");
+    LONGS_EQUAL(2, loops.size());
+    DOUBLES_EQUAL(0.64, signed_area(loop_polyline(loops[0], 1e-3)), 1e-12);
+    DOUBLES_EQUAL(-0.04, signed_area(loop_polyline(loops[1], 1e-3)), 1e-12);
+}
+
+TEST(TrimLoops, TakesTheDomainAsOuterLoopOfALoneHole)
+{
+    const auto loops = trim_loops({reversed(square(0.4, 0.6))}, unit_square(), "s");
+    LONGS_EQUAL(2, loops.size());
+    DOUBLES_EQUAL(1.0, signed_area(loop_polyline(loops[0], 1e-3)), 1e-12);
+}
+
+TEST(TrimLoops, ChainsOpenCurves)
+{
+    const auto halves = split_at(square(0.1, 0.9), 1.5);
+    const auto loops = trim_loops({halves[0], halves[1]}, unit_square(), "s");
+    LONGS_EQUAL(1, loops.size());
+    LONGS_EQUAL(2, loops[0].size());
+}
+
+TEST(TrimLoops, RefusesAHoleThatRunsLikeAnOuterLoop)
+{
+    STRCMP_CONTAINS("contradict",
+                    refusal([] {
+                        trim_loops({square(0.1, 0.9), square(0.4, 0.6)}, unit_square(), "s");
+                    }).c_str());
+}
+
+TEST(TrimLoops, RefusesATrimOutsideTheDomain)
+{
+    STRCMP_CONTAINS("leaves the domain",
+                    refusal([] { trim_loops({square(0.5, 1.5)}, unit_square(), "s"); }).c_str());
+}
+
+TEST(TrimLoops, RefusesAnOpenTrim)
+{
+    STRCMP_CONTAINS("open", refusal([] {
+                                trim_loops({split_at(square(0.1, 0.9), 1.5)[0]}, unit_square(),
+                                           "s");
+                            }).c_str());
+}

@@ -1,0 +1,90 @@
+// Lengths, counts, times and shapes of tool paths, against closed forms.
+#include "host_tools/toolpath/toolpath_measure.hpp"
+
+#include <cmath>
+
+#include "CppUTest/TestHarness.h"
+
+#include "host_tools/toolpath/arc_geometry.hpp"
+
+using namespace cusp;
+using namespace cusp::host;
+
+namespace {
+constexpr double kPi = 3.141592653589793;
+}
+
+TEST_GROUP(ToolpathMeasure){};
+
+TEST(ToolpathMeasure, SumsLengthsAndCounts)
+{
+    Toolpath path;
+    path.feed = 600;
+    path.plunge_feed = 300;
+    path.moves = {{MoveKind::kRapid, LineTo{{10, 0, 5}}},
+                  {MoveKind::kPlunge, LineTo{{10, 0, 0}}},
+                  {MoveKind::kCut, ArcTo{{0, 10, 0}, {0, 0, 0}, ArcPlane::kXY, false}},
+                  {MoveKind::kLink, LineTo{{0, 0, 0}}}};
+    const PathMeasure sum = measure(path, {0, 0, 5});
+    LONGS_EQUAL(1, sum.moves.rapids);
+    LONGS_EQUAL(2, sum.moves.lines);
+    LONGS_EQUAL(1, sum.moves.arcs);
+    DOUBLES_EQUAL(10, sum.rapid_length_mm, 1e-12);
+    DOUBLES_EQUAL(5 + 5 * kPi + 10, sum.cut_length_mm, 1e-9);
+    DOUBLES_EQUAL(10, sum.link_length_mm, 1e-12);
+}
+
+TEST(ToolpathMeasure, EstimatesTheTimeOfOneTrapezoid)
+{
+    Toolpath path;
+    path.feed = 3000;  // 50 mm/s
+    path.moves = {{MoveKind::kCut, LineTo{{100, 0, 0}}}};
+    // ramps of 50 ms each with 1000 mm/s^2, 1.25 mm long
+    DOUBLES_EQUAL(0.1 + 97.5 / 50, measure(path, {0, 0, 0}).estimated_s, 1e-9);
+}
+
+TEST(ToolpathMeasure, StopsAtCornersOnlyOnTheExactPath)
+{
+    Toolpath path;
+    path.feed = 3000;
+    path.moves = {{MoveKind::kCut, LineTo{{50, 0, 0}}}, {MoveKind::kCut, LineTo{{100, 0, 0}}}};
+    DOUBLES_EQUAL(0.1 + 97.5 / 50, measure(path, {0, 0, 0}).estimated_s, 1e-9);
+    path.moves[1] = {MoveKind::kCut, LineTo{{50, 50, 0}}};
+    DOUBLES_EQUAL(2 * (0.1 + 47.5 / 50), measure(path, {0, 0, 0}).estimated_s, 1e-9);
+}
+
+TEST(ToolpathMeasure, HelicesTravelAlongTheirAxis)
+{
+    const ArcShape arc = arc_shape({5, 0, 0}, {{5, 0, -2}, {0, 0, 0}, ArcPlane::kXY, true});
+    DOUBLES_EQUAL(-2 * kPi, arc.sweep, 1e-12);
+    DOUBLES_EQUAL(std::hypot(10 * kPi, 2), length(arc), 1e-12);
+    DOUBLES_EQUAL(-5, point_on(arc, 0.25).y, 1e-12);
+    DOUBLES_EQUAL(-0.5, point_on(arc, 0.25).z, 1e-12);
+}
+
+TEST(ToolpathMeasure, ChordsOfArcsStayWithinTheirTolerance)
+{
+    const ToolMove move{MoveKind::kCut, ArcTo{{0, 10, 0}, {0, 0, 0}, ArcPlane::kXY, false}};
+    Vec3d last{10, 0, 0};
+    for (const Vec3d p : points_of(move, last, 1e-3)) {
+        CHECK(norm(0.5 * (p + last)) >= 10 - 1.0001e-3);
+        last = p;
+    }
+    DOUBLES_EQUAL(10, last.y, 1e-12);
+}
+
+TEST_GROUP(ToolProfile){};
+
+TEST(ToolProfile, IsZeroAtTheTipAndTheCornerRadiusAtTheRim)
+{
+    const Tool ball{1, ToolShape::kBall, 6, 6};
+    DOUBLES_EQUAL(0, profile_height(ball, 0), 0);
+    DOUBLES_EQUAL(6, profile_height(ball, 6), 1e-12);
+    DOUBLES_EQUAL(6 - std::sqrt(27), profile_height(ball, 3), 1e-12);
+    const Tool bull{1, ToolShape::kBull, 6, 2};
+    DOUBLES_EQUAL(0, profile_height(bull, 4), 0);
+    DOUBLES_EQUAL(2, profile_height(bull, 6), 1e-12);
+    const Tool flat{1, ToolShape::kFlat, 6, 0};
+    DOUBLES_EQUAL(0, profile_height(flat, 6), 0);
+    CHECK(std::isinf(profile_height(flat, 6.001)));
+}
