@@ -1,0 +1,284 @@
+// Makes the levels of loops, orders them and decides how each pass starts.
+#include "host_tools/clearing/clearing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host_tools/clearing/cutting_order.hpp"
+
+namespace cusp::host {
+
+namespace {
+
+constexpr int kMostLevels = 20000;
+constexpr double kShare = 0.5;  // of a step: how far from a pass metal is cut by it
+constexpr double kSlack = 1e-6;
+
+struct Loop2d {
+    Contour path;
+    int level;
+    double distance;
+    double step;
+    bool outer;
+};
+
+std::vector<Edge> edges_of(const Region2d& region)
+{
+    std::vector<Edge> edges;
+    for (const Contour& contour : region.contours) {
+        edges.insert(edges.end(), contour.begin(), contour.end());
+    }
+    return edges;
+}
+
+// True where every point of `rest` lies within `reach` of the edges of `level`. The point farthest
+// from a level inside it lies on the border of what the level before left: its corners and samples
+// along it are looked at.
+bool covers(const Region2d& level, const Region2d& rest, double reach)
+{
+    const EdgeTree tree{edges_of(level)};
+    for (const Contour& contour : rest.contours) {
+        for (const Edge& edge : contour) {
+            const int samples = 2 + static_cast<int>(length(edge) / reach);
+            for (int i = 0; i < samples; ++i) {
+                const Vec2d p = point_on(edge, static_cast<double>(i) / samples);
+                if (tree.nearest(p, 2.0 * reach) > reach + kSlack) {
+                    return false;
+                }
+            }
+        }
+    }
+    return true;
+}
+
+// The distance of the next level inward: a whole step where that leaves nothing between, else the
+// farthest that does.
+double next_distance(const RegionOffset& offset, double distance, double step, bool cover)
+{
+    if (!cover) {
+        return distance + step;
+    }
+    const Region2d rest = offset.at(distance + kShare * step);
+    const auto fine = [&](double share) {
+        return covers(offset.at(distance + share * step), rest, kShare * step);
+    };
+    if (rest.contours.empty() || fine(1.0)) {
+        return distance + step;
+    }
+    double good = kShare;
+    double bad = 1.0;
+    for (int i = 0; i < 5; ++i) {
+        const double middle = 0.5 * (good + bad);
+        (fine(middle) ? good : bad) = middle;
+    }
+    return distance + good * step;
+}
+
+std::vector<Loop2d> make_levels(const RegionOffset& offset, const ClearingSettings& settings)
+{
+    std::vector<Loop2d> loops;
+    double distance = settings.first;
+    const auto step_from = [&](const Region2d& level) {
+        const double asked = settings.step_from ? settings.step_from(level) : settings.step;
+        return std::min(asked, settings.step);
+    };
+    Region2d level = offset.at(distance);
+    for (int k = 0; k < kMostLevels && !level.contours.empty(); ++k) {
+        double step = step_from(level);
+        double next = next_distance(offset, distance, step, settings.cover_corners);
+        Region2d inner = offset.at(next);
+        if (!inner.contours.empty()) {
+            // The step must suit the loops on both of its sides.
+            const double inner_step = step_from(inner);
+            if (inner_step < step) {
+                step = inner_step;
+                next = next_distance(offset, distance, step, settings.cover_corners);
+                inner = offset.at(next);
+            }
+        }
+        for (Contour& contour : level.contours) {
+            const bool outer = area(contour) > 0.0;
+            loops.push_back({std::move(contour), k, distance, next - distance, outer});
+        }
+        level = std::move(inner);
+        distance = next;
+    }
+    return loops;
+}
+
+// The parent of each loop: the tightest loop of the level before that it lies in. For rings around
+// islands it is turned round: the parent of a ring is the wider ring of the next level.
+std::vector<int> parents_of(const std::vector<Loop2d>& loops,
+                            const std::vector<int>& chosen,
+                            bool outer)
+{
+    std::vector<int> parents;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        const Loop2d& loop = loops[static_cast<std::size_t>(chosen[i])];
+        const Vec2d probe = point_on(loop.path.front(), 0.5);
+        int parent = -1;
+        for (std::size_t j = 0; j < i; ++j) {
+            const Loop2d& other = loops[static_cast<std::size_t>(chosen[j])];
+            const int apart = outer ? loop.level - other.level : other.level - loop.level;
+            if (apart == 1 && surrounds(other.path, probe)) {
+                parent = static_cast<int>(j);
+            }
+        }
+        parents.push_back(parent);
+    }
+    return parents;
+}
+
+// Turns the loop so that it starts at the point of it nearest to `from`.
+void start_near(Contour& path, Vec2d from)
+{
+    std::size_t best = 0;
+    double least = 1e300;
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        const double apart = distance_to(path[i], from);
+        if (apart < least) {
+            least = apart;
+            best = i;
+        }
+    }
+    const Edge edge = path[best];
+    const Vec2d p = nearest_on(edge, from);
+    std::rotate(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(best), path.end());
+    constexpr double kShortest = 1e-3;
+    if (distance(p, edge.start) < kShortest) {
+        return;
+    }
+    if (distance(p, edge.end) < kShortest) {
+        std::rotate(path.begin(), path.begin() + 1, path.end());
+        return;
+    }
+    path.front() = between(edge, p, edge.end);
+    path.push_back(between(edge, edge.start, p));
+}
+
+// The middle of the longest edge: an entry there has room on both sides.
+void start_at_longest(Contour& path)
+{
+    const auto longest =
+        std::max_element(path.begin(), path.end(),
+                         [](const Edge& a, const Edge& b) { return length(a) < length(b); });
+    start_near(path, point_on(*longest, 0.5));
+}
+
+bool free_line(const RegionOffset& offset, Vec2d a, Vec2d b, double distance)
+{
+    const int samples = 1 + static_cast<int>(cusp::host::distance(a, b) / 0.1);
+    for (int i = 0; i <= samples; ++i) {
+        const Vec2d p = a + (b - a) * (static_cast<double>(i) / samples);
+        if (offset.any_nearer(p, distance - 1e-5)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+class PassList {
+public:
+    PassList(const RegionOffset& offset, const ClearingSettings& settings)
+        : offset_{offset}, settings_{settings}
+    {
+    }
+
+    // fresh: no pass beside this one has been cut. beside: the loop may be linked to the pass
+    // before.
+    void add(const Loop2d& loop, bool fresh)
+    {
+        ClearingPass pass{loop.path,         loop.level,  loop.distance,
+                          PassStart::kEntry, !loop.outer, loop.step};
+        if (settings_.direction == CutDirection::kConventional) {
+            pass.path = reversed(pass.path);
+        }
+        if (fresh || region_.passes.empty()) {
+            start_at_longest(pass.path);
+            region_.leaves += loop.outer ? 1 : 0;
+        } else {
+            const Vec2d from = region_.passes.back().path.front().start;
+            start_near(pass.path, from);
+            const Vec2d to = pass.path.front().start;
+            const bool near = distance(from, to) < 3.0 * settings_.step;
+            const bool linked = near && free_line(offset_, from, to, settings_.first);
+            pass.start = linked ? PassStart::kLink : PassStart::kDrop;
+        }
+        region_.levels = std::max(region_.levels, loop.level + 1);
+        region_.passes.push_back(std::move(pass));
+    }
+
+    ClearedRegion& region() { return region_; }
+
+private:
+    const RegionOffset& offset_;
+    const ClearingSettings& settings_;
+    ClearedRegion region_;
+};
+
+// Rings around islands, the widest first, each followed by the narrower ones inside it.
+void add_rings(const std::vector<Loop2d>& loops, PassList& list)
+{
+    std::vector<int> rings;
+    for (std::size_t i = loops.size(); i-- > 0;) {
+        if (!loops[i].outer) {
+            rings.push_back(static_cast<int>(i));
+        }
+    }
+    const std::vector<int> parents = parents_of(loops, rings, false);
+    std::vector<std::vector<int>> inside(rings.size());
+    std::vector<int> stack;
+    for (std::size_t i = rings.size(); i-- > 0;) {
+        if (parents[i] < 0) {
+            stack.push_back(static_cast<int>(i));
+            ++list.region().islands;
+        } else {
+            inside[static_cast<std::size_t>(parents[i])].push_back(static_cast<int>(i));
+        }
+    }
+    while (!stack.empty()) {
+        const auto at = static_cast<std::size_t>(stack.back());
+        stack.pop_back();
+        list.add(loops[static_cast<std::size_t>(rings[at])], parents[at] < 0);
+        stack.insert(stack.end(), inside[at].begin(), inside[at].end());
+    }
+}
+
+void add_trees(const std::vector<Loop2d>& loops, PassList& list)
+{
+    std::vector<int> outer;
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+        if (loops[i].outer) {
+            outer.push_back(static_cast<int>(i));
+        }
+    }
+    const std::vector<int> parents = parents_of(loops, outer, true);
+    std::vector<bool> has_child(outer.size(), false);
+    for (const int parent : parents) {
+        if (parent >= 0) {
+            has_child[static_cast<std::size_t>(parent)] = true;
+        }
+    }
+    for (const int node : cutting_order(parents)) {
+        const auto at = static_cast<std::size_t>(node);
+        list.add(loops[static_cast<std::size_t>(outer[at])], !has_child[at]);
+    }
+}
+
+}  // namespace
+
+ClearedRegion clear_region(const Region2d& region, const ClearingSettings& settings)
+{
+    const RegionOffset offset{region};
+    const std::vector<Loop2d> loops = make_levels(offset, settings);
+    PassList list{offset, settings};
+    add_rings(loops, list);
+    add_trees(loops, list);
+    ClearedRegion result = std::move(list.region());
+    for (const ClearingPass& pass : result.passes) {
+        result.widest_gap = std::max(result.widest_gap, pass.step);
+    }
+    return result;
+}
+
+}  // namespace cusp::host

@@ -1,0 +1,57 @@
+// A plane region to closed passes of the tool's centre: offset loops, their order, and how one is
+// reached from the one before. What all planners share for pockets and layers.
+//
+// Loops lie at growing distances from the contours. They form trees (a loop's child is the next one
+// inside it), which are cut deepest first, so that the tool works from the inside towards the walls
+// and each loop but the deepest of a branch starts beside metal already cut. Rings around islands
+// that have not met the boundary yet are cut first (Suh & Lee 1990, 2.6).
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "host_tools/import/job.hpp"
+#include "host_tools/offset/offset.hpp"
+
+namespace cusp::host {
+
+struct ClearingSettings {
+    double
+        first{};    // mm: distance of the outermost pass from the contours (tool radius, allowance)
+    double step{};  // mm: largest distance between passes
+    // Where given, the largest distance inward from a level of loops; `step` bounds it.
+    std::function<double(const Region2d& level)> step_from;
+    CutDirection direction{CutDirection::kClimb};
+    // Draws loops nearer together where corners, necks or the middle would else lie farther than
+    // half a step from every pass.
+    bool cover_corners{true};
+};
+
+enum class PassStart : std::uint8_t {
+    kEntry,  // in uncut metal: needs a helix, a ramp or a plunge
+    kDrop,   // beside metal already cut, after a retract
+    kLink,   // straight from the end of the pass before; at most about a step long
+};
+
+struct ClearingPass {
+    Contour path;       // closed; starts and ends at path.front().start
+    int level{};        // 0: next to the contours
+    double distance{};  // of the level from the contours, mm
+    PassStart start{};
+    bool around_island{};
+    // A rest of metal this wide may stand between this level and the next one inward, mm.
+    double step{};
+};
+
+struct ClearedRegion {
+    std::vector<ClearingPass> passes;  // in the order to cut
+    int levels{};
+    int leaves{};         // passes without one further inside
+    int islands{};        // rings cut by themselves
+    double widest_gap{};  // largest step between two levels, mm
+};
+
+// Passes for the region that is left of its contours. Empty where the tool does not fit anywhere.
+ClearedRegion clear_region(const Region2d& region, const ClearingSettings& settings);
+
+}  // namespace cusp::host

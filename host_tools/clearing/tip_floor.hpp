@@ -1,0 +1,100 @@
+// How low the tool's tip may stand over surfaces, and how much room a straight move of it keeps:
+// computed bounds, from boxes that are halved until they are thin.
+//
+// Every piece of a surface lies in the convex hull of its control points, so it lies below a plane
+// through their highest ones. Dropping the tool on such planes bounds the true height from above;
+// halving the pieces near the contact brings the bound down to the accuracy asked for. Nothing is
+// iterated that could fail to converge, and the tool touches whatever is highest: several surfaces,
+// walls and narrow valleys need no case of their own.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "host_tools/nurbs/nurbs.hpp"
+#include "host_tools/toolpath/toolpath.hpp"
+
+namespace cusp::host {
+
+class TipFloor {
+public:
+    // accuracy (mm, > 0): how much too high an answer may be; never too low.
+    TipFloor(const std::vector<Surface>& surfaces, const Tool& tool, double accuracy);
+
+    struct Rest {
+        double height;  // z of the tip; kNothing where no surface lies under the tool
+        Vec2d
+            gradient;  // of the surface where the tool rests on it: the floor's slope under the tip
+        std::uint32_t piece;
+    };
+    static constexpr double kNothing = -1e300;
+
+    // The tip's lowest height over (x, y), at most `accuracy` above the true one on smooth
+    // surfaces.
+    Rest drop(Vec2d at) const;
+
+    // Lower bound of the gap between a ball moved straight from tip a to tip b and the surfaces,
+    // mm; negative: it may cut by that much. Values above `enough` are not told apart.
+    // Precondition: the tool is a ball.
+    double gap(Vec3d a, Vec3d b, double enough) const;
+
+    // True where some surface point lies straight above or below (x, y).
+    bool covers(Vec2d at) const;
+
+    // Normal curvature of the surface at its point nearest below the contact of the tool at `at`,
+    // in the plan direction `along`: > 0 bent away from the tool (convex). 1/mm.
+    struct Section {
+        double curvature;  // normal curvature across the path
+        double slope;      // dz/ds of the floor across the path
+        bool found;
+    };
+    Section section(Vec2d at, Vec2d along) const;
+
+    const Tool& tool() const { return tool_; }
+    double lowest() const { return lowest_; }
+    double highest() const { return highest_; }
+
+private:
+    struct Homogeneous {
+        double x, y, z, w;
+    };
+    using Net = std::vector<Homogeneous>;  // v fastest
+    struct Piece {
+        double x0, y0, x1, y1, z0, z1;       // box
+        Vec2d gradient;                      // of a plane above the piece, where it is a graph
+        double level;                        // that plane's z at x = y = 0
+        double thickness;                    // vertical, of the slab under that plane
+        bool graph;                          // false where too steep for a plane z(x, y)
+        Vec3d origin, along, aside, normal;  // a box turned with the piece
+        std::array<double, 6> reach;         // lower and upper ends along the three
+        std::uint32_t child;                 // 0: not yet halved
+        std::uint32_t net;
+        std::uint32_t patch;
+        double u0, u1, v0, v1;  // its part of the patch
+    };
+    struct Patch {
+        std::uint32_t surface;
+        int degree_u, degree_v;
+    };
+
+    std::uint32_t add_piece(Net net, std::uint32_t patch, std::array<double, 4> domain) const;
+    void halve(std::uint32_t piece) const;
+    void measure(Piece& piece, const Net& net) const;
+    double bound(const Piece& piece, Vec2d at, bool& tight) const;
+    double gap_to(const Piece& piece, Vec3d a, Vec3d b) const;
+    double on_edges(const Piece& piece, Vec2d at) const;
+
+    Tool tool_;
+    double accuracy_;
+    std::vector<Surface> surfaces_;
+    std::vector<Patch> patches_;
+    // Halved when first needed; a const query only makes them finer.
+    mutable std::vector<Piece> pieces_;
+    mutable std::vector<Net> nets_;
+    std::vector<std::uint32_t> roots_;
+    double lowest_{1e300};
+    double highest_{-1e300};
+};
+
+}  // namespace cusp::host

@@ -1,0 +1,52 @@
+#include "host_tools/contour_pocket/path_interval.hpp"
+
+#include <cmath>
+
+#include "CppUTest/TestHarness.h"
+
+namespace cusp::host {
+namespace {
+
+// The cusp between two balls whose centres lie `apart` on a circle about the centre of curvature.
+double cusp_between(double radius, double rho, double apart)
+{
+    const double half = 0.5 * apart;
+    const double to_centre = radius + rho;
+    const double along = std::sqrt(to_centre * to_centre - half * half);
+    // The lower crossing of both balls on the axis, as seen from the centre of curvature.
+    const double sagitta = std::sqrt(radius * radius - half * half);
+    return rho > 0.0 ? along - sagitta - rho : -(along + sagitta) - rho;
+}
+
+TEST_GROUP(PathInterval){};
+
+TEST(PathInterval, LeavesExactlyTheCuspAskedForBetweenTwoBalls)
+{
+    for (const double rho : {20.0, 50.0, 733.0, -8.0, -12.0, -50.0, -733.0}) {
+        const double apart = path_interval(6.0, 0.4, 1.0 / rho, 0.0);
+        DOUBLES_EQUAL(0.4, cusp_between(6.0, rho, apart), 1e-9);
+    }
+}
+
+TEST(PathInterval, IsTheChordOfTheBallOnAFlatFloor)
+{
+    DOUBLES_EQUAL(2.0 * std::sqrt(0.4 * 11.6), path_interval(6.0, 0.4, 0.0, 0.0), 1e-12);
+    DOUBLES_EQUAL(4.3081, path_interval(6.0, 0.4, 1e-12, 0.0), 1e-4);
+}
+
+TEST(PathInterval, ShrinksInPlanOnASlope)
+{
+    DOUBLES_EQUAL(path_interval(6.0, 0.4, 0.0, 0.0) / std::sqrt(2.0),
+                  path_interval(6.0, 0.4, 0.0, 1.0), 1e-12);
+}
+
+TEST(PathInterval, StaysFiniteWhereTheBallDoesNotFit)
+{
+    for (const double rho : {-6.0, -5.9, -1.0, -0.4, -1e-6, 1e-6}) {
+        const double apart = path_interval(6.0, 0.4, 1.0 / rho, 0.0);
+        CHECK(apart > 0.0 && apart < 12.0);
+    }
+}
+
+}  // namespace
+}  // namespace cusp::host
