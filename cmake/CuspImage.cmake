@@ -13,9 +13,8 @@ function(cusp_image)
     LINK_DEPENDS "${script};${PROJECT_SOURCE_DIR}/hal/stm32f4/sections.ld")
   target_include_directories(${ARG_NAME} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${ARG_NAME} PRIVATE cusp_freestanding ${ARG_DEPENDS})
-  # The runtime comes last and again: what the compiler calls on its own is known only at the link.
-  target_link_libraries(${ARG_NAME} PRIVATE
-    $<TARGET_FILE:cusp_hal_stm32f4> $<TARGET_FILE:cusp_hal_freestanding> gcc)
+  # As objects, since what the compiler calls on its own is known only at the end of the link.
+  target_sources(${ARG_NAME} PRIVATE $<TARGET_OBJECTS:cusp_hal_freestanding>)
   target_link_options(${ARG_NAME} PRIVATE
     -nostartfiles -nostdlib -T ${script} -L ${PROJECT_SOURCE_DIR}
     -Wl,--gc-sections -Wl,-Map=${out}/${ARG_NAME}.map -Wl,--print-memory-usage)

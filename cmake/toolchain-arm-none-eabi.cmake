@@ -5,3 +5,5 @@ set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
 # -fno-math-errno: sqrtf is the one instruction, not a call that sets errno.
 string(JOIN " " CMAKE_CXX_FLAGS_INIT ${CUSP_CORE_FLAGS} -mthumb -mfloat-abi=hard
   -ffunction-sections -fdata-sections -fno-math-errno)
+# The compiler's own arithmetic, last on every link line; no C library.
+set(CMAKE_CXX_STANDARD_LIBRARIES_INIT -lgcc)

@@ -15,25 +15,33 @@ static_assert(hal::is_board<Board>());
 Board board;
 app::App<Board> application{board};
 
-void on_servo_tick() { application.tick(); }
+}  // namespace
 
-void on_player()
+extern "C" {
+
+// tests/checks/image.py proves what these three may reach.
+void cusp_servo_tick() { application.tick(); }
+
+void cusp_player_interrupt()
 {
     if (board.pulse_player.on_interrupt() && Traits::live()) {
         hal::stm32f4::pend_servo_tick<Traits::Chip>();
     }
 }
 
-void on_serial() { board.byte_link.on_interrupt(); }
+void cusp_serial_interrupt() { board.byte_link.on_interrupt(); }
+}
+
+namespace {
 
 constexpr std::array<hal::stm32f4::InterruptEntry, 2> kInterrupts{{
-    {hal::stm32f4::kTimer2Interrupt, on_player},
-    {hal::stm32f4::kUsart1Interrupt, on_serial},
+    {hal::stm32f4::kTimer2Interrupt, cusp_player_interrupt},
+    {hal::stm32f4::kUsart1Interrupt, cusp_serial_interrupt},
 }};
 
 __attribute__((section(".vectors"), used)) constexpr hal::stm32f4::VectorTable kVectors =
     hal::stm32f4::make_vectors(
-        &cusp_stack_top, cusp_reset, cusp_exception, on_servo_tick, kInterrupts);
+        &cusp_stack_top, cusp_reset, cusp_exception, cusp_servo_tick, kInterrupts);
 
 }  // namespace
 

@@ -15,9 +15,9 @@ constexpr float kCornerTurn = 0.00872665F;
 // Slower than this, passing a joint takes longer than stopping at it.
 constexpr float kLeastJointSpeed = 1.5F;  // mm/s
 // What a joint may take of the axes' acceleration and jerk; the rest is for the curves around it.
-constexpr float kJointShare = 0.9F;
+constexpr float kJointShare = 0.98F;
 // Keeps rounding of set points and speeds below the limits.
-constexpr float kRoundingMargin = 0.997F;
+constexpr float kRoundingMargin = 0.9995F;
 constexpr float kGreatestSpeed = 2000.0F;  // mm/s
 
 // Deviation, mm, left to the axis filters on the exact path and as a share of a tolerance.
@@ -73,6 +73,8 @@ void Planner::reset(Position at) noexcept
     queue_.clear();
     builder_.clear();
     maker_ = BlockMaker{};
+    smoother_.clear();
+    waiting_.reset();
     joints_.clear();
     end_.reset();
     close_requested_ = false;
@@ -82,17 +84,20 @@ void Planner::reset(Position at) noexcept
 bool Planner::has_room() noexcept
 {
     work();
-    return maker_.done();
+    return maker_.done() && !waiting_ && !smoother_.full();
 }
 
 void Planner::push(const path::Move& move) noexcept
 {
-    CUSP_ASSERT(maker_.done());
+    CUSP_ASSERT(!waiting_ && !smoother_.full());
     CUSP_ASSERT(move.start == tail_);
     close_requested_ = false;
-    move_ = move;
     tail_ = move.end;
-    maker_.start(move, filter_for(move.tolerance).filter);
+    if (LineSmoother::accepts(move) && smoother_.continues(move)) {
+        smoother_.add(move);
+    } else {
+        waiting_ = move;
+    }
     work();
 }
 
@@ -104,20 +109,51 @@ void Planner::close() noexcept
 
 bool Planner::empty() const noexcept
 {
-    return maker_.done() && queue_.block_begin() == queue_.block_end();
+    return maker_.done() && !waiting_ && smoother_.empty() &&
+           queue_.block_begin() == queue_.block_end();
+}
+
+void Planner::start(const path::Move& move) noexcept
+{
+    move_ = move;
+    maker_.start(move, filter_for(move.tolerance).filter);
+}
+
+// Takes the next move to cut into blocks: of the run of lines first, then the one that ended it.
+bool Planner::next_move() noexcept
+{
+    path::Move piece;
+    if (smoother_.next(waiting_.has_value() || close_requested_, piece)) {
+        start(piece);
+        return true;
+    }
+    if (!waiting_) {
+        return false;
+    }
+    if (LineSmoother::accepts(*waiting_)) {
+        smoother_.add(*waiting_);
+        waiting_.reset();
+        return false;
+    }
+    start(*waiting_);
+    waiting_.reset();
+    return true;
 }
 
 void Planner::work() noexcept
 {
     constexpr std::uint32_t kIntervalsOfABlock = 8 * IntervalBuilder::kMostPerAppend;
     Block block;
-    while (!maker_.done() && queue_.free_blocks() > 0 &&
-           queue_.free_intervals() > kIntervalsOfABlock) {
-        if (maker_.make(move_, block)) {
+    while (queue_.free_blocks() > 0 && queue_.free_intervals() > kIntervalsOfABlock) {
+        if (maker_.done() && !next_move()) {
+            break;
+        }
+        if (!maker_.done() && maker_.make(move_, block)) {
             add_block(block);
         }
     }
-    if (maker_.done() && close_requested_) {
+    const bool all_done = maker_.done() && !waiting_ && smoother_.empty();
+    if (all_done && close_requested_) {
         stop();
         close_requested_ = false;
     }

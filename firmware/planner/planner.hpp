@@ -3,7 +3,8 @@
 // Main loop side: push() a Move when has_room(); close() when no further move is at hand. The
 // interpolator reads the queue from the servo tick; only raising of speeds happens under its eyes.
 //
-//   Move -> blocks (block_maker) -> joints and limits (joint, speed_limit)
+//   Move -> runs of short lines to arcs (line_smoother) -> blocks (block_maker) -> joints and
+//   limits (joint, speed_limit)
 //        -> intervals (interval_builder) -> envelope (look_ahead)
 #pragma once
 
@@ -15,6 +16,7 @@
 #include "firmware/planner/block_maker.hpp"
 #include "firmware/planner/interval_builder.hpp"
 #include "firmware/planner/joint.hpp"
+#include "firmware/planner/line_smoother.hpp"
 #include "firmware/planner/path_queue.hpp"
 
 namespace cusp::planner {
@@ -61,6 +63,8 @@ public:
 
 private:
     void work() noexcept;
+    bool next_move() noexcept;
+    void start(const path::Move& move) noexcept;
     void add_block(const Block& block) noexcept;
     void join(const EndGeometry& after, const Block& block) noexcept;
     void add_stretches(const Block& block) noexcept;
@@ -78,7 +82,9 @@ private:
     IntervalBuilder builder_;
     BlockMaker maker_;
     Position tail_{};
-    path::Move move_{};
+    LineSmoother smoother_;
+    path::Move move_{};                  // being cut into blocks
+    std::optional<path::Move> waiting_;  // until the run of lines before it is done
     bool close_requested_{false};
     // The end of the path so far, where it does not stop there.
     std::optional<EndGeometry> end_;

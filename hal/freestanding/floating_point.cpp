@@ -1,4 +1,4 @@
-// sqrt, floor and floorf for images without a C library: the only functions of libm that firmware
+// sqrt, floor and ceil for images without a C library: the only functions of libm that firmware
 // calls. Their results are exact, so that they are the host's bit for bit.
 #include <cstdint>
 
@@ -22,6 +22,8 @@ extern "C" {
 double sqrt(double x);
 double floor(double x);
 float floorf(float x);
+double ceil(double x);
+float ceilf(float x);
 
 double sqrt(double x)
 {
@@ -43,4 +45,7 @@ float floorf(float x)
     const auto truncated = static_cast<float>(static_cast<std::int32_t>(x));
     return truncated > x ? truncated - 1.0F : truncated;
 }
+
+double ceil(double x) { return -floor(-x); }
+float ceilf(float x) { return -floorf(-x); }
 }

@@ -2,17 +2,6 @@
 #include "hal/sim/simulated_mill.hpp"
 
 namespace cusp::hal {
-namespace {
-
-bool differs(const OutputLevels& a, const OutputLevels& b)
-{
-    return a.spindle_on != b.spindle_on || a.spindle_reverse != b.spindle_reverse ||
-           a.spindle_pwm != b.spindle_pwm || a.flood != b.flood || a.mist != b.mist ||
-           a.drives_enabled != b.drives_enabled;
-}
-
-}  // namespace
-
 std::uint16_t SimulatedMill::inputs() const noexcept
 {
     unsigned bits = 0;
@@ -32,9 +21,10 @@ std::uint16_t SimulatedMill::inputs() const noexcept
 
 void SimulatedMill::set(const OutputLevels& levels) noexcept
 {
-    if (differs(levels, outputs_)) {
-        ++output_changes_;
+    if (levels == outputs_) {
+        return;
     }
+    ++output_changes_;
     outputs_ = levels;
 }
 

@@ -41,6 +41,13 @@ std::uint64_t SimulatedPlayer::next_frame_start() const noexcept
     return static_cast<std::uint64_t>(frame_number_ + 1) * kPulseTicksPerFrame;
 }
 
+void SimulatedPlayer::power_off()
+{
+    playing_.full = ready_.full = false;
+    underrun_ = false;
+    stop_with_steps_low();
+}
+
 void SimulatedPlayer::deliver(const PulseFrame& frame)
 {
     const auto start = static_cast<std::uint64_t>(frame_number_) * kPulseTicksPerFrame;

@@ -45,6 +45,10 @@ public:
     // Levels after the last frame that is over.
     PulseLines levels() const noexcept { return levels_; }
 
+    // The power fails: frames in flight are lost and all lines fall. Time goes on with the next
+    // frame.
+    void power_off();
+
     // Fault injection: the next frame is accepted and lost, as if it came too late.
     void lose_next_frame() noexcept { lose_next_ = true; }
 

@@ -55,4 +55,7 @@ void cusp_reset();
 void cusp_exception();
 // By the board: what runs after the start. Not main(), which has no C linkage without a C library.
 [[noreturn]] void cusp_main();
+void cusp_servo_tick();
+void cusp_player_interrupt();
+void cusp_serial_interrupt();
 }

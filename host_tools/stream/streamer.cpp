@@ -99,11 +99,21 @@ void Streamer::learn_window()
         window_.set_capacity(options_.window);
         return;
     }
-    const std::uint64_t before = own_answers_;
-    send_line(0, "$I");
-    while (own_answers_ == before) {
-        pump(kPump);
+    // A controller that resets when its port is opened may do so now: then the question is lost.
+    constexpr int kAttempts = 3;
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+        const std::uint64_t answers = own_answers_;
+        const std::uint64_t banners = banners_;
+        const auto start = Clock::now();
+        send_line(0, "$I");
+        while (banners_ == banners && Clock::now() - start < options_.greeting_limit) {
+            if (own_answers_ != answers) {
+                return;
+            }
+            pump(kPump);
+        }
     }
+    throw Ending{StreamOutcome::kNotReady, "the controller answers ? but not $I"};
 }
 
 void Streamer::send_program(ProgramLines& program)

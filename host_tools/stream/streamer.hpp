@@ -11,9 +11,9 @@
 #include <optional>
 #include <string>
 
-#include "host_tools/stream/answer.hpp"
-#include "host_tools/stream/flow_window.hpp"
-#include "host_tools/stream/program_lines.hpp"
+#include "host_tools/dialect/answer.hpp"
+#include "host_tools/dialect/flow_window.hpp"
+#include "host_tools/dialect/program_lines.hpp"
 #include "host_tools/stream/transport.hpp"
 
 namespace cusp::host {

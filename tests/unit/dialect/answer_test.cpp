@@ -1,9 +1,7 @@
 // Understanding a controller's answers.
-#include "host_tools/stream/answer.hpp"
+#include "host_tools/dialect/answer.hpp"
 
 #include "CppUTest/TestHarness.h"
-
-#include "host_tools/stream/program_lines.hpp"
 
 using namespace cusp::host;
 
@@ -51,12 +49,4 @@ TEST(Answer, HasWordsForEveryCode)
     STRCMP_EQUAL("homing did not find the switch", std::string{alarm_text(9)}.c_str());
     STRCMP_EQUAL("unknown", std::string{alarm_text(-1)}.c_str());
     STRCMP_EQUAL("unknown", std::string{error_text(200)}.c_str());
-}
-
-TEST(Answer, BareLinesHaveNoCommentsAndBlanks)
-{
-    STRCMP_EQUAL("G1X1Y2", bare_line(" G1 (to the right) X1\tY2 ; far").c_str());
-    STRCMP_EQUAL("$J=G91 X1 F100", bare_line("$J=G91 X1 F100").c_str());
-    STRCMP_EQUAL("", bare_line("%").c_str());
-    STRCMP_EQUAL("", bare_line("(only)").c_str());
 }

@@ -1,5 +1,5 @@
 // Parsing of answers, and the words for codes.
-#include "host_tools/stream/answer.hpp"
+#include "host_tools/dialect/answer.hpp"
 
 #include <array>
 #include <charconv>

@@ -1,5 +1,5 @@
 // Reading lines.
-#include "host_tools/simulate/line_source.hpp"
+#include "host_tools/dialect/line_source.hpp"
 
 #include <cerrno>
 #include <cstring>

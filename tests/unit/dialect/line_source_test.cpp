@@ -1,5 +1,5 @@
 // Reading a program line by line.
-#include "host_tools/simulate/line_source.hpp"
+#include "host_tools/dialect/line_source.hpp"
 
 #include "CppUTest/TestHarness.h"
 

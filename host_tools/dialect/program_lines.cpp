@@ -1,0 +1,74 @@
+// Stripping of comments.
+#include "host_tools/dialect/program_lines.hpp"
+
+namespace cusp::host {
+namespace {
+
+constexpr std::size_t kMostDigits = 7;  // of a line number, as Grbl has it
+constexpr std::uint64_t kMostNumber = 9'999'999;
+constexpr std::size_t kLongestLine = 255;  // that the controller takes
+
+bool is_digit(char character) { return character >= '0' && character <= '9'; }
+
+}  // namespace
+
+std::string numbered_line(std::string_view bare, std::uint64_t number)
+{
+    const std::string as_it_is{bare};
+    if (bare.empty() || bare.front() == '$' || number > kMostNumber) {
+        return as_it_is;
+    }
+    std::string words;
+    for (std::size_t i = 0; i < bare.size(); ++i) {
+        if (bare[i] != 'N' && bare[i] != 'n') {
+            words.push_back(bare[i]);
+            continue;
+        }
+        std::size_t digits = 0;
+        while (i + 1 + digits < bare.size() && is_digit(bare[i + 1 + digits])) {
+            ++digits;
+        }
+        const std::size_t end = i + 1 + digits;
+        if (digits == 0 || digits > kMostDigits || (end < bare.size() && bare[end] == '.')) {
+            return as_it_is;
+        }
+        i += digits;
+    }
+    std::string numbered = "N" + std::to_string(number) + words;
+    return numbered.size() <= kLongestLine ? numbered : as_it_is;
+}
+
+std::string bare_line(std::string_view line)
+{
+    const std::size_t first = line.find_first_not_of(" \t");
+    if (first != std::string_view::npos && line[first] == '$') {
+        return std::string{line.substr(first)};
+    }
+    std::string bare;
+    bool in_comment = false;
+    for (const char character : line) {
+        if (in_comment) {
+            in_comment = character != ')';
+        } else if (character == '(') {
+            in_comment = true;
+        } else if (character == ';') {
+            break;
+        } else if (character != ' ' && character != '\t') {
+            bare.push_back(character);
+        }
+    }
+    return bare == "%" ? std::string{} : bare;
+}
+
+std::optional<ProgramLine> ProgramLines::next()
+{
+    while (const auto line = source_.next()) {
+        std::string bare = bare_line(*line);
+        if (!bare.empty()) {
+            return ProgramLine{source_.line_number(), std::move(bare)};
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace cusp::host

@@ -1,0 +1,308 @@
+// Lines come from exact stretches, outlines from the offset of the region between the boxes.
+#include "host_tools/hull_rough/layer_clearing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "host_tools/offset/edge_tree.hpp"
+
+namespace cusp::host {
+namespace {
+
+Rectangle grown_box(const Rectangle& box, double by)
+{
+    return {box.x_min - by, box.y_min - by, box.x_max + by, box.y_max + by};
+}
+
+Contour contour_of(const std::vector<Vec2d>& corners)
+{
+    Contour out;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        out.push_back(line_edge(corners[i], corners[(i + 1) % corners.size()]));
+    }
+    return out;
+}
+
+// The periphery as an outer contour and the boxes' outlines as holes.
+Region2d free_region(const std::vector<Rectangle>& boxes, const Rectangle& p)
+{
+    Region2d region;
+    region.contours.push_back(contour_of(
+        {{p.x_min, p.y_min}, {p.x_max, p.y_min}, {p.x_max, p.y_max}, {p.x_min, p.y_max}}));
+    for (std::vector<Vec2d>& loop : union_outline(boxes)) {
+        std::reverse(loop.begin(), loop.end());
+        region.contours.push_back(contour_of(loop));
+    }
+    return region;
+}
+
+bool on_border(const Contour& contour, const Rectangle& field)
+{
+    return std::any_of(contour.begin(), contour.end(), [&](const Edge& e) {
+        return std::abs(e.start.x - field.x_min) < 1e-6 || std::abs(e.start.x - field.x_max) < 1e-6;
+    });
+}
+
+std::vector<Edge> edges_of(const Chain& chain)
+{
+    std::vector<Edge> out;
+    for (std::size_t i = 1; i < chain.size(); ++i) {
+        if (norm(chain[i] - chain[i - 1]) > 1e-9) {
+            out.push_back(line_edge(chain[i - 1], chain[i]));
+        }
+    }
+    return out;
+}
+
+// The contour begun anew at a point on its edge `first`.
+std::vector<Edge> begun_at(const Contour& contour, std::size_t first, Vec2d point)
+{
+    std::vector<Edge> out;
+    const Edge& edge = contour[first];
+    if (norm(edge.end - point) > 1e-6) {
+        out.push_back(between(edge, point, edge.end));
+    }
+    for (std::size_t i = 1; i < contour.size(); ++i) {
+        out.push_back(contour[(first + i) % contour.size()]);
+    }
+    if (norm(edge.start - point) > 1e-6) {
+        out.push_back(between(edge, edge.start, point));
+    }
+    return out;
+}
+
+// For each contour an end of a cut line that lies on it, so that it can be entered in cut metal.
+class Beginnings {
+public:
+    explicit Beginnings(const std::vector<Contour>& contours)
+    {
+        std::vector<Edge> edges;
+        for (std::size_t c = 0; c < contours.size(); ++c) {
+            for (std::size_t e = 0; e < contours[c].size(); ++e) {
+                edges.push_back(contours[c][e]);
+                places_.push_back({c, e});
+            }
+        }
+        edges_ = edges;
+        tree_.emplace(edges);
+        found_.resize(contours.size());
+    }
+
+    void offer(Vec2d point)
+    {
+        constexpr double kNear = 1e-5;
+        const Box2d box{point.x - kNear, point.y - kNear, point.x + kNear, point.y + kNear};
+        tree_->visit_meeting(box, [&](std::uint32_t i) {
+            auto& slot = found_[places_[i].first];
+            if (!slot && distance_to(edges_[i], point) < kNear) {
+                slot = std::make_pair(places_[i].second, nearest_on(edges_[i], point));
+            }
+        });
+    }
+
+    const std::optional<std::pair<std::size_t, Vec2d>>& of(std::size_t contour) const
+    {
+        return found_[contour];
+    }
+
+private:
+    std::vector<Edge> edges_;
+    std::vector<std::pair<std::size_t, std::size_t>> places_;
+    std::vector<std::optional<std::pair<std::size_t, Vec2d>>> found_;
+    std::optional<EdgeTree> tree_;
+};
+
+std::vector<LevelRun> outline_runs(const std::vector<Contour>& outlines,
+                                   const std::vector<LevelRun>& lines,
+                                   bool climb)
+{
+    std::vector<LevelRun> out;
+    Beginnings beginnings{outlines};
+    for (const LevelRun& run : lines) {
+        for (const Edge& edge : run.edges) {
+            beginnings.offer(edge.start);
+            beginnings.offer(edge.end);
+        }
+    }
+    for (std::size_t i = 0; i < outlines.size(); ++i) {
+        const auto& begin = beginnings.of(i);
+        LevelRun run{begin ? begun_at(outlines[i], begin->first, begin->second) : outlines[i],
+                     begin.has_value()};
+        // The contour has the free region on its left, the island on its right: climb with a
+        // spindle that turns clockwise.
+        if (!climb) {
+            run.edges = reversed(run.edges);
+        }
+        out.push_back(std::move(run));
+    }
+    return out;
+}
+
+// Next the run whose start is nearest; lines may be cut either way.
+std::vector<LevelRun> in_near_order(std::vector<LevelRun> runs, bool either_way)
+{
+    // Quadratic: beyond this many the order of the lines, which is near too, stays.
+    constexpr std::size_t kMost = 2000;
+    if (runs.size() > kMost) {
+        return runs;
+    }
+    for (std::size_t done = 1; done < runs.size(); ++done) {
+        const Vec2d here = runs[done - 1].edges.back().end;
+        std::size_t best = done;
+        bool turn = false;
+        double least = 1e300;
+        for (std::size_t i = done; i < runs.size(); ++i) {
+            const double forth = norm(runs[i].edges.front().start - here);
+            const double back = either_way ? norm(runs[i].edges.back().end - here) : 1e300;
+            if (std::min(forth, back) < least) {
+                least = std::min(forth, back);
+                best = i;
+                turn = back < forth;
+            }
+        }
+        std::swap(runs[done], runs[best]);
+        if (turn) {
+            runs[done].edges = reversed(runs[done].edges);
+        }
+    }
+    return runs;
+}
+
+double length_of(const std::vector<LevelRun>& runs)
+{
+    double sum = 0;
+    for (const LevelRun& run : runs) {
+        sum += length(Contour{run.edges});
+    }
+    return sum;
+}
+
+double area_of(const Region2d& region)
+{
+    double sum = 0;
+    for (const Contour& contour : region.contours) {
+        sum += area(contour);
+    }
+    return sum;
+}
+
+// Loops parallel to the outlines, farthest from them first, so that each has cut metal beside it.
+std::vector<LevelRun> parallel_runs(const RegionOffset& source,
+                                    double first,
+                                    const ClearingSettings& settings)
+{
+    std::vector<std::vector<LevelRun>> levels;
+    for (int i = 0;; ++i) {
+        std::vector<LevelRun> level;
+        for (const Contour& contour : source.at(first + i * settings.step).contours) {
+            const bool climb = settings.direction == CutDirection::kClimb;
+            level.push_back({climb ? contour : reversed(contour), false});
+        }
+        if (level.empty()) {
+            break;
+        }
+        levels.push_back(std::move(level));
+    }
+    std::vector<LevelRun> out;
+    for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
+        for (LevelRun& run : in_near_order(std::move(*level), false)) {
+            out.push_back(std::move(run));
+        }
+    }
+    return out;
+}
+
+std::vector<LevelRun> zigzag_runs(const ClearZone& zone,
+                                  const Rectangle& stock,
+                                  const ClearingSettings& settings)
+{
+    ZigzagLayout layout = zigzag_layout(stock.y_min, stock.y_max, settings.step);
+    layout.one_way = settings.one_way;
+    std::vector<LevelRun> out;
+    for (const Chain& chain : zigzag_chains(zone, layout)) {
+        LevelRun run{edges_of(chain), false};
+        if (!run.edges.empty()) {
+            out.push_back(std::move(run));
+        }
+    }
+    return in_near_order(std::move(out), !settings.one_way);
+}
+
+}  // namespace
+
+LayerClearing clear_layer(const std::vector<Rectangle>& boxes,
+                          const Rectangle& stock,
+                          double radius,
+                          const ClearingSettings& settings)
+{
+    // Chuang & Pan, section 5: the periphery is the stock expanded by 2.1 radii, so that islands at
+    // its edge do not meet it and the cutter turns outside.
+    const double kept = radius + settings.tolerance + settings.side_allowance;
+    const Rectangle field = grown_box(stock, 1.1 * kept);
+    LayerClearing out;
+    out.zone = std::make_shared<ClearZone>(boxes, field, kept);
+    const RegionOffset source{free_region(boxes, grown_box(field, kept))};
+    const Region2d centres = source.at(kept);
+    out.centres = std::make_shared<RegionOffset>(centres);
+    out.cleared_area = area_of(grown(centres, radius));
+    std::vector<Contour> outlines;
+    for (const Contour& contour : centres.contours) {
+        if (!on_border(contour, field)) {
+            outlines.push_back(contour);
+        }
+    }
+    out.islands = static_cast<int>(outlines.size());
+    if (settings.contour) {
+        out.runs = parallel_runs(source, kept, settings);
+    } else {
+        out.runs = zigzag_runs(*out.zone, stock, settings);
+        std::vector<LevelRun> around = in_near_order(
+            outline_runs(outlines, out.runs, settings.direction == CutDirection::kClimb), false);
+        out.runs.insert(out.runs.end(), around.begin(), around.end());
+    }
+    out.length = length_of(out.runs);
+    return out;
+}
+
+std::vector<LevelRun> rest_runs(const LayerClearing& clearing,
+                                double radius,
+                                const LayerClearing& large,
+                                double large_radius)
+{
+    // A point is done where its cutter lies inside one of the large cutter's places. Between
+    // looked-at points the distance changes by no more than the way between them.
+    const double step = radius / 8;
+    const double reach = large_radius - radius - step;
+    std::vector<LevelRun> out;
+    for (const LevelRun& run : clearing.runs) {
+        LevelRun part;
+        bool done_before = false;
+        for (const Edge& edge : run.edges) {
+            const int pieces = std::max(1, static_cast<int>(std::ceil(length(edge) / step)));
+            Vec2d from = edge.start;
+            for (int i = 1; i <= pieces; ++i) {
+                const Vec2d to = point_on(edge, static_cast<double>(i) / pieces);
+                const bool done = large.centres->clearance(from) >= -reach &&
+                                  large.centres->clearance(to) >= -reach;
+                if (!done && part.edges.empty()) {
+                    part.starts_in_cut_metal = done_before;
+                }
+                if (!done) {
+                    part.edges.push_back(between(edge, from, to));
+                } else if (!part.edges.empty()) {
+                    out.push_back(std::exchange(part, {}));
+                }
+                done_before = done;
+                from = to;
+            }
+        }
+        if (!part.edges.empty()) {
+            out.push_back(std::move(part));
+        }
+    }
+    return out;
+}
+
+}  // namespace cusp::host

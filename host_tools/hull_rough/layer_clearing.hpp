@@ -1,0 +1,46 @@
+// What one cutter does in one layer: zigzag over the free part, then along the outlines of the
+// islands.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "host_tools/hull_rough/rough_moves.hpp"
+#include "host_tools/offset/offset.hpp"
+
+namespace cusp::host {
+
+struct ClearingSettings {
+    double step{};       // mm between lines, > 0, at most what the cutter clears
+    double tolerance{};  // mm, > 0: what chords on rounded corners may take from the distance kept
+    double side_allowance{};
+    bool one_way{};
+    bool contour{};  // loops parallel to the outlines instead of lines
+    CutDirection direction{};
+};
+
+// Every point of the layer that a cutter of this radius can reach without touching a box is
+// cleared: it lies within the radius of a line, or of an outline, whatever the islands are. Proof
+// in docs/papers.md, "Chuang & Pan".
+struct LayerClearing {
+    std::shared_ptr<ClearZone> zone;
+    std::shared_ptr<RegionOffset> centres;  // the region where the axis may stand
+    std::vector<LevelRun> runs;
+    double length{};        // mm of cut
+    double cleared_area{};  // mm^2 of the stock's plan view, and of the margin around it
+    int islands{};
+};
+
+LayerClearing clear_layer(const std::vector<Rectangle>& boxes,
+                          const Rectangle& stock,
+                          double radius,
+                          const ClearingSettings& settings);
+
+// The parts of the runs where a cutter of the smaller `radius` takes metal that one of
+// `large_radius` left when it cleared `large`.
+std::vector<LevelRun> rest_runs(const LayerClearing& clearing,
+                                double radius,
+                                const LayerClearing& large,
+                                double large_radius);
+
+}  // namespace cusp::host

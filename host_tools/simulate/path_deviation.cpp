@@ -1,0 +1,185 @@
+// Nearest points of moves.
+#include "host_tools/simulate/path_deviation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cusp::host {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+double distance_to_segment(Vec3d point, Vec3d end)
+{
+    const double length_squared = dot(end, end);
+    const double t =
+        length_squared > 0 ? std::clamp(dot(point, end) / length_squared, 0.0, 1.0) : 0.0;
+    return norm(point - end * t);
+}
+
+// Point of the arc at t in [0, 1] and, by differences of the closed form, its derivatives.
+struct ArcPoint {
+    Vec3d position;
+    Vec3d first;
+    Vec3d second;
+};
+
+ArcPoint arc_at(const path::Arc& arc, double t)
+{
+    const double angle = t * arc.sweep;
+    const double radius = arc.radius + t * arc.radius_change;
+    const Vec3d out = arc.u * std::cos(angle) + arc.v * std::sin(angle);
+    const Vec3d along = arc.v * std::cos(angle) - arc.u * std::sin(angle);
+    return {arc.centre + out * radius + arc.axial * t,
+            out * arc.radius_change + along * (radius * arc.sweep) + arc.axial,
+            along * (2.0 * arc.radius_change * arc.sweep) - out * (radius * arc.sweep * arc.sweep)};
+}
+
+double distance_to_arc_near(const path::Arc& arc, Vec3d point, double t)
+{
+    for (int iteration = 0; iteration < 12; ++iteration) {
+        const ArcPoint at = arc_at(arc, t);
+        const Vec3d away = at.position - point;
+        const double slope = dot(away, at.first);
+        const double curvature = dot(at.first, at.first) + dot(away, at.second);
+        // Far from the arc Newton's step would run away: steepest descent is enough there.
+        const double step = slope / (curvature > 0 ? curvature : dot(at.first, at.first));
+        const double next = std::clamp(t - step, 0.0, 1.0);
+        if (std::fabs(next - t) < 1e-13) {
+            break;
+        }
+        t = next;
+    }
+    return norm(arc_at(arc, t).position - point);
+}
+
+double distance_to_arc(const path::Arc& arc, Vec3d point)
+{
+    const Vec3d from_centre = point - arc.centre;
+    double angle = std::atan2(dot(from_centre, arc.v), dot(from_centre, arc.u));
+    if (angle < 0) {
+        angle += 2.0 * kPi;
+    }
+    double nearest =
+        std::min(norm(arc_at(arc, 0.0).position - point), norm(arc_at(arc, 1.0).position - point));
+    const double rise = dot(arc.axial, arc.axial);
+    const double turn_by_height =
+        rise > 0 ? dot(from_centre, arc.axial) / rise * arc.sweep / (2.0 * kPi) : 0.0;
+    const double turns = std::ceil(arc.sweep / (2.0 * kPi));
+    const double middle = std::clamp(std::floor(turn_by_height), 0.0, turns - 1.0);
+    for (double turn = middle - 1.0; turn <= middle + 1.0; ++turn) {
+        const double t = (angle + turn * 2.0 * kPi) / arc.sweep;
+        if (t >= 0.0 && t <= 1.0) {
+            nearest = std::min(nearest, distance_to_arc_near(arc, point, t));
+        }
+    }
+    return nearest;
+}
+
+// De Casteljau in homogeneous coordinates.
+Vec3d bezier_at(const path::BezierPiece& piece, double t)
+{
+    std::array<Vec3d, path::kMaxOrder> points{};
+    std::array<double, path::kMaxOrder> weights{};
+    for (unsigned i = 0; i < piece.order; ++i) {
+        weights[i] = static_cast<double>(piece.weights[i]);
+        const Vec3f& p = piece.points[i];
+        points[i] =
+            Vec3d{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)} *
+            weights[i];
+    }
+    for (unsigned left = piece.order; left > 1; --left) {
+        for (unsigned i = 0; i + 1 < left; ++i) {
+            points[i] = points[i] * (1.0 - t) + points[i + 1] * t;
+            weights[i] = weights[i] * (1.0 - t) + weights[i + 1] * t;
+        }
+    }
+    return points[0] / weights[0];
+}
+
+double distance_to_bezier(const path::BezierPiece& piece, Vec3d point)
+{
+    constexpr int kSamples = 32;
+    const auto distance_at = [&](double t) {
+        return norm(bezier_at(piece, t) - point);
+    };
+    int best = 0;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int i = 0; i <= kSamples; ++i) {
+        const double distance = distance_at(static_cast<double>(i) / kSamples);
+        if (distance < nearest) {
+            nearest = distance;
+            best = i;
+        }
+    }
+    // Golden section between the neighbours of the nearest sample.
+    constexpr double kGolden = 0.6180339887498949;
+    double low = std::max(0, best - 1) / static_cast<double>(kSamples);
+    double high = std::min(kSamples, best + 1) / static_cast<double>(kSamples);
+    while (high - low > 1e-9) {
+        const double a = high - (high - low) * kGolden;
+        const double b = low + (high - low) * kGolden;
+        (distance_at(a) < distance_at(b) ? high : low) = distance_at(a) < distance_at(b) ? b : a;
+    }
+    return std::min(nearest, distance_at((low + high) / 2));
+}
+
+}  // namespace
+
+double distance_to_move(const path::Move& move, Position point)
+{
+    const Vec3d relative = to_millimetres(point - move.start);
+    if (const auto* arc = std::get_if<path::Arc>(&move.path)) {
+        return distance_to_arc(*arc, relative);
+    }
+    if (const auto* piece = std::get_if<path::BezierPiece>(&move.path)) {
+        return distance_to_bezier(*piece, relative);
+    }
+    return distance_to_segment(relative, to_millimetres(move.end - move.start));
+}
+
+void PathDeviation::add_move(const path::Move& move)
+{
+    if (std::holds_alternative<path::Line>(move.path) && move.start == move.end) {
+        return;
+    }
+    moves_.push_back(move);
+}
+
+void PathDeviation::add_set_point(Position set_point, std::uint32_t executing_line)
+{
+    if (moves_.empty()) {
+        return;
+    }
+    while (current_ + 1 < first_index_ + moves_.size() &&
+           moves_[current_ + 1 - first_index_].line <= executing_line) {
+        ++current_;
+    }
+    recent_.push_back(current_);
+    // The oldest kept index may lie amid the moves of one line: all of that line stay near.
+    if (recent_.size() > kFilterTicks) {
+        recent_.pop_front();
+    }
+    const std::uint32_t oldest_line = moves_[recent_.front() - first_index_].line;
+    while (moves_.front().line < oldest_line) {
+        moves_.pop_front();
+        ++first_index_;
+    }
+    if (set_point == last_) {
+        return;
+    }
+    last_ = set_point;
+    const std::size_t end =
+        std::min<std::size_t>(moves_.size(), current_ - first_index_ + 1 + kMovesAhead);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = end; i > 0 && nearest > 0.0; --i) {
+        nearest = std::min(nearest, distance_to_move(moves_[i - 1], set_point));
+    }
+    if (nearest > greatest_) {
+        greatest_ = nearest;
+        line_ = executing_line;
+    }
+}
+
+}  // namespace cusp::host

@@ -1,0 +1,85 @@
+// A piece of a Bezier patch that knows bounds of its place and of its derivatives from its control
+// points.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "host_tools/nurbs/nurbs.hpp"
+
+namespace cusp::host {
+
+class BezierCell {
+public:
+    // A patch with one span each way, as `bezier_patches` makes them.
+    BezierCell(const BezierPatch& patch, int surface);
+
+    int surface() const { return surface_; }
+    // Point and derivatives by the local parameters, each in [0, 1].
+    SurfacePoint at(double s, double t) const;
+    double u(double s) const { return u_begin_ + s * (u_end_ - u_begin_); }
+    double v(double t) const { return v_begin_ + t * (v_end_ - v_begin_); }
+    double u_begin() const { return u_begin_; }
+    double u_end() const { return u_end_; }
+    double v_begin() const { return v_begin_; }
+    double v_end() const { return v_end_; }
+
+    Vec3d low() const { return low_; }
+    Vec3d high() const { return high_; }
+
+    // The values at the middle, and how far any value in the cell is from them. Proved by the
+    // convex hull of the control points (of the derivatives'; for weights by interval arithmetic on
+    // them).
+    struct Spread {
+        double point;
+        double ds;
+        double dt;
+        double dss;
+        double dst;
+        double dtt;
+    };
+    const SurfacePoint& middle() const { return middle_; }
+    const Spread& spread() const { return spread_; }
+
+    // A box along the tangent plane of the middle; axes()[0] is the upward normal.
+    const std::array<Vec3d, 3>& axes() const { return axes_; }
+    // Bounds of dot(point - middle().point, axes()[k]).
+    double box_low(std::size_t k) const { return box_low_[k]; }
+    double box_high(std::size_t k) const { return box_high_[k]; }
+
+    // Two halves across the longer side, made when first asked for.
+    std::array<const BezierCell*, 2> halves() const;
+
+    enum class Trim : std::uint8_t { kUnknown, kInside, kOutside, kCut };
+    Trim trim() const { return trim_; }
+    void set_trim(Trim trim) const { trim_ = trim; }
+
+private:
+    BezierCell() = default;
+    void find_bounds();
+    Spread polynomial_spread() const;
+    Spread rational_spread() const;
+    Vec3d control(std::size_t i, std::size_t j) const;
+
+    int surface_{};
+    std::size_t count_s_{};
+    std::size_t count_t_{};
+    std::vector<Vec3d> points_;    // times the weight
+    std::vector<double> weights_;  // empty: all 1
+    double u_begin_{};
+    double u_end_{};
+    double v_begin_{};
+    double v_end_{};
+    Vec3d low_;
+    Vec3d high_;
+    SurfacePoint middle_;
+    Spread spread_{};
+    std::array<Vec3d, 3> axes_;
+    std::array<double, 3> box_low_{};
+    std::array<double, 3> box_high_{};
+    mutable std::array<std::unique_ptr<const BezierCell>, 2> halves_;
+    mutable Trim trim_{Trim::kUnknown};
+};
+
+}  // namespace cusp::host

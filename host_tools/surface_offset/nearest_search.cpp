@@ -1,0 +1,444 @@
+// Best place first by boxes, then Newton on cells where the squared distance is proved convex.
+#include "host_tools/surface_offset/nearest_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace cusp::host {
+namespace {
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+constexpr int kNewtonSteps = 12;
+constexpr double kDistanceSlack = 2e-7;  // mm that a bound may lie below the truth
+constexpr double kDiscSlack =
+    1e-5;  // the same for flat and bull tools: their distance is not strictly convex
+constexpr double kLeastCell = 1e-7;  // mm
+
+struct Symmetric {
+    double ss;
+    double st;
+    double tt;
+};
+
+double least_eigenvalue(Symmetric m)
+{
+    const double half = 0.5 * (m.ss - m.tt);
+    return 0.5 * (m.ss + m.tt) - std::sqrt(half * half + m.st * m.st);
+}
+
+// The second derivative of half the squared distance to the core, by the place, as far as it is
+// diagonal or radial in x and y: (radial, tangential, vertical).
+struct Stiffness {
+    double radial;
+    double tangential;
+    double vertical;
+    Vec3d outward;  // unit, horizontal; radial direction
+
+    double product(Vec3d a, Vec3d b) const
+    {
+        const double along =
+            (a.x * outward.x + a.y * outward.y) * (b.x * outward.x + b.y * outward.y);
+        return tangential * (a.x * b.x + a.y * b.y) + (radial - tangential) * along +
+               vertical * a.z * b.z;
+    }
+};
+
+Stiffness stiffness_at(const ToolCore& core, Vec3d p)
+{
+    const double vertical = p.z < core.end.z ? 1 : 0;
+    if (core.radius == 0) {
+        return {1, 1, vertical, {1, 0, 0}};
+    }
+    const Vec3d out{p.x - core.end.x, p.y - core.end.y, 0};
+    const double away = norm(out);
+    if (away <= core.radius) {
+        return {0, 0, vertical, {1, 0, 0}};
+    }
+    return {1, 1 - core.radius / away, vertical, out / away};
+}
+
+// What is below the stiffness everywhere in the cell.
+Stiffness least_stiffness(const ToolCore& core, const BezierCell& cell)
+{
+    const double vertical = cell.high().z < core.end.z ? 1 : 0;
+    const double plane = core.radius == 0 ? 1 : 0;
+    return {plane, plane, vertical, {1, 0, 0}};
+}
+
+// Least eigenvalue of the second derivative of half the squared distance over the whole cell.
+double least_curvature(const ToolCore& core, const BezierCell& cell)
+{
+    const SurfacePoint& m = cell.middle();
+    const BezierCell::Spread& e = cell.spread();
+    const Stiffness k = least_stiffness(core, cell);
+    const Vec3d r = core.reach(m.point);
+    const Symmetric middle{k.product(m.du, m.du) + dot(r, m.duu),
+                           k.product(m.du, m.dv) + dot(r, m.duv),
+                           k.product(m.dv, m.dv) + dot(r, m.dvv)};
+    const double du = norm(m.du);
+    const double dv = norm(m.dv);
+    const double reach = norm(r) + e.point;
+    const double stiff = std::max(k.radial, k.vertical);
+    const double ss = stiff * (2 * du * e.ds + e.ds * e.ds) + e.point * norm(m.duu) + reach * e.dss;
+    const double st =
+        stiff * (du * e.dt + dv * e.ds + e.ds * e.dt) + e.point * norm(m.duv) + reach * e.dst;
+    const double tt = stiff * (2 * dv * e.dt + e.dt * e.dt) + e.point * norm(m.dvv) + reach * e.dtt;
+    return least_eigenvalue(middle) - std::max(ss, tt) - st;
+}
+
+// A lower bound from the box along the tangent plane.
+double oriented_distance(const ToolCore& core, const BezierCell& cell)
+{
+    const Vec3d from = core.end - cell.middle().point;
+    const Vec3d normal = cell.axes()[0];
+    const double tilt = core.radius * std::hypot(normal.x, normal.y);
+    const double above = dot(from, normal) - tilt - cell.box_high(0);
+    if (core.radius > 0 || cell.high().z > core.end.z) {
+        return std::max(0.0, above);
+    }
+    const double gap = std::max({above, cell.box_low(0) - dot(from, normal), 0.0});
+    double square = gap * gap;
+    for (std::size_t k = 1; k < 3; ++k) {
+        const double along = dot(from, cell.axes()[k]);
+        const double off = std::max({along - cell.box_high(k), cell.box_low(k) - along, 0.0});
+        square += off * off;
+    }
+    return std::sqrt(square);
+}
+
+// Newton's method on the unit square for half the squared distance.
+struct CellMinimum {
+    double s{0.5};
+    double t{0.5};
+    double value{};  // half the square of the distance there
+    double below{};  // how much less it can be in the cell if it is convex there
+    Vec3d point;
+};
+
+struct Step {
+    double ds;
+    double dt;
+};
+
+// The least of the quadratic model over the unit square: free, then along a blocked side.
+Step newton_step(Symmetric h, double gs, double gt, double s, double t)
+{
+    const double trace = std::abs(h.ss) + std::abs(h.tt) + 1e-300;
+    const double least = least_eigenvalue(h);
+    if (least < 1e-9 * trace) {
+        const double lift = 1e-6 * trace - std::min(0.0, least);
+        h.ss += lift;
+        h.tt += lift;
+    }
+    const bool block_s = (s <= 0 && gs > 0) || (s >= 1 && gs < 0);
+    const bool block_t = (t <= 0 && gt > 0) || (t >= 1 && gt < 0);
+    if (block_s && block_t) {
+        return {0, 0};
+    }
+    if (block_s) {
+        return {0, -gt / h.tt};
+    }
+    if (block_t) {
+        return {-gs / h.ss, 0};
+    }
+    const double det = h.ss * h.tt - h.st * h.st;
+    Step step{(gt * h.st - gs * h.tt) / det, (gs * h.st - gt * h.ss) / det};
+    const double s_end = std::clamp(s + step.ds, 0.0, 1.0);
+    const double t_end = std::clamp(t + step.dt, 0.0, 1.0);
+    if (s_end != s + step.ds && t_end == t + step.dt) {
+        step = {s_end - s, -(gt + h.st * (s_end - s)) / h.tt};
+    } else if (t_end != t + step.dt && s_end == s + step.ds) {
+        step = {-(gs + h.st * (t_end - t)) / h.ss, t_end - t};
+    }
+    return step;
+}
+
+CellMinimum minimize(const ToolCore& core, const BezierCell& cell)
+{
+    CellMinimum best;
+    best.value = kFar;
+    SurfacePoint p = cell.middle();
+    double s = 0.5;
+    double t = 0.5;
+    Step tried{0, 0};
+    for (int turn = 0; turn < kNewtonSteps; ++turn) {
+        const Vec3d r = core.reach(p.point);
+        const double value = 0.5 * dot(r, r);
+        if (value > best.value) {
+            if (turn + 1 == kNewtonSteps) {
+                break;
+            }
+            // Too far: half the step from the best place.
+            tried = {0.5 * tried.ds, 0.5 * tried.dt};
+            s = std::clamp(best.s + tried.ds, 0.0, 1.0);
+            t = std::clamp(best.t + tried.dt, 0.0, 1.0);
+            p = cell.at(s, t);
+            continue;
+        }
+        const double gs = dot(r, p.du);
+        const double gt = dot(r, p.dv);
+        const double below = std::max(gs * s, gs * (s - 1)) + std::max(gt * t, gt * (t - 1));
+        best = {s, t, value, below, p.point};
+        const double slack = kDistanceSlack * std::sqrt(2 * value);
+        if (below <= 1e-3 * slack || value == 0) {
+            break;
+        }
+        const Stiffness k = stiffness_at(core, p.point);
+        const Symmetric h{k.product(p.du, p.du) + dot(r, p.duu),
+                          k.product(p.du, p.dv) + dot(r, p.duv),
+                          k.product(p.dv, p.dv) + dot(r, p.dvv)};
+        tried = newton_step(h, gs, gt, s, t);
+        const double s_next = std::clamp(s + tried.ds, 0.0, 1.0);
+        const double t_next = std::clamp(t + tried.dt, 0.0, 1.0);
+        tried = {s_next - s, t_next - t};
+        if (tried.ds == 0 && tried.dt == 0) {
+            break;
+        }
+        s = s_next;
+        t = t_next;
+        p = cell.at(s, t);
+    }
+    return best;
+}
+
+// Nearest point of a straight edge: the distance to the core is convex along it.
+double edge_distance(const ToolCore& core, const std::array<Vec3d, 2>& edge, Vec3d& place)
+{
+    const Vec3d d = edge[1] - edge[0];
+    double from = 0;
+    double to = 1;
+    for (int k = 0; k < 48 && from < to; ++k) {
+        const double middle = 0.5 * (from + to);
+        const double slope = dot(core.reach(edge[0] + d * middle), d);
+        (slope > 0 ? to : from) = middle;
+        if (slope == 0) {
+            to = from = middle;
+        }
+    }
+    place = edge[0] + d * from;
+    return norm(core.reach(place));
+}
+
+class Search {
+public:
+    Search(const SurfaceModel::State& state, const ToolCore& core, double limit)
+        : state_{state},
+          core_{core},
+          slack_{core.radius > 0 ? kDiscSlack : kDistanceSlack},
+          found_{limit},
+          bound_{limit}
+    {
+    }
+
+    NearestResult run()
+    {
+        std::array<Waiting, 128> stack;
+        std::size_t count = 0;
+        if (!state_.tree.nodes.empty()) {
+            stack[count++] = {box_distance(0), 0};
+        }
+        while (count > 0) {
+            const Waiting next = stack[--count];
+            if (next.distance >= found_) {
+                continue;
+            }
+            const BoxTree::Node& node = state_.tree.nodes[static_cast<std::size_t>(next.node)];
+            if (node.child[0] < 0) {
+                look_at_item(static_cast<std::size_t>(-node.child[0] - 1));
+                continue;
+            }
+            Waiting near{box_distance(node.child[0]), node.child[0]};
+            Waiting far{box_distance(node.child[1]), node.child[1]};
+            if (far.distance < near.distance) {
+                std::swap(near, far);
+            }
+            stack[count++] = far;
+            stack[count++] = near;
+        }
+        return {std::min(bound_, found_), place_};
+    }
+
+private:
+    struct Waiting {
+        double distance;
+        int node;
+    };
+
+    double box_distance(int node) const
+    {
+        const BoxTree::Node& n = state_.tree.nodes[static_cast<std::size_t>(node)];
+        return core_.distance_to_box(n.low, n.high);
+    }
+
+    void take(double distance, const NearestPlace& place)
+    {
+        if (distance < found_) {
+            found_ = distance;
+            place_ = place;
+        }
+    }
+
+    void look_at_item(std::size_t item)
+    {
+        if (item < state_.cells.size()) {
+            look_at_cell(*state_.cells[item]);
+            return;
+        }
+        const std::size_t edge = item - state_.cells.size();
+        Vec3d point;
+        const double distance = edge_distance(core_, state_.edges[edge], point);
+        if (distance - state_.edge_error < bound_) {
+            bound_ = std::max(0.0, distance - state_.edge_error);
+        }
+        take(distance, {point, 0, 0, state_.edge_surface[edge]});
+    }
+
+    bool outside_trims(const BezierCell& cell) const
+    {
+        const TrimRegion& region = state_.regions[static_cast<std::size_t>(cell.surface())];
+        if (!region.trimmed()) {
+            return false;
+        }
+        if (cell.trim() == BezierCell::Trim::kUnknown) {
+            const TrimRegion::Part part =
+                region.part(cell.u_begin(), cell.u_end(), cell.v_begin(), cell.v_end());
+            cell.set_trim(part == TrimRegion::Part::kInside    ? BezierCell::Trim::kInside
+                          : part == TrimRegion::Part::kOutside ? BezierCell::Trim::kOutside
+                                                               : BezierCell::Trim::kCut);
+        }
+        return cell.trim() == BezierCell::Trim::kOutside;
+    }
+
+    // Depth first; depth is bounded by kLeastCell (each halving shrinks the cell).
+    void look_at_cell(const BezierCell& cell)
+    {
+        if (oriented_distance(core_, cell) >= found_ ||
+            core_.distance_to_box(cell.low(), cell.high()) >= found_ || outside_trims(cell)) {
+            return;
+        }
+        const CellMinimum least = minimize(core_, cell);
+        const double distance = std::sqrt(2 * least.value);
+        const double u = cell.u(least.s);
+        const double v = cell.v(least.t);
+        const bool counts = cell.trim() != BezierCell::Trim::kCut ||
+                            state_.regions[static_cast<std::size_t>(cell.surface())].inside(u, v);
+        if (counts) {
+            take(distance, {least.point, u, v, cell.surface()});
+        }
+        const double bend = std::max(0.0, -least_curvature(core_, cell));
+        // The distance is at least this over the cell, a unit square.
+        const double at_least = std::sqrt(2 * std::max(0.0, least.value - least.below - bend));
+        if (distance - at_least <= slack_) {
+            if (counts) {
+                bound_ = std::min(bound_, at_least);
+            }
+            return;
+        }
+        if (at_least >= found_) {
+            return;
+        }
+        if (cell.spread().point < kLeastCell) {
+            bound_ = std::min(bound_, std::max(0.0, distance - 2 * kLeastCell));
+            return;
+        }
+        const auto [a, b] = cell.halves();
+        const bool a_first = core_.distance_to_box(a->low(), a->high()) <=
+                             core_.distance_to_box(b->low(), b->high());
+        look_at_cell(a_first ? *a : *b);
+        look_at_cell(a_first ? *b : *a);
+    }
+
+    const SurfaceModel::State& state_;
+    const ToolCore& core_;
+    double slack_;
+    double found_;
+    double bound_;
+    NearestPlace place_;
+};
+
+int build(BoxTree& tree,
+          const std::vector<std::array<Vec3d, 2>>& boxes,
+          std::vector<std::size_t>& order,
+          std::size_t begin,
+          std::size_t end)
+{
+    const int here = static_cast<int>(tree.nodes.size());
+    Vec3d low{kFar, kFar, kFar};
+    Vec3d high = -low;
+    for (std::size_t k = begin; k < end; ++k) {
+        for (unsigned axis = 0; axis < 3; ++axis) {
+            low[axis] = std::min(low[axis], boxes[order[k]][0][axis]);
+            high[axis] = std::max(high[axis], boxes[order[k]][1][axis]);
+        }
+    }
+    tree.nodes.push_back({low, high, {-1, -1}});
+    if (end - begin == 1) {
+        tree.nodes.back().child[0] = -static_cast<int>(order[begin]) - 1;
+        return here;
+    }
+    const Vec3d size = high - low;
+    const unsigned axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const std::size_t middle = (begin + end) / 2;
+    const auto centre = [&](std::size_t k) {
+        return boxes[k][0][axis] + boxes[k][1][axis];
+    };
+    std::nth_element(order.begin() + static_cast<std::ptrdiff_t>(begin),
+                     order.begin() + static_cast<std::ptrdiff_t>(middle),
+                     order.begin() + static_cast<std::ptrdiff_t>(end),
+                     [&](std::size_t a, std::size_t b) { return centre(a) < centre(b); });
+    const int first = build(tree, boxes, order, begin, middle);
+    const int second = build(tree, boxes, order, middle, end);
+    tree.nodes[static_cast<std::size_t>(here)].child = {first, second};
+    return here;
+}
+
+}  // namespace
+
+ToolCore core_of(const Tool& tool, Vec3d tip)
+{
+    return {tool.radius - tool.corner_radius, {tip.x, tip.y, tip.z + tool.corner_radius}};
+}
+
+Vec3d ToolCore::reach(Vec3d p) const
+{
+    Vec3d r{p.x - end.x, p.y - end.y, std::min(0.0, p.z - end.z)};
+    if (radius > 0) {
+        const double away = std::hypot(r.x, r.y);
+        const double left = away > radius ? (away - radius) / away : 0;
+        r.x *= left;
+        r.y *= left;
+    }
+    return r;
+}
+
+double ToolCore::distance_to_box(Vec3d low, Vec3d high) const
+{
+    const double x = std::max({low.x - end.x, end.x - high.x, 0.0});
+    const double y = std::max({low.y - end.y, end.y - high.y, 0.0});
+    const double down = std::max(0.0, end.z - high.z);
+    if (radius == 0) {
+        return std::sqrt(x * x + y * y + down * down);
+    }
+    const double out = std::max(0.0, std::sqrt(x * x + y * y) - radius);
+    return std::sqrt(out * out + down * down);
+}
+
+BoxTree make_box_tree(const std::vector<std::array<Vec3d, 2>>& boxes)
+{
+    BoxTree tree;
+    std::vector<std::size_t> order(boxes.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    if (!boxes.empty()) {
+        build(tree, boxes, order, 0, boxes.size());
+    }
+    return tree;
+}
+
+NearestResult nearest(const SurfaceModel::State& state, const ToolCore& core, double limit)
+{
+    return Search{state, core, limit}.run();
+}
+
+}  // namespace cusp::host

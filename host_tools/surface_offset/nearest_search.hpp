@@ -1,0 +1,66 @@
+// The search for the place of a model nearest to a tool's core, over a tree of boxes.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "host_tools/surface_offset/bezier_cell.hpp"
+#include "host_tools/surface_offset/surface_model.hpp"
+#include "host_tools/surface_offset/trim_region.hpp"
+
+namespace cusp::host {
+
+// What is left of a tool when its corner radius is taken off all round: a disc of radius `radius`
+// at `end` (a point for a ball) and everything straight above it. It is convex, so the square of
+// the distance to it is convex and smooth.
+struct ToolCore {
+    double radius;
+    Vec3d end;
+
+    // From the nearest point of the core to `p`.
+    Vec3d reach(Vec3d p) const;
+    double distance_to_box(Vec3d low, Vec3d high) const;
+};
+
+ToolCore core_of(const Tool& tool, Vec3d tip);
+
+struct BoxTree {
+    struct Node {
+        Vec3d low;
+        Vec3d high;
+        // Children; a leaf has child[0] < 0 and holds item -child[0] - 1.
+        std::array<int, 2> child;
+    };
+    std::vector<Node> nodes;  // the first is the top
+};
+
+// Over boxes given by their corners; items keep their numbers.
+BoxTree make_box_tree(const std::vector<std::array<Vec3d, 2>>& boxes);
+
+struct SurfaceModel::State {
+    std::vector<std::unique_ptr<BezierCell>> cells;
+    std::vector<TrimRegion> regions;
+    std::vector<std::array<Vec3d, 2>> edges;
+    std::vector<int> edge_surface;
+    double edge_error{};
+    BoxTree tree;  // cells first, then edges
+    Vec3d low;
+    Vec3d high;
+    // To find the cell of a parameter pair: breaks of u and v and the first cell, per surface.
+    struct Grid {
+        std::vector<double> u;
+        std::vector<double> v;
+        std::size_t first;
+    };
+    std::vector<Grid> grids;
+};
+
+// The lower bound of the distance from the core to the model, cut off at `limit`, and its place.
+struct NearestResult {
+    double distance;
+    NearestPlace place;
+};
+NearestResult nearest(const SurfaceModel::State& state, const ToolCore& core, double limit);
+
+}  // namespace cusp::host

@@ -1,0 +1,215 @@
+// Clearance of points and of straight moves, and the drop, all by the search for the nearest place.
+#include "host_tools/surface_offset/surface_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host_tools/surface_offset/nearest_search.hpp"
+
+namespace cusp::host {
+namespace {
+
+constexpr int kMostDropSteps = 400;
+constexpr double kTouching = 1e-9;   // mm
+constexpr double kDropSlack = 5e-7;  // mm above the least height
+constexpr double kDiscDropSlack = 2e-5;
+
+void add_cells(const Surface& surface, int number, SurfaceModel::State& state)
+{
+    SurfaceModel::State::Grid grid;
+    grid.first = state.cells.size();
+    for (const BezierPatch& patch : bezier_patches(surface)) {
+        state.cells.push_back(std::make_unique<BezierCell>(patch, number));
+        if (grid.u.empty() || patch.u_begin > grid.u.back()) {
+            grid.u.push_back(patch.u_begin);
+        }
+        if (grid.u.size() == 1) {
+            grid.v.push_back(patch.v_begin);
+        }
+    }
+    state.grids.push_back(std::move(grid));
+}
+
+// Height of the tip at which the tool, come from above, meets the point; none beside it.
+std::optional<double> touch_height(const Tool& tool, double x, double y, Vec3d p)
+{
+    const double away = std::hypot(p.x - x, p.y - y);
+    if (away > tool.radius) {
+        return std::nullopt;
+    }
+    const double flat = tool.radius - tool.corner_radius;
+    const double out = std::max(0.0, away - flat);
+    const double corner = tool.corner_radius;
+    return p.z - corner + std::sqrt(std::max(0.0, corner * corner - out * out));
+}
+
+// The least distance from the core between two places, `length` apart, where it is d0 and d1.
+double least_between(double d0, double d1, double length)
+{
+    if (length <= 0) {
+        return std::min(d0, d1);
+    }
+    // d(t)^2 - t^2 is concave: d(t)^2 >= d0^2 - 2 t at + t^2.
+    const double at = 0.5 * (length - (d1 * d1 - d0 * d0) / length);
+    if (at <= 0) {
+        return d0;
+    }
+    if (at >= length) {
+        return d1;
+    }
+    return std::sqrt(std::max(0.0, d0 * d0 - at * at));
+}
+
+class ChordBound {
+public:
+    ChordBound(const SurfaceModel& model, const Tool& tool, double enough, double resolution)
+        : model_{model}, tool_{tool}, enough_{enough}, resolution_{resolution}
+    {
+    }
+
+    double clearance(Vec3d tip, double reach)
+    {
+        const double found = model_.clearance(tool_, tip, enough_ + reach).distance;
+        least_seen_ = std::min(least_seen_, found);
+        return found;
+    }
+
+    double between(Vec3d a, double at_a, Vec3d b, double at_b)
+    {
+        const double length = norm(b - a);
+        const double corner = tool_.corner_radius;
+        const double bound = least_between(at_a + corner, at_b + corner, length) - corner;
+        if (bound >= enough_ || bound >= least_seen_ - resolution_) {
+            return bound;
+        }
+        const Vec3d middle = (a + b) * 0.5;
+        const double there = clearance(middle, 0.5 * length);
+        const double first = between(a, at_a, middle, there);
+        return std::min(first, between(middle, there, b, at_b));
+    }
+
+private:
+    const SurfaceModel& model_;
+    const Tool& tool_;
+    double enough_;
+    double resolution_;
+    double least_seen_{std::numeric_limits<double>::infinity()};
+};
+
+}  // namespace
+
+SurfaceModel::SurfaceModel(const std::vector<Surface>& surfaces, double edge_error)
+    : state_{std::make_unique<State>()}
+{
+    State& state = *state_;
+    state.edge_error = edge_error;
+    for (std::size_t k = 0; k < surfaces.size(); ++k) {
+        add_cells(surfaces[k], static_cast<int>(k), state);
+        state.regions.emplace_back(surfaces[k], edge_error);
+        for (const auto& edge : state.regions.back().edges()) {
+            state.edges.push_back(edge);
+            state.edge_surface.push_back(static_cast<int>(k));
+        }
+    }
+    std::vector<std::array<Vec3d, 2>> boxes;
+    for (const auto& cell : state.cells) {
+        boxes.push_back({cell->low(), cell->high()});
+    }
+    for (const auto& [a, b] : state.edges) {
+        boxes.push_back({Vec3d{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)},
+                         Vec3d{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}});
+    }
+    state.tree = make_box_tree(boxes);
+    if (!state.tree.nodes.empty()) {
+        state.low = state.tree.nodes.front().low;
+        state.high = state.tree.nodes.front().high;
+    }
+}
+
+SurfaceModel::~SurfaceModel() = default;
+SurfaceModel::SurfaceModel(SurfaceModel&&) noexcept = default;
+SurfaceModel& SurfaceModel::operator=(SurfaceModel&&) noexcept = default;
+
+Vec3d SurfaceModel::box_low() const { return state_->low; }
+Vec3d SurfaceModel::box_high() const { return state_->high; }
+
+bool SurfaceModel::inside_trims(int surface, double u, double v) const
+{
+    return state_->regions[static_cast<std::size_t>(surface)].inside(u, v);
+}
+
+SurfacePoint SurfaceModel::evaluate(int surface, double u, double v) const
+{
+    const State::Grid& grid = state_->grids[static_cast<std::size_t>(surface)];
+    const auto span = [](const std::vector<double>& breaks, double at) {
+        const auto next = std::upper_bound(breaks.begin() + 1, breaks.end(), at);
+        return static_cast<std::size_t>(next - breaks.begin()) - 1;
+    };
+    const BezierCell& cell =
+        *state_->cells[grid.first + span(grid.u, u) * grid.v.size() + span(grid.v, v)];
+    const double width_u = cell.u_end() - cell.u_begin();
+    const double width_v = cell.v_end() - cell.v_begin();
+    SurfacePoint p = cell.at(std::clamp((u - cell.u_begin()) / width_u, 0.0, 1.0),
+                             std::clamp((v - cell.v_begin()) / width_v, 0.0, 1.0));
+    p.du = p.du / width_u;
+    p.dv = p.dv / width_v;
+    p.duu = p.duu / (width_u * width_u);
+    p.duv = p.duv / (width_u * width_v);
+    p.dvv = p.dvv / (width_v * width_v);
+    return p;
+}
+
+Clearance SurfaceModel::clearance(const Tool& tool, Vec3d tip, double limit) const
+{
+    const NearestResult found =
+        nearest(*state_, core_of(tool, tip), std::max(0.0, limit + tool.corner_radius));
+    return {found.distance - tool.corner_radius, found.place};
+}
+
+double SurfaceModel::clearance_along(
+    const Tool& tool, Vec3d a, Vec3d b, double enough, double resolution) const
+{
+    ChordBound chord{*this, tool, enough, resolution};
+    const double reach = 0.5 * norm(b - a);
+    const double at_a = chord.clearance(a, reach);
+    const double at_b = chord.clearance(b, reach);
+    return std::min(enough, chord.between(a, at_a, b, at_b));
+}
+
+std::optional<double> SurfaceModel::drop(const Tool& tool, double x, double y) const
+{
+    const double floor = state_->low.z - tool.radius - 1;
+    // `high` is free of the model; `low` would touch a known place, so the answer is not below it.
+    double high = state_->high.z + 0.01;
+    double low = -std::numeric_limits<double>::infinity();
+    double trial = high;
+    const double slack = tool.corner_radius < tool.radius ? kDiscDropSlack : kDropSlack;
+    for (int step = 0; step < kMostDropSteps && high - low > slack; ++step) {
+        const Clearance c = clearance(tool, {x, y, trial}, std::numeric_limits<double>::infinity());
+        if (c.nearest.surface < 0) {
+            return std::nullopt;
+        }
+        if (const auto touch = touch_height(tool, x, y, c.nearest.point)) {
+            low = std::max(low, *touch);
+        }
+        if (c.distance >= -kTouching && trial <= high) {
+            // The tool may fall as far as it is from everything.
+            high = trial - std::max(0.0, c.distance);
+            if (c.distance <= slack && tool.corner_radius > 0 && trial <= low + kTouching) {
+                return trial;
+            }
+        }
+        if (high < floor) {
+            return std::nullopt;
+        }
+        const bool cut_a_little = tool.corner_radius > 0 && c.distance > -0.5 * tool.corner_radius;
+        trial = low > -std::numeric_limits<double>::infinity() && cut_a_little && trial != low &&
+                        low < high
+                    ? low
+                    : high;
+    }
+    return high;
+}
+
+}  // namespace cusp::host

@@ -1,0 +1,84 @@
+// How far a tool keeps from a model of trimmed NURBS surfaces, exactly and with a proof: the
+// surfaces are cut into Bezier cells on which the distance is convex, and everything else is pruned
+// by bounds from the control points.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "host_tools/nurbs/nurbs.hpp"
+#include "host_tools/toolpath/toolpath.hpp"
+
+namespace cusp::host {
+
+// The place of the model that is nearest to a tool.
+struct NearestPlace {
+    Vec3d point;
+    double u{};
+    double v{};
+    int surface{-1};  // number of the surface; -1 where nothing is nearer than the limit asked for
+};
+
+struct Clearance {
+    double distance{};  // mm between tool and model; negative: depth of the cut, square to the tool
+    NearestPlace nearest;
+};
+
+// The tool is the whole rotating body: its end as `Tool` describes it and a cylindrical shank
+// above, so a surface that overhangs the tool is seen, too. Model and tool meet from any side: a
+// tool below a surface is in contact with it.
+//
+// Not for use by two threads at once: cells are cut further when a query first needs it.
+class SurfaceModel {
+public:
+    // surfaces    valid (as the reader in host_tools/import checks them); trims are honoured
+    // edge_error  mm: how far the polylines that stand for trimmed edges may be from the edges;
+    //             distances to trimmed surfaces are low by at most this
+    explicit SurfaceModel(const std::vector<Surface>& surfaces, double edge_error = 1e-4);
+    ~SurfaceModel();
+    SurfaceModel(SurfaceModel&&) noexcept;
+    SurfaceModel& operator=(SurfaceModel&&) noexcept;
+    SurfaceModel(const SurfaceModel&) = delete;
+    SurfaceModel& operator=(const SurfaceModel&) = delete;
+
+    // tip    of the tool, its axis upright
+    // limit  mm: distances from here on are not told apart
+    //
+    // Returns the smaller of `limit` and the distance. A tool with a corner (ball, bull) that cuts
+    // deeper than its corner radius, or any cut of a flat tool, gives -corner_radius.
+    // Accuracy: never above the true value by more than 1e-9 mm; below it by at most 1e-7 mm plus
+    // `edge_error` near trims (`SurfaceModelDistance` tests).
+    Clearance clearance(const Tool& tool, Vec3d tip, double limit) const;
+
+    // A lower bound of the clearance all along the straight move from `a` to `b`, never above
+    // `enough`, which ends the search early. `resolution` (mm) is how far below the truth the
+    // bound may be: smaller takes longer.
+    //
+    // Proof: the square of the distance to any set, less the square of the way along a line, is
+    // concave along the line, so two exact distances bound all between them.
+    double clearance_along(
+        const Tool& tool, Vec3d a, Vec3d b, double enough, double resolution) const;
+
+    // Least height of the tip at (x, y) from which the tool can be lifted out: exact drop of the
+    // tool on the model, shank included. None where it meets nothing.
+    // Accuracy: clearance at the result is in [-1e-8, 1e-6] mm.
+    std::optional<double> drop(const Tool& tool, double x, double y) const;
+
+    Vec3d box_low() const;
+    Vec3d box_high() const;
+
+    // Whether (u, v) lies in the trimmed domain of the surface.
+    bool inside_trims(int surface, double u, double v) const;
+
+    // Evaluation by the cells: as `derivatives_at`, several times faster.
+    SurfacePoint evaluate(int surface, double u, double v) const;
+
+    struct State;
+
+private:
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace cusp::host

@@ -1,0 +1,36 @@
+// The trimmed domain of a surface: inside or outside, and the edges as polylines in space.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "host_tools/nurbs/nurbs.hpp"
+
+namespace cusp::host {
+
+class TrimRegion {
+public:
+    // surface     its loops are closed, in (u, v)
+    // edge_error  mm between an edge in space and its polyline
+    TrimRegion(const Surface& surface, double edge_error);
+
+    bool trimmed() const { return !sides_.empty(); }
+    bool inside(double u, double v) const;
+
+    enum class Part : std::uint8_t { kInside, kOutside, kCut };
+    // Of a rectangle of the domain; kCut where an edge may touch it.
+    Part part(double u_begin, double u_end, double v_begin, double v_end) const;
+
+    // The edges in space.
+    const std::vector<std::array<Vec3d, 2>>& edges() const { return edges_; }
+
+    // The edges in (u, v), each loop a closed polyline.
+    const std::vector<std::vector<Vec2d>>& loops() const { return loops_; }
+
+private:
+    std::vector<std::array<Vec2d, 2>> sides_;
+    std::vector<std::array<Vec3d, 2>> edges_;
+    std::vector<std::vector<Vec2d>> loops_;
+};
+
+}  // namespace cusp::host

@@ -1,0 +1,119 @@
+"""What an image for a Cortex-M is made of: its functions, who calls whom, how much stack each takes.
+
+The calls come from the linked image, so they are what the core does, whatever the sources say. The
+stack comes from the compiler (-fcallgraph-info=su) where it compiled the function, and from the
+instructions that move the stack pointer everywhere; the larger one counts.
+"""
+import pathlib
+import re
+import subprocess
+
+FUNCTION = re.compile(r"^([0-9a-f]{8}) <(.+)>:$")
+INSTRUCTION = re.compile(r"^\s+([0-9a-f]+):\t(\S+)(?:\t(.*))?$")
+TARGET = re.compile(r"\b([0-9a-f]{4,8}) <([^>+]+)(\+0x[0-9a-f]+)?>")
+BRANCH = re.compile(r"^(?:bl|blx|b(?:eq|ne|cs|cc|mi|pl|vs|vc|hi|ls|ge|lt|gt|le)?|cbn?z)(?:\.[nw])?$")
+CALL_BY_REGISTER = re.compile(r"^(?:blx|bx)(?:\.[nw])?$")
+CI_NODE = re.compile(r'^node: \{ title: "([^"]*)" label: "([^"]*)"')
+CI_SIZE = re.compile(r"(\d+) bytes \((\w+)")
+
+
+class Unreadable(Exception):
+    """The image or its call graph can't be read."""
+
+
+def run(*command):
+    try:
+        return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    except (OSError, subprocess.CalledProcessError) as error:
+        raise Unreadable(f"{command[0]}: {getattr(error, 'stderr', '') or error}") from error
+
+
+class Function:
+    def __init__(self, name):
+        self.name = name
+        self.calls = set()
+        self.indirect = []  # instructions that call by register
+        self.floats = []  # instructions of the floating-point unit
+        self.stack = 0
+        self.dynamic = False
+
+
+def register_count(operands):
+    """How many registers a list such as {r4, r5-r7, lr} names."""
+    count = 0
+    for part in re.search(r"\{(.*)\}", operands).group(1).split(","):
+        ends = re.findall(r"[rsd](\d+)", part)
+        count += int(ends[1]) - int(ends[0]) + 1 if len(ends) == 2 else 1
+    return count
+
+
+def stack_taken(mnemonic, operands):
+    """Bytes that an instruction takes from the stack; None where only the run can tell."""
+    name = mnemonic.split(".")[0]
+    if name == "push" or (name.startswith("stmdb") and operands.startswith("sp!")):
+        return 4 * register_count(operands)
+    if name == "vpush" or (name.startswith("vstmdb") and operands.startswith("sp!")):
+        return (8 if "{d" in operands else 4) * register_count(operands)
+    down = re.search(r"\[sp, #-(\d+)\]!", operands)
+    if down and name.startswith(("str", "vstr")):
+        return int(down.group(1))
+    if name in ("sub", "subw", "subs") and re.match(r"sp, (sp, )?#", operands):
+        return int(re.search(r"#(\d+)", operands).group(1))
+    if name in ("sub", "subw", "mov", "subs") and operands.startswith("sp,"):
+        return None
+    return 0
+
+
+def read_functions(image):
+    """The functions of a linked image by name."""
+    if not pathlib.Path(image).is_file():
+        raise Unreadable(f"no image {image}")
+    functions, current = {}, None
+    for line in run("arm-none-eabi-objdump", "-d", "--no-show-raw-insn", image).splitlines():
+        head = FUNCTION.match(line)
+        if head:
+            current = functions.setdefault(head.group(2), Function(head.group(2)))
+            continue
+        match = INSTRUCTION.match(line)
+        if not match or current is None:
+            continue
+        mnemonic, operands = match.group(2), (match.group(3) or "").split("\t")[0]
+        take_instruction(current, mnemonic, operands, line)
+    if not functions:
+        raise Unreadable(f"{image}: no functions")
+    return functions
+
+
+def take_instruction(function, mnemonic, operands, line):
+    if mnemonic.startswith("v"):
+        function.floats.append(line.strip())
+    taken = stack_taken(mnemonic, operands)
+    if taken is None:
+        function.dynamic = True
+    else:
+        function.stack += taken
+    target = TARGET.search(operands)
+    if BRANCH.match(mnemonic) and target:
+        # A branch to the function's own start is a loop, a call of it is recursion.
+        if target.group(2) != function.name or mnemonic.split(".")[0] == "bl":
+            function.calls.add(target.group(2))
+    elif CALL_BY_REGISTER.match(mnemonic) and operands.strip() != "lr":
+        function.indirect.append(line.strip())
+    elif mnemonic.startswith(("ldr", "mov")) and operands.startswith("pc,"):
+        function.indirect.append(line.strip())
+
+
+def add_compiler_sizes(functions, folders):
+    """Raises each function's stack to what the compiler says; marks dynamic stacks."""
+    files = [file for folder in folders for file in pathlib.Path(folder).rglob("*.ci")]
+    if not files:
+        raise Unreadable(f"no call graphs (.ci) below {', '.join(map(str, folders))}")
+    for file in files:
+        for line in file.read_text().splitlines():
+            node = CI_NODE.match(line)
+            size = CI_SIZE.search(node.group(2)) if node else None
+            function = functions.get(node.group(1).split(":")[-1]) if size else None
+            if function:
+                # Several files may compile one inline function: the linker keeps one of them.
+                function.stack = max(function.stack, int(size.group(1)))
+                function.dynamic = function.dynamic or size.group(2) != "static"

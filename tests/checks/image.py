@@ -1,0 +1,163 @@
+#!/usr/bin/env python3
+"""Proves what must hold of a firmware image. usage: image.py IMAGE.elf CALL_GRAPH_FOLDER...
+
+  symbols   no heap, no exceptions, no type information, no C library's files
+  double    no arithmetic of doubles below the servo tick and the interrupts
+  float     no instruction of the floating-point unit below the player's interrupt
+  calls     no recursion; no call through a pointer, except of the constructors at the start
+  stack     the deepest chain of each priority, one upon the other, fits the stack
+  memory    flash and RAM within the chip's and the project's
+
+Exit status: 0 all hold, 1 some do not, 2 the image can't be read.
+"""
+import re
+import subprocess
+import sys
+
+from disassembly import Unreadable, add_compiler_sizes, read_functions, run
+
+# From the least to the most urgent: each may be interrupted by those after it.
+CONTEXTS = ("cusp_reset", "cusp_servo_tick", "cusp_serial_interrupt", "cusp_player_interrupt")
+# What the core saves at an interrupt: 26 words with the float registers, and one to align.
+EXCEPTION_FRAME = 27 * 4
+FORBIDDEN = re.compile(
+    r"^_?(malloc|free|calloc|realloc|sbrk)(_r)?$|^_sbrk$|^_Zn[wa]|^_Zd[la]|^__cxa_|^__gxx_"
+    r"|^_Unwind_|^__aeabi_unwind|^_ZT[IS]|^_?v?s?n?f?i?printf(_r)?$|^puts$|^_impure_ptr$|^setlocale")
+DOUBLE = re.compile(
+    r"^__(aeabi_(d(add|sub|rsub|mul|div|cmp\w*|2\w+)|c[dr]\w*cmp\w*|[filu]+2d|ul2d|l2d)"
+    r"|(add|sub|mul|div|neg|cmp|eq|ne|lt|le|gt|ge|unord)df[23]|adddf3|fixdf\w+|fixunsdf\w+"
+    r"|float\w+df|extendsfdf2|truncdfsf2)$|^(sqrt|floor|fabs|sin|cos|atan2)$")
+RAM_LIMIT = 96 * 1024
+
+
+def reached(functions, root):
+    found, waiting = set(), [root]
+    while waiting:
+        name = waiting.pop()
+        if name in found or name not in functions:
+            continue
+        found.add(name)
+        waiting += functions[name].calls
+    return found
+
+
+def depth(functions, root):
+    """Deepest stack below a function, its chain, and complaints about what can't be bounded."""
+    done, complaints = {}, []
+
+    def visit(name, chain):
+        if name in chain:
+            complaints.append("recursion: " + " > ".join(chain[chain.index(name):] + [name]))
+            return 0, [name]
+        if name not in done:
+            function = functions.get(name)
+            if function is None:
+                complaints.append(f"{chain[-1] if chain else root} calls {name}, not in the image")
+                return 0, [name]
+            if function.dynamic:
+                complaints.append(f"{name} takes stack that only the run can tell")
+            deepest = max((visit(callee, chain + [name]) for callee in sorted(function.calls)),
+                          default=(0, []))
+            done[name] = (function.stack + deepest[0], [name] + deepest[1])
+        return done[name]
+
+    sys.setrecursionlimit(10000)
+    size, chain = visit(root, [])
+    return size, chain, complaints
+
+
+def symbols(image):
+    """Value of each symbol of the image."""
+    table = {}
+    for line in run("arm-none-eabi-nm", image).splitlines():
+        parts = line.split()
+        if len(parts) == 3:
+            table[parts[2]] = int(parts[0], 16)
+    return table
+
+
+def plain(names):
+    """Names as people write them, for reports."""
+    text = subprocess.run(["arm-none-eabi-c++filt", "-p", *names], capture_output=True,
+                          text=True).stdout
+    return text.split("\n")[:len(names)]
+
+
+def check_symbols(table):
+    for name in sorted(table):
+        if FORBIDDEN.search(name):
+            yield f"symbols: {name} is in the image"
+
+
+def check_real_time(functions):
+    for root in CONTEXTS[1:]:
+        for name in sorted(reached(functions, root)):
+            if DOUBLE.match(name):
+                yield f"double: {root} reaches {name}"
+    for name in sorted(reached(functions, "cusp_player_interrupt")):
+        for line in functions[name].floats[:1]:
+            yield f"float: cusp_player_interrupt reaches {name}: {line}"
+
+
+def check_calls(functions):
+    for root in CONTEXTS:
+        for name in sorted(reached(functions, root)):
+            if name != "cusp_reset":
+                for line in functions[name].indirect[:1]:
+                    yield f"calls: {root} reaches {name}, which calls by pointer: {line}"
+
+
+def check_stack(functions, table):
+    total = 0
+    for root in CONTEXTS:
+        size, chain, complaints = depth(functions, root)
+        yield from (f"stack: {complaint}" for complaint in complaints)
+        frame = 0 if root == CONTEXTS[0] else EXCEPTION_FRAME
+        total += size + frame
+        print(f"{root}: {size} bytes of stack: " + " > ".join(plain(chain)))
+    room = table["cusp_stack_size"]
+    print(f"stack: {total} of {room} bytes")
+    if total > room:
+        yield f"stack: {total} bytes are needed, {room} are there"
+
+
+def check_memory(image):
+    flash = ram = 0
+    for line in run("arm-none-eabi-objdump", "-h", image).splitlines():
+        section = re.match(r"\s*\d+ (\S+)\s+([0-9a-f]{8})\s+([0-9a-f]{8})\s+([0-9a-f]{8})", line)
+        if section:
+            name = section.group(1)
+            size, place, load = (int(section.group(k), 16) for k in (2, 3, 4))
+            ram += size if place >> 28 == 2 else 0
+            flash += size if load >> 24 == 8 and (place == load or name == ".data") else 0
+    print(f"memory: {flash} bytes of flash, {ram} of RAM")
+    if not flash or not ram:
+        yield "memory: no sections"
+    if ram > RAM_LIMIT:
+        yield f"memory: {ram} bytes of RAM, {RAM_LIMIT} are allowed"
+    if flash > (1024 - 32) * 1024:
+        yield f"memory: {flash} bytes of flash"
+
+
+def main(arguments):
+    if len(arguments) < 3:
+        print(__doc__, file=sys.stderr)
+        return 2
+    image, folders = arguments[1], arguments[2:]
+    try:
+        functions, table = read_functions(image), symbols(image)
+        add_compiler_sizes(functions, folders)
+        missing = [name for name in CONTEXTS if name not in functions]
+        if missing or "cusp_stack_size" not in table:
+            raise Unreadable(f"{image}: no {', '.join(missing) or 'cusp_stack_size'}")
+        found = [*check_symbols(table), *check_real_time(functions), *check_calls(functions),
+                 *check_stack(functions, table), *check_memory(image)]
+    except Unreadable as error:
+        print(f"image: {error}", file=sys.stderr)
+        return 2
+    print("\n".join(found) if found else f"image: all proofs hold for {image}")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv))

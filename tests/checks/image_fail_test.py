@@ -1,0 +1,131 @@
+#!/usr/bin/env python3
+"""Shows that each proof of image.py fails on an image that breaks it. Needs the Arm compiler."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = pathlib.Path(__file__).resolve().parent
+TOP = HERE.parent.parent
+FLAGS = ("-std=c++17 -O2 -mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard -ffreestanding "
+         "-fno-exceptions -fno-rtti -fno-math-errno -fcallgraph-info=su,da -ffunction-sections "
+         "-nostartfiles -nostdlib").split()
+LAYOUT = """MEMORY { VECTORS (r) : ORIGIN = 0x08000000, LENGTH = 16K
+FLASH (rx) : ORIGIN = 0x0800C000, LENGTH = 512K  RAM (rw) : ORIGIN = 0x20000000, LENGTH = 128K }
+INCLUDE hal/stm32f4/sections.ld
+"""
+# An image in which all proofs hold; tests replace what one of its functions does.
+SOURCE = """
+{extra}
+volatile int sink;
+volatile float number;
+volatile double wide;
+__attribute__((noinline)) void leaf() {{ sink = sink + 1; }}
+extern "C" {{
+void cusp_reset() {{ {reset} leaf(); }}
+void cusp_servo_tick() {{ number = number * 2.0F; {tick} leaf(); }}
+void cusp_serial_interrupt() {{ {serial} leaf(); }}
+void cusp_player_interrupt() {{ {player} leaf(); }}
+}}
+"""
+
+
+class ProofsOfTheImage(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.place = pathlib.Path(self.folder.name)
+
+    def build(self, extra="", reset="", tick="", serial="", player=""):
+        (self.place / "bad.cpp").write_text(
+            SOURCE.format(extra=extra, reset=reset, tick=tick, serial=serial, player=player))
+        (self.place / "bad.ld").write_text(LAYOUT)
+        return subprocess.run(
+            ["arm-none-eabi-g++", *FLAGS, "-c", "bad.cpp", "-o", "bad.o"], cwd=self.place,
+            capture_output=True, text=True, check=True) and subprocess.run(
+            ["arm-none-eabi-g++", *FLAGS, "bad.o", "-T", "bad.ld", f"-L{TOP}", "-e", "cusp_reset",
+             "-lgcc", "-o", "bad.elf"], cwd=self.place, capture_output=True, text=True)
+
+    def prove(self, **parts):
+        link = self.build(**parts)
+        self.assertEqual(link.returncode, 0, link.stderr)
+        run = subprocess.run([sys.executable, str(HERE / "image.py"), str(self.place / "bad.elf"),
+                              str(self.place)], capture_output=True, text=True)
+        return run.returncode, run.stdout + run.stderr
+
+    def refuse(self, message, **parts):
+        status, text = self.prove(**parts)
+        self.assertEqual(status, 1, text)
+        self.assertIn(message, text)
+
+    def test_a_good_image_passes(self):
+        status, text = self.prove()
+        self.assertEqual(status, 0, text)
+
+    def test_the_heap_does_not_even_link(self):
+        self.assertNotEqual(self.build(reset="sink = *new int;").returncode, 0)
+
+    def test_a_heap_of_ones_own_is_refused(self):
+        self.refuse("symbols: malloc", extra='extern "C" void* malloc(unsigned) { return 0; }')
+
+    def test_stdio_is_refused(self):
+        self.refuse("symbols: printf", extra='extern "C" int printf(const char*, ...) { return 0; }')
+
+    def test_doubles_in_the_servo_tick_are_refused(self):
+        self.refuse("double: cusp_servo_tick", tick="wide = wide * 3.0;")
+
+    def test_doubles_in_the_main_loop_are_allowed(self):
+        status, text = self.prove(reset="wide = wide * 3.0;")
+        self.assertEqual(status, 0, text)
+
+    def test_floats_in_the_players_interrupt_are_refused(self):
+        self.refuse("float: cusp_player_interrupt", player="number = number + 1.0F;")
+
+    def test_floats_below_the_players_interrupt_are_refused(self):
+        self.refuse("float: cusp_player_interrupt", player="deep();",
+                    extra="__attribute__((noinline)) void deep() { extern volatile float number; "
+                          "number = number * number; }")
+
+    def test_recursion_is_refused(self):
+        self.refuse("recursion", tick="again(sink);",
+                    extra="__attribute__((noinline)) int again(int n) "
+                          "{ return n < 2 ? n : again(n - 1) * again(n - 2); }")
+
+    def test_a_call_by_pointer_is_refused(self):
+        self.refuse("calls: cusp_servo_tick", extra="void (*volatile pointer)();",
+                    tick="pointer(); sink = 2;")
+
+    def test_a_virtual_call_is_refused(self):
+        self.refuse("calls: cusp_serial_interrupt", serial="object->act(); sink = 2;",
+                    extra="struct Base { virtual void act() = 0; }; Base* volatile object;")
+
+    def test_a_stack_that_only_the_run_can_tell_is_refused(self):
+        self.refuse("only the run can tell",
+                    tick="volatile char* p = (char*)__builtin_alloca(sink); p[0] = 1;")
+
+    def test_a_stack_that_is_too_deep_is_refused(self):
+        self.refuse("bytes are needed", reset="volatile char a[9000]; a[sink] = 1;")
+
+    def test_stacks_of_all_priorities_add_up(self):
+        self.refuse("bytes are needed", reset="volatile char a[3000]; a[sink] = 1;",
+                    tick="volatile char b[3000]; b[sink] = 1;",
+                    serial="volatile char c[3000]; c[sink] = 1;")
+
+    def test_too_much_ram_is_refused(self):
+        self.refuse("bytes of RAM", extra="char large[100000];", reset="large[sink] = 1;")
+
+    def test_a_missing_image_is_no_success(self):
+        run = subprocess.run([sys.executable, str(HERE / "image.py"), "none.elf", str(self.place)],
+                             capture_output=True, text=True)
+        self.assertEqual(run.returncode, 2)
+
+    def test_a_missing_call_graph_is_no_success(self):
+        self.build()
+        run = subprocess.run([sys.executable, str(HERE / "image.py"), str(self.place / "bad.elf"),
+                              str(HERE)], capture_output=True, text=True)
+        self.assertEqual(run.returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main()

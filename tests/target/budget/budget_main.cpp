@@ -1,0 +1,217 @@
+// Counts the instructions of the firmware's hot paths on the target's core, under QEMU. The counts
+// are held by tests/target/budgets.txt.
+#include "firmware/base/math.hpp"
+#include "firmware/interpolator/interpolator.hpp"
+#include "firmware/planner/planner.hpp"
+#include "firmware/pulse/pulse_maker.hpp"
+#include "hal/stm32f4/dma_pulse_player.hpp"
+#include "hal/stm32f4/fault_record.hpp"
+#include "hal/stm32f4/vectors.hpp"
+#include "tests/target/budget/instruction_meter.hpp"
+
+namespace {
+
+using namespace cusp;
+using hal::stm32f4::DeviceWord;
+using hal::stm32f4::Dma;
+using hal::stm32f4::Gpio;
+using hal::stm32f4::Timer;
+using test::InstructionMeter;
+
+planner::Planner plan{MachineLimits{}};
+interpolator::Interpolator interpolator{plan};
+pulse::PulseMaker pulse_maker{pulse::StepSettings{}};
+PulseFrame frame;
+hal::qemu::HostFile out;
+
+// QEMU has no DMA: the player's registers are memory that stands still.
+struct StillChip {
+    using Word = DeviceWord;
+    static inline Dma<Word> dma{};
+    static inline Timer<Word> timer{};
+    static inline Gpio<Word> port{};
+    static auto& dma2() noexcept { return dma; }
+    static auto& timer8() noexcept { return timer; }
+    static std::uint32_t bus_address(const volatile void* memory) noexcept
+    {
+        return hal::stm32f4::Chip::bus_address(memory);
+    }
+};
+struct StillPort {
+    static constexpr PulseLines kInvertedLines = 0;
+    static auto& gpio() noexcept { return StillChip::port; }
+};
+hal::stm32f4::DmaPulsePlayer<StillChip, StillPort> player;
+
+constexpr float kFeed = 50.0F;
+
+path::Move move_to(Position end, const path::Path& path, float tolerance)
+{
+    path::Move move;
+    move.path = path;
+    move.start = plan.tail();
+    move.end = end;
+    move.feed = kFeed;
+    move.tolerance = tolerance;
+    return move;
+}
+
+// Plays all that the planner holds; each tick that moves counts.
+void count_ticks(InstructionMeter& meter)
+{
+    plan.close();
+    for (unsigned tick = 0; tick < 20000; ++tick) {
+        while (!plan.has_room() && !plan.empty()) {
+            break;
+        }
+        meter.begin();
+        static_cast<void>(interpolator.tick());
+        meter.end();
+        if (plan.empty() && interpolator.at_rest()) {
+            break;
+        }
+    }
+}
+
+void begin_at_zero()
+{
+    plan.reset({});
+    interpolator.reset({});
+}
+
+void count_one_move(std::string_view name, Position end, const path::Path& path)
+{
+    InstructionMeter meter{name};
+    begin_at_zero();
+    static_cast<void>(plan.has_room());
+    plan.push(move_to(end, path, 0.0F));
+    count_ticks(meter);
+    meter.report(out);
+}
+
+void count_interpolation()
+{
+    count_one_move("tick_line", to_position({60.0, 30.0, 10.0}), path::Line{});
+    const path::Arc helix{
+        {20.0, 0.0, 0.0}, {-1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 5.0}, 20.0, 0.0, kPi};
+    count_one_move("tick_arc", to_position({40.0, 0.0, 5.0}), helix);
+    path::BezierPiece cubic{};
+    cubic.order = 4;
+    cubic.points[1] = {10.0F, 20.0F, 2.0F};
+    cubic.points[2] = {30.0F, 20.0F, 4.0F};
+    cubic.points[3] = {40.0F, 0.0F, 5.0F};
+    for (float& weight : cubic.weights) {
+        weight = 1.0F;
+    }
+    count_one_move("tick_cubic", to_position({40.0, 0.0, 5.0}), cubic);
+    path::BezierPiece quartic = cubic;
+    quartic.order = 5;
+    quartic.points[4] = {50.0F, 10.0F, 6.0F};
+    quartic.weights[1] = 2.0F;
+    quartic.weights[3] = 0.7F;
+    count_one_move("tick_rational_quartic", to_position({50.0, 10.0, 6.0}), quartic);
+}
+
+// All three axes at this many nanometres a tick; 800 steps/mm.
+void count_pulses(std::string_view frame_name, std::string_view fill_name, std::int64_t travel)
+{
+    InstructionMeter make{frame_name};
+    InstructionMeter fill{fill_name};
+    Position at{};
+    pulse_maker.reset(at);
+    player.start(168000000);
+    for (unsigned tick = 0; tick < 200; ++tick) {
+        at = {at.x + travel, at.y + travel + tick % 7, at.z - travel};
+        make.begin();
+        pulse_maker.make_frame(at, frame);
+        make.end();
+        // The other half has just begun; the frame goes into the one that has been played.
+        StillChip::dma.stream[1].ndtr.write(tick % 2 == 0 ? 2000 : 1000);
+        fill.begin();
+        const bool taken = player.try_play(frame);
+        StillChip::dma.lisr.write(1U << 10U);
+        StillChip::dma.stream[1].ndtr.write(tick % 2 == 0 ? 1000 : 2000);
+        static_cast<void>(player.on_interrupt());
+        fill.end();
+        CUSP_ASSERT(taken && !player.underrun());
+    }
+    for (unsigned tick = 0; tick < 5; ++tick) {
+        pulse_maker.make_frame(at, frame);
+    }
+    make.report(out);
+    fill.report(out);
+}
+
+// Dense lines of 0.1 mm along a circle of 30 mm, played as they come.
+void count_look_ahead()
+{
+    InstructionMeter meter{"look_ahead_g1"};
+    constexpr unsigned kLines = 1500;
+    begin_at_zero();
+    for (unsigned line = 1; line <= kLines; ++line) {
+        const auto angle = sin_cos(static_cast<double>(line) * (0.1 / 30.0));
+        const Position end = to_position({30.0 * angle.sin, 30.0 - 30.0 * angle.cos, 0.001 * line});
+        while (!plan.has_room()) {
+            static_cast<void>(interpolator.tick());
+        }
+        const path::Move move = move_to(end, path::Line{}, 0.01F);
+        meter.begin();
+        plan.push(move);
+        static_cast<void>(plan.has_room());
+        meter.end();
+    }
+    meter.report(out);
+}
+
+}  // namespace
+
+void cusp_main()
+{
+    out = hal::qemu::HostFile{":tt", hal::qemu::FileMode::kWrite};
+    InstructionMeter::start_clock();
+    count_interpolation();
+    count_pulses("frame_at_0", "player_at_0", 0);
+    count_pulses("frame_at_50k", "player_at_50k", 62500);
+    count_pulses("frame_at_250k", "player_at_250k", 312500);
+    count_look_ahead();
+    hal::qemu::exit_qemu(0);
+}
+
+extern "C" {
+void cusp_servo_tick() {}
+void cusp_player_interrupt() {}
+void cusp_serial_interrupt() {}
+}
+
+namespace {
+
+constexpr std::array<hal::stm32f4::InterruptEntry, 0> kInterrupts{};
+
+__attribute__((section(".vectors"), used)) constexpr hal::stm32f4::VectorTable kVectors =
+    hal::stm32f4::make_vectors(
+        &cusp_stack_top, cusp_reset, cusp_exception, cusp_servo_tick, kInterrupts);
+
+}  // namespace
+
+namespace cusp {
+
+void fault(const char* expression, const char* /*file*/, int /*line*/) noexcept
+{
+    const std::string_view text{expression};
+    out.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    hal::qemu::exit_qemu(3);
+}
+
+namespace hal::stm32f4 {
+
+void core_fault(std::uint32_t /*exception*/,
+                std::uint32_t /*program_counter*/,
+                std::uint32_t /*link_register*/,
+                std::uint32_t /*fault_status*/) noexcept
+{
+    fault("fault of the core", __FILE__, __LINE__);
+}
+
+}  // namespace hal::stm32f4
+
+}  // namespace cusp

@@ -1,0 +1,83 @@
+#!/usr/bin/env python3
+"""Shows that the comparisons of the target tests see the differences they look for."""
+import array
+import pathlib
+import tempfile
+import unittest
+
+import budgets
+import golden
+from qemu import RunFailed
+
+DUMP = """$timescale 1 us $end
+$scope module mill $end
+$var wire 1 a step_x $end
+$var wire 1 b dir_x $end
+$var wire 1 c step_y $end
+$var wire 1 d dir_y $end
+$var wire 1 e step_z $end
+$var wire 1 f dir_z $end
+$var wire 1 g spindle $end
+$upscope $end
+$enddefinitions $end
+#0
+$dumpvars
+0a
+0b
+0c
+0d
+0e
+0f
+0g
+$end
+#10
+1b
+1g
+#15
+1a
+1e
+#17
+0a
+0e
+#20
+"""
+
+
+class Comparisons(unittest.TestCase):
+    def read_dump(self, text):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "a.vcd"
+            file.write_text(text)
+            return golden.read_dump(file)
+
+    def test_a_dump_becomes_the_boards_list_of_edges(self):
+        self.assertEqual(list(self.read_dump(DUMP)),
+                         [10 << 8 | 0x08, 15 << 8 | 0x0D, 17 << 8 | 0x08])
+
+    def test_a_finer_timescale_gives_the_same_ticks(self):
+        fine = DUMP.replace("1 us", "100 ns")
+        for tick in ("10", "15", "17", "20"):
+            fine = fine.replace(f"#{tick}\n", f"#{tick}0\n")
+        self.assertEqual(self.read_dump(fine), self.read_dump(DUMP))
+
+    def test_a_dump_without_its_wires_is_refused(self):
+        with self.assertRaises(RunFailed):
+            self.read_dump(DUMP.replace("step_z", "other"))
+
+    def test_a_tick_a_level_or_a_missing_edge_is_seen(self):
+        edges = array.array("Q", [256, 513, 1024])
+        self.assertIsNone(golden.first_difference(edges, array.array("Q", edges)))
+        for other in ([256, 769, 1024], [256, 512, 1024], [256, 513]):
+            self.assertIsNotNone(golden.first_difference(edges, array.array("Q", other)))
+
+    def test_budgets_see_more_and_less_than_two_per_cent(self):
+        record = {"tick": (1000, 2000, "-")}
+        self.assertEqual(list(budgets.compare({"tick": (1020, 1960)}, record)), [])
+        self.assertEqual(len(list(budgets.compare({"tick": (1025, 2000)}, record))), 1)
+        self.assertEqual(len(list(budgets.compare({"tick": (1000, 1900)}, record))), 1)
+        self.assertEqual(len(list(budgets.compare({}, record))), 1)
+        self.assertEqual(len(list(budgets.compare({"new": (1, 1)}, {}))), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,161 @@
+#!/usr/bin/env python3
+"""Runs a program on the image under QEMU, twice, and in the host simulator, and compares the edges.
+
+usage: golden.py --cusp CUSP --image IMAGE PROGRAM [--settings FILE] [--script FILE] [--keep FOLDER]
+
+Each run yields the list of (tick, levels of the six lines) after every change; the three lists must
+be equal, tick by tick.
+Exit status: 0 they are, 1 they are not, 2 something could not run.
+"""
+import argparse
+import array
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import time
+
+from qemu import RunFailed, run_image
+
+WIRES = ("step_x", "step_y", "step_z", "dir_x", "dir_y", "dir_z")
+UNITS_IN_PICOSECONDS = {"s": 10**12, "ms": 10**9, "us": 10**6, "ns": 10**3, "ps": 1}
+MICROSECOND = 10**6
+
+
+def read_trace(path):
+    """The board's trace: one number an edge, tick * 256 + levels."""
+    edges = array.array("Q")
+    edges.frombytes(pathlib.Path(path).read_bytes())
+    return edges
+
+
+def read_header(file):
+    """Bit of each wire's code, and picoseconds a time unit, from a value change dump's head."""
+    bits, scale, text = {}, None, ""
+    for line in file:
+        text += line
+        if "$enddefinitions" in line:
+            break
+    match = re.search(r"\$timescale\s+(\d+)\s*(\w+)\s+\$end", text)
+    if match:
+        scale = int(match.group(1)) * UNITS_IN_PICOSECONDS[match.group(2)]
+    for code, name in re.findall(r"\$var\s+\w+\s+1\s+(\S+)\s+(\w+)", text):
+        if name in WIRES:
+            bits[code] = 1 << WIRES.index(name)
+    if scale is None or len(bits) != len(WIRES):
+        raise RunFailed("the value change dump has no timescale or lacks a wire")
+    return bits, scale
+
+
+def read_dump(path):
+    """The simulator's trace from its value change dump, in the board's form."""
+    edges = array.array("Q")
+    with open(path) as file:
+        bits, scale = read_header(file)
+        levels = before = tick = 0
+        for line in file:
+            if line[0] == "#":
+                if levels != before:
+                    edges.append(tick << 8 | levels)
+                    before = levels
+                tick = int(line[1:]) * scale // MICROSECOND
+            elif line[0] in "01":
+                bit = bits.get(line[1:].rstrip())
+                if bit:
+                    levels = levels | bit if line[0] == "1" else levels & ~bit
+        if levels != before:
+            edges.append(tick << 8 | levels)
+    return edges
+
+
+def first_difference(left, right):
+    if left == right:
+        return None
+    count = min(len(left), len(right))
+    place = next((k for k in range(count) if left[k] != right[k]), count)
+
+    def show(edges):
+        if place >= len(edges):
+            return f"ends after {len(edges)} edges"
+        return f"edge {place} at tick {edges[place] >> 8}, levels {edges[place] & 255:06b}"
+    return f"{show(left)} against {show(right)}"
+
+
+def simulate(options, folder):
+    dump = folder / "host.vcd"
+    command = [options.cusp, "sim", options.program, "--vcd", str(dump)]
+    if options.settings:
+        command += ["--settings", options.settings]
+    if options.script:
+        command += ["--script", options.script]
+    run = subprocess.run(command, capture_output=True, text=True)
+    if run.returncode > 1 or not dump.exists():
+        raise RunFailed(f"cusp sim: status {run.returncode}: {run.stderr[-500:]}")
+    return run.returncode, read_dump(dump)
+
+
+def play(options, folder, name):
+    """The settings go ahead of the program, as the lines that a sender would send."""
+    program = folder / "board.ngc"
+    text = pathlib.Path(options.settings).read_text() if options.settings else ""
+    if text and not text.endswith("\n"):
+        text += "\n"
+    program.write_text(text + pathlib.Path(options.program).read_text())
+    trace = folder / name
+    words = ["program", program, "trace", trace]
+    if options.script:
+        words += ["script", pathlib.Path(options.script).resolve()]
+    status, console = run_image(options.image, words, seconds=options.seconds)
+    (folder / f"{name}.txt").write_text(console)
+    if status > 1:
+        raise RunFailed(f"{options.image}: status {status}: {console[-500:]}")
+    return status, read_trace(trace)
+
+
+def compare(options, folder):
+    started = time.monotonic()
+    host_status, host = simulate(options, folder)
+    simulated = time.monotonic()
+    board_status, board = play(options, folder, "first")
+    played = time.monotonic()
+    again = play(options, folder, "second")[1]
+    print(f"{pathlib.Path(options.program).name}: {len(host)} edges on the host in "
+          f"{simulated - started:.1f} s, {len(board)} on the board in {played - simulated:.1f} s")
+    found = []
+    if not options.may_stand_still and not host:
+        found.append("the program moves nothing: nothing is compared")
+    if board != again:
+        found.append(f"two runs of the board differ: {first_difference(board, again)}")
+    if host != board:
+        found.append(f"host and board differ: {first_difference(host, board)}")
+    if host_status != board_status:
+        found.append(f"the host ended with status {host_status}, the board with {board_status}")
+    print("\n".join(found) if found else "equal, tick by tick; twice the same")
+    return 1 if found else 0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--cusp", required=True)
+    parser.add_argument("--image", required=True)
+    parser.add_argument("program")
+    parser.add_argument("--settings")
+    parser.add_argument("--script")
+    parser.add_argument("--keep", help="folder for the traces; default: none are kept")
+    parser.add_argument("--seconds", type=int, default=300)
+    parser.add_argument("--may-stand-still", action="store_true")
+    options = parser.parse_args()
+    try:
+        if options.keep:
+            pathlib.Path(options.keep).mkdir(parents=True, exist_ok=True)
+            return compare(options, pathlib.Path(options.keep).resolve())
+        with tempfile.TemporaryDirectory() as folder:
+            return compare(options, pathlib.Path(folder))
+    except (OSError, RunFailed) as error:
+        print(f"golden: {error}", file=sys.stderr)
+        return 2
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,225 @@
+// Whole plans, judged by a height map that is cut move by move.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "CppUTest/TestHarness.h"
+
+#include "host_tools/hull_rough/hull_rough.hpp"
+#include "tests/support/tap.hpp"
+
+using namespace cusp::host;
+using cusp::Vec3d;
+
+namespace {
+
+Job tap_job()
+{
+    Job job;
+    job.file = "tap.toml";
+    job.feed = 1200;
+    job.plunge_feed = 300;
+    job.clearance = 5;
+    return job;
+}
+
+Operation tap_operation(int extra_subdivision)
+{
+    Operation operation;
+    operation.strategy = "hull_rough";
+    operation.floor = {tap()};
+    operation.tool = {1, ToolShape::kFlat, 6, 0};
+    operation.max_depth = 2;
+    operation.min_depth = 1;
+    operation.plan_tolerance = 0.02;
+    operation.extra_subdivision = extra_subdivision;
+    return operation;
+}
+
+// Stock over the tap as heights on a raster, and the surface under it as points.
+class Block {
+public:
+    Block() : heights_(kColumns * kRows, 18.6667)
+    {
+        const Surface surface = tap();
+        for (int i = 0; i <= 300; ++i) {
+            for (int j = 0; j <= 120; ++j) {
+                points_.push_back(point_at(surface, i / 300.0, j / 120.0));
+            }
+        }
+    }
+
+    // Cuts with a flat tool along a move. Less than the radius is cut for depth: slivers between
+    // looked-at places are no metal.
+    void cut(const Tool& tool, MoveKind kind, Vec3d a, Vec3d b)
+    {
+        const int steps = static_cast<int>(std::ceil(std::hypot(b.x - a.x, b.y - a.y) / 0.4)) + 1;
+        for (int k = 0; k <= steps; ++k) {
+            const Vec3d tip = a + (b - a) * (static_cast<double>(k) / steps);
+            if (tip.z < 18.7) {
+                cut_at(tool, kind, tip);
+            }
+        }
+    }
+
+    double volume() const
+    {
+        double sum = 0;
+        for (const double h : heights_) {
+            sum += h * kCell * kCell;
+        }
+        return sum;
+    }
+
+    // How far a tip at `z` over any looked-at surface point would cut into it.
+    double deepest_gouge(const Tool& tool, Vec3d tip) const
+    {
+        double deepest = 0;
+        for (const Vec3d& p : points_) {
+            if (std::hypot(p.x - tip.x, p.y - tip.y) < tool.radius) {
+                deepest = std::max(deepest, p.z - tip.z);
+            }
+        }
+        return deepest;
+    }
+
+    double deepest_cut{};
+    double deepest_rapid{};
+
+private:
+    static constexpr double kCell = 0.6;
+    static constexpr int kColumns = 195;
+    static constexpr int kRows = 80;
+    std::vector<double> heights_;
+    std::vector<Vec3d> points_;
+
+    void cut_at(const Tool& tool, MoveKind kind, Vec3d tip)
+    {
+        const int reach = static_cast<int>(tool.radius / kCell) + 1;
+        const int column = static_cast<int>(tip.x / kCell);
+        const int row = static_cast<int>((tip.y + 24) / kCell);
+        for (int i = std::max(0, column - reach); i < std::min(kColumns, column + reach + 1); ++i) {
+            for (int j = std::max(0, row - reach); j < std::min(kRows, row + reach + 1); ++j) {
+                const double d =
+                    std::hypot((i + 0.5) * kCell - tip.x, (j + 0.5) * kCell - 24 - tip.y);
+                double& h = heights_[static_cast<std::size_t>(i * kRows + j)];
+                if (d < tool.radius - 0.01) {
+                    double& deepest = kind == MoveKind::kRapid ? deepest_rapid : deepest_cut;
+                    deepest = std::max(deepest, h - tip.z);
+                }
+                h = d < tool.radius ? std::min(h, tip.z) : h;
+            }
+        }
+    }
+};
+
+Vec3d end_of(const ToolMove& move)
+{
+    if (const auto* arc = std::get_if<ArcTo>(&move.shape)) {
+        return arc->end;
+    }
+    return std::get<LineTo>(move.shape).end;
+}
+
+void machine(Block& block, const std::vector<PlannedOperation>& plan)
+{
+    for (const PlannedOperation& operation : plan) {
+        Vec3d at = end_of(operation.path.moves.front());
+        for (const ToolMove& move : operation.path.moves) {
+            const Vec3d end = end_of(move);
+            block.cut(operation.path.tool, move.kind, at, end);
+            at = end;
+        }
+    }
+}
+
+double count(const PlannedOperation& operation, const std::string& name)
+{
+    for (const auto& [key, value] : operation.stats.counts) {
+        if (key == name) {
+            return value;
+        }
+    }
+    return -1;
+}
+
+constexpr double kStockVolume = 104832;
+constexpr double kPartVolume = 22604;
+
+}  // namespace
+
+TEST_GROUP(HullPlan){};
+
+TEST(HullPlan, OfTheTapHasThePapersLayersAndCutsNoDeeper)
+{
+    const auto plan = plan_hull_rough(tap_job(), tap_operation(0));
+    LONGS_EQUAL(1, plan.size());
+    DOUBLES_EQUAL(15, count(plan[0], "layers"), 0);
+    Block block;
+    machine(block, plan);
+    CHECK(block.deepest_cut < 1.84);
+    CHECK(block.deepest_rapid <= 0);
+}
+
+TEST(HullPlan, NeverReachesIntoTheSurface)
+{
+    for (const int levels : {0, 2}) {
+        const auto plan = plan_hull_rough(tap_job(), tap_operation(levels));
+        const Block block;
+        for (std::size_t i = 0; i < plan[0].path.moves.size(); i += 7) {
+            const ToolMove& move = plan[0].path.moves[i];
+            DOUBLES_EQUAL(0, block.deepest_gouge(plan[0].path.tool, end_of(move)), 0);
+        }
+    }
+}
+
+TEST(HullPlan, WithExtraSubdivisionTakesNinetyFivePercentInNoMoreThanSeventeenLayers)
+{
+    const auto plan = plan_hull_rough(tap_job(), tap_operation(3));
+    CHECK(count(plan[0], "layers") <= 17);
+    Block block;
+    machine(block, plan);
+    const double removed = kStockVolume - block.volume();
+    CHECK(removed >= 0.95 * (kStockVolume - kPartVolume));
+    CHECK(block.deepest_cut < 2.01);
+}
+
+TEST(HullPlan, KeepsTheDepthWhenASmallCutterFollowsALargeOne)
+{
+    Operation operation = tap_operation(2);
+    operation.tools = {{1, ToolShape::kFlat, 10, 0}, {2, ToolShape::kFlat, 2, 0}};
+    Job job = tap_job();
+    job.feed = 100;
+    const auto plan = plan_hull_rough(job, operation);
+    Block block;
+    machine(block, plan);
+    CHECK(block.deepest_cut < 2.01);
+    CHECK(block.deepest_rapid <= 0);
+}
+
+TEST(HullPlan, RefusesInputThatCannotBeUsed)
+{
+    const auto refused = [](auto change) {
+        Operation operation = tap_operation(0);
+        change(operation);
+        try {
+            plan_hull_rough(tap_job(), operation);
+        } catch (const InputError&) {
+            return true;
+        }
+        return false;
+    };
+    CHECK(refused([](Operation& o) { o.floor.clear(); }));
+    CHECK(refused([](Operation& o) { o.max_depth = 0.0; }));
+    CHECK(refused([](Operation& o) { o.min_depth = 3.0; }));
+    CHECK(refused([](Operation& o) { o.max_depth = 1e-5; }));
+    CHECK(refused([](Operation& o) { o.overlap = 12; }));
+    CHECK(refused([](Operation& o) { o.overlap = -1; }));
+    CHECK(refused([](Operation& o) { o.extra_subdivision = 9; }));
+    CHECK(refused([](Operation& o) { o.output = OutputForm::kNurbs; }));
+    CHECK(refused([](Operation& o) { o.layers = {2, 1}; }));
+    CHECK(refused([](Operation& o) { o.tool.radius = 0; }));
+}

@@ -1,0 +1,120 @@
+// Distances to the programmed path.
+#include "host_tools/simulate/path_deviation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "CppUTest/TestHarness.h"
+
+namespace {
+
+using namespace cusp;
+
+path::Move line(Position start, Position end, std::uint32_t number = 1)
+{
+    path::Move move;
+    move.start = start;
+    move.end = end;
+    move.line = number;
+    return move;
+}
+
+// Helix about an axis along z, from angle 0.
+path::Move helix(double radius, double radius_change, double sweep, double rise)
+{
+    path::Move move;
+    move.path = path::Arc{{-radius, 0, 0}, {1, 0, 0},     {0, 1, 0}, {0, 0, rise},
+                          radius,          radius_change, sweep};
+    move.end = {1, 1, 1};
+    return move;
+}
+
+Vec3d helix_point(const path::Arc& arc, double t)
+{
+    const double r = arc.radius + t * arc.radius_change;
+    return arc.centre + arc.u * (r * std::cos(t * arc.sweep)) +
+           arc.v * (r * std::sin(t * arc.sweep)) + arc.axial * t;
+}
+
+}  // namespace
+
+TEST_GROUP(PathDeviation){};
+
+TEST(PathDeviation, OfALineIsTheDistanceToItsNearestPoint)
+{
+    const path::Move move = line({0, 0, 0}, {3'000'000, 4'000'000, 0});
+    DOUBLES_EQUAL(0.0, host::distance_to_move(move, {1'500'000, 2'000'000, 0}), 1e-12);
+    DOUBLES_EQUAL(5.0, host::distance_to_move(move, {-3'000'000, -4'000'000, 0}), 1e-12);
+    DOUBLES_EQUAL(2.0, host::distance_to_move(move, {3'000'000, 4'000'000, 2'000'000}), 1e-12);
+}
+
+TEST(PathDeviation, OfAHelixIsTheDistanceToItsNearestSample)
+{
+    const unsigned seed = 7;
+    std::mt19937 random{seed};
+    std::uniform_real_distribution<double> unit{0.0, 1.0};
+    for (int round = 0; round < 40; ++round) {
+        const path::Move move =
+            helix(1.0 + 9.0 * unit(random), 0.1 * unit(random) - 0.05, 0.1 + 15.0 * unit(random),
+                  round % 2 == 0 ? 0.0 : 5.0 * unit(random));
+        const auto& arc = std::get<path::Arc>(move.path);
+        const Vec3d off{0.2 * unit(random), 0.2 * unit(random), 0.2 * unit(random)};
+        const Position point = to_position(helix_point(arc, unit(random)) + off);
+        double sampled = 1e9;
+        for (int i = 0; i <= 200'000; ++i) {
+            sampled =
+                std::min(sampled, norm(helix_point(arc, i / 200'000.0) - to_millimetres(point)));
+        }
+        DOUBLES_EQUAL(sampled, host::distance_to_move(move, point), 2e-6);
+    }
+}
+
+TEST(PathDeviation, OfABezierPieceIsTheDistanceToItsCurve)
+{
+    path::Move move;
+    path::BezierPiece piece{};
+    piece.order = 3;
+    piece.points[1] = {1.0F, 0.0F, 0.0F};
+    piece.points[2] = {1.0F, 1.0F, 0.0F};
+    piece.weights[0] = piece.weights[2] = 1.0F;
+    piece.weights[1] = 0.70710678F;  // a quarter of a circle about (0, 1)
+    move.path = piece;
+    move.end = {1'000'000, 1'000'000, 0};
+    for (int i = 0; i <= 100; ++i) {
+        const double angle = i / 100.0 * 1.5707963;
+        const Vec3d p{1.01 * std::sin(angle), 1.0 - 1.01 * std::cos(angle), 0.0};
+        DOUBLES_EQUAL(0.01, host::distance_to_move(move, to_position(p)), 1e-6);
+    }
+}
+
+TEST(PathDeviation, FollowsThePathAndNotItsNeighbourhood)
+{
+    // Out along x, up, and back 10 um above: the cut through the air at the far end counts.
+    host::PathDeviation deviation;
+    deviation.add_move(line({0, 0, 0}, {10'000'000, 0, 0}, 1));
+    deviation.add_move(line({10'000'000, 0, 0}, {10'000'000, 5'000'000, 0}, 2));
+    deviation.add_move(line({10'000'000, 5'000'000, 0}, {0, 5'000'000, 0}, 3));
+    deviation.add_move(line({0, 5'000'000, 0}, {0, 0, 0}, 4));
+    deviation.add_move(line({0, 0, 0}, {-10'000'000, 0, 0}, 5));
+    deviation.add_set_point({5'000'000, 0, 0}, 1);
+    DOUBLES_EQUAL(0.0, deviation.greatest(), 1e-12);
+    deviation.add_set_point({10'000'000, 5'000'000, 20'000}, 2);
+    DOUBLES_EQUAL(0.02, deviation.greatest(), 1e-12);
+    LONGS_EQUAL(2, deviation.line());
+}
+
+TEST(PathDeviation, ForgetsMovesThatAreLongPast)
+{
+    host::PathDeviation deviation;
+    for (std::int64_t i = 0; i < 10; ++i) {
+        deviation.add_move(line({i * 1'000'000, 0, 0}, {(i + 1) * 1'000'000, 0, 0},
+                                static_cast<std::uint32_t>(i) + 1U));
+    }
+    for (std::int64_t tick = 0; tick <= 1000; ++tick) {
+        deviation.add_set_point({tick * 10'000, 0, 0}, static_cast<std::uint32_t>(tick / 100) + 1U);
+    }
+    DOUBLES_EQUAL(0.0, deviation.greatest(), 1e-12);
+    deviation.add_set_point({1'000'000, 0, 0}, 10);  // a leap back to a place of line 1
+    DOUBLES_EQUAL(8.0, deviation.greatest(), 1e-9);
+}

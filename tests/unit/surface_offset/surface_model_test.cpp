@@ -1,0 +1,198 @@
+// Clearance and drop against planes, cylinders and dense samples, whose answers are known.
+#include "host_tools/surface_offset/surface_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+#include "CppUTest/TestHarness.h"
+
+using namespace cusp;
+using namespace cusp::host;
+
+namespace {
+
+const Tool kBall{1, ToolShape::kBall, 3, 3};
+const Tool kFlat{1, ToolShape::kFlat, 3, 0};
+const Tool kBull{1, ToolShape::kBull, 3, 1};
+
+// Over [0, 20] x [0, 20]: z = slope * x.
+Surface plane(double slope)
+{
+    Surface s;
+    s.degree_u = s.degree_v = 1;
+    s.knots_u = s.knots_v = {0, 0, 1, 1};
+    s.size_u = s.size_v = 2;
+    s.points = {{0, 0, 0}, {0, 20, 0}, {20, 0, 20 * slope}, {20, 20, 20 * slope}};
+    s.weights = {1, 1, 1, 1};
+    return s;
+}
+
+// A quarter of a cylinder of radius 10 along y, from (10, 0) over the top to (0, 10): rational.
+Surface quarter_cylinder()
+{
+    Surface s;
+    s.degree_u = 2;
+    s.degree_v = 1;
+    s.knots_u = {0, 0, 0, 1, 1, 1};
+    s.knots_v = {0, 0, 1, 1};
+    s.size_u = 3;
+    s.size_v = 2;
+    s.points = {{10, 0, 0}, {10, 30, 0}, {10, 0, 10}, {10, 30, 10}, {0, 0, 10}, {0, 30, 10}};
+    const double w = std::sqrt(0.5);
+    s.weights = {1, 1, w, w, 1, 1};
+    return s;
+}
+
+Surface random_surface(std::mt19937& random)
+{
+    std::uniform_real_distribution<double> height{-6, 6};
+    Surface s;
+    s.degree_u = s.degree_v = 3;
+    s.knots_u = s.knots_v = {0, 0, 0, 0, 1, 2, 3, 3, 3, 3};
+    s.size_u = s.size_v = 6;
+    for (int i = 0; i < 6; ++i) {
+        for (int j = 0; j < 6; ++j) {
+            s.points.push_back({8.0 * i, 8.0 * j, height(random)});
+        }
+    }
+    s.weights.assign(36, 1.0);
+    return s;
+}
+
+Curve side(Vec3d a, Vec3d b) { return {1, {0, 0, 1, 1}, {a, b}, {1, 1}}; }
+
+Surface holed_plane()
+{
+    Surface s = plane(0);
+    s.trims = {{side({0, 0, 0}, {1, 0, 0}), side({1, 0, 0}, {1, 1, 0}), side({1, 1, 0}, {0, 1, 0}),
+                side({0, 1, 0}, {0, 0, 0})},
+               {side({.25, .25, 0}, {.25, .75, 0}), side({.25, .75, 0}, {.75, .75, 0}),
+                side({.75, .75, 0}, {.75, .25, 0}), side({.75, .25, 0}, {.25, .25, 0})}};
+    return s;
+}
+
+double dense_distance(const SurfaceModel& model, Vec3d centre)
+{
+    double least = 1e9;
+    for (int i = 0; i <= 300; ++i) {
+        for (int j = 0; j <= 300; ++j) {
+            const Vec3d p = model.evaluate(0, 0.01 * i, 0.01 * j).point;
+            const Vec3d r{p.x - centre.x, p.y - centre.y, std::min(0.0, p.z - centre.z)};
+            least = std::min(least, norm(r));
+        }
+    }
+    return least;
+}
+
+}  // namespace
+
+TEST_GROUP(SurfaceModelDistance){};
+
+TEST(SurfaceModelDistance, OfABallFromASlopeIsThatOfItsCentre)
+{
+    const SurfaceModel model{{plane(1)}};
+    const double gap = 5 / std::sqrt(2.0) - 3;
+    DOUBLES_EQUAL(gap, model.clearance(kBall, {10, 10, 15 - 3.0}, 10).distance, 1e-6);
+}
+
+TEST(SurfaceModelDistance, EndsAtTheLimit)
+{
+    const SurfaceModel model{{plane(0)}};
+    DOUBLES_EQUAL(0.5, model.clearance(kBall, {10, 10, 4}, 0.5).distance, 0);
+}
+
+TEST(SurfaceModelDistance, SeesASurfaceOverTheTool)
+{
+    const SurfaceModel model{{plane(0)}};
+    CHECK(model.clearance(kBall, {10, 10, -20}, 1).distance < -2.9);
+}
+
+TEST(SurfaceModelDistance, IsExactOnARationalCylinder)
+{
+    const SurfaceModel model{{quarter_cylinder()}};
+    const double side_length = 14 / std::sqrt(2.0);
+    const Clearance c = model.clearance(kBall, {side_length, 12, side_length - 3}, 10);
+    DOUBLES_EQUAL(1, c.distance, 1e-6);
+    DOUBLES_EQUAL(10 / std::sqrt(2.0), c.nearest.point.x, 1e-3);
+}
+
+TEST(SurfaceModelDistance, AgreesWithDenseSamplesOnRandomSurfaces)
+{
+    constexpr unsigned kSeed = 7;
+    std::printf("seed %u ", kSeed);
+    std::mt19937 random{kSeed};
+    std::uniform_real_distribution<double> at{0, 40};
+    for (int turn = 0; turn < 6; ++turn) {
+        const SurfaceModel model{{random_surface(random)}};
+        const Vec3d tip{at(random), at(random), at(random) * 0.2};
+        const double dense = dense_distance(model, tip + Vec3d{0, 0, 3});
+        const double exact = model.clearance(kBall, tip, 100).distance + 3;
+        CHECK(exact <= dense + 1e-9);
+        CHECK(exact >= dense - 0.15);
+    }
+}
+
+TEST(SurfaceModelDistance, PassesThroughATrimmedHole)
+{
+    const SurfaceModel model{{holed_plane()}};
+    const double to_edge = std::sqrt(5.0 * 5.0 + 1.0) - 3;
+    DOUBLES_EQUAL(to_edge, model.clearance(kBall, {10, 10, 1 - 3.0}, 10).distance, 2e-4);
+    DOUBLES_EQUAL(-2, model.clearance(kBall, {2, 2, 1 - 3.0}, 10).distance, 1e-6);
+}
+
+TEST(SurfaceModelDistance, AlongAMoveIsBoundedFromBelow)
+{
+    const SurfaceModel model{{plane(0)}};
+    // Dives from 1 mm over the plane to 1 mm under it.
+    const double bound = model.clearance_along(kBall, {5, 5, 1}, {9, 5, -1}, 0, 1e-4);
+    CHECK(bound <= -1 + 1e-9);
+    CHECK(bound >= -1 - 1e-3);
+    DOUBLES_EQUAL(0, model.clearance_along(kBall, {5, 5, 0.01}, {9, 5, 0.01}, 0, 1e-4), 1e-12);
+}
+
+TEST_GROUP(SurfaceModelDrop){};
+
+TEST(SurfaceModelDrop, OfABallOnASlopeTouchesBesideTheAxis)
+{
+    const SurfaceModel model{{plane(1)}};
+    DOUBLES_EQUAL(10 + 3 * std::sqrt(2.0) - 3, *model.drop(kBall, 10, 10), 1e-6);
+}
+
+TEST(SurfaceModelDrop, OfAFlatToolTouchesWithItsRim)
+{
+    const SurfaceModel model{{plane(1)}};
+    DOUBLES_EQUAL(13, *model.drop(kFlat, 10, 10), 1e-4);
+}
+
+TEST(SurfaceModelDrop, OfABullToolTouchesWithItsCorner)
+{
+    const SurfaceModel model{{plane(1)}};
+    DOUBLES_EQUAL(10 + 2 + std::sqrt(2.0) - 1, *model.drop(kBull, 10, 10), 1e-4);
+}
+
+TEST(SurfaceModelDrop, MissesBesideTheModel)
+{
+    const SurfaceModel model{{plane(0)}};
+    CHECK_FALSE(model.drop(kBall, 30, 10).has_value());
+}
+
+TEST(SurfaceModelDrop, LeavesTheToolInContact)
+{
+    constexpr unsigned kSeed = 11;
+    std::printf("seed %u ", kSeed);
+    std::mt19937 random{kSeed};
+    std::uniform_real_distribution<double> at{-2, 42};
+    for (int turn = 0; turn < 5; ++turn) {
+        const SurfaceModel model{{random_surface(random), plane(0)}};
+        for (int k = 0; k < 20; ++k) {
+            const double x = at(random);
+            const double y = at(random);
+            const auto z = model.drop(kBall, x, y);
+            CHECK(z.has_value());
+            const double gap = model.clearance(kBall, {x, y, *z}, 1).distance;
+            CHECK(gap >= -1e-7 && gap <= 1e-6);
+        }
+    }
+}
