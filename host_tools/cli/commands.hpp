@@ -21,4 +21,6 @@ using Work = std::function<int()>;
 // <name>_command.cpp with such a function, one line here and one in main.cpp.
 using AddCommand = void (*)(CLI::App& app, Work& work);
 
+void add_plan_command(CLI::App& app, Work& work);
+
 }  // namespace cusp::host

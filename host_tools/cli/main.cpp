@@ -29,7 +29,9 @@ constexpr const char* kFooter =
 // In the order of --help.
 const std::vector<AddCommand>& commands()
 {
-    static const std::vector<AddCommand> all{};
+    static const std::vector<AddCommand> all{
+        add_plan_command,
+    };
     return all;
 }
 

@@ -1,0 +1,35 @@
+// The table of strategies: a new one is one line.
+#include "host_tools/cli/strategies.hpp"
+
+#include <array>
+
+#include "host_tools/contour_pocket/contour_pocket.hpp"
+#include "host_tools/hull_rough/hull_rough.hpp"
+
+namespace cusp::host {
+namespace {
+
+struct Strategy {
+    const char* name;
+    std::vector<PlannedOperation> (*plan)(const Job&, const Operation&);
+};
+
+constexpr std::array kStrategies{
+    Strategy{"contour_pocket", plan_contour_pocket},
+    Strategy{"hull_rough", plan_hull_rough},
+};
+
+}  // namespace
+
+std::vector<PlannedOperation> plan_operation(const Job& job, const Operation& operation)
+{
+    for (const Strategy& strategy : kStrategies) {
+        if (operation.strategy == strategy.name) {
+            return strategy.plan(job, operation);
+        }
+    }
+    throw InputError(job.file + ": strategy \"" + operation.strategy +
+                     "\" is not part of this build");
+}
+
+}  // namespace cusp::host
