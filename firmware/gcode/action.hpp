@@ -1,0 +1,62 @@
+// What one line asks of the machine, step by step. The machine performs actions in order.
+#pragma once
+
+#include <cstdint>
+#include <variant>
+
+#include "firmware/gcode/modal_state.hpp"
+#include "firmware/path/move.hpp"
+
+namespace cusp::gcode {
+
+// Moves to `move.end` until the probe answers. Tell the interpreter where it ended: set_position().
+struct Probe {
+    path::Move move;  // a line
+    bool away;        // G38.4 and G38.5: until contact is lost
+    bool alarm;       // G38.2 and G38.4: an alarm where the end is reached first
+};
+
+// Once all motion before it is finished.
+struct Dwell {
+    double seconds;  // >= 0
+};
+
+struct Spindle {
+    SpindleMode mode;
+    float speed;  // rpm
+};
+
+struct Coolant {
+    bool flood;
+    bool mist;
+};
+
+// Offsets or stored positions have changed: `Interpreter::parameters()` holds the new ones.
+struct ParametersChanged {
+    bool keep;  // through a power cycle: all but G92, G92.1, G43, G43.1 and G49
+};
+
+// M0 and M1: once all motion before it is finished, wait for the cycle start.
+struct Pause {
+    bool optional;  // M1
+};
+
+// M6: as M0, with a message that names the tool.
+struct ToolChange {
+    std::uint8_t tool;
+};
+
+// M2 and M30. The modal state is already back at its defaults; spindle and coolant stop.
+struct ProgramEnd {};
+
+using Action = std::variant<path::Move,
+                            Probe,
+                            Dwell,
+                            Spindle,
+                            Coolant,
+                            ParametersChanged,
+                            Pause,
+                            ToolChange,
+                            ProgramEnd>;
+
+}  // namespace cusp::gcode

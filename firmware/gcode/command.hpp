@@ -1,0 +1,106 @@
+// One line as words sorted into modal groups: what it says, before what it means is checked.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "firmware/base/result.hpp"
+#include "firmware/gcode/decimal.hpp"
+#include "firmware/gcode/modal_state.hpp"
+
+namespace cusp::gcode {
+
+// What the axis words of a line belong to; at most one thing.
+enum class AxisUse : std::uint8_t { kNone, kNonModal, kMotion, kToolLength };
+
+// Group 0: commands that hold for one line.
+enum class NonModal : std::uint8_t {
+    kNone,
+    kDwell,                  // G4
+    kSetOffset,              // G10 L2, L20
+    kGoHome,                 // G28
+    kGoSecondHome,           // G30
+    kStoreHome,              // G28.1
+    kStoreSecondHome,        // G30.1
+    kMachineCoordinates,     // G53
+    kSetCoordinateOffset,    // G92
+    kClearCoordinateOffset,  // G92.1
+};
+
+enum class ToolLength : std::uint8_t { kUnchanged, kCancel, kFromTable, kDynamic };
+
+enum class ProgramFlow : std::uint8_t { kRunning, kPause, kOptionalPause, kEnd };
+
+// A set of value words, one bit a letter, A in bit 0.
+using LetterSet = std::uint32_t;
+
+constexpr unsigned letter_index(char letter) noexcept
+{
+    return static_cast<unsigned>(letter - 'A');
+}
+constexpr LetterSet letter(char upper_case) noexcept { return 1U << letter_index(upper_case); }
+
+inline constexpr LetterSet kAxisLetters = letter('X') | letter('Y') | letter('Z');
+
+// The modal groups of G and M words, one bit each: a line names each group at most once.
+enum class Group : std::uint8_t {
+    kNonModal,
+    kMotion,
+    kPlane,
+    kDistance,
+    kArcDistance,
+    kFeedMode,
+    kUnits,
+    kCutterRadius,
+    kToolLength,
+    kReturnLevel,
+    kCoordinateSystem,
+    kPathControl,
+    kStop,
+    kToolChange,
+    kSpindle,
+    kCoolant,
+};
+
+struct Command {
+    ModalState modal;  // after the line, as far as G and M words say
+    AxisUse axis_use{AxisUse::kNone};
+    NonModal non_modal{NonModal::kNone};
+    ToolLength tool_length{ToolLength::kUnchanged};
+    ProgramFlow flow{ProgramFlow::kRunning};
+    bool ends_curve{false};   // G5.3
+    std::uint32_t groups{0};  // one bit a Group
+    LetterSet words{0};       // value words present
+    LetterSet unused{0};      // those that nothing has asked for yet
+    std::array<Decimal, 26> values{};
+
+    bool names(Group group) const noexcept
+    {
+        return (groups >> static_cast<unsigned>(group) & 1U) != 0;
+    }
+    bool has(char upper_case) const noexcept { return (words & letter(upper_case)) != 0; }
+    LetterSet axes() const noexcept { return words & kAxisLetters; }
+    bool is_blank() const noexcept { return groups == 0 && words == 0; }
+    const Decimal& value(char upper_case) const noexcept
+    {
+        return values[letter_index(upper_case)];
+    }
+    // Marks a word as asked for.
+    void use(char upper_case) noexcept { unused &= ~letter(upper_case); }
+};
+
+// Reads the words of a line; `modal` is the state before it.
+//
+// Comments in ( ) and after ;, spaces and '/' are skipped; a line that begins with % is blank.
+// Errors, in the order of the words:
+//   kExpectedCommandLetter, kBadNumberFormat       not a letter and a number
+//   kGcodeUnsupportedCommand                       a letter, G or M number that is not known
+//   kGcodeCommandValueNotInteger                   a G or M number with a decimal it does not have
+//   kGcodeModalGroupViolation                      two words of a group
+//   kGcodeAxisCommandConflict                      two commands that use axis words
+//   kGcodeWordRepeated, kNegativeValue             value words
+//   kGcodeMaxValueExceeded                         more than 12 digits before the point
+Status read_command(std::string_view line, const ModalState& modal, Command& command) noexcept;
+
+}  // namespace cusp::gcode

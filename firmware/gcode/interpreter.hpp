@@ -1,0 +1,101 @@
+// Text to moves: reads one line of G-code, checks it against the modal state, and yields what it
+// asks for, action by action. docs/gcode.md lists the dialect.
+//
+//   Interpreter interpreter;
+//   Status status = interpreter.execute(line, number);   // reads and checks; starts nothing
+//   Action action;
+//   while (interpreter.next(action)) { ... }             // when there is room for a move
+//
+// A line is refused as a whole: after an error nothing has changed, neither modal state nor
+// position, and next() yields nothing. One exception: an error inside a NURBS (G5.2, G6.2) gives up
+// the rest of that curve, so that no later line can be taken for a part of it; pieces already
+// yielded stay, and the position is where they end.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "firmware/base/result.hpp"
+#include "firmware/gcode/action.hpp"
+#include "firmware/gcode/line_context.hpp"
+#include "firmware/gcode/modal_state.hpp"
+#include "firmware/gcode/motion_plan.hpp"
+#include "firmware/nurbs/piece_stream.hpp"
+
+namespace cusp::gcode {
+
+class Interpreter {
+public:
+    // Reads one line without its line end: comments, spaces, lower case and '/' are understood.
+    // Nothing moves yet: the actions are fetched with next().
+    //
+    //   number  for reports, where the line has no N word.
+    //
+    // Errors: 1, 2, 4 and 20 to 38 of error.hpp; docs/gcode.md says which for what.
+    // Precondition: the actions of the line before have all been fetched, or discard() was called.
+    Status execute(std::string_view line, std::uint32_t number) noexcept;
+
+    // Reads the words after `$J=`: G20 G21 G53 G90 G91, axis words, F and N. Yields one Move of
+    // kind kFeed and leaves the modal state alone.
+    //
+    // Errors: kInvalidJogCommand for another command; otherwise as execute().
+    Status execute_jog(std::string_view line, std::uint32_t number) noexcept;
+
+    // The next action of the line: false, and nothing written, where there is none left.
+    // Cost: bounded; a NURBS piece is the dearest.
+    bool next(Action& action) noexcept;
+
+    // Forgets the actions that were not fetched. The position is then unknown to the interpreter
+    // until set_position().
+    void discard() noexcept;
+
+    // Where the machine stands: after a probe, homing, a jog that was cancelled, a reset.
+    // Precondition: no action is left to fetch. An open NURBS is given up.
+    void set_position(Position machine) noexcept;
+
+    // Where the program stands once all fetched actions are done; machine coordinates.
+    Position position() const noexcept { return position_.rounded(); }
+
+    // As at power-up: modal state at its defaults, G92 and the tool length offset cleared, an open
+    // NURBS and unfetched actions forgotten. Position and stored parameters stay.
+    void reset() noexcept;
+
+    // The path tolerance of $11, mm, in force at power-up, after M2 and M30 and with G64 alone.
+    void set_default_tolerance(float mm) noexcept { default_tolerance_ = mm; }
+
+    // The path tolerance now in force, mm; 0 with G61.
+    float path_tolerance() const noexcept;
+
+    const ModalState& modal() const noexcept { return modal_; }
+    const Parameters& parameters() const noexcept { return parameters_; }
+
+    // What was stored, or `$RST=#`. Precondition: no action is left to fetch.
+    void set_parameters(const Parameters& parameters) noexcept { parameters_ = parameters; }
+
+private:
+    LineContext begin(std::uint32_t number) const noexcept;
+    Status run(LineContext& line) noexcept;
+    Status check(LineContext& line) noexcept;
+    Status run_jog(LineContext& line) noexcept;
+    void commit(const LineContext& line) noexcept;
+    void end_program() noexcept;
+
+    bool in_curve() const noexcept;
+    Status check_new_curve(LineContext& line) noexcept;
+    void open_curve(const LineContext& line) noexcept;
+    Status continue_curve(LineContext& line) noexcept;
+    Status continue_uniform(LineContext& line) noexcept;
+    Status continue_knotted(LineContext& line) noexcept;
+    void plan_pieces(const LineContext& line) noexcept;
+    void give_up_curve() noexcept;
+
+    ModalState modal_;
+    Parameters parameters_;
+    ExactPosition position_;
+    DrillMemory drill_;
+    float default_tolerance_{0.010F};
+    MotionPlan plan_;
+    nurbs::PieceStream curve_;
+};
+
+}  // namespace cusp::gcode

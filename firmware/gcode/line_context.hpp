@@ -1,0 +1,72 @@
+// One line on its way through the checks: what it says, and the state that it will leave behind.
+// Nothing here is the interpreter's own state, so a refused line leaves no trace.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/base/axis.hpp"
+#include "firmware/gcode/command.hpp"
+#include "firmware/gcode/motion_plan.hpp"
+
+namespace cusp::gcode {
+
+// The words of a drilling cycle hold until another motion command.
+struct DrillMemory {
+    LetterSet known{0};
+    ExactLength clearance;  // R, as written
+    ExactLength bottom;     // depth of the hole, as written
+    ExactLength peck;       // Q
+    double dwell_seconds{0};
+};
+
+struct LineContext {
+    Command command;
+    Parameters parameters;
+    DrillMemory drill;
+    ExactPosition start;  // of the line
+    ExactPosition end;
+    float default_tolerance{0};
+    std::uint32_t number{0};
+};
+
+// The path tolerance in force, mm.
+float path_tolerance(const ModalState& modal, float default_tolerance) noexcept;
+
+// A length word, in the units of the line.
+inline Result<ExactLength> length_of(const Command& command, char upper_case) noexcept
+{
+    return to_length(command.value(upper_case), command.modal.inches);
+}
+
+constexpr char axis_letter(unsigned axis) noexcept { return static_cast<char>('X' + axis); }
+
+// F words and what the motion of the line needs of them. Errors: kGcodeUndefinedFeedRate,
+// kGcodeMaxValueExceeded.
+Status check_feed(LineContext& line, bool was_inverse_time) noexcept;
+
+// Where the axis words lead: `line.end`. Errors: kGcodeMaxValueExceeded.
+Status find_target(LineContext& line) noexcept;
+
+// A move with the feed and tolerance in force and the number of the line; path and ends are still
+// to be set.
+path::Move move_pattern(const ModalState& modal,
+                        const LineContext& line,
+                        path::MoveKind kind) noexcept;
+
+// Sets the speed of a feed move whose path and ends are set, after G93 or G94.
+void set_speed(const ModalState& modal, path::Move& move) noexcept;
+
+// Adds a straight move to line.end to the plan, unless it has no length.
+void plan_line(const LineContext& line, path::MoveKind kind, MotionPlan& plan) noexcept;
+
+// G10, G28.1, G30.1, G92, G92.1, G43, G43.1 and G49. Errors: 26, 28, 29, 20, 31, 37, 38.
+Status plan_offsets(LineContext& line, MotionPlan& plan) noexcept;
+
+// G28, G30 and the motion commands, NURBS apart. Errors: 22, 26, 28 and 30 to 38.
+Status plan_motion(LineContext& line, MotionPlan& plan) noexcept;
+
+// G81 to G83. Errors: kGcodeNoAxisWords, kGcodeValueWordMissing, kGcodeInvalidTarget,
+// kGcodeMaxValueExceeded.
+Status plan_drilling(LineContext& line, MotionPlan& plan) noexcept;
+
+}  // namespace cusp::gcode
