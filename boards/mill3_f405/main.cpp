@@ -1,13 +1,13 @@
 // The mill controller's image: every object of the firmware is a static of this file.
+#include "boards/mill3/mill_board.hpp"
 #include "boards/mill3_f405/board_traits.hpp"
-#include "boards/mill3_f405/mill_board.hpp"
 #include "firmware/app/app.hpp"
 #include "hal/stm32f4/vectors.hpp"
 
 namespace {
 
 using namespace cusp;
-using Traits = boards::ChipTraits;
+using Traits = boards::MillTraits;
 using Board = boards::MillBoard<Traits>;
 static_assert(hal::is_board<Board>());
 
@@ -28,13 +28,15 @@ void cusp_player_interrupt()
     }
 }
 
+void cusp_board_stop() { Traits::stop(); }
+
 void cusp_serial_interrupt() { board.byte_link.on_interrupt(); }
 }
 
 namespace {
 
 constexpr std::array<hal::stm32f4::InterruptEntry, 2> kInterrupts{{
-    {hal::stm32f4::kDma2Stream1Interrupt, cusp_player_interrupt},
+    {Traits::Pace::kInterrupt, cusp_player_interrupt},
     {hal::stm32f4::kUsart1Interrupt, cusp_serial_interrupt},
 }};
 

@@ -1,8 +1,7 @@
 // The mill controller's image for QEMU: every object of the firmware is a static of this file.
-#include "boards/mill3_f405/mill_board.hpp"
+#include "boards/mill3/mill_board.hpp"
 #include "boards/mill3_f405_qemu/qemu_traits.hpp"
 #include "firmware/app/app.hpp"
-#include "hal/stm32f4/fault_record.hpp"
 #include "hal/stm32f4/vectors.hpp"
 
 namespace {
@@ -28,6 +27,8 @@ void cusp_player_interrupt()
         hal::stm32f4::pend_servo_tick<Traits::Chip>();
     }
 }
+
+void cusp_board_stop() { Traits::stop(); }
 
 void cusp_serial_interrupt() { board.byte_link.on_interrupt(); }
 }

@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-#include "boards/mill3_f405/mill_panel.hpp"
+#include "boards/mill3_f405/mill_pins.hpp"
 #include "hal/qemu/edge_player.hpp"
 #include "hal/qemu/edge_trace.hpp"
 #include "hal/qemu/memory_settings.hpp"
@@ -16,12 +16,14 @@
 #include "hal/qemu/run_arguments.hpp"
 #include "hal/qemu/semihosting.hpp"
 #include "hal/stm32f4/chip.hpp"
+#include "hal/stm32f4/reset_reason.hpp"
 
 namespace cusp::boards {
 
 struct QemuTraits {
     using Chip = hal::stm32f4::Chip;
-    using PulsePlayer = hal::qemu::EdgePlayer<Chip, StepPort<Chip>, hal::qemu::EdgeTrace>;
+    using StepPort = MillStepPort<Chip>;
+    using PulsePlayer = hal::qemu::EdgePlayer<Chip, StepPort, hal::qemu::EdgeTrace>;
     using ByteLink = hal::qemu::QemuLink<Chip, QemuTraits>;
     using Panel = MillPanel<Chip, QemuTraits>;
     using SettingsStore = hal::qemu::MemorySettings;
@@ -30,6 +32,7 @@ struct QemuTraits {
     // nanoseconds.
     static constexpr bool kTransmitInterrupt = false;
     static constexpr bool kSpindleTimer = false;
+    static constexpr const PanelPins& kPanelPins = kMillPins;
 
     // Clocks and peripheral clocks are not modelled: nothing to switch on, nothing to wait for.
     template <class Board>
@@ -46,7 +49,7 @@ struct QemuTraits {
             board.byte_link.program().open(arguments.program(), arguments.script());
         } else {
             enable_interrupt<Chip>(kUsart1Interrupt, kSerialPriority);
-            board.byte_link.line().start(kFastBusHz, 115200);
+            board.byte_link.line().start(84000000, 115200);
         }
         board.pulse_player.start(arguments.real_pace());
     }
@@ -67,6 +70,16 @@ struct QemuTraits {
                 idle();
             }
         }
+    }
+
+    // After a fault: the reason on the terminal, the end of the run.
+    [[noreturn]] static void stop() noexcept
+    {
+        constexpr std::uint32_t kFaultStatus = 3;
+        PulsePlayer::stop();
+        hal::qemu::Console console;
+        hal::stm32f4::report_last_fault(console);
+        hal::qemu::exit_qemu(kFaultStatus);
     }
 
     // Whether the player's interrupt calls for the servo tick; a program's run makes its own.

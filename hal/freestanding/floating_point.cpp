@@ -1,5 +1,5 @@
-// sqrt, floor and ceil for images without a C library: the only functions of libm that firmware
-// calls. Their results are exact, so that they are the host's bit for bit.
+// sqrt, fabs, floor and ceil for images without a C library: the only functions of libm that
+// firmware calls. Their results are exact, so that they are the host's bit for bit.
 #include <cstdint>
 
 #include "hal/freestanding/soft_root.hpp"
@@ -23,6 +23,7 @@ double sqrt(double x);
 double floor(double x);
 float floorf(float x);
 double ceil(double x);
+double fabs(double x);
 float ceilf(float x);
 
 double sqrt(double x)
@@ -47,5 +48,9 @@ float floorf(float x)
 }
 
 double ceil(double x) { return -floor(-x); }
+double fabs(double x)
+{
+    return same_bits<double>(same_bits<std::uint64_t>(x) & 0x7FFFFFFFFFFFFFFFU);
+}
 float ceilf(float x) { return -floorf(-x); }
 }

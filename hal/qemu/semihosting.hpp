@@ -67,6 +67,13 @@ private:
     std::int32_t number_{-1};
 };
 
+// The terminal, with as much of a byte link as a report needs.
+struct Console {
+    static std::uint32_t write_room() noexcept { return 1; }
+    void write(Span<const std::uint8_t> bytes) const noexcept { file.write(bytes); }
+    HostFile file{":tt", FileMode::kWrite};
+};
+
 // The arguments of -semihosting-config arg=..., one space between them; empty where there are none.
 template <std::size_t N>
 void read_command_line(std::array<char, N>& text) noexcept

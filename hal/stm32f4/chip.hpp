@@ -57,7 +57,6 @@ struct Chip {
 
 inline constexpr unsigned kTimer2Interrupt = 28;
 inline constexpr unsigned kUsart1Interrupt = 37;
-inline constexpr unsigned kDma2Stream1Interrupt = 57;
 inline constexpr unsigned kInterruptCount = 82;
 
 // Priorities: the higher the number, the less urgent; the chip has sixteen steps of 16.

@@ -1,4 +1,4 @@
-// The clocks: 168 MHz from the crystal, or from the chip's own oscillator where no crystal starts.
+// The clocks: from the crystal, or from the chip's own oscillator where no crystal starts.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +7,23 @@
 
 namespace cusp::hal::stm32f4 {
 
-inline constexpr std::uint32_t kCoreHz = 168000000;
-// Timers on the fast bus count at the core's rate; the bus itself runs at half of it.
-inline constexpr std::uint32_t kFastBusHz = kCoreHz / 2;
-inline constexpr std::uint32_t kFastTimerHz = kCoreHz;
-inline constexpr std::uint32_t kSlowTimerHz = kCoreHz / 2;
+// What a chip of the family is to run at. The crystal is divided to 1 MHz, multiplied and halved.
+struct ClockPlan {
+    std::uint32_t crystal_hz;        // a whole number of MHz
+    std::uint32_t core_hz;           // a whole number of MHz, 50 to 216
+    std::uint32_t wait_states;       // of the flash at this rate and 3.3 V
+    std::uint32_t fast_bus_divisor;  // 1 or 2
+    std::uint32_t slow_bus_divisor;  // 2 or 4
+
+    constexpr std::uint32_t fast_bus_hz() const { return core_hz / fast_bus_divisor; }
+    constexpr std::uint32_t slow_bus_hz() const { return core_hz / slow_bus_divisor; }
+    // Timers count twice their bus's rate where that is divided.
+    constexpr std::uint32_t fast_timer_hz() const
+    {
+        return fast_bus_divisor == 1 ? core_hz : 2 * fast_bus_hz();
+    }
+    constexpr std::uint32_t slow_timer_hz() const { return 2 * slow_bus_hz(); }
+};
 
 enum class ClockSource : std::uint8_t {
     kCrystal,     // 50 ppm or so: what the board is made for
@@ -37,10 +49,9 @@ bool wait_for(Word& word, std::uint32_t mask, std::uint32_t value) noexcept
 
 }  // namespace detail
 
-// Sets up 168 MHz for the core, 84 MHz for the fast and 42 MHz for the slow bus; 5 wait states.
-// RM0090 section 7.3: crystal / M = 2 MHz, x 168 = 336 MHz, / 2 = 168 MHz, / 7 = 48 MHz.
+// Sets the clocks up as planned. RM0090 section 7.3.
 template <class Chip>
-ClockSource start_clocks(std::uint32_t crystal_hz) noexcept
+ClockSource start_clocks(const ClockPlan& plan) noexcept
 {
     constexpr std::uint32_t kCrystalOn = 1U << 16U;
     constexpr std::uint32_t kCrystalReady = 1U << 17U;
@@ -48,21 +59,25 @@ ClockSource start_clocks(std::uint32_t crystal_hz) noexcept
     constexpr std::uint32_t kMultiplierReady = 1U << 25U;
     constexpr std::uint32_t kFromCrystal = 1U << 22U;
     constexpr std::uint32_t kOscillatorHz = 16000000;
-    constexpr std::uint32_t kInputHz = 2000000;
+    constexpr std::uint32_t kInputHz = 1000000;
+    constexpr std::uint32_t kUnusedDivisor = 7U << 24U;
     auto& rcc = Chip::rcc();
     set_bits(rcc.cr, kCrystalOn);
     const bool crystal = detail::wait_for(rcc.cr, kCrystalReady, kCrystalReady);
-    const std::uint32_t divisor = (crystal ? crystal_hz : kOscillatorHz) / kInputHz;
-    rcc.pllcfgr.write(divisor | 168U << 6U | 0U << 16U | (crystal ? kFromCrystal : 0) | 7U << 24U);
+    const std::uint32_t divisor = (crystal ? plan.crystal_hz : kOscillatorHz) / kInputHz;
+    const std::uint32_t multiplier = 2 * plan.core_hz / kInputHz;
+    rcc.pllcfgr.write(divisor | multiplier << 6U | (crystal ? kFromCrystal : 0U) | kUnusedDivisor);
     set_bits(rcc.cr, kMultiplierOn);
     if (!detail::wait_for(rcc.cr, kMultiplierReady, kMultiplierReady)) {
         return ClockSource::kNone;
     }
-    // Prefetch, both caches, five wait states: before the clock rises.
-    Chip::flash().acr.write(5U | 1U << 8U | 1U << 9U | 1U << 10U);
-    // Slow bus by 4, fast bus by 2, then the core's clock from the multiplier.
-    rcc.cfgr.write(5U << 10U | 4U << 13U);
-    rcc.cfgr.write(5U << 10U | 4U << 13U | 2U);
+    // Prefetch, both caches, the wait states: before the clock rises.
+    Chip::flash().acr.write(plan.wait_states | 1U << 8U | 1U << 9U | 1U << 10U);
+    // The buses first, then the core's clock from the multiplier.
+    const std::uint32_t slow = plan.slow_bus_divisor == 4 ? 5U : 4U;
+    const std::uint32_t fast = plan.fast_bus_divisor == 2 ? 4U : 0U;
+    rcc.cfgr.write(slow << 10U | fast << 13U);
+    rcc.cfgr.write(slow << 10U | fast << 13U | 2U);
     if (!detail::wait_for(rcc.cfgr, 3U << 2U, 2U << 2U)) {
         return ClockSource::kNone;
     }

@@ -1,6 +1,6 @@
 // DmaPulsePlayer: plays pulse frames by DMA, so that no interrupt makes a step.
 //
-// Timer 8 asks DMA2 for one word each microsecond; the stream takes it from a ring of two halves, a
+// A timer asks DMA2 for one word each microsecond; the stream takes it from a ring of two halves, a
 // frame each, and writes it to the port's set/reset register: bits 0 to 15 raise pins, bits 16 to
 // 31 lower them, 0 changes nothing. While one half plays, the servo tick fills the other.
 //
@@ -32,13 +32,32 @@ constexpr std::uint32_t port_word(PulseLines raise, PulseLines lower, PulseLines
 
 inline constexpr PulseLines kStepLines = 0x07;
 
+// Which timer asks which stream (RM0090 table 43): timer 8's update asks stream 1 by channel 7,
+// timer 1's asks stream 5 by channel 6.
+template <class Chip>
+struct Timer8Pace {
+    static constexpr unsigned kStream = 1;
+    static constexpr std::uint32_t kChannel = 7;
+    static constexpr unsigned kInterrupt = 57;
+    static constexpr unsigned kClockBit = 1;  // of RCC_APB2ENR
+    static auto& timer() noexcept { return Chip::timer8(); }
+};
+template <class Chip>
+struct Timer1Pace {
+    static constexpr unsigned kStream = 5;
+    static constexpr std::uint32_t kChannel = 6;
+    static constexpr unsigned kInterrupt = 68;
+    static constexpr unsigned kClockBit = 0;
+    static auto& timer() noexcept { return Chip::timer1(); }
+};
+
 // `Chip` as in hal/stm32f4/chip.hpp; `Port` has a static function gpio() that yields the port of
 // the six lines and a constant kInvertedLines.
-template <class Chip, class Port>
+template <class Chip, class Port, class Pace = Timer8Pace<Chip>>
 class DmaPulsePlayer {
 public:
     // Sets the timer and the stream up and starts them on silence. Precondition: the clocks of DMA2
-    // and timer 8 are on. `timer_hz` is the frequency that timer 8 counts.
+    // and the timer are on. `timer_hz` is the frequency that the timer counts.
     void start(std::uint32_t timer_hz) noexcept;
 
     // See hal/contract/board.hpp; takes the frame and drops it after an underrun. Also false, and
@@ -65,18 +84,21 @@ private:
     // The stream fetches a word ahead of its turn.
     static constexpr std::uint32_t kFetchedAhead = 4;
 
-    // Stream 1 of DMA2 in the flags registers, and its settings (RM0090 sections 10.5.1 to 10.5.5).
-    static constexpr std::uint32_t kFifoError = 1U << 6U;
-    static constexpr std::uint32_t kDirectModeError = 1U << 8U;
-    static constexpr std::uint32_t kTransferError = 1U << 9U;
-    static constexpr std::uint32_t kHalfTransfer = 1U << 10U;
-    static constexpr std::uint32_t kTransferComplete = 1U << 11U;
+    // The stream in the flags registers, and its settings (RM0090 sections 10.5.1 to 10.5.5).
+    // Streams 0 to 3 have the low registers, 4 to 7 the high ones.
+    static constexpr std::array<unsigned, 4> kFlagPlaces{0, 6, 16, 22};
+    static constexpr unsigned kFlagPlace = kFlagPlaces[Pace::kStream % 4];
+    static constexpr std::uint32_t kFifoError = 1U << kFlagPlace;
+    static constexpr std::uint32_t kDirectModeError = 4U << kFlagPlace;
+    static constexpr std::uint32_t kTransferError = 8U << kFlagPlace;
+    static constexpr std::uint32_t kHalfTransfer = 16U << kFlagPlace;
+    static constexpr std::uint32_t kTransferComplete = 32U << kFlagPlace;
     static constexpr std::uint32_t kErrors = kDirectModeError | kTransferError;
     static constexpr std::uint32_t kAllFlags =
         kErrors | kFifoError | kHalfTransfer | kTransferComplete;
     static constexpr std::uint32_t kStreamEnable = 1U << 0U;
-    static constexpr std::uint32_t kStreamSettings = 7U << 25U    // channel 7: timer 8's update
-                                                     | 3U << 16U  // most urgent stream
+    static constexpr std::uint32_t kStreamSettings = Pace::kChannel << 25U |
+                                                     3U << 16U    // most urgent stream
                                                      | 2U << 13U  // words from memory
                                                      | 2U << 11U  // words to the port
                                                      | 1U << 10U  // memory address goes on
@@ -88,7 +110,15 @@ private:
     // A stream that is switched off finishes its word first: some 20 bus cycles.
     static constexpr unsigned kDisableRounds = 1000;
 
-    static auto& stream() noexcept { return Chip::dma2().stream[1]; }
+    static auto& stream() noexcept { return Chip::dma2().stream[Pace::kStream]; }
+    static auto& flags() noexcept
+    {
+        return Pace::kStream < 4 ? Chip::dma2().lisr : Chip::dma2().hisr;
+    }
+    static auto& flag_clear() noexcept
+    {
+        return Pace::kStream < 4 ? Chip::dma2().lifcr : Chip::dma2().hifcr;
+    }
     void start_stream() noexcept;
     // Which half plays, and how many of its words are left.
     struct Place {
@@ -106,10 +136,10 @@ private:
     std::atomic<bool> underrun_{false};
 };
 
-template <class Chip, class Port>
-void DmaPulsePlayer<Chip, Port>::start(std::uint32_t timer_hz) noexcept
+template <class Chip, class Port, class Pace>
+void DmaPulsePlayer<Chip, Port, Pace>::start(std::uint32_t timer_hz) noexcept
 {
-    auto& timer = Chip::timer8();
+    auto& timer = Pace::timer();
     timer.cr1.write(0);
     timer.psc.write(0);
     timer.arr.write(timer_hz / (kPulseTicksPerFrame * kServoTicksPerSecond) - 1);
@@ -117,8 +147,8 @@ void DmaPulsePlayer<Chip, Port>::start(std::uint32_t timer_hz) noexcept
     start_stream();
 }
 
-template <class Chip, class Port>
-void DmaPulsePlayer<Chip, Port>::start_stream() noexcept
+template <class Chip, class Port, class Pace>
+void DmaPulsePlayer<Chip, Port, Pace>::start_stream() noexcept
 {
     stop();
     for (unsigned half = 0; half < 2; ++half) {
@@ -127,20 +157,20 @@ void DmaPulsePlayer<Chip, Port>::start_stream() noexcept
         has_edges_[half] = false;
     }
     auto& dma = stream();
-    Chip::dma2().lifcr.write(kAllFlags);
+    flag_clear().write(kAllFlags);
     dma.par.write(Chip::bus_address(&Port::gpio().bsrr));
     dma.m0ar.write(Chip::bus_address(halves_.data()));
     dma.ndtr.write(kWords);
     dma.fcr.write(0);
     dma.cr.write(kStreamSettings);
     dma.cr.write(kStreamSettings | kStreamEnable);
-    Chip::timer8().cr1.write(kTimerEnable);
+    Pace::timer().cr1.write(kTimerEnable);
 }
 
-template <class Chip, class Port>
-void DmaPulsePlayer<Chip, Port>::stop() noexcept
+template <class Chip, class Port, class Pace>
+void DmaPulsePlayer<Chip, Port, Pace>::stop() noexcept
 {
-    Chip::timer8().cr1.write(0);
+    Pace::timer().cr1.write(0);
     auto& dma = stream();
     dma.cr.write(kStreamSettings);
     for (unsigned round = 0; round < kDisableRounds && (dma.cr.read() & kStreamEnable) != 0;
@@ -149,8 +179,8 @@ void DmaPulsePlayer<Chip, Port>::stop() noexcept
     Port::gpio().bsrr.write(port_word(0, kStepLines, Port::kInvertedLines));
 }
 
-template <class Chip, class Port>
-typename DmaPulsePlayer<Chip, Port>::Place DmaPulsePlayer<Chip, Port>::place() noexcept
+template <class Chip, class Port, class Pace>
+typename DmaPulsePlayer<Chip, Port, Pace>::Place DmaPulsePlayer<Chip, Port, Pace>::place() noexcept
 {
     const std::uint32_t left = stream().ndtr.read();
     if (left > kPulseTicksPerFrame) {
@@ -159,8 +189,8 @@ typename DmaPulsePlayer<Chip, Port>::Place DmaPulsePlayer<Chip, Port>::place() n
     return {1, left};
 }
 
-template <class Chip, class Port>
-bool DmaPulsePlayer<Chip, Port>::try_play(const PulseFrame& frame) noexcept
+template <class Chip, class Port, class Pace>
+bool DmaPulsePlayer<Chip, Port, Pace>::try_play(const PulseFrame& frame) noexcept
 {
     const Place before = place();
     const unsigned half = 1U - before.half;
@@ -184,21 +214,21 @@ bool DmaPulsePlayer<Chip, Port>::try_play(const PulseFrame& frame) noexcept
     return false;
 }
 
-template <class Chip, class Port>
-bool DmaPulsePlayer<Chip, Port>::on_interrupt() noexcept
+template <class Chip, class Port, class Pace>
+bool DmaPulsePlayer<Chip, Port, Pace>::on_interrupt() noexcept
 {
-    const std::uint32_t flags = Chip::dma2().lisr.read();
-    Chip::dma2().lifcr.write(flags & kAllFlags);
-    if ((flags & kErrors) != 0) {
+    const std::uint32_t raised = flags().read();
+    flag_clear().write(raised & kAllFlags);
+    if ((raised & kErrors) != 0) {
         fail();
         return true;
     }
-    if (underrun() || (flags & (kHalfTransfer | kTransferComplete)) == 0) {
+    if (underrun() || (raised & (kHalfTransfer | kTransferComplete)) == 0) {
         return false;
     }
     const unsigned playing = place().half;
     const unsigned played = 1U - playing;
-    const bool both = (flags & kHalfTransfer) != 0 && (flags & kTransferComplete) != 0;
+    const bool both = (raised & kHalfTransfer) != 0 && (raised & kTransferComplete) != 0;
     const bool was_moving = has_edges_[played];
     halves_[played].fill(0);
     has_edges_[played] = false;
@@ -211,15 +241,15 @@ bool DmaPulsePlayer<Chip, Port>::on_interrupt() noexcept
     return true;
 }
 
-template <class Chip, class Port>
-void DmaPulsePlayer<Chip, Port>::fail() noexcept
+template <class Chip, class Port, class Pace>
+void DmaPulsePlayer<Chip, Port, Pace>::fail() noexcept
 {
     stop();
     underrun_.store(true, std::memory_order_relaxed);
 }
 
-template <class Chip, class Port>
-void DmaPulsePlayer<Chip, Port>::clear_underrun() noexcept
+template <class Chip, class Port, class Pace>
+void DmaPulsePlayer<Chip, Port, Pace>::clear_underrun() noexcept
 {
     if (underrun()) {
         start_stream();

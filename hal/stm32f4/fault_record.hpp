@@ -21,6 +21,9 @@ struct FaultRecord {
     std::uint32_t fault_status;  // CFSR, PM0214 section 4.4.10
 };
 
+// The record that the last fault has left; its mark is kWritten if there was one.
+extern FaultRecord last_fault;
+
 // A fault of the core or an interrupt that nobody expects: records it and ends as fault() does.
 [[noreturn]] void core_fault(std::uint32_t exception,
                              std::uint32_t program_counter,

@@ -9,10 +9,6 @@
 
 namespace cusp::hal::stm32f4 {
 
-// The record that the last fault has left; its mark is kWritten if there was one. Defined with the
-// image's fault().
-extern FaultRecord last_fault;
-
 namespace detail {
 
 template <class Link>

@@ -55,6 +55,8 @@ void cusp_reset();
 void cusp_exception();
 // By the board: what runs after the start. Not main(), which has no C linkage without a C library.
 [[noreturn]] void cusp_main();
+// By the board: steps low, drives off, and whatever follows a fault. Context: any.
+[[noreturn]] void cusp_board_stop();
 void cusp_servo_tick();
 void cusp_player_interrupt();
 void cusp_serial_interrupt();

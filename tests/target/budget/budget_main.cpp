@@ -5,7 +5,7 @@
 #include "firmware/planner/planner.hpp"
 #include "firmware/pulse/pulse_maker.hpp"
 #include "hal/stm32f4/dma_pulse_player.hpp"
-#include "hal/stm32f4/fault_record.hpp"
+#include "hal/stm32f4/reset_reason.hpp"
 #include "hal/stm32f4/vectors.hpp"
 #include "tests/target/budget/instruction_meter.hpp"
 
@@ -178,6 +178,12 @@ void cusp_main()
 }
 
 extern "C" {
+void cusp_board_stop()
+{
+    hal::qemu::Console console;
+    hal::stm32f4::report_last_fault(console);
+    hal::qemu::exit_qemu(3);
+}
 void cusp_servo_tick() {}
 void cusp_player_interrupt() {}
 void cusp_serial_interrupt() {}
@@ -192,26 +198,3 @@ __attribute__((section(".vectors"), used)) constexpr hal::stm32f4::VectorTable k
         &cusp_stack_top, cusp_reset, cusp_exception, cusp_servo_tick, kInterrupts);
 
 }  // namespace
-
-namespace cusp {
-
-void fault(const char* expression, const char* /*file*/, int /*line*/) noexcept
-{
-    const std::string_view text{expression};
-    out.write({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-    hal::qemu::exit_qemu(3);
-}
-
-namespace hal::stm32f4 {
-
-void core_fault(std::uint32_t /*exception*/,
-                std::uint32_t /*program_counter*/,
-                std::uint32_t /*link_register*/,
-                std::uint32_t /*fault_status*/) noexcept
-{
-    fault("fault of the core", __FILE__, __LINE__);
-}
-
-}  // namespace hal::stm32f4
-
-}  // namespace cusp

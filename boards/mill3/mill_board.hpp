@@ -5,8 +5,8 @@
 
 namespace cusp::boards {
 
-// `Traits` is the one place where boards of this kind differ; boards/mill3_f405/board_traits.hpp
-// says what it holds.
+// `Traits` is the one place where boards of this kind differ; boards/mill3/chip_start.hpp says what
+// it holds.
 template <class Traits>
 struct MillBoard {
     // Clocks and pins first: the application that is made next finds a board that works.

@@ -1,0 +1,31 @@
+// Where every fault ends: the reason is kept over the reset that follows, the board stops the iron.
+#include "hal/stm32f4/fault_record.hpp"
+#include "hal/stm32f4/vectors.hpp"
+
+namespace cusp {
+
+namespace hal::stm32f4 {
+
+// The start-up code does not touch this section.
+__attribute__((section(".retained"))) FaultRecord last_fault;
+
+void core_fault(std::uint32_t exception,
+                std::uint32_t program_counter,
+                std::uint32_t link_register,
+                std::uint32_t fault_status) noexcept
+{
+    last_fault = {FaultRecord::kWritten, nullptr,       nullptr,     0, exception,
+                  program_counter,       link_register, fault_status};
+    cusp_board_stop();
+}
+
+}  // namespace hal::stm32f4
+
+void fault(const char* expression, const char* file, int line) noexcept
+{
+    hal::stm32f4::last_fault = {
+        hal::stm32f4::FaultRecord::kWritten, expression, file, line, 0, 0, 0, 0};
+    cusp_board_stop();
+}
+
+}  // namespace cusp
