@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/clearing/corner_spurs.hpp"
 #include "host_tools/clearing/cutting_order.hpp"
 
 namespace cusp::host {
@@ -11,8 +12,7 @@ namespace cusp::host {
 namespace {
 
 constexpr int kMostLevels = 20000;
-constexpr double kShare = 0.5;  // of a step: how far from a pass metal is cut by it
-constexpr double kSlack = 1e-6;
+constexpr double kShare = 0.498;  // of a step: how far from a pass metal is cut by it
 
 struct Loop2d {
     Contour path;
@@ -22,86 +22,71 @@ struct Loop2d {
     bool outer;
 };
 
-std::vector<Edge> edges_of(const Region2d& region)
-{
-    std::vector<Edge> edges;
-    for (const Contour& contour : region.contours) {
-        edges.insert(edges.end(), contour.begin(), contour.end());
-    }
-    return edges;
-}
+// The next level inward: a whole step where spurs into the corners leave nothing between, else the
+// farthest share of it where they do.
+struct NextLevel {
+    double distance;
+    Region2d loops;
+};
 
-// True where every point of `rest` lies within `reach` of the edges of `level`. The point farthest
-// from a level inside it lies on the border of what the level before left: its corners and samples
-// along it are looked at.
-bool covers(const Region2d& level, const Region2d& rest, double reach)
-{
-    const EdgeTree tree{edges_of(level)};
-    for (const Contour& contour : rest.contours) {
-        for (const Edge& edge : contour) {
-            const int samples = 2 + static_cast<int>(length(edge) / reach);
-            for (int i = 0; i < samples; ++i) {
-                const Vec2d p = point_on(edge, static_cast<double>(i) / samples);
-                if (tree.nearest(p, 2.0 * reach) > reach + kSlack) {
-                    return false;
-                }
-            }
-        }
-    }
-    return true;
-}
-
-// The distance of the next level inward: a whole step where that leaves nothing between, else the
-// farthest that does.
-double next_distance(const RegionOffset& offset, double distance, double step, bool cover)
+NextLevel next_level(const RegionOffset& offset, double distance, double step, bool cover)
 {
     if (!cover) {
-        return distance + step;
+        return {distance + step, offset.at(distance + step)};
     }
-    const Region2d rest = offset.at(distance + kShare * step);
-    const auto fine = [&](double share) {
-        return covers(offset.at(distance + share * step), rest, kShare * step);
+    const double reach = kShare * step;
+    const Region2d rest = offset.at(distance + reach);
+    const auto at_share = [&](double share) {
+        return with_corner_spurs(offset.at(distance + share * step), rest, reach);
     };
-    if (rest.contours.empty() || fine(1.0)) {
-        return distance + step;
+    auto best = rest.contours.empty() ? Region2d{} : at_share(1.0);
+    if (best) {
+        return {distance + step, std::move(*best)};
     }
     double good = kShare;
     double bad = 1.0;
+    best = rest;
     for (int i = 0; i < 5; ++i) {
         const double middle = 0.5 * (good + bad);
-        (fine(middle) ? good : bad) = middle;
+        auto level = at_share(middle);
+        if (level) {
+            best = std::move(level);
+            good = middle;
+        } else {
+            bad = middle;
+        }
     }
-    return distance + good * step;
+    return {distance + good * step, std::move(*best)};
 }
 
 std::vector<Loop2d> make_levels(const RegionOffset& offset, const ClearingSettings& settings)
 {
     std::vector<Loop2d> loops;
-    double distance = settings.first;
     const auto step_from = [&](const Region2d& level) {
         const double asked = settings.step_from ? settings.step_from(level) : settings.step;
         return std::min(asked, settings.step);
     };
-    Region2d level = offset.at(distance);
-    for (int k = 0; k < kMostLevels && !level.contours.empty(); ++k) {
-        double step = step_from(level);
-        double next = next_distance(offset, distance, step, settings.cover_corners);
-        Region2d inner = offset.at(next);
-        if (!inner.contours.empty()) {
-            // The step must suit the loops on both of its sides.
-            const double inner_step = step_from(inner);
-            if (inner_step < step) {
-                step = inner_step;
-                next = next_distance(offset, distance, step, settings.cover_corners);
-                inner = offset.at(next);
+    NextLevel level{settings.first, offset.at(settings.first)};
+    double step = level.loops.contours.empty() ? 0.0 : step_from(level.loops);
+    for (int k = 0; k < kMostLevels && !level.loops.contours.empty(); ++k) {
+        NextLevel inner = next_level(offset, level.distance, step, settings.cover_corners);
+        double inner_step = step;
+        // The step must suit the loops on both of its sides.
+        for (int round = 0; round < 4 && !inner.loops.contours.empty(); ++round) {
+            inner_step = step_from(inner.loops);
+            if (inner_step >= 0.999 * step) {
+                break;
             }
+            step = inner_step;
+            inner = next_level(offset, level.distance, step, settings.cover_corners);
         }
-        for (Contour& contour : level.contours) {
+        for (Contour& contour : level.loops.contours) {
             const bool outer = area(contour) > 0.0;
-            loops.push_back({std::move(contour), k, distance, next - distance, outer});
+            loops.push_back(
+                {std::move(contour), k, level.distance, inner.distance - level.distance, outer});
         }
         level = std::move(inner);
-        distance = next;
+        step = inner_step;
     }
     return loops;
 }

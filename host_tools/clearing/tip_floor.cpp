@@ -28,51 +28,40 @@ TipFloor::TipFloor(const std::vector<Surface>& surfaces, const Tool& tool, doubl
     : tool_{tool}, accuracy_{accuracy}, surfaces_{surfaces}
 {
     pieces_.push_back({});  // child 0 means none
-    nets_.push_back({});
     for (std::uint32_t s = 0; s < surfaces_.size(); ++s) {
         for (const BezierPatch& patch : bezier_patches(surfaces_[s])) {
             const Surface& bezier = patch.surface;
-            Net net;
+            Piece piece{};
+            piece.patch = static_cast<std::uint32_t>(patches_.size());
+            piece.net = static_cast<std::uint32_t>(nets_.size());
+            piece.u = piece.v = {0.0F, 1.0F};
             for (std::size_t i = 0; i < bezier.points.size(); ++i) {
                 const double w = bezier.weights[i];
                 const Vec3d p = bezier.points[i];
-                net.push_back({p.x * w, p.y * w, p.z * w, w});
+                nets_.push_back({p.x * w, p.y * w, p.z * w, w});
             }
-            patches_.push_back({s, bezier.degree_u, bezier.degree_v});
-            const auto index = static_cast<std::uint32_t>(patches_.size() - 1);
-            roots_.push_back(add_piece(std::move(net), index,
-                                       {patch.u_begin, patch.u_end, patch.v_begin, patch.v_end}));
-            lowest_ = std::min(lowest_, pieces_[roots_.back()].z0);
-            highest_ = std::max(highest_, pieces_[roots_.back()].z1);
+            patches_.push_back({s, static_cast<std::uint32_t>(bezier.degree_u + 1),
+                                static_cast<std::uint32_t>(bezier.degree_v + 1), patch.u_begin,
+                                patch.u_end, patch.v_begin, patch.v_end});
+            measure(piece);
+            roots_.push_back(static_cast<std::uint32_t>(pieces_.size()));
+            pieces_.push_back(piece);
+            lowest_ = std::min(lowest_, piece.z0);
+            highest_ = std::max(highest_, piece.z1);
         }
     }
 }
 
-std::uint32_t TipFloor::add_piece(Net net, std::uint32_t patch, std::array<double, 4> domain) const
+void TipFloor::measure(Piece& piece) const
 {
-    Piece piece{};
-    piece.patch = patch;
-    piece.u0 = domain[0];
-    piece.u1 = domain[1];
-    piece.v0 = domain[2];
-    piece.v1 = domain[3];
-    measure(piece, net);
-    nets_.push_back(std::move(net));
-    piece.net = static_cast<std::uint32_t>(nets_.size() - 1);
-    pieces_.push_back(piece);
-    return static_cast<std::uint32_t>(pieces_.size() - 1);
-}
-
-void TipFloor::measure(Piece& piece, const Net& net) const
-{
-    const auto rows = static_cast<std::size_t>(patches_[piece.patch].degree_u + 1);
-    const auto columns = static_cast<std::size_t>(patches_[piece.patch].degree_v + 1);
-    std::vector<Vec3d> points(net.size());
+    const Patch& patch = patches_[piece.patch];
+    corners_.clear();
     piece.x0 = piece.y0 = piece.z0 = 1e300;
     piece.x1 = piece.y1 = piece.z1 = -1e300;
-    for (std::size_t i = 0; i < net.size(); ++i) {
-        const Vec3d p = Vec3d{net[i].x, net[i].y, net[i].z} / net[i].w;
-        points[i] = p;
+    for (std::size_t i = 0; i < patch.rows * patch.columns; ++i) {
+        const Homogeneous& q = nets_[piece.net + i];
+        const Vec3d p = q.w == 1.0 ? Vec3d{q.x, q.y, q.z} : Vec3d{q.x, q.y, q.z} / q.w;
+        corners_.push_back(p);
         piece.x0 = std::min(piece.x0, p.x);
         piece.y0 = std::min(piece.y0, p.y);
         piece.z0 = std::min(piece.z0, p.z);
@@ -80,99 +69,99 @@ void TipFloor::measure(Piece& piece, const Net& net) const
         piece.y1 = std::max(piece.y1, p.y);
         piece.z1 = std::max(piece.z1, p.z);
     }
+    measure_plane(piece, corners_);
+}
+
+void TipFloor::measure_plane(Piece& piece, const std::vector<Vec3d>& points) const
+{
+    const Patch& patch = patches_[piece.patch];
     const Vec3d c00 = points[0];
-    const Vec3d c01 = points[columns - 1];
-    const Vec3d c10 = points[(rows - 1) * columns];
-    const Vec3d c11 = points[rows * columns - 1];
-    const Vec3d along_u = (c10 - c00) + (c11 - c01);
-    const Vec3d along_v = (c01 - c00) + (c11 - c10);
-    Vec3d normal = cross(along_u, along_v);
-    const double size = norm(normal);
-    normal = size > 0.0 ? normal / size : Vec3d{0.0, 0.0, 1.0};
-    if (normal.z < 0.0) {
-        normal = -normal;
+    const Vec3d c01 = points[patch.columns - 1];
+    const Vec3d c10 = points[(patch.rows - 1) * patch.columns];
+    const Vec3d c11 = points[patch.rows * patch.columns - 1];
+    Vec3d normal = cross((c10 - c00) + (c11 - c01), (c01 - c00) + (c11 - c10));
+    normal = normal.z < 0.0 ? -normal : normal;
+    piece.graph = normal.z * kSteepest > norm(normal);
+    if (!piece.graph) {
+        return;
     }
-    piece.graph = normal.z * kSteepest > 1.0;
-    if (piece.graph) {
-        piece.gradient = {-normal.x / normal.z, -normal.y / normal.z};
-        double low = 1e300;
-        double high = -1e300;
-        for (const Vec3d p : points) {
-            const double level = p.z - piece.gradient.x * p.x - piece.gradient.y * p.y;
-            low = std::min(low, level);
-            high = std::max(high, level);
-        }
-        piece.level = high;
-        piece.thickness = high - low;
-    }
-    piece.normal = normal;
-    const double run = norm(along_u);
-    Vec3d along = run > 0.0 ? along_u / run : Vec3d{1.0, 0.0, 0.0};
-    along = along - normal * dot(along, normal);
-    piece.along = norm(along) > 1e-9 ? along / norm(along) : cross(normal, Vec3d{0.0, 1.0, 0.0});
-    piece.aside = cross(normal, piece.along);
-    piece.origin = c00;
-    piece.reach = {1e300, -1e300, 1e300, -1e300, 1e300, -1e300};
+    const Vec2d g{-normal.x / normal.z, -normal.y / normal.z};
+    piece.gradient = g;
+    const double square = dot(g, g);
+    piece.secant = std::sqrt(1.0 + square);
+    const double slope = std::sqrt(square);
+    const double c = tool_.corner_radius;
+    const double flat = tool_.radius - c;
+    piece.rise = slope * flat + c * (piece.secant - 1.0);
+    piece.contact = (slope > 0.0 ? flat / slope : 0.0) + c / piece.secant;
+    const double along = 1.0 / std::sqrt(1.0 + g.x * g.x);
+    const double aside = 1.0 / (piece.secant * std::sqrt(1.0 + g.x * g.x));
+    double low = 1e300;
+    double high = -1e300;
+    piece.lateral = {1e300, -1e300, 1e300, -1e300};
     for (const Vec3d p : points) {
-        const Vec3d arm = p - piece.origin;
-        const double ends[3] = {dot(arm, piece.along), dot(arm, piece.aside), dot(arm, normal)};
-        for (std::size_t k = 0; k < 3; ++k) {
-            piece.reach[2 * k] = std::min(piece.reach[2 * k], ends[k]);
-            piece.reach[2 * k + 1] = std::max(piece.reach[2 * k + 1], ends[k]);
-        }
+        const double level = p.z - g.x * p.x - g.y * p.y;
+        low = std::min(low, level);
+        high = std::max(high, level);
+        const double first = along * (p.x + g.x * p.z);
+        const double second = aside * ((1.0 + g.x * g.x) * p.y + g.y * (p.z - g.x * p.x));
+        piece.lateral[0] = std::min(piece.lateral[0], first);
+        piece.lateral[1] = std::max(piece.lateral[1], first);
+        piece.lateral[2] = std::min(piece.lateral[2], second);
+        piece.lateral[3] = std::max(piece.lateral[3], second);
     }
+    piece.level = high;
+    piece.thickness = high - low;
 }
 
 void TipFloor::halve(std::uint32_t index) const
 {
     const Piece piece = pieces_[index];
-    const Net net = nets_[piece.net];
-    const auto rows = static_cast<std::size_t>(patches_[piece.patch].degree_u + 1);
-    const auto columns = static_cast<std::size_t>(patches_[piece.patch].degree_v + 1);
+    const Patch& patch = patches_[piece.patch];
+    const std::size_t rows = patch.rows;
+    const std::size_t columns = patch.columns;
+    const std::size_t size = rows * columns;
     const auto place = [&](std::size_t i) {
-        return Vec3d{net[i].x, net[i].y, net[i].z} / net[i].w;
+        const Homogeneous& q = nets_[piece.net + i];
+        return Vec3d{q.x, q.y, q.z} / q.w;
     };
-    double long_u = 0.0;
-    double long_v = 0.0;
-    for (std::size_t i = 0; i < rows; ++i) {
-        for (std::size_t j = 0; j < columns; ++j) {
-            const std::size_t at = i * columns + j;
-            if (i + 1 < rows) {
-                long_u += norm(place(at + columns) - place(at)) / static_cast<double>(columns);
-            }
-            if (j + 1 < columns) {
-                long_v += norm(place(at + 1) - place(at)) / static_cast<double>(rows);
-            }
-        }
-    }
-    const bool by_u = long_u > long_v;
+    // The longer way, by the corners and the middle rows.
+    const double long_u =
+        norm(place((rows - 1) * columns) - place(0)) + norm(place(size - 1) - place(columns - 1));
+    const double long_v =
+        norm(place(columns - 1) - place(0)) + norm(place(size - 1) - place((rows - 1) * columns));
+    const bool by_u = columns == 1 || (rows > 1 && long_u > long_v);
     const std::size_t lines = by_u ? columns : rows;
     const std::size_t count = by_u ? rows : columns;
     const std::size_t stride = by_u ? columns : 1;
-    Net low = net;
-    Net high = net;
+    const std::size_t base = nets_.size();
+    nets_.resize(base + size);
+    Homogeneous* const low = &nets_[piece.net];
+    Homogeneous* const high = &nets_[base];
+    std::copy(low, low + size, high);
     // De Casteljau at one half: the first points of each level make one half, the last the other.
     for (std::size_t line = 0; line < lines; ++line) {
-        const std::size_t base = by_u ? line : line * columns;
+        const std::size_t start = by_u ? line : line * columns;
         for (std::size_t level = 1; level < count; ++level) {
-            low[base + (level - 1) * stride] = high[base];
+            low[start + (level - 1) * stride] = high[start];
             for (std::size_t k = 0; k + level < count; ++k) {
-                Homogeneous& a = high[base + k * stride];
-                const Homogeneous& b = high[base + (k + 1) * stride];
+                Homogeneous& a = high[start + k * stride];
+                const Homogeneous& b = high[start + (k + 1) * stride];
                 a = {0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.z + b.z), 0.5 * (a.w + b.w)};
             }
         }
-        low[base + (count - 1) * stride] = high[base];
+        low[start + (count - 1) * stride] = high[start];
     }
-    const double u = 0.5 * (piece.u0 + piece.u1);
-    const double v = 0.5 * (piece.v0 + piece.v1);
-    const std::array<double, 4> first{piece.u0, by_u ? u : piece.u1, piece.v0, by_u ? piece.v1 : v};
-    const std::array<double, 4> second{by_u ? u : piece.u0, piece.u1, by_u ? piece.v0 : v,
-                                       piece.v1};
-    const std::uint32_t child = add_piece(std::move(low), piece.patch, first);
-    add_piece(std::move(high), piece.patch, second);
-    nets_[piece.net] = {};
-    pieces_[index].child = child;
+    Piece first = piece;
+    Piece second = piece;
+    second.net = static_cast<std::uint32_t>(base);
+    (by_u ? first.u : first.v)[1] = (by_u ? second.u : second.v)[0] =
+        by_u ? 0.5F * (piece.u[0] + piece.u[1]) : 0.5F * (piece.v[0] + piece.v[1]);
+    measure(first);
+    measure(second);
+    pieces_[index].child = static_cast<std::uint32_t>(pieces_.size());
+    pieces_.push_back(first);
+    pieces_.push_back(second);
 }
 
 // The highest rest of a ball on the piece's plane above the piece's own rectangle. The ball's lower
@@ -202,43 +191,48 @@ double TipFloor::on_edges(const Piece& piece, Vec2d at) const
     return best;
 }
 
-// Upper bound of the tip's height that the piece asks for; tight where halving it would change it
-// by no more than its thickness.
-double TipFloor::bound(const Piece& piece, Vec2d at, bool& tight) const
+// Upper bound of the tip's height that the piece asks for, as far as it is above `best`; tight
+// where halving it would change it by no more than its thickness.
+double TipFloor::bound(const Piece& piece, Vec2d at, double best, bool& tight) const
 {
     tight = false;
+    const Vec2d g = piece.gradient;
+    const double by_plane =
+        piece.graph ? piece.level + g.x * at.x + g.y * at.y + piece.rise : 1e300;
+    if (by_plane <= best) {
+        return kNothing;
+    }
+    const double r = tool_.radius;
+    const double c = tool_.corner_radius;
     const double dx = excess(piece.x0, piece.x1, at.x);
     const double dy = excess(piece.y0, piece.y1, at.y);
     const double square = dx * dx + dy * dy;
-    const double r = tool_.radius;
-    if (square >= r * r) {
+    if (square >= r * r || piece.z1 <= best) {
         return kNothing;
     }
-    const double c = tool_.corner_radius;
+    if (piece.graph) {
+        const Vec2d contact = at + g * piece.contact;
+        if (contact.x >= piece.x0 && contact.x <= piece.x1 && contact.y >= piece.y0 &&
+            contact.y <= piece.y1) {
+            tight = piece.thickness <= accuracy_;
+            return std::min(by_plane, piece.z1);
+        }
+    }
     const double far = std::max(0.0, std::sqrt(square) - (r - c));
     const double by_box = piece.z1 - (c - std::sqrt(std::max(c * c - far * far, 0.0)));
+    if (by_box <= best) {
+        return kNothing;
+    }
     if (!piece.graph) {
         tight = std::max(piece.x1 - piece.x0, piece.y1 - piece.y0) < 5.0 * accuracy_;
         return by_box;
     }
-    const Vec2d g = piece.gradient;
-    const double slope = std::sqrt(dot(g, g));
-    const double secant = std::sqrt(1.0 + slope * slope);
-    const double by_plane =
-        piece.level + g.x * at.x + g.y * at.y + slope * (r - c) + c * (secant - 1.0);
-    const double reach = slope > 0.0 ? ((r - c) + c * slope / secant) / slope : 0.0;
-    const Vec2d contact = at + g * reach;
-    const bool within = contact.x >= piece.x0 && contact.x <= piece.x1 && contact.y >= piece.y0 &&
-                        contact.y <= piece.y1;
     tight = piece.thickness <= accuracy_;
-    if (within || by_box <= by_plane - 5.0) {
-        return std::min(by_plane, by_box);
-    }
     if (c == r) {
         return std::min({by_plane, by_box, on_edges(piece, at)});
     }
     const double size = std::max(piece.x1 - piece.x0, piece.y1 - piece.y0);
-    tight = tight && size * (1.0 + slope) < 20.0 * accuracy_;
+    tight = tight && size * piece.secant < 20.0 * accuracy_;
     return std::min(by_plane, by_box);
 }
 
@@ -247,23 +241,25 @@ TipFloor::Rest TipFloor::drop(Vec2d at) const
     struct Entry {
         double height;
         std::uint32_t piece;
-        bool tight;
     };
     std::array<Entry, kStack> stack;
     std::size_t depth = 0;
     Rest best{kNothing, {0.0, 0.0}, 0};
     const auto consider = [&](std::uint32_t index) {
         bool tight = false;
-        const double height = bound(pieces_[index], at, tight);
-        if (height > best.height && tight) {
+        const double height = bound(pieces_[index], at, best.height, tight);
+        if (height > best.height && (tight || depth == kStack)) {
             best = {height, pieces_[index].gradient, index};
-        } else if (height > best.height && depth < kStack) {
-            stack[depth++] = {height, index, tight};
+        } else if (height > best.height) {
+            stack[depth++] = {height, index};
         }
     };
+    if (last_ != 0 && pieces_[last_].child == 0) {
+        consider(last_);
+        depth = 0;  // where it is not tight it is met again on the way down
+    }
     for (const std::uint32_t root : roots_) {
         consider(root);
-        // Only the promising ones are kept; many roots are worked off as they come.
         while (depth > 0) {
             const Entry top = stack[--depth];
             if (top.height <= best.height) {
@@ -282,11 +278,12 @@ TipFloor::Rest TipFloor::drop(Vec2d at) const
             }
         }
     }
+    last_ = best.piece;
     return best;
 }
 
-// Distance from the ball's centre line to the piece's turned box, component by component, or to its
-// upright box, whichever says more.
+// Distance from the ball's centre line to the piece's upright box, or component by component to its
+// turned box, whichever says more.
 double TipFloor::gap_to(const Piece& piece, Vec3d a, Vec3d b) const
 {
     const auto apart = [](double low, double high, double p, double q) {
@@ -295,14 +292,27 @@ double TipFloor::gap_to(const Piece& piece, Vec3d a, Vec3d b) const
     const double ux = apart(piece.x0, piece.x1, a.x, b.x);
     const double uy = apart(piece.y0, piece.y1, a.y, b.y);
     const double uz = apart(piece.z0, piece.z1, a.z, b.z);
-    const Vec3d p = a - piece.origin;
-    const Vec3d q = b - piece.origin;
-    const auto& r = piece.reach;
-    const double tx = apart(r[0], r[1], dot(p, piece.along), dot(q, piece.along));
-    const double ty = apart(r[2], r[3], dot(p, piece.aside), dot(q, piece.aside));
-    const double tz = apart(r[4], r[5], dot(p, piece.normal), dot(q, piece.normal));
-    return std::sqrt(std::max(ux * ux + uy * uy + uz * uz, tx * tx + ty * ty + tz * tz)) -
-           tool_.radius;
+    double square = ux * ux + uy * uy + uz * uz;
+    if (piece.graph) {
+        const Vec2d g = piece.gradient;
+        const double run = 1.0 + g.x * g.x;
+        const double along = 1.0 / std::sqrt(run);
+        const double aside = along / piece.secant;
+        const auto first = [&](Vec3d p) {
+            return along * (p.x + g.x * p.z);
+        };
+        const auto second = [&](Vec3d p) {
+            return aside * (run * p.y + g.y * (p.z - g.x * p.x));
+        };
+        const auto over = [&](Vec3d p) {
+            return (p.z - g.x * p.x - g.y * p.y - piece.level) / piece.secant;
+        };
+        const double tx = apart(piece.lateral[0], piece.lateral[1], first(a), first(b));
+        const double ty = apart(piece.lateral[2], piece.lateral[3], second(a), second(b));
+        const double tz = apart(-piece.thickness / piece.secant, 0.0, over(a), over(b));
+        square = std::max(square, tx * tx + ty * ty + tz * tz);
+    }
+    return std::sqrt(square) - tool_.radius;
 }
 
 double TipFloor::gap(Vec3d a, Vec3d b, double enough) const
@@ -312,7 +322,7 @@ double TipFloor::gap(Vec3d a, Vec3d b, double enough) const
         Vec3d a, b;
     };
     const Vec3d up{0.0, 0.0, tool_.radius};
-    constexpr double kFinest = 0.02;  // of the accuracy: halving ends here
+    constexpr double kFinest = 1.0;  // of the accuracy: halving ends here
     const double fine = kFinest * accuracy_;
     double least = enough;
     std::array<Entry, kStack> stack;
@@ -326,11 +336,12 @@ double TipFloor::gap(Vec3d a, Vec3d b, double enough) const
             if (here >= least) {
                 continue;
             }
-            const double thin = piece.reach[5] - piece.reach[4];
-            const double turned = std::abs(dot(top.b - top.a, piece.normal));
-            const bool small =
-                norm(top.b - top.a) < fine &&
-                std::max(piece.reach[1] - piece.reach[0], piece.reach[3] - piece.reach[2]) < fine;
+            const Vec3d move = top.b - top.a;
+            const double size = std::max(piece.x1 - piece.x0, piece.y1 - piece.y0);
+            const double thin = piece.graph ? piece.thickness / piece.secant : size;
+            const double tilt = move.z - dot(piece.gradient, Vec2d{move.x, move.y});
+            const double turned = piece.graph ? std::abs(tilt) / piece.secant : norm(move);
+            const bool small = norm(move) < fine && size < fine;
             if ((thin < fine && turned < fine) || small || depth + 2 > kStack) {
                 least = std::min(least, here);
                 continue;
@@ -381,9 +392,14 @@ TipFloor::Section TipFloor::section(Vec2d at, Vec2d along) const
         return {0.0, 0.0, false};
     }
     const Piece& piece = pieces_[rest.piece];
-    const Surface& surface = surfaces_[patches_[piece.patch].surface];
+    const Patch& patch = patches_[piece.patch];
+    const Surface& surface = surfaces_[patch.surface];
+    const auto middle = [](std::array<float, 2> ends) {
+        return 0.5 * static_cast<double>(ends[0] + ends[1]);
+    };
     const SurfacePoint s =
-        derivatives_at(surface, 0.5 * (piece.u0 + piece.u1), 0.5 * (piece.v0 + piece.v1));
+        derivatives_at(surface, patch.u0 + (patch.u1 - patch.u0) * middle(piece.u),
+                       patch.v0 + (patch.v1 - patch.v0) * middle(piece.v));
     const Vec3d n = upward_normal(s);
     // du : dv of the plan direction: along = x_u du + x_v dv in plan.
     const double bend = s.du.x * s.dv.y - s.du.y * s.dv.x;

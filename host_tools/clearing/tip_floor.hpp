@@ -59,29 +59,34 @@ private:
     struct Homogeneous {
         double x, y, z, w;
     };
-    using Net = std::vector<Homogeneous>;  // v fastest
     struct Piece {
-        double x0, y0, x1, y1, z0, z1;       // box
-        Vec2d gradient;                      // of a plane above the piece, where it is a graph
-        double level;                        // that plane's z at x = y = 0
-        double thickness;                    // vertical, of the slab under that plane
-        bool graph;                          // false where too steep for a plane z(x, y)
-        Vec3d origin, along, aside, normal;  // a box turned with the piece
-        std::array<double, 6> reach;         // lower and upper ends along the three
-        std::uint32_t child;                 // 0: not yet halved
-        std::uint32_t net;
+        double x0, y0, x1, y1, z0, z1;  // box
+        // A plane above the piece, where it is a graph: z = level + gradient . (x, y).
+        Vec2d gradient;
+        double level;
+        double thickness;  // vertical, of the slab under that plane
+        double rise;       // of the tip over the plane at the tool's axis
+        double contact;    // where the tool touches the plane: axis + gradient * contact
+        // A box turned with the piece: ends along (1, 0, gx) and aside of it, made unit vectors.
+        std::array<double, 4> lateral;
+        double secant;        // of the plane's slope
+        bool graph;           // false where too steep for a plane z(x, y)
+        std::uint32_t child;  // 0: not yet halved
+        std::uint32_t net;  // first of its control points, v fastest; the first child takes it over
         std::uint32_t patch;
-        double u0, u1, v0, v1;  // its part of the patch
+        std::array<float, 2> u;  // its part of the patch, as shares
+        std::array<float, 2> v;
     };
     struct Patch {
         std::uint32_t surface;
-        int degree_u, degree_v;
+        std::uint32_t rows, columns;  // of control points
+        double u0, u1, v0, v1;
     };
 
-    std::uint32_t add_piece(Net net, std::uint32_t patch, std::array<double, 4> domain) const;
+    void measure(Piece& piece) const;
+    void measure_plane(Piece& piece, const std::vector<Vec3d>& points) const;
     void halve(std::uint32_t piece) const;
-    void measure(Piece& piece, const Net& net) const;
-    double bound(const Piece& piece, Vec2d at, bool& tight) const;
+    double bound(const Piece& piece, Vec2d at, double best, bool& tight) const;
     double gap_to(const Piece& piece, Vec3d a, Vec3d b) const;
     double on_edges(const Piece& piece, Vec2d at) const;
 
@@ -91,7 +96,9 @@ private:
     std::vector<Patch> patches_;
     // Halved when first needed; a const query only makes them finer.
     mutable std::vector<Piece> pieces_;
-    mutable std::vector<Net> nets_;
+    mutable std::vector<Homogeneous> nets_;
+    mutable std::vector<Vec3d> corners_;  // control points of the piece being measured
+    mutable std::uint32_t last_{0};       // where the tool rested last: a good first guess
     std::vector<std::uint32_t> roots_;
     double lowest_{1e300};
     double highest_{-1e300};

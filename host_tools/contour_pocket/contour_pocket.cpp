@@ -64,8 +64,8 @@ Budget make_budget(const Job& job, const Operation& operation)
     Budget budget;
     budget.outside = operation.tolerance_side == ToleranceSide::kOutside;
     budget.fit = 0.1 * operation.plan_tolerance;
-    budget.above = operation.floor_tolerance;
-    budget.accuracy = std::min(0.05 * operation.floor_tolerance, 1e-3);
+    budget.accuracy = std::min(0.1 * operation.floor_tolerance, 5e-3);
+    budget.above = operation.floor_tolerance - 2.0 * budget.accuracy;
     // Passes may lie closer or wider by what the plan tolerance lets them wander.
     budget.cusp = *operation.scallop - operation.floor_tolerance;
     if (budget.outside) {
@@ -162,7 +162,8 @@ double interval_from(const Region2d& level, const TipFloor& floor, const Budget&
         }
     }
     // Neighbouring moves may stray from their paths, each its own way.
-    return std::max(least - 2.0 * budget.aside, 0.02 * radius);
+    const double stray = budget.outside ? 2.0 * budget.aside : 0.0;
+    return std::max(least - stray, 0.02 * radius);
 }
 
 class PocketPlanner {
@@ -179,7 +180,9 @@ public:
         laying_.aside = budget_.aside;
         laying_.above = budget_.above;
         laying_.lift = budget_.outside;
-        laying_.spacing = std::clamp(std::sqrt(radius * budget_.above), 0.05 * radius, radius);
+        laying_.cushion = budget_.accuracy;
+        laying_.spacing =
+            std::clamp(std::sqrt(2.0 * radius * budget_.above), 0.05 * radius, radius);
     }
 
     PlannedOperation plan()
@@ -211,45 +214,47 @@ public:
     }
 
 private:
-    std::vector<Vec3d> laid(const std::vector<Edge>& plan)
+    FloorPath laid(const std::vector<Edge>& plan, bool arcs)
     {
-        FloorPath path = lay_on_floor(plan, floor_, laying_);
+        FloorPathSettings laying = laying_;
+        laying.arcs = arcs;
+        FloorPath path = lay_on_floor(plan, floor_, laying);
         if (!path.over_floor) {
-            throw InputError(operation_.floor_files.empty()
-                                 ? "floor"
-                                 : operation_.floor_files.front() +
-                                       ": the floor does not cover the pocket at " +
-                                       place(path.missing) + " mm");
+            const std::string file =
+                operation_.floor_files.empty() ? "floor" : operation_.floor_files.front();
+            throw InputError(file + ": the floor does not cover the pocket at " +
+                             place(path.missing) + " mm");
         }
         least_gap_ = std::min(least_gap_, path.least_gap);
-        return std::move(path.points);
+        return path;
     }
 
     void add_pass(const ClearingPass& pass)
     {
-        const std::vector<Vec3d> points = laid(pass.path);
+        const bool arcs = operation_.output == OutputForm::kArcs;
         if (pass.start == PassStart::kLink) {
-            moves_.link(laid({line_edge(last_, pass.path.front().start)}));
+            moves_.link(laid({line_edge(last_, pass.path.front().start)}, false));
         } else {
             moves_.retract();
-            enter(pass, points);
+            enter(pass);
         }
-        moves_.cut(points);
+        moves_.cut(laid(pass.path, arcs));
         last_ = pass.path.front().start;
     }
 
-    void enter(const ClearingPass& pass, const std::vector<Vec3d>& points)
+    void enter(const ClearingPass& pass)
     {
         const double room = pass.distance - budget_.first;
         const double radius = std::min(0.6 * operation_.tool.radius, room);
         const bool long_enough = length(pass.path) > 6.0 * operation_.tool.radius;
         const EntryKind kind = operation_.entry;
         const bool helix = kind == EntryKind::kHelix || (kind == EntryKind::kAuto && !long_enough);
+        const FloorPath path = laid(pass.path, false);
         if (helix && radius > 0.2 * operation_.tool.radius) {
-            moves_.enter_by_helix(points, radius, floor_);
+            moves_.enter_by_helix(path.start, radius, floor_);
             return;
         }
-        moves_.enter_along(points, kind == EntryKind::kPlunge);
+        moves_.enter_along(path, kind == EntryKind::kPlunge);
     }
 
     void fill(PlannedOperation& result, const ClearedRegion& cleared)
@@ -265,7 +270,7 @@ private:
         stats.cl_points = moves_.points();
         stats.retracts = moves_.retracts();
         stats.gouge_bound_mm = std::max(0.0, -least_gap_);
-        stats.scallop_bound_mm = budget_.cusp + budget_.above;
+        stats.scallop_bound_mm = budget_.cusp + operation_.floor_tolerance;
         stats.counts = {{"loops", static_cast<double>(cleared.passes.size())},
                         {"leaves", static_cast<double>(cleared.leaves)},
                         {"islands", static_cast<double>(cleared.islands)}};

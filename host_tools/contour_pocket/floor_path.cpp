@@ -1,26 +1,21 @@
-// Looks the floor up along the path, takes the longest moves that stay in the band, lifts what
-// would cut too deep, and certifies every move.
+// Looks the floor up along the path, takes the longest moves that stay in the band, certifies every
+// move and lifts what would cut too deep.
 #include "host_tools/contour_pocket/floor_path.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/contour_pocket/tolerance_chain.hpp"
+
 namespace cusp::host {
 
 namespace {
 
-struct Station {
-    Vec2d at;
-    double height;
-    Vec2d gradient;
-};
+double to_step(double x) { return std::round(x / kWrittenStep) * kWrittenStep; }
 
-Vec3d written(Vec2d at, double z)
+Vec3d written(Vec3d p)
 {
-    const auto nearest = [](double x) {
-        return std::round(x / kWrittenStep) * kWrittenStep;
-    };
-    return {nearest(at.x), nearest(at.y), std::ceil(z / kWrittenStep - 1e-6) * kWrittenStep};
+    return {to_step(p.x), to_step(p.y), std::ceil(p.z / kWrittenStep - 1e-6) * kWrittenStep};
 }
 
 std::vector<Vec2d> stations_in_plan(const std::vector<Edge>& plan,
@@ -41,110 +36,67 @@ std::vector<Vec2d> stations_in_plan(const std::vector<Edge>& plan,
     return points;
 }
 
-class Chain {
-public:
-    Chain(std::vector<Station> stations, const FloorPathSettings& settings)
-        : stations_{std::move(stations)}, settings_{settings}
-    {
-        // With a lift, moves may sag below the line of stations by half the band and rise by half.
-        band_ = 0.92 * (settings.lift ? 0.5 * settings.above : settings.above);
-        aside_ = 0.97 * settings.aside;
-    }
-
-    // Indices of the stations that moves join.
-    std::vector<std::size_t> joints() const
-    {
-        std::vector<std::size_t> joints{0};
-        while (joints.back() + 1 < stations_.size()) {
-            joints.push_back(farthest(joints.back()));
-        }
-        return joints;
-    }
-
-    // How far the move between two stations sags below the floor, at most; 0 or more.
-    double sag(std::size_t i, std::size_t j) const
-    {
-        double worst = 0.0;
-        for (std::size_t k = i + 1; k < j; ++k) {
-            worst = std::max(worst, departure(i, j, k).below);
-        }
-        return worst;
-    }
-
-    const Station& operator[](std::size_t i) const { return stations_[i]; }
-
-private:
-    struct Departure {
-        double aside;
-        double below;  // floor minus move, by the slope of the floor at the station
-    };
-
-    Departure departure(std::size_t i, std::size_t j, std::size_t k) const
-    {
-        const Vec2d a = stations_[i].at;
-        const Vec2d chord = stations_[j].at - a;
-        const Vec2d arm = stations_[k].at - a;
-        const double square = dot(chord, chord);
-        const double share = square > 0.0 ? std::clamp(dot(arm, chord) / square, 0.0, 1.0) : 0.0;
-        const Vec2d off = chord * share - arm;
-        const double move =
-            stations_[i].height + (stations_[j].height - stations_[i].height) * share;
-        const double floor = stations_[k].height + dot(stations_[k].gradient, off);
-        return {std::sqrt(dot(off, off)), floor - move};
-    }
-
-    bool fits(std::size_t i, std::size_t j) const
-    {
-        for (std::size_t k = i + 1; k < j; ++k) {
-            const Departure d = departure(i, j, k);
-            if (d.aside > aside_ || std::abs(d.below) > band_) {
-                return false;
-            }
-        }
-        return true;
-    }
-
-    std::size_t farthest(std::size_t i) const
-    {
-        const std::size_t last = stations_.size() - 1;
-        std::size_t good = i + 1;
-        std::size_t stride = 2;
-        while (i + stride <= last && fits(i, i + stride)) {
-            good = i + stride;
-            stride *= 2;
-        }
-        std::size_t bad = std::min(last + 1, i + stride);
-        while (bad - good > 1) {
-            const std::size_t middle = good + (bad - good) / 2;
-            (fits(i, middle) ? good : bad) = middle;
-        }
-        return good;
-    }
-
-    std::vector<Station> stations_;
-    FloorPathSettings settings_;
-    double band_;
-    double aside_;
+// Chords of a move, each with how far the move itself may lie from it.
+struct Chords {
+    std::vector<Vec3d> points;
+    double sagitta;
 };
 
-// Raises both ends of every move by what it lacks to keep off the floor, until none lacks anything.
-// Raising only ever adds room to the neighbours.
-double certify(std::vector<Vec3d>& points, const TipFloor& floor, bool lift)
+Chords chords_of(Vec3d start, const FloorMove& move, double fine)
 {
-    constexpr int kRounds = 6;
-    constexpr double kEnough = 0.01;
-    double least = kEnough;
-    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-        double gap = floor.gap(points[i], points[i + 1], kEnough);
-        for (int round = 0; lift && gap < 0.0 && round < kRounds; ++round) {
-            const double raise = kWrittenStep + 1.5 * -gap;
-            points[i] = written({points[i].x, points[i].y}, points[i].z + raise);
-            points[i + 1] = written({points[i + 1].x, points[i + 1].y}, points[i + 1].z + raise);
-            gap = floor.gap(points[i], points[i + 1], kEnough);
-        }
-        least = std::min(least, gap);
+    if (move.turn == 0) {
+        return {{start, move.end}, 0.0};
     }
-    return least;
+    const Vec2d a = Vec2d{start.x, start.y} - move.centre;
+    const Vec2d b = Vec2d{move.end.x, move.end.y} - move.centre;
+    const double radius = std::sqrt(dot(a, a));
+    const double angle = std::atan2(cross(a, b), dot(a, b));
+    const double step = std::sqrt(8.0 * fine / radius);
+    const int n = 1 + static_cast<int>(std::abs(angle) / step);
+    Chords chords;
+    for (int i = 0; i <= n; ++i) {
+        const double t = angle * i / n;
+        const Vec2d p = move.centre + a * std::cos(t) + left_normal(a) * std::sin(t);
+        chords.points.push_back({p.x, p.y, start.z + (move.end.z - start.z) * i / n});
+    }
+    chords.sagitta = radius * (1.0 - std::cos(0.5 * angle / n));
+    return chords;
+}
+
+double gap_of(Vec3d start, const FloorMove& move, const TipFloor& floor, double fine)
+{
+    constexpr double kEnough = 0.01;
+    const Chords chords = chords_of(start, move, fine);
+    double least = kEnough;
+    for (std::size_t i = 1; i < chords.points.size(); ++i) {
+        least = std::min(least, floor.gap(chords.points[i - 1], chords.points[i], kEnough));
+    }
+    return least - chords.sagitta;
+}
+
+// Raises both ends of every move by what it lacks to keep off the floor, until none lacks anything.
+// Raising only ever adds room to the neighbours; a closed path's ends are raised together.
+void certify(FloorPath& path, const TipFloor& floor, const FloorPathSettings& settings, bool closed)
+{
+    constexpr int kRounds = 8;
+    path.least_gap = 1e300;
+    const double fine = std::max(settings.cushion, kWrittenStep);
+    for (std::size_t i = 0; i < path.moves.size(); ++i) {
+        Vec3d& start = i == 0 ? path.start : path.moves[i - 1].end;
+        Vec3d& end = path.moves[i].end;
+        double gap = gap_of(start, path.moves[i], floor, fine);
+        for (int round = 0; settings.lift && gap < 0.0 && round < kRounds; ++round) {
+            const double raise = kWrittenStep + 1.5 * -gap;
+            start = written(start + Vec3d{0.0, 0.0, raise});
+            end = written(end + Vec3d{0.0, 0.0, raise});
+            gap = gap_of(start, path.moves[i], floor, fine);
+        }
+        path.least_gap = std::min(path.least_gap, gap);
+    }
+    if (closed && !path.moves.empty()) {
+        const double top = std::max(path.start.z, path.moves.back().end.z);
+        path.start.z = path.moves.back().end.z = top;
+    }
 }
 
 }  // namespace
@@ -165,26 +117,20 @@ FloorPath lay_on_floor(const std::vector<Edge>& plan,
         stations.push_back({at, rest.height, rest.gradient});
     }
     const bool closed = distance(stations.front().at, stations.back().at) < 1e-9;
-    const Chain chain{std::move(stations), settings};
-    const std::vector<std::size_t> joints = chain.joints();
-    std::vector<double> lift(joints.size(), 0.0);
-    for (std::size_t m = 0; settings.lift && m + 1 < joints.size(); ++m) {
-        const double sag = chain.sag(joints[m], joints[m + 1]);
-        lift[m] = std::max(lift[m], sag);
-        lift[m + 1] = std::max(lift[m + 1], sag);
+    // Between stations the floor may bend by a little more than at them.
+    constexpr double kUsed = 0.95;
+    const double low = settings.lift ? settings.cushion : -kUsed * settings.above;
+    const Chain chain = chain_through(stations, kUsed * settings.aside, low, kUsed * settings.above,
+                                      settings.arcs, closed);
+    path.start = written(chain.start);
+    path.moves = chain.moves;
+    for (FloorMove& move : path.moves) {
+        move.end = written(move.end);
     }
-    if (closed) {
-        lift.front() = lift.back() = std::max(lift.front(), lift.back());
+    if (closed && !path.moves.empty()) {
+        path.moves.back().end = path.start;
     }
-    for (std::size_t m = 0; m < joints.size(); ++m) {
-        const Station& station = chain[joints[m]];
-        path.points.push_back(written(station.at, station.height + lift[m]));
-    }
-    path.least_gap = certify(path.points, floor, settings.lift);
-    if (closed) {
-        const double top = std::max(path.points.front().z, path.points.back().z);
-        path.points.front().z = path.points.back().z = top;
-    }
+    certify(path, floor, settings, closed);
     return path;
 }
 

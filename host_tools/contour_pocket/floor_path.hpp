@@ -1,7 +1,8 @@
-// A path of the tool in plan, laid on the floor: a chain of tip points whose straight moves stay
-// within the tolerances and above the floor.
+// A path of the tool in plan, laid on the floor: a chain of straight moves and arcs of the tip that
+// stay within the tolerances and above the floor.
 #pragma once
 
+#include <variant>
 #include <vector>
 
 #include "host_tools/clearing/tip_floor.hpp"
@@ -12,14 +13,25 @@ namespace cusp::host {
 struct FloorPathSettings {
     double aside{};    // mm: how far a move may lie beside the plan path, either way
     double above{};    // mm: width of the band above the floor that moves stay in
-    bool lift{true};   // false: points on the floor, moves within `above` on either side of it
+    bool lift{true};   // false: moves stay within `above` on either side of the floor
+    bool arcs{false};  // true: helical arcs in plan where they reach farther than a line
+    double cushion{};  // mm: kept off the floor, so that certifying a move needs no finer floor
     double spacing{};  // mm between the floor heights looked at
 };
 
+// One move; turn 0: straight. An arc rises evenly with its angle and sweeps less than half a turn.
+struct FloorMove {
+    Vec3d end;
+    Vec2d centre{};
+    int turn{};
+};
+
 struct FloorPath {
-    std::vector<Vec3d> points;
-    double least_gap{};  // mm: lower bound of the gap between floor and tool, over all moves; may
-                         // be < 0
+    Vec3d start;
+    std::vector<FloorMove> moves;
+    double least_gap{};   // mm: lower bound of the gap between floor and tool, over all moves; may
+                          // be < 0
+    double most_above{};  // mm: highest of the tip over its lowest place, at the stations looked at
     bool over_floor{true};
     Vec2d missing;  // a place without floor, where not over_floor
 };
@@ -27,6 +39,7 @@ struct FloorPath {
 // Coordinates are multiples of this, mm: what is certified is what is written.
 constexpr double kWrittenStep = 1e-4;
 
+// Lays a chain of edges on the floor. Where its end is its start, so are the path's.
 FloorPath lay_on_floor(const std::vector<Edge>& plan,
                        const TipFloor& floor,
                        const FloorPathSettings& settings);

@@ -38,8 +38,12 @@ void PocketMoves::approach(Vec3d start)
     }
 }
 
-void PocketMoves::enter_along(const std::vector<Vec3d>& pass, bool plunge)
+void PocketMoves::enter_along(const FloorPath& path, bool plunge)
 {
+    std::vector<Vec3d> pass{path.start};
+    for (const FloorMove& move : path.moves) {
+        pass.push_back(move.end);
+    }
     approach(pass.front());
     const double lowest =
         std::min_element(pass.begin(), pass.end(), [](Vec3d a, Vec3d b) { return a.z < b.z; })->z;
@@ -67,11 +71,8 @@ void PocketMoves::enter_along(const std::vector<Vec3d>& pass, bool plunge)
     }
 }
 
-void PocketMoves::enter_by_helix(const std::vector<Vec3d>& pass,
-                                 double radius,
-                                 const TipFloor& floor)
+void PocketMoves::enter_by_helix(Vec3d centre, double radius, const TipFloor& floor)
 {
-    const Vec3d centre = pass.front();
     approach({centre.x + radius, centre.y, centre.z});
     double z = std::max(heights_.top + kOutOfStock, centre.z);
     line(MoveKind::kPlunge, {centre.x + radius, centre.y, z});
@@ -94,17 +95,18 @@ void PocketMoves::enter_by_helix(const std::vector<Vec3d>& pass,
     line(MoveKind::kPlunge, centre);
 }
 
-void PocketMoves::cut(const std::vector<Vec3d>& pass)
+void PocketMoves::follow(MoveKind kind, const FloorPath& path)
 {
-    for (const Vec3d p : pass) {
-        line(MoveKind::kCut, p);
-    }
-}
-
-void PocketMoves::link(const std::vector<Vec3d>& path)
-{
-    for (const Vec3d p : path) {
-        line(MoveKind::kLink, p);
+    line(kind, path.start);
+    for (const FloorMove& move : path.moves) {
+        if (move.turn == 0) {
+            line(kind, move.end);
+            continue;
+        }
+        const Vec3d centre{move.centre.x, move.centre.y, 0.0};
+        moves_.push_back({kind, ArcTo{move.end, centre, ArcPlane::kXY, move.turn < 0}});
+        at_ = move.end;
+        points_ += kind == MoveKind::kCut ? 1 : 0;
     }
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "host_tools/clearing/tip_floor.hpp"
+#include "host_tools/contour_pocket/floor_path.hpp"
 #include "host_tools/toolpath/toolpath.hpp"
 
 namespace cusp::host {
@@ -19,14 +20,14 @@ public:
 
     // Down to the start of a closed pass in uncut metal: round the pass again and again on a gentle
     // slope until the pass lies wholly at its depth; straight down where `plunge`.
-    void enter_along(const std::vector<Vec3d>& pass, bool plunge);
+    void enter_along(const FloorPath& pass, bool plunge);
 
     // Down on a helix of the given radius about the pass's start. floor_at gives the lowest tip
     // there.
-    void enter_by_helix(const std::vector<Vec3d>& pass, double radius, const TipFloor& floor);
+    void enter_by_helix(Vec3d centre, double radius, const TipFloor& floor);
 
-    void cut(const std::vector<Vec3d>& pass);
-    void link(const std::vector<Vec3d>& path);
+    void cut(const FloorPath& pass) { follow(MoveKind::kCut, pass); }
+    void link(const FloorPath& path) { follow(MoveKind::kLink, path); }
     void retract();
 
     std::vector<ToolMove> take() { return std::move(moves_); }
@@ -36,6 +37,7 @@ public:
 private:
     void line(MoveKind kind, Vec3d end);
     void approach(Vec3d start);
+    void follow(MoveKind kind, const FloorPath& path);
 
     PocketHeights heights_;
     std::vector<ToolMove> moves_;

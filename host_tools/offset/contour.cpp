@@ -37,7 +37,7 @@ Edge arc_edge(Vec2d start, Vec2d end, Vec2d centre, int turn)
 
 Vec2d unit(Vec2d a)
 {
-    const double size = std::hypot(a.x, a.y);
+    const double size = std::sqrt(dot(a, a));
     return size > 0.0 ? a * (1.0 / size) : Vec2d{0.0, 0.0};
 }
 

@@ -33,7 +33,7 @@ inline Edge line_edge(Vec2d start, Vec2d end) { return {start, end, {}, 0.0, 0};
 Edge arc_edge(Vec2d start, Vec2d end, Vec2d centre, int turn);
 
 inline Vec2d left_normal(Vec2d t) { return {-t.y, t.x}; }
-inline double distance(Vec2d a, Vec2d b) { return std::hypot(a.x - b.x, a.y - b.y); }
+inline double distance(Vec2d a, Vec2d b) { return std::sqrt(dot(a - b, a - b)); }
 Vec2d unit(Vec2d a);
 
 double length(const Edge& edge);

@@ -68,7 +68,7 @@ std::optional<Vec2d> centre_of(Vec2d a, Vec2d b, Vec2d c)
         return std::nullopt;
     }
     const Vec2d w = v * dot(u, u) - u * dot(v, v);
-    return a + Vec2d{w.y, -w.x} * (-1.0 / twice);
+    return a + Vec2d{w.y, -w.x} * (1.0 / twice);
 }
 
 // Arcs through the samples where all lie on one circle; empty where they do not.

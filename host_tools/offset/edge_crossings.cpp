@@ -88,7 +88,7 @@ Crossings of_line_and_arc(const Edge& line, const Edge& arc, double slack)
 Crossings of_arcs(const Edge& a, const Edge& b, double slack)
 {
     const Vec2d apart = b.centre - a.centre;
-    const double gap = std::hypot(apart.x, apart.y);
+    const double gap = std::sqrt(dot(apart, apart));
     if (gap <= slack && std::abs(a.radius - b.radius) <= slack) {
         return common_ends(a, b, slack);
     }

@@ -101,9 +101,10 @@ bool EdgeTree::any_nearer(Vec2d point, double reach) const
     return false;
 }
 
-double EdgeTree::nearest(Vec2d point, double limit) const
+// Visits edges that may be nearer than the best so far, near boxes first. better(i) updates it.
+template <class Better>
+void EdgeTree::search(Vec2d point, const double& best, Better better) const
 {
-    double best = limit;
     std::uint32_t stack[64];
     int depth = 0;
     stack[depth++] = 0;
@@ -121,11 +122,32 @@ double EdgeTree::nearest(Vec2d point, double limit) const
         }
         for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
             if (square_distance(boxes_[i], point) < best * best) {
-                best = std::min(best, distance_to(edges_[i], point));
+                better(i);
             }
         }
     }
+}
+
+double EdgeTree::nearest(Vec2d point, double limit) const
+{
+    double best = limit;
+    search(point, best,
+           [&](std::uint32_t i) { best = std::min(best, distance_to(edges_[i], point)); });
     return best;
+}
+
+EdgeTree::Nearest EdgeTree::nearest_edge(Vec2d point) const
+{
+    double best = 1e150;
+    std::uint32_t at = 0;
+    search(point, best, [&](std::uint32_t i) {
+        const double apart = distance_to(edges_[i], point);
+        if (apart < best) {
+            best = apart;
+            at = i;
+        }
+    });
+    return {best, nearest_on(edges_[at], point), index_[at]};
 }
 
 }  // namespace cusp::host

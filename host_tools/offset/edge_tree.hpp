@@ -18,6 +18,14 @@ public:
     // Least distance to an edge, at most `limit`.
     double nearest(Vec2d point, double limit) const;
 
+    struct Nearest {
+        double distance;
+        Vec2d point;
+        std::size_t edge;  // index in the caller's list
+    };
+    // Precondition: there are edges.
+    Nearest nearest_edge(Vec2d point) const;
+
     // Indices of the edges whose boxes meet the given one.
     template <class Visit>
     void visit_meeting(const Box2d& box, Visit visit) const;
@@ -28,6 +36,8 @@ private:
         std::uint32_t first;  // edge of a leaf, or left child; the right child is next to it
         std::uint32_t count;  // 0 for an inner node
     };
+    template <class Better>
+    void search(Vec2d point, const double& best, Better better) const;
     void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
 
     std::vector<Edge> edges_;

@@ -1,0 +1,300 @@
+// Greedy wedges for lines, circles through three places for arcs.
+#include "host_tools/contour_pocket/tolerance_chain.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace cusp::host {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+double wrapped(double angle)
+{
+    return angle > kPi ? angle - 2.0 * kPi : angle < -kPi ? angle + 2.0 * kPi : angle;
+}
+
+// Slopes of z that a straight rise from a point may have, narrowed by bands farther along.
+struct Rise {
+    double low{-1e300};
+    double high{1e300};
+
+    void pass(double along, double from, double to)
+    {
+        low = std::max(low, from / along);
+        high = std::min(high, to / along);
+    }
+    bool open() const { return low <= high; }
+};
+
+class ChainBuilder {
+public:
+    ChainBuilder(const std::vector<Station>& stations,
+                 double aside,
+                 double low,
+                 double high,
+                 bool arcs,
+                 bool closed)
+        : stations_{stations},
+          aside_{aside},
+          low_{low},
+          high_{high},
+          arcs_{arcs},
+          closed_{closed},
+          last_{stations.size() - 1}
+    {
+    }
+
+    Chain run()
+    {
+        const Station& first = stations_.front();
+        at_ = first.at;
+        z_ = first.height + 0.5 * (low_ + high_);
+        Chain chain{{at_.x, at_.y, z_}, {}};
+        home_ = chain.start;
+        for (std::size_t i = 0; i < last_;) {
+            Reach best = farthest_line(i);
+            if (arcs_) {
+                const Reach arc = farthest_arc(i, best.station);
+                best = arc.station > best.station + 1 ? arc : best;
+            }
+            chain.moves.push_back(best.move);
+            at_ = {best.move.end.x, best.move.end.y};
+            z_ = best.move.end.z;
+            i = best.station;
+        }
+        return chain;
+    }
+
+private:
+    struct Reach {
+        std::size_t station;
+        FloorMove move;
+    };
+
+    bool ends_home(std::size_t j) const { return closed_ && j == last_; }
+
+    // The directions in which a line from here passes all stations up to the one it returns.
+    std::size_t widest_wedge(std::size_t i, double& from, double& to) const
+    {
+        std::size_t good = i + 1;
+        bool set = false;
+        double along = 0.0;
+        double base = 0.0;
+        double low = -0.6 * kPi;
+        double high = 0.6 * kPi;
+        for (std::size_t k = i + 1; k <= last_; ++k) {
+            const Vec2d target = ends_home(k) ? Vec2d{home_.x, home_.y} : stations_[k].at;
+            const Vec2d arm = target - at_;
+            const double apart = std::sqrt(dot(arm, arm));
+            const double room = ends_home(k) ? 1e-9 : aside_;
+            if (apart <= room) {
+                if (set) {
+                    break;  // the path comes back
+                }
+                good = k;
+                continue;
+            }
+            const double angle = std::atan2(arm.y, arm.x);
+            if (!set) {
+                base = angle;
+                set = true;
+            }
+            const double turn = wrapped(angle - base);
+            const double half = std::asin(std::min(1.0, room / apart));
+            const double new_low = std::max(low, turn - half);
+            const double new_high = std::min(high, turn + half);
+            const double here = apart * std::cos(turn - 0.5 * (new_low + new_high));
+            if (new_low > new_high || here < along) {
+                break;
+            }
+            low = new_low;
+            high = new_high;
+            along = here;
+            good = k;
+            from = base + low;
+            to = base + high;
+        }
+        if (!set) {
+            const Vec2d arm = stations_[good].at - at_;
+            from = to = std::atan2(arm.y, arm.x);
+        }
+        return good;
+    }
+
+    Reach farthest_line(std::size_t i) const
+    {
+        double from = 0.0;
+        double to = 0.0;
+        std::size_t limit = widest_wedge(i, from, to);
+        for (int round = 0; round < 40; ++round) {
+            if (const auto reach = line_to(i, limit, 0.5 * (from + to))) {
+                if (reach->station >= limit || reach->station == i + 1) {
+                    return *reach;
+                }
+                // The floor stops it earlier; fewer stations leave the direction more room.
+                limit = reach->station;
+            } else {
+                limit = i + 1;
+            }
+            narrow_to(i, limit, from, to);
+        }
+        return plain(i, i + 1);
+    }
+
+    // The directions for stations up to `limit` only.
+    void narrow_to(std::size_t i, std::size_t limit, double& from, double& to) const
+    {
+        ChainBuilder part = *this;
+        part.last_ = limit;
+        part.closed_ = closed_ && limit == last_;
+        part.widest_wedge(i, from, to);
+    }
+
+    Reach plain(std::size_t, std::size_t j) const
+    {
+        if (ends_home(j)) {
+            return {j, {home_}};
+        }
+        const Station& s = stations_[j];
+        return {j, {{s.at.x, s.at.y, s.height + 0.5 * (low_ + high_)}}};
+    }
+
+    // The line in a direction up to station `limit` or as far as z allows. No value where not even
+    // the first station is passed.
+    std::optional<Reach> line_to(std::size_t i, std::size_t limit, double angle) const
+    {
+        const bool home = ends_home(limit);
+        Vec2d way{std::cos(angle), std::sin(angle)};
+        if (home) {
+            way = unit(Vec2d{home_.x, home_.y} - at_);
+        }
+        Rise rise;
+        std::optional<Reach> reach;
+        for (std::size_t k = i + 1; k <= limit; ++k) {
+            const Station& s = stations_[k];
+            const double along = std::max(dot(s.at - at_, way), 1e-9);
+            const Vec2d off = at_ + way * along - s.at;
+            const double floor = s.height + dot(s.gradient, off);
+            Rise next = rise;
+            if (ends_home(k)) {
+                next.pass(along, home_.z - z_, home_.z - z_);
+            } else {
+                next.pass(along, floor + low_ - z_, floor + high_ - z_);
+            }
+            if (!next.open()) {
+                break;
+            }
+            rise = next;
+            const double z = z_ + along * 0.5 * (rise.low + rise.high);
+            const Vec2d end = at_ + way * along;
+            reach = Reach{k, {ends_home(k) ? home_ : Vec3d{end.x, end.y, z}}};
+        }
+        return reach;
+    }
+
+    // Places on a circle from here through a station near the middle to station j.
+    std::optional<Reach> arc_to(std::size_t i, std::size_t j) const
+    {
+        const Vec2d end = ends_home(j) ? Vec2d{home_.x, home_.y} : stations_[j].at;
+        const Vec2d u = stations_[i + (j - i) / 2].at - at_;
+        const Vec2d v = end - at_;
+        const double bend = 2.0 * cross(u, v);
+        if (std::abs(bend) < 1e-9 || dot(v, v) < 1e-6) {
+            return std::nullopt;
+        }
+        const Vec2d w = v * dot(u, u) - u * dot(v, v);
+        const Vec2d centre = at_ + Vec2d{w.y, -w.x} * (1.0 / bend);
+        const Vec2d arm = at_ - centre;
+        const double radius = std::sqrt(dot(arm, arm));
+        const int turn = bend > 0.0 ? 1 : -1;
+        const auto angle_of = [&](Vec2d p) {
+            return std::atan2(cross(arm, p - centre), dot(arm, p - centre)) * turn;
+        };
+        if (radius < 0.5 || radius > 2000.0) {
+            return std::nullopt;
+        }
+        Rise rise;
+        double before = 0.0;
+        for (std::size_t k = i + 1; k <= j; ++k) {
+            const Station& s = stations_[k];
+            const Vec2d spoke = (k == j ? end : s.at) - centre;
+            const double angle = angle_of(k == j ? end : s.at);
+            const double off = radius / std::sqrt(dot(spoke, spoke)) - 1.0;
+            if (angle < before || angle > 3.0 ||
+                std::abs(off) * std::sqrt(dot(spoke, spoke)) > aside_) {
+                return std::nullopt;
+            }
+            before = angle;
+            if (angle < 1e-9) {
+                continue;
+            }
+            const double floor = s.height + dot(s.gradient, spoke * off);
+            if (ends_home(k)) {
+                rise.pass(angle, home_.z - z_, home_.z - z_);
+            } else {
+                rise.pass(angle, floor + low_ - z_, floor + high_ - z_);
+            }
+            if (!rise.open()) {
+                return std::nullopt;
+            }
+        }
+        const double z = z_ + before * 0.5 * (rise.low + rise.high);
+        const Vec3d tip = ends_home(j) ? home_ : Vec3d{end.x, end.y, z};
+        return Reach{j, {tip, centre, turn}};
+    }
+
+    Reach farthest_arc(std::size_t i, std::size_t floor_of_search) const
+    {
+        Reach best = plain(i, i + 1);
+        std::size_t stride = std::max<std::size_t>(floor_of_search - i + 1, 3);
+        std::size_t bad = last_ + 1;
+        while (i + stride <= last_) {
+            if (const auto reach = arc_to(i, i + stride)) {
+                best = *reach;
+                stride *= 2;
+            } else {
+                bad = i + stride;
+                break;
+            }
+        }
+        std::size_t good = best.station;
+        while (bad - good > 1) {
+            const std::size_t middle = good + (bad - good) / 2;
+            if (const auto reach = arc_to(i, middle)) {
+                best = *reach;
+                good = middle;
+            } else {
+                bad = middle;
+            }
+        }
+        return best;
+    }
+
+    const std::vector<Station>& stations_;
+    double aside_;
+    double low_;
+    double high_;
+    bool arcs_;
+    bool closed_;
+    std::size_t last_;
+    Vec2d at_{};
+    double z_{};
+    Vec3d home_{};
+};
+
+}  // namespace
+
+Chain chain_through(const std::vector<Station>& stations,
+                    double aside,
+                    double low,
+                    double high,
+                    bool arcs,
+                    bool closed)
+{
+    return ChainBuilder{stations, aside, low, high, arcs, closed}.run();
+}
+
+}  // namespace cusp::host

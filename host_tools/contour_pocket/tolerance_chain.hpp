@@ -1,0 +1,34 @@
+// The fewest lines and arcs through a band about a row of stations.
+#pragma once
+
+#include <vector>
+
+#include "host_tools/contour_pocket/floor_path.hpp"
+
+namespace cusp::host {
+
+// A place on the plan path with the lowest height of the tip there.
+struct Station {
+    Vec2d at;
+    double height;
+    Vec2d gradient;  // of the floor, dz/dx and dz/dy
+};
+
+struct Chain {
+    Vec3d start;
+    std::vector<FloorMove> moves;
+};
+
+// Goes from station to station by the longest move that passes every station within `aside` in plan
+// and within [low, high] (mm over its height) in z: a straight move is looked for among all that
+// the stations' bands let through (a wedge that narrows from station to station), not only between
+// stations. O(n) for lines. closed: the last station is the first, and the chain ends where it
+// starts.
+Chain chain_through(const std::vector<Station>& stations,
+                    double aside,
+                    double low,
+                    double high,
+                    bool arcs,
+                    bool closed);
+
+}  // namespace cusp::host
