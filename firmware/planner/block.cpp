@@ -111,6 +111,50 @@ PathDerivatives arc_derivatives(const ArcBlock& arc, float from, float to) noexc
     return bound;
 }
 
+PathOffset curve_position(CurveBlock& curve, std::uint32_t offset) noexcept
+{
+    const float s = static_cast<float>(offset) / kPathUnitsPerMillimetre;
+    const Vec3f place =
+        nurbs::point_at(curve.piece, nurbs::parameter_at(curve.table, s, curve.interval));
+    return {rounded(place.x * kPathUnitsPerMillimetre), rounded(place.y * kPathUnitsPerMillimetre),
+            rounded(place.z * kPathUnitsPerMillimetre)};
+}
+
+// Bounds over one interval of the table: its ends and middle, and what may lie between them.
+PathDerivatives curve_derivatives(const CurveBlock& curve, float from, float to) noexcept
+{
+    // The third derivative may change fast within an interval: a quarter on top of the largest.
+    constexpr float kBetween = 1.25F;
+    PathDerivatives bound{};
+    for (unsigned k = 0; k <= 4; ++k) {
+        const float u = from + (to - from) * 0.25F * static_cast<float>(k);
+        const nurbs::CurveState state = nurbs::state_at(curve.piece, u);
+        for (unsigned i = 0; i < 3; ++i) {
+            bound.first[i] = std::max(bound.first[i], std::fabs(state.tangent[i]));
+            bound.second[i] = std::max(bound.second[i], std::fabs(state.curvature[i]));
+            bound.third[i] = std::max(bound.third[i], kBetween * std::fabs(state.change[i]));
+        }
+    }
+    return bound;
+}
+
+EndGeometry curve_geometry(const CurveBlock& curve, float u) noexcept
+{
+    const nurbs::CurveState state = nurbs::state_at(curve.piece, u);
+    return {state.tangent, state.curvature};
+}
+
+PathDerivatives line_derivatives(const Block& block) noexcept
+{
+    const Vec3f tangent = displacement_mm(block) / length_mm(block);
+    return {{std::fabs(tangent.x), std::fabs(tangent.y), std::fabs(tangent.z)}, {}, {}};
+}
+
+float sweep(const Block& block) noexcept
+{
+    return static_cast<float>(block.length) * block.arc.angle_per_unit;
+}
+
 }  // namespace
 
 void set_length(Block& block, std::uint32_t length) noexcept
@@ -139,46 +183,76 @@ PathOffset position_at(const Block& block, std::uint32_t offset) noexcept
     if (offset >= block.length) {
         return block.displacement;
     }
-    if (block.shape == BlockShape::kArc) {
-        return arc_position(block.arc, offset);
+    switch (block.shape) {
+        case BlockShape::kArc:
+            return arc_position(block.arc, offset);
+        case BlockShape::kCurve:
+            return curve_position(*block.curve, offset);
+        case BlockShape::kLine:
+            break;
     }
     return line_position(block, offset);
 }
 
 EndGeometry start_geometry(const Block& block) noexcept
 {
-    if (block.shape == BlockShape::kArc) {
-        return arc_geometry(block.arc, 0.0F);
+    switch (block.shape) {
+        case BlockShape::kArc:
+            return arc_geometry(block.arc, 0.0F);
+        case BlockShape::kCurve:
+            return curve_geometry(*block.curve, 0.0F);
+        case BlockShape::kLine:
+            break;
     }
     return {displacement_mm(block) / length_mm(block), {}};
 }
 
 EndGeometry end_geometry(const Block& block) noexcept
 {
-    if (block.shape == BlockShape::kArc) {
-        return arc_geometry(block.arc, static_cast<float>(block.length) * block.arc.angle_per_unit);
+    switch (block.shape) {
+        case BlockShape::kArc:
+            return arc_geometry(block.arc, sweep(block));
+        case BlockShape::kCurve:
+            return curve_geometry(*block.curve, 1.0F);
+        case BlockShape::kLine:
+            break;
     }
     return start_geometry(block);
 }
 
-PathDerivatives derivatives_over(const Block& block, float from, float to) noexcept
-{
-    if (block.shape == BlockShape::kArc) {
-        const float sweep = static_cast<float>(block.length) * block.arc.angle_per_unit;
-        return arc_derivatives(block.arc, from * sweep, to * sweep);
-    }
-    const Vec3f tangent = start_geometry(block).tangent;
-    return {{std::fabs(tangent.x), std::fabs(tangent.y), std::fabs(tangent.z)}, {}, {}};
-}
-
 unsigned stretch_count(const Block& block) noexcept
 {
-    if (block.shape != BlockShape::kArc) {
+    if (block.shape == BlockShape::kCurve) {
+        return block.curve->table.size - 1U;
+    }
+    if (block.shape == BlockShape::kLine) {
         return 1;
     }
-    const float sweep = static_cast<float>(block.length) * block.arc.angle_per_unit;
-    const float quadrants = sweep * static_cast<float>(2.0 / kPi);
+    const float quadrants = sweep(block) * static_cast<float>(2.0 / kPi);
     return 1U + static_cast<unsigned>(quadrants * static_cast<float>(kStretchesPerQuadrant));
+}
+
+Stretch stretch(const Block& block, unsigned index) noexcept
+{
+    const unsigned count = stretch_count(block);
+    const auto units_at = [&block](float part) {
+        return static_cast<std::uint32_t>(static_cast<float>(block.length) * part);
+    };
+    const bool last = index + 1 == count;
+    if (block.shape == BlockShape::kCurve) {
+        const CurveBlock& curve = *block.curve;
+        const nurbs::ArcLengthNode& from = curve.table.nodes[index];
+        const nurbs::ArcLengthNode& to = curve.table.nodes[index + 1];
+        const std::uint32_t end = last ? block.length : units_at(to.s / curve.table.length());
+        return {end, curve_derivatives(curve, from.u, to.u)};
+    }
+    const float from = static_cast<float>(index) / static_cast<float>(count);
+    const float to = static_cast<float>(index + 1) / static_cast<float>(count);
+    const std::uint32_t end = last ? block.length : units_at(to);
+    if (block.shape == BlockShape::kLine) {
+        return {end, line_derivatives(block)};
+    }
+    return {end, arc_derivatives(block.arc, from * sweep(block), to * sweep(block))};
 }
 
 }  // namespace cusp::planner

@@ -5,11 +5,12 @@
 
 #include "firmware/base/path_units.hpp"
 #include "firmware/base/vec.hpp"
+#include "firmware/nurbs/arc_length_table.hpp"
 #include "firmware/planner/speed_limit.hpp"
 
 namespace cusp::planner {
 
-enum class BlockShape : std::uint8_t { kLine, kArc };
+enum class BlockShape : std::uint8_t { kLine, kArc, kCurve };
 
 // The axis filters of a block: two box filters, their lengths in servo ticks.
 struct AxisFilter {
@@ -33,6 +34,13 @@ struct ArcBlock {
     float angle_per_unit;  // radians per path unit
 };
 
+// A rational Bezier piece with its parameter as a function of arc length.
+struct CurveBlock {
+    path::BezierPiece piece;
+    nurbs::ArcLengthTable table;
+    unsigned interval;  // of the table, found last: the servo tick's
+};
+
 struct Block {
     PathOffset displacement;   // from start to end
     std::uint32_t length;      // path units, > 0, <= 64 mm
@@ -42,7 +50,8 @@ struct Block {
     bool rapid;
     AxisFilter filter;
     std::uint32_t line;
-    ArcBlock arc;  // for kArc
+    ArcBlock arc;       // for kArc
+    CurveBlock* curve;  // for kCurve
 };
 
 // Sets length and what depends on it. Precondition: 0 < length <= 64 mm.
@@ -52,7 +61,8 @@ void set_length(Block& block, std::uint32_t length) noexcept;
 std::uint32_t fraction(const Block& block, std::uint32_t offset) noexcept;
 
 // The place at `offset` path units from the start, relative to the start; the exact displacement at
-// the end. Within 1 nm of the true path on lines, 2 nm on arcs. Context: servo tick.
+// the end. Within 1 nm of the true path on lines, 2 nm on arcs and
+// 4 nm on curves. Context: servo tick.
 PathOffset position_at(const Block& block, std::uint32_t offset) noexcept;
 
 // Direction and curvature vector of the block at one of its ends, for the joint with its neighbour.
@@ -63,10 +73,15 @@ struct EndGeometry {
 EndGeometry start_geometry(const Block& block) noexcept;
 EndGeometry end_geometry(const Block& block) noexcept;
 
-// Bounds of the derivatives over the fractions [from, to] of the block's length.
-PathDerivatives derivatives_over(const Block& block, float from, float to) noexcept;
-
-// Number of stretches of nearly constant direction to cut the block into.
+// A block is cut into stretches of nearly constant direction and curvature.
 unsigned stretch_count(const Block& block) noexcept;
+
+struct Stretch {
+    std::uint32_t end;  // path units from the start of the block
+    PathDerivatives derivatives;
+};
+
+// Precondition: index < stretch_count(block).
+Stretch stretch(const Block& block, unsigned index) noexcept;
 
 }  // namespace cusp::planner

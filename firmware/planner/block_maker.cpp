@@ -64,18 +64,19 @@ void BlockMaker::start(const path::Move& move, AxisFilter filter) noexcept
     }
 }
 
-bool BlockMaker::make(const path::Move& move, Block& block) noexcept
+bool BlockMaker::make(const path::Move& move, PathQueue& queue, Block& block) noexcept
 {
     ++next_;
     const double t = static_cast<double>(next_) / count_;
     const auto* arc = std::get_if<path::Arc>(&move.path);
+    const auto* piece = std::get_if<path::BezierPiece>(&move.path);
     const Position from = at_;
     Position to = move.end;
     if (next_ != count_) {
         const Vec3d whole = to_millimetres(move.end) - to_millimetres(move.start);
         to = move.start + to_position(arc != nullptr ? arc_point(*arc, t) : whole * t);
     }
-    if (from == to && arc == nullptr) {
+    if (from == to && arc == nullptr && piece == nullptr) {
         return false;
     }
     at_ = to;
@@ -84,23 +85,53 @@ bool BlockMaker::make(const path::Move& move, Block& block) noexcept
     block.rapid = move.kind == path::MoveKind::kRapid;
     block.filter = filter_;
     block.line = move.line;
-    if (arc == nullptr) {
-        block.shape = BlockShape::kLine;
-        const Vec3d along = to_millimetres(to - from);
-        set_length(block, std::max(units(norm(along)), std::uint32_t{1}));
+    if (arc != nullptr) {
+        make_arc(*arc, block);
         return true;
     }
-    const double t0 = static_cast<double>(next_ - 1) / count_;
-    const auto [sine, cosine] = sin_cos(t0 * arc->sweep);
+    if (piece != nullptr && make_curve(*piece, queue, block)) {
+        return true;
+    }
+    if (from == to) {
+        return false;
+    }
+    const Vec3d along = to_millimetres(to - from);
+    set_length(block, std::max(units(norm(along)), std::uint32_t{1}));
+    return true;
+}
+
+void BlockMaker::make_arc(const path::Arc& arc, Block& block) const noexcept
+{
+    const double before = static_cast<double>(next_ - 1) / count_;
+    const auto [sine, cosine] = sin_cos(before * arc.sweep);
     block.shape = BlockShape::kArc;
     set_length(block, std::max(units(length_ / count_), std::uint32_t{1}));
-    block.arc.tangent = to_float(arc->v * cosine - arc->u * sine);
-    block.arc.normal = to_float(-(arc->u * cosine) - arc->v * sine);
-    block.arc.axial = to_float(arc->axial / arc->sweep);
-    block.arc.radius = static_cast<float>(arc->radius + t0 * arc->radius_change);
-    block.arc.spread = static_cast<float>(arc->radius_change / arc->sweep);
+    block.arc.tangent = to_float(arc.v * cosine - arc.u * sine);
+    block.arc.normal = to_float(-(arc.u * cosine) - arc.v * sine);
+    block.arc.axial = to_float(arc.axial / arc.sweep);
+    block.arc.radius = static_cast<float>(arc.radius + before * arc.radius_change);
+    block.arc.spread = static_cast<float>(arc.radius_change / arc.sweep);
     block.arc.angle_per_unit =
-        static_cast<float>(arc->sweep / count_ / static_cast<double>(block.length));
+        static_cast<float>(arc.sweep / count_ / static_cast<double>(block.length));
+}
+
+// False where the piece is too short to be anything but a line.
+bool BlockMaker::make_curve(const path::BezierPiece& piece,
+                            PathQueue& queue,
+                            Block& block) const noexcept
+{
+    constexpr float kShortestCurve = 1e-5F;  // mm
+    nurbs::ArcLengthTable table;
+    if (!nurbs::make_arc_length_table(piece, table) || table.length() < kShortestCurve) {
+        return false;
+    }
+    CurveBlock& curve = queue.new_curve();
+    curve.piece = piece;
+    curve.table = table;
+    curve.interval = 0;
+    block.shape = BlockShape::kCurve;
+    block.curve = &curve;
+    set_length(block, units(static_cast<double>(table.length())));
     return true;
 }
 

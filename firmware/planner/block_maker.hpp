@@ -2,7 +2,7 @@
 #pragma once
 
 #include "firmware/path/move.hpp"
-#include "firmware/planner/block.hpp"
+#include "firmware/planner/path_queue.hpp"
 
 namespace cusp::planner {
 
@@ -14,12 +14,13 @@ public:
 
     bool done() const noexcept { return next_ == count_; }
 
-    // Precondition: !done(). Returns false where the piece has no length: take the next.
-    bool make(const path::Move& move, Block& block) noexcept;
+    // The next piece. A curve is kept in the queue. Precondition: !done(), queue.free_curves() > 0.
+    // Returns false where the piece has no length: take the next.
+    bool make(const path::Move& move, PathQueue& queue, Block& block) noexcept;
 
 private:
-    Block line(const path::Move& move, Position from, Position to) const noexcept;
-    Block arc(const path::Arc& arc, Position from, Position to) const noexcept;
+    bool make_curve(const path::BezierPiece& piece, PathQueue& queue, Block& block) const noexcept;
+    void make_arc(const path::Arc& arc, Block& block) const noexcept;
 
     AxisFilter filter_{};
     std::uint32_t next_{0};

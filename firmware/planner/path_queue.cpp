@@ -34,6 +34,8 @@ void PathQueue::clear() noexcept
 {
     store(block_begin_, 0);
     store(block_end_, 0);
+    store(curve_begin_, 0);
+    curve_end_ = 0;
     store(interval_begin_, 0);
     store(published_, 0);
     store(changed_from_, 0);

@@ -37,6 +37,7 @@ struct Interval {
 
 inline constexpr std::uint32_t kBlockCount = 256;
 inline constexpr std::uint32_t kIntervalCount = 512;
+inline constexpr std::uint32_t kCurveCount = 32;
 
 // Counters run freely; an element's place is its counter modulo the ring's size.
 class PathQueue {
@@ -62,6 +63,18 @@ public:
     std::uint32_t free_intervals() const noexcept
     {
         return kIntervalCount - (interval_end() - interval_begin());
+    }
+
+    std::uint32_t free_curves() const noexcept
+    {
+        return kCurveCount - (curve_end_ - load(curve_begin_));
+    }
+    // Room for the curve of the next curve block. Precondition: free_curves() > 0.
+    CurveBlock& new_curve() noexcept
+    {
+        CurveBlock& curve = curves_[curve_end_ % kCurveCount];
+        ++curve_end_;
+        return curve;
     }
 
     // No interval's envelope is steeper, mm/s^2. Set before the first move.
@@ -91,7 +104,13 @@ public:
         changed_from_.store(interval_begin() - 1, std::memory_order_relaxed);
         return first;
     }
-    void drop_block() noexcept { store(block_begin_, block_begin() + 1); }
+    void drop_block() noexcept
+    {
+        if (block(block_begin()).shape == BlockShape::kCurve) {
+            store(curve_begin_, load(curve_begin_) + 1);
+        }
+        store(block_begin_, block_begin() + 1);
+    }
     void drop_interval() noexcept { store(interval_begin_, interval_begin() + 1); }
 
     // Context: main loop, while the interpolator is at rest and does not tick.
@@ -109,9 +128,12 @@ private:
     }
 
     std::array<Block, kBlockCount> blocks_{};
+    std::array<CurveBlock, kCurveCount> curves_{};
     std::array<Interval, kIntervalCount> intervals_{};
     Counter block_begin_{0};
     Counter block_end_{0};
+    Counter curve_begin_{0};
+    std::uint32_t curve_end_{0};
     Counter interval_begin_{0};
     Counter published_{0};
     Counter changed_from_{0};

@@ -15,7 +15,9 @@ constexpr float kCornerTurn = 0.00872665F;
 // Slower than this, passing a joint takes longer than stopping at it.
 constexpr float kLeastJointSpeed = 1.5F;  // mm/s
 // What a joint may take of the axes' acceleration and jerk; the rest is for the curves around it.
-constexpr float kJointShare = 0.98F;
+// Near a joint that stands alone speed hardly changes; in dense runs it must.
+constexpr float kLoneJointShare = 0.98F;
+constexpr float kDenseJointShare = 0.8F;
 // Keeps rounding of set points and speeds below the limits.
 constexpr float kRoundingMargin = 0.9995F;
 constexpr float kGreatestSpeed = 2000.0F;  // mm/s
@@ -62,6 +64,7 @@ void Planner::set_limits(const MachineLimits& limits) noexcept
     }
     path_filter_ = std::clamp(static_cast<std::uint32_t>(std::ceil(longest / kServoTick - 0.001F)),
                               std::uint32_t{1}, kMaxPathFilter);
+    blender_.set_limits(limits_, static_cast<float>(path_filter_) * kServoTick);
     const float half = 0.5F * static_cast<float>(path_filter_) * kServoTick + 2.0F * kServoTick;
     constexpr float kLongestAxisFilter = 11.0F * kServoTick;
     queue_.set_steepest_slope(norm(limits_.acceleration));
@@ -74,6 +77,7 @@ void Planner::reset(Position at) noexcept
     builder_.clear();
     maker_ = BlockMaker{};
     smoother_.clear();
+    blender_.clear();
     waiting_.reset();
     joints_.clear();
     end_.reset();
@@ -84,7 +88,7 @@ void Planner::reset(Position at) noexcept
 bool Planner::has_room() noexcept
 {
     work();
-    return maker_.done() && !waiting_ && !smoother_.full();
+    return !waiting_ && !smoother_.full();
 }
 
 void Planner::push(const path::Move& move) noexcept
@@ -109,7 +113,7 @@ void Planner::close() noexcept
 
 bool Planner::empty() const noexcept
 {
-    return maker_.done() && !waiting_ && smoother_.empty() &&
+    return maker_.done() && !waiting_ && smoother_.empty() && blender_.empty() &&
            queue_.block_begin() == queue_.block_end();
 }
 
@@ -119,12 +123,10 @@ void Planner::start(const path::Move& move) noexcept
     maker_.start(move, filter_for(move.tolerance).filter);
 }
 
-// Takes the next move to cut into blocks: of the run of lines first, then the one that ended it.
-bool Planner::next_move() noexcept
+// The next move after smoothing: of the run of lines first, then the one that ended it.
+bool Planner::next_smoothed(path::Move& move) noexcept
 {
-    path::Move piece;
-    if (smoother_.next(waiting_.has_value() || close_requested_, piece)) {
-        start(piece);
+    if (smoother_.next(waiting_.has_value() || close_requested_, move)) {
         return true;
     }
     if (!waiting_) {
@@ -133,26 +135,46 @@ bool Planner::next_move() noexcept
     if (LineSmoother::accepts(*waiting_)) {
         smoother_.add(*waiting_);
         waiting_.reset();
-        return false;
+        return smoother_.next(close_requested_, move);
     }
-    start(*waiting_);
+    move = *waiting_;
     waiting_.reset();
+    return true;
+}
+
+// Takes the next move to cut into blocks.
+bool Planner::next_move() noexcept
+{
+    path::Move move;
+    while (!blender_.next(false, move)) {
+        if (next_smoothed(move)) {
+            blender_.add(move);
+            continue;
+        }
+        const bool ending = close_requested_ && !waiting_ && smoother_.empty();
+        if (!blender_.next(ending, move)) {
+            return false;
+        }
+        break;
+    }
+    start(move);
     return true;
 }
 
 void Planner::work() noexcept
 {
-    constexpr std::uint32_t kIntervalsOfABlock = 8 * IntervalBuilder::kMostPerAppend;
+    constexpr std::uint32_t kIntervalsOfABlock = 16 * IntervalBuilder::kMostPerAppend;
     Block block;
-    while (queue_.free_blocks() > 0 && queue_.free_intervals() > kIntervalsOfABlock) {
+    while (queue_.free_blocks() > 0 && queue_.free_curves() > 0 &&
+           queue_.free_intervals() > kIntervalsOfABlock) {
         if (maker_.done() && !next_move()) {
             break;
         }
-        if (!maker_.done() && maker_.make(move_, block)) {
+        if (!maker_.done() && maker_.make(move_, queue_, block)) {
             add_block(block);
         }
     }
-    const bool all_done = maker_.done() && !waiting_ && smoother_.empty();
+    const bool all_done = maker_.done() && !waiting_ && smoother_.empty() && blender_.empty();
     if (all_done && close_requested_) {
         stop();
         close_requested_ = false;
@@ -184,14 +206,15 @@ void Planner::join(const EndGeometry& after, const Block& block) noexcept
         return;
     }
     const FilterChoice choice = filter_for(move_.tolerance);
-    JointShare share =
-        joint_share(joint, limits_, block.filter, kJointShare, kGreatestSpeed, choice.deviation);
+    JointShare share = joint_share(joint, limits_, block.filter, kLoneJointShare, kGreatestSpeed,
+                                   choice.deviation);
     // Joints within one window of the axis filters add up.
     const float window = static_cast<float>(block.filter.first + block.filter.second) * kServoTick;
     Joint sum = joint;
     for (std::size_t i = joints_.size(); i-- > 0 && joints_[i].distance < share.speed * window;) {
         sum = together(sum, joints_[i].joint);
-        share = joint_share(sum, limits_, block.filter, kJointShare, share.speed, choice.deviation);
+        share = joint_share(sum, limits_, block.filter, kDenseJointShare, share.speed,
+                            choice.deviation);
     }
     if (share.speed < kLeastJointSpeed) {
         stop();
@@ -219,18 +242,14 @@ void Planner::add_stretches(const Block& block) noexcept
     const unsigned count = stretch_count(block);
     std::uint32_t done = 0;
     for (unsigned i = 0; i < count; ++i) {
-        const float from = static_cast<float>(i) / static_cast<float>(count);
-        const float to = static_cast<float>(i + 1) / static_cast<float>(count);
-        SpeedLimit limit = speed_limit(derivatives_over(block, from, to), limits_, 1.0F, filter_s,
+        const Stretch part = stretch(block, i);
+        SpeedLimit limit = speed_limit(part.derivatives, limits_, 1.0F, filter_s,
                                        max_centripetal(choice), kGreatestSpeed);
         limit.feed = feed * feed;
-        const std::uint32_t end =
-            i + 1 == count ? block.length
-                           : static_cast<std::uint32_t>(static_cast<float>(block.length) * to);
-        if (end > done) {
-            builder_.append(end - done, limit, block.rapid);
+        if (part.end > done) {
+            builder_.append(part.end - done, limit, block.rapid);
+            done = part.end;
         }
-        done = end;
     }
 }
 

@@ -3,7 +3,8 @@
 // Main loop side: push() a Move when has_room(); close() when no further move is at hand. The
 // interpolator reads the queue from the servo tick; only raising of speeds happens under its eyes.
 //
-//   Move -> runs of short lines to arcs (line_smoother) -> blocks (block_maker) -> joints and
+//   Move -> runs of short lines to arcs (line_smoother) -> corners to curves (corner_blender)
+//        -> blocks (block_maker) -> joints and
 //   limits (joint, speed_limit)
 //        -> intervals (interval_builder) -> envelope (look_ahead)
 #pragma once
@@ -14,6 +15,7 @@
 #include "firmware/base/machine_limits.hpp"
 #include "firmware/path/move.hpp"
 #include "firmware/planner/block_maker.hpp"
+#include "firmware/planner/corner_blender.hpp"
 #include "firmware/planner/interval_builder.hpp"
 #include "firmware/planner/joint.hpp"
 #include "firmware/planner/line_smoother.hpp"
@@ -64,6 +66,7 @@ public:
 private:
     void work() noexcept;
     bool next_move() noexcept;
+    bool next_smoothed(path::Move& move) noexcept;
     void start(const path::Move& move) noexcept;
     void add_block(const Block& block) noexcept;
     void join(const EndGeometry& after, const Block& block) noexcept;
@@ -83,6 +86,7 @@ private:
     BlockMaker maker_;
     Position tail_{};
     LineSmoother smoother_;
+    CornerBlender blender_;
     path::Move move_{};                  // being cut into blocks
     std::optional<path::Move> waiting_;  // until the run of lines before it is done
     bool close_requested_{false};

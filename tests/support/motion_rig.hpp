@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <random>
 #include <vector>
 
 #include "firmware/interpolator/interpolator.hpp"
@@ -47,6 +48,77 @@ struct MotionRig {
             }
         }
         return samples;
+    }
+
+    // The same with holds, resumes, overrides and starvation at random ticks.
+    std::vector<Position> run_disturbed(const std::vector<path::Move>& moves, std::uint64_t seed)
+    {
+        std::mt19937_64 random{seed};
+        std::vector<Position> samples;
+        std::size_t next = 0;
+        std::size_t idle = 0;
+        std::size_t until = 0;
+        while (idle < 3 && samples.size() < kMostTicks) {
+            while (next < moves.size() && planner->has_room() && random() % 3 != 0) {
+                planner->push(moves[next]);
+                ++next;
+            }
+            if (random() % 50 == 0 || (next == moves.size() && planner->has_room())) {
+                planner->close();
+            }
+            if (samples.size() >= until) {
+                until = samples.size() + 1 + random() % 60;
+                disturb(random);
+            }
+            samples.push_back(interpolator->tick());
+            idle =
+                next == moves.size() && planner->empty() && interpolator->at_rest() ? idle + 1 : 0;
+        }
+        return samples;
+    }
+
+    // Held at one tick, resumed once it stands.
+    std::vector<Position> run_held(const std::vector<path::Move>& moves, std::size_t hold_tick)
+    {
+        std::vector<Position> samples;
+        std::size_t next = 0;
+        std::size_t idle = 0;
+        while (idle < 3 && samples.size() < kMostTicks) {
+            while (next < moves.size() && planner->has_room()) {
+                planner->push(moves[next]);
+                ++next;
+            }
+            if (next == moves.size() && planner->has_room()) {
+                planner->close();
+            }
+            if (samples.size() == hold_tick) {
+                interpolator->hold();
+            } else if (interpolator->holding() && interpolator->at_rest()) {
+                interpolator->resume();
+            }
+            samples.push_back(interpolator->tick());
+            idle =
+                next == moves.size() && planner->empty() && interpolator->at_rest() ? idle + 1 : 0;
+        }
+        return samples;
+    }
+
+    void disturb(std::mt19937_64& random)
+    {
+        switch (random() % 5) {
+            case 0:
+                interpolator->hold();
+                break;
+            case 1:
+                interpolator->set_feed_override(static_cast<unsigned>(10 + random() % 191));
+                break;
+            case 2:
+                interpolator->set_rapid_override(static_cast<unsigned>(25 + random() % 76));
+                break;
+            default:
+                interpolator->resume();
+                break;
+        }
     }
 
     static constexpr std::size_t kMostTicks = 4'000'000;

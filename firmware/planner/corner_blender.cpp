@@ -1,0 +1,157 @@
+// Blends at corners of lines.
+#include "firmware/planner/corner_blender.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/nurbs/arc_length_table.hpp"
+#include "firmware/planner/speed_limit.hpp"
+
+namespace cusp::planner {
+namespace {
+
+// A smaller change of direction is left to the axis filters: 0.5 degrees.
+constexpr double kLeastTurn = 0.0087;
+// Nearly a reversal: a blend would be all curvature. |t1 - t0| for 160 degrees.
+constexpr double kGreatestTurn = 1.97;
+// Shorter blends, mm, are slower than a stop.
+constexpr double kShortestBlend = 1e-3;
+// Part of each line that a blend may take.
+constexpr double kShareOfLine = 0.45;
+// Control points at -L, -L/2, 0, L/2 and L along the lines: the curve's middle is 3/16 L |t1 - t0|
+// from the corner.
+constexpr double kApex = 3.0 / 16.0;
+
+// A blend must save this part of the time of a stop: what speeds up around it takes longer.
+constexpr float kWorthIt = 0.5F;
+
+Vec3f magnitude(Vec3f a) noexcept { return {std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)}; }
+
+bool may_blend(const path::Move& move) noexcept
+{
+    return move.tolerance > 0 && std::holds_alternative<path::Line>(move.path);
+}
+
+Vec3f to_float(Vec3d a) noexcept
+{
+    return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
+}
+
+}  // namespace
+
+void CornerBlender::clear() noexcept
+{
+    held_.reset();
+    made_.clear();
+}
+
+void CornerBlender::add(const path::Move& move) noexcept
+{
+    path::Move next = move;
+    if (held_ && !(may_blend(move) && blend(*held_, next))) {
+        (void)made_.try_push_back(*held_);
+    }
+    held_.reset();
+    if (may_blend(next)) {
+        held_ = next;
+    } else {
+        StaticVector<path::Move, 3> shifted;
+        (void)shifted.try_push_back(next);
+        for (const path::Move& made : made_) {
+            (void)shifted.try_push_back(made);
+        }
+        made_ = shifted;
+    }
+}
+
+// Compares the time over the blend, and over the travel to which its speed is spread, with that of
+// a stop.
+bool CornerBlender::faster_than_stop(const path::BezierPiece& piece,
+                                     float reach,
+                                     float feed) const noexcept
+{
+    PathDerivatives bound{};
+    for (const float u : {0.2F, 0.35F, 0.5F}) {
+        const nurbs::CurveState state = nurbs::state_at(piece, u);
+        bound = larger(
+            bound, {magnitude(state.tangent), magnitude(state.curvature), magnitude(state.change)});
+    }
+    const SpeedLimit limit = speed_limit(bound, limits_, 1.0F, filter_s_, kUnlimited, feed);
+    const float speed = std::sqrt(limit.cap);
+    const float travel = 2.0F * reach + speed * filter_s_;
+    const float slowest =
+        std::min({limits_.acceleration.x, limits_.acceleration.y, limits_.acceleration.z});
+    const float stop = filter_s_ + 2.0F * std::sqrt(travel / slowest);
+    return travel < kWorthIt * stop * speed;
+}
+
+// Shortens both lines and makes the curve between them. False where the corner stays.
+bool CornerBlender::blend(path::Move& before, path::Move& after) noexcept
+{
+    const Vec3d first = to_millimetres(before.end - before.start);
+    const Vec3d second = to_millimetres(after.end - after.start);
+    const double first_length = norm(first);
+    const double second_length = norm(second);
+    if (first_length <= 0 || second_length <= 0) {
+        return false;
+    }
+    const Vec3d t0 = first / first_length;
+    const Vec3d t1 = second / second_length;
+    const double turn = norm(t1 - t0);
+    if (turn < kLeastTurn || turn > kGreatestTurn) {
+        return false;
+    }
+    const double deviation =
+        static_cast<double>(kShareOfTolerance * std::min(before.tolerance, after.tolerance));
+    const double reach = std::min(
+        {deviation / (kApex * turn), kShareOfLine * first_length, kShareOfLine * second_length});
+    if (reach < kShortestBlend) {
+        return false;
+    }
+    const Position corner = before.end;
+    path::Move curve = after;
+    curve.start = corner + to_position(t0 * -reach);
+    curve.end = corner + to_position(t1 * reach);
+    if (before.kind != after.kind) {
+        curve.kind = path::MoveKind::kFeed;
+        curve.feed = before.kind == path::MoveKind::kFeed ? before.feed : after.feed;
+    } else {
+        curve.feed = std::min(before.feed, after.feed);
+    }
+    path::BezierPiece piece{};
+    piece.order = 5;
+    const Vec3d start = t0 * -reach;
+    const Vec3d points[] = {
+        {}, t0 * (-0.5 * reach) - start, -start, t1 * (0.5 * reach) - start, t1 * reach - start};
+    for (unsigned i = 0; i < 5; ++i) {
+        piece.points[i] = to_float(points[i]);
+        piece.weights[i] = 1.0F;
+    }
+    const float feed = curve.kind == path::MoveKind::kFeed ? curve.feed : norm(limits_.velocity);
+    if (!faster_than_stop(piece, static_cast<float>(reach), feed)) {
+        return false;
+    }
+    curve.path = piece;
+    before.end = curve.start;
+    after.start = curve.end;
+    (void)made_.try_push_back(curve);
+    (void)made_.try_push_back(before);
+    return true;
+}
+
+bool CornerBlender::next(bool ending, path::Move& move) noexcept
+{
+    if (!made_.empty()) {
+        move = made_.back();
+        made_.pop_back();
+        return true;
+    }
+    if (ending && held_) {
+        move = *held_;
+        held_.reset();
+        return true;
+    }
+    return false;
+}
+
+}  // namespace cusp::planner

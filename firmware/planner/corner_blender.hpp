@@ -1,0 +1,50 @@
+// CornerBlender: a corner between two lines becomes a short curve within a share of the tolerance.
+#pragma once
+
+#include <optional>
+
+#include "firmware/base/machine_limits.hpp"
+#include "firmware/base/static_vector.hpp"
+#include "firmware/path/move.hpp"
+
+namespace cusp::planner {
+
+// Holds back the last line until it knows what follows. The blend is one symmetric Bezier curve of
+// degree 4 whose curvature is zero at both ends: it meets the lines with no jump of direction or
+// curvature, so the tool need not stop. A corner whose blend
+// would take longer than a stop stays a corner.
+class CornerBlender {
+public:
+    // Part of a move's tolerance that the blend may leave the corner by.
+    static constexpr float kShareOfTolerance = 0.45F;
+
+    // filter_s: length of the path filter, s.
+    void set_limits(const MachineLimits& limits, float filter_s) noexcept
+    {
+        limits_ = limits;
+        filter_s_ = filter_s;
+    }
+
+    // Whether add() takes a move: everything made so far was taken.
+    bool ready() const noexcept { return made_.empty(); }
+    bool empty() const noexcept { return made_.empty() && !held_; }
+
+    // Precondition: ready().
+    void add(const path::Move& move) noexcept;
+
+    // The next move to play. With `ending`, the held line too.
+    bool next(bool ending, path::Move& move) noexcept;
+
+    void clear() noexcept;
+
+private:
+    bool faster_than_stop(const path::BezierPiece& piece, float reach, float feed) const noexcept;
+    bool blend(path::Move& before, path::Move& after) noexcept;
+
+    MachineLimits limits_{};
+    float filter_s_{1};
+    std::optional<path::Move> held_;
+    StaticVector<path::Move, 3> made_;  // last first
+};
+
+}  // namespace cusp::planner

@@ -1,0 +1,118 @@
+// Random programs for the motion core: lines, arcs, helices, reversals, tiny and huge, mixed feeds.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <random>
+#include <vector>
+
+#include "firmware/path/move.hpp"
+
+namespace cusp::test {
+
+class RandomMoves {
+public:
+    explicit RandomMoves(std::uint64_t seed) : random_{seed} {}
+
+    std::vector<path::Move> program()
+    {
+        const int count = 1 + static_cast<int>(random_() % 40);
+        tolerance_ = random_() % 2 == 0 ? 0.01F : 0.0F;
+        feed_ = static_cast<float>(between(1, 150));
+        scale_ = std::pow(10, between(-3, 1.7));
+        for (int i = 0; i < count; ++i) {
+            add();
+        }
+        return moves_;
+    }
+
+    double between(double low, double high)
+    {
+        return std::uniform_real_distribution<double>{low, high}(random_);
+    }
+    std::uint64_t number() { return random_(); }
+
+private:
+    void add()
+    {
+        if (number() % 8 == 0) {
+            feed_ = static_cast<float>(between(0.5, 200));
+        }
+        if (number() % 5 == 0) {
+            scale_ = std::pow(10, between(-3, 1.7));
+        }
+        path::Move move;
+        move.kind = number() % 6 == 0 ? path::MoveKind::kRapid : path::MoveKind::kFeed;
+        move.start = at_;
+        move.tolerance = tolerance_;
+        move.feed = feed_;
+        move.line = static_cast<std::uint32_t>(moves_.size() + 1);
+        const double length = scale_ * between(0.2, 1);
+        const auto kind = number() % 4;
+        if (kind == 3 ? !make_arc(move, length) : !make_line(move, length, kind)) {
+            return;
+        }
+        moves_.push_back(move);
+        at_ = move.end;
+    }
+
+    // Anywhere, nearly straight on, or exactly straight on.
+    bool make_line(path::Move& move, double length, std::uint64_t kind)
+    {
+        if (kind == 0) {
+            direction_ = unit({between(-1, 1), between(-1, 1), between(-1, 1)});
+        } else if (kind == 1) {
+            direction_ = unit(direction_ +
+                              Vec3d{between(-.01, .01), between(-.01, .01), between(-.01, .01)});
+        }
+        move.end = at_ + to_position(direction_ * length);
+        move.path = path::Line{};
+        if (move.end == move.start) {
+            return false;
+        }
+        direction_ = unit(to_millimetres(move.end - move.start));
+        return true;
+    }
+
+    // An arc or helix that leaves in the direction of the move before.
+    bool make_arc(path::Move& move, double radius)
+    {
+        const Vec3d any{between(-1, 1), between(-1, 1), between(-1, 1)};
+        const Vec3d across = any - direction_ * dot(any, direction_);
+        if (norm(across) < 1e-3) {
+            return false;
+        }
+        path::Arc arc{};
+        const Vec3d inward = unit(across);
+        const double rise = number() % 2 == 0 ? 0 : between(-.2, .2) * radius;
+        arc.centre = inward * radius;
+        arc.u = -inward;
+        arc.v = direction_;
+        arc.radius = radius;
+        arc.sweep = between(0.05, 6);
+        arc.axial = cross(direction_, inward) * rise;
+        const double cosine = std::cos(arc.sweep);
+        const double sine = std::sin(arc.sweep);
+        const Vec3d end =
+            arc.centre + arc.u * (radius * cosine) + arc.v * (radius * sine) + arc.axial;
+        if (norm(end) < 1e-5) {
+            return false;
+        }
+        move.path = arc;
+        move.end = at_ + to_position(end);
+        direction_ = unit((arc.v * cosine - arc.u * sine) * (radius * arc.sweep) + arc.axial);
+        return true;
+    }
+
+    static Vec3d unit(Vec3d a) { return a / norm(a); }
+
+    std::mt19937_64 random_;
+    std::vector<path::Move> moves_;
+    Position at_{};
+    Vec3d direction_{1, 0, 0};
+    double scale_{1};
+    float feed_{1};
+    float tolerance_{0};
+};
+
+}  // namespace cusp::test
