@@ -108,7 +108,7 @@ void PulseMaker::play_axis(unsigned index, std::int64_t before) noexcept
     float time = 0;
     for (std::int32_t k = 0; k < count; ++k) {
         const float level = direction * (static_cast<float>(k) + 0.5F);
-        time = crossing_time(cubic, level, time);
+        time = crossing_time(cubic, level, time, forward);
         add_step(index, static_cast<std::int32_t>(time * static_cast<float>(kFrame) + 0.5F),
                  forward);
     }

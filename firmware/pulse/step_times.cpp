@@ -12,14 +12,13 @@ TickCubic tick_cubic(float start, float before, float now, float after) noexcept
     return {start, first, 3.0F * now - 2.0F * first - last, first + last - 2.0F * now};
 }
 
-float crossing_time(const TickCubic& cubic, float level, float from) noexcept
+float crossing_time(const TickCubic& cubic, float level, float from, bool rising) noexcept
 {
     constexpr unsigned kMostSteps = 24;
     constexpr float kCloseTime = 2e-5F;
     constexpr float kCloseLevel = 1e-6F;
     float low = from;
     float high = 1.0F;
-    const bool rising = cubic.at(1.0F) > level;
     float t = from;
     for (unsigned i = 0; i < kMostSteps; ++i) {
         const float error = cubic.at(t) - level;

@@ -17,7 +17,11 @@ struct TickCubic {
 TickCubic tick_cubic(float start, float before, float now, float after) noexcept;
 
 // A time in [from, 1] at which the cubic is at `level`, within 2e-5 of a tick or 1e-6 of a step.
-// Precondition: level lies between at(from) and at(1).
-float crossing_time(const TickCubic& cubic, float level, float from) noexcept;
+//
+//   rising  whether the cubic comes from below the level.
+//
+// Precondition: level lies between at(from) and at(1), but for rounding: at the very end of the
+// tick the answer is 1.
+float crossing_time(const TickCubic& cubic, float level, float from, bool rising) noexcept;
 
 }  // namespace cusp::pulse

@@ -24,7 +24,7 @@ constexpr std::uint64_t kSeed = 20260;
 std::uint64_t program_count()
 {
     const char* text = std::getenv("CUSP_MOTION_PROGRAMS");
-    return text != nullptr ? std::strtoull(text, nullptr, 10) : 3000;
+    return text != nullptr ? std::strtoull(text, nullptr, 10) : 300;
 }
 
 void check_limits(const std::vector<Position>& samples, Position end, std::uint64_t seed)

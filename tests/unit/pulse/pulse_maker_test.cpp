@@ -1,0 +1,177 @@
+#include "firmware/pulse/pulse_maker.hpp"
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "CppUTest/TestHarness.h"
+
+#include "firmware/pulse/step_times.hpp"
+
+using namespace cusp;
+using cusp::pulse::PulseMaker;
+using cusp::pulse::StepSettings;
+
+namespace {
+
+struct Edge {
+    std::int64_t time;
+    PulseLines raise, lower;
+};
+
+// Plays set points to rest and collects all edges on one clock.
+struct Player {
+    explicit Player(const StepSettings& settings) : maker{settings} { maker.reset({}); }
+
+    void play(Position at)
+    {
+        maker.make_frame(at, frame);
+        for (const PulseEdge& edge : frame.edges) {
+            edges.push_back({clock + edge.tick, edge.raise, edge.lower});
+        }
+        clock += kPulseTicksPerFrame;
+        last = at;
+    }
+    void finish()
+    {
+        for (int i = 0; i < 4; ++i) {
+            play(last);
+        }
+    }
+
+    PulseMaker maker;
+    PulseFrame frame;
+    std::vector<Edge> edges;
+    std::int64_t clock{0};
+    Position last{};
+};
+
+// A smooth random walk of one axis: speeds up to `fastest` nm a tick.
+std::vector<Position> random_walk(std::mt19937_64& random, double fastest, int ticks)
+{
+    std::vector<Position> walk;
+    double speed = 0;
+    double at = 0;
+    for (int i = 0; i < ticks; ++i) {
+        speed += std::uniform_real_distribution<double>{-0.05, 0.05}(random)*fastest;
+        speed = std::max(-fastest, std::min(fastest, speed));
+        at += speed;
+        const auto nm = static_cast<std::int64_t>(at);
+        walk.push_back({nm, -nm / 3, nm / 7});
+    }
+    return walk;
+}
+
+}  // namespace
+
+TEST_GROUP(PulseMaker) { std::mt19937_64 random{3}; };
+TEST_GROUP(StepTimes) { std::mt19937_64 random{4}; };
+
+TEST(PulseMaker, EndsAtTheSetPointRoundedToSteps)
+{
+    for (int round = 0; round < 200; ++round) {
+        const StepSettings settings{{800000, 157480, 1600123}, 2, 5};
+        Player player{settings};
+        for (const Position& at : random_walk(random, 80000, 60)) {
+            player.play(at);
+        }
+        player.finish();
+        CHECK(player.maker.idle());
+        for (unsigned i = 0; i < 3; ++i) {
+            const double steps =
+                static_cast<double>(player.last[i]) * settings.millisteps_per_mm[i] * 1e-9;
+            LONGS_EQUAL(static_cast<long>(std::floor(steps + 0.5)),
+                        player.maker.position_steps()[i]);
+        }
+    }
+}
+
+TEST(PulseMaker, KeepsPulseWidthLowTimeAndDirectionSetup)
+{
+    for (int round = 0; round < 200; ++round) {
+        Player player{{{800000, 800000, 800000}, 3, 7}};
+        for (const Position& at : random_walk(random, 150000, 60)) {
+            player.play(at);
+        }
+        player.finish();
+        for (unsigned axis = 0; axis < 3; ++axis) {
+            std::int64_t rose = -1000;
+            std::int64_t fell = -1000;
+            std::int64_t turned = -1000;
+            for (const Edge& edge : player.edges) {
+                if (((edge.raise | edge.lower) & direction_line(axis)) != 0) {
+                    turned = edge.time;
+                    CHECK(edge.time - rose >= 3);
+                }
+                if ((edge.raise & step_line(axis)) != 0) {
+                    CHECK(edge.time - fell >= 3);
+                    CHECK(edge.time - turned >= 7);
+                    rose = edge.time;
+                }
+                if ((edge.lower & step_line(axis)) != 0) {
+                    LONGS_EQUAL(3, edge.time - rose);
+                    fell = edge.time;
+                }
+            }
+        }
+    }
+}
+
+TEST(PulseMaker, CountsEveryEdgeIntoThePosition)
+{
+    Player player{{}};
+    for (const Position& at : random_walk(random, 150000, 400)) {
+        player.play(at);
+    }
+    player.finish();
+    PerAxis<std::int32_t> count{};
+    PerAxis<bool> forward{};
+    for (const Edge& edge : player.edges) {
+        for (unsigned axis = 0; axis < 3; ++axis) {
+            if ((edge.raise & direction_line(axis)) != 0) {
+                forward[axis] = true;
+            }
+            if ((edge.lower & direction_line(axis)) != 0) {
+                forward[axis] = false;
+            }
+            if ((edge.raise & step_line(axis)) != 0) {
+                count[axis] += forward[axis] ? 1 : -1;
+            }
+        }
+    }
+    for (unsigned axis = 0; axis < 3; ++axis) {
+        LONGS_EQUAL(player.maker.position_steps()[axis], count[axis]);
+    }
+}
+
+TEST(StepTimes, AreWithinAFifthOfAMicrosecondOfTheCubic)
+{
+    std::uniform_real_distribution<double> travel{0.02, 240};
+    for (int i = 0; i < 20000; ++i) {
+        const double now = travel(random);
+        const double before = now * std::uniform_real_distribution<double>{0.8, 1.2}(random);
+        const double after = now * std::uniform_real_distribution<double>{0.8, 1.2}(random);
+        const pulse::TickCubic cubic = pulse::tick_cubic(
+            0, static_cast<float>(before), static_cast<float>(now), static_cast<float>(after));
+        const double level = now * std::uniform_real_distribution<double>{0, 1}(random);
+        const double time =
+            static_cast<double>(pulse::crossing_time(cubic, static_cast<float>(level), 0.0F, true));
+        double low = 0;
+        double high = 1;
+        for (int k = 0; k < 60; ++k) {
+            const double t = 0.5 * (low + high);
+            const double first = 0.5 * (before + now);
+            const double last = 0.5 * (now + after);
+            const double at =
+                t * (first + t * (3 * now - 2 * first - last + t * (first + last - 2 * now)));
+            (at < level ? low : high) = t;
+        }
+        DOUBLES_EQUAL(low, time, 0.2e-3);
+    }
+}
+
+TEST(StepTimes, AtTheEndOfATickIsTheEnd)
+{
+    const pulse::TickCubic cubic = pulse::tick_cubic(-0.5F, 20, 20, 20);
+    DOUBLES_EQUAL(1, pulse::crossing_time(cubic, 19.5F, 0.9F, true), 1e-5);
+}
