@@ -1,0 +1,64 @@
+// Speeds to per mille of the spindle's output.
+#include "firmware/machine/accessories.hpp"
+
+#include <algorithm>
+
+namespace cusp::machine {
+namespace {
+
+constexpr float kFullOutput = 1000.0F;
+
+// As in Grbl: $31 and all below it is the least output above 0, $30 and all above it is full.
+std::uint16_t spindle_pwm(float speed, const Settings& settings) noexcept
+{
+    const float least = settings.value(Setting::kSpindleMinimum);
+    const float most = settings.value(Setting::kSpindleMaximum);
+    if (speed <= 0) {
+        return 0;
+    }
+    if (least >= most || speed >= most) {
+        return static_cast<std::uint16_t>(kFullOutput);
+    }
+    const float part = std::max(0.0F, (speed - least) / (most - least));
+    return static_cast<std::uint16_t>(1.0F + part * (kFullOutput - 1.0F));
+}
+
+}  // namespace
+
+float spindle_speed(const Accessories& accessories,
+                    unsigned override_percent,
+                    const Settings& settings) noexcept
+{
+    if (!accessories.spindle_on() || accessories.speed <= 0) {
+        return 0;
+    }
+    constexpr float kPercent = 0.01F;
+    const float least = settings.value(Setting::kSpindleMinimum);
+    const float most = settings.value(Setting::kSpindleMaximum);
+    const float wanted = accessories.speed * static_cast<float>(override_percent) * kPercent;
+    return least >= most ? most : std::clamp(wanted, least, most);
+}
+
+OutputLevels output_levels(const Accessories& accessories,
+                           unsigned spindle_override_percent,
+                           bool drives_enabled,
+                           const Settings& settings) noexcept
+{
+    OutputLevels levels;
+    levels.spindle_on = accessories.spindle_on();
+    levels.spindle_reverse =
+        levels.spindle_on && accessories.spindle == gcode::SpindleMode::kCounterClockwise;
+    levels.spindle_pwm =
+        spindle_pwm(spindle_speed(accessories, spindle_override_percent, settings), settings);
+    levels.flood = accessories.flood_on();
+    levels.mist = accessories.mist_on();
+    levels.drives_enabled = drives_enabled;
+    constexpr unsigned kAxes = 7;
+    const unsigned steps = settings.whole(Setting::kStepInvert) & kAxes;
+    const unsigned directions = settings.whole(Setting::kDirectionInvert) & kAxes;
+    levels.inverted_lines = static_cast<PulseLines>(steps | directions << kAxisCount);
+    levels.drives_enabled_inverted = settings.on(Setting::kEnableInvert);
+    return levels;
+}
+
+}  // namespace cusp::machine

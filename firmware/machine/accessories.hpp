@@ -1,0 +1,40 @@
+// Accessories: spindle, coolant and drives, from what program, person and safety ask of them.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/base/panel.hpp"
+#include "firmware/gcode/modal_state.hpp"
+#include "firmware/machine/settings.hpp"
+
+namespace cusp::machine {
+
+struct Accessories {
+    gcode::SpindleMode spindle{gcode::SpindleMode::kOff};
+    float speed{0};  // rpm, as programmed
+    bool flood{false};
+    bool mist{false};
+    // Off for a while, though the program wants them: in a hold (0x9E), at an open door.
+    bool spindle_paused{false};
+    bool coolant_paused{false};
+
+    bool spindle_on() const noexcept
+    {
+        return spindle != gcode::SpindleMode::kOff && !spindle_paused;
+    }
+    bool flood_on() const noexcept { return flood && !coolant_paused; }
+    bool mist_on() const noexcept { return mist && !coolant_paused; }
+};
+
+// What the spindle turns at, rpm: the programmed speed with the override, inside $31 to $30. 0 when
+// it is off.
+float spindle_speed(const Accessories& accessories,
+                    unsigned override_percent,
+                    const Settings& settings) noexcept;
+
+OutputLevels output_levels(const Accessories& accessories,
+                           unsigned spindle_override_percent,
+                           bool drives_enabled,
+                           const Settings& settings) noexcept;
+
+}  // namespace cusp::machine

@@ -1,0 +1,208 @@
+// Lines of `$$`, `$#`, `$N`, `$I` and `$G`.
+#include "firmware/machine/listing.hpp"
+
+namespace cusp::machine {
+namespace {
+
+using protocol::ReplyQueue;
+
+constexpr float kMillimetresPerInch = 25.4F;
+
+bool write_setting(unsigned index, const Settings& settings, ReplyQueue& out) noexcept
+{
+    if (index >= kSettingCount) {
+        return false;
+    }
+    const SettingEntry& entry = setting_entry(index);
+    (void)out.character('$').number(entry.number).character('=');
+    (void)out.decimal(protocol::scaled(settings.value_at(index), entry.decimals), entry.decimals);
+    (void)out.end_line();
+    return true;
+}
+
+void write_named_position(std::string_view name, Position at, bool inches, ReplyQueue& out) noexcept
+{
+    (void)out.character('[').text(name).character(':');
+    write_position(out, at, inches);
+    (void)out.character(']').end_line();
+}
+
+bool write_parameter(unsigned index, const ListingSource& source, ReplyQueue& out) noexcept
+{
+    constexpr std::array<std::string_view, gcode::kCoordinateSystems> kNames{
+        "G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"};
+    const gcode::Parameters& parameters = source.parameters;
+    const bool inches = source.stored.settings.on(Setting::kReportInches);
+    if (index < gcode::kCoordinateSystems) {
+        write_named_position(kNames[index], parameters.work_offsets[index], inches, out);
+        return true;
+    }
+    switch (index - gcode::kCoordinateSystems) {
+        case 0:
+            write_named_position("G28", parameters.home, inches, out);
+            return true;
+        case 1:
+            write_named_position("G30", parameters.second_home, inches, out);
+            return true;
+        case 2:
+            write_named_position("G92", parameters.coordinate_offset, inches, out);
+            return true;
+        case 3:
+            (void)out.text("[TLO:");
+            write_length(out, parameters.tool_length_offset_nm, inches);
+            (void)out.character(']').end_line();
+            return true;
+        case 4:
+            write_probe(source.probe, inches, out);
+            return true;
+        default:
+            return false;
+    }
+}
+
+bool write_build(unsigned index, const ListingSource& source, ReplyQueue& out) noexcept
+{
+    // gSender knows a controller by the word in the user's text.
+    constexpr std::string_view kStandardText = "Grbl cusp";
+    const std::string_view text = source.stored.build.view();
+    switch (index) {
+        case 0:
+            (void)out.text("[VER:1.1h.20241121:").text(text.empty() ? kStandardText : text);
+            (void)out.character(']').end_line();
+            return true;
+        case 1:
+            (void)out.text("[OPT:V,").number(source.planner_blocks).character(',');
+            (void)out.number(source.receive_bytes).character(']').end_line();
+            return true;
+        case 2:
+            if (source.glitches == 0) {
+                return false;
+            }
+            (void)out.text("[MSG:Input glitches filtered: ").number(source.glitches);
+            (void)out.character(']').end_line();
+            return true;
+        default:
+            return false;
+    }
+}
+
+std::string_view word_of(gcode::Motion motion) noexcept
+{
+    using gcode::Motion;
+    switch (motion) {
+        case Motion::kRapid:
+            return "G0";
+        case Motion::kLine:
+            return "G1";
+        case Motion::kArcClockwise:
+            return "G2";
+        case Motion::kArcCounterClockwise:
+            return "G3";
+        case Motion::kUniformNurbs:
+            return "G5.2";
+        case Motion::kNurbs:
+            return "G6.2";
+        case Motion::kProbeTowards:
+            return "G38.2";
+        case Motion::kProbeTowardsQuietly:
+            return "G38.3";
+        case Motion::kProbeAway:
+            return "G38.4";
+        case Motion::kProbeAwayQuietly:
+            return "G38.5";
+        case Motion::kNone:
+            return "G80";
+        case Motion::kDrill:
+            return "G81";
+        case Motion::kDrillWithDwell:
+            return "G82";
+        case Motion::kDrillPecking:
+            return "G83";
+    }
+    return "";
+}
+
+std::string_view word_of(path::Plane plane) noexcept
+{
+    switch (plane) {
+        case path::Plane::kXY:
+            return " G17";
+        case path::Plane::kZX:
+            return " G18";
+        case path::Plane::kYZ:
+            return " G19";
+    }
+    return "";
+}
+
+}  // namespace
+
+void write_probe(const ProbeResult& probe, bool inches, ReplyQueue& out) noexcept
+{
+    (void)out.text("[PRB:");
+    write_position(out, probe.at, inches);
+    (void)out.text(probe.found ? ":1]" : ":0]").end_line();
+}
+
+bool write_listing_line(Listing listing,
+                        unsigned index,
+                        const ListingSource& source,
+                        ReplyQueue& out) noexcept
+{
+    switch (listing) {
+        case Listing::kSettings:
+            return write_setting(index, source.stored.settings, out);
+        case Listing::kParameters:
+            return write_parameter(index, source, out);
+        case Listing::kStartupLines:
+            if (index >= kStartupLineCount) {
+                return false;
+            }
+            (void)out.text("$N").number(index).character('=');
+            (void)out.text(source.stored.startup[index].view()).end_line();
+            return true;
+        case Listing::kBuild:
+            return write_build(index, source, out);
+    }
+    return false;
+}
+
+void write_modal_state(const gcode::ModalState& modal,
+                       const Accessories& accessories,
+                       const Settings& settings,
+                       ReplyQueue& out) noexcept
+{
+    constexpr std::array<std::string_view, gcode::kCoordinateSystems> kSystems{
+        " G54", " G55", " G56", " G57", " G58", " G59", " G59.1", " G59.2", " G59.3"};
+    (void)out.text("[GC:").text(word_of(modal.motion)).text(kSystems[modal.coordinate_system]);
+    (void)out.text(word_of(modal.plane)).text(modal.inches ? " G20" : " G21");
+    (void)out.text(modal.incremental ? " G91" : " G90").text(modal.inverse_time ? " G93" : " G94");
+    switch (accessories.spindle) {
+        case gcode::SpindleMode::kOff:
+            (void)out.text(" M5");
+            break;
+        case gcode::SpindleMode::kClockwise:
+            (void)out.text(" M3");
+            break;
+        case gcode::SpindleMode::kCounterClockwise:
+            (void)out.text(" M4");
+            break;
+    }
+    if (accessories.mist) {
+        (void)out.text(" M7");
+    }
+    if (accessories.flood) {
+        (void)out.text(" M8");
+    }
+    if (!accessories.mist && !accessories.flood) {
+        (void)out.text(" M9");
+    }
+    (void)out.text(" T").number(modal.tool).text(" F");
+    const bool inches = settings.on(Setting::kReportInches) && !modal.inverse_time;
+    const float feed = inches ? modal.feed / kMillimetresPerInch : modal.feed;
+    (void)out.decimal(protocol::scaled(feed, inches ? 1 : 0), inches ? 1 : 0);
+    (void)out.text(" S").decimal(protocol::scaled(modal.spindle_speed, 0), 0);
+    (void)out.character(']').end_line();
+}
+
+}  // namespace cusp::machine

@@ -1,0 +1,44 @@
+// Listings: the answers of several lines to `$$`, `$#`, `$N` and `$I`, one line at a time.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware/gcode/interpreter.hpp"
+#include "firmware/machine/accessories.hpp"
+#include "firmware/machine/stored_state.hpp"
+#include "firmware/protocol/reply_queue.hpp"
+
+namespace cusp::machine {
+
+enum class Listing : std::uint8_t { kSettings, kParameters, kStartupLines, kBuild };
+
+// The last probe, for `$#` and `[PRB:...]`.
+struct ProbeResult {
+    Position at;
+    bool found{false};
+};
+
+struct ListingSource {
+    const StoredState& stored;
+    const gcode::Parameters& parameters;
+    ProbeResult probe;
+    std::uint32_t planner_blocks;
+    std::uint32_t receive_bytes;
+    std::uint32_t glitches;
+};
+
+// Writes line `index` of the listing. Returns false, and writes nothing, behind the last.
+bool write_listing_line(Listing listing,
+                        unsigned index,
+                        const ListingSource& source,
+                        protocol::ReplyQueue& out) noexcept;
+
+void write_probe(const ProbeResult& probe, bool inches, protocol::ReplyQueue& out) noexcept;
+
+// `$G`: [GC:G0 G54 ...].
+void write_modal_state(const gcode::ModalState& modal,
+                       const Accessories& accessories,
+                       const Settings& settings,
+                       protocol::ReplyQueue& out) noexcept;
+
+}  // namespace cusp::machine

@@ -1,0 +1,236 @@
+// Machine: the controller as its sender sees it, in every state from Idle to Sleep.
+//
+//   receive(byte) -> realtime bytes act, text waits
+//   poll()        -> lines become moves, waits and answers
+//   tick()        -> inputs in, one pulse frame out
+//   replies()     -> bytes for the sender
+//
+// A line is answered exactly once, in order. While one waits (for room, for motion to end, for a
+// dwell, a probe, homing or the store) no other is read; realtime bytes always act.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "firmware/gcode/interpreter.hpp"
+#include "firmware/machine/accessories.hpp"
+#include "firmware/machine/homing.hpp"
+#include "firmware/machine/listing.hpp"
+#include "firmware/machine/machine_state.hpp"
+#include "firmware/machine/motion.hpp"
+#include "firmware/machine/overrides.hpp"
+#include "firmware/machine/settings_log.hpp"
+#include "firmware/machine/status_report.hpp"
+#include "firmware/machine/stored_state.hpp"
+#include "firmware/protocol/checked_lines.hpp"
+#include "firmware/protocol/line_assembler.hpp"
+#include "firmware/protocol/receive_queue.hpp"
+#include "firmware/protocol/reply_queue.hpp"
+#include "firmware/protocol/system_command.hpp"
+
+namespace cusp::machine {
+
+// Context: main loop, but for tick().
+class Machine {
+public:
+    // factory: the settings where the store holds none, and after `$RST=$`.
+    explicit Machine(const Settings& factory) noexcept;
+    Machine(const Machine&) = delete;
+    Machine& operator=(const Machine&) = delete;
+
+    // What the store keeps. Fill it before start(), write it when wants_store().
+    StoredState& stored() noexcept { return stored_; }
+
+    // Says hello and runs the startup lines. `loaded` tells what the store came to.
+    void start(LogState loaded) noexcept;
+
+    // A byte from the sender.
+    void receive(std::uint8_t byte) noexcept;
+    // Bytes were lost on their way to receive().
+    void bytes_lost() noexcept { link_lost_bytes_ = true; }
+
+    // One slice of work. Returns whether anything was done.
+    bool poll() noexcept;
+
+    protocol::ReplyQueue& replies() noexcept { return replies_; }
+    OutputLevels outputs() const noexcept;
+
+    // stored() shall be written now; no frame has an edge. Answer with store_done().
+    bool wants_store() const noexcept { return store_wanted_; }
+    void store_done(bool written) noexcept;
+
+    // A pulse frame was missing while in motion: the steps stopped where they were.
+    void frame_missed() noexcept;
+
+    // Context: servo tick.
+    void tick(std::uint16_t raw_inputs, PulseFrame& frame) noexcept
+    {
+        motion_.tick(raw_inputs, frame);
+    }
+
+    State state() const noexcept { return state_; }
+    Alarm alarm() const noexcept { return alarm_; }
+    const Settings& settings() const noexcept { return stored_.settings; }
+    const Motion& motion() const noexcept { return motion_; }
+    // No line waits and nothing moves: a program is done once its last byte is read and this holds.
+    bool idle() const noexcept;
+
+private:
+    // What the line being executed waits for.
+    enum class Task : std::uint8_t {
+        kNone,
+        kActions,  // steps of G-code
+        kDwell,
+        kProbe,
+        kHome,
+        kListing,
+        kConfigure,  // motion to settle, then the new settings
+        kFinish,     // the store, then the answer
+    };
+    // What to do when the line is done.
+    enum class Ending : std::uint8_t { kAnswer, kStartupLine, kKeepStartupLine };
+
+    // machine.cpp
+    void act(protocol::RealtimeCommand command) noexcept;
+    bool handle_events() noexcept;
+    bool watch_panel() noexcept;
+    bool watch_link() noexcept;
+    void feed_hold() noexcept;
+    void cycle_start() noexcept;
+    void open_door() noexcept;
+    void cancel_jog() noexcept;
+    void toggle_spindle_stop() noexcept;
+    bool follow_motion() noexcept;
+    void follow_door() noexcept;
+    // Stops everything; the line that waits is answered with an error.
+    void raise(Alarm alarm) noexcept;
+    // The same, but the caller answers.
+    void enter_alarm(Alarm alarm) noexcept;
+    void drop_all() noexcept;
+    void reset() noexcept;
+    void say_hello() noexcept;
+    void report_status() noexcept;
+    bool suspended() const noexcept;
+    bool input_on(InputBit input) const noexcept
+    {
+        return (motion_.inputs().steady() & input) != 0;
+    }
+    void message(std::string_view text) noexcept;
+
+    // machine_lines.cpp
+    bool read_lines() noexcept;
+    bool report_lost_bytes() noexcept;
+    void execute_line() noexcept;
+    void execute_text(std::string_view text) noexcept;
+    void execute_gcode(std::string_view text, Ending ending) noexcept;
+    bool line_cancelled() const noexcept;
+    void finish_line(std::optional<Error> error) noexcept;
+    void answer(std::optional<Error> error) noexcept;
+    void refuse_checked_line() noexcept;
+    void next_startup_line() noexcept;
+
+    // machine_commands.cpp
+    void execute_command(std::string_view text) noexcept;
+    std::optional<Error> refusal(protocol::SystemCommandKind kind) const noexcept;
+    void perform(const protocol::SystemCommand& command) noexcept;
+    void start_listing(Listing listing) noexcept;
+    void set_setting(std::uint32_t number, float value) noexcept;
+    void tell_fault(const SettingFault& fault) noexcept;
+    void restore(bool settings, bool parameters, bool texts) noexcept;
+    void toggle_check_mode() noexcept;
+    void unlock() noexcept;
+    void start_homing(AxisMask axes) noexcept;
+    void start_jog(std::string_view words) noexcept;
+    void set_startup_line(const protocol::SystemCommand& command) noexcept;
+    void set_build(std::string_view text) noexcept;
+
+    // machine_tasks.cpp
+    bool step_task() noexcept;
+    bool step_actions() noexcept;
+    bool perform_action() noexcept;
+    bool perform(const path::Move& move) noexcept;
+    bool perform(const gcode::Probe& probe) noexcept;
+    bool perform(const gcode::Dwell& dwell) noexcept;
+    bool perform(const gcode::Spindle& spindle) noexcept;
+    bool perform(const gcode::Coolant& coolant) noexcept;
+    bool perform(const gcode::ParametersChanged& changed) noexcept;
+    bool perform(const gcode::Pause& pause) noexcept;
+    bool perform(const gcode::ToolChange& change) noexcept;
+    bool perform(const gcode::ProgramEnd& end) noexcept;
+    bool wait_settled() noexcept;
+    bool step_dwell() noexcept;
+    bool step_probe() noexcept;
+    bool step_home() noexcept;
+    bool step_listing() noexcept;
+    bool step_configure() noexcept;
+    bool step_finish() noexcept;
+    void resynchronise() noexcept;
+
+    StoredState stored_;
+    const Settings factory_;
+    Motion motion_;
+    gcode::Interpreter interpreter_;
+    Homing homing_;
+
+    protocol::ReceiveQueue received_;
+    protocol::LineAssembler line_;
+    protocol::CheckedLines checked_;
+    protocol::ReplyQueue replies_;
+    StatusReporter reporter_;
+
+    State state_{State::kIdle};
+    Alarm alarm_{Alarm::kNone};
+    bool critical_{false};      // after a limit alarm: nothing but a reset is heard
+    bool locked_{false};        // check mode was entered from an alarm
+    bool hold_pending_{false};  // M0: the hold begins once the line is answered
+    bool jog_cancelled_{false};
+    bool door_restoring_{false};
+    std::uint32_t door_restored_at_{0};
+
+    // Realtime commands that wait for the next slice.
+    bool reset_wanted_{false};
+    bool status_wanted_{false};
+    bool hold_wanted_{false};
+    bool start_wanted_{false};
+    bool door_wanted_{false};
+    bool cancel_wanted_{false};
+    bool spindle_stop_wanted_{false};
+    bool link_lost_bytes_{false};
+    bool frame_missed_{false};
+    std::uint16_t panel_before_{0};
+
+    Overrides overrides_;
+    Accessories accessories_;
+    std::uint32_t still_since_{0};  // tick when motion settled last
+    std::uint32_t last_byte_tick_{0};
+
+    Task task_{Task::kNone};
+    Ending ending_{Ending::kAnswer};
+    gcode::Action action_;
+    bool action_waits_{false};
+    bool jogging_line_{false};
+    std::uint32_t line_number_{0};
+    std::uint32_t line_start_{0};    // place in the stream where the line began
+    std::uint32_t cancelled_to_{0};  // lines that began before this place are cancelled
+    bool cancelling_{false};
+    bool cancelled_in_jog_{false};
+    std::uint32_t lost_answers_{0};
+    unsigned startup_next_{kStartupLineCount};
+    bool answer_after_startup_{false};
+    std::string_view startup_text_;
+    std::uint8_t startup_number_{0};
+    std::uint32_t dwell_left_{0};
+    std::uint32_t dwell_seen_{0};
+    bool probe_alarm_{false};
+    bool homing_all_{true};
+    ProbeResult probe_;
+    Listing listing_{Listing::kSettings};
+    unsigned listing_index_{0};
+    bool store_wanted_{false};
+    bool store_failed_{false};
+    bool reset_after_answer_{false};
+    std::uint32_t planner_blocks_{0};
+};
+
+}  // namespace cusp::machine

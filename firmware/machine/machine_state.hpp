@@ -1,0 +1,34 @@
+// The states of the machine and its alarms, by Grbl's names and numbers.
+#pragma once
+
+#include <cstdint>
+
+namespace cusp::machine {
+
+enum class State : std::uint8_t {
+    kIdle,
+    kRun,
+    kHold,
+    kJog,
+    kAlarm,
+    kDoor,
+    kCheck,
+    kHome,
+    kSleep,
+};
+
+enum class Alarm : std::uint8_t {
+    kNone = 0,
+    kHardLimit = 1,        // a limit switch was hit; the position may be lost
+    kSoftLimit = 2,        // a move would leave the travel; the position is kept
+    kAbortInMotion = 3,    // reset or underrun while moving; the position may be lost
+    kProbeInitial = 4,     // the probe was not as it should be before its move
+    kProbeContact = 5,     // the probe's move ended without contact
+    kHomingReset = 6,      // reset during homing
+    kHomingDoor = 7,       // the door opened during homing
+    kHomingPullOff = 8,    // a switch stayed closed after the pull-off
+    kHomingApproach = 9,   // no switch within the search distance
+    kHomingDualAxis = 10,  // Grbl's second switch of an axis; this machine has one each
+};
+
+}  // namespace cusp::machine

@@ -1,0 +1,331 @@
+// What a line waits for: room, the end of motion, a dwell, a probe, homing, the store.
+#include "firmware/machine/machine.hpp"
+#include "firmware/machine/travel.hpp"
+
+namespace cusp::machine {
+
+bool Machine::step_task() noexcept
+{
+    switch (task_) {
+        case Task::kNone:
+            return false;
+        case Task::kActions:
+            return step_actions();
+        case Task::kDwell:
+            return step_dwell();
+        case Task::kProbe:
+            return step_probe();
+        case Task::kHome:
+            return step_home();
+        case Task::kListing:
+            return step_listing();
+        case Task::kConfigure:
+            return step_configure();
+        case Task::kFinish:
+            return step_finish();
+    }
+    return false;
+}
+
+bool Machine::step_actions() noexcept
+{
+    if (store_wanted_) {
+        return false;
+    }
+    if (!action_waits_ && !interpreter_.next(action_)) {
+        finish_line(store_failed_ ? std::optional<Error>{Error::kSettingReadFail} : std::nullopt);
+        return true;
+    }
+    action_waits_ = true;
+    // Performing may end the line or go on in another task; only a wait leaves the action.
+    if (perform_action()) {
+        action_waits_ = false;
+        return true;
+    }
+    return false;
+}
+
+bool Machine::perform_action() noexcept
+{
+    return std::visit([this](const auto& action) { return perform(action); }, action_);
+}
+
+bool Machine::wait_settled() noexcept
+{
+    if (motion_.settled()) {
+        return true;
+    }
+    motion_.close();
+    return false;
+}
+
+bool Machine::perform(const path::Move& move) noexcept
+{
+    const bool limited = stored_.settings.on(Setting::kSoftLimits) && state_ != State::kCheck;
+    if (limited && !within_travel(move, stored_.settings)) {
+        if (jogging_line_) {
+            resynchronise();
+            finish_line(Error::kTravelExceeded);
+            return true;
+        }
+        // As in Grbl: what lies before is stopped softly, then the alarm.
+        motion_.hold();
+        if (!motion_.at_rest()) {
+            return false;
+        }
+        raise(Alarm::kSoftLimit);
+        return true;
+    }
+    if (state_ == State::kCheck) {
+        return true;
+    }
+    if (!motion_.has_room()) {
+        return false;
+    }
+    path::Move numbered = move;
+    if (line_number_ > 0) {
+        numbered.line = line_number_;
+    }
+    motion_.push(numbered);
+    if (state_ == State::kIdle || state_ == State::kJog) {
+        state_ = jogging_line_ ? State::kJog : State::kRun;
+    }
+    return true;
+}
+
+bool Machine::perform(const gcode::Probe& probe) noexcept
+{
+    if (state_ == State::kCheck) {
+        return true;
+    }
+    if (!wait_settled() || !motion_.has_room()) {
+        return false;
+    }
+    const bool on = (motion_.inputs().raw() & kProbe) != 0;
+    if (on != probe.away) {
+        enter_alarm(Alarm::kProbeInitial);
+        finish_line(std::nullopt);
+        return true;
+    }
+    if (stored_.settings.on(Setting::kSoftLimits) && !within_travel(probe.move, stored_.settings)) {
+        raise(Alarm::kSoftLimit);
+        return true;
+    }
+    motion_.watch({kProbe, probe.away, false});
+    motion_.push(probe.move);
+    motion_.close();
+    state_ = State::kRun;
+    probe_alarm_ = probe.alarm;
+    task_ = Task::kProbe;
+    return true;
+}
+
+bool Machine::step_probe() noexcept
+{
+    const bool found = motion_.contact().has_value();
+    if (found ? !motion_.at_rest() : !motion_.settled()) {
+        return false;
+    }
+    probe_ = {found ? *motion_.contact() : motion_.position(), found};
+    motion_.abandon();
+    const bool fails = !found && probe_alarm_;
+    if (fails) {
+        enter_alarm(Alarm::kProbeContact);
+    }
+    write_probe(probe_, stored_.settings.on(Setting::kReportInches), replies_);
+    resynchronise();
+    finish_line(std::nullopt);
+    return true;
+}
+
+bool Machine::perform(const gcode::Dwell& dwell) noexcept
+{
+    if (state_ == State::kCheck) {
+        return true;
+    }
+    if (!wait_settled()) {
+        return false;
+    }
+    constexpr double kMostSeconds = 4e6;  // of a 32-bit tick counter
+    const double seconds = dwell.seconds < kMostSeconds ? dwell.seconds : kMostSeconds;
+    dwell_left_ =
+        static_cast<std::uint32_t>(seconds * static_cast<double>(kServoTicksPerSecond) + 0.5);
+    dwell_seen_ = motion_.ticks();
+    task_ = Task::kDwell;
+    return true;
+}
+
+// A hold stops the clock of a dwell, since no slice comes here.
+bool Machine::step_dwell() noexcept
+{
+    const std::uint32_t now = motion_.ticks();
+    // A gap longer than a few ticks was a hold.
+    constexpr std::uint32_t kLongestGap = 10;
+    const std::uint32_t passed = now - dwell_seen_;
+    dwell_seen_ = now;
+    const std::uint32_t counted = passed > kLongestGap ? 1U : passed;
+    dwell_left_ = counted < dwell_left_ ? dwell_left_ - counted : 0;
+    if (dwell_left_ > 0) {
+        return false;
+    }
+    task_ = Task::kActions;
+    return true;
+}
+
+bool Machine::perform(const gcode::Spindle& spindle) noexcept
+{
+    if (state_ == State::kCheck) {
+        return true;
+    }
+    if (!wait_settled()) {
+        return false;
+    }
+    accessories_.spindle = spindle.mode;
+    accessories_.speed = spindle.speed;
+    accessories_.spindle_paused = false;
+    reporter_.overrides_changed();
+    return true;
+}
+
+bool Machine::perform(const gcode::Coolant& coolant) noexcept
+{
+    if (state_ == State::kCheck) {
+        return true;
+    }
+    if (!wait_settled()) {
+        return false;
+    }
+    accessories_.flood = coolant.flood;
+    accessories_.mist = coolant.mist;
+    reporter_.overrides_changed();
+    return true;
+}
+
+bool Machine::perform(const gcode::ParametersChanged& changed) noexcept
+{
+    reporter_.work_offset_changed();
+    if (!changed.keep || state_ == State::kCheck) {
+        return true;
+    }
+    // The store is not written with frames in flight.
+    if (!wait_settled()) {
+        return false;
+    }
+    stored_.parameters = interpreter_.parameters();
+    stored_.parameters.coordinate_offset = {};
+    stored_.parameters.tool_length_offset_nm = 0;
+    store_wanted_ = true;
+    return true;
+}
+
+bool Machine::perform(const gcode::Pause& pause) noexcept
+{
+    // As in Grbl there is no switch for an optional stop, so M1 does not stop.
+    if (state_ == State::kCheck || pause.optional) {
+        return true;
+    }
+    if (!wait_settled()) {
+        return false;
+    }
+    hold_pending_ = true;
+    return true;
+}
+
+bool Machine::perform(const gcode::ToolChange& change) noexcept
+{
+    if (state_ == State::kCheck) {
+        return true;
+    }
+    if (!wait_settled()) {
+        return false;
+    }
+    (void)replies_.text("[MSG:Tool change T").number(change.tool);
+    (void)replies_.text(": cycle start to go on]").end_line();
+    hold_pending_ = true;
+    return true;
+}
+
+bool Machine::perform(const gcode::ProgramEnd& /*end*/) noexcept
+{
+    if (state_ != State::kCheck) {
+        if (!wait_settled()) {
+            return false;
+        }
+        accessories_ = Accessories{};
+        overrides_ = Overrides{};
+        motion_.set_overrides(overrides_.feed, overrides_.rapid);
+        reporter_.overrides_changed();
+        reporter_.work_offset_changed();
+    }
+    message("Pgm End");
+    return true;
+}
+
+bool Machine::step_home() noexcept
+{
+    switch (homing_.step(motion_, stored_.settings)) {
+        case Homing::Progress::kWaiting:
+            return false;
+        case Homing::Progress::kStepped:
+            return true;
+        case Homing::Progress::kFailed:
+            raise(homing_.alarm());
+            return true;
+        case Homing::Progress::kFinished:
+            break;
+    }
+    state_ = State::kIdle;
+    alarm_ = Alarm::kNone;
+    motion_.guard_limits(stored_.settings.on(Setting::kHardLimits));
+    resynchronise();
+    task_ = Task::kNone;
+    answer_after_startup_ = true;
+    startup_next_ = homing_all_ ? 0 : kStartupLineCount;
+    return true;
+}
+
+bool Machine::step_listing() noexcept
+{
+    const ListingSource source{
+        stored_,         interpreter_.parameters(),         probe_,
+        planner_blocks_, protocol::ReceiveQueue::kCapacity, motion_.inputs().glitches()};
+    if (!write_listing_line(listing_, listing_index_, source, replies_)) {
+        finish_line(std::nullopt);
+        return true;
+    }
+    ++listing_index_;
+    return true;
+}
+
+bool Machine::step_configure() noexcept
+{
+    if (!motion_.settled()) {
+        return false;
+    }
+    motion_.configure(stored_.settings);
+    motion_.guard_limits(stored_.settings.on(Setting::kHardLimits) && state_ == State::kIdle);
+    interpreter_.set_default_tolerance(stored_.settings.value(Setting::kPathTolerance));
+    reporter_.work_offset_changed();
+    task_ = Task::kFinish;
+    return true;
+}
+
+bool Machine::step_finish() noexcept
+{
+    if (store_wanted_) {
+        return false;
+    }
+    finish_line(store_failed_ ? std::optional<Error>{Error::kSettingReadFail} : std::nullopt);
+    return true;
+}
+
+void Machine::store_done(bool written) noexcept
+{
+    store_wanted_ = false;
+    if (!written) {
+        store_failed_ = true;
+        message("Settings could not be stored: they hold until power-off");
+    }
+}
+
+}  // namespace cusp::machine

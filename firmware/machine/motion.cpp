@@ -1,0 +1,205 @@
+// Moves in, frames out.
+#include "firmware/machine/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cusp::machine {
+namespace {
+
+// Length of a move, within a few per cent: enough to know when the path runs out.
+float rough_length(const path::Move& move) noexcept
+{
+    if (const auto* arc = std::get_if<path::Arc>(&move.path)) {
+        return static_cast<float>(arc->radius) * static_cast<float>(arc->sweep);
+    }
+    const Position difference = move.end - move.start;
+    constexpr float kMillimetre = 1e-6F;  // of a nanometre
+    const Vec3f chord{static_cast<float>(difference.x) * kMillimetre,
+                      static_cast<float>(difference.y) * kMillimetre,
+                      static_cast<float>(difference.z) * kMillimetre};
+    return norm(chord);
+}
+
+}  // namespace
+
+Motion::Motion(const Settings& settings) noexcept
+    : planner_{settings.limits()}, pulses_{settings.steps()}
+{
+    configure(settings);
+}
+
+void Motion::configure(const Settings& settings) noexcept
+{
+    gate_shut_.store(true, std::memory_order_release);
+    const MachineLimits limits = settings.limits();
+    const Position at = interpolator_.position();
+    planner_.set_limits(limits);
+    planner_.reset(at);
+    interpolator_.reset(at);
+    pulses_.configure(settings.steps());
+    pulses_.reset(at);
+    least_acceleration_ = limits.acceleration.x;
+    path_filter_s_ = 0;
+    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+        least_acceleration_ = std::min(least_acceleration_, limits.acceleration[axis]);
+        path_filter_s_ = std::max(path_filter_s_, limits.acceleration[axis] / limits.jerk[axis]);
+    }
+    const unsigned limit_bits = settings.on(Setting::kLimitInvert) ? kLimitInputs : 0U;
+    const unsigned probe_bit = settings.on(Setting::kProbeInvert) ? unsigned{kProbe} : 0U;
+    inverted_inputs_ = static_cast<std::uint16_t>(limit_bits | probe_bit);
+    filter_ticks_ = static_cast<std::uint8_t>(settings.whole(Setting::kLimitFilter));
+    inputs_.set_ticks(filter_ticks_);
+    gate_shut_.store(false, std::memory_order_release);
+}
+
+void Motion::push(const path::Move& move) noexcept
+{
+    planner_.push(move);
+    pushed_length_ += rough_length(move);
+    last_push_tick_ = ticks();
+    open_ = true;
+}
+
+void Motion::close() noexcept
+{
+    if (open_) {
+        planner_.close();
+        open_ = false;
+    }
+}
+
+void Motion::work(bool more_waits) noexcept
+{
+    if (planner_.empty()) {
+        if (interpolator_.at_rest()) {
+            pushed_length_ = 0;
+            travelled_.store(0, std::memory_order_relaxed);
+        }
+    } else {
+        (void)planner_.has_room();
+    }
+    // A sender that waits for each answer needs a moment to send the next line.
+    constexpr std::uint32_t kPatienceTicks = 5;
+    if (!open_ || more_waits || ticks() - last_push_tick_ < kPatienceTicks) {
+        return;
+    }
+    const float v = speed();
+    const float braking =
+        v * (0.05F + 2.0F * path_filter_s_) + v * v / (2.0F * least_acceleration_);
+    const float left = pushed_length_ - travelled_.load(std::memory_order_relaxed);
+    if (interpolator_.at_rest() || left < braking) {
+        close();
+    }
+}
+
+Position Motion::position() const noexcept
+{
+    // A tick between the words of a position shows in the tick counter; two in a row can't.
+    Position at = set_point_;
+    const std::uint32_t before = ticks();
+    at = set_point_;
+    if (ticks() != before) {
+        at = set_point_;
+    }
+    return at;
+}
+
+void Motion::set_overrides(unsigned feed_percent, unsigned rapid_percent) noexcept
+{
+    interpolator_.set_feed_override(feed_percent);
+    interpolator_.set_rapid_override(rapid_percent);
+}
+
+void Motion::abandon() noexcept
+{
+    gate_shut_.store(true, std::memory_order_release);
+    const Position at = interpolator_.position();
+    planner_.reset(at);
+    interpolator_.reset(at);
+    open_ = false;
+    unwatch();
+    limit_hit_.store(false, std::memory_order_relaxed);
+    gate_shut_.store(false, std::memory_order_release);
+}
+
+void Motion::relocate(Position at) noexcept
+{
+    gate_shut_.store(true, std::memory_order_release);
+    planner_.reset(at);
+    interpolator_.reset(at);
+    pulses_.reset(at);
+    set_point_ = at;
+    recent_.fill(at);
+    gate_shut_.store(false, std::memory_order_release);
+}
+
+void Motion::watch(Watch watch) noexcept
+{
+    unwatch();
+    contacted_.store(false, std::memory_order_relaxed);
+    contact_ticks_ = 0;
+    watch_off_ = watch.off;
+    watch_filtered_ = watch.filtered;
+    watched_.store(watch.inputs, std::memory_order_release);
+}
+
+std::optional<Position> Motion::contact() const noexcept
+{
+    if (!contacted_.load(std::memory_order_acquire)) {
+        return std::nullopt;
+    }
+    return contact_;
+}
+
+void Motion::tick(std::uint16_t raw_inputs, PulseFrame& frame) noexcept
+{
+    if (!gate_shut_.load(std::memory_order_acquire)) {
+        sample(raw_inputs);
+        if (!limit_hit_.load(std::memory_order_relaxed)) {
+            set_point_ = interpolator_.tick();
+            travelled_.store(
+                travelled_.load(std::memory_order_relaxed) + interpolator_.speed() * kServoTick,
+                std::memory_order_relaxed);
+        }
+    }
+    for (std::size_t i = kPlayedBehind; i > 0; --i) {
+        recent_[i] = recent_[i - 1];
+    }
+    recent_[0] = set_point_;
+    pulses_.make_frame(set_point_, frame);
+    ticks_.store(ticks_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+}
+
+void Motion::sample(std::uint16_t raw_inputs) noexcept
+{
+    inputs_.sample(static_cast<std::uint16_t>(raw_inputs ^ inverted_inputs_));
+    if (guarding_.load(std::memory_order_relaxed) && (inputs_.steady() & kLimitInputs) != 0) {
+        limit_hit_.store(true, std::memory_order_release);
+    }
+    if (watched_.load(std::memory_order_acquire) != 0 &&
+        !contacted_.load(std::memory_order_relaxed)) {
+        check_watch();
+    }
+}
+
+void Motion::check_watch() noexcept
+{
+    const unsigned on = unsigned{inputs_.raw()} & watched_.load(std::memory_order_relaxed);
+    const bool answers = watch_off_ ? on == 0 : on != 0;
+    if (!answers) {
+        contact_ticks_ = 0;
+        return;
+    }
+    if (contact_ticks_ == 0) {
+        first_contact_ = recent_[kPlayedBehind];
+    }
+    ++contact_ticks_;
+    if (!watch_filtered_ || contact_ticks_ > filter_ticks_) {
+        contact_ = first_contact_;
+        interpolator_.hold();
+        contacted_.store(true, std::memory_order_release);
+    }
+}
+
+}  // namespace cusp::machine

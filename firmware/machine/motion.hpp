@@ -1,0 +1,125 @@
+// Motion: planner, interpolator and pulses as one thing that takes moves and makes frames.
+//
+// The servo tick may interrupt the main loop at any place, never the other way round. What the main
+// loop must not be caught at, it does behind a gate: while the gate is shut a tick stands still.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <optional>
+
+#include "firmware/base/pulse_frame.hpp"
+#include "firmware/interpolator/interpolator.hpp"
+#include "firmware/machine/input_filter.hpp"
+#include "firmware/machine/settings.hpp"
+#include "firmware/planner/planner.hpp"
+#include "firmware/pulse/pulse_maker.hpp"
+
+namespace cusp::machine {
+
+// What makes motion stop by itself: an input that comes on, or goes off.
+struct Watch {
+    std::uint16_t inputs{0};  // any of these
+    bool off{false};          // goes off
+    bool filtered{false};     // through the filter of $790, for switches; probes answer at once
+};
+
+class Motion {
+public:
+    explicit Motion(const Settings& settings) noexcept;
+
+    // Main loop.
+
+    bool has_room() noexcept { return planner_.has_room(); }
+    // Precondition: has_room() and move.start == tail().
+    void push(const path::Move& move) noexcept;
+    // No move follows for now.
+    void close() noexcept;
+    // Lets the planner go on with what it has; closes the path where it runs out and nothing came
+    // for a while. more_waits: lines are at hand.
+    void work(bool more_waits) noexcept;
+
+    Position tail() const noexcept { return planner_.tail(); }
+    // The last set point.
+    Position position() const noexcept;
+    std::uint32_t free_blocks() const noexcept { return planner_.free_blocks(); }
+    std::uint32_t executing_line() const noexcept { return interpolator_.executing_line(); }
+    float speed() const noexcept { return interpolator_.speed(); }  // mm/s
+
+    // Nothing moves just now: a hold is complete, or there is nothing to do.
+    bool at_rest() const noexcept { return interpolator_.at_rest(); }
+    // Every move is done.
+    bool finished() const noexcept { return planner_.empty() && interpolator_.at_rest(); }
+    // The same, and the last pulse is made.
+    bool settled() const noexcept { return finished() && pulses_.idle(); }
+
+    void hold() noexcept { interpolator_.hold(); }
+    void resume() noexcept { interpolator_.resume(); }
+    void set_overrides(unsigned feed_percent, unsigned rapid_percent) noexcept;
+
+    // Forgets all moves and stands where the last set point is: after a hold, or at once where
+    // something has gone wrong.
+    void abandon() noexcept;
+    // The machine stands at this place from now on. Precondition: settled().
+    void relocate(Position at) noexcept;
+    // Precondition: settled().
+    void configure(const Settings& settings) noexcept;
+
+    // Stops softly once the watch answers; clears the contact before.
+    void watch(Watch watch) noexcept;
+    void unwatch() noexcept { watched_.store(0, std::memory_order_release); }
+    // Where the machine was when the watch answered.
+    std::optional<Position> contact() const noexcept;
+
+    // Any limit switch from now on stops everything within the tick.
+    void guard_limits(bool on) noexcept { guarding_.store(on, std::memory_order_relaxed); }
+    // Whether that happened; motion stands still until abandon().
+    bool limit_hit() const noexcept { return limit_hit_.load(std::memory_order_acquire); }
+
+    const InputFilter& inputs() const noexcept { return inputs_; }
+    // Servo ticks since power-up: the only clock there is. Wraps.
+    std::uint32_t ticks() const noexcept { return ticks_.load(std::memory_order_acquire); }
+
+    // Servo tick.
+
+    void tick(std::uint16_t raw_inputs, PulseFrame& frame) noexcept;
+
+private:
+    void sample(std::uint16_t raw_inputs) noexcept;
+    void check_watch() noexcept;
+
+    planner::Planner planner_;
+    interpolator::Interpolator interpolator_{planner_};
+    pulse::PulseMaker pulses_;
+    InputFilter inputs_;
+
+    // Two frames are in flight and the pulses follow one tick behind: what the switches see now
+    // happened this many set points ago.
+    static constexpr std::size_t kPlayedBehind = 2;
+    std::array<Position, kPlayedBehind + 1> recent_{};  // the latest first
+    Position set_point_{};
+    Position contact_{};
+    Position first_contact_{};
+    std::uint16_t inverted_inputs_{0};
+    std::uint8_t filter_ticks_{0};
+    std::uint8_t contact_ticks_{0};
+    bool watch_off_{false};
+    bool watch_filtered_{false};
+    std::atomic<std::uint16_t> watched_{0};
+    std::atomic<bool> contacted_{false};
+    std::atomic<bool> guarding_{false};
+    std::atomic<bool> limit_hit_{false};
+    std::atomic<bool> gate_shut_{false};
+    std::atomic<std::uint32_t> ticks_{0};
+
+    // What is still to be travelled, roughly, mm: tells when to close the path.
+    float pushed_length_{0};
+    std::atomic<float> travelled_{0};
+    float least_acceleration_{1};
+    float path_filter_s_{0};
+    std::uint32_t last_push_tick_{0};
+    bool open_{false};
+};
+
+}  // namespace cusp::machine

@@ -1,0 +1,158 @@
+// The table of settings and what they must be, alone and together.
+#include "firmware/machine/settings.hpp"
+
+#include <cmath>
+
+namespace cusp::machine {
+namespace {
+
+constexpr float kMostAny = 1e7F;
+constexpr float kLeastPositive = 0.001F;
+constexpr float kLongestFilter = 0.250F;  // s: what the interpolator's filter holds
+constexpr float kSecondsPerMinute = 60.0F;
+
+constexpr std::array<SettingEntry, kSettingCount> kTable{{
+    {0, 0, 2, 1, 100},
+    {1, 0, 25, 0, 255},
+    {2, 0, 0, 0, 255},
+    {3, 0, 0, 0, 255},
+    {4, 0, 0, 0, 1},
+    {5, 0, 0, 0, 1},
+    {6, 0, 0, 0, 1},
+    {10, 0, 3, 0, 255},
+    {11, 3, 0.010F, 0, 10},
+    {12, 3, 0.002F, 0, 10},
+    {13, 0, 0, 0, 1},
+    {20, 0, 0, 0, 1},
+    {21, 0, 0, 0, 1},
+    {22, 0, 0, 0, 1},
+    {23, 0, 0, 0, 255},
+    {24, 3, 25, kLeastPositive, kMostAny},
+    {25, 3, 500, kLeastPositive, kMostAny},
+    {26, 0, 250, 0, 10000},
+    {27, 3, 1, kLeastPositive, 1000},
+    {30, 0, 24000, 0, kMostAny},
+    {31, 0, 0, 0, kMostAny},
+    {32, 0, 0, 0, 0},
+    {100, 3, 800, kLeastPositive, 10000},
+    {101, 3, 800, kLeastPositive, 10000},
+    {102, 3, 800, kLeastPositive, 10000},
+    {110, 3, 6000, kLeastPositive, 120000},
+    {111, 3, 6000, kLeastPositive, 120000},
+    {112, 3, 3000, kLeastPositive, 120000},
+    {120, 3, 1000, kLeastPositive, 100000},
+    {121, 3, 1000, kLeastPositive, 100000},
+    {122, 3, 500, kLeastPositive, 100000},
+    {130, 3, 300, kLeastPositive, 100000},
+    {131, 3, 200, kLeastPositive, 100000},
+    {132, 3, 80, kLeastPositive, 100000},
+    {29, 0, 5, 1, 100},
+    {790, 0, 3, 0, 100},
+    {791, 0, 0, 0, 600000},
+    {792, 0, 0, 0, 1},
+    {800, 3, 50000, kLeastPositive, kMostAny},
+    {801, 3, 50000, kLeastPositive, kMostAny},
+    {802, 3, 25000, kLeastPositive, kMostAny},
+}};
+
+std::optional<std::size_t> find_index(std::uint32_t number) noexcept
+{
+    for (std::size_t i = 0; i < kSettingCount; ++i) {
+        if (kTable[i].number == number) {
+            return i;
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+const SettingEntry& setting_entry(std::size_t index) noexcept { return kTable[index]; }
+
+Settings::Settings() noexcept
+{
+    for (std::size_t i = 0; i < kSettingCount; ++i) {
+        values_[i] = kTable[i].standard;
+    }
+}
+
+std::optional<Error> Settings::put(std::uint32_t number, float value) noexcept
+{
+    const std::optional<std::size_t> index = find_index(number);
+    if (!index) {
+        return Error::kInvalidStatement;
+    }
+    const SettingEntry& entry = kTable[*index];
+    if (value < 0) {
+        return Error::kNegativeValue;
+    }
+    const bool is_switch = entry.least == 0 && entry.most == 1;
+    const float whole = entry.decimals == 0 ? std::floor(value) : value;
+    const float cut = is_switch && whole > 1 ? 1.0F : whole;
+    if (cut < entry.least) {
+        return number == 0 ? Error::kSettingStepPulseMin : Error::kNegativeValue;
+    }
+    if (cut > entry.most) {
+        constexpr std::uint32_t kLaser = 32;
+        return number == kLaser ? Error::kSettingDisabledLaser : Error::kGcodeMaxValueExceeded;
+    }
+    values_[*index] = cut;
+    // As in Grbl: without homing there are no soft limits.
+    if (!on(Setting::kHoming) && number == kTable[index_of(Setting::kHoming)].number) {
+        values_[index_of(Setting::kSoftLimits)] = 0;
+    }
+    return std::nullopt;
+}
+
+std::optional<SettingFault> Settings::find_fault() const noexcept
+{
+    constexpr float kMicrosecondsPerSecond = 1e6F;
+    const float least_spacing = 2.0F * value(Setting::kStepPulse);
+    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+        const auto number = [axis](Setting setting) {
+            return kTable[index_of(setting, axis)].number;
+        };
+        const float rate = value(Setting::kMaxRate, axis) / kSecondsPerMinute *
+                           value(Setting::kStepsPerMillimetre, axis);
+        const float spacing = kMicrosecondsPerSecond / rate;
+        if (spacing < least_spacing) {
+            return SettingFault{Error::kMaxStepRateExceeded, number(Setting::kMaxRate),
+                                number(Setting::kStepsPerMillimetre), spacing, least_spacing};
+        }
+        const float filter = value(Setting::kAcceleration, axis) / value(Setting::kJerk, axis);
+        if (filter > kLongestFilter) {
+            return SettingFault{Error::kGcodeMaxValueExceeded, number(Setting::kAcceleration),
+                                number(Setting::kJerk), filter, kLongestFilter};
+        }
+    }
+    if (on(Setting::kSoftLimits) && !on(Setting::kHoming)) {
+        return SettingFault{Error::kSoftLimitError};
+    }
+    return std::nullopt;
+}
+
+MachineLimits Settings::limits() const noexcept
+{
+    MachineLimits limits;
+    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+        limits.velocity[axis] = value(Setting::kMaxRate, axis) / kSecondsPerMinute;
+        limits.acceleration[axis] = value(Setting::kAcceleration, axis);
+        limits.jerk[axis] = value(Setting::kJerk, axis);
+    }
+    return limits;
+}
+
+pulse::StepSettings Settings::steps() const noexcept
+{
+    pulse::StepSettings steps{};
+    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+        constexpr float kThousand = 1000.0F;
+        steps.millisteps_per_mm[axis] = static_cast<std::uint32_t>(
+            value(Setting::kStepsPerMillimetre, axis) * kThousand + 0.5F);
+    }
+    steps.pulse_us = static_cast<std::uint16_t>(value(Setting::kStepPulse));
+    steps.direction_setup_us = static_cast<std::uint16_t>(value(Setting::kDirectionSetup));
+    return steps;
+}
+
+}  // namespace cusp::machine

@@ -1,0 +1,121 @@
+// Settings: what a person sets once for a machine, by Grbl's numbers.
+//
+// A value is a float and a number in a table; `$$` lists them in the table's order. Numbers that
+// are not Grbl's ($29, $790 and up) stand after Grbl's own.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "firmware/base/axis.hpp"
+#include "firmware/base/error.hpp"
+#include "firmware/base/machine_limits.hpp"
+#include "firmware/pulse/pulse_maker.hpp"
+
+namespace cusp::machine {
+
+// Places in the table. Per-axis settings take three places, X first.
+enum class Setting : std::uint8_t {
+    kStepPulse,                          // $0 us; also the least low time
+    kIdleLock,                           // $1 ms; 255: drives stay on
+    kStepInvert,                         // $2 mask
+    kDirectionInvert,                    // $3 mask
+    kEnableInvert,                       // $4
+    kLimitInvert,                        // $5
+    kProbeInvert,                        // $6
+    kStatusReport,                       // $10 mask: 1 machine position, 2 buffer state
+    kPathTolerance,                      // $11 mm
+    kArcTolerance,                       // $12 mm; kept for senders, arcs are exact
+    kReportInches,                       // $13
+    kSoftLimits,                         // $20
+    kHardLimits,                         // $21
+    kHoming,                             // $22
+    kHomingDirection,                    // $23 mask: a set bit homes towards minus
+    kHomingFeed,                         // $24 mm/min
+    kHomingSeek,                         // $25 mm/min
+    kHomingDebounce,                     // $26 ms
+    kHomingPullOff,                      // $27 mm
+    kSpindleMaximum,                     // $30 rpm
+    kSpindleMinimum,                     // $31 rpm
+    kLaserMode,                          // $32
+    kStepsPerMillimetre,                 // $100
+    kMaxRate = kStepsPerMillimetre + 3,  // $110 mm/min
+    kAcceleration = kMaxRate + 3,        // $120 mm/s^2
+    kTravel = kAcceleration + 3,         // $130 mm
+    kDirectionSetup = kTravel + 3,       // $29 us
+    kLimitFilter,                        // $790 ms
+    kLinkWatchdog,                       // $791 ms; 0: off
+    kStopOnError,                        // $792
+    kJerk,                               // $800 mm/s^3
+    kCount = kJerk + 3,
+};
+
+inline constexpr std::size_t kSettingCount = static_cast<std::size_t>(Setting::kCount);
+
+constexpr std::size_t index_of(Setting setting, unsigned axis = 0) noexcept
+{
+    return static_cast<std::size_t>(setting) + axis;
+}
+
+struct SettingEntry {
+    std::uint16_t number;   // of the '$'
+    std::uint8_t decimals;  // 0 or 3, as it is printed; 0 also cuts what is set to a whole number
+    float standard;         // the default: a 3-axis mill
+    float least;
+    float most;
+};
+
+const SettingEntry& setting_entry(std::size_t index) noexcept;
+
+// Why a value is refused. Where the reason is two settings together, both stand here.
+struct SettingFault {
+    Error error;
+    std::uint16_t first{0};   // number of the setting at fault; 0: the reason is the value alone
+    std::uint16_t second{0};  // and the one that it can't go with
+    float amount{0};          // what they ask for together
+    float limit{0};           // the bound that this breaks
+};
+
+class Settings {
+public:
+    // The defaults.
+    Settings() noexcept;
+
+    float value(Setting setting, unsigned axis = 0) const noexcept
+    {
+        return values_[index_of(setting, axis)];
+    }
+    float value_at(std::size_t index) const noexcept { return values_[index]; }
+    bool on(Setting setting) const noexcept { return value(setting) != 0; }
+    std::uint32_t whole(Setting setting) const noexcept
+    {
+        return static_cast<std::uint32_t>(value(setting));
+    }
+
+    // Sets the setting of this number, alone: what it must be together with others is
+    // find_fault()'s.
+    //
+    // Errors:
+    //   kInvalidStatement     no setting has this number
+    //   kNegativeValue        the value is negative, or zero where it must not be
+    //   kSettingStepPulseMin  a step pulse shorter than 1 us
+    //   kSettingDisabledLaser laser mode
+    //   kGcodeMaxValueExceeded the value is above its range
+    std::optional<Error> put(std::uint32_t number, float value) noexcept;
+
+    // What keeps the settings from being used together, if anything:
+    //   kMaxStepRateExceeded   $110 x $100 needs steps closer than twice $0
+    //   kGcodeMaxValueExceeded $120 / $800 asks for a filter over 250 ms
+    //   kSoftLimitError        soft limits without homing
+    std::optional<SettingFault> find_fault() const noexcept;
+
+    MachineLimits limits() const noexcept;
+    pulse::StepSettings steps() const noexcept;
+
+private:
+    std::array<float, kSettingCount> values_{};
+};
+
+}  // namespace cusp::machine

@@ -1,0 +1,70 @@
+// ControllerBench: the whole firmware on the simulated board, driven byte by byte and tick by tick.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "firmware/app/app.hpp"
+#include "hal/sim/simulated_board.hpp"
+
+namespace cusp {
+
+class ControllerBench {
+public:
+    explicit ControllerBench(const hal::MillGeometry& geometry = {},
+                             const machine::Settings& factory = {})
+        : board{geometry}, app{board, factory}
+    {
+    }
+
+    // Main loop until it has nothing to do, then one servo tick; so many times.
+    void run(unsigned ticks)
+    {
+        poll();
+        for (unsigned i = 0; i < ticks; ++i) {
+            app.tick();
+            board.advance();
+            poll();
+        }
+    }
+
+    // Sends and lets the time pass that a person needs to read; returns what the controller said.
+    std::string exchange(std::string_view bytes, unsigned ticks = 20)
+    {
+        board.byte_link.send(bytes);
+        run(ticks);
+        return board.byte_link.take_answers();
+    }
+
+    // Runs until nothing moves and no line waits, at most so many ticks; returns what was said.
+    std::string finish(unsigned most_ticks = 200000)
+    {
+        unsigned ticks = 0;
+        do {
+            run(1);
+            ++ticks;
+        } while (ticks < most_ticks && !(app.machine().idle() && board.byte_link.unread() == 0));
+        return board.byte_link.take_answers();
+    }
+
+    // Machine position, mm.
+    Vec3d position() const { return to_millimetres(app.machine().motion().position()); }
+
+    hal::SimulatedBoard board;
+    app::App<hal::SimulatedBoard> app;
+
+private:
+    void poll()
+    {
+        // The bound turns a slice that never ends into a failure instead of a hang.
+        constexpr unsigned kMostSlices = 1000000;
+        for (unsigned i = 0; i < kMostSlices; ++i) {
+            if (!app.poll()) {
+                return;
+            }
+        }
+        CUSP_ASSERT(false);
+    }
+};
+
+}  // namespace cusp
