@@ -22,6 +22,7 @@ void* memmove(void* to, const void* from, std::size_t size);
 void* memset(void* to, int value, std::size_t size);
 int memcmp(const void* left, const void* right, std::size_t size);
 std::size_t strlen(const char* text);
+const void* memchr(const void* from, int value, std::size_t size);
 
 void* memcpy(void* to, const void* from, std::size_t size)
 {
@@ -97,5 +98,16 @@ std::size_t strlen(const char* text)
         ++size;
     }
     return size;
+}
+
+const void* memchr(const void* from, int value, std::size_t size)
+{
+    const auto* bytes = static_cast<const Byte*>(from);
+    for (std::size_t i = 0; i < size; ++i) {
+        if (bytes[i] == static_cast<Byte>(value)) {
+            return bytes + i;
+        }
+    }
+    return nullptr;
 }
 }

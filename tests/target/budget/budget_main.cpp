@@ -1,6 +1,7 @@
 // Counts the instructions of the firmware's hot paths on the target's core, under QEMU. The counts
 // are held by tests/target/budgets.txt.
 #include "firmware/base/math.hpp"
+#include "firmware/gcode/interpreter.hpp"
 #include "firmware/interpolator/interpolator.hpp"
 #include "firmware/planner/planner.hpp"
 #include "firmware/pulse/pulse_maker.hpp"
@@ -21,6 +22,7 @@ using test::InstructionMeter;
 planner::Planner plan{MachineLimits{}};
 interpolator::Interpolator interpolator{plan};
 pulse::PulseMaker pulse_maker{pulse::StepSettings{}};
+gcode::Interpreter lines;
 PulseFrame frame;
 hal::qemu::HostFile out;
 
@@ -163,6 +165,31 @@ void count_look_ahead()
     meter.report(out);
 }
 
+// One line of a program, from its characters to its move.
+void count_line(std::string_view name, std::string_view first, std::string_view second)
+{
+    InstructionMeter meter{name};
+    lines.reset();
+    lines.set_position({});
+    for (unsigned line = 0; line < 100; ++line) {
+        gcode::Action action;
+        meter.begin();
+        const Status status = lines.execute(line % 2 == 0 ? first : second, line);
+        const bool acts = lines.next(action);
+        meter.end();
+        CUSP_ASSERT(status && acts);
+        while (lines.next(action)) {
+        }
+    }
+    meter.report(out);
+}
+
+void count_parsing()
+{
+    count_line("parse_g1", "G1 X12.345 Y-6.789 Z0.25 F1200", "X-3.2 Y14.006 Z0.1");
+    count_line("parse_g2", "G2 X10 Y0 I5 J0 Z-1 F1200", "G3 X0 Y0 I-5 J0 Z0");
+}
+
 }  // namespace
 
 void cusp_main()
@@ -174,6 +201,7 @@ void cusp_main()
     count_pulses("frame_at_50k", "player_at_50k", 62500);
     count_pulses("frame_at_250k", "player_at_250k", 312500);
     count_look_ahead();
+    count_parsing();
     hal::qemu::exit_qemu(0);
 }
 

@@ -125,4 +125,16 @@ private:
 #define MEMCMP_EQUAL(expected, actual, size)               \
     CUSP_CHECK_(std::memcmp(expected, actual, size) == 0,  \
                 "MEMCMP_EQUAL(" #expected ", " #actual ", " #size ")")
+#define CHECK_TRUE_TEXT(condition, text) CUSP_CHECK_(static_cast<bool>(condition), text)
+#define CHECK_FALSE_TEXT(condition, text) CUSP_CHECK_(!static_cast<bool>(condition), text)
+#define CHECK_EQUAL_TEXT(expected, actual, text) CUSP_CHECK_((expected) == (actual), text)
+#define LONGS_EQUAL_TEXT(expected, actual, text) \
+    CUSP_CHECK_(static_cast<long>(expected) == static_cast<long>(actual), text)
+#define UNSIGNED_LONGS_EQUAL_TEXT(expected, actual, text) LONGS_EQUAL_TEXT(expected, actual, text)
+#define STRCMP_EQUAL_TEXT(expected, actual, text) \
+    CUSP_CHECK_(std::strcmp(expected, actual) == 0, text)
+#define DOUBLES_EQUAL_TEXT(expected, actual, allowed, text)                               \
+    CUSP_CHECK_(std::fabs(static_cast<double>(expected) - static_cast<double>(actual)) <= \
+                    static_cast<double>(allowed),                                         \
+                text)
 #define FAIL(text) CUSP_CHECK_(false, text)
