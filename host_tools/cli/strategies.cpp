@@ -4,6 +4,7 @@
 #include <array>
 
 #include "host_tools/contour_pocket/contour_pocket.hpp"
+#include "host_tools/grid_pocket/grid_pocket.hpp"
 #include "host_tools/hull_rough/hull_rough.hpp"
 
 namespace cusp::host {
@@ -16,6 +17,7 @@ struct Strategy {
 
 constexpr std::array kStrategies{
     Strategy{"contour_pocket", plan_contour_pocket},
+    Strategy{"grid_pocket", plan_grid_pocket},
     Strategy{"hull_rough", plan_hull_rough},
 };
 

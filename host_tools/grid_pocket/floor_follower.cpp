@@ -1,0 +1,259 @@
+// Bands stand over exact heights with a margin for what lies between them; proofs catch the rest.
+#include "host_tools/grid_pocket/floor_follower.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/base/math.hpp"
+
+namespace cusp::host {
+namespace {
+
+// A move is proven clear when the bound on its clearance is above this.
+constexpr double kProven = -1e-6;
+
+// Moves shorter than this are lifted rather than divided.
+constexpr double kShortest = 0.02;
+
+// How far arcs may be from the chords that stand for them in proofs, over their tolerance.
+constexpr double kArcSagitta = 0.025;
+
+// Below this a height is a rounding of the G-code.
+constexpr double kRounding = 2e-4;
+
+Tool grown_tool(Tool tool, double by)
+{
+    tool.radius += by;
+    tool.corner_radius += by;
+    tool.shape = tool.shape == ToolShape::kFlat && by > 0 ? ToolShape::kBull : tool.shape;
+    return tool;
+}
+
+Vec2d plan(Vec3d p) { return {p.x, p.y}; }
+
+}  // namespace
+
+void TipMoves::line(MoveKind kind, Vec3d end)
+{
+    if (!started_ || end != at_) {
+        path_.moves.push_back({kind, LineTo{end}});
+        at_ = end;
+        started_ = true;
+    }
+}
+
+void TipMoves::arc(MoveKind kind, const ArcTo& arc)
+{
+    path_.moves.push_back({kind, arc});
+    at_ = arc.end;
+}
+
+FloorFollower::FloorFollower(const SurfaceModel& model,
+                             const Tool& tool,
+                             double allowance,
+                             FollowSettings settings)
+    : model_{model}, tool_{grown_tool(tool, allowance)}, allowance_{allowance}, settings_{settings}
+{
+}
+
+std::optional<double> FloorFollower::height(Vec2d at) const
+{
+    // A tool grown all round by the allowance stands with its end that much lower.
+    const auto low = model_.drop(tool_, at.x, at.y);
+    return low ? std::optional<double>{*low + allowance_} : std::nullopt;
+}
+
+double FloorFollower::start_height(Vec2d at) const
+{
+    const double exact = height(at).value_or(model_.box_low().z);
+    return settings_.both_sides ? exact : exact + settings_.tolerance / 2;
+}
+
+double FloorFollower::clearance(Vec3d a, Vec3d b, double enough) const
+{
+    const Vec3d down{0, 0, -allowance_};
+    return model_.clearance_along(tool_, a + down, b + down, enough, 1e-6);
+}
+
+std::vector<BandPoint> FloorFollower::band(Vec2d a, Vec2d b, double tolerance) const
+{
+    const double length = norm(b - a);
+    const int count = std::max(1, static_cast<int>(std::ceil(length / settings_.sample - 1e-9)));
+    const double step = length / count;
+    std::vector<double> heights;
+    for (int i = 0; i <= count; ++i) {
+        heights.push_back(
+            height(a + (b - a) * (static_cast<double>(i) / count)).value_or(model_.box_low().z));
+    }
+    std::vector<BandPoint> out;
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+        const double z = heights[i];
+        if (settings_.both_sides) {
+            out.push_back({static_cast<double>(i) * step, z - tolerance, z + tolerance});
+            continue;
+        }
+        // The exact height is an upper envelope of arcs of the tool's corner: between two places it
+        // rises above their chord by no more than such an arc does.
+        const double before = i > 0 ? std::abs(z - heights[i - 1]) / step : 0.0;
+        const double after = i + 1 < heights.size() ? std::abs(heights[i + 1] - z) / step : 0.0;
+        const double slope = std::max(before, after);
+        const double bend = std::pow(1 + slope * slope, 1.5) / std::max(tool_.corner_radius, 0.1);
+        const double margin = std::min(step * step / 8 * bend + kRounding, tolerance / 3);
+        out.push_back({static_cast<double>(i) * step, z + margin, z + tolerance});
+    }
+    return out;
+}
+
+void FloorFollower::chord(TipMoves& moves, Vec3d end, MoveKind kind, int depth)
+{
+    const Vec3d from = moves.at();
+    if (settings_.both_sides) {
+        const double bound = -clearance(from, end, -kProven);
+        gouge_bound_ = std::max(gouge_bound_, bound);
+        moves.line(kind, end);
+        return;
+    }
+    const double kept = clearance(from, end, 0);
+    if (kept >= kProven) {
+        moves.line(kind, end);
+        return;
+    }
+    constexpr int kDeepest = 12;
+    if (depth < kDeepest && norm(end - from) > kShortest) {
+        Vec3d middle = (from + end) * 0.5;
+        const double exact = height(plan(middle)).value_or(middle.z);
+        middle.z = std::max(middle.z, exact + kRounding);
+        chord(moves, middle, kind, depth + 1);
+        chord(moves, end, kind, depth + 1);
+        return;
+    }
+    // Lifting along the axis by the lack over the cosine of the steepest slope met in practice.
+    const Vec3d lift{0, 0, -kept * 4};
+    moves.line(kind, from + lift);
+    moves.line(kind, end + lift);
+    gouge_bound_ = std::max(gouge_bound_, -clearance(from + lift, end + lift, 0));
+}
+
+void FloorFollower::follow_segment(TipMoves& moves, Vec2d a, Vec2d b, MoveKind kind)
+{
+    std::vector<BandPoint> places = band(a, b, settings_.tolerance);
+    const double z = moves.at().z;
+    places.front().low = std::min(places.front().low, z);
+    places.front().high = std::max(places.front().high, z);
+    const double length = norm(b - a);
+    const std::vector<ProfilePoint> points = fit_chords(places, z);
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const Vec2d at = a + (b - a) * (points[i].s / length);
+        chord(moves, {at.x, at.y, points[i].z}, kind, 0);
+    }
+}
+
+void FloorFollower::follow(TipMoves& moves, const std::vector<Vec2d>& corners, MoveKind kind)
+{
+    for (std::size_t i = 1; i < corners.size(); ++i) {
+        const Vec2d a = corners[i - 1];
+        const Vec2d b = corners[i];
+        if (norm(b - a) < 1e-9) {
+            continue;
+        }
+        if (!settings_.arcs || !follow_with_arcs(moves, a, b, kind)) {
+            follow_segment(moves, a, b, kind);
+        }
+    }
+}
+
+bool FloorFollower::arc_is_clear(Vec3d from, const ArcTo& arc, double curvature) const
+{
+    // Chords of the arc, moved by the sagitta to the side that the arc bulges to when that is down.
+    const double radius = 1 / std::abs(curvature);
+    const double chord = norm(arc.end - from);
+    const double angle = 2 * std::asin(std::min(1.0, chord / 2 / radius));
+    const int pieces = std::max(
+        1, static_cast<int>(
+               std::ceil(angle / std::sqrt(8 * kArcSagitta * settings_.arc_tolerance / radius))));
+    const double sagitta = radius * (1 - std::cos(angle / pieces / 2));
+    const double needed = curvature > 0 ? sagitta : 0;
+    Vec3d spoke = from - arc.centre;
+    const bool along_x = arc.plane == ArcPlane::kZX;
+    double& across = along_x ? spoke.y : spoke.x;
+    across = 0;
+    const double start = std::atan2(spoke.z, along_x ? spoke.x : spoke.y);
+    const Vec3d end_spoke = arc.end - arc.centre;
+    double sweep = std::atan2(end_spoke.z, along_x ? end_spoke.x : end_spoke.y) - start;
+    sweep += sweep > kPi ? -2 * kPi : sweep < -kPi ? 2 * kPi : 0;
+    Vec3d before = from;
+    for (int i = 1; i <= pieces; ++i) {
+        const double a = start + sweep * i / pieces;
+        Vec3d p = arc.end;
+        if (i < pieces) {
+            (along_x ? p.x : p.y) = (along_x ? arc.centre.x : arc.centre.y) + radius * std::cos(a);
+            p.z = arc.centre.z + radius * std::sin(a);
+        }
+        if (clearance(before, p, needed) < needed + kProven) {
+            return false;
+        }
+        before = p;
+    }
+    return true;
+}
+
+bool FloorFollower::follow_with_arcs(TipMoves& moves, Vec2d a, Vec2d b, MoveKind kind)
+{
+    const bool along_x = std::abs(a.y - b.y) < 1e-9;
+    if (!along_x && std::abs(a.x - b.x) >= 1e-9) {
+        return false;
+    }
+    const double forth = along_x ? (b.x > a.x ? 1.0 : -1.0) : (b.y > a.y ? 1.0 : -1.0);
+    std::vector<BandPoint> places = band(a, b, settings_.arc_tolerance);
+    for (BandPoint& place : places) {
+        place.low += settings_.both_sides ? 0 : kArcSagitta * settings_.arc_tolerance;
+    }
+    places.front().low = std::min(places.front().low, moves.at().z);
+    places.front().high = std::max(places.front().high, moves.at().z);
+    const auto in_space = [&](ProfilePoint p) {
+        return along_x ? Vec3d{a.x + forth * p.s, a.y, p.z} : Vec3d{a.x, a.y + forth * p.s, p.z};
+    };
+    for (const ProfilePiece& piece : fit_arcs(places, moves.at().z, settings_.max_arc_radius)) {
+        const Vec3d end = in_space(piece.end);
+        if (piece.curvature == 0) {
+            chord(moves, end, kind, 0);
+            continue;
+        }
+        // Seen with the axis to the right and up up, a right turn; G18 looks from the other side.
+        const bool right_turn = (piece.curvature < 0) == (forth > 0);
+        const ArcTo arc{end, in_space(piece.centre), along_x ? ArcPlane::kZX : ArcPlane::kYZ,
+                        along_x ? !right_turn : right_turn};
+        if (settings_.both_sides || arc_is_clear(moves.at(), arc, piece.curvature)) {
+            moves.arc(kind, arc);
+        } else {
+            follow_segment(moves, plan(moves.at()), plan(end), kind);
+        }
+    }
+    return true;
+}
+
+std::vector<Vec3d> FloorFollower::chords(const std::vector<Vec2d>& corners, double length) const
+{
+    std::vector<Vec3d> out{{corners[0].x, corners[0].y, start_height(corners[0])}};
+    for (std::size_t i = 1; i < corners.size() && length > 0; ++i) {
+        const Vec2d a = corners[i - 1];
+        const double whole = norm(corners[i] - a);
+        if (whole < 1e-9) {
+            continue;
+        }
+        const Vec2d b = a + (corners[i] - a) * std::min(1.0, length / whole);
+        std::vector<BandPoint> places = band(a, b, settings_.tolerance);
+        places.front().low = std::min(places.front().low, out.back().z);
+        places.front().high = std::max(places.front().high, out.back().z);
+        const double step = norm(b - a);
+        const std::vector<ProfilePoint> points = fit_chords(places, out.back().z);
+        for (std::size_t k = 1; k < points.size(); ++k) {
+            const Vec2d at = a + (b - a) * (points[k].s / step);
+            out.push_back({at.x, at.y, points[k].z});
+        }
+        length -= whole;
+    }
+    return out;
+}
+
+}  // namespace cusp::host

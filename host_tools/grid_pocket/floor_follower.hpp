@@ -1,0 +1,79 @@
+// Moves of the tip over the floor: heights by exact drop, few moves, each proven not to cut in.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "host_tools/grid_pocket/profile_fit.hpp"
+#include "host_tools/import/job.hpp"
+#include "host_tools/surface_offset/surface_model.hpp"
+
+namespace cusp::host {
+
+struct FollowSettings {
+    double tolerance{};       // mm, > 0: height of the band over the exact tip height
+    bool both_sides{};        // the band reaches as far below it: the paper's rule
+    bool arcs{};              // G18 and G19 arcs on runs along an axis
+    double arc_tolerance{};   // mm, > 0: the band's height where arcs are fitted
+    double max_arc_radius{};  // mm: flatter arcs become lines
+    double sample{};          // mm, > 0: between looked-at places
+};
+
+// Where the tip stands and the moves that brought it there.
+class TipMoves {
+public:
+    explicit TipMoves(Toolpath& path) : path_{path} {}
+
+    void line(MoveKind kind, Vec3d end);
+    void arc(MoveKind kind, const ArcTo& arc);
+    Vec3d at() const { return at_; }
+    bool started() const { return started_; }
+
+private:
+    Toolpath& path_;
+    Vec3d at_{};
+    bool started_{false};
+};
+
+class FloorFollower {
+public:
+    // The model outlives this. Heights leave `allowance` mm, square to the surface, all over it.
+    FloorFollower(const SurfaceModel& model,
+                  const Tool& tool,
+                  double allowance,
+                  FollowSettings settings);
+
+    // Exact height of the tip over (x, y); none where no surface lies under the tool.
+    std::optional<double> height(Vec2d at) const;
+
+    // Height at which moves pass the point: the exact one, or the middle of the band.
+    double start_height(Vec2d at) const;
+
+    // Cuts along the corners, straight in plan between them, from where the tip stands at the
+    // first.
+    void follow(TipMoves& moves, const std::vector<Vec2d>& corners, MoveKind kind);
+
+    // The same as chords from `start`, along at most `length` mm.
+    std::vector<Vec3d> chords(const std::vector<Vec2d>& corners, double length) const;
+
+    // Lower bound of the distance that a straight move keeps from the floor, cut off at `enough`.
+    double clearance(Vec3d a, Vec3d b, double enough) const;
+
+    // Largest depth that any move so far may cut into the floor; 0 where all are proven clear.
+    double gouge_bound() const { return gouge_bound_; }
+
+private:
+    const SurfaceModel& model_;
+    Tool tool_;  // grown by the allowance
+    double allowance_;
+    FollowSettings settings_;
+    double gouge_bound_{0};
+
+    std::vector<BandPoint> band(Vec2d a, Vec2d b, double tolerance) const;
+    void follow_segment(TipMoves& moves, Vec2d a, Vec2d b, MoveKind kind);
+    bool arc_is_clear(Vec3d from, const ArcTo& arc, double curvature) const;
+    bool follow_with_arcs(TipMoves& moves, Vec2d a, Vec2d b, MoveKind kind);
+    void chord(TipMoves& moves, Vec3d end, MoveKind kind, int depth);
+};
+
+}  // namespace cusp::host

@@ -1,0 +1,45 @@
+// Ways in and out of the pocket: lifts, and ramps along the run that follows.
+#pragma once
+
+#include <vector>
+
+#include "host_tools/grid_pocket/floor_follower.hpp"
+
+namespace cusp::host {
+
+// Rapids happen at the clearance height or straight down to 1 mm above metal.
+class PocketMoves {
+public:
+    PocketMoves(Toolpath& path, double clearance_z, EntryKind entry, double radius)
+        : tip_{path}, clearance_z_{clearance_z}, entry_{entry}, radius_{radius}
+    {
+    }
+
+    // To the start of a run over the floor, at its height there; `metal` is the z below which metal
+    // may stand. The ramp goes out and back along the run, higher than the run all the way.
+    void enter(const FloorFollower& floor, const std::vector<Vec2d>& corners, double metal);
+
+    // The same for a run in a level; `way` is its beginning.
+    void enter_level(const std::vector<Vec3d>& way, double metal);
+
+    void retract();
+
+    TipMoves& tip() { return tip_; }
+    Vec3d tip_at() const { return tip_.at(); }
+    bool lifted() const { return tip_.at().z >= clearance_z_; }
+    int retracts() const { return retracts_; }
+    int plunges() const { return plunges_; }
+    double ramp_length() const { return 4 * radius_; }
+
+private:
+    TipMoves tip_;
+    double clearance_z_;
+    EntryKind entry_;
+    double radius_;
+    int retracts_{0};
+    int plunges_{0};
+
+    void ramp(const std::vector<Vec3d>& way, double from);
+};
+
+}  // namespace cusp::host
