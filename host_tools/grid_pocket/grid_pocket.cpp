@@ -11,9 +11,9 @@
 
 #include "host_tools/grid_pocket/floor_follower.hpp"
 #include "host_tools/grid_pocket/grid_input.hpp"
+#include "host_tools/grid_pocket/grid_moves.hpp"
 #include "host_tools/grid_pocket/grid_navigation.hpp"
 #include "host_tools/grid_pocket/grid_roughness.hpp"
-#include "host_tools/grid_pocket/pocket_moves.hpp"
 
 namespace cusp::host {
 namespace {
@@ -341,7 +341,7 @@ public:
 private:
     Pocket& pocket_;
     Toolpath& path_;
-    PocketMoves moves_;
+    GridMoves moves_;
     std::vector<float> metal_;  // top of what stands over each cell
     double last_plane_{1e300};
     std::size_t main_moves_{0};

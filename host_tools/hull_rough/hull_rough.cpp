@@ -190,7 +190,7 @@ void clear_layers(Roughing& work)
         offers.emplace_back();
         work.clearings.emplace_back();
         for (const Tool& tool : work.tools) {
-            ClearingSettings settings;
+            LayerSettings settings;
             const double overlap = std::max(operation.overlap, 2 * tool.radius * kLeastOverlap);
             settings.step = std::max(cleared_width(tool, thickness) - overlap, tool.radius / 50);
             settings.tolerance = std::max(operation.plan_tolerance, kLeastTolerance);

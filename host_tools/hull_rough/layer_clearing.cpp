@@ -191,7 +191,7 @@ double area_of(const Region2d& region)
 // Loops parallel to the outlines, farthest from them first, so that each has cut metal beside it.
 std::vector<LevelRun> parallel_runs(const RegionOffset& source,
                                     double first,
-                                    const ClearingSettings& settings)
+                                    const LayerSettings& settings)
 {
     std::vector<std::vector<LevelRun>> levels;
     for (int i = 0;; ++i) {
@@ -216,7 +216,7 @@ std::vector<LevelRun> parallel_runs(const RegionOffset& source,
 
 std::vector<LevelRun> zigzag_runs(const ClearZone& zone,
                                   const Rectangle& stock,
-                                  const ClearingSettings& settings)
+                                  const LayerSettings& settings)
 {
     ZigzagLayout layout = zigzag_layout(stock.y_min, stock.y_max, settings.step);
     layout.one_way = settings.one_way;
@@ -235,7 +235,7 @@ std::vector<LevelRun> zigzag_runs(const ClearZone& zone,
 LayerClearing clear_layer(const std::vector<Rectangle>& boxes,
                           const Rectangle& stock,
                           double radius,
-                          const ClearingSettings& settings)
+                          const LayerSettings& settings)
 {
     // Chuang & Pan, section 5: the periphery is the stock expanded by 2.1 radii, so that islands at
     // its edge do not meet it and the cutter turns outside.

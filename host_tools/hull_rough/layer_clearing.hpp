@@ -10,7 +10,7 @@
 
 namespace cusp::host {
 
-struct ClearingSettings {
+struct LayerSettings {
     double step{};       // mm between lines, > 0, at most what the cutter clears
     double tolerance{};  // mm, > 0: what chords on rounded corners may take from the distance kept
     double side_allowance{};
@@ -34,7 +34,7 @@ struct LayerClearing {
 LayerClearing clear_layer(const std::vector<Rectangle>& boxes,
                           const Rectangle& stock,
                           double radius,
-                          const ClearingSettings& settings);
+                          const LayerSettings& settings);
 
 // The parts of the runs where a cutter of the smaller `radius` takes metal that one of
 // `large_radius` left when it cleared `large`.

@@ -8,9 +8,9 @@
 namespace cusp::host {
 
 // Rapids happen at the clearance height or straight down to 1 mm above metal.
-class PocketMoves {
+class GridMoves {
 public:
-    PocketMoves(Toolpath& path, double clearance_z, EntryKind entry, double radius)
+    GridMoves(Toolpath& path, double clearance_z, EntryKind entry, double radius)
         : tip_{path}, clearance_z_{clearance_z}, entry_{entry}, radius_{radius}
     {
     }

@@ -1,5 +1,5 @@
 // A ramp is the run itself, lifted by an amount that falls with the way gone.
-#include "host_tools/grid_pocket/pocket_moves.hpp"
+#include "host_tools/grid_pocket/grid_moves.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ double plan_length(const std::vector<Vec3d>& way)
 
 }  // namespace
 
-void PocketMoves::retract()
+void GridMoves::retract()
 {
     if (tip_.started() && !lifted()) {
         const Vec3d at = tip_.at();
@@ -31,12 +31,12 @@ void PocketMoves::retract()
     }
 }
 
-void PocketMoves::enter(const FloorFollower& floor, const std::vector<Vec2d>& corners, double metal)
+void GridMoves::enter(const FloorFollower& floor, const std::vector<Vec2d>& corners, double metal)
 {
     enter_level(floor.chords(corners, ramp_length()), metal);
 }
 
-void PocketMoves::enter_level(const std::vector<Vec3d>& way, double metal)
+void GridMoves::enter_level(const std::vector<Vec3d>& way, double metal)
 {
     const Vec3d start = way.front();
     retract();
@@ -55,7 +55,7 @@ void PocketMoves::enter_level(const std::vector<Vec3d>& way, double metal)
     tip_.line(MoveKind::kPlunge, start);
 }
 
-void PocketMoves::ramp(const std::vector<Vec3d>& way, double from)
+void GridMoves::ramp(const std::vector<Vec3d>& way, double from)
 {
     const double depth = from - way.front().z;
     const double length = plan_length(way);
