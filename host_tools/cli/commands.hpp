@@ -22,5 +22,6 @@ using Work = std::function<int()>;
 using AddCommand = void (*)(CLI::App& app, Work& work);
 
 void add_plan_command(CLI::App& app, Work& work);
+void add_verify_command(CLI::App& app, Work& work);
 
 }  // namespace cusp::host

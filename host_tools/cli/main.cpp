@@ -31,6 +31,7 @@ const std::vector<AddCommand>& commands()
 {
     static const std::vector<AddCommand> all{
         add_plan_command,
+        add_verify_command,
     };
     return all;
 }

@@ -18,7 +18,7 @@ constexpr double kDefaultTolerance = 0.02;  // mm
 constexpr double kDefaultClearance = 5.0;   // mm
 constexpr double kDefaultLargestArcRadius = 1000.0;
 // Tool numbers as controllers take them.
-constexpr Range kToolNumber{1, 9999};
+constexpr Range kToolNumber{1, 255};
 
 const std::vector<std::string> kStrategies{"contour_pocket",     "adaptive_isocurve",
                                            "grid_pocket",        "hull_rough",

@@ -1,0 +1,167 @@
+// cusp verify: cuts a program in memory and judges what stands.
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <unistd.h>
+
+#include "host_tools/cli/commands.hpp"
+#include "host_tools/import/job.hpp"
+#include "host_tools/verify/verify.hpp"
+
+#include "CLI/CLI.hpp"
+#include "fmt/format.h"
+#include "nlohmann/json.hpp"
+
+namespace cusp::host {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct VerifyOptions {
+    std::string job;
+    std::string program;
+    std::string stats;
+    double pitch{};
+    double spacing{};
+};
+
+// A bar on a terminal; four plain lines elsewhere.
+class CuttingProgress {
+public:
+    void operator()(double share)
+    {
+        constexpr int kWidth = 40;
+        const int steps = is_terminal_ ? kWidth : 4;
+        const int now = static_cast<int>(share * steps);
+        if (now == shown_) {
+            return;
+        }
+        shown_ = now;
+        if (is_terminal_) {
+            fmt::print(stderr, "\rcutting [{:<{}}] {:3.0f} %{}",
+                       std::string(static_cast<std::size_t>(now), '='), kWidth, 100 * share,
+                       now == kWidth ? "\n" : "");
+        } else {
+            fmt::print(stderr, "cutting {:.0f} %\n", 100 * share);
+        }
+        std::fflush(stderr);
+    }
+
+private:
+    bool is_terminal_{isatty(STDERR_FILENO) != 0};
+    int shown_{0};
+};
+
+double rounded(double value)
+{
+    constexpr double kMicro = 1e6;
+    return std::round(value * kMicro) / kMicro;
+}
+
+Json stats_of(const Verification& result)
+{
+    const VerifyFigures& f = result.figures;
+    Json out{{"moves",
+              {{"rapid", f.moves.rapids},
+               {"line", f.moves.lines},
+               {"arc", f.moves.arcs},
+               {"nurbs", f.moves.nurbs}}},
+             {"cut_length_mm", rounded(f.cut_length)},
+             {"rapid_length_mm", rounded(f.rapid_length)},
+             {"tool_positions", f.tool_positions},
+             {"rapid_cut_max_mm", rounded(f.rapid_cut_max)},
+             {"cut_depth_max_mm", rounded(f.cut_depth_max)},
+             {"gouge_max_mm", rounded(f.gouge_max)}};
+    const auto optional = [&](const char* name, std::optional<double> value) {
+        if (value && std::isfinite(*value)) {
+            out[name] = rounded(*value);
+        }
+    };
+    optional("ball_gouge_max_mm", f.ball_gouge_max);
+    optional("wall_gouge_max_mm", f.wall_gouge_max);
+    optional("wall_left_max_mm", f.wall_left_max);
+    out["cells"] = f.cells;
+    out["unreachable_share"] = rounded(f.unreachable_share);
+    out["uncut_share"] = rounded(f.uncut_share);
+    out["scallop_max_mm"] = rounded(f.scallop_max);
+    out["scallop_p99_mm"] = rounded(f.scallop_p99);
+    out["scallop_mean_mm"] = rounded(f.scallop_mean);
+    out["left_volume_mm3"] = rounded(f.left_volume);
+    if (f.scallop_bound) {
+        out["scallop_bound_mm"] = *f.scallop_bound;
+        out["uncovered_share"] = rounded(f.uncovered_share);
+    }
+    out["broken"] = result.broken;
+    return out;
+}
+
+void write_stats(const std::string& file, const Json& stats)
+{
+    std::ofstream out(file);
+    out << stats.dump(1) << '\n';
+    out.close();
+    if (!out) {
+        throw InputError(file + ": can't be written");
+    }
+}
+
+int run_verify(const VerifyOptions& options)
+{
+    const Job job = read_job(options.job);
+    VerifySettings settings;
+    if (options.pitch > 0) {
+        settings.pitch = options.pitch;
+    }
+    if (options.spacing > 0) {
+        settings.spacing = options.spacing;
+    }
+    const Verification result = verify(job, options.program, settings, CuttingProgress{});
+    const Json stats = stats_of(result);
+    for (const auto& [name, value] : stats.items()) {
+        if (name != "broken") {
+            fmt::print("{}: {}\n", name, value.dump());
+        }
+    }
+    if (!options.stats.empty()) {
+        write_stats(options.stats, stats);
+    }
+    for (const std::string& broken : result.broken) {
+        fmt::print("broken: {}\n", broken);
+    }
+    if (result.broken.empty()) {
+        fmt::print("all bounds hold\n");
+    }
+    return result.broken.empty() ? kDone : kFoundWrong;
+}
+
+}  // namespace
+
+void add_verify_command(CLI::App& app, Work& work)
+{
+    auto* command = app.add_subcommand(
+        "verify", "cut a program's stock in memory; report gouge, scallop and what is left");
+    command->footer(
+        "Gouge and scallop are measured square to the surface, in mm, whatever the job's units.\n"
+        "Exit status 1 where a bound of the job does not hold: floor_tolerance (gouge),\n"
+        "plan_tolerance (walls), scallop (on 99 % of what the tools reach), or where a rapid move\n"
+        "cuts metal.");
+    auto options = std::make_shared<VerifyOptions>();
+    command->add_option("JOB", options->job, "job file (TOML)")->required();
+    command->add_option("PROGRAM", options->program, "G-code")->required();
+    command->add_option("--stats", options->stats, "figures to write (JSON)");
+    command
+        ->add_option("--grid", options->pitch,
+                     "mm between the heights looked at (default 0.173 or finer)")
+        ->check(CLI::PositiveNumber);
+    command
+        ->add_option("--step", options->spacing, "mm between tool positions (default 0.1 or finer)")
+        ->check(CLI::PositiveNumber);
+    command->callback([&work, options] {
+        work = [options] {
+            return run_verify(*options);
+        };
+    });
+}
+
+}  // namespace cusp::host

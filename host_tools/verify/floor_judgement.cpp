@@ -1,0 +1,230 @@
+// The definitions are those of an ideal tool: what it can't reach is not its fault.
+#include "host_tools/verify/floor_judgement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host_tools/verify/bands.hpp"
+#include "host_tools/verify/reachable.hpp"
+
+namespace cusp::host {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+double least_radius(const std::vector<Tool>& tools)
+{
+    double least = kFar;
+    for (const Tool& tool : tools) {
+        least = std::min(least, tool.radius);
+    }
+    return least;
+}
+
+double clearance(const std::vector<WallDistance>& walls, double x, double y)
+{
+    double least = kFar;
+    for (const WallDistance& wall : walls) {
+        least = std::min(least, wall.at(x, y));
+    }
+    return least;
+}
+
+// The grid grown by `n` points on every side, without shifts.
+HeightGrid grown(const HeightGrid& grid, std::size_t n)
+{
+    const double by = static_cast<double>(n) * grid.pitch;
+    return {grid.x0 - by, grid.y0 - by, grid.pitch, grid.nx + 2 * n, grid.ny + 2 * n, false};
+}
+
+// What the tools leave at best, over `level` (the grid without shifts).
+std::vector<double> best_heights(const FloorQuestion& q,
+                                 const HeightGrid& level,
+                                 const std::vector<double>& part)
+{
+    std::vector<double> best(level.size(), kFar);
+    for (const Tool& tool : q.tools) {
+        const auto n = static_cast<std::size_t>(std::ceil(tool.radius / level.pitch)) + 1;
+        const HeightGrid wide = grown(level, n);
+        std::vector<float> heights(wide.size(), -std::numeric_limits<float>::infinity());
+        for (std::size_t i = 0; i < level.nx; ++i) {
+            for (std::size_t j = 0; j < level.ny; ++j) {
+                const double z = part[level.index(i, j)];
+                if (std::isfinite(z)) {
+                    heights[wide.index(i + n, j + n)] = static_cast<float>(z);
+                }
+            }
+        }
+        std::vector<char> forbidden(wide.size(), 0);
+        for_each_band(wide.nx, [&](std::size_t begin, std::size_t end, std::size_t) {
+            for (std::size_t i = begin; i < end && !q.walls.empty(); ++i) {
+                for (std::size_t j = 0; j < wide.ny; ++j) {
+                    const double c = clearance(q.walls, wide.x(i, j), wide.y(i, j));
+                    forbidden[wide.index(i, j)] = c < tool.radius ? 1 : 0;
+                }
+            }
+        });
+        const std::vector<float> lowest = lowest_reachable(heights, forbidden, wide, tool);
+        for (std::size_t i = 0; i < level.nx; ++i) {
+            for (std::size_t j = 0; j < level.ny; ++j) {
+                double& at = best[level.index(i, j)];
+                at = std::min(at, static_cast<double>(lowest[wide.index(i + n, j + n)]));
+            }
+        }
+    }
+    return best;
+}
+
+// Largest of the values up to `reach` points away, along both directions.
+std::vector<double> maximum_around(const std::vector<double>& values,
+                                   const HeightGrid& grid,
+                                   std::size_t reach)
+{
+    std::vector<double> rows(values.size());
+    std::vector<double> out(values.size());
+    for (std::size_t i = 0; i < grid.nx; ++i) {
+        for (std::size_t j = 0; j < grid.ny; ++j) {
+            const auto first =
+                values.begin() + static_cast<std::ptrdiff_t>(grid.index(i, j - std::min(j, reach)));
+            const auto last = values.begin() + static_cast<std::ptrdiff_t>(
+                                                   grid.index(i, std::min(grid.ny - 1, j + reach)));
+            rows[grid.index(i, j)] = *std::max_element(first, last + 1);
+        }
+    }
+    for (std::size_t i = 0; i < grid.nx; ++i) {
+        for (std::size_t j = 0; j < grid.ny; ++j) {
+            double most = rows[grid.index(i, j)];
+            for (std::size_t k = i - std::min(i, reach); k <= std::min(grid.nx - 1, i + reach);
+                 ++k) {
+                most = std::max(most, rows[grid.index(k, j)]);
+            }
+            out[grid.index(i, j)] = most;
+        }
+    }
+    return out;
+}
+
+struct Ideal {
+    std::vector<double> height;  // what a perfect program leaves; not finite where it can't come
+    std::vector<char> unfit;     // no tool fits there
+};
+
+Ideal ideal_heights(const FloorQuestion& q, const PartHeights& part)
+{
+    HeightGrid level = q.grid;
+    level.shifted = false;
+    const PartHeights flat = part_heights(q.surfaces, level);
+    const std::vector<double> best = best_heights(q, level, flat.z);
+    // the closing of a map of points is high by this much on a smooth floor
+    const double slack = 0.002 + level.pitch * level.pitch / (4 * least_radius(q.tools));
+    std::vector<double> unfit(level.size(), 0.0);
+    for (std::size_t k = 0; k < level.size(); ++k) {
+        unfit[k] = std::isfinite(flat.z[k]) && !(best[k] - flat.z[k] <= slack) ? 1.0 : 0.0;
+    }
+    // the shifted points lie up to half a pitch beside the level ones
+    constexpr std::size_t kAround = 2;
+    const std::vector<double> near_unfit = maximum_around(unfit, level, kAround);
+    const std::vector<double> most = maximum_around(best, level, kAround);
+    Ideal ideal{part.z, std::vector<char>(level.size(), 0)};
+    for (std::size_t k = 0; k < level.size(); ++k) {
+        if (near_unfit[k] > 0) {
+            ideal.unfit[k] = 1;
+            ideal.height[k] = std::max(most[k], part.z[k]);
+        }
+    }
+    return ideal;
+}
+
+struct Sums {
+    std::size_t part{};
+    std::size_t unreachable{};
+    std::size_t uncovered{};
+    double total{};
+    std::vector<double> seen;  // where something was cut
+};
+
+void fill_figures(const Sums& sums, std::size_t cells, VerifyFigures& figures)
+{
+    const auto share = [](std::size_t part, std::size_t whole) {
+        return whole > 0 ? static_cast<double>(part) / static_cast<double>(whole) : 0.0;
+    };
+    figures.cells = cells;
+    figures.unreachable_share = share(sums.unreachable, sums.part);
+    figures.uncut_share = cells > 0 ? 1 - share(sums.seen.size(), cells) : 1.0;
+    figures.uncovered_share = cells > 0 ? share(sums.uncovered, cells) : 1.0;
+    if (sums.seen.empty()) {
+        return;
+    }
+    std::vector<double> sorted = sums.seen;
+    std::sort(sorted.begin(), sorted.end());
+    figures.scallop_max = sorted.back();
+    const double place = 0.99 * static_cast<double>(sorted.size() - 1);
+    const auto low = static_cast<std::size_t>(place);
+    const double rest = place - static_cast<double>(low);
+    figures.scallop_p99 =
+        sorted[low] + rest * (sorted[std::min(low + 1, sorted.size() - 1)] - sorted[low]);
+    figures.scallop_mean = sums.total / static_cast<double>(sorted.size());
+}
+
+}  // namespace
+
+std::vector<double> judge_floor(const FloorQuestion& q, VerifyFigures& figures)
+{
+    const PartHeights part = part_heights(q.surfaces, q.grid);
+    const Ideal ideal = ideal_heights(q, part);
+    const double radius = least_radius(q.tools);
+    const double bound = q.scallop.value_or(kFar);
+    std::vector<double> left(q.grid.size(), kNone);
+    std::vector<double> clear(q.grid.size(), kFar);
+    for_each_band(q.grid.nx, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end && !q.walls.empty(); ++i) {
+            for (std::size_t j = 0; j < q.grid.ny; ++j) {
+                clear[q.grid.index(i, j)] = clearance(q.walls, q.grid.x(i, j), q.grid.y(i, j));
+            }
+        }
+    });
+    Sums sums;
+    std::size_t cells = 0;
+    double wall_left = -kFar;
+    for (std::size_t k = 0; k < q.grid.size(); ++k) {
+        if (!std::isfinite(part.z[k])) {
+            continue;
+        }
+        ++sums.part;
+        const bool touched = q.cut[k] < q.top;
+        if (touched) {
+            figures.gouge_max =
+                std::max(figures.gouge_max, (part.z[k] - q.cut[k]) * part.cosine[k]);
+        }
+        const bool reached = clear[k] >= radius;
+        sums.unreachable += reached && ideal.unfit[k] != 0 ? 1U : 0U;
+        if (!std::isfinite(ideal.height[k]) || !(clear[k] >= 0)) {
+            continue;
+        }
+        // where the part is as high as the stock, there is nothing to cut
+        const bool done = touched || ideal.height[k] >= q.top;
+        left[k] = done ? (q.cut[k] - ideal.height[k]) * part.cosine[k] : kFar;
+        if (!reached) {
+            wall_left = std::max(wall_left, left[k]);
+            continue;
+        }
+        ++cells;
+        sums.uncovered += left[k] <= bound ? 0U : 1U;
+        if (done) {
+            sums.seen.push_back(left[k]);
+            sums.total += left[k];
+            figures.left_volume +=
+                std::max(0.0, q.cut[k] - part.z[k]) * q.grid.pitch * q.grid.pitch;
+        }
+    }
+    if (!q.walls.empty() && wall_left > -kFar) {
+        figures.wall_left_max = wall_left;
+    }
+    figures.scallop_bound = q.scallop;
+    fill_figures(sums, cells, figures);
+    return left;
+}
+
+}  // namespace cusp::host

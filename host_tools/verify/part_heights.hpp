@@ -1,0 +1,27 @@
+// The part seen from above: the upper envelope of its surfaces over a grid.
+#pragma once
+
+#include <vector>
+
+#include "host_tools/nurbs/nurbs.hpp"
+#include "host_tools/verify/height_grid.hpp"
+
+namespace cusp::host {
+
+struct PartHeights {
+    std::vector<double> z;       // NaN where no surface lies
+    std::vector<double> cosine;  // of the slope there; 1 on flat ground
+};
+
+// Heights are roots of the surfaces' equations (Newton), not interpolated. Surfaces that stand
+// upright have no height. Trims are honoured.
+PartHeights part_heights(const std::vector<Surface>& surfaces, const HeightGrid& grid);
+
+struct PartBox {
+    double x_low, x_high, y_low, y_high, z_low, z_high;
+};
+
+// Of the surfaces' points, sampled.
+PartBox part_box(const std::vector<Surface>& surfaces);
+
+}  // namespace cusp::host

@@ -1,0 +1,187 @@
+// Feeds a program to gcode::Interpreter line by line, and samples what it yields.
+#include "host_tools/verify/program_moves.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "firmware/gcode/interpreter.hpp"
+#include "host_tools/dialect/answer.hpp"
+#include "host_tools/import/text_of_file.hpp"
+#include "host_tools/input_error/input_error.hpp"
+
+#include "fmt/format.h"
+
+namespace cusp::host {
+namespace {
+
+Vec3d point_on(const path::Arc& arc, double t)
+{
+    const double angle = t * arc.sweep;
+    const double radius = arc.radius + t * arc.radius_change;
+    return arc.centre + radius * (std::cos(angle) * arc.u + std::sin(angle) * arc.v) +
+           t * arc.axial;
+}
+
+// de Casteljau on homogeneous points.
+Vec3d point_on(const path::BezierPiece& piece, double t)
+{
+    std::array<Vec3d, path::kMaxOrder> points;
+    std::array<double, path::kMaxOrder> weights;
+    for (unsigned i = 0; i < piece.order; ++i) {
+        weights[i] = static_cast<double>(piece.weights[i]);
+        points[i] = weights[i] * Vec3d{static_cast<double>(piece.points[i].x),
+                                       static_cast<double>(piece.points[i].y),
+                                       static_cast<double>(piece.points[i].z)};
+    }
+    for (unsigned level = piece.order; level-- > 1;) {
+        for (unsigned i = 0; i < level; ++i) {
+            points[i] = (1 - t) * points[i] + t * points[i + 1];
+            weights[i] = (1 - t) * weights[i] + t * weights[i + 1];
+        }
+    }
+    return points[0] / weights[0];
+}
+
+template <class Shape>
+void append_sampled(
+    const Shape& shape, double length, double spacing, Vec3d start, std::vector<Vec3d>& points)
+{
+    const int steps = std::max(1, static_cast<int>(std::ceil(length / spacing)));
+    for (int i = 1; i < steps; ++i) {
+        points.push_back(start + point_on(shape, static_cast<double>(i) / steps));
+    }
+}
+
+void append_piece(const path::BezierPiece& piece,
+                  double spacing,
+                  Vec3d start,
+                  std::vector<Vec3d>& points)
+{
+    // the parameter runs unevenly: halve where neighbours are too far apart
+    double length = 0;
+    Vec3d last{};
+    constexpr int kParts = 32;
+    for (int i = 1; i <= kParts; ++i) {
+        const double begin = static_cast<double>(i - 1) / kParts;
+        const Vec3d p = point_on(piece, static_cast<double>(i) / kParts);
+        length = norm(p - last);
+        const int steps = std::max(1, static_cast<int>(std::ceil(1.2 * length / spacing)));
+        for (int k = 1; k <= steps; ++k) {
+            if (i < kParts || k < steps) {
+                points.push_back(start +
+                                 point_on(piece, begin + static_cast<double>(k) / steps / kParts));
+            }
+        }
+        last = p;
+    }
+}
+
+bool is_curve(gcode::Motion motion)
+{
+    return motion == gcode::Motion::kNurbs || motion == gcode::Motion::kUniformNurbs;
+}
+
+void count(const path::Move& move, MoveCounts& counts)
+{
+    if (move.kind == path::MoveKind::kRapid) {
+        ++counts.rapids;
+    } else if (std::holds_alternative<path::Line>(move.path)) {
+        ++counts.lines;
+    } else if (std::holds_alternative<path::Arc>(move.path)) {
+        ++counts.arcs;
+    }
+}
+
+class ProgramReader {
+public:
+    ProgramReader(const std::string& file, double start_z) : file_{file}
+    {
+        interpreter_.set_position(to_position({0, 0, start_z}));
+    }
+
+    // False once the program has ended.
+    bool read_line(std::string_view line)
+    {
+        ++number_;
+        const bool was_curve = is_curve(interpreter_.modal().motion);
+        const Status status = interpreter_.execute(line, number_);
+        if (!status) {
+            const int code = static_cast<int>(status.error());
+            throw InputError(fmt::format("{}:{}: {}: error {}: {}", file_, number_, line, code,
+                                         error_text(code)));
+        }
+        gcode::Action action;
+        while (interpreter_.next(action)) {
+            if (const auto* move = std::get_if<path::Move>(&action)) {
+                program_.moves.push_back({*move, interpreter_.modal().tool});
+                count(*move, program_.counts);
+            } else if (std::holds_alternative<gcode::ProgramEnd>(action)) {
+                return false;
+            }
+        }
+        const bool curve = is_curve(interpreter_.modal().motion);
+        program_.counts.nurbs += curve && !was_curve ? 1 : 0;
+        return true;
+    }
+
+    Program take()
+    {
+        if (is_curve(interpreter_.modal().motion)) {
+            throw InputError(fmt::format("{}:{}: the program ends inside a NURBS", file_, number_));
+        }
+        if (program_.moves.empty()) {
+            throw InputError(file_ + ": no move");
+        }
+        return std::move(program_);
+    }
+
+private:
+    std::string file_;
+    gcode::Interpreter interpreter_;
+    Program program_;
+    std::uint32_t number_{0};
+};
+
+}  // namespace
+
+Program read_program(const std::string& file, double start_z)
+{
+    const std::string text = text_of_file(file);
+    ProgramReader reader{file, start_z};
+    std::string_view rest{text};
+    while (!rest.empty()) {
+        const std::size_t end = std::min(rest.find('\n'), rest.size());
+        std::string_view line = rest.substr(0, end);
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+        if (!line.empty() && line.back() == '\r') {
+            line.remove_suffix(1);
+        }
+        if (!reader.read_line(line)) {
+            break;
+        }
+    }
+    return reader.take();
+}
+
+void append_points(const path::Move& move, double spacing, std::vector<Vec3d>& points)
+{
+    const Vec3d start = to_millimetres(move.start);
+    const Vec3d end = to_millimetres(move.end);
+    if (const auto* arc = std::get_if<path::Arc>(&move.path)) {
+        append_sampled(*arc, path::length(move), spacing, start, points);
+    } else if (const auto* piece = std::get_if<path::BezierPiece>(&move.path)) {
+        append_piece(*piece, spacing, start, points);
+    } else {
+        const double length = norm(end - start);
+        const int steps = std::max(1, static_cast<int>(std::ceil(length / spacing)));
+        for (int i = 1; i < steps; ++i) {
+            const double share = static_cast<double>(i) / steps;
+            points.push_back(start + share * (end - start));
+        }
+    }
+    points.push_back(end);
+}
+
+}  // namespace cusp::host

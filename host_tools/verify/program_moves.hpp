@@ -1,0 +1,33 @@
+// A program as the moves that the controller's own interpreter makes of it, with the tool that
+// cuts.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "firmware/path/move.hpp"
+#include "host_tools/toolpath/toolpath_measure.hpp"
+
+namespace cusp::host {
+
+struct ProgramMove {
+    path::Move move;
+    int tool;  // the T word before it; 0 where there was none
+};
+
+struct Program {
+    std::vector<ProgramMove> moves;
+    MoveCounts counts;  // a NURBS of many pieces counts once
+};
+
+// Machine coordinates are program coordinates: offsets are those of a fresh controller, which
+// stands at x = y = 0 and at `start_z`.
+//
+// Errors: InputError naming the line and the error that the controller would answer.
+Program read_program(const std::string& file, double start_z);
+
+// Points of a move, at most `spacing` mm apart, the end included and the start not; mm.
+void append_points(const path::Move& move, double spacing, std::vector<Vec3d>& points);
+
+}  // namespace cusp::host

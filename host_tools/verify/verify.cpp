@@ -1,0 +1,246 @@
+// Reads the program, cuts the stock tool by tool, and asks all questions about the result.
+#include "host_tools/verify/verify.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "host_tools/surface_offset/surface_model.hpp"
+#include "host_tools/verify/floor_judgement.hpp"
+#include "host_tools/verify/wall_distance.hpp"
+
+#include "fmt/format.h"
+
+namespace cusp::host {
+namespace {
+
+constexpr double kDefaultPitch = 0.173;  // out of step with round path intervals
+constexpr double kDefaultSpacing = 0.1;
+constexpr double kMostCells = 4e6;
+// Deeper than slivers and rounding: a rapid move that cuts.
+constexpr double kRapidCutAllowed = 0.005;
+// Share of the floor that may stand above the scallop bound: the corners between loops.
+constexpr double kUncoveredAllowed = 0.01;
+
+// The parts and walls of all operations, each file once.
+struct Scene {
+    std::vector<Surface> surfaces;
+    std::vector<std::pair<Loop, bool>> loops;  // true: a boundary
+    double floor_tolerance{};
+    double plan_tolerance{};
+    std::optional<double> scallop;
+};
+
+Scene scene_of(const Job& job)
+{
+    Scene scene;
+    std::set<std::vector<std::string>> floors;
+    std::set<std::string> loops;
+    for (const Operation& operation : job.operations) {
+        if (floors.insert(operation.floor_files).second) {
+            scene.surfaces.insert(scene.surfaces.end(), operation.floor.begin(),
+                                  operation.floor.end());
+        }
+        if (operation.boundary && loops.insert(operation.boundary_file).second) {
+            scene.loops.emplace_back(*operation.boundary, true);
+        }
+        for (std::size_t i = 0; i < operation.islands.size(); ++i) {
+            if (loops.insert(operation.island_files[i]).second) {
+                scene.loops.emplace_back(operation.islands[i], false);
+            }
+        }
+        scene.floor_tolerance = std::max(scene.floor_tolerance, operation.floor_tolerance);
+        scene.plan_tolerance = std::max(scene.plan_tolerance, operation.plan_tolerance);
+        if (operation.scallop) {
+            scene.scallop = operation.scallop;
+        }
+    }
+    return scene;
+}
+
+const Tool& tool_of(const Job& job, int number, const std::string& program)
+{
+    if (number == 0) {
+        return job.tools.front();
+    }
+    for (const Tool& tool : job.tools) {
+        if (tool.number == number) {
+            return tool;
+        }
+    }
+    throw InputError(fmt::format("{}: T{} is no tool of the job {}", program, number, job.file));
+}
+
+// Runs of positions, a new one at every change of tool; lengths on the way.
+std::vector<ToolPositions> positions_of(const Job& job,
+                                        const Program& program,
+                                        const std::string& file,
+                                        double spacing,
+                                        VerifyFigures& figures)
+{
+    std::vector<ToolPositions> runs;
+    int current = -1;
+    for (std::size_t k = 0; k < program.moves.size(); ++k) {
+        const ProgramMove& m = program.moves[k];
+        if (m.tool != current) {
+            current = m.tool;
+            runs.push_back({tool_of(job, m.tool, file), {}, {}});
+        }
+        const bool rapid = m.move.kind == path::MoveKind::kRapid;
+        ToolPositions& run = runs.back();
+        if (k == 0) {  // where the tool comes from is not known
+            run.tips.push_back(to_millimetres(m.move.end));
+        } else {
+            (rapid ? figures.rapid_length : figures.cut_length) += path::length(m.move);
+            append_points(m.move, spacing, run.tips);
+        }
+        run.rapid.resize(run.tips.size(), rapid);
+    }
+    return runs;
+}
+
+HeightGrid make_grid(const Job& job,
+                     const Scene& scene,
+                     double least_radius,
+                     std::optional<double> pitch)
+{
+    PartBox box = part_box(scene.surfaces);
+    if (job.stock_x) {
+        box.x_low = std::min(box.x_low, (*job.stock_x)[0]);
+        box.x_high = std::max(box.x_high, (*job.stock_x)[1]);
+    }
+    if (job.stock_y) {
+        box.y_low = std::min(box.y_low, (*job.stock_y)[0]);
+        box.y_high = std::max(box.y_high, (*job.stock_y)[1]);
+    }
+    const double width = box.x_high - box.x_low;
+    const double height = box.y_high - box.y_low;
+    constexpr double kPitchesPerRadius = 16;
+    const double wanted = pitch.value_or(std::min(kDefaultPitch, least_radius / kPitchesPerRadius));
+    const double used = std::max(wanted, std::sqrt(width * height / kMostCells));
+    const auto count = [&](double length) {
+        return std::max<std::size_t>(1, static_cast<std::size_t>(length / used));
+    };
+    return {box.x_low + used / 2, box.y_low + used / 2, used, count(width), count(height), true};
+}
+
+// How deep balls go into the part, by exact distances.
+std::optional<double> ball_gouge(const std::vector<Surface>& surfaces,
+                                 const std::vector<ToolPositions>& runs,
+                                 double top)
+{
+    const SurfaceModel model{surfaces};
+    std::optional<double> deepest;
+    for (const ToolPositions& run : runs) {
+        if (run.tool.shape != ToolShape::kBall) {
+            continue;
+        }
+        deepest = deepest.value_or(0.0);
+        for (const Vec3d tip : run.tips) {
+            if (tip.z < top) {
+                deepest = std::max(*deepest, -model.clearance(run.tool, tip, 0.0).distance);
+            }
+        }
+    }
+    return deepest;
+}
+
+double wall_gouge(const std::vector<WallDistance>& walls,
+                  const std::vector<ToolPositions>& runs,
+                  double top)
+{
+    double worst = 0;
+    for (const ToolPositions& run : runs) {
+        for (const Vec3d tip : run.tips) {
+            if (!(tip.z < top - 1e-9)) {
+                continue;
+            }
+            for (const WallDistance& wall : walls) {
+                worst = std::max(worst, run.tool.radius - wall.at(tip.x, tip.y));
+            }
+        }
+    }
+    return worst;
+}
+
+void judge(const Scene& scene, Verification& result)
+{
+    // the chords of walls and the map of heights are this good
+    constexpr double kJudgement = 5e-4;
+    const VerifyFigures& f = result.figures;
+    const auto bound = [&](const char* name, std::optional<double> value, double limit) {
+        if (value && !(*value <= limit)) {
+            result.broken.push_back(fmt::format("{} {:.4g} is over {:.4g}", name, *value, limit));
+        }
+    };
+    bound("gouge_max_mm", f.gouge_max, scene.floor_tolerance + kJudgement);
+    bound("ball_gouge_max_mm", f.ball_gouge_max, scene.floor_tolerance + kJudgement);
+    bound("wall_gouge_max_mm", f.wall_gouge_max, scene.plan_tolerance + kJudgement);
+    bound("rapid_cut_max_mm", f.rapid_cut_max, kRapidCutAllowed);
+    if (scene.scallop) {
+        bound("uncovered_share", f.uncovered_share, kUncoveredAllowed);
+    }
+}
+
+}  // namespace
+
+Verification verify(const Job& job,
+                    const std::string& program_file,
+                    const VerifySettings& settings,
+                    const Progress& progress)
+{
+    const Scene scene = scene_of(job);
+    Verification result;
+    // from above, as far as any program starts, so that its first move is one
+    constexpr double kStartAbove = 1000;
+    result.program = read_program(program_file, job.stock_top + kStartAbove);
+    VerifyFigures& figures = result.figures;
+    figures.moves = result.program.counts;
+
+    double least_radius = job.tools.front().radius;
+    for (const Tool& tool : job.tools) {
+        least_radius = std::min(least_radius, tool.radius);
+    }
+    constexpr double kSpacingsPerRadius = 20;
+    const double spacing =
+        settings.spacing.value_or(std::min(kDefaultSpacing, least_radius / kSpacingsPerRadius));
+    const std::vector<ToolPositions> runs =
+        positions_of(job, result.program, program_file, spacing, figures);
+    result.grid = make_grid(job, scene, least_radius, settings.pitch);
+
+    Stock stock{result.grid, job.stock_top};
+    std::vector<Tool> tools;
+    double widest = 0;
+    for (const ToolPositions& run : runs) {
+        figures.tool_positions += run.tips.size();
+    }
+    std::size_t done = 0;
+    for (const ToolPositions& run : runs) {
+        const CutFigures cut = stock.cut(run, spacing, [&](double share) {
+            progress((static_cast<double>(done) + share * static_cast<double>(run.tips.size())) /
+                     static_cast<double>(figures.tool_positions));
+        });
+        done += run.tips.size();
+        figures.rapid_cut_max = std::max(figures.rapid_cut_max, cut.rapid_cut);
+        figures.cut_depth_max = std::max(figures.cut_depth_max, cut.cut_depth);
+        tools.push_back(run.tool);
+        widest = std::max(widest, run.tool.radius);
+    }
+    progress(1.0);
+
+    std::vector<WallDistance> walls;
+    for (const auto& [loop, outer] : scene.loops) {
+        walls.emplace_back(loop, outer, widest + 2 * result.grid.pitch);
+    }
+    if (!walls.empty()) {
+        figures.wall_gouge_max = wall_gouge(walls, runs, job.stock_top);
+    }
+    figures.ball_gouge_max = ball_gouge(scene.surfaces, runs, job.stock_top);
+    result.left = judge_floor(
+        {scene.surfaces, tools, walls, result.grid, stock.heights(), job.stock_top, scene.scallop},
+        figures);
+    judge(scene, result);
+    return result;
+}
+
+}  // namespace cusp::host

@@ -1,0 +1,62 @@
+// Cuts a job's stock with a program, in memory, and compares what stands with the part.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host_tools/import/job.hpp"
+#include "host_tools/verify/height_grid.hpp"
+#include "host_tools/verify/part_heights.hpp"
+#include "host_tools/verify/program_moves.hpp"
+#include "host_tools/verify/stock.hpp"
+
+namespace cusp::host {
+
+struct VerifySettings {
+    std::optional<double> pitch;    // mm between heights; else 0.173 and fine enough for the tools
+    std::optional<double> spacing;  // mm between tool positions; else 0.1, likewise
+};
+
+// All in mm, square to the surface where a surface is meant.
+struct VerifyFigures {
+    MoveCounts moves;
+    double cut_length{};
+    double rapid_length{};  // without the program's first move
+    std::size_t tool_positions{};
+    std::size_t cells{};                   // of the floor that the tools reach
+    double gouge_max{};                    // metal cut below the surface, from the map of heights
+    std::optional<double> ball_gouge_max;  // the deepest a ball cuts, from exact distances
+    std::optional<double> wall_gouge_max;  // tool through a boundary or an island
+    std::optional<double> wall_left_max;   // beside walls, over what the tool can reach
+    double rapid_cut_max{};
+    double cut_depth_max{};
+    double unreachable_share{};  // of the part, where no tool of the program fits
+    double uncut_share{};
+    std::optional<double> scallop_bound;
+    double scallop_max{};  // metal left above the surface, or above what the tools can reach
+    double scallop_p99{};
+    double scallop_mean{};
+    double left_volume{};      // mm^3
+    double uncovered_share{};  // left above the scallop bound
+};
+
+struct Verification {
+    VerifyFigures figures;
+    std::vector<std::string> broken;  // each bound that does not hold, in words; empty: all hold
+    // for pictures
+    HeightGrid grid;
+    std::vector<double> left;  // mm above what is reachable; NaN outside the floor, +inf uncut
+    Program program;
+};
+
+// The bounds are those of the job: gouge by the floor tolerances, walls by the plan tolerances, the
+// scallop of the last operation that names one on 99 % of the floor; a rapid move cuts nothing.
+//
+// Errors: InputError where the program can't be read or names a tool that the job lacks.
+Verification verify(const Job& job,
+                    const std::string& program_file,
+                    const VerifySettings& settings,
+                    const Progress& progress);
+
+}  // namespace cusp::host

@@ -1,0 +1,72 @@
+// Programs as moves: what is read, and which file and line is blamed.
+#include "host_tools/verify/program_moves.hpp"
+
+#include <cmath>
+
+#include "CppUTest/TestHarness.h"
+
+#include "tests/unit/import/scratch_folder.hpp"
+
+using namespace cusp;
+using namespace cusp::host;
+
+TEST_GROUP(ProgramMoves)
+{
+    ScratchFolder folder;
+    Program read(const std::string& text) { return read_program(folder.write("p.ngc", text), 100); }
+    std::string refused(const std::string& text)
+    {
+        return refusal([&] { read(text); });
+    }
+};
+
+TEST(ProgramMoves, FollowToolsAndCountKinds)
+{
+    const Program program = read(
+        "G17 G21 G90 G94\r\nG0 Z5\nT1\nG0 X10 Y0\nG1 Z0 F300\n"
+        "G3 X0 Y10 I-10 J0\nT2\nG1 X1\nM30\nG1 X99\n");
+    LONGS_EQUAL(5, program.moves.size());
+    LONGS_EQUAL(2, program.counts.rapids);
+    LONGS_EQUAL(2, program.counts.lines);
+    LONGS_EQUAL(1, program.counts.arcs);
+    LONGS_EQUAL(0, program.moves[0].tool);
+    LONGS_EQUAL(1, program.moves[3].tool);
+    LONGS_EQUAL(2, program.moves[4].tool);
+}
+
+TEST(ProgramMoves, CountACurveOnce)
+{
+    const Program program = read(
+        "G0 X0 Y0 Z0\nF500\nG6.2 P3 K0 X0 Y0\nK0 X1 Y1\nK0 X2 Y0\n"
+        "K1 X3 Y1\nK2 X4 Y0\nK3\nK3\nK3\nM30\n");
+    LONGS_EQUAL(1, program.counts.nurbs);
+}
+
+TEST(ProgramMoves, SampleArcsOnTheCircle)
+{
+    const Program program = read("G0 X10 Y0 Z0\nG3 X0 Y10 I-10 J0 F100\n");
+    std::vector<Vec3d> points;
+    append_points(program.moves.back().move, 0.1, points);
+    Vec3d last{10, 0, 0};
+    for (const Vec3d p : points) {
+        DOUBLES_EQUAL(10, std::hypot(p.x, p.y), 1e-6);
+        CHECK(norm(p - last) <= 0.1 + 1e-9);
+        last = p;
+    }
+    DOUBLES_EQUAL(10, last.y, 1e-9);
+}
+
+TEST(ProgramMoves, NameTheLineThatCannotBeUsed)
+{
+    const std::string text = refused("G0 X1\nG1 X2 F100\nM99\n");
+    STRCMP_CONTAINS("p.ngc:3", text.c_str());
+    STRCMP_CONTAINS("error 20", text.c_str());
+    STRCMP_CONTAINS("p.ngc:2", refused("G0 X1 Y0\nG2 X5 Y5 I9 J0 F100\n").c_str());
+}
+
+TEST(ProgramMoves, RefuseAnEmptyProgram)
+{
+    STRCMP_CONTAINS("no move", refused("(nothing)\n").c_str());
+    STRCMP_CONTAINS("No such file",
+                    refusal([&] { read_program(folder.path("none.ngc"), 0); }).c_str());
+}
