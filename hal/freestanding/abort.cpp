@@ -7,6 +7,15 @@ extern "C" {
 [[noreturn]] void abort();
 int __aeabi_atexit(void* object, void (*destroy)(void*), void* dso);
 void* __dso_handle = nullptr;
+}
+
+// Out of the library's headers: a view asked for a part that begins beyond its end.
+namespace std {
+[[noreturn]] void __throw_out_of_range_fmt(const char*, ...);
+void __throw_out_of_range_fmt(const char* /*format*/, ...) { abort(); }
+}  // namespace std
+
+extern "C" {
 
 void abort() { cusp::fault("abort", __FILE__, __LINE__); }
 

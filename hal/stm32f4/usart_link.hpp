@@ -94,8 +94,10 @@ private:
         port.dr.write(byte);
     }
 
-    SpscRing<std::uint8_t, 2048> received_;
-    SpscRing<std::uint8_t, 1024> waiting_;
+    // 44 ms of the fastest sender: the firmware, which has the large buffer, takes bytes out far
+    // sooner.
+    SpscRing<std::uint8_t, 512> received_;
+    SpscRing<std::uint8_t, 512> waiting_;
     std::atomic<bool> overrun_{false};
 };
 

@@ -29,8 +29,9 @@ def run(*command):
 
 
 class Function:
-    def __init__(self, name):
+    def __init__(self, name, address=0):
         self.name = name
+        self.address = address
         self.calls = set()
         self.indirect = []  # instructions that call by register
         self.floats = []  # instructions of the floating-point unit
@@ -72,7 +73,8 @@ def read_functions(image):
     for line in run("arm-none-eabi-objdump", "-d", "--no-show-raw-insn", image).splitlines():
         head = FUNCTION.match(line)
         if head:
-            current = functions.setdefault(head.group(2), Function(head.group(2)))
+            current = functions.setdefault(
+                head.group(2), Function(head.group(2), int(head.group(1), 16)))
             continue
         match = INSTRUCTION.match(line)
         if not match or current is None:
@@ -100,7 +102,10 @@ def take_instruction(function, mnemonic, operands, line):
     elif CALL_BY_REGISTER.match(mnemonic) and operands.strip() != "lr":
         function.indirect.append(line.strip())
     elif mnemonic.startswith(("ldr", "mov")) and operands.startswith("pc,"):
-        function.indirect.append(line.strip())
+        # From the stack: a return. From a table by an index times four: a switch. Calls by pointer
+        # that end a function are bx.
+        if not re.match(r"pc, \[sp\]|pc, \[r\d+, r\d+, lsl #2\]", operands):
+            function.indirect.append(line.strip())
 
 
 def add_compiler_sizes(functions, folders):
@@ -117,3 +122,23 @@ def add_compiler_sizes(functions, folders):
                 # Several files may compile one inline function: the linker keeps one of them.
                 function.stack = max(function.stack, int(size.group(1)))
                 function.dynamic = function.dynamic or size.group(2) != "static"
+
+
+def add_calls_by_pointer(image, functions):
+    """Lets each function that calls by pointer call every function whose address is kept somewhere.
+
+    An address is kept as a word of its own: in a table, or among the constants behind a function.
+    """
+    by_address = {function.address | 1: function.name for function in functions.values()}
+    kept = set()
+    for line in run("arm-none-eabi-objdump", "-s", image).splitlines():
+        match = re.match(r"^ [0-9a-f]+ ((?:[0-9a-f]{2,8} ?)+)", line)
+        for word in match.group(1).split() if match else ():
+            if len(word) == 8:
+                value = int.from_bytes(bytes.fromhex(word), "little")
+                if value in by_address:
+                    kept.add(by_address[value])
+    for function in functions.values():
+        if function.indirect:
+            function.calls |= kept - {"cusp_reset", "cusp_servo_tick", "cusp_serial_interrupt",
+                                      "cusp_player_interrupt", "cusp_exception"}

@@ -4,8 +4,9 @@
   symbols   no heap, no exceptions, no type information, no C library's files
   double    no arithmetic of doubles below the servo tick and the interrupts
   float     no instruction of the floating-point unit below the player's interrupt
-  calls     no recursion; no call through a pointer, except of the constructors at the start
-  stack     the deepest chain of each priority, one upon the other, fits the stack
+  calls     no call through a pointer below the servo tick and the interrupts; no recursion
+  stack     the deepest chain of each priority, one upon the other, fits the stack; a call through a
+            pointer counts as the deepest function whose address is kept anywhere
   memory    flash and RAM within the chip's and the project's
 
 Exit status: 0 all hold, 1 some do not, 2 the image can't be read.
@@ -14,7 +15,7 @@ import re
 import subprocess
 import sys
 
-from disassembly import Unreadable, add_compiler_sizes, read_functions, run
+from disassembly import Unreadable, add_calls_by_pointer, add_compiler_sizes, read_functions, run
 
 # From the least to the most urgent: each may be interrupted by those after it.
 CONTEXTS = ("cusp_reset", "cusp_servo_tick", "cusp_serial_interrupt", "cusp_player_interrupt")
@@ -31,14 +32,23 @@ RAM_LIMIT = 96 * 1024
 
 
 def reached(functions, root):
-    found, waiting = set(), [root]
+    """What a function reaches: each with who calls it first."""
+    found, waiting = {root: None}, [root]
     while waiting:
-        name = waiting.pop()
-        if name in found or name not in functions:
-            continue
-        found.add(name)
-        waiting += functions[name].calls
+        name = waiting.pop(0)
+        for callee in sorted(functions[name].calls):
+            if callee not in found and callee in functions:
+                found[callee] = name
+                waiting.append(callee)
     return found
+
+
+def way(found, name):
+    """The chain of calls that reaches a function, as people write the names."""
+    chain = [name]
+    while found[chain[0]]:
+        chain.insert(0, found[chain[0]])
+    return " > ".join(plain(chain))
 
 
 def depth(functions, root):
@@ -47,7 +57,7 @@ def depth(functions, root):
 
     def visit(name, chain):
         if name in chain:
-            complaints.append("recursion: " + " > ".join(chain[chain.index(name):] + [name]))
+            complaints.append("recursion: " + " > ".join(plain(chain[chain.index(name):] + [name])))
             return 0, [name]
         if name not in done:
             function = functions.get(name)
@@ -91,20 +101,22 @@ def check_symbols(table):
 
 def check_real_time(functions):
     for root in CONTEXTS[1:]:
-        for name in sorted(reached(functions, root)):
+        found = reached(functions, root)
+        for name in sorted(found):
             if DOUBLE.match(name):
-                yield f"double: {root} reaches {name}"
-    for name in sorted(reached(functions, "cusp_player_interrupt")):
+                yield f"double: {way(found, name)}"
+    found = reached(functions, "cusp_player_interrupt")
+    for name in sorted(found):
         for line in functions[name].floats[:1]:
-            yield f"float: cusp_player_interrupt reaches {name}: {line}"
+            yield f"float: {way(found, name)}: {line}"
 
 
 def check_calls(functions):
-    for root in CONTEXTS:
-        for name in sorted(reached(functions, root)):
-            if name != "cusp_reset":
-                for line in functions[name].indirect[:1]:
-                    yield f"calls: {root} reaches {name}, which calls by pointer: {line}"
+    for root in CONTEXTS[1:]:
+        found = reached(functions, root)
+        for name in sorted(found):
+            for line in functions[name].indirect[:1]:
+                yield f"calls: {way(found, name)} calls by pointer: {line}"
 
 
 def check_stack(functions, table):
@@ -151,7 +163,9 @@ def main(arguments):
         if missing or "cusp_stack_size" not in table:
             raise Unreadable(f"{image}: no {', '.join(missing) or 'cusp_stack_size'}")
         found = [*check_symbols(table), *check_real_time(functions), *check_calls(functions),
-                 *check_stack(functions, table), *check_memory(image)]
+                 *check_memory(image)]
+        add_calls_by_pointer(image, functions)
+        found += check_stack(functions, table)
     except Unreadable as error:
         print(f"image: {error}", file=sys.stderr)
         return 2
