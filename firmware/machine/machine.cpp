@@ -264,22 +264,18 @@ bool Machine::watch_link() noexcept
 
 void Machine::feed_hold() noexcept
 {
-    switch (state_) {
-        case State::kJog:
-            cancel_jog();
-            return;
-        case State::kIdle:
-        case State::kRun:
-            motion_.hold();
-            state_ = State::kHold;
-            return;
-        case State::kHold:
-        case State::kAlarm:
-        case State::kDoor:
-        case State::kCheck:
-        case State::kHome:
-        case State::kSleep:
-            return;
+    if (state_ == State::kJog) {
+        cancel_jog();
+    } else {
+        hold_program();
+    }
+}
+
+void Machine::hold_program() noexcept
+{
+    if (state_ == State::kIdle || state_ == State::kRun) {
+        motion_.hold();
+        state_ = State::kHold;
     }
 }
 

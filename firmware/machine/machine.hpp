@@ -97,6 +97,7 @@ private:
     bool watch_panel() noexcept;
     bool watch_link() noexcept;
     void feed_hold() noexcept;
+    void hold_program() noexcept;
     void cycle_start() noexcept;
     void open_door() noexcept;
     void cancel_jog() noexcept;

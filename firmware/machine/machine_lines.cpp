@@ -139,7 +139,7 @@ void Machine::finish_line(std::optional<Error> error) noexcept
     }
     if (hold_pending_) {
         hold_pending_ = false;
-        feed_hold();
+        hold_program();
     }
     if (reset_after_answer_) {
         reset_after_answer_ = false;

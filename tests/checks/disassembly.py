@@ -108,11 +108,11 @@ def take_instruction(function, mnemonic, operands, line):
             function.indirect.append(line.strip())
 
 
-def add_compiler_sizes(functions, folders):
+def add_compiler_sizes(functions, folder):
     """Raises each function's stack to what the compiler says; marks dynamic stacks."""
-    files = [file for folder in folders for file in pathlib.Path(folder).rglob("*.ci")]
+    files = list(pathlib.Path(folder).rglob("*.ci"))
     if not files:
-        raise Unreadable(f"no call graphs (.ci) below {', '.join(map(str, folders))}")
+        raise Unreadable(f"no call graphs (.ci) below {folder}")
     for file in files:
         for line in file.read_text().splitlines():
             node = CI_NODE.match(line)
