@@ -70,7 +70,7 @@ bool PulseMaker::idle() const noexcept
     const auto still = [](const AxisState& axis) {
         return axis.next == 0 && axis.now == 0;
     };
-    return std::all_of(axes_.begin(), axes_.end(), still) && !overhang_used_;
+    return std::all_of(axes_.begin(), axes_.end(), still) && edges_end_ == 0;
 }
 
 PerAxis<std::int32_t> PulseMaker::position_steps() const noexcept
@@ -104,33 +104,53 @@ void PulseMaker::play_axis(unsigned index, std::int64_t before) noexcept
                                        in_steps(axis.now), in_steps(axis.next));
     const bool forward = end.steps > 0;
     const std::int32_t count = forward ? end.steps : -end.steps;
-    const float direction = forward ? 1.0F : -1.0F;
+    const float bend = sharpest_bend(cubic);
+    const float one_step = forward ? 1.0F : -1.0F;
+    float level = 0.5F * one_step;
     float time = 0;
     for (std::int32_t k = 0; k < count; ++k) {
-        const float level = direction * (static_cast<float>(k) + 0.5F);
-        time = crossing_time(cubic, level, time, forward);
-        add_step(index, static_cast<std::int32_t>(time * static_cast<float>(kFrame) + 0.5F),
-                 forward);
+        if (!take_newton_step(cubic, bend, level, time)) {
+            time = crossing_time(cubic, level, time, forward);
+        }
+        const auto rise = static_cast<std::int32_t>(time * static_cast<float>(kFrame) + 0.5F);
+        if (k == 0) {
+            turn(index, rise, forward);
+        }
+        add_step(index, rise);
+        level += one_step;
     }
     axis.steps += end.steps;
     axis.remainder = end.remainder;
+    if (count > 0) {
+        const std::int32_t last_fall = axis.last_rise + settings_.pulse_us;
+        edges_end_ = std::max(edges_end_, static_cast<std::uint32_t>(last_fall) + 1);
+    }
 }
 
-void PulseMaker::add_step(unsigned index, std::int32_t rise, bool forward) noexcept
+void PulseMaker::turn(unsigned index, std::int32_t rise, bool forward) noexcept
+{
+    AxisState& axis = axes_[index];
+    if (axis.direction_known && forward == axis.forward) {
+        return;
+    }
+    const std::int32_t pulse = settings_.pulse_us;
+    // The step comes a set-up time after its crossing in any case: that is when the line turns,
+    // but not before the pulse that goes the other way has ended, and the step after it waits.
+    const std::int32_t change = std::max(rise, axis.last_rise + pulse);
+    const auto line = static_cast<std::uint16_t>(direction_line(index));
+    CUSP_ASSERT(static_cast<std::size_t>(change) < edges_.size());
+    edges_[static_cast<std::size_t>(change)] |=
+        static_cast<std::uint16_t>(forward ? line : line << 8U);
+    axis.last_rise = std::max(axis.last_rise, change + settings_.direction_setup_us - 2 * pulse);
+    axis.forward = forward;
+    axis.direction_known = true;
+}
+
+inline void PulseMaker::add_step(unsigned index, std::int32_t rise) noexcept
 {
     AxisState& axis = axes_[index];
     const std::int32_t pulse = settings_.pulse_us;
-    const std::int32_t setup = settings_.direction_setup_us;
-    rise = std::max(rise + setup, axis.last_rise + 2 * pulse);
-    if (!axis.direction_known || forward != axis.forward) {
-        // Not before the pulse that goes the other way has ended.
-        rise = std::max(rise, axis.last_rise + pulse + setup);
-        const auto line = static_cast<std::uint16_t>(direction_line(index));
-        edges_[static_cast<std::size_t>(rise - setup)] |=
-            static_cast<std::uint16_t>(forward ? line : line << 8U);
-        axis.forward = forward;
-        axis.direction_known = true;
-    }
+    rise = std::max(rise + settings_.direction_setup_us, axis.last_rise + 2 * pulse);
     CUSP_ASSERT(static_cast<std::size_t>(rise + pulse) < edges_.size());
     const auto line = static_cast<std::uint16_t>(step_line(index));
     edges_[static_cast<std::size_t>(rise)] |= line;
@@ -141,24 +161,30 @@ void PulseMaker::add_step(unsigned index, std::int32_t rise, bool forward) noexc
 void PulseMaker::compress(PulseFrame& frame) noexcept
 {
     frame.edges.clear();
-    for (std::uint32_t tick = 0; tick < kPulseTicksPerFrame; ++tick) {
-        const std::uint16_t edge = edges_[tick];
-        if (edge != 0) {
-            (void)frame.edges.try_push_back({static_cast<std::uint16_t>(tick),
-                                             static_cast<PulseLines>(edge & 0xFFU),
-                                             static_cast<PulseLines>(edge >> 8U)});
-            edges_[tick] = 0;
+    const std::uint32_t end = std::min(edges_end_, kPulseTicksPerFrame);
+    // Two ticks at a time: most have no edge.
+    for (std::uint32_t pair = 0; pair < end; pair += 2) {
+        std::uint32_t both = 0;
+        __builtin_memcpy(&both, &edges_[pair], sizeof both);
+        if (both == 0) {
+            continue;
+        }
+        for (std::uint32_t tick = pair; tick < pair + 2; ++tick) {
+            const std::uint16_t edge = edges_[tick];
+            if (edge != 0) {
+                (void)frame.edges.try_push_back({static_cast<std::uint16_t>(tick),
+                                                 static_cast<PulseLines>(edge & 0xFFU),
+                                                 static_cast<PulseLines>(edge >> 8U)});
+                edges_[tick] = 0;
+            }
         }
     }
-    overhang_used_ = false;
-    for (std::size_t i = 0; i < kOverhang; ++i) {
-        std::uint16_t& late = edges_[kPulseTicksPerFrame + i];
-        if (late != 0) {
-            edges_[i] = late;
-            late = 0;
-            overhang_used_ = true;
-        }
+    const std::uint32_t left = edges_end_ - end;
+    for (std::uint32_t i = 0; i < left; ++i) {
+        edges_[i] = edges_[kPulseTicksPerFrame + i];
+        edges_[kPulseTicksPerFrame + i] = 0;
     }
+    edges_end_ = left;
     for (AxisState& axis : axes_) {
         axis.last_rise = std::max(axis.last_rise - kFrame, kLongAgo);
     }

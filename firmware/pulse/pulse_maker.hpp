@@ -55,7 +55,8 @@ private:
         bool direction_known{false};
     };
     void play_axis(unsigned axis, std::int64_t before) noexcept;
-    void add_step(unsigned axis, std::int32_t rise, bool forward) noexcept;
+    void turn(unsigned axis, std::int32_t rise, bool forward) noexcept;
+    void add_step(unsigned axis, std::int32_t rise) noexcept;
     void compress(PulseFrame& frame) noexcept;
 
     // Edges of the frame being made and the beginning of the next: raised lines in the low byte,
@@ -63,8 +64,8 @@ private:
     static constexpr std::size_t kOverhang = 512;
     StepSettings settings_{};
     PerAxis<AxisState> axes_{};
-    std::array<std::uint16_t, kPulseTicksPerFrame + kOverhang> edges_{};
-    bool overhang_used_{false};
+    alignas(std::uint32_t) std::array<std::uint16_t, kPulseTicksPerFrame + kOverhang> edges_{};
+    std::uint32_t edges_end_{0};  // beyond the last edge that is set
 };
 
 }  // namespace cusp::pulse

@@ -1,8 +1,6 @@
 // Roots of the tick's cubic by Newton steps inside a bracket.
 #include "firmware/pulse/step_times.hpp"
 
-#include <cmath>
-
 namespace cusp::pulse {
 
 TickCubic tick_cubic(float start, float before, float now, float after) noexcept
@@ -15,7 +13,6 @@ TickCubic tick_cubic(float start, float before, float now, float after) noexcept
 float crossing_time(const TickCubic& cubic, float level, float from, bool rising) noexcept
 {
     constexpr unsigned kMostSteps = 24;
-    constexpr float kCloseTime = 2e-5F;
     constexpr float kCloseLevel = 1e-6F;
     float low = from;
     float high = 1.0F;
