@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "boards/mill3_f405/mill_pins.hpp"
+#include "firmware/machine/machine.hpp"
 #include "hal/qemu/edge_player.hpp"
 #include "hal/qemu/edge_trace.hpp"
 #include "hal/qemu/memory_settings.hpp"
@@ -88,32 +89,53 @@ struct QemuTraits {
 private:
     static inline bool live_{false};
 
-    // Returns the status of the run: 0 done, 1 a line was refused or an alarm came.
+    // The simulator's run, step by step (host_tools/simulate): the same order of bytes and servo
+    // ticks gives the same frames. Returns 0 for a program that is done, 1 after an error or alarm.
     template <class Board, class Application>
     static std::uint32_t run_program(Board& board, Application& application) noexcept
     {
         auto& program = board.byte_link.program();
-        constexpr std::uint64_t kReportEvery = 20;
-        for (std::uint64_t tick = 0;; ++tick) {
+        const machine::Machine& machine = application.machine();
+        for (std::uint64_t tick = 0; !program.refused(); ++tick) {
             program.set_tick(tick);
-            if (program.finished() && tick % kReportEvery == 0) {
-                program.ask_for_report();
+            settle(application);
+            if (held(machine) && !program.script_waits()) {
+                program.send('~');
+                settle(application);
             }
-            while (application.poll()) {
-            }
-            if (program.refused() || (program.finished() && program.reported_idle())) {
+            if (program.finished() && machine.idle() && machine.motion().settled()) {
                 break;
             }
-            while (!board.pulse_player.has_room()) {
-                idle();
-            }
-            application.tick();
+            play_tick(board, application);
+        }
+        // After an error what was taken already is still done.
+        while (!machine.motion().settled() && !held(machine)) {
+            play_tick(board, application);
         }
         while (!board.pulse_player.silent()) {
             idle();
         }
         board.pulse_player.trace().flush();
         return program.refused() ? 1 : 0;
+    }
+
+    template <class Application>
+    static void settle(Application& application) noexcept
+    {
+        while (application.poll()) {
+        }
+    }
+    template <class Board, class Application>
+    static void play_tick(Board& board, Application& application) noexcept
+    {
+        while (!board.pulse_player.has_room()) {
+            idle();
+        }
+        application.tick();
+    }
+    static bool held(const machine::Machine& machine) noexcept
+    {
+        return machine.state() == machine::State::kHold && machine.motion().at_rest();
     }
 };
 

@@ -39,10 +39,10 @@ public:
     bool finished() const noexcept { return ended_ && unanswered_ == 0; }
     // A line was answered by an error, or an alarm was raised: the run is over.
     bool refused() const noexcept { return refused_; }
-    // Whether the last report said that nothing moves.
-    bool reported_idle() const noexcept { return reported_idle_; }
+    // Whether the script has bytes that are still to come.
+    bool script_waits() const noexcept { return script_waits_; }
     // Sends a byte of its own, ahead of the program.
-    void ask_for_report() noexcept { own_ = '?'; }
+    void send(char byte) noexcept { own_ = static_cast<std::uint8_t>(byte); }
 
 private:
     // A file read through a buffer, a byte at a time.
@@ -86,7 +86,6 @@ private:
     bool ended_{false};
     std::uint32_t unanswered_{0};
     bool refused_{false};
-    bool reported_idle_{false};
     std::array<char, 96> answer_{};
     std::uint32_t answer_size_{0};
     HostFile console_;
@@ -173,9 +172,8 @@ inline void ProgramLink::take_answer() noexcept
         --unanswered_;
     }
     refused_ = refused_ || error || answer.substr(0, 6) == "ALARM:";
-    if (answer.substr(0, 1) == "<") {
-        reported_idle_ = answer.substr(1, 4) == "Idle" || answer.substr(1, 5) == "Check";
-    }
+    // What follows M2 or M30 is not sent.
+    ended_ = ended_ || answer == "[MSG:Pgm End]";
 }
 
 }  // namespace cusp::hal::qemu

@@ -95,13 +95,19 @@ def simulate(options, folder):
     return run.returncode, read_dump(dump)
 
 
+def bare_lines(path):
+    """What a sender sends of a file: no comments, no empty lines."""
+    for line in pathlib.Path(path).read_text().splitlines():
+        bare = re.sub(r"\([^)]*\)|;.*", "", line).strip()
+        if bare and bare != "%":
+            yield bare
+
+
 def play(options, folder, name):
     """The settings go ahead of the program, as the lines that a sender would send."""
     program = folder / "board.ngc"
-    text = pathlib.Path(options.settings).read_text() if options.settings else ""
-    if text and not text.endswith("\n"):
-        text += "\n"
-    program.write_text(text + pathlib.Path(options.program).read_text())
+    files = [file for file in (options.settings, options.program) if file]
+    program.write_text("".join(line + "\n" for file in files for line in bare_lines(file)))
     trace = folder / name
     words = ["program", program, "trace", trace]
     if options.script:
