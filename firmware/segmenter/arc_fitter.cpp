@@ -81,7 +81,7 @@ std::size_t ArcFitter::farthest(FittedMove& move) const noexcept
             bad = middle;
         }
     }
-    constexpr std::array<std::size_t, 8> kProbes = {2, 4, 7, 11, 16, 22, 29, 36};
+    constexpr std::array<std::size_t, 7> kProbes = {3, 6, 12, 18, 24, 30, 36};
     const std::size_t found = good;
     for (const std::size_t probe : kProbes) {
         if (found + probe <= most && fit(found + probe, trial)) {

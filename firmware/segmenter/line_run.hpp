@@ -5,8 +5,9 @@
 
 namespace cusp::segmenter {
 
-// Between the vertices a path may lie further off, by this factor.
-inline constexpr double kBetweenVertices = 1.1;
+// In the middle of a line the path may lie further off, by this factor. It is less than the tenth
+// that users are told, since the farthest point of an arc may be beside the middle.
+inline constexpr double kBetweenVertices = 1.06;
 
 // A line from the first to the last vertex: false where it leaves the tolerance, or where the
 // vertices do not follow it in order.
