@@ -2,6 +2,7 @@
 // section 3.2.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -48,6 +49,11 @@ public:
     Vec2d centre(Cell c) const
     {
         return {origin_.x + (c.column + 0.5) * gx_, origin_.y + (c.row + 0.5) * gy_};
+    }
+    Cell nearest(Vec2d p) const
+    {
+        return {static_cast<int>(std::floor((p.x - origin_.x) / gx_)),
+                static_cast<int>(std::floor((p.y - origin_.y) / gy_))};
     }
 
 private:

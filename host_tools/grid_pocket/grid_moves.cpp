@@ -33,17 +33,23 @@ void GridMoves::retract()
 
 void GridMoves::enter(const FloorFollower& floor, const std::vector<Vec2d>& corners, double metal)
 {
-    enter_level(floor.chords(corners, ramp_length()), metal);
+    enter_level(floor.chords(corners, ramp_length()), metal, false);
 }
 
-void GridMoves::enter_level(const std::vector<Vec3d>& way, double metal)
+void GridMoves::enter_level(const std::vector<Vec3d>& way, double metal, bool link)
 {
     const Vec3d start = way.front();
-    retract();
-    tip_.line(MoveKind::kRapid, {start.x, start.y, clearance_z_});
     const double over = std::max(metal, start.z);
-    if (over + kAboveMetal < clearance_z_) {
-        tip_.line(MoveKind::kRapid, {start.x, start.y, over + kAboveMetal});
+    if (link && over + kAboveMetal < clearance_z_) {
+        const Vec3d at = tip_.at();
+        tip_.line(MoveKind::kLink, {at.x, at.y, over + kAboveMetal});
+        tip_.line(MoveKind::kLink, {start.x, start.y, over + kAboveMetal});
+    } else {
+        retract();
+        tip_.line(MoveKind::kRapid, {start.x, start.y, clearance_z_});
+        if (over + kAboveMetal < clearance_z_) {
+            tip_.line(MoveKind::kRapid, {start.x, start.y, over + kAboveMetal});
+        }
     }
     const bool deep = metal - start.z > kShallow;
     if (deep && entry_ != EntryKind::kPlunge && plan_length(way) > radius_ / 4) {

@@ -19,8 +19,9 @@ public:
     // may stand. The ramp goes out and back along the run, higher than the run all the way.
     void enter(const FloorFollower& floor, const std::vector<Vec2d>& corners, double metal);
 
-    // The same for a run in a level; `way` is its beginning.
-    void enter_level(const std::vector<Vec3d>& way, double metal);
+    // The same for a run in a level; `way` is its beginning. With `link` it is reached without a
+    // lift to the clearance height, 1 mm above `metal`.
+    void enter_level(const std::vector<Vec3d>& way, double metal, bool link);
 
     void retract();
 

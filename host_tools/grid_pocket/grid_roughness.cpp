@@ -96,8 +96,13 @@ public:
     Roughness(const CellGrid& grid,
               const std::vector<double>& heights,
               const Tracks& tracks,
-              double radius)
-        : grid_{grid}, heights_{heights}, tracks_{tracks}, radius_{radius}
+              double radius,
+              const std::function<double(Vec2d)>& to_wall_pass)
+        : grid_{grid},
+          heights_{heights},
+          tracks_{tracks},
+          radius_{radius},
+          to_wall_pass_{to_wall_pass}
     {
     }
 
@@ -111,7 +116,7 @@ public:
             return 0;
         }
         if (inside < 4) {
-            return beside_wall(cells);
+            return beside_wall(c, cells);
         }
         Square q{grid_.gx(), grid_.gy(), {}, 0, 0, {}};
         for (std::size_t i = 0; i < 4; ++i) {
@@ -129,6 +134,7 @@ private:
     const std::vector<double>& heights_;
     const Tracks& tracks_;
     double radius_;
+    const std::function<double(Vec2d)>& to_wall_pass_;
 
     double height(Cell c) const { return heights_[grid_.index(c)]; }
 
@@ -148,20 +154,49 @@ private:
         return count > 0 ? sum / count : 0;
     }
 
-    // Any point here lies within half a diagonal of a cell or of the wall's pass, which crosses
-    // between.
-    double beside_wall(const std::array<Cell, 4>& cells) const
+    // Distances in plan, stretched by the steepest slope between the square's cells.
+    double beside_wall(Cell c, const std::array<Cell, 4>& cells) const
     {
-        double rise = 0;
+        double slope = 0;
         for (const Cell a : cells) {
             for (const Cell b : cells) {
-                if (grid_.inside(a) && grid_.inside(b)) {
-                    rise = std::max(rise, std::abs(height(a) - height(b)));
+                if (grid_.inside(a) && grid_.inside(b) && a != b) {
+                    slope = std::max(slope, std::abs(height(a) - height(b)) /
+                                                norm(grid_.centre(a) - grid_.centre(b)));
                 }
             }
         }
-        const double half = std::hypot(grid_.gx(), grid_.gy(), rise) / 2;
+        double farthest = 0;
+        for (const double s : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+            for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+                const Vec2d p = grid_.centre(c) + Vec2d{s * grid_.gx(), t * grid_.gy()};
+                const double wall = to_wall_pass_(p);
+                if (wall > 0) {
+                    farthest = std::max(farthest, std::min(wall, to_tracks(p, cells)));
+                }
+            }
+        }
+        const double half = farthest * std::hypot(1.0, slope);
         return half < radius_ ? radius_ - std::sqrt(radius_ * radius_ - half * half) : radius_;
+    }
+
+    double to_tracks(Vec2d p, const std::array<Cell, 4>& cells) const
+    {
+        double least = 1e300;
+        for (const Cell a : cells) {
+            if (!grid_.inside(a)) {
+                continue;
+            }
+            const Vec2d d = p - grid_.centre(a);
+            least = std::min(least, norm(d));
+            if (tracks_.east(a) && d.x >= 0 && d.x <= grid_.gx()) {
+                least = std::min(least, std::abs(d.y));
+            }
+            if (tracks_.north(a) && d.y >= 0 && d.y <= grid_.gy()) {
+                least = std::min(least, std::abs(d.x));
+            }
+        }
+        return least;
     }
 };
 
@@ -176,10 +211,12 @@ void Tracks::add(Cell a, Cell b)
 double grid_roughness(const CellGrid& grid,
                       const std::vector<double>& heights,
                       const Tracks& tracks,
-                      const Tool& tool)
+                      const Tool& tool,
+                      const std::function<double(Vec2d)>& to_wall_pass)
 {
+    // A flat cutter has no corner to leave ridges: its radius stands for steps on slopes.
     const double corner = tool.corner_radius > 0 ? tool.corner_radius : tool.radius;
-    const Roughness roughness{grid, heights, tracks, corner};
+    const Roughness roughness{grid, heights, tracks, corner, to_wall_pass};
     double most = 0;
     for (int row = -1; row < grid.rows(); ++row) {
         for (int column = -1; column < grid.columns(); ++column) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "host_tools/grid_pocket/cell_grid.hpp"
@@ -26,12 +27,14 @@ private:
 
 // Largest height, square to the surface, that the tracks leave above what the tool could reach.
 // Between four cells the surface of tip heights is taken as a paraboloid through their neighbours;
-// beside walls only the cells themselves count, though the wall's own pass takes more.
+// beside walls as a slope, between the cells' tracks and the wall's own.
 //
-//   heights  of the tip over each cell of the grid; read where the cell is inside
+//   heights       of the tip over each cell of the grid; read where the cell is inside
+//   to_wall_pass  mm from a point to the pass along the wall; negative beyond it
 double grid_roughness(const CellGrid& grid,
                       const std::vector<double>& heights,
                       const Tracks& tracks,
-                      const Tool& tool);
+                      const Tool& tool,
+                      const std::function<double(Vec2d)>& to_wall_pass);
 
 }  // namespace cusp::host

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "host_tools/clearing/clearing.hpp"
 #include "host_tools/offset/edge_tree.hpp"
 
 namespace cusp::host {
@@ -188,28 +189,32 @@ double area_of(const Region2d& region)
     return sum;
 }
 
-// Loops parallel to the outlines, farthest from them first, so that each has cut metal beside it.
-std::vector<LevelRun> parallel_runs(const RegionOffset& source,
-                                    double first,
+// Loops parallel to the outlines, in the order of the project's pockets; linked ones make one run.
+// Loops on the border of the field run outside the stock and are left out.
+std::vector<LevelRun> parallel_runs(const Region2d& region,
+                                    const ClearZone& zone,
                                     const LayerSettings& settings)
 {
-    std::vector<std::vector<LevelRun>> levels;
-    for (int i = 0;; ++i) {
-        std::vector<LevelRun> level;
-        for (const Contour& contour : source.at(first + i * settings.step).contours) {
-            const bool climb = settings.direction == CutDirection::kClimb;
-            level.push_back({climb ? contour : reversed(contour), false});
-        }
-        if (level.empty()) {
-            break;
-        }
-        levels.push_back(std::move(level));
-    }
+    ClearingSettings clearing;
+    clearing.first = zone.radius();
+    clearing.step = settings.step;
+    clearing.direction = settings.direction;
     std::vector<LevelRun> out;
-    for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
-        for (LevelRun& run : in_near_order(std::move(*level), false)) {
-            out.push_back(std::move(run));
+    bool linked = false;  // the pass before was cut, so that a link from it is one
+    for (const ClearingPass& pass : clear_region(region, clearing).passes) {
+        const bool inside = !on_border(pass.path, zone.field());
+        if (inside && linked && pass.start == PassStart::kLink &&
+            zone.clear(out.back().edges.back().end, pass.path.front().start)) {
+            std::vector<Edge>& edges = out.back().edges;
+            const Vec2d from = edges.back().end;
+            if (norm(pass.path.front().start - from) > 1e-9) {
+                edges.push_back(line_edge(from, pass.path.front().start));
+            }
+            edges.insert(edges.end(), pass.path.begin(), pass.path.end());
+        } else if (inside) {
+            out.push_back({pass.path, false});
         }
+        linked = inside;
     }
     return out;
 }
@@ -243,7 +248,8 @@ LayerClearing clear_layer(const std::vector<Rectangle>& boxes,
     const Rectangle field = grown_box(stock, 1.1 * kept);
     LayerClearing out;
     out.zone = std::make_shared<ClearZone>(boxes, field, kept);
-    const RegionOffset source{free_region(boxes, grown_box(field, kept))};
+    const Region2d region = free_region(boxes, grown_box(field, kept));
+    const RegionOffset source{region};
     const Region2d centres = source.at(kept);
     out.centres = std::make_shared<RegionOffset>(centres);
     out.cleared_area = area_of(grown(centres, radius));
@@ -255,7 +261,7 @@ LayerClearing clear_layer(const std::vector<Rectangle>& boxes,
     }
     out.islands = static_cast<int>(outlines.size());
     if (settings.contour) {
-        out.runs = parallel_runs(source, kept, settings);
+        out.runs = parallel_runs(region, *out.zone, settings);
     } else {
         out.runs = zigzag_runs(*out.zone, stock, settings);
         std::vector<LevelRun> around = in_near_order(

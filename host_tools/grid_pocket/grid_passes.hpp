@@ -1,0 +1,72 @@
+// The passes of the pocket and the moves between them: layers, main path, wall, zigzags.
+#pragma once
+
+#include <vector>
+
+#include "host_tools/grid_pocket/grid_moves.hpp"
+#include "host_tools/grid_pocket/pocket_space.hpp"
+
+namespace cusp::host {
+
+class GridPasses {
+public:
+    // Both outlive this; `pocket.rough_heights` are needed for layers only.
+    GridPasses(PocketSpace& pocket, Toolpath& path);
+
+    // One rough layer: the navigation over the cells that the floor leaves free, then the wall.
+    void layer(double plane);
+
+    // P: the whole navigation over the floor.
+    void main_path(const Navigation& navigation);
+
+    // W: along boundary and islands.
+    void wall();
+
+    // N: over the steps along 'x' or 'y' that are no track yet; adds them to the tracks.
+    void zigzag(char axis, Tracks& tracks);
+
+    void finish() { moves_.retract(); }
+    std::size_t main_moves() const { return main_moves_; }
+    int backtracks() const { return backtracks_; }
+    int dead_ends() const { return dead_ends_; }
+    int passes() const { return passes_; }
+    int steps() const { return steps_; }
+    int retracts() const { return moves_.retracts(); }
+    int plunges() const { return moves_.plunges(); }
+
+private:
+    PocketSpace& pocket_;
+    Toolpath& path_;
+    GridMoves moves_;
+    std::vector<float> metal_;  // top of what stands over each cell
+    double last_plane_{1e300};
+    std::size_t main_moves_{0};
+    int backtracks_{0};
+    int dead_ends_{0};
+    int passes_{0};
+    int steps_{0};
+
+    double metal_at(Cell c) const { return static_cast<double>(metal_[pocket_.grid.index(c)]); }
+    void count(const Navigation& navigation);
+    // True where the steps before and after `i` go the same way, one cell each.
+    static bool straight(const Navigation& navigation, std::size_t i);
+    bool clear_at(double plane, Cell a, Cell b) const;
+    // Whether a straight move at the height of the layer above leads there: what the floor leaves
+    // free at that height has been cut, but for ridges between tracks.
+    bool can_link(Vec3d to) const;
+    // Whether the layer above has visited every cell under the move.
+    bool cut_along(Vec3d from, Vec3d to) const;
+    std::vector<Vec3d> level_way(const Navigation& navigation,
+                                 std::size_t first,
+                                 double plane) const;
+    std::vector<Vec2d> wall_corners(const Contour& contour) const;
+    Vec2d here() const;
+    // To the first corner: along the floor where the way is clear, else down at a cell beside it,
+    // which the main path has cut.
+    void approach(const std::vector<Vec2d>& corners);
+    // Along the wall where the floor lies below the plane.
+    void wall_level(double plane);
+    void cut_level(std::vector<Vec3d>& run);
+};
+
+}  // namespace cusp::host

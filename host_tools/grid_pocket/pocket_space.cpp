@@ -1,0 +1,160 @@
+// Distances decide on moves: along a line the distance from the walls changes by no more than the
+// way.
+#include "host_tools/grid_pocket/pocket_space.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cusp::host {
+namespace {
+
+constexpr double kNoHeight = std::numeric_limits<double>::quiet_NaN();
+
+// Steps between neighbours that only the zigzags along `axis` cut.
+void add_zigzag(const PocketSpace& pocket, char axis, Tracks& tracks)
+{
+    for (std::size_t i = 0; i < pocket.grid.size(); ++i) {
+        const Cell c = pocket.grid.cell(i);
+        const Cell next = axis == 'x' ? Cell{c.column + 1, c.row} : Cell{c.column, c.row + 1};
+        if (pocket.grid.inside(c) && pocket.grid.inside(next) && pocket.clear(c, next)) {
+            tracks.add(c, next);
+        }
+    }
+}
+
+}  // namespace
+
+FollowSettings follow_settings(const Operation& operation)
+{
+    FollowSettings s;
+    s.tolerance = std::max(operation.floor_tolerance, 1e-3);
+    s.both_sides = operation.tolerance_side == ToleranceSide::kBoth;
+    s.arcs = operation.output == OutputForm::kArcs;
+    s.arc_tolerance = operation.arc_tolerance > 0 ? operation.arc_tolerance : s.tolerance;
+    s.max_arc_radius = operation.max_arc_radius > 0 ? operation.max_arc_radius : 1e3;
+    // Between places this far apart the tip's height rises over a chord by about an eighth of the
+    // band.
+    const double bend = std::sqrt(0.5 * std::max(operation.tool.corner_radius, 0.1) * s.tolerance);
+    s.sample = std::min(std::max(operation.grid_x, operation.grid_y), bend);
+    return s;
+}
+
+PocketSpace::PocketSpace(const Job& j, const Operation& o, const PocketWalls& pocket)
+    : job{j},
+      operation{o},
+      kept{o.tool.radius + pocket.wall_error},
+      walls{pocket.region},
+      centres{walls.at(kept + kWallRounding)},
+      grid{walls, o.grid_x, o.grid_y, kept},
+      model{o.floor},
+      finish{model, o.tool, 0, follow_settings(o)},
+      rough{model, o.tool, o.allowance, follow_settings(o)}
+{
+}
+
+bool PocketSpace::clear(Vec2d a, Vec2d b) const
+{
+    constexpr double kOnTheWall = 1e-4;
+    constexpr double kLeastStep = 0.01;
+    const double length = norm(b - a);
+    for (double s = 0; s < length;) {
+        const double room = walls.clearance(a + (b - a) * (s / length)) - kept;
+        if (room < -kOnTheWall) {
+            return false;
+        }
+        s += std::max(room, kLeastStep);
+    }
+    return walls.clearance(b) >= kept - kOnTheWall;
+}
+
+std::vector<double> heights_over(const PocketSpace& pocket, const FloorFollower& follower)
+{
+    std::vector<double> out(pocket.grid.size(), kNoHeight);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const Cell c = pocket.grid.cell(i);
+        if (!pocket.grid.inside(c)) {
+            continue;
+        }
+        const Vec2d at = pocket.grid.centre(c);
+        const auto height = follower.height(at);
+        if (!height) {
+            refuse_grid_pocket(pocket.job, "no floor lies under the pocket at x " +
+                                               length_text(pocket.job, at.x) + ", y " +
+                                               length_text(pocket.job, at.y));
+        }
+        out[i] = *height;
+    }
+    return out;
+}
+
+Navigation finish_navigation(const PocketSpace& pocket)
+{
+    NavigationRules rules;
+    rules.free = [&](Cell c) {
+        return pocket.grid.inside(c);
+    };
+    rules.clear_step = [&](Cell a, Cell b) {
+        return pocket.clear(a, b);
+    };
+    rules.clear_link = rules.clear_step;
+    return reversed(navigate(pocket.grid, rules));
+}
+
+Tracks tracks_of(const CellGrid& grid, const Navigation& navigation)
+{
+    Tracks tracks{grid};
+    for (std::size_t i = 1; i < navigation.steps.size(); ++i) {
+        if (navigation.steps[i].kind == StepKind::kNeighbour) {
+            tracks.add(navigation.steps[i - 1].cell, navigation.steps[i].cell);
+        }
+    }
+    return tracks;
+}
+
+double roughness_of(const PocketSpace& pocket, const Navigation& navigation)
+{
+    Tracks tracks = tracks_of(pocket.grid, navigation);
+    for (const char axis : pocket.operation.zigzag) {
+        add_zigzag(pocket, axis, tracks);
+    }
+    return grid_roughness(pocket.grid, pocket.heights, tracks, pocket.operation.tool,
+                          [&](Vec2d p) { return pocket.walls.clearance(p) - pocket.kept; });
+}
+
+std::vector<double> layer_planes(const PocketSpace& pocket)
+{
+    double lowest = 1e300;
+    for (const double z : pocket.rough_heights) {
+        lowest = std::isnan(z) ? lowest : std::min(lowest, z);
+    }
+    std::vector<double> planes;
+    const Operation& operation = pocket.operation;
+    if (!operation.layers.empty()) {
+        for (const double depth : operation.layers) {
+            planes.push_back(pocket.job.stock_top - depth);
+        }
+    } else if (operation.max_depth) {
+        // A layer leaves ridges between its tracks, and the finish meets the allowance: both add to
+        // the next depth of cut.
+        const double corner = operation.tool.corner_radius;
+        const double half = std::min(corner, std::hypot(operation.grid_x, operation.grid_y) / 2);
+        const double ridge = corner - std::sqrt(corner * corner - half * half);
+        const double step =
+            std::max(*operation.max_depth - ridge - operation.allowance, *operation.max_depth / 4);
+        if ((pocket.job.stock_top - lowest) / step > 1e4) {
+            refuse_grid_pocket(pocket.job, "max_depth " +
+                                               length_text(pocket.job, *operation.max_depth) +
+                                               " makes more than 10000 layers");
+        }
+        for (int i = 1; pocket.job.stock_top - i * step > lowest; ++i) {
+            planes.push_back(pocket.job.stock_top - i * step);
+        }
+    }
+    planes.erase(
+        std::remove_if(planes.begin(), planes.end(), [&](double z) { return z <= lowest; }),
+        planes.end());
+    return planes;
+}
+
+}  // namespace cusp::host

@@ -1,0 +1,56 @@
+// The pocket as the passes see it: where the axis may stand, how low, and in which order.
+#pragma once
+
+#include <vector>
+
+#include "host_tools/grid_pocket/floor_follower.hpp"
+#include "host_tools/grid_pocket/grid_input.hpp"
+#include "host_tools/grid_pocket/grid_navigation.hpp"
+#include "host_tools/grid_pocket/grid_roughness.hpp"
+
+namespace cusp::host {
+
+// Beyond the radius, mm, so that G-code rounded to its last digit still keeps it.
+constexpr double kWallRounding = 5e-4;
+
+// How the operation's tolerances and output bound the moves over the floor.
+FollowSettings follow_settings(const Operation& operation);
+
+// Everything about the pocket that the passes share.
+struct PocketSpace {
+    const Job& job;
+    const Operation& operation;
+    double kept;  // mm from the axis to the walls
+    RegionOffset walls;
+    Region2d centres;
+    CellGrid grid;
+    SurfaceModel model;
+    FloorFollower finish;
+    FloorFollower rough;          // leaves the allowance
+    std::vector<double> heights;  // finish heights over cells
+    std::vector<double> rough_heights;
+
+    PocketSpace(const Job& j, const Operation& o, const PocketWalls& pocket);
+
+    // Whether the axis may go straight from a to b.
+    bool clear(Vec2d a, Vec2d b) const;
+    bool clear(Cell a, Cell b) const { return clear(grid.centre(a), grid.centre(b)); }
+};
+
+// Heights of the tip over all cells inside, NaN elsewhere. Errors: InputError where no floor lies.
+std::vector<double> heights_over(const PocketSpace& pocket, const FloorFollower& follower);
+
+// All cells, in the order they are machined.
+Navigation finish_navigation(const PocketSpace& pocket);
+
+// The steps between neighbours that the navigation takes.
+Tracks tracks_of(const CellGrid& grid, const Navigation& navigation);
+
+// Of the main path with the operation's zigzags and the wall's pass, mm.
+double roughness_of(const PocketSpace& pocket, const Navigation& navigation);
+
+// z of the layers, descending, without those that no cell reaches. Layers stand so much closer than
+// max_depth that ridges and the allowance stay within it.
+std::vector<double> layer_planes(const PocketSpace& pocket);
+
+}  // namespace cusp::host

@@ -1,0 +1,90 @@
+// Time of cells, navigation and whole plans against the number of cells. Good: time over cells
+// stays within a factor of 2 from 1e3 to 1e6, and a million cells are navigated in less than 2 s.
+#include <benchmark/benchmark.h>
+#include <cmath>
+#include <sys/resource.h>
+
+#include "host_tools/grid_pocket/grid_navigation.hpp"
+#include "host_tools/grid_pocket/grid_pocket.hpp"
+#include "tests/support/tap.hpp"
+
+namespace {
+
+using namespace cusp::host;
+
+// The polygon of Choi, Cho & Kim, in inches.
+const std::vector<Vec2d> kPolygon{{0, 0},    {2.5, 0}, {3.5, .75}, {3, 1.5},   {3.5, 2.5},
+                                  {2, 2.25}, {1.5, 3}, {.25, 2.5}, {.75, 1.25}};
+
+double peak_megabytes()
+{
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<double>(usage.ru_maxrss) / 1024;
+}
+
+// The side of a square cell so that the polygon has about `cells` of them.
+double side_for(double cells) { return std::sqrt(6.1 / cells); }
+
+void navigation(benchmark::State& state)
+{
+    Region2d region;
+    region.contours.emplace_back();
+    for (std::size_t i = 0; i < kPolygon.size(); ++i) {
+        region.contours[0].push_back(line_edge(kPolygon[i], kPolygon[(i + 1) % kPolygon.size()]));
+    }
+    const RegionOffset pocket{region};
+    const double side = side_for(static_cast<double>(state.range(0)));
+    std::size_t cells = 0;
+    for (auto _ : state) {
+        const CellGrid grid{pocket, side, side, .125};
+        NavigationRules rules;
+        rules.free = [&](Cell c) {
+            return grid.inside(c);
+        };
+        rules.clear_step = [](Cell, Cell) {
+            return true;
+        };
+        rules.clear_link = rules.clear_step;
+        benchmark::DoNotOptimize(navigate(grid, rules));
+        cells = grid.count_inside();
+    }
+    state.counters["cells"] = static_cast<double>(cells);
+    state.counters["ns_per_cell"] = benchmark::Counter(
+        static_cast<double>(cells) * 1e-9,
+        benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    state.counters["peak_MB"] = peak_megabytes();
+}
+BENCHMARK(navigation)->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark::kMillisecond);
+
+void plan(benchmark::State& state)
+{
+    Job job;
+    job.file = "bench";
+    job.feed = 1000;
+    job.plunge_feed = 200;
+    job.clearance = 5;
+    Operation operation;
+    operation.floor = {tap()};
+    operation.boundary.emplace();
+    const std::vector<Vec2d> corners{{2, -10}, {115, -10}, {115, 10}, {2, 10}};
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Vec2d a = corners[i];
+        const Vec2d b = corners[(i + 1) % corners.size()];
+        operation.boundary->push_back({1, {0, 0, 1, 1}, {{a.x, a.y, 0}, {b.x, b.y, 0}}, {1, 1}});
+    }
+    operation.tool = {1, ToolShape::kBall, 3, 3};
+    operation.floor_tolerance = 0.02;
+    operation.plan_tolerance = 0.02;
+    const double side = std::sqrt(107.0 * 14 / static_cast<double>(state.range(0)));
+    operation.grid_x = side;
+    operation.grid_y = side;
+    job.stock_top = 20;
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(plan_grid_pocket(job, operation));
+    }
+    state.counters["peak_MB"] = peak_megabytes();
+}
+BENCHMARK(plan)->Arg(1000)->Arg(10000)->Iterations(1)->Unit(benchmark::kMillisecond);
+
+}  // namespace

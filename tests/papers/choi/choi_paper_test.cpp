@@ -1,0 +1,84 @@
+// Choi, Cho & Kim: the numbers of docs/papers.md, from the jobs in examples/grid_pocket.
+#include <map>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "CppUTest/TestHarness.h"
+
+#include "host_tools/grid_pocket/grid_pocket.hpp"
+#include "host_tools/import/job.hpp"
+
+using namespace cusp::host;
+
+namespace {
+
+constexpr double kInch = 25.4;
+
+Job job_of(const std::string& name)
+{
+    Job job = read_job(CUSP_SOURCE_DIR "/examples/grid_pocket/" + name + ".toml");
+    // The main path by itself, as the paper counts it.
+    Operation& operation = job.operations.front();
+    operation.max_depth.reset();
+    operation.zigzag.clear();
+    return job;
+}
+
+double count(const PlannedOperation& plan, const std::string& name)
+{
+    for (const auto& [key, value] : plan.stats.counts) {
+        if (key == name) {
+            return value;
+        }
+    }
+    return -1;
+}
+
+PlannedOperation rectangle(double arc_tolerance_inch, ToleranceSide side)
+{
+    Job job = job_of("rectangle");
+    job.operations.front().arc_tolerance = arc_tolerance_inch * kInch;
+    job.operations.front().tolerance_side = side;
+    return plan_grid_pocket(job, job.operations.front()).front();
+}
+
+}  // namespace
+
+TEST_GROUP(ChoiPaper){};
+
+TEST(ChoiPaper, RectangleTakesAtMost125CommandsAtOneHundredthByThePapersRule)
+{
+    const PlannedOperation plan = rectangle(.01, ToleranceSide::kBoth);
+    DOUBLES_EQUAL(2016, count(plan, "cells"), 0);
+    CHECK(count(plan, "main_path_moves") <= 125);
+    CHECK(plan.stats.gouge_bound_mm <= .01 * kInch + 1e-6);
+}
+
+TEST(ChoiPaper, RectangleTakesAtMost225CommandsAtOneThousandthByThePapersRule)
+{
+    CHECK(count(rectangle(.001, ToleranceSide::kBoth), "main_path_moves") <= 225);
+}
+
+TEST(ChoiPaper, RectangleIsNeverCutIntoWhereTheToleranceIsOutside)
+{
+    const PlannedOperation plan = rectangle(.001, ToleranceSide::kOutside);
+    CHECK(plan.stats.gouge_bound_mm <= 1e-6);
+    CHECK(count(plan, "main_path_moves") <= 300);
+}
+
+TEST(ChoiPaper, RectangleStaysUnderThePapersRoughness)
+{
+    CHECK(count(rectangle(.01, ToleranceSide::kOutside), "roughness_mm") <= .0089 * kInch);
+}
+
+TEST(ChoiPaper, PolygonWastesAtMostOnePercentOfItsSteps)
+{
+    const Job job = job_of("polygon");
+    const PlannedOperation plan = plan_grid_pocket(job, job.operations.front()).front();
+    DOUBLES_EQUAL(712, count(plan, "cells"), 0);
+    CHECK(count(plan, "backtracks") <= .01 * count(plan, "steps"));
+    CHECK(plan.stats.gouge_bound_mm <= 1e-6);
+    CHECK(count(plan, "roughness_mm") <= .04 * kInch);
+}

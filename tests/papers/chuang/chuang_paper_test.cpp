@@ -1,0 +1,55 @@
+// Chuang & Pan: the numbers of docs/papers.md, from the job in examples/hull_rough.
+#include <map>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "CppUTest/TestHarness.h"
+
+#include "host_tools/hull_rough/hull_rough.hpp"
+#include "host_tools/import/job.hpp"
+
+using namespace cusp::host;
+
+namespace {
+
+double count(const PlannedOperation& plan, const std::string& name)
+{
+    for (const auto& [key, value] : plan.stats.counts) {
+        if (key == name) {
+            return value;
+        }
+    }
+    return -1;
+}
+
+PlannedOperation tap(int extra_subdivision)
+{
+    Job job = read_job(CUSP_SOURCE_DIR "/examples/hull_rough/tap.toml");
+    job.operations.front().extra_subdivision = extra_subdivision;
+    return plan_hull_rough(job, job.operations.front()).front();
+}
+
+constexpr double kStock = 104832;
+constexpr double kPart = 22604;  // mm^3, by integration of the surface
+
+}  // namespace
+
+TEST_GROUP(ChuangPaper){};
+
+TEST(ChuangPaper, TapIsCutInFifteenLayers)
+{
+    const PlannedOperation plan = tap(0);
+    DOUBLES_EQUAL(15, count(plan, "layers"), 0);
+    DOUBLES_EQUAL(1.012, count(plan, "thinnest_layer_mm"), 5e-4);
+    DOUBLES_EQUAL(1.838, count(plan, "thickest_layer_mm"), 5e-4);
+    DOUBLES_EQUAL(kStock, count(plan, "stock_mm3"), 0.1);
+}
+
+TEST(ChuangPaper, FinerHullsLeaveFivePercentOfWhatCanBeRemoved)
+{
+    const PlannedOperation plan = tap(3);
+    CHECK(count(plan, "layers") <= 17);
+    CHECK(count(plan, "left_under_boxes_mm3") - kPart <= 0.045 * (kStock - kPart));
+}

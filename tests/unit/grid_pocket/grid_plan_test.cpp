@@ -1,0 +1,235 @@
+// Whole plans on the paper's pockets and on random ones, judged by exact clearances.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <random>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "CppUTest/TestHarness.h"
+
+#include "host_tools/grid_pocket/grid_pocket.hpp"
+#include "host_tools/offset/offset.hpp"
+#include "host_tools/surface_offset/surface_model.hpp"
+#include "tests/support/tap.hpp"
+
+using namespace cusp::host;
+using cusp::Vec3d;
+
+namespace {
+
+Loop loop_of(const std::vector<Vec2d>& corners)
+{
+    Loop loop;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Vec2d a = corners[i];
+        const Vec2d b = corners[(i + 1) % corners.size()];
+        loop.push_back({1, {0, 0, 1, 1}, {{a.x, a.y, 0}, {b.x, b.y, 0}}, {1, 1}});
+    }
+    return loop;
+}
+
+Surface hills(double width, double depth, std::mt19937& random)
+{
+    std::uniform_real_distribution<double> height{-9, -3};
+    const auto knots = clamped_uniform_knots(7, 3);
+    std::vector<Vec3d> net;
+    for (std::size_t i = 0; i < 7; ++i) {
+        for (std::size_t j = 0; j < 7; ++j) {
+            const auto greville = [&](std::size_t k) {
+                return (knots[k + 1] + knots[k + 2] + knots[k + 3]) / 3;
+            };
+            net.push_back({width * greville(i), depth * greville(j), height(random)});
+        }
+    }
+    return bicubic(7, 7, std::move(net));
+}
+
+Job job_of()
+{
+    Job job;
+    job.file = "pocket.toml";
+    job.feed = 1000;
+    job.plunge_feed = 200;
+    job.clearance = 5;
+    return job;
+}
+
+Operation operation_of(unsigned seed, OutputForm output)
+{
+    std::mt19937 random{seed};
+    Operation operation;
+    operation.strategy = "grid_pocket";
+    operation.floor = {hills(40, 30, random)};
+    operation.boundary = loop_of({{1, 1}, {39, 2}, {36, 15}, {39, 29}, {20, 24}, {2, 28}, {5, 14}});
+    operation.tool = {1, ToolShape::kBall, 3, 3};
+    operation.grid_x = 1.5;
+    operation.grid_y = 1.2;
+    operation.output = output;
+    operation.floor_tolerance = 0.02;
+    operation.plan_tolerance = 0.02;
+    operation.arc_tolerance = 0.02;
+    operation.max_arc_radius = 500;
+    return operation;
+}
+
+Vec3d end_of(const ToolMove& move)
+{
+    if (const auto* arc = std::get_if<ArcTo>(&move.shape)) {
+        return arc->end;
+    }
+    return std::get<LineTo>(move.shape).end;
+}
+
+// Points along a move, its end included.
+std::vector<Vec3d> along(const ToolMove& move, Vec3d from)
+{
+    std::vector<Vec3d> out;
+    const Vec3d end = end_of(move);
+    const auto* arc = std::get_if<ArcTo>(&move.shape);
+    for (int i = 1; i <= 20; ++i) {
+        const double t = i / 20.0;
+        Vec3d p = from + (end - from) * t;
+        if (arc != nullptr) {
+            const double radius = norm(from - arc->centre);
+            const bool above = arc->plane == ArcPlane::kZX ? arc->clockwise == (end.x < from.x)
+                                                           : arc->clockwise == (end.y > from.y);
+            const double across =
+                arc->plane == ArcPlane::kZX ? p.x - arc->centre.x : p.y - arc->centre.y;
+            const double rise = std::sqrt(std::max(0.0, radius * radius - across * across));
+            p.z = arc->centre.z + (above ? rise : -rise);
+        }
+        out.push_back(p);
+    }
+    return out;
+}
+
+double least_clearance(const PlannedOperation& plan, const Operation& operation)
+{
+    const SurfaceModel model{operation.floor};
+    double least = 1e300;
+    Vec3d at = end_of(plan.path.moves.front());
+    for (const ToolMove& move : plan.path.moves) {
+        for (const Vec3d& p : along(move, at)) {
+            least = std::min(least, model.clearance(operation.tool, p, 1).distance);
+        }
+        at = end_of(move);
+    }
+    return least;
+}
+
+std::string refusal(const Operation& operation)
+{
+    try {
+        plan_grid_pocket(job_of(), operation);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+double count(const PlannedOperation& plan, const std::string& name)
+{
+    for (const auto& [key, value] : plan.stats.counts) {
+        if (key == name) {
+            return value;
+        }
+    }
+    return -1;
+}
+
+}  // namespace
+
+TEST_GROUP(GridPlan){};
+
+TEST(GridPlan, NeverCutsIntoRandomFloors)
+{
+    for (unsigned seed = 1; seed <= 4; ++seed) {
+        std::printf("GridPlan seed %u\n", seed);
+        const OutputForm form = seed % 2 == 0 ? OutputForm::kArcs : OutputForm::kLines;
+        const Operation operation = operation_of(seed, form);
+        const auto plan = plan_grid_pocket(job_of(), operation);
+        CHECK(plan[0].stats.gouge_bound_mm <= 1e-6);
+        CHECK(least_clearance(plan[0], operation) >= -2e-6);
+    }
+}
+
+TEST(GridPlan, LayersAndZigzagsNeverCutInEither)
+{
+    Operation operation = operation_of(9, OutputForm::kArcs);
+    operation.max_depth = 3;
+    operation.allowance = 0.3;
+    operation.zigzag = {'x', 'y'};
+    const auto plan = plan_grid_pocket(job_of(), operation);
+    CHECK(count(plan[0], "layers") >= 2);
+    CHECK(least_clearance(plan[0], operation) >= -2e-6);
+}
+
+TEST(GridPlan, LayersVisitOnlyCellsThatTheFloorLeaves)
+{
+    Operation operation = operation_of(9, OutputForm::kLines);
+    operation.layers = {2.0, 6.0};
+    const auto plan = plan_grid_pocket(job_of(), operation);
+    CHECK(count(plan[0], "steps") < 3 * count(plan[0], "cells"));
+}
+
+TEST(GridPlan, KeepsTheRadiusFromTheWalls)
+{
+    const Operation operation = operation_of(5, OutputForm::kLines);
+    const auto plan = plan_grid_pocket(job_of(), operation);
+    Region2d region;
+    Contour contour;
+    for (const Curve& c : *operation.boundary) {
+        contour.push_back(
+            line_edge({c.points[0].x, c.points[0].y}, {c.points[1].x, c.points[1].y}));
+    }
+    region.contours.push_back(contour);
+    const RegionOffset walls{region};
+    Vec3d at = end_of(plan[0].path.moves.front());
+    for (const ToolMove& move : plan[0].path.moves) {
+        for (const Vec3d& p : along(move, at)) {
+            CHECK(walls.clearance({p.x, p.y}) >= 3 - 1e-4);
+        }
+        at = end_of(move);
+    }
+}
+
+TEST(GridPlan, NamesAGridThatKeepsTheRoughness)
+{
+    Operation operation = operation_of(3, OutputForm::kLines);
+    operation.max_roughness = 0.02;
+    const std::string text = refusal(operation);
+    CHECK(text.find("would do") != std::string::npos);
+    const std::size_t from = text.find("; grid ") + 7;
+    operation.grid_x = std::stod(text.substr(from));
+    operation.grid_y = std::stod(text.substr(text.find(" x ", from) + 3));
+    STRCMP_EQUAL("", refusal(operation).c_str());
+}
+
+TEST(GridPlan, RefusesInputThatCannotBeUsed)
+{
+    const auto refused = [](auto change) {
+        Operation operation = operation_of(1, OutputForm::kLines);
+        change(operation);
+        return !refusal(operation).empty();
+    };
+    CHECK(refused([](Operation& o) { o.floor.clear(); }));
+    CHECK(refused([](Operation& o) { o.boundary.reset(); }));
+    CHECK(refused([](Operation& o) { o.grid_x = 0; }));
+    CHECK(refused([](Operation& o) { o.grid_y = 4.3; }));
+    CHECK(refused([](Operation& o) { o.grid_x = 1e-4; }));
+    CHECK(refused([](Operation& o) { o.tool.radius = 0; }));
+    CHECK(refused([](Operation& o) { o.tool = {1, ToolShape::kBall, 30, 30}; }));
+    CHECK(refused([](Operation& o) { o.output = OutputForm::kNurbs; }));
+    CHECK(refused([](Operation& o) { o.max_depth = 0.0; }));
+    CHECK(refused([](Operation& o) { o.layers = {3, 2}; }));
+    CHECK(refused([](Operation& o) { o.max_roughness = 0.0; }));
+    CHECK(refused([](Operation& o) {
+        o.boundary = loop_of({{0, 0}, {30, 30}, {30, 0}, {0, 30}});
+    }));
+    CHECK(refused([](Operation& o) { o.boundary = loop_of({{100, 0}, {130, 0}, {130, 30}}); }));
+}
