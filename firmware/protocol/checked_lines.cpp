@@ -13,7 +13,7 @@ void CheckedLines::switch_on() noexcept
 std::optional<std::string_view> CheckedLines::accept(const LineAssembler& line) noexcept
 {
     const std::string_view text = line.checked_part();
-    if (!line.check().good || line.overflow() || text.size() < 2 || text[0] != 'N') {
+    if (!line.check().good || line.checked_part_overflow() || text.size() < 2 || text[0] != 'N') {
         return std::nullopt;
     }
     constexpr std::size_t kMostDigits = 9;
@@ -23,7 +23,8 @@ std::optional<std::string_view> CheckedLines::accept(const LineAssembler& line) 
         number = number * 10U + static_cast<std::uint32_t>(text[end] - '0');
         ++end;
     }
-    if (end == 1 || number != expected_) {
+    const bool too_long = end < text.size() && text[end] >= '0' && text[end] <= '9';
+    if (end == 1 || too_long || number != expected_) {
         return std::nullopt;
     }
     ++expected_;

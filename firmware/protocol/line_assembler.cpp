@@ -46,6 +46,7 @@ void LineAssembler::begin_line() noexcept
 {
     length_ = 0;
     length_at_star_ = 0;
+    overflow_at_star_ = false;
     crc_ = Crc32{};
     star_ = false;
     digits_ = 0;
@@ -60,6 +61,7 @@ void LineAssembler::add_check(std::uint8_t byte) noexcept
         star_ = true;
         crc_at_star_ = crc_.value();
         length_at_star_ = length_;
+        overflow_at_star_ = overflow_;
         digits_ = 0;
         digits_value_ = 0;
         digits_good_ = true;

@@ -30,6 +30,8 @@ public:
     // The same up to the last '*', for checked lines.
     std::string_view checked_part() const noexcept { return {text_.data(), length_at_star_}; }
     LineCheck check() const noexcept;
+    // checked_part() is not whole: the check behind it does not count.
+    bool checked_part_overflow() const noexcept { return overflow_at_star_; }
 
     // More than kMaxLineLength characters came, or part of the line is known to be lost: line()
     // holds a part only and must not be executed.
@@ -58,6 +60,7 @@ private:
     bool star_{false};
     Comment comment_{Comment::kNone};
     bool overflow_{false};
+    bool overflow_at_star_{false};
     bool started_{false};
 };
 

@@ -88,6 +88,18 @@ TEST(CheckedLine, IsRefusedWithAnyByteChangedDroppedOrDoubled)
     UNSIGNED_LONGS_EQUAL(1, lines.expected());
 }
 
+TEST(CheckedLine, IsRefusedWithANumberOfMoreThanNineDigits)
+{
+    CHECK(refuses(checked("N0000000001G1")));
+    CHECK(accepts(checked("N000000001G1"), "G1"));
+}
+
+TEST(CheckedLine, MayHave255CharactersBeforeItsCheck)
+{
+    CHECK(refuses(checked("N1" + std::string(254, 'X'))));
+    CHECK(accepts(checked("N1" + std::string(253, 'X')), std::string(253, 'X')));
+}
+
 TEST(CheckedLine, LetsARealtimeByteCountAtItsThirdRepetition)
 {
     CHECK(lines.accept_realtime('?'));
