@@ -148,7 +148,12 @@ bool Machine::poll() noexcept
 {
     const bool can_answer = replies_.room() >= kReplyRoom;
     motion_.work(can_answer && (!received_.empty() || task_ == Task::kActions));
+    guard_limits();
     if (!can_answer) {
+        // Though the sender does not listen, a stop is a stop.
+        if (hold_wanted_ || door_wanted_ || reset_wanted_) {
+            motion_.hold();
+        }
         return false;
     }
     const bool handled = handle_events();
@@ -167,6 +172,19 @@ bool Machine::poll() noexcept
         return true;
     }
     return read_lines();
+}
+
+// Hard limits guard every state in which something may move, from the moment that no switch is
+// closed: a person must be able to drive off one.
+void Machine::guard_limits() noexcept
+{
+    const bool moves = state_ != State::kAlarm && state_ != State::kHome &&
+                       state_ != State::kSleep && state_ != State::kCheck;
+    if (!moves || !stored_.settings.on(Setting::kHardLimits)) {
+        motion_.guard_limits(false);
+    } else if (!limit_on()) {
+        motion_.guard_limits(true);
+    }
 }
 
 // Takes up to one event. The order is Grbl's: alarms, reset, report, stops, start.
@@ -493,12 +511,9 @@ void Machine::say_hello() noexcept
     reporter_ = StatusReporter{};
     (void)replies_.text("\r\nGrbl 1.1h ['$' for help]").end_line();
     panel_before_ = static_cast<std::uint16_t>(motion_.inputs().steady() & ~unsigned{kDoor});
-    const bool hard_limits = stored_.settings.on(Setting::kHardLimits);
-    if (hard_limits && (motion_.inputs().steady() & kLimitInputs) != 0) {
+    if (stored_.settings.on(Setting::kHardLimits) && limit_on()) {
         state_ = State::kAlarm;
         message("Check Limits");
-    } else {
-        motion_.guard_limits(hard_limits);
     }
     if (state_ == State::kAlarm) {
         message("'$H'|'$X' to unlock");

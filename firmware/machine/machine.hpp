@@ -94,6 +94,7 @@ private:
     // machine.cpp
     void act(protocol::RealtimeCommand command) noexcept;
     bool handle_events() noexcept;
+    void guard_limits() noexcept;
     bool watch_panel() noexcept;
     bool watch_link() noexcept;
     void feed_hold() noexcept;
@@ -117,6 +118,7 @@ private:
     {
         return (motion_.inputs().steady() & input) != 0;
     }
+    bool limit_on() const noexcept { return (motion_.inputs().steady() & kLimitInputs) != 0; }
     void message(std::string_view text) noexcept;
 
     // machine_lines.cpp

@@ -108,7 +108,6 @@ void Machine::perform(const SystemCommand& command) noexcept
             start_jog(command.text);
             return;
         case SystemCommandKind::kSleep:
-            motion_.guard_limits(false);
             state_ = State::kSleep;
             break;
         case SystemCommandKind::kRestoreSettings:
@@ -216,8 +215,6 @@ void Machine::unlock() noexcept
         message("Caution: Unlocked");
         state_ = State::kIdle;
         alarm_ = Alarm::kNone;
-        const bool clear = (motion_.inputs().steady() & kLimitInputs) == 0;
-        motion_.guard_limits(clear && stored_.settings.on(Setting::kHardLimits));
     }
     finish_line(std::nullopt);
 }

@@ -276,7 +276,6 @@ bool Machine::step_home() noexcept
     }
     state_ = State::kIdle;
     alarm_ = Alarm::kNone;
-    motion_.guard_limits(stored_.settings.on(Setting::kHardLimits));
     resynchronise();
     task_ = Task::kNone;
     answer_after_startup_ = true;
@@ -303,7 +302,6 @@ bool Machine::step_configure() noexcept
         return false;
     }
     motion_.configure(stored_.settings);
-    motion_.guard_limits(stored_.settings.on(Setting::kHardLimits) && state_ == State::kIdle);
     interpreter_.set_default_tolerance(stored_.settings.value(Setting::kPathTolerance));
     reporter_.work_offset_changed();
     task_ = Task::kFinish;

@@ -56,7 +56,7 @@ void Motion::configure(const Settings& settings) noexcept
 void Motion::push(const path::Move& move) noexcept
 {
     planner_.push(move);
-    pushed_length_ += rough_length(move);
+    pushed_ += static_cast<std::uint32_t>(rough_length(move) * kTravelUnitsPerMillimetre);
     last_push_tick_ = ticks();
     open_ = true;
 }
@@ -73,8 +73,7 @@ void Motion::work(bool more_waits) noexcept
 {
     if (planner_.empty()) {
         if (interpolator_.at_rest()) {
-            pushed_length_ = 0;
-            travelled_.store(0, std::memory_order_relaxed);
+            pushed_ = travelled_.load(std::memory_order_relaxed);
         }
     } else {
         (void)planner_.has_room();
@@ -87,7 +86,9 @@ void Motion::work(bool more_waits) noexcept
     const float v = speed();
     const float braking =
         v * (0.05F + 2.0F * path_filter_s_) + v * v / (2.0F * least_acceleration_);
-    const float left = pushed_length_ - travelled_.load(std::memory_order_relaxed);
+    const std::uint32_t units = pushed_ - travelled_.load(std::memory_order_relaxed);
+    const float left =
+        static_cast<float>(static_cast<std::int32_t>(units)) / kTravelUnitsPerMillimetre;
     if (interpolator_.at_rest() || left < braking) {
         close();
     }
@@ -95,10 +96,9 @@ void Motion::work(bool more_waits) noexcept
 
 Position Motion::position() const noexcept
 {
-    // A tick between the words of a position shows in the tick counter; two in a row can't.
-    Position at = set_point_;
+    // A tick between the words of a position shows in the counter; a second one can't come so soon.
     const std::uint32_t before = ticks();
-    at = set_point_;
+    Position at = set_point_;
     if (ticks() != before) {
         at = set_point_;
     }
@@ -158,9 +158,11 @@ void Motion::tick(std::uint16_t raw_inputs, PulseFrame& frame) noexcept
         sample(raw_inputs);
         if (!limit_hit_.load(std::memory_order_relaxed)) {
             set_point_ = interpolator_.tick();
-            travelled_.store(
-                travelled_.load(std::memory_order_relaxed) + interpolator_.speed() * kServoTick,
-                std::memory_order_relaxed);
+            travel_remainder_ += interpolator_.speed() * kServoTick * kTravelUnitsPerMillimetre;
+            const auto units = static_cast<std::uint32_t>(travel_remainder_);
+            travel_remainder_ -= static_cast<float>(units);
+            travelled_.store(travelled_.load(std::memory_order_relaxed) + units,
+                             std::memory_order_relaxed);
         }
     }
     for (std::size_t i = kPlayedBehind; i > 0; --i) {

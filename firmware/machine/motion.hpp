@@ -72,7 +72,7 @@ public:
     // Where the machine was when the watch answered.
     std::optional<Position> contact() const noexcept;
 
-    // Any limit switch from now on stops everything within the tick.
+    // While on, any limit switch stops everything within the tick.
     void guard_limits(bool on) noexcept { guarding_.store(on, std::memory_order_relaxed); }
     // Whether that happened; motion stands still until abandon().
     bool limit_hit() const noexcept { return limit_hit_.load(std::memory_order_acquire); }
@@ -113,9 +113,12 @@ private:
     std::atomic<bool> gate_shut_{false};
     std::atomic<std::uint32_t> ticks_{0};
 
-    // What is still to be travelled, roughly, mm: tells when to close the path.
-    float pushed_length_{0};
-    std::atomic<float> travelled_{0};
+    // What was pushed and what of it is travelled, in sixteenths of a micrometre, wrapping: their
+    // difference tells when the path runs out. Integers, since a program may be kilometres long.
+    static constexpr float kTravelUnitsPerMillimetre = 16000.0F;
+    std::uint32_t pushed_{0};
+    std::atomic<std::uint32_t> travelled_{0};
+    float travel_remainder_{0};
     float least_acceleration_{1};
     float path_filter_s_{0};
     std::uint32_t last_push_tick_{0};
