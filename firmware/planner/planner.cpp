@@ -34,7 +34,7 @@ struct FilterChoice {
 FilterChoice filter_for(float tolerance) noexcept
 {
     if (tolerance <= 0) {
-        return {{5, 2}, kExactDeviation};
+        return {{4, 2}, kExactDeviation};
     }
     const float deviation = std::max(kExactDeviation, kFilterShareOfTolerance * tolerance);
     return {{deviation < 2 * kExactDeviation ? std::uint8_t{5} : std::uint8_t{9}, 2}, deviation};
