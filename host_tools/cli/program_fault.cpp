@@ -6,6 +6,7 @@
 
 void cusp::fault(const char* expression, const char* file, int line) noexcept
 {
-    std::fprintf(stderr, "cusp: a fault in the program itself: %s:%d: %s\n", file, line, expression);
+    std::fprintf(stderr, "cusp: a fault in the program itself: %s:%d: %s\n", file, line,
+                 expression);
     std::abort();
 }

@@ -7,6 +7,7 @@
 
 #include "host_tools/cli/commands.hpp"
 #include "host_tools/import/job.hpp"
+#include "host_tools/report/pictures.hpp"
 #include "host_tools/verify/verify.hpp"
 
 #include "CLI/CLI.hpp"
@@ -22,6 +23,8 @@ struct VerifyOptions {
     std::string job;
     std::string program;
     std::string stats;
+    std::string path_picture;
+    std::string left_picture;
     double pitch{};
     double spacing{};
 };
@@ -96,10 +99,10 @@ Json stats_of(const Verification& result)
     return out;
 }
 
-void write_stats(const std::string& file, const Json& stats)
+void write_text(const std::string& file, const std::string& text)
 {
     std::ofstream out(file);
-    out << stats.dump(1) << '\n';
+    out << text;
     out.close();
     if (!out) {
         throw InputError(file + ": can't be written");
@@ -124,7 +127,13 @@ int run_verify(const VerifyOptions& options)
         }
     }
     if (!options.stats.empty()) {
-        write_stats(options.stats, stats);
+        write_text(options.stats, stats.dump(1) + "\n");
+    }
+    if (!options.path_picture.empty()) {
+        write_text(options.path_picture, path_picture(job, result.program));
+    }
+    if (!options.left_picture.empty()) {
+        write_text(options.left_picture, left_picture(job, result));
     }
     for (const std::string& broken : result.broken) {
         fmt::print("broken: {}\n", broken);
@@ -157,6 +166,10 @@ void add_verify_command(CLI::App& app, Work& work)
     command
         ->add_option("--step", options->spacing, "mm between tool positions (default 0.1 or finer)")
         ->check(CLI::PositiveNumber);
+    command->add_option("--path-picture", options->path_picture,
+                        "picture to write (SVG): the path from above, coloured by height");
+    command->add_option("--left-picture", options->left_picture,
+                        "picture to write (SVG): what is left over the floor");
     command->callback([&work, options] {
         work = [options] {
             return run_verify(*options);

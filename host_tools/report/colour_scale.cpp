@@ -1,0 +1,72 @@
+// A scale that grows evenly brighter, so that it reads in grey, too.
+#include "host_tools/report/colour_scale.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "fmt/format.h"
+
+namespace cusp::host {
+namespace {
+
+struct Colour {
+    double red, green, blue;
+};
+
+// Samples of the map "viridis" of matplotlib (van der Walt and Smith, CC0).
+constexpr std::array<Colour, 6> kStops{Colour{68, 1, 84},    Colour{65, 68, 135},
+                                       Colour{42, 120, 142}, Colour{34, 168, 132},
+                                       Colour{122, 209, 81}, Colour{253, 231, 37}};
+
+}  // namespace
+
+std::string colour_of_step(int step)
+{
+    const double place = static_cast<double>(step) / (kColourSteps - 1) * (kStops.size() - 1);
+    const auto low = std::min(static_cast<std::size_t>(place), kStops.size() - 2);
+    const double share = place - static_cast<double>(low);
+    const auto mixed = [&](double a, double b) {
+        return static_cast<int>(std::lround(a + share * (b - a)));
+    };
+    return fmt::format("#{:02x}{:02x}{:02x}", mixed(kStops[low].red, kStops[low + 1].red),
+                       mixed(kStops[low].green, kStops[low + 1].green),
+                       mixed(kStops[low].blue, kStops[low + 1].blue));
+}
+
+int step_of(double value, double low, double high)
+{
+    if (!(high > low)) {
+        return 0;
+    }
+    const double share = (value - low) / (high - low);
+    return std::clamp(static_cast<int>(share * kColourSteps), 0, kColourSteps - 1);
+}
+
+std::string scale_bar(
+    double x, double y, double height, double low, double high, const std::string& title)
+{
+    const double width = height / 16;
+    const double step_height = height / kColourSteps;
+    const double text = height / 24;
+    std::string out = fmt::format(
+        "<text x=\"{:.3f}\" y=\"{:.3f}\" font-size=\"{:.3f}\" "
+        "font-family=\"sans-serif\">{}</text>\n",
+        x, y - text, text, title);
+    for (int k = 0; k < kColourSteps; ++k) {
+        out += fmt::format(
+            "<rect x=\"{:.3f}\" y=\"{:.3f}\" width=\"{:.3f}\" height=\"{:.3f}\" fill=\"{}\"/>\n", x,
+            y + (kColourSteps - 1 - k) * step_height, width, 1.05 * step_height, colour_of_step(k));
+    }
+    constexpr int kNumbers = 4;
+    for (int k = 0; k <= kNumbers; ++k) {
+        const double share = static_cast<double>(k) / kNumbers;
+        out += fmt::format(
+            "<text x=\"{:.3f}\" y=\"{:.3f}\" font-size=\"{:.3f}\" "
+            "font-family=\"sans-serif\">{:.3g}</text>\n",
+            x + 1.3 * width, y + (1 - share) * height + text / 3, text, low + share * (high - low));
+    }
+    return out;
+}
+
+}  // namespace cusp::host

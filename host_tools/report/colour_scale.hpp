@@ -1,0 +1,23 @@
+// Colours for numbers, and the scale that explains them, for SVG pictures.
+#pragma once
+
+#include <string>
+
+namespace cusp::host {
+
+// Steps of the scale: few enough that neighbours merge in the picture.
+inline constexpr int kColourSteps = 32;
+
+// "#rrggbb" of a step, 0 to kColourSteps - 1: dark violet, blue, green, yellow.
+std::string colour_of_step(int step);
+
+// The step of a value between low and high; clamped.
+int step_of(double value, double low, double high);
+
+// The scale as an upright bar with five numbers.
+//
+// x, y    of its upper left corner; height and text size in the picture's units
+std::string scale_bar(
+    double x, double y, double height, double low, double high, const std::string& title);
+
+}  // namespace cusp::host

@@ -1,0 +1,105 @@
+// Cells of the map, merged along columns where their colours agree.
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "host_tools/report/colour_scale.hpp"
+#include "host_tools/report/picture_frame.hpp"
+#include "host_tools/report/pictures.hpp"
+
+namespace cusp::host {
+namespace {
+
+constexpr int kNothing = -1;
+constexpr int kUncut = -2;
+constexpr std::size_t kMostCells = 240;  // along the longer side of the picture
+
+// The highest of the values of a square of grid points; an uncut one beats all.
+int step_of_square(
+    const Verification& result, std::size_t i0, std::size_t j0, std::size_t size, double highest)
+{
+    double most = -1e300;
+    bool any = false;
+    for (std::size_t i = i0; i < std::min(result.grid.nx, i0 + size); ++i) {
+        for (std::size_t j = j0; j < std::min(result.grid.ny, j0 + size); ++j) {
+            const double left = result.left[result.grid.index(i, j)];
+            if (!std::isnan(left)) {
+                any = true;
+                most = std::max(most, left);
+            }
+        }
+    }
+    if (!any) {
+        return kNothing;
+    }
+    return std::isinf(most) ? kUncut : step_of(most, 0, highest);
+}
+
+// Rectangles of one colour as a single path, which is a third of the text of single ones.
+class Rectangles {
+public:
+    explicit Rectangles(const PictureFrame& frame) : frame_{frame} {}
+
+    void add(double x, double y, double width, double height, int step)
+    {
+        paths_[static_cast<std::size_t>(step == kUncut ? kColourSteps : step)] +=
+            fmt::format("M{:.2f} {:.2f}h{:.2f}v{:.2f}h{:.2f}z", x, frame_.flipped(y + height),
+                        width, height, -width);
+    }
+
+    std::string text() const
+    {
+        std::string out;
+        for (std::size_t k = 0; k < paths_.size(); ++k) {
+            const std::string colour =
+                k == kColourSteps ? "black" : colour_of_step(static_cast<int>(k));
+            if (!paths_[k].empty()) {
+                out += fmt::format("<path fill=\"{}\" d=\"{}\"/>\n", colour, paths_[k]);
+            }
+        }
+        return out;
+    }
+
+private:
+    const PictureFrame& frame_;
+    std::array<std::string, kColourSteps + 1> paths_;
+};
+
+}  // namespace
+
+std::string left_picture(const Job& job, const Verification& result)
+{
+    const HeightGrid& grid = result.grid;
+    const double half = grid.pitch / 2;
+    const PictureFrame frame{
+        grid.x0 - half, grid.x0 + static_cast<double>(grid.nx) * grid.pitch - half, grid.y0 - half,
+        grid.y0 + static_cast<double>(grid.ny) * grid.pitch - half};
+    const std::size_t size = std::max<std::size_t>(1, std::max(grid.nx, grid.ny) / kMostCells);
+    const double highest =
+        result.figures.scallop_bound.value_or(std::max(1e-3, result.figures.scallop_p99));
+    Rectangles rectangles{frame};
+    const double side = static_cast<double>(size) * grid.pitch;
+    for (std::size_t i = 0; i < grid.nx; i += size) {
+        const double x = frame.x_low + static_cast<double>(i) * grid.pitch;
+        std::size_t begin = 0;
+        int current = kNothing;
+        for (std::size_t j = 0; j < grid.ny + size; j += size) {
+            const int step = j < grid.ny ? step_of_square(result, i, j, size, highest) : kNothing;
+            if (step == current) {
+                continue;
+            }
+            if (current != kNothing) {
+                rectangles.add(x, frame.y_low + static_cast<double>(begin) * grid.pitch,
+                               1.02 * side, static_cast<double>(j - begin) * grid.pitch, current);
+            }
+            begin = j;
+            current = step;
+        }
+    }
+    std::string out = frame.head() + rectangles.text() + walls(job, frame);
+    out += scale_bar(frame.x_high + frame.margin(), frame.y_low, 0.8 * frame.height(), 0, highest,
+                     "left, mm");
+    return out + "</svg>\n";
+}
+
+}  // namespace cusp::host

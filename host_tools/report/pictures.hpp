@@ -1,0 +1,17 @@
+// Pictures (SVG) of what a program does and leaves, seen from above.
+#pragma once
+
+#include <string>
+
+#include "host_tools/import/job.hpp"
+#include "host_tools/verify/verify.hpp"
+
+namespace cusp::host {
+
+// The path over the walls of the part: cuts coloured by height, rapid moves dashed.
+std::string path_picture(const Job& job, const Program& program);
+
+// What is left over the floor: a map of colours with its scale; black where nothing was cut.
+std::string left_picture(const Job& job, const Verification& result);
+
+}  // namespace cusp::host
