@@ -22,9 +22,9 @@ struct ListingSource {
     const StoredState& stored;
     const gcode::Parameters& parameters;
     ProbeResult probe;
-    std::uint32_t planner_blocks;
-    std::uint32_t receive_bytes;
-    std::uint32_t glitches;
+    std::uint32_t planner_blocks{0};
+    std::uint32_t receive_bytes{0};
+    std::uint32_t glitches{0};
 };
 
 // Writes line `index` of the listing. Returns false, and writes nothing, behind the last.

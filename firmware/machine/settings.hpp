@@ -71,7 +71,7 @@ const SettingEntry& setting_entry(std::size_t index) noexcept;
 
 // Why a value is refused. Where the reason is two settings together, both stand here.
 struct SettingFault {
-    Error error;
+    Error error{Error::kSettingDisabled};
     std::uint16_t first{0};   // number of the setting at fault; 0: the reason is the value alone
     std::uint16_t second{0};  // and the one that it can't go with
     float amount{0};          // what they ask for together
