@@ -17,6 +17,8 @@ constexpr const char* kDescription =
     "through the controller's own motion core, look at every pulse, and cut the part in memory.\n"
     "\n"
     "  cusp plan JOB.toml -o PART.ngc        plan the operations of a job\n"
+    "  cusp fit PART.ngc -o ARCS.ngc --tolerance 0.01\n"
+    "                                        short lines to arcs and lines\n"
     "  cusp verify JOB.toml PART.ngc         cut it in memory: gouge, scallop, what is left\n"
     "  cusp sim PART.ngc --stats RUN.json    run it: time, limits, pulses\n"
     "  cusp stream /dev/ttyUSB0 PART.ngc     send it to a controller\n";
@@ -31,6 +33,7 @@ const std::vector<AddCommand>& commands()
 {
     static const std::vector<AddCommand> all{
         add_plan_command,
+        add_fit_command,
         add_verify_command,
     };
     return all;

@@ -1,0 +1,118 @@
+// cusp fit: a program of short lines to arcs and lines, checked, with its statistics.
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <string>
+#include <unistd.h>
+
+#include "host_tools/cli/commands.hpp"
+#include "host_tools/fit/fit_program.hpp"
+#include "host_tools/input_error/input_error.hpp"
+
+#include "CLI/CLI.hpp"
+#include "fmt/format.h"
+#include "nlohmann/json.hpp"
+
+namespace cusp::host {
+namespace {
+
+struct FitOptions {
+    std::string program;
+    std::string output;
+    std::string stats;
+    double tolerance{};
+};
+
+std::string read_file(const std::string& name)
+{
+    std::ifstream in(name, std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    if (!in || !text) {
+        throw InputError(name + ": can't be read");
+    }
+    return std::move(text).str();
+}
+
+void write_file(const std::string& name, const std::string& text)
+{
+    std::ofstream out(name, std::ios::binary);
+    out << text;
+    out.close();
+    if (!out) {
+        throw InputError(name + ": can't be written");
+    }
+}
+
+void show_progress(double done)
+{
+    const bool terminal = ::isatty(::fileno(stderr)) != 0;
+    fmt::print(stderr, "{}fitting: {:3.0f} %{}", terminal ? "\r" : "", 100 * done,
+               terminal ? "" : "\n");
+}
+
+void write_stats(const std::string& name, const FitReport& report, double tolerance, double seconds)
+{
+    const nlohmann::ordered_json stats{{"lines_read", report.lines_read},
+                                       {"tolerance_mm", tolerance},
+                                       {"moves_in", report.moves_in},
+                                       {"moves_out", report.moves_out},
+                                       {"lines", report.lines},
+                                       {"arcs", report.arcs},
+                                       {"rapids", report.rapids},
+                                       {"max_deviation_mm", report.max_deviation_mm},
+                                       {"max_vertex_deviation_mm", report.max_vertex_deviation_mm},
+                                       {"seconds", seconds}};
+    write_file(name, stats.dump(1) + "\n");
+}
+
+int run_fit(const FitOptions& options)
+{
+    const auto begin = std::chrono::steady_clock::now();
+    const std::string program = read_file(options.program);
+    const FittedProgram fitted =
+        fit_program(program, options.program, options.tolerance, show_progress);
+    write_file(options.output, fitted.text);
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const FitReport& report = fitted.report;
+    if (!options.stats.empty()) {
+        write_stats(options.stats, report, options.tolerance, seconds);
+    }
+    fmt::print(
+        "{} feed moves became {}: {} lines, {} arcs; off by at most {:.4f} mm at a vertex, "
+        "{:.4f} mm between\n",
+        report.moves_in, report.moves_out, report.lines, report.arcs,
+        report.max_vertex_deviation_mm, report.max_deviation_mm);
+    fmt::print("wrote {} ({:.0f} lines/s)\n", options.output,
+               static_cast<double>(report.lines_read) / seconds);
+    return kDone;
+}
+
+}  // namespace
+
+void add_fit_command(CLI::App& app, Work& work)
+{
+    auto* command = app.add_subcommand("fit", "replace runs of short lines by arcs and lines");
+    command->footer(
+        "Vertices stay within the tolerance, the middles of lines within a tenth more; the result\n"
+        "is read again and measured before it is written. All words but those of merged lines "
+        "stay.\n"
+        "Statistics are in mm and s, whatever the program's units; moves are feed moves.");
+    auto options = std::make_shared<FitOptions>();
+    command->add_option("IN", options->program, "G-code to read")->required();
+    command->add_option("-o,--output", options->output, "G-code to write")->required();
+    command->add_option("--tolerance", options->tolerance, "mm")
+        ->required()
+        ->check(CLI::Range(0.0001, 10.0));
+    command->add_option("--stats", options->stats, "statistics to write (JSON)");
+    command->callback([&work, options] {
+        work = [options] {
+            return run_fit(*options);
+        };
+    });
+}
+
+}  // namespace cusp::host
