@@ -6,6 +6,7 @@
 
 #include "host_tools/clearing/corner_spurs.hpp"
 #include "host_tools/clearing/cutting_order.hpp"
+#include "host_tools/offset/contour_fit.hpp"
 
 namespace cusp::host {
 
@@ -150,13 +151,15 @@ void start_at_longest(Contour& path)
     start_near(path, point_on(*longest, 0.5));
 }
 
-bool free_line(const RegionOffset& offset, Vec2d a, Vec2d b, double distance)
+bool free_path(const RegionOffset& offset, const std::vector<Edge>& path, double distance)
 {
-    const int samples = 1 + static_cast<int>(cusp::host::distance(a, b) / 0.1);
-    for (int i = 0; i <= samples; ++i) {
-        const Vec2d p = a + (b - a) * (static_cast<double>(i) / samples);
-        if (offset.any_nearer(p, distance - 1e-5)) {
-            return false;
+    for (const Edge& edge : path) {
+        const int samples = 1 + static_cast<int>(length(edge) / 0.1);
+        for (int i = 0; i <= samples; ++i) {
+            const Vec2d p = point_on(edge, static_cast<double>(i) / samples);
+            if (offset.any_nearer(p, distance - 1e-5)) {
+                return false;
+            }
         }
     }
     return true;
@@ -173,8 +176,12 @@ public:
     // before.
     void add(const Loop2d& loop, bool fresh)
     {
-        ClearingPass pass{loop.path,         loop.level,  loop.distance,
-                          PassStart::kEntry, !loop.outer, loop.step};
+        ClearingPass pass;
+        pass.path = loop.path;
+        pass.level = loop.level;
+        pass.distance = loop.distance;
+        pass.around_island = !loop.outer;
+        pass.step = loop.step;
         if (settings_.direction == CutDirection::kConventional) {
             pass.path = reversed(pass.path);
         }
@@ -182,12 +189,7 @@ public:
             start_at_longest(pass.path);
             region_.leaves += loop.outer ? 1 : 0;
         } else {
-            const Vec2d from = region_.passes.back().path.front().start;
-            start_near(pass.path, from);
-            const Vec2d to = pass.path.front().start;
-            const bool near = distance(from, to) < 3.0 * settings_.step;
-            const bool linked = near && free_line(offset_, from, to, settings_.first);
-            pass.start = linked ? PassStart::kLink : PassStart::kDrop;
+            reach(pass, region_.passes.back().path);
         }
         region_.levels = std::max(region_.levels, loop.level + 1);
         region_.passes.push_back(std::move(pass));
@@ -196,6 +198,28 @@ public:
     ClearedRegion& region() { return region_; }
 
 private:
+    // From the end of the pass before, tangent to both where that is free, else straight to the
+    // nearest point.
+    void reach(ClearingPass& pass, const Contour& before) const
+    {
+        const Vec2d from = before.front().start;
+        const Vec2d leaving = tangent_at_end(before.back());
+        start_near(pass.path, from + leaving * (2.0 * pass.step));
+        const Vec2d to = pass.path.front().start;
+        const auto arcs = biarc_between(from, leaving, to, tangent_at_start(pass.path.front()));
+        const bool onward = dot(to - from, leaving) > pass.step;
+        if (arcs && onward && distance(from, to) < 4.0 * pass.step) {
+            pass.link = {arcs->front(), arcs->back()};
+        }
+        if (pass.link.empty() || !free_path(offset_, pass.link, settings_.first)) {
+            start_near(pass.path, from);
+            pass.link = {line_edge(from, pass.path.front().start)};
+        }
+        const bool near = length(pass.link) < 5.0 * settings_.step;
+        const bool linked = near && free_path(offset_, pass.link, settings_.first);
+        pass.start = linked ? PassStart::kLink : PassStart::kDrop;
+    }
+
     const RegionOffset& offset_;
     const ClearingSettings& settings_;
     ClearedRegion region_;

@@ -30,7 +30,7 @@ struct ClearingSettings {
 enum class PassStart : std::uint8_t {
     kEntry,  // in uncut metal: needs a helix, a ramp or a plunge
     kDrop,   // beside metal already cut, after a retract
-    kLink,   // straight from the end of the pass before; at most about a step long
+    kLink,   // by `link` from the end of the pass before, through metal it has cut or is to cut
 };
 
 struct ClearingPass {
@@ -38,6 +38,7 @@ struct ClearingPass {
     int level{};        // 0: next to the contours
     double distance{};  // of the level from the contours, mm
     PassStart start{};
+    std::vector<Edge> link;  // tangent arcs where there is room, else a straight line
     bool around_island{};
     // A rest of metal this wide may stand between this level and the next one inward, mm.
     double step{};

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/offset/contour.hpp"
+
 namespace cusp::host {
 
 namespace {
@@ -12,15 +14,6 @@ constexpr double kSteepest = 60.0;  // planes beyond this slope are not used as 
 constexpr std::size_t kStack = 256;
 
 double excess(double low, double high, double x) { return std::max({low - x, 0.0, x - high}); }
-
-// The largest value on [low, high] of a + slope y + sqrt(room - y^2), a cap of a ball over a line.
-double cap_on_interval(double slope, double room, double low, double high)
-{
-    const double reach = std::sqrt(room);
-    const double best = slope * reach / std::sqrt(1.0 + slope * slope);
-    const double y = std::clamp(best, std::max(low, -reach), std::min(high, reach));
-    return slope * y + std::sqrt(std::max(room - y * y, 0.0));
-}
 
 }  // namespace
 
@@ -164,29 +157,64 @@ void TipFloor::halve(std::uint32_t index) const
     pieces_.push_back(second);
 }
 
-// The highest rest of a ball on the piece's plane above the piece's own rectangle. The ball's lower
-// side under the plane is concave over the rectangle: where its top lies outside, it is on an edge.
-double TipFloor::on_edges(const Piece& piece, Vec2d at) const
+// The highest value of slope y - profile over y in [low, high], at the distance sqrt(away^2 + y^2)
+// from the tool's axis: how far a straight edge lifts the tip. The profile is convex, so the value
+// has one top; halving finds it to nanometres in a fixed number of steps.
+double TipFloor::on_edge(double slope, double away, double low, double high) const
 {
     const double r = tool_.radius;
-    const Vec2d g = piece.gradient;
-    const double here = piece.level + g.x * at.x + g.y * at.y - r;
-    double best = kNothing;
-    for (const double x : {piece.x0, piece.x1}) {
-        const double room = r * r - (x - at.x) * (x - at.x);
-        const double low = piece.y0 - at.y;
-        const double high = piece.y1 - at.y;
-        if (room > 0.0 && low * std::abs(low) < room && high * std::abs(high) > -room) {
-            best = std::max(best, here + g.x * (x - at.x) + cap_on_interval(g.y, room, low, high));
-        }
+    const double c = tool_.corner_radius;
+    const double room = r * r - away * away;
+    if (room <= 0.0) {
+        return kNothing;
     }
-    for (const double y : {piece.y0, piece.y1}) {
-        const double room = r * r - (y - at.y) * (y - at.y);
-        const double low = piece.x0 - at.x;
-        const double high = piece.x1 - at.x;
-        if (room > 0.0 && low * std::abs(low) < room && high * std::abs(high) > -room) {
-            best = std::max(best, here + g.y * (y - at.y) + cap_on_interval(g.x, room, low, high));
+    const double reach = std::sqrt(room);
+    low = std::max(low, -reach);
+    high = std::min(high, reach);
+    if (low > high) {
+        return kNothing;
+    }
+    const auto value = [&](double y) {
+        const double out = std::max(0.0, std::sqrt(away * away + y * y) - (r - c));
+        return slope * y - (c - std::sqrt(std::max(c * c - out * out, 0.0)));
+    };
+    if (c == 0.0) {
+        return std::max(value(low), value(high));
+    }
+    if (c == r) {
+        const double best = slope * reach / std::sqrt(1.0 + slope * slope);
+        return value(std::clamp(best, low, high));
+    }
+    const auto rising = [&](double y) {
+        const double d = std::sqrt(away * away + y * y);
+        const double out = d - (r - c);
+        if (out <= 0.0 || d == 0.0) {
+            return slope > 0.0;
         }
+        return slope * d * std::sqrt(std::max(c * c - out * out, 0.0)) > out * y;
+    };
+    constexpr int kHalvings = 34;
+    double a = low;
+    double b = high;
+    for (int i = 0; i < kHalvings; ++i) {
+        const double middle = 0.5 * (a + b);
+        (rising(middle) ? a : b) = middle;
+    }
+    return std::max({value(a), value(b), value(low), value(high)});
+}
+
+// The highest rest of the tool on the piece's plane above the piece's own rectangle. The tip's
+// height is concave over the rectangle: where its top lies outside, it is on an edge.
+double TipFloor::on_edges(const Piece& piece, Vec2d at) const
+{
+    const Vec2d g = piece.gradient;
+    const double here = piece.level + g.x * at.x + g.y * at.y;
+    double best = kNothing;
+    for (const double x : {piece.x0 - at.x, piece.x1 - at.x}) {
+        best = std::max(best, here + g.x * x + on_edge(g.y, x, piece.y0 - at.y, piece.y1 - at.y));
+    }
+    for (const double y : {piece.y0 - at.y, piece.y1 - at.y}) {
+        best = std::max(best, here + g.y * y + on_edge(g.x, y, piece.x0 - at.x, piece.x1 - at.x));
     }
     return best;
 }
@@ -228,12 +256,7 @@ double TipFloor::bound(const Piece& piece, Vec2d at, double best, bool& tight) c
         return by_box;
     }
     tight = piece.thickness <= accuracy_;
-    if (c == r) {
-        return std::min({by_plane, by_box, on_edges(piece, at)});
-    }
-    const double size = std::max(piece.x1 - piece.x0, piece.y1 - piece.y0);
-    tight = tight && size * piece.secant < 20.0 * accuracy_;
-    return std::min(by_plane, by_box);
+    return std::min({by_plane, by_box, on_edges(piece, at)});
 }
 
 TipFloor::Rest TipFloor::drop(Vec2d at) const
@@ -284,7 +307,7 @@ TipFloor::Rest TipFloor::drop(Vec2d at) const
 
 // Distance from the ball's centre line to the piece's upright box, or component by component to its
 // turned box, whichever says more.
-double TipFloor::gap_to(const Piece& piece, Vec3d a, Vec3d b) const
+double TipFloor::ball_gap(const Piece& piece, Vec3d a, Vec3d b) const
 {
     const auto apart = [](double low, double high, double p, double q) {
         return std::max({low - std::max(p, q), 0.0, std::min(p, q) - high});
@@ -315,16 +338,44 @@ double TipFloor::gap_to(const Piece& piece, Vec3d a, Vec3d b) const
     return std::sqrt(square) - tool_.radius;
 }
 
-double TipFloor::gap(Vec3d a, Vec3d b, double enough) const
+// Along the axis: how far the tip stays above what the piece asks for while the tool moves from a
+// to b. Over the plane that changes evenly, so the ends tell; the box is met by the tool at its
+// nearest.
+double TipFloor::axial_gap(const Piece& piece, Vec3d a, Vec3d b) const
+{
+    const auto apart = [](double low, double high, double p, double q) {
+        return std::max({low - std::max(p, q), 0.0, std::min(p, q) - high});
+    };
+    const double dx = apart(piece.x0, piece.x1, a.x, b.x);
+    const double dy = apart(piece.y0, piece.y1, a.y, b.y);
+    const double r = tool_.radius;
+    const double c = tool_.corner_radius;
+    const double square = dx * dx + dy * dy;
+    if (square >= r * r) {
+        return 1e300;
+    }
+    const double out = std::max(0.0, std::sqrt(square) - (r - c));
+    const double profile = c - std::sqrt(std::max(c * c - out * out, 0.0));
+    const double over_box = std::min(a.z, b.z) + profile - piece.z1;
+    if (!piece.graph) {
+        return over_box;
+    }
+    const Vec2d g = piece.gradient;
+    const auto over_plane = [&](Vec3d p) {
+        return p.z - (piece.level + g.x * p.x + g.y * p.y + piece.rise);
+    };
+    return std::max(over_box, std::min(over_plane(a), over_plane(b)));
+}
+
+double TipFloor::gap(Vec3d a, Vec3d b) const
 {
     struct Entry {
         std::uint32_t piece;
         Vec3d a, b;
     };
-    const Vec3d up{0.0, 0.0, tool_.radius};
-    constexpr double kFinest = 1.0;  // of the accuracy: halving ends here
-    const double fine = kFinest * accuracy_;
-    double least = enough;
+    const bool ball = tool_.corner_radius == tool_.radius;
+    const Vec3d up{0.0, 0.0, ball ? tool_.radius : 0.0};
+    double least = 0.0;
     std::array<Entry, kStack> stack;
     for (const std::uint32_t root : roots_) {
         std::size_t depth = 0;
@@ -332,7 +383,8 @@ double TipFloor::gap(Vec3d a, Vec3d b, double enough) const
         while (depth > 0) {
             const Entry top = stack[--depth];
             const Piece& piece = pieces_[top.piece];
-            const double here = gap_to(piece, top.a, top.b);
+            const double here =
+                ball ? ball_gap(piece, top.a, top.b) : axial_gap(piece, top.a, top.b);
             if (here >= least) {
                 continue;
             }
@@ -341,12 +393,18 @@ double TipFloor::gap(Vec3d a, Vec3d b, double enough) const
             const double thin = piece.graph ? piece.thickness / piece.secant : size;
             const double tilt = move.z - dot(piece.gradient, Vec2d{move.x, move.y});
             const double turned = piece.graph ? std::abs(tilt) / piece.secant : norm(move);
-            const bool small = norm(move) < fine && size < fine;
-            if ((thin < fine && turned < fine) || small || depth + 2 > kStack) {
+            const bool small = norm(move) < accuracy_ && size < accuracy_;
+            // Beyond the piece's rectangle its plane tells of metal that is not there: only a
+            // ball's turned box knows of the rectangle, for other tools the pieces must be small.
+            const bool settled =
+                ball ? thin < accuracy_ && turned < accuracy_
+                     : thin < 0.5 * accuracy_ && size * piece.secant < 0.05 && norm(move) < 0.05;
+            if (settled || small || depth + 2 > kStack) {
                 least = std::min(least, here);
                 continue;
             }
-            if (turned > thin) {
+            const bool halve_move = ball ? turned > thin : norm(move) > size;
+            if (halve_move) {
                 const Vec3d middle = (top.a + top.b) * 0.5;
                 stack[depth++] = {top.piece, top.a, middle};
                 stack[depth++] = {top.piece, middle, top.b};
@@ -389,7 +447,7 @@ TipFloor::Section TipFloor::section(Vec2d at, Vec2d along) const
 {
     const Rest rest = drop(at);
     if (rest.height == kNothing) {
-        return {0.0, 0.0, false};
+        return {0.0, 0.0, 0.0, false};
     }
     const Piece& piece = pieces_[rest.piece];
     const Patch& patch = patches_[piece.patch];
@@ -404,13 +462,15 @@ TipFloor::Section TipFloor::section(Vec2d at, Vec2d along) const
     // du : dv of the plan direction: along = x_u du + x_v dv in plan.
     const double bend = s.du.x * s.dv.y - s.du.y * s.dv.x;
     if (std::abs(bend) < 1e-12 || n.z < 1e-3) {
-        return {0.0, 0.0, false};
+        return {0.0, 0.0, 0.0, false};
     }
     const double du = (along.x * s.dv.y - along.y * s.dv.x) / bend;
     const double dv = (s.du.x * along.y - s.du.y * along.x) / bend;
     const Vec3d tangent = s.du * du + s.dv * dv;
     const Vec3d second = s.duu * (du * du) + s.duv * (2.0 * du * dv) + s.dvv * (dv * dv);
-    return {-dot(second, n) / dot(tangent, tangent), tangent.z, true};
+    const Vec2d gradient{-n.x / n.z, -n.y / n.z};
+    return {-dot(second, n) / dot(tangent, tangent), tangent.z, dot(gradient, left_normal(along)),
+            true};
 }
 
 }  // namespace cusp::host

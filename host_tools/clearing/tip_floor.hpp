@@ -34,10 +34,10 @@ public:
     // surfaces.
     Rest drop(Vec2d at) const;
 
-    // Lower bound of the gap between a ball moved straight from tip a to tip b and the surfaces,
-    // mm; negative: it may cut by that much. Values above `enough` are not told apart.
-    // Precondition: the tool is a ball.
-    double gap(Vec3d a, Vec3d b, double enough) const;
+    // Lower bound of the gap between the tool, moved straight from tip a to tip b, and the
+    // surfaces: 0 where it keeps clear of them, negative (mm) by how much it may cut; along the
+    // normal for a ball, along the axis for other tools.
+    double gap(Vec3d a, Vec3d b) const;
 
     // True where some surface point lies straight above or below (x, y).
     bool covers(Vec2d at) const;
@@ -47,6 +47,7 @@ public:
     struct Section {
         double curvature;  // normal curvature across the path
         double slope;      // dz/ds of the floor across the path
+        double slope_along;
         bool found;
     };
     Section section(Vec2d at, Vec2d along) const;
@@ -87,8 +88,10 @@ private:
     void measure_plane(Piece& piece, const std::vector<Vec3d>& points) const;
     void halve(std::uint32_t piece) const;
     double bound(const Piece& piece, Vec2d at, double best, bool& tight) const;
-    double gap_to(const Piece& piece, Vec3d a, Vec3d b) const;
+    double ball_gap(const Piece& piece, Vec3d a, Vec3d b) const;
+    double axial_gap(const Piece& piece, Vec3d a, Vec3d b) const;
     double on_edges(const Piece& piece, Vec2d at) const;
+    double on_edge(double slope, double away, double low, double high) const;
 
     Tool tool_;
     double accuracy_;

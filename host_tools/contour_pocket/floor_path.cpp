@@ -65,11 +65,10 @@ Chords chords_of(Vec3d start, const FloorMove& move, double fine)
 
 double gap_of(Vec3d start, const FloorMove& move, const TipFloor& floor, double fine)
 {
-    constexpr double kEnough = 0.01;
     const Chords chords = chords_of(start, move, fine);
-    double least = kEnough;
+    double least = 0.0;
     for (std::size_t i = 1; i < chords.points.size(); ++i) {
-        least = std::min(least, floor.gap(chords.points[i - 1], chords.points[i], kEnough));
+        least = std::min(least, floor.gap(chords.points[i - 1], chords.points[i]));
     }
     return least - chords.sagitta;
 }
@@ -79,7 +78,7 @@ double gap_of(Vec3d start, const FloorMove& move, const TipFloor& floor, double 
 void certify(FloorPath& path, const TipFloor& floor, const FloorPathSettings& settings, bool closed)
 {
     constexpr int kRounds = 8;
-    path.least_gap = 1e300;
+    path.least_gap = 0.0;
     const double fine = std::max(settings.cushion, kWrittenStep);
     for (std::size_t i = 0; i < path.moves.size(); ++i) {
         Vec3d& start = i == 0 ? path.start : path.moves[i - 1].end;
@@ -114,7 +113,9 @@ FloorPath lay_on_floor(const std::vector<Edge>& plan,
             path.missing = at;
             return path;
         }
-        stations.push_back({at, rest.height, rest.gradient});
+        const double height = rest.height + settings.raise;
+        const bool level = height < settings.level;
+        stations.push_back({at, level ? settings.level : height, level ? Vec2d{} : rest.gradient});
     }
     const bool closed = distance(stations.front().at, stations.back().at) < 1e-9;
     // Between stations the floor may bend by a little more than at them.

@@ -11,12 +11,14 @@
 namespace cusp::host {
 
 struct FloorPathSettings {
-    double aside{};    // mm: how far a move may lie beside the plan path, either way
-    double above{};    // mm: width of the band above the floor that moves stay in
-    bool lift{true};   // false: moves stay within `above` on either side of the floor
-    bool arcs{false};  // true: helical arcs in plan where they reach farther than a line
-    double cushion{};  // mm: kept off the floor, so that certifying a move needs no finer floor
-    double spacing{};  // mm between the floor heights looked at
+    double aside{};        // mm: how far a move may lie beside the plan path, either way
+    double above{};        // mm: width of the band above the floor that moves stay in
+    bool lift{true};       // false: moves stay within `above` on either side of the floor
+    bool arcs{false};      // true: helical arcs in plan where they reach farther than a line
+    double cushion{};      // mm: kept off the floor, so that certifying a move needs no finer floor
+    double raise{};        // mm: metal left over the floor, measured along the axis
+    double level{-1e300};  // mm: the tip stays at or above this z
+    double spacing{};      // mm between the floor heights looked at
 };
 
 // One move; turn 0: straight. An arc rises evenly with its angle and sweeps less than half a turn.

@@ -29,4 +29,31 @@ double path_interval(double radius, double cusp, double curvature, double slope)
     return std::min(apart, most) * level;
 }
 
+double path_interval(
+    const Tool& tool, double cusp, double curvature, double slope, double slope_along)
+{
+    if (tool.corner_radius >= tool.radius) {
+        return path_interval(tool.radius, cusp, curvature, slope);
+    }
+    const double corner = tool.corner_radius;
+    const double flat = tool.radius - corner;
+    const double level = 1.0 / std::sqrt(1.0 + slope * slope);
+    // The flat of the foot, tilted by the slope across, rises over the floor by `tilt` a millimetre
+    // and by half the curvature times the distance squared.
+    const double tilt = std::abs(slope) * level;
+    const double bend = std::abs(curvature);
+    const double by_flat = 2.0 * cusp / (tilt + std::sqrt(tilt * tilt + 2.0 * bend * cusp) + 1e-12);
+    double interval = std::min(by_flat, 1.8 * flat) * level;
+    if (corner > cusp) {
+        interval = std::max(interval, path_interval(corner, cusp, curvature, slope));
+    }
+    // Climbing, the foot's rim sweeps an ellipse as wide as the foot and as high as its tilt.
+    const double climb = std::abs(slope_along) / std::sqrt(1.0 + slope_along * slope_along);
+    if (climb > 1e-6) {
+        const double larger = corner + flat / climb;
+        interval = std::min(interval, path_interval(larger, cusp, curvature, slope));
+    }
+    return interval;
+}
+
 }  // namespace cusp::host

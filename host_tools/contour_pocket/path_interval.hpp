@@ -1,6 +1,8 @@
 // How far apart two passes of a ball may lie so that the cusp between them stays below a height.
 #pragma once
 
+#include "host_tools/toolpath/toolpath.hpp"
+
 namespace cusp::host {
 
 // Distance in plan between two positions of the ball's centre, mm.
@@ -17,5 +19,13 @@ namespace cusp::host {
 // Source: Suh & Lee 1990, eq. (16)-(18), as corrected in docs/papers.md; theirs is the distance of
 // the contacts, this is the distance of the centres, whose paths are offset here.
 double path_interval(double radius, double cusp, double curvature, double slope);
+
+// The same for any tool. A flat or bull-nose end mill leaves its corner's ridge where the floor
+// rises across the passes, its foot's flat where it does not, and a ridge as of a larger ball where
+// the passes climb; the least of what these allow is taken.
+//
+//   slope_along  of the floor along the passes, dz over plan distance
+double path_interval(
+    const Tool& tool, double cusp, double curvature, double slope, double slope_along);
 
 }  // namespace cusp::host

@@ -10,10 +10,8 @@ namespace cusp::host {
 namespace {
 
 constexpr double kSlope = 0.08;  // of ramps and helices: 4.6 degrees
-constexpr double kAbove = 1.0;   // mm over metal where rapids end
 constexpr int kHelixSides = 48;
-constexpr double kOutOfStock = 0.1;  // mm over the stock where a slope starts
-constexpr int kMostPoints = 200000;  // of one entry: where a pass is too short for a slope
+constexpr int kMostPoints = 100000;  // of one entry: where a pass is too short for a slope
 
 double plan_distance(Vec3d a, Vec3d b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
@@ -29,54 +27,50 @@ void PocketMoves::line(MoveKind kind, Vec3d end)
     points_ += kind == MoveKind::kCut ? 1 : 0;
 }
 
-void PocketMoves::approach(Vec3d start)
+void PocketMoves::approach(Vec2d at, const EntryHeights& heights)
 {
-    line(MoveKind::kRapid, {start.x, start.y, heights_.clearance});
-    const double near = std::max(heights_.top, start.z) + kAbove;
-    if (near < heights_.clearance) {
-        line(MoveKind::kRapid, {start.x, start.y, near});
+    line(MoveKind::kRapid, {at.x, at.y, clearance_});
+    if (heights.rapid < clearance_) {
+        line(MoveKind::kRapid, {at.x, at.y, heights.rapid});
     }
+    line(MoveKind::kPlunge, {at.x, at.y, heights.metal});
 }
 
-void PocketMoves::enter_along(const FloorPath& path, bool plunge)
+void PocketMoves::enter_along(const FloorPath& path, const EntryHeights& heights, bool plunge)
 {
     std::vector<Vec3d> pass{path.start};
+    double round = 0.0;
+    double lowest = path.start.z;
     for (const FloorMove& move : path.moves) {
+        round += plan_distance(pass.back(), move.end);
+        lowest = std::min(lowest, move.end.z);
         pass.push_back(move.end);
     }
-    approach(pass.front());
-    const double lowest =
-        std::min_element(pass.begin(), pass.end(), [](Vec3d a, Vec3d b) { return a.z < b.z; })->z;
-    double round = 0.0;
-    for (std::size_t i = 1; i < pass.size(); ++i) {
-        round += plan_distance(pass[i - 1], pass[i]);
-    }
-    double z = std::max(heights_.top + kOutOfStock, pass.front().z);
+    double z = std::max(heights.metal, path.start.z);
+    approach({path.start.x, path.start.y}, {heights.rapid, z});
     const double turns = (z - lowest) / std::max(kSlope * round, 1e-9);
     if (plunge || turns * static_cast<double>(pass.size()) > kMostPoints) {
         line(MoveKind::kPlunge, pass.front());
         return;
     }
-    line(MoveKind::kPlunge, {pass.front().x, pass.front().y, z});
-    while (true) {
-        bool sloped = false;
+    for (bool sloped = true; sloped && z > lowest;) {
+        sloped = false;
         for (std::size_t i = 1; i < pass.size(); ++i) {
             z -= kSlope * plan_distance(pass[i - 1], pass[i]);
             sloped = sloped || z > pass[i].z;
             line(MoveKind::kPlunge, {pass[i].x, pass[i].y, std::max(z, pass[i].z)});
         }
-        if (!sloped || z < lowest) {
-            break;
-        }
     }
 }
 
-void PocketMoves::enter_by_helix(Vec3d centre, double radius, const TipFloor& floor)
+void PocketMoves::enter_by_helix(Vec3d centre,
+                                 double radius,
+                                 const EntryHeights& heights,
+                                 const std::function<double(Vec2d)>& lowest)
 {
-    approach({centre.x + radius, centre.y, centre.z});
-    double z = std::max(heights_.top + kOutOfStock, centre.z);
-    line(MoveKind::kPlunge, {centre.x + radius, centre.y, z});
     const double drop = kSlope * radius * 6.283185307179586 / kHelixSides;
+    double z = std::max(heights.metal, centre.z);
+    approach({centre.x + radius, centre.y}, {heights.rapid, z});
     for (bool sloped = true; sloped;) {
         sloped = false;
         for (int i = 1; i <= kHelixSides; ++i) {
@@ -86,9 +80,9 @@ void PocketMoves::enter_by_helix(Vec3d centre, double radius, const TipFloor& fl
             z -= drop;
             // Between two sides of the helix the floor may rise: half a millimetre covers it, and
             // the pass removes it.
-            const double low = floor.drop(at).height + 0.5;
-            sloped = sloped || z > std::max(low, centre.z);
-            line(MoveKind::kPlunge, {at.x, at.y, std::max({z, low, centre.z})});
+            const double low = std::max(lowest(at) + 0.5, centre.z);
+            sloped = sloped || z > low;
+            line(MoveKind::kPlunge, {at.x, at.y, std::max(z, low)});
         }
     }
     line(MoveKind::kPlunge, {centre.x, centre.y, at_.z});
@@ -112,8 +106,8 @@ void PocketMoves::follow(MoveKind kind, const FloorPath& path)
 
 void PocketMoves::retract()
 {
-    if (!moves_.empty() && at_.z < heights_.clearance) {
-        line(MoveKind::kRapid, {at_.x, at_.y, heights_.clearance});
+    if (!moves_.empty() && at_.z < clearance_) {
+        line(MoveKind::kRapid, {at_.x, at_.y, clearance_});
         ++retracts_;
     }
 }

@@ -1,30 +1,34 @@
 // Writes the moves of one tool through a pocket: entries into metal, links, cuts and retracts.
 #pragma once
 
+#include <functional>
 #include <vector>
 
-#include "host_tools/clearing/tip_floor.hpp"
 #include "host_tools/contour_pocket/floor_path.hpp"
 #include "host_tools/toolpath/toolpath.hpp"
 
 namespace cusp::host {
 
-struct PocketHeights {
-    double top;        // of the stock, mm
-    double clearance;  // z at which rapid moves run, mm
+// Over the start of a pass: where rapid moves end and where metal may begin, z in mm.
+struct EntryHeights {
+    double rapid;
+    double metal;
 };
 
 class PocketMoves {
 public:
-    explicit PocketMoves(const PocketHeights& heights) : heights_{heights} {}
+    // clearance: z at which rapid moves run, mm.
+    explicit PocketMoves(double clearance) : clearance_{clearance} {}
 
-    // Down to the start of a closed pass in uncut metal: round the pass again and again on a gentle
-    // slope until the pass lies wholly at its depth; straight down where `plunge`.
-    void enter_along(const FloorPath& pass, bool plunge);
+    // Down to the start of a closed pass of straight moves: round it again and again on a gentle
+    // slope until it lies wholly at its depth; straight down where `plunge`.
+    void enter_along(const FloorPath& path, const EntryHeights& heights, bool plunge);
 
-    // Down on a helix of the given radius about the pass's start. floor_at gives the lowest tip
-    // there.
-    void enter_by_helix(Vec3d centre, double radius, const TipFloor& floor);
+    // Down on a helix about the start of a pass. lowest(at) is the lowest the tip may stand there.
+    void enter_by_helix(Vec3d centre,
+                        double radius,
+                        const EntryHeights& heights,
+                        const std::function<double(Vec2d)>& lowest);
 
     void cut(const FloorPath& pass) { follow(MoveKind::kCut, pass); }
     void link(const FloorPath& path) { follow(MoveKind::kLink, path); }
@@ -36,10 +40,10 @@ public:
 
 private:
     void line(MoveKind kind, Vec3d end);
-    void approach(Vec3d start);
+    void approach(Vec2d at, const EntryHeights& heights);
     void follow(MoveKind kind, const FloorPath& path);
 
-    PocketHeights heights_;
+    double clearance_;
     std::vector<ToolMove> moves_;
     Vec3d at_{};
     int retracts_{};

@@ -200,6 +200,14 @@ Contour closed_up(const Contour& chain)
 
 }  // namespace
 
+std::optional<std::array<Edge, 2>> biarc_between(Vec2d from,
+                                                 Vec2d leaving,
+                                                 Vec2d to,
+                                                 Vec2d arriving)
+{
+    return biarc({from, leaving}, {to, arriving});
+}
+
 std::vector<Edge> fit_edges(const Curve& curve, double tolerance)
 {
     std::vector<Edge> edges;

@@ -1,0 +1,76 @@
+// One pass after the other; a pass left out breaks the link to the next.
+#include "host_tools/contour_pocket/floor_cutter.hpp"
+
+#include <algorithm>
+
+#include "host_tools/contour_pocket/pocket_task.hpp"
+
+namespace cusp::host {
+
+namespace {
+
+double lowest_of(const FloorPath& path)
+{
+    double lowest = path.start.z;
+    for (const FloorMove& move : path.moves) {
+        lowest = std::min(lowest, move.end.z);
+    }
+    return lowest;
+}
+
+}  // namespace
+
+FloorPath FloorCutter::laid(const std::vector<Edge>& plan, const FloorPathSettings& laying)
+{
+    FloorPath path = lay_on_floor(plan, floor_, laying);
+    if (!path.over_floor) {
+        refuse_uncovered(operation_, path.missing);
+    }
+    return path;
+}
+
+void FloorCutter::enter(const ClearingPass& pass, const CutSettings& settings)
+{
+    const double tool = operation_.tool.radius;
+    const double radius = std::min(0.6 * tool, pass.distance - settings.first);
+    const bool short_pass = length(pass.path) < 6.0 * tool;
+    const bool helix =
+        settings.entry == EntryKind::kHelix || (settings.entry == EntryKind::kAuto && short_pass);
+    FloorPathSettings laying = settings.laying;
+    laying.arcs = false;
+    const FloorPath path = laid(pass.path, laying);
+    const EntryHeights heights = settings.entry_heights(path.start.z);
+    if (helix && radius > 0.2 * tool) {
+        moves_.enter_by_helix(path.start, radius, heights, [&](Vec2d at) {
+            return std::max(floor_.drop(at).height + laying.raise, laying.level);
+        });
+        return;
+    }
+    moves_.enter_along(path, heights, settings.entry == EntryKind::kPlunge);
+}
+
+void FloorCutter::cut(const ClearedRegion& cleared, const CutSettings& settings)
+{
+    bool cut_before = false;
+    for (const ClearingPass& pass : cleared.passes) {
+        const FloorPath path = laid(pass.path, settings.laying);
+        if (lowest_of(path) >= settings.skip_above) {
+            cut_before = false;
+            continue;
+        }
+        least_gap_ = std::min(least_gap_, path.least_gap);
+        if (pass.start == PassStart::kLink && cut_before) {
+            const FloorPath link = laid(pass.link, settings.laying);
+            least_gap_ = std::min(least_gap_, link.least_gap);
+            moves_.link(link);
+        } else {
+            moves_.retract();
+            enter(pass, settings);
+        }
+        moves_.cut(path);
+        cut_before = true;
+    }
+    moves_.retract();
+}
+
+}  // namespace cusp::host

@@ -1,0 +1,138 @@
+// Each refusal names the file, the quantity, its value and its limit.
+#include "host_tools/contour_pocket/pocket_task.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "host_tools/contour_pocket/floor_path.hpp"
+#include "host_tools/offset/contour_fit.hpp"
+#include "host_tools/offset/region_check.hpp"
+
+namespace cusp::host {
+
+namespace {
+
+std::string place_text(Vec2d p) { return "(" + number_text(p.x) + ", " + number_text(p.y) + ")"; }
+
+void check_range(const Job& job, const char* key, double value, double limit)
+{
+    if (!(value > 0.0) || value > limit) {
+        throw InputError(job.file + ": contour_pocket: " + key + " " + number_text(value) +
+                         " mm is not in the range above 0 to " + number_text(limit) + " mm");
+    }
+}
+
+[[noreturn]] void refuse_region(const Operation& operation, const RegionFault& fault)
+{
+    const auto file = [&](std::size_t contour) {
+        return contour == 0 ? operation.boundary_file : operation.island_files.at(contour - 1);
+    };
+    const std::string at = " at " + place_text(fault.where) + " mm";
+    switch (fault.kind) {
+        case RegionFaultKind::kNoLength:
+            throw InputError(file(fault.first) + ": a curve has no length" + at);
+        case RegionFaultKind::kCrossesItself:
+            throw InputError(file(fault.first) + ": the loop crosses itself" + at);
+        case RegionFaultKind::kCross:
+            throw InputError(file(fault.first) + ": crosses " + file(fault.second) + at);
+        case RegionFaultKind::kHoleOutside:
+            throw InputError(file(fault.second) + ": the island lies outside the boundary" + at);
+        case RegionFaultKind::kHoleInHole:
+            throw InputError(file(fault.second) + ": the island lies inside another, " +
+                             file(fault.first) + "," + at);
+    }
+    throw InputError(operation.boundary_file + ": the pocket has no valid region" + at);
+}
+
+}  // namespace
+
+std::string number_text(double value)
+{
+    char text[40];
+    std::snprintf(text, sizeof text, "%.6g", value);
+    return text;
+}
+
+Budget make_budget(const Job& job, const Operation& operation)
+{
+    const double radius = operation.tool.radius;
+    if (operation.floor.empty()) {
+        throw InputError(job.file + ": contour_pocket: floor is missing");
+    }
+    if (!operation.boundary) {
+        throw InputError(job.file + ": contour_pocket: boundary is missing");
+    }
+    if (!operation.scallop) {
+        throw InputError(job.file + ": contour_pocket: scallop is missing");
+    }
+    check_range(job, "plan_tolerance", operation.plan_tolerance, radius);
+    check_range(job, "floor_tolerance", operation.floor_tolerance, radius);
+    check_range(job, "scallop", *operation.scallop, 0.9 * radius);
+    Budget budget;
+    budget.outside = operation.tolerance_side == ToleranceSide::kOutside;
+    budget.fit = 0.1 * operation.plan_tolerance;
+    budget.accuracy = std::min(0.1 * operation.floor_tolerance, 5e-3);
+    budget.above = operation.floor_tolerance - 2.0 * budget.accuracy;
+    // Passes may lie closer or wider by what the plan tolerance lets them wander.
+    budget.cusp = *operation.scallop - operation.floor_tolerance;
+    if (budget.outside) {
+        if (budget.cusp <= 0.0) {
+            throw InputError(job.file + ": contour_pocket: scallop " +
+                             number_text(*operation.scallop) + " mm is not above floor_tolerance " +
+                             number_text(operation.floor_tolerance) +
+                             " mm, which it includes with tolerance_side \"outside\"");
+        }
+        budget.aside = 0.5 * (operation.plan_tolerance - budget.fit) - kWrittenStep;
+        budget.first = radius + budget.fit + budget.aside + 2.0 * kWrittenStep;
+    } else {
+        budget.cusp = budget.cusp > 0.0 ? budget.cusp : *operation.scallop;
+        budget.aside = operation.plan_tolerance - budget.fit;
+        budget.first = radius;
+    }
+    budget.aside = std::max(budget.aside, kWrittenStep);
+    return budget;
+}
+
+Region2d make_region(const Operation& operation, double tolerance)
+{
+    Region2d region;
+    const auto add = [&](const Loop& loop, bool outer) {
+        Contour contour = fit_contour(loop, tolerance);
+        const bool counter_clockwise = area(contour) > 0.0;
+        region.contours.push_back(counter_clockwise == outer ? contour : reversed(contour));
+    };
+    add(*operation.boundary, true);
+    for (const Loop& island : operation.islands) {
+        add(island, false);
+    }
+    if (const auto fault = find_fault(region)) {
+        refuse_region(operation, *fault);
+    }
+    return region;
+}
+
+void check_coverage(const Operation& operation, const Region2d& region, const TipFloor& floor)
+{
+    const double spacing = operation.tool.radius;
+    for (const Contour& contour : region.contours) {
+        for (const Edge& edge : contour) {
+            const int n = 1 + static_cast<int>(length(edge) / spacing);
+            for (int i = 0; i < n; ++i) {
+                const Vec2d p = point_on(edge, static_cast<double>(i) / n);
+                if (!floor.covers(p)) {
+                    refuse_uncovered(operation, p);
+                }
+            }
+        }
+    }
+}
+
+void refuse_uncovered(const Operation& operation, Vec2d p)
+{
+    const std::string file =
+        operation.floor_files.empty() ? "floor" : operation.floor_files.front();
+    throw InputError(file + ": the floor does not cover the pocket at " + place_text(p) + " mm");
+}
+
+}  // namespace cusp::host

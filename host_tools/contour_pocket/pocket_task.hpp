@@ -1,0 +1,38 @@
+// What a pocket asks for, checked: tolerances shared out, the region in plan, the floor.
+#pragma once
+
+#include <string>
+
+#include "host_tools/clearing/tip_floor.hpp"
+#include "host_tools/import/job.hpp"
+#include "host_tools/offset/contour.hpp"
+
+namespace cusp::host {
+
+// What the tolerances of the operation leave to each step, mm.
+struct Budget {
+    bool outside{};
+    double fit{};       // of free curves by arcs
+    double aside{};     // of moves beside the plan path, either way
+    double above{};     // of moves over the floor
+    double cusp{};      // height between passes
+    double first{};     // distance of the outermost pass from the walls
+    double accuracy{};  // of floor heights
+};
+
+// Throws InputError where a value is missing or out of range.
+Budget make_budget(const Job& job, const Operation& operation);
+
+// The pocket seen from above; free curves within `tolerance` (mm). Throws InputError where loops
+// cross.
+Region2d make_region(const Operation& operation, double tolerance);
+
+// Throws InputError where a place of the boundary or of an island has no floor.
+void check_coverage(const Operation& operation, const Region2d& region, const TipFloor& floor);
+
+[[noreturn]] void refuse_uncovered(const Operation& operation, Vec2d place);
+
+// A number as messages and comments show it.
+std::string number_text(double value);
+
+}  // namespace cusp::host

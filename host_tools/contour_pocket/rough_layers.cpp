@@ -1,0 +1,140 @@
+// The same loops at every depth; where the floor rises above a layer the tool rides over it.
+#include "host_tools/contour_pocket/rough_layers.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "host_tools/contour_pocket/floor_cutter.hpp"
+
+namespace cusp::host {
+
+namespace {
+
+struct RoughStep {
+    double across;  // mm between loops
+    double cusp;    // mm left between them
+};
+
+// A ball's ridges are kept to a fifth of the depth of cut, so that the next layer is not much
+// deeper than asked for.
+RoughStep rough_step(const Tool& tool, double depth)
+{
+    const double c = tool.corner_radius;
+    const double flat = 1.2 * (tool.radius - c);
+    const double cusp = std::min(0.2 * depth, 0.13 * c);
+    const double round = 2.0 * std::sqrt(std::max(0.0, cusp * (2.0 * c - cusp)));
+    return {std::max(flat, std::min(round, c)), flat > round ? 0.0 : cusp};
+}
+
+std::vector<double> layer_heights(const Job& job,
+                                  const Operation& operation,
+                                  double bottom,
+                                  double depth)
+{
+    std::vector<double> heights;
+    for (const double below : operation.layers) {
+        heights.push_back(job.stock_top - below);
+    }
+    if (heights.empty()) {
+        const double deep = job.stock_top - bottom;
+        const int n = std::max(1, static_cast<int>(std::ceil(deep / depth - 1e-9)));
+        for (int i = 1; i <= n; ++i) {
+            heights.push_back(job.stock_top - deep * i / n);
+        }
+    }
+    std::sort(heights.begin(), heights.end(), [](double a, double b) { return a > b; });
+    return heights;
+}
+
+double lowest_tip(const ClearedRegion& cleared, const TipFloor& floor)
+{
+    double lowest = 1e300;
+    for (const ClearingPass& pass : cleared.passes) {
+        for (const Edge& edge : pass.path) {
+            const int n = 1 + static_cast<int>(length(edge) / floor.tool().radius);
+            for (int i = 0; i < n; ++i) {
+                const Vec2d p = point_on(edge, static_cast<double>(i) / n);
+                lowest = std::min(lowest, floor.drop(p).height);
+            }
+        }
+    }
+    return lowest;
+}
+
+}  // namespace
+
+std::optional<RoughResult> plan_rough_layers(const Job& job,
+                                             const Operation& operation,
+                                             const Region2d& region,
+                                             const Budget& budget)
+{
+    if (!operation.max_depth && operation.layers.empty()) {
+        return std::nullopt;
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    Operation rough = operation;
+    rough.tool = operation.tools.empty() ? operation.tool : operation.tools.front();
+    const double depth = operation.max_depth.value_or(rough.tool.radius);
+    const RoughStep step = rough_step(rough.tool, depth);
+    const TipFloor floor{operation.floor, rough.tool, budget.accuracy};
+    ClearingSettings clearing;
+    clearing.first = budget.first - operation.tool.radius + rough.tool.radius + operation.allowance;
+    clearing.step = step.across;
+    clearing.direction = operation.direction_of_cut;
+    const ClearedRegion cleared = clear_region(region, clearing);
+    if (cleared.passes.empty()) {
+        return std::nullopt;
+    }
+    CutSettings settings;
+    settings.entry = operation.entry;
+    settings.first = clearing.first;
+    settings.laying.aside = budget.aside;
+    settings.laying.above = std::max(budget.above, 0.1 * operation.allowance);
+    settings.laying.cushion = budget.accuracy;
+    settings.laying.raise = operation.allowance;
+    settings.laying.spacing = 0.2 * rough.tool.radius;
+    settings.laying.arcs = operation.output != OutputForm::kLines;
+    PocketMoves moves{job.stock_top + job.clearance};
+    FloorCutter cutter{rough, floor, moves};
+    const double bottom = lowest_tip(cleared, floor) + operation.allowance;
+    double above = job.stock_top;
+    int layers = 0;
+    for (const double level :
+         layer_heights(job, operation, bottom, std::max(0.1 * depth, depth - step.cusp))) {
+        settings.laying.level = level;
+        settings.entry_heights = [&](double pass) {
+            // The same loops were cut there by the layer above.
+            const double metal = std::max(above, pass);
+            return EntryHeights{metal + 1.0, metal + 0.1};
+        };
+        cutter.cut(cleared, settings);
+        settings.skip_above = above = level;
+        ++layers;
+    }
+    RoughResult result;
+    result.left = operation.allowance + step.cusp;
+    result.operation.path.tool = rough.tool;
+    result.operation.path.feed = job.feed;
+    result.operation.path.plunge_feed = job.plunge_feed;
+    result.operation.path.spindle = job.spindle;
+    result.operation.path.comments = {"contour_pocket: " + std::to_string(layers) +
+                                      " roughing layers, allowance " +
+                                      number_text(operation.allowance) + " mm"};
+    OperationStats& stats = result.operation.stats;
+    stats.strategy = operation.strategy;
+    stats.passes = static_cast<int>(cleared.passes.size());
+    stats.levels = cleared.levels;
+    stats.cl_points = moves.points();
+    stats.retracts = moves.retracts();
+    stats.gouge_bound_mm = std::max(0.0, -cutter.least_gap());
+    stats.scallop_bound_mm = result.left;
+    stats.counts = {{"layers", static_cast<double>(layers)},
+                    {"loops", static_cast<double>(cleared.passes.size())}};
+    result.operation.path.moves = moves.take();
+    stats.planning_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return result;
+}
+
+}  // namespace cusp::host
