@@ -341,7 +341,7 @@ double TipFloor::ball_gap(const Piece& piece, Vec3d a, Vec3d b) const
 // Along the axis: how far the tip stays above what the piece asks for while the tool moves from a
 // to b. Over the plane that changes evenly, so the ends tell; the box is met by the tool at its
 // nearest.
-double TipFloor::axial_gap(const Piece& piece, Vec3d a, Vec3d b) const
+double TipFloor::axial_gap(const Piece& piece, Vec3d a, Vec3d b, double margin) const
 {
     const auto apart = [](double low, double high, double p, double q) {
         return std::max({low - std::max(p, q), 0.0, std::min(p, q) - high});
@@ -350,11 +350,11 @@ double TipFloor::axial_gap(const Piece& piece, Vec3d a, Vec3d b) const
     const double dy = apart(piece.y0, piece.y1, a.y, b.y);
     const double r = tool_.radius;
     const double c = tool_.corner_radius;
-    const double square = dx * dx + dy * dy;
-    if (square >= r * r) {
+    const double away = std::max(0.0, std::sqrt(dx * dx + dy * dy) - margin);
+    if (away >= r) {
         return 1e300;
     }
-    const double out = std::max(0.0, std::sqrt(square) - (r - c));
+    const double out = std::max(0.0, away - (r - c));
     const double profile = c - std::sqrt(std::max(c * c - out * out, 0.0));
     const double over_box = std::min(a.z, b.z) + profile - piece.z1;
     if (!piece.graph) {
@@ -362,12 +362,13 @@ double TipFloor::axial_gap(const Piece& piece, Vec3d a, Vec3d b) const
     }
     const Vec2d g = piece.gradient;
     const auto over_plane = [&](Vec3d p) {
-        return p.z - (piece.level + g.x * p.x + g.y * p.y + piece.rise);
+        return p.z - (piece.level + g.x * p.x + g.y * p.y + piece.rise) -
+               margin * std::sqrt(dot(g, g));
     };
     return std::max(over_box, std::min(over_plane(a), over_plane(b)));
 }
 
-double TipFloor::gap(Vec3d a, Vec3d b) const
+double TipFloor::gap(Vec3d a, Vec3d b, double margin) const
 {
     struct Entry {
         std::uint32_t piece;
@@ -384,7 +385,8 @@ double TipFloor::gap(Vec3d a, Vec3d b) const
             const Entry top = stack[--depth];
             const Piece& piece = pieces_[top.piece];
             const double here =
-                ball ? ball_gap(piece, top.a, top.b) : axial_gap(piece, top.a, top.b);
+                ball ? ball_gap(piece, top.a, top.b) - margin
+                     : axial_gap(piece, top.a, top.b, margin);
             if (here >= least) {
                 continue;
             }

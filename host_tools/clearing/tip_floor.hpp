@@ -37,7 +37,8 @@ public:
     // Lower bound of the gap between the tool, moved straight from tip a to tip b, and the
     // surfaces: 0 where it keeps clear of them, negative (mm) by how much it may cut; along the
     // normal for a ball, along the axis for other tools.
-    double gap(Vec3d a, Vec3d b) const;
+    // margin (mm, >= 0): how far beside the straight line the tool may really be.
+    double gap(Vec3d a, Vec3d b, double margin = 0.0) const;
 
     // True where some surface point lies straight above or below (x, y).
     bool covers(Vec2d at) const;
@@ -89,7 +90,7 @@ private:
     void halve(std::uint32_t piece) const;
     double bound(const Piece& piece, Vec2d at, double best, bool& tight) const;
     double ball_gap(const Piece& piece, Vec3d a, Vec3d b) const;
-    double axial_gap(const Piece& piece, Vec3d a, Vec3d b) const;
+    double axial_gap(const Piece& piece, Vec3d a, Vec3d b, double margin) const;
     double on_edges(const Piece& piece, Vec2d at) const;
     double on_edge(double slope, double away, double low, double high) const;
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
 
 #include "host_tools/clearing/clearing.hpp"
 #include "host_tools/clearing/tip_floor.hpp"
@@ -18,28 +19,72 @@ namespace cusp::host {
 
 namespace {
 
-// The least distance inward from a level at which no cusp between is higher than allowed.
-double interval_from(const Region2d& level, const TipFloor& floor, const Budget& budget)
-{
-    const double radius = floor.tool().radius;
-    double least = 1e300;
-    for (const Contour& contour : level.contours) {
-        for (const Edge& edge : contour) {
-            const int n = 1 + static_cast<int>(length(edge) / (0.5 * radius));
-            for (int i = 0; i < n; ++i) {
-                const double share = (i + 0.5) / n;
-                const Vec2d p = point_on(edge, share);
-                const TipFloor::Section across =
-                    floor.section(p, left_normal(tangent_on(edge, share)));
-                least = std::min(least, path_interval(floor.tool(), budget.cusp, across.curvature,
-                                                      across.slope, across.slope_along));
+// The least distance inward from a level at which no cusp between is higher than allowed. At corners
+// metal between the loops is reached from askew, so every direction counts.
+class PathInterval {
+public:
+    PathInterval(const TipFloor& floor, const Budget& budget, bool corners)
+        : floor_{floor}, budget_{budget}, corners_{corners}
+    {}
+
+    double from(const Region2d& level)
+    {
+        least_ = 1e300;
+        for (const Contour& contour : level.contours) {
+            Vec2d arriving = tangent_at_end(contour.back());
+            for (const Edge& edge : contour) {
+                along(edge);
+                constexpr double kCorner = 0.995;  // cosine of some 6 degrees
+                if (corners_ && dot(arriving, tangent_at_start(edge)) < kCorner) {
+                    around(edge.start);
+                }
+                arriving = tangent_at_end(edge);
             }
         }
+        // Neighbouring moves may stray from their paths, each its own way.
+        const double stray = budget_.outside ? 2.0 * budget_.aside : 0.0;
+        return std::max(least_ - stray, 0.02 * floor_.tool().radius);
     }
-    // Neighbouring moves may stray from their paths, each its own way.
-    const double stray = budget.outside ? 2.0 * budget.aside : 0.0;
-    return std::max(least - stray, 0.02 * radius);
-}
+
+private:
+    double allowed(Vec2d at, Vec2d direction) const
+    {
+        const TipFloor::Section section = floor_.section(at, direction);
+        return path_interval(floor_.tool(), budget_.cusp, section.curvature, section.slope,
+                             section.slope_along);
+    }
+
+    // The cusp stands half an interval away, where the floor may be bent otherwise.
+    void across(Vec2d at, Vec2d direction)
+    {
+        const double here = allowed(at, direction);
+        const double there = allowed(at + direction * (0.5 * here), direction);
+        least_ = std::min({least_, here, there});
+    }
+
+    void along(const Edge& edge)
+    {
+        const int n = 1 + static_cast<int>(length(edge) / (0.5 * floor_.tool().radius));
+        for (int i = 0; i < n; ++i) {
+            const double share = (i + 0.5) / n;
+            across(point_on(edge, share), left_normal(tangent_on(edge, share)));
+        }
+    }
+
+    void around(Vec2d at)
+    {
+        constexpr int kDirections = 16;
+        for (int i = 0; i < kDirections; ++i) {
+            const double angle = 6.28318530717958648 * i / kDirections;
+            across(at, {std::cos(angle), std::sin(angle)});
+        }
+    }
+
+    const TipFloor& floor_;
+    const Budget& budget_;
+    bool corners_;
+    double least_{};
+};
 
 // Area of the pocket that the tool's body can't sweep beside walls, mm^2: corners and necks.
 double unswept_area(const Region2d& region, double radius)
@@ -73,12 +118,17 @@ public:
 
     const TipFloor& floor() const { return floor_; }
 
-    // roughed: mm left over the floor by roughing; no value where the stock is whole.
-    PlannedOperation plan(std::optional<double> roughed)
+    // rough: what has been cut before; null where the stock is whole.
+    PlannedOperation plan(const RoughResult* rough)
     {
         const ClearedRegion cleared = passes();
         FloorCutter cutter{operation_, floor_, moves_};
-        cutter.cut(cleared, cutting(roughed));
+        std::optional<double> left;
+        if (rough != nullptr) {
+            left = rough->left;
+            cut_walls(cutter, cleared, rough->heights);
+        }
+        cutter.cut(cleared, cutting(left));
         PlannedOperation result;
         fill(result.stats, cleared, cutter.least_gap());
         describe(result.path, result.stats);
@@ -92,11 +142,10 @@ private:
         ClearingSettings settings;
         settings.first = budget_.first;
         settings.step = 2.0 * operation_.tool.radius;
-        settings.step_from = [&](const Region2d& level) {
-            return interval_from(level, floor_, budget_);
-        };
         settings.direction = operation_.direction_of_cut;
         settings.cover_corners = *operation_.scallop > operation_.floor_tolerance;
+        PathInterval interval{floor_, budget_, settings.cover_corners};
+        settings.step_from = [&](const Region2d& level) { return interval.from(level); };
         ClearedRegion cleared = clear_region(region_, settings);
         if (cleared.passes.empty()) {
             throw InputError(operation_.boundary_file + ": the tool of radius " +
@@ -104,6 +153,31 @@ private:
                              " mm fits nowhere into the pocket");
         }
         return cleared;
+    }
+
+    // The allowance beside the walls stands to the top of the stock: it is cut in the same layers,
+    // or the finish would cut to its full depth there.
+    void cut_walls(FloorCutter& cutter,
+                   const ClearedRegion& cleared,
+                   const std::vector<double>& heights) const
+    {
+        if (operation_.allowance <= 0.0) {
+            return;
+        }
+        ClearedRegion walls;
+        std::copy_if(cleared.passes.begin(), cleared.passes.end(), std::back_inserter(walls.passes),
+                     [](const ClearingPass& pass) { return pass.level == 0; });
+        CutSettings settings = cutting(std::nullopt);
+        double above = job_.stock_top;
+        for (const double level : heights) {
+            settings.laying.level = level;
+            settings.entry_heights = [&](double pass) {
+                const double metal = std::max(above, pass);
+                return EntryHeights{metal + 1.0, metal + 0.1};
+            };
+            cutter.cut(walls, settings);
+            settings.skip_above = above = level;
+        }
     }
 
     CutSettings cutting(std::optional<double> roughed) const
@@ -180,14 +254,12 @@ std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operatio
     FinishPlanner finish{job, operation, region, budget};
     check_coverage(operation, region, finish.floor());
     std::vector<PlannedOperation> result;
-    std::optional<double> left;
-    double roughing_s = 0.0;
-    if (auto rough = plan_rough_layers(job, operation, region, budget)) {
-        left = rough->left;
-        roughing_s = rough->operation.stats.planning_s;
-        result.push_back(std::move(rough->operation));
+    const std::optional<RoughResult> rough = plan_rough_layers(job, operation, region, budget);
+    if (rough) {
+        result.push_back(rough->operation);
     }
-    result.push_back(finish.plan(left));
+    result.push_back(finish.plan(rough ? &*rough : nullptr));
+    const double roughing_s = rough ? rough->operation.stats.planning_s : 0.0;
     const auto end = std::chrono::steady_clock::now();
     result.back().stats.planning_s =
         std::chrono::duration<double>(end - begin).count() - roughing_s;

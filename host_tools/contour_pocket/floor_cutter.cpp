@@ -52,6 +52,7 @@ void FloorCutter::enter(const ClearingPass& pass, const CutSettings& settings)
 void FloorCutter::cut(const ClearedRegion& cleared, const CutSettings& settings)
 {
     bool cut_before = false;
+    Vec2d last{};
     for (const ClearingPass& pass : cleared.passes) {
         const FloorPath path = laid(pass.path, settings.laying);
         if (lowest_of(path) >= settings.skip_above) {
@@ -59,7 +60,9 @@ void FloorCutter::cut(const ClearedRegion& cleared, const CutSettings& settings)
             continue;
         }
         least_gap_ = std::min(least_gap_, path.least_gap);
-        if (pass.start == PassStart::kLink && cut_before) {
+        const bool beside =
+            distance(pass.link.empty() ? Vec2d{} : pass.link.front().start, last) < 1e-6;
+        if (pass.start == PassStart::kLink && cut_before && beside) {
             const FloorPath link = laid(pass.link, settings.laying);
             least_gap_ = std::min(least_gap_, link.least_gap);
             moves_.link(link);
@@ -69,6 +72,7 @@ void FloorCutter::cut(const ClearedRegion& cleared, const CutSettings& settings)
         }
         moves_.cut(path);
         cut_before = true;
+        last = pass.path.front().start;
     }
     moves_.retract();
 }

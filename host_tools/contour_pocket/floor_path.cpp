@@ -68,9 +68,9 @@ double gap_of(Vec3d start, const FloorMove& move, const TipFloor& floor, double 
     const Chords chords = chords_of(start, move, fine);
     double least = 0.0;
     for (std::size_t i = 1; i < chords.points.size(); ++i) {
-        least = std::min(least, floor.gap(chords.points[i - 1], chords.points[i]));
+        least = std::min(least, floor.gap(chords.points[i - 1], chords.points[i], chords.sagitta));
     }
-    return least - chords.sagitta;
+    return least;
 }
 
 // Raises both ends of every move by what it lacks to keep off the floor, until none lacks anything.
@@ -79,7 +79,8 @@ void certify(FloorPath& path, const TipFloor& floor, const FloorPathSettings& se
 {
     constexpr int kRounds = 8;
     path.least_gap = 0.0;
-    const double fine = std::max(settings.cushion, kWrittenStep);
+    // An arc's chords leave half of the cushion to the slope.
+    const double fine = std::max(0.5 * settings.cushion, kWrittenStep);
     for (std::size_t i = 0; i < path.moves.size(); ++i) {
         Vec3d& start = i == 0 ? path.start : path.moves[i - 1].end;
         Vec3d& end = path.moves[i].end;

@@ -99,7 +99,7 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     FloorCutter cutter{rough, floor, moves};
     const double bottom = lowest_tip(cleared, floor) + operation.allowance;
     double above = job.stock_top;
-    int layers = 0;
+    RoughResult result;
     for (const double level :
          layer_heights(job, operation, bottom, std::max(0.1 * depth, depth - step.cusp))) {
         settings.laying.level = level;
@@ -110,9 +110,9 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
         };
         cutter.cut(cleared, settings);
         settings.skip_above = above = level;
-        ++layers;
+        result.heights.push_back(level);
     }
-    RoughResult result;
+    const std::size_t layers = result.heights.size();
     result.left = operation.allowance + step.cusp;
     result.operation.path.tool = rough.tool;
     result.operation.path.feed = job.feed;

@@ -9,6 +9,7 @@ namespace cusp::host {
 
 struct RoughResult {
     PlannedOperation operation;
+    std::vector<double> heights;  // z of the layers, from the top
     double left{};  // mm over the floor at most, where the floor is level: allowance and cusps
 };
 

@@ -1,0 +1,140 @@
+// Random pockets with islands on random floors: no gouge, nothing left above the scallop.
+#include <cstdio>
+#include <cstdlib>
+
+#include "host_tools/contour_pocket/contour_pocket.hpp"
+#include "host_tools/offset/region_check.hpp"
+#include "tests/property/contour_pocket/pocket_judge.hpp"
+#include "tests/property/offset/random_regions.hpp"
+
+// Last: CppUTest redefines new, which the standard headers can not bear.
+#include "CppUTest/TestHarness.h"
+
+namespace cusp::host {
+namespace {
+
+int cases()
+{
+    const char* const text = std::getenv("CUSP_PROPERTY_CASES");
+    return text != nullptr ? std::atoi(text) : 3;
+}
+
+Curve line_curve(Vec2d a, Vec2d b)
+{
+    return {1, {0.0, 0.0, 1.0, 1.0}, {{a.x, a.y, 0.0}, {b.x, b.y, 0.0}}, {1.0, 1.0}};
+}
+
+Curve bent_curve(Random& random, Vec2d a, Vec2d b)
+{
+    const Vec2d chord = b - a;
+    const Vec2d aside = left_normal(chord) * -1.0;
+    const Vec2d p = a + chord * 0.33 + aside * uniform(random, -0.1, 0.2);
+    const Vec2d q = a + chord * 0.66 + aside * uniform(random, -0.1, 0.2);
+    return {3,
+            {0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0},
+            {{a.x, a.y, 0.0}, {p.x, p.y, 0.0}, {q.x, q.y, 0.0}, {b.x, b.y, 0.0}},
+            {1.0, 1.0, 1.0, 1.0}};
+}
+
+Loop random_loop(Random& random, Vec2d centre, double radius, int corners)
+{
+    const Contour star = random_star(random, centre, radius, corners, 0.0);
+    Loop loop;
+    for (const Edge& edge : star) {
+        const bool straight = uniform(random, 0.0, 1.0) < 0.5;
+        loop.push_back(straight ? line_curve(edge.start, edge.end)
+                                : bent_curve(random, edge.start, edge.end));
+    }
+    return loop;
+}
+
+// A bicubic floor over 100 x 100 mm whose control points wander by `rough` mm.
+Surface random_floor(Random& random, double rough)
+{
+    Surface s;
+    s.degree_u = s.degree_v = 3;
+    s.size_u = s.size_v = 5;
+    s.knots_u = s.knots_v = {0.0, 0.0, 0.0, 0.0, 0.5, 1.0, 1.0, 1.0, 1.0};
+    for (int i = 0; i < 5; ++i) {
+        for (int j = 0; j < 5; ++j) {
+            s.points.push_back({25.0 * i, 25.0 * j, -12.0 + uniform(random, -rough, rough)});
+            s.weights.push_back(uniform(random, 0.7, 1.4));
+        }
+    }
+    return s;
+}
+
+Region2d region_of(const Operation& operation)
+{
+    Region2d region;
+    const auto add = [&](const Loop& loop, bool outer) {
+        Contour contour;
+        for (const Curve& curve : loop) {
+            const int n = curve.degree == 1 ? 1 : 200;
+            for (int i = 0; i < n; ++i) {
+                const Vec3d a = point_at(curve, static_cast<double>(i) / n);
+                const Vec3d b = point_at(curve, static_cast<double>(i + 1) / n);
+                contour.push_back(line_edge({a.x, a.y}, {b.x, b.y}));
+            }
+        }
+        region.contours.push_back((area(contour) > 0.0) == outer ? contour : reversed(contour));
+    };
+    add(*operation.boundary, true);
+    for (const Loop& island : operation.islands) {
+        add(island, false);
+    }
+    return region;
+}
+
+Operation random_operation(Random& random)
+{
+    while (true) {
+        Operation operation;
+        operation.strategy = "contour_pocket";
+        operation.floor = {random_floor(random, uniform(random, 1.0, 6.0))};
+        operation.floor_files = {"floor"};
+        operation.boundary = random_loop(random, {50.0, 50.0}, 44.0, 6);
+        operation.boundary_file = "boundary";
+        if (uniform(random, 0.0, 1.0) < 0.7) {
+            operation.islands.push_back(random_loop(random, {48.0, 53.0}, 9.0, 5));
+            operation.island_files.emplace_back("island");
+        }
+        const double radius = uniform(random, 3.0, 5.0);
+        operation.tool = {1, ToolShape::kBall, radius, radius};
+        operation.plan_tolerance = operation.floor_tolerance = 0.02;
+        operation.scallop = 0.3;
+        operation.output = uniform(random, 0.0, 1.0) < 0.5 ? OutputForm::kLines : OutputForm::kArcs;
+        if (!find_fault(region_of(operation))) {
+            return operation;
+        }
+    }
+}
+
+TEST_GROUP(RandomPocket){};
+
+TEST(RandomPocket, HasNoGougeAndNothingLeftOverTheScallop)
+{
+    constexpr unsigned kSeed = 1990;
+    Random random{kSeed};
+    for (int i = 0; i < cases(); ++i) {
+        const Operation operation = random_operation(random);
+        Job job;
+        job.file = "job";
+        job.stock_top = 2.0;
+        job.clearance = 5.0;
+        const std::vector<PlannedOperation> planned = plan_contour_pocket(job, operation);
+        const PocketVerdict verdict = judge_pocket(operation.floor, region_of(operation),
+                                                   planned.back().path, job.stock_top, 180);
+        std::printf("seed %u pocket %d: floor gouge %.4f wall gouge %.4f left %.4f uncut %.4f\n",
+                    kSeed, i, verdict.floor_gouge, verdict.wall_gouge, verdict.most_left,
+                    verdict.uncut);
+        CHECK(verdict.floor_gouge <= 1e-6);
+        CHECK(verdict.wall_gouge <= 1e-3);
+        CHECK(verdict.most_left <= 0.3 + 1e-3);
+        DOUBLES_EQUAL(0.0, verdict.uncut, 0.0);
+        DOUBLES_EQUAL(0.0, planned.back().stats.gouge_bound_mm, 1e-9);
+    }
+}
+
+}  // namespace
+}  // namespace cusp::host

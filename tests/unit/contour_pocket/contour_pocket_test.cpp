@@ -1,0 +1,167 @@
+#include "host_tools/contour_pocket/contour_pocket.hpp"
+
+#include <functional>
+
+// Last: CppUTest redefines new, which the standard headers can not bear.
+#include "CppUTest/TestHarness.h"
+
+namespace cusp::host {
+namespace {
+
+Curve line_curve(Vec2d a, Vec2d b)
+{
+    return {1, {0.0, 0.0, 1.0, 1.0}, {{a.x, a.y, 0.0}, {b.x, b.y, 0.0}}, {1.0, 1.0}};
+}
+
+Loop square_loop(double x, double y, double half)
+{
+    const Vec2d p[] = {{x - half, y - half}, {x + half, y - half}, {x + half, y + half},
+                       {x - half, y + half}};
+    return {line_curve(p[0], p[1]), line_curve(p[1], p[2]), line_curve(p[2], p[3]),
+            line_curve(p[3], p[0])};
+}
+
+Surface plane(double size, double z)
+{
+    Surface s;
+    s.degree_u = s.degree_v = 1;
+    s.size_u = s.size_v = 2;
+    s.knots_u = s.knots_v = {0.0, 0.0, 1.0, 1.0};
+    s.points = {{0.0, 0.0, z}, {0.0, size, z}, {size, 0.0, z}, {size, size, z}};
+    s.weights = {1.0, 1.0, 1.0, 1.0};
+    return s;
+}
+
+Job job()
+{
+    Job job;
+    job.file = "job.toml";
+    job.clearance = 5.0;
+    return job;
+}
+
+Operation pocket()
+{
+    Operation operation;
+    operation.strategy = "contour_pocket";
+    operation.floor = {plane(60.0, -8.0)};
+    operation.floor_files = {"floor.json"};
+    operation.boundary = square_loop(30.0, 30.0, 25.0);
+    operation.boundary_file = "boundary.json";
+    operation.tool = {1, ToolShape::kBall, 4.0, 4.0};
+    operation.plan_tolerance = operation.floor_tolerance = 0.02;
+    operation.scallop = 0.3;
+    return operation;
+}
+
+std::string refusal(const std::function<void(Operation&)>& spoil)
+{
+    Operation operation = pocket();
+    spoil(operation);
+    try {
+        plan_contour_pocket(job(), operation);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+bool says(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
+
+double lowest_tip(const Toolpath& path)
+{
+    double lowest = 1e300;
+    for (const ToolMove& move : path.moves) {
+        if (const auto* line = std::get_if<LineTo>(&move.shape)) {
+            lowest = std::min(lowest, line->end.z);
+        }
+    }
+    return lowest;
+}
+
+TEST_GROUP(ContourPocket){};
+
+TEST(ContourPocket, CutsAFlatFloorJustAboveIt)
+{
+    for (const double corner : {4.0, 1.0, 0.0}) {
+        Operation operation = pocket();
+        operation.tool.corner_radius = corner;
+        operation.tool.shape = corner == 4.0   ? ToolShape::kBall
+                               : corner == 0.0 ? ToolShape::kFlat
+                                               : ToolShape::kBull;
+        const double lowest = lowest_tip(plan_contour_pocket(job(), operation).back().path);
+        CHECK(lowest >= -8.0);
+        CHECK(lowest <= -8.0 + 0.02);
+    }
+}
+
+TEST(ContourPocket, StartsAndEndsAtClearance)
+{
+    const Toolpath path = plan_contour_pocket(job(), pocket()).back().path;
+    CHECK(path.moves.front().kind == MoveKind::kRapid);
+    DOUBLES_EQUAL(5.0, std::get<LineTo>(path.moves.front().shape).end.z, 1e-9);
+    DOUBLES_EQUAL(5.0, std::get<LineTo>(path.moves.back().shape).end.z, 1e-9);
+}
+
+TEST(ContourPocket, RoughsInLayersNoDeeperThanAskedFor)
+{
+    Operation operation = pocket();
+    operation.max_depth = 2.0;
+    operation.allowance = 0.2;
+    const std::vector<PlannedOperation> planned = plan_contour_pocket(job(), operation);
+    LONGS_EQUAL(2, planned.size());
+    double layers = 0.0;
+    for (const auto& [name, count] : planned.front().stats.counts) {
+        layers = name == "layers" ? count : layers;
+    }
+    CHECK(layers >= 4.0);
+    CHECK(lowest_tip(planned.front().path) >= -8.0 + 0.2);
+}
+
+TEST(ContourPocket, RefusesWhatIsMissing)
+{
+    CHECK(says(refusal([](Operation& o) { o.floor.clear(); }), "floor is missing"));
+    CHECK(says(refusal([](Operation& o) { o.boundary.reset(); }), "boundary is missing"));
+    CHECK(says(refusal([](Operation& o) { o.scallop.reset(); }), "scallop is missing"));
+}
+
+TEST(ContourPocket, RefusesTolerancesOutOfRange)
+{
+    CHECK(says(refusal([](Operation& o) { o.plan_tolerance = 0.0; }), "plan_tolerance 0 mm"));
+    CHECK(says(refusal([](Operation& o) { o.floor_tolerance = -1.0; }), "floor_tolerance -1 mm"));
+    CHECK(says(refusal([](Operation& o) { o.scallop = 5.0; }), "scallop 5 mm"));
+    CHECK(says(refusal([](Operation& o) { o.scallop = 0.02; }), "not above floor_tolerance"));
+}
+
+TEST(ContourPocket, RefusesLoopsThatCross)
+{
+    const auto island = [](double x, double half) {
+        return [=](Operation& o) {
+            o.islands = {square_loop(x, 30.0, half)};
+            o.island_files = {"island.json"};
+        };
+    };
+    CHECK(says(refusal(island(52.0, 6.0)), "boundary.json: crosses island.json"));
+    CHECK(says(refusal(island(90.0, 6.0)), "island.json: the island lies outside"));
+    CHECK(says(refusal([](Operation& o) {
+                   const Vec2d p[] = {{5, 5}, {55, 55}, {55, 5}, {5, 55}};
+                   o.boundary = Loop{line_curve(p[0], p[1]), line_curve(p[1], p[2]),
+                                     line_curve(p[2], p[3]), line_curve(p[3], p[0])};
+               }),
+               "crosses itself"));
+}
+
+TEST(ContourPocket, RefusesAToolThatFitsNowhere)
+{
+    CHECK(says(refusal([](Operation& o) { o.tool = {1, ToolShape::kBall, 30.0, 30.0}; }),
+               "fits nowhere"));
+}
+
+TEST(ContourPocket, RefusesAFloorThatDoesNotCoverThePocket)
+{
+    CHECK(says(refusal([](Operation& o) { o.floor = {plane(40.0, -8.0)}; }),
+               "floor.json: the floor does not cover the pocket at"));
+}
+
+}  // namespace
+}  // namespace cusp::host
