@@ -384,9 +384,8 @@ double TipFloor::gap(Vec3d a, Vec3d b, double margin) const
         while (depth > 0) {
             const Entry top = stack[--depth];
             const Piece& piece = pieces_[top.piece];
-            const double here =
-                ball ? ball_gap(piece, top.a, top.b) - margin
-                     : axial_gap(piece, top.a, top.b, margin);
+            const double here = ball ? ball_gap(piece, top.a, top.b) - margin
+                                     : axial_gap(piece, top.a, top.b, margin);
             if (here >= least) {
                 continue;
             }

@@ -19,13 +19,14 @@ namespace cusp::host {
 
 namespace {
 
-// The least distance inward from a level at which no cusp between is higher than allowed. At corners
-// metal between the loops is reached from askew, so every direction counts.
+// The least distance inward from a level at which no cusp between is higher than allowed. At
+// corners metal between the loops is reached from askew, so every direction counts.
 class PathInterval {
 public:
     PathInterval(const TipFloor& floor, const Budget& budget, bool corners)
         : floor_{floor}, budget_{budget}, corners_{corners}
-    {}
+    {
+    }
 
     double from(const Region2d& level)
     {
@@ -145,7 +146,9 @@ private:
         settings.direction = operation_.direction_of_cut;
         settings.cover_corners = *operation_.scallop > operation_.floor_tolerance;
         PathInterval interval{floor_, budget_, settings.cover_corners};
-        settings.step_from = [&](const Region2d& level) { return interval.from(level); };
+        settings.step_from = [&](const Region2d& level) {
+            return interval.from(level);
+        };
         ClearedRegion cleared = clear_region(region_, settings);
         if (cleared.passes.empty()) {
             throw InputError(operation_.boundary_file + ": the tool of radius " +

@@ -15,8 +15,8 @@ Curve line_curve(Vec2d a, Vec2d b)
 
 Loop square_loop(double x, double y, double half)
 {
-    const Vec2d p[] = {{x - half, y - half}, {x + half, y - half}, {x + half, y + half},
-                       {x - half, y + half}};
+    const Vec2d p[] = {
+        {x - half, y - half}, {x + half, y - half}, {x + half, y + half}, {x - half, y + half}};
     return {line_curve(p[0], p[1]), line_curve(p[1], p[2]), line_curve(p[2], p[3]),
             line_curve(p[3], p[0])};
 }
@@ -66,7 +66,10 @@ std::string refusal(const std::function<void(Operation&)>& spoil)
     return "";
 }
 
-bool says(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
+bool says(const std::string& text, const char* part)
+{
+    return text.find(part) != std::string::npos;
+}
 
 double lowest_tip(const Toolpath& path)
 {
@@ -153,7 +156,9 @@ TEST(ContourPocket, RefusesLoopsThatCross)
 
 TEST(ContourPocket, RefusesAToolThatFitsNowhere)
 {
-    CHECK(says(refusal([](Operation& o) { o.tool = {1, ToolShape::kBall, 30.0, 30.0}; }),
+    CHECK(says(refusal([](Operation& o) {
+                   o.tool = {1, ToolShape::kBall, 30.0, 30.0};
+               }),
                "fits nowhere"));
 }
 
