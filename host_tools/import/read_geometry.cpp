@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "host_tools/import/dxf_curves.hpp"
 #include "host_tools/import/geometry_json.hpp"
 #include "host_tools/import/job.hpp"
 #include "host_tools/import/loop_shape.hpp"
@@ -58,7 +59,11 @@ Loop read_loop(const std::string& file, double millimetres)
     if (ending == ".json") {
         return closed_loop(read_json_curves(file, millimetres), file);
     }
-    throw InputError(fmt::format("{}: loops are read from .json, not from \"{}\"", file, ending));
+    if (ending == ".dxf") {
+        return closed_loop(read_dxf_curves(file, millimetres), file);
+    }
+    throw InputError(
+        fmt::format("{}: loops are read from .json and .dxf, not from \"{}\"", file, ending));
 }
 
 }  // namespace cusp::host

@@ -1,0 +1,23 @@
+// Curves from DXF drawings: LINE, ARC, CIRCLE, LWPOLYLINE with bulges, SPLINE.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host_tools/nurbs/nurbs.hpp"
+
+namespace cusp::host {
+
+// millimetres  of one unit of the drawing; the drawing's own $INSUNITS is not asked
+//
+// Returns the curves of the ENTITIES section, put in order where each continues the one before,
+// as drawings keep no order; arcs become rational quadratics, exactly.
+// Errors: InputError with the line of the file: no DXF, broken numbers, an entity of another kind
+// (hatches, text and dimensions are skipped), a spline without control points.
+std::vector<Curve> read_dxf_curves(const std::string& file, double millimetres);
+
+// The arc about `centre` from an angle on, counter-clockwise for a positive sweep, radians.
+// Precondition: radius > 0, 0 < |sweep| <= 2 pi.
+Curve arc_curve(Vec2d centre, double radius, double start, double sweep);
+
+}  // namespace cusp::host

@@ -1,0 +1,116 @@
+// Drawings with known areas, and drawings that are broken.
+#include "host_tools/import/dxf_curves.hpp"
+
+#include <cmath>
+
+#include "CppUTest/TestHarness.h"
+
+#include "host_tools/import/job.hpp"
+#include "host_tools/import/loop_shape.hpp"
+#include "tests/unit/import/scratch_folder.hpp"
+
+using namespace cusp;
+using namespace cusp::host;
+
+namespace {
+
+constexpr double kPi = 3.141592653589793;
+
+std::string drawing(const std::string& entities)
+{
+    return "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1015\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" +
+           entities + "0\nENDSEC\n0\nEOF\n";
+}
+
+std::string line(const std::string& ax,
+                 const std::string& ay,
+                 const std::string& bx,
+                 const std::string& by)
+{
+    return "0\nLINE\n8\n0\n10\n" + ax + "\n20\n" + ay + "\n11\n" + bx + "\n21\n" + by + "\n";
+}
+
+}  // namespace
+
+TEST_GROUP(DxfCurves)
+{
+    ScratchFolder folder;
+    double area(const std::string& entities, double unit = 1)
+    {
+        const Loop loop = read_loop(folder.write("d.dxf", drawing(entities)), unit);
+        return signed_area(loop_polyline(loop, 1e-5));
+    }
+    std::string refused(const std::string& text)
+    {
+        const std::string file = folder.write("d.dxf", text);
+        return refusal([&] { read_loop(file); });
+    }
+};
+
+TEST(DxfCurves, OrderAndTurnLinesThatAreDrawnInAnyOrder)
+{
+    const std::string entities = line("0", "0", "4", "0") + line("0", "3", "0", "0") +
+                                 line("4", "3", "4", "0") + line("4", "3", "0", "3");
+    DOUBLES_EQUAL(12, area(entities), 1e-9);
+    DOUBLES_EQUAL(12 * 25.4 * 25.4, area(entities, 25.4), 1e-6);
+}
+
+TEST(DxfCurves, AreExactCirclesAndArcs)
+{
+    DOUBLES_EQUAL(25 * kPi, area("0\nCIRCLE\n10\n1\n20\n2\n40\n5\n"), 1e-3);
+    const std::string half =
+        "0\nARC\n10\n0\n20\n0\n40\n2\n50\n270\n51\n90\n" + line("0", "2", "0", "-2");
+    DOUBLES_EQUAL(2 * kPi, area(half), 1e-3);
+    const Curve arc = arc_curve({1, 2}, 3, 0.5, -4);
+    for (int k = 0; k <= 20; ++k) {
+        const Vec3d p = point_at(arc, arc.domain_end() * k / 20);
+        DOUBLES_EQUAL(3, std::hypot(p.x - 1, p.y - 2), 1e-12);
+    }
+}
+
+TEST(DxfCurves, FollowTheBulgesOfPolylines)
+{
+    // a slot: two straight sides of 10, half circles of radius 2 at both ends
+    const std::string slot =
+        "0\nLWPOLYLINE\n90\n4\n70\n1\n10\n0\n20\n-2\n10\n10\n20\n-2\n42\n1\n"
+        "10\n10\n20\n2\n10\n0\n20\n2\n42\n1\n";
+    DOUBLES_EQUAL(40 + 4 * kPi, area(slot), 1e-3);
+    // bulging inwards
+    const std::string notch =
+        "0\nLWPOLYLINE\n90\n4\n70\n1\n10\n0\n20\n-2\n10\n10\n20\n-2\n42\n-1\n"
+        "10\n10\n20\n2\n10\n0\n20\n2\n";
+    DOUBLES_EQUAL(40 - 2 * kPi, area(notch), 1e-3);
+}
+
+TEST(DxfCurves, ReadSplines)
+{
+    const std::string spline =
+        "0\nSPLINE\n70\n8\n71\n2\n72\n6\n73\n3\n40\n0\n40\n0\n40\n0\n40\n1\n40\n1\n40\n1\n"
+        "10\n0\n20\n0\n30\n0\n10\n2\n20\n4\n30\n0\n10\n4\n20\n0\n30\n0\n";
+    DOUBLES_EQUAL(16.0 / 3, area(spline + line("0", "0", "4", "0")), 1e-3);
+}
+
+TEST(DxfCurves, MirrorWhatIsDrawnFromBelow)
+{
+    const std::string entities =
+        "0\nARC\n10\n0\n20\n0\n40\n2\n50\n90\n51\n270\n230\n-1\n" + line("0", "2", "0", "-2");
+    const Loop loop = read_loop(folder.write("d.dxf", drawing(entities)));
+    double rightmost = 0;
+    for (const Vec2d p : loop_polyline(loop, 0.01)) {
+        rightmost = std::max(rightmost, p.x);
+    }
+    DOUBLES_EQUAL(2, rightmost, 1e-2);
+}
+
+TEST(DxfCurves, RefuseBrokenDrawings)
+{
+    STRCMP_CONTAINS("ENTITIES", refused("0\nSECTION\n2\nHEADER\n0\nENDSEC\n0\nEOF\n").c_str());
+    STRCMP_CONTAINS("d.dxf:1: \"hello\" is no DXF group code", refused("hello\nworld\n").c_str());
+    STRCMP_CONTAINS("is not a number", refused(drawing(line("0", "x", "4", "0"))).c_str());
+    STRCMP_CONTAINS("LINE without group 11", refused(drawing("0\nLINE\n10\n0\n20\n0\n")).c_str());
+    STRCMP_CONTAINS("radius -1", refused(drawing("0\nCIRCLE\n10\n0\n20\n0\n40\n-1\n")).c_str());
+    STRCMP_CONTAINS("ELLIPSE: known are", refused(drawing("0\nELLIPSE\n10\n0\n")).c_str());
+    STRCMP_CONTAINS("no curve", refused(drawing("")).c_str());
+    STRCMP_CONTAINS("open", refused(drawing(line("0", "0", "4", "0"))).c_str());
+    STRCMP_CONTAINS("control points", refused(drawing("0\nSPLINE\n71\n3\n")).c_str());
+}
