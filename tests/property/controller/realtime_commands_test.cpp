@@ -66,7 +66,8 @@ TEST(RealtimeCommands, LeaveTheEndOfAProgramAndItsAnswersAsTheyAre)
         const std::string commands = "!~?\x90\x91\x92\x93\x94\x95\x96\x97\x9A\xA0!~";
         for (unsigned i = 0; i < 120; ++i) {
             const char command = commands[random() % commands.size()];
-            said += bench.exchange(std::string(1, command), 1 + random() % 60);
+            said +=
+                bench.exchange(std::string(1, command), 1 + static_cast<unsigned>(random() % 60));
         }
         for (unsigned i = 0; i < 100 && !bench.app.machine().idle(); ++i) {
             said += bench.exchange("~\x90\x95", 100);
