@@ -91,10 +91,9 @@ private:
     // What to do when the line is done.
     enum class Ending : std::uint8_t { kAnswer, kStartupLine, kKeepStartupLine };
 
-    // machine.cpp
+    // machine_realtime.cpp
     void act(protocol::RealtimeCommand command) noexcept;
     bool handle_events() noexcept;
-    void guard_limits() noexcept;
     bool watch_panel() noexcept;
     bool watch_link() noexcept;
     void feed_hold() noexcept;
@@ -103,6 +102,9 @@ private:
     void open_door() noexcept;
     void cancel_jog() noexcept;
     void toggle_spindle_stop() noexcept;
+
+    // machine.cpp
+    void guard_limits() noexcept;
     bool follow_motion() noexcept;
     void follow_door() noexcept;
     // Stops everything; the line that waits is answered with an error.

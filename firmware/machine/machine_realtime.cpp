@@ -1,0 +1,262 @@
+// Realtime bytes, buttons, the link's silence: what stops and starts the machine.
+#include "firmware/machine/machine.hpp"
+
+namespace cusp::machine {
+
+using protocol::RealtimeCommand;
+
+void Machine::receive(std::uint8_t byte) noexcept
+{
+    last_byte_tick_ = motion_.ticks();
+    switch (protocol::byte_kind(byte)) {
+        case protocol::ByteKind::kDropped:
+            return;
+        case protocol::ByteKind::kText:
+            checked_.text();
+            received_.put(byte);
+            return;
+        case protocol::ByteKind::kRealtime:
+            break;
+    }
+    if (checked_.accept_realtime(byte)) {
+        act(static_cast<RealtimeCommand>(byte));
+    }
+}
+
+void Machine::act(RealtimeCommand command) noexcept
+{
+    switch (command) {
+        case RealtimeCommand::kReset:
+            reset_wanted_ = true;
+            // What came before the reset is forgotten; what comes after it is not.
+            received_.clear();
+            line_.begin_line();
+            checked_.switch_off();
+            return;
+        case RealtimeCommand::kStatusReport:
+            status_wanted_ = true;
+            return;
+        case RealtimeCommand::kFeedHold:
+            hold_wanted_ = true;
+            return;
+        case RealtimeCommand::kCycleStart:
+            start_wanted_ = true;
+            return;
+        case RealtimeCommand::kSafetyDoor:
+            door_wanted_ = true;
+            return;
+        case RealtimeCommand::kJogCancel:
+            cancel_wanted_ = true;
+            cancelling_ = true;
+            cancelled_to_ = received_.received();
+            cancelled_in_jog_ = state_ == State::kJog;
+            return;
+        case RealtimeCommand::kSpindleStopToggle:
+            spindle_stop_wanted_ = true;
+            return;
+        case RealtimeCommand::kFloodToggle:
+        case RealtimeCommand::kMistToggle:
+            if (state_ == State::kIdle || state_ == State::kRun || state_ == State::kHold) {
+                bool& output = command == RealtimeCommand::kFloodToggle ? accessories_.flood
+                                                                        : accessories_.mist;
+                output = !output;
+                reporter_.overrides_changed();
+            }
+            return;
+        case RealtimeCommand::kFeedOverrideReset:
+        case RealtimeCommand::kFeedOverrideCoarsePlus:
+        case RealtimeCommand::kFeedOverrideCoarseMinus:
+        case RealtimeCommand::kFeedOverrideFinePlus:
+        case RealtimeCommand::kFeedOverrideFineMinus:
+        case RealtimeCommand::kRapidOverrideReset:
+        case RealtimeCommand::kRapidOverrideMedium:
+        case RealtimeCommand::kRapidOverrideLow:
+        case RealtimeCommand::kSpindleOverrideReset:
+        case RealtimeCommand::kSpindleOverrideCoarsePlus:
+        case RealtimeCommand::kSpindleOverrideCoarseMinus:
+        case RealtimeCommand::kSpindleOverrideFinePlus:
+        case RealtimeCommand::kSpindleOverrideFineMinus:
+            break;
+    }
+    const Overrides before = overrides_;
+    overrides_ = overridden(overrides_, command);
+    if (!(before == overrides_)) {
+        motion_.set_overrides(overrides_.feed, overrides_.rapid);
+        reporter_.overrides_changed();
+    }
+}
+// Takes up to one event. The order is Grbl's: alarms, reset, report, stops, start.
+bool Machine::handle_events() noexcept
+{
+    if (motion_.limit_hit() && !critical_) {
+        raise(Alarm::kHardLimit);
+        return true;
+    }
+    if (frame_missed_) {
+        frame_missed_ = false;
+        message("A pulse frame was missing");
+        raise(Alarm::kAbortInMotion);
+        return true;
+    }
+    if (reset_wanted_) {
+        reset_wanted_ = false;
+        reset();
+        return true;
+    }
+    if (status_wanted_) {
+        status_wanted_ = false;
+        report_status();
+        return true;
+    }
+    if (cancel_wanted_) {
+        cancel_wanted_ = false;
+        cancel_jog();
+        return true;
+    }
+    if (hold_wanted_ || door_wanted_) {
+        // A start that came at the same time as a stop is not meant.
+        start_wanted_ = false;
+        if (door_wanted_) {
+            open_door();
+        } else {
+            feed_hold();
+        }
+        hold_wanted_ = false;
+        door_wanted_ = false;
+        return true;
+    }
+    if (spindle_stop_wanted_) {
+        spindle_stop_wanted_ = false;
+        toggle_spindle_stop();
+        return true;
+    }
+    if (start_wanted_) {
+        start_wanted_ = false;
+        cycle_start();
+        return true;
+    }
+    return watch_panel() || watch_link();
+}
+
+// Buttons and the door act when they come on.
+bool Machine::watch_panel() noexcept
+{
+    const std::uint16_t now = motion_.inputs().steady();
+    const auto risen = static_cast<std::uint16_t>(now & ~unsigned{panel_before_});
+    panel_before_ = now;
+    if ((risen & kResetButton) != 0) {
+        act(RealtimeCommand::kReset);
+    }
+    if ((risen & kHoldButton) != 0) {
+        hold_wanted_ = true;
+    }
+    if ((risen & kStartButton) != 0) {
+        start_wanted_ = true;
+    }
+    if ((risen & kDoor) != 0) {
+        door_wanted_ = true;
+    }
+    return (risen & (kResetButton | kHoldButton | kStartButton | kDoor)) != 0;
+}
+
+// $791: a program whose sender has gone silent is held. Checked lines lapse in a long silence at
+// rest, so that a stock sender finds a stock controller.
+bool Machine::watch_link() noexcept
+{
+    constexpr std::uint32_t kCheckedLinesLapse = 3000;  // ticks
+    const std::uint32_t silence = motion_.ticks() - last_byte_tick_;
+    if (checked_.on() && silence > kCheckedLinesLapse && idle()) {
+        checked_.switch_off();
+        line_.begin_line();
+    }
+    const std::uint32_t patience = stored_.settings.whole(Setting::kLinkWatchdog);
+    if (patience == 0 || state_ != State::kRun || silence <= patience) {
+        return false;
+    }
+    message("Link lost: holding");
+    feed_hold();
+    return true;
+}
+
+void Machine::feed_hold() noexcept
+{
+    if (state_ == State::kJog) {
+        cancel_jog();
+    } else {
+        hold_program();
+    }
+}
+
+void Machine::hold_program() noexcept
+{
+    if (state_ == State::kIdle || state_ == State::kRun) {
+        motion_.hold();
+        state_ = State::kHold;
+    }
+}
+
+void Machine::cycle_start() noexcept
+{
+    if (state_ == State::kDoor && motion_.at_rest() && !input_on(kDoor) && !door_restoring_) {
+        // The spindle comes up to speed before the tool moves, as Grbl waits.
+        constexpr std::uint32_t kSpindleUp = 4000;  // ticks
+        constexpr std::uint32_t kCoolantOn = 1000;
+        const bool spindle = accessories_.spindle != gcode::SpindleMode::kOff;
+        const bool coolant = accessories_.flood || accessories_.mist;
+        accessories_.spindle_paused = false;
+        accessories_.coolant_paused = false;
+        door_restoring_ = true;
+        door_restored_at_ = motion_.ticks() + (spindle ? kSpindleUp : coolant ? kCoolantOn : 0U);
+        return;
+    }
+    if (state_ == State::kHold && motion_.at_rest()) {
+        accessories_.spindle_paused = false;
+        motion_.resume();
+        state_ = motion_.finished() ? State::kIdle : State::kRun;
+    }
+}
+
+void Machine::open_door() noexcept
+{
+    if (state_ == State::kAlarm || state_ == State::kCheck || state_ == State::kSleep) {
+        return;
+    }
+    message("Check Door");
+    if (state_ == State::kHome) {
+        raise(Alarm::kHomingDoor);
+        return;
+    }
+    if (state_ == State::kJog) {
+        cancel_jog();
+    }
+    motion_.hold();
+    state_ = State::kDoor;
+    door_restoring_ = false;
+}
+
+void Machine::cancel_jog() noexcept
+{
+    if (state_ != State::kJog) {
+        return;
+    }
+    motion_.hold();
+    jog_cancelled_ = true;
+    if (task_ == Task::kActions && jogging_line_) {
+        // The jog that still waits for room must not move after the cancel.
+        interpreter_.discard();
+        action_waits_ = false;
+        finish_line(std::nullopt);
+    }
+}
+
+void Machine::toggle_spindle_stop() noexcept
+{
+    if (state_ != State::kHold || !motion_.at_rest() ||
+        accessories_.spindle == gcode::SpindleMode::kOff) {
+        return;
+    }
+    accessories_.spindle_paused = !accessories_.spindle_paused;
+    reporter_.overrides_changed();
+}
+
+}  // namespace cusp::machine
