@@ -33,7 +33,11 @@ public:
     void write(Span<const std::uint8_t> bytes) noexcept;
 
     // Call before each servo tick.
-    void set_tick(std::uint64_t tick) noexcept { tick_ = tick; }
+    void set_tick(std::uint64_t tick) noexcept
+    {
+        tick_ = tick;
+        may_begin_line_ = true;
+    }
 
     // Every line is sent and answered.
     bool finished() const noexcept { return ended_ && unanswered_ == 0; }
@@ -41,8 +45,12 @@ public:
     bool refused() const noexcept { return refused_; }
     // Whether the script has bytes that are still to come.
     bool script_waits() const noexcept { return script_waits_; }
-    // Sends a byte of its own, ahead of the program.
-    void send(char byte) noexcept { own_ = static_cast<std::uint8_t>(byte); }
+    // Sends a byte of its own, ahead of the program; no line is begun until the next tick.
+    void send(char byte) noexcept
+    {
+        own_ = static_cast<std::uint8_t>(byte);
+        may_begin_line_ = false;
+    }
 
 private:
     // A file read through a buffer, a byte at a time.
@@ -82,6 +90,7 @@ private:
     std::uint64_t script_tick_{0};
     std::uint8_t script_byte_{0};
     std::uint8_t own_{0};
+    bool may_begin_line_{true};
     bool amid_line_{false};
     bool ended_{false};
     std::uint32_t unanswered_{0};
@@ -130,7 +139,7 @@ inline bool ProgramLink::try_read(std::uint8_t& byte) noexcept
 
 inline bool ProgramLink::try_read_program(std::uint8_t& byte) noexcept
 {
-    if (ended_ || refused_ || (unanswered_ > 0 && !amid_line_)) {
+    if (ended_ || refused_ || (!amid_line_ && (unanswered_ > 0 || !may_begin_line_))) {
         return false;
     }
     if (!program_.next(byte)) {
