@@ -24,8 +24,8 @@ struct Piece {
     Position end;
 };
 
-// No piece is longer than this, mm, so that float resolves a nanometre along it.
-inline constexpr double kMaxPieceLength = 16.0;
+// No piece is longer than this, mm, so that float resolves half a nanometre along it.
+inline constexpr double kMaxPieceLength = 8.0;
 
 // A piece shorter than this, mm, is replaced by its chord where the curve has a cusp or stands
 // still, so the path is off by at most half of it.
