@@ -35,7 +35,8 @@ FollowSettings follow_settings(const Operation& operation)
     s.max_arc_radius = operation.max_arc_radius > 0 ? operation.max_arc_radius : 1e3;
     // Between places this far apart the tip's height rises over a chord by about an eighth of the
     // band.
-    const double bend = std::sqrt(0.5 * std::max(operation.tool.corner_radius, 0.1) * s.tolerance);
+    const double band = s.arcs ? std::max(s.arc_tolerance, s.tolerance) : s.tolerance;
+    const double bend = std::sqrt(0.5 * std::max(operation.tool.corner_radius, 0.1) * band);
     s.sample = std::min(std::max(operation.grid_x, operation.grid_y), bend);
     return s;
 }
