@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "firmware/segmenter/arc_fitter.hpp"
 
 namespace cusp::host {
 namespace {
@@ -197,36 +198,63 @@ bool FloorFollower::arc_is_clear(Vec3d from, const ArcTo& arc, double curvature)
     return true;
 }
 
+std::vector<Vec3d> FloorFollower::arc_vertices(Vec2d a, Vec2d b) const
+{
+    const std::vector<BandPoint> places = band(a, b, settings_.arc_tolerance);
+    const double length = norm(b - a);
+    std::vector<Vec3d> out;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const Vec2d at = a + (b - a) * (places[i].s / length);
+        double z = (places[i].low + places[i].high) / 2;
+        if (!settings_.both_sides) {
+            // The fitter measures square to the path: on slopes the same distance is higher.
+            const BandPoint& before = places[i > 0 ? i - 1 : i];
+            const BandPoint& after = places[i + 1 < places.size() ? i + 1 : i];
+            const double slope = (after.high - before.high) / (after.s - before.s);
+            const double height = settings_.arc_tolerance / 2 * std::sqrt(1 + slope * slope);
+            z = std::max(z, places[i].low + kArcSagitta * settings_.arc_tolerance + height);
+        }
+        out.push_back({at.x, at.y, z});
+    }
+    return out;
+}
+
 bool FloorFollower::follow_with_arcs(TipMoves& moves, Vec2d a, Vec2d b, MoveKind kind)
 {
     const bool along_x = std::abs(a.y - b.y) < 1e-9;
     if (!along_x && std::abs(a.x - b.x) >= 1e-9) {
         return false;
     }
-    const double forth = along_x ? (b.x > a.x ? 1.0 : -1.0) : (b.y > a.y ? 1.0 : -1.0);
-    std::vector<BandPoint> places = band(a, b, settings_.arc_tolerance);
-    for (BandPoint& place : places) {
-        place.low += settings_.both_sides ? 0 : kArcSagitta * settings_.arc_tolerance;
-    }
-    places.front().low = std::min(places.front().low, moves.at().z);
-    places.front().high = std::max(places.front().high, moves.at().z);
-    const auto in_space = [&](ProfilePoint p) {
-        return along_x ? Vec3d{a.x + forth * p.s, a.y, p.z} : Vec3d{a.x, a.y + forth * p.s, p.z};
-    };
-    for (const ProfilePiece& piece : fit_arcs(places, moves.at().z, settings_.max_arc_radius)) {
-        const Vec3d end = in_space(piece.end);
-        if (piece.curvature == 0) {
-            chord(moves, end, kind, 0);
+    std::vector<Vec3d> vertices = arc_vertices(a, b);
+    vertices.front() = moves.at();
+    const double room =
+        settings_.both_sides ? settings_.arc_tolerance : settings_.arc_tolerance / 2;
+    segmenter::FitSettings fit;
+    fit.left = room;
+    fit.right = room;
+    fit.greatest_radius = settings_.max_arc_radius;
+    std::vector<Vec3d> buffer(std::max<std::size_t>(vertices.size(), 4));
+    segmenter::ArcFitter fitter{fit, {buffer.data(), buffer.size()}};
+    fitter.start(vertices.front());
+    std::for_each(vertices.begin() + 1, vertices.end(), [&](Vec3d v) { fitter.push(v); });
+    fitter.finish();
+    for (segmenter::FittedMove piece; fitter.next(piece);) {
+        if (!piece.is_arc) {
+            chord(moves, piece.end, kind, 0);
             continue;
         }
-        // Seen with the axis to the right and up up, a right turn; G18 looks from the other side.
-        const bool right_turn = (piece.curvature < 0) == (forth > 0);
-        const ArcTo arc{end, in_space(piece.centre), along_x ? ArcPlane::kZX : ArcPlane::kYZ,
-                        along_x ? !right_turn : right_turn};
-        if (settings_.both_sides || arc_is_clear(moves.at(), arc, piece.curvature)) {
+        const Vec3d from = moves.at();
+        const Vec3d centre =
+            along_x ? Vec3d{from.x + piece.second_offset, from.y, from.z + piece.first_offset}
+                    : Vec3d{from.x, from.y + piece.first_offset, from.z + piece.second_offset};
+        const ArcTo arc{piece.end, centre, along_x ? ArcPlane::kZX : ArcPlane::kYZ,
+                        piece.clockwise};
+        const double radius = norm(centre - from);
+        const double curvature = (centre.z > (from.z + piece.end.z) / 2 ? 1 : -1) / radius;
+        if (settings_.both_sides || arc_is_clear(from, arc, curvature)) {
             moves.arc(kind, arc);
         } else {
-            follow_segment(moves, plan(moves.at()), plan(end), kind);
+            follow_segment(moves, plan(from), plan(piece.end), kind);
         }
     }
     return true;

@@ -72,6 +72,7 @@ private:
     std::vector<BandPoint> band(Vec2d a, Vec2d b, double tolerance) const;
     void follow_segment(TipMoves& moves, Vec2d a, Vec2d b, MoveKind kind);
     bool arc_is_clear(Vec3d from, const ArcTo& arc, double curvature) const;
+    std::vector<Vec3d> arc_vertices(Vec2d a, Vec2d b) const;
     bool follow_with_arcs(TipMoves& moves, Vec2d a, Vec2d b, MoveKind kind);
     void chord(TipMoves& moves, Vec3d end, MoveKind kind, int depth);
 };
