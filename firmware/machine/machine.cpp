@@ -17,6 +17,10 @@ Machine::Machine(const Settings& factory) noexcept : factory_{factory}, motion_{
 
 void Machine::start(LogState loaded) noexcept
 {
+    if (!stored_.settings.sound()) {
+        stored_.settings = factory_;
+        loaded = LogState::kLost;
+    }
     motion_.configure(stored_.settings);
     interpreter_.set_parameters(stored_.parameters);
     interpreter_.set_default_tolerance(stored_.settings.value(Setting::kPathTolerance));

@@ -131,6 +131,17 @@ std::optional<SettingFault> Settings::find_fault() const noexcept
     return std::nullopt;
 }
 
+bool Settings::sound() const noexcept
+{
+    for (std::size_t i = 0; i < kSettingCount; ++i) {
+        // So written that it refuses a NaN.
+        if (!(values_[i] >= kTable[i].least && values_[i] <= kTable[i].most)) {
+            return false;
+        }
+    }
+    return !find_fault();
+}
+
 MachineLimits Settings::limits() const noexcept
 {
     MachineLimits limits;

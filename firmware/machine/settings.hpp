@@ -111,6 +111,10 @@ public:
     //   kSoftLimitError        soft limits without homing
     std::optional<SettingFault> find_fault() const noexcept;
 
+    // Every value is in its range and all go together: what put() and find_fault() let through.
+    // Stored bytes of another firmware may not be.
+    bool sound() const noexcept;
+
     MachineLimits limits() const noexcept;
     pulse::StepSettings steps() const noexcept;
 

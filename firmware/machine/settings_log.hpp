@@ -44,7 +44,8 @@ private:
         std::uint32_t crc;
         std::uint32_t mark;
     };
-    static constexpr std::uint32_t kMark = 0x43555350;  // "CUSP"
+    // "CUS" and the version of the record's layout: another one's records do not count.
+    static constexpr std::uint32_t kMark = 0x43555301;
     static constexpr std::uint32_t kErased = 0xFFFFFFFF;
     static constexpr std::uint32_t kChunk = 64;
     static constexpr unsigned kSectors = 2;

@@ -77,3 +77,10 @@ TEST(MachineSettings, RefuseValuesOutsideTheirRange)
     CHECK(!settings.put(21, 5));
     DOUBLES_EQUAL(1.0, static_cast<double>(settings.value(Setting::kHardLimits)), 0);
 }
+
+TEST(MachineSettings, AreSoundByDefaultAndNotWhenTheyConflict)
+{
+    CHECK(settings.sound());
+    CHECK(!settings.put(100, 10000));
+    CHECK_FALSE(settings.sound());
+}
