@@ -3,6 +3,7 @@
 #include "firmware/base/math.hpp"
 #include "firmware/gcode/interpreter.hpp"
 #include "firmware/interpolator/interpolator.hpp"
+#include "firmware/nurbs/arc_length_table.hpp"
 #include "firmware/planner/planner.hpp"
 #include "firmware/pulse/pulse_maker.hpp"
 #include "hal/stm32f4/dma_pulse_player.hpp"
@@ -91,27 +92,34 @@ void count_one_move(std::string_view name, Position end, const path::Path& path)
     meter.report(out);
 }
 
+// A piece as PieceStream hands it over: short enough for its table of arc length. A longer one
+// would be followed as a line.
+void count_one_curve(std::string_view name, const path::BezierPiece& piece)
+{
+    nurbs::ArcLengthTable table;
+    CUSP_ASSERT(nurbs::make_arc_length_table(piece, table));
+    const Vec3f end = piece.points[piece.order - 1U];
+    count_one_move(name,
+                   to_position({static_cast<double>(end.x), static_cast<double>(end.y),
+                                static_cast<double>(end.z)}),
+                   piece);
+}
+
 void count_interpolation()
 {
     count_one_move("tick_line", to_position({60.0, 30.0, 10.0}), path::Line{});
     const path::Arc helix{
         {20.0, 0.0, 0.0}, {-1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 5.0}, 20.0, 0.0, kPi};
     count_one_move("tick_arc", to_position({40.0, 0.0, 5.0}), helix);
-    path::BezierPiece cubic{};
-    cubic.order = 4;
-    cubic.points[1] = {10.0F, 20.0F, 2.0F};
-    cubic.points[2] = {30.0F, 20.0F, 4.0F};
-    cubic.points[3] = {40.0F, 0.0F, 5.0F};
-    for (float& weight : cubic.weights) {
-        weight = 1.0F;
-    }
-    count_one_move("tick_cubic", to_position({40.0, 0.0, 5.0}), cubic);
-    path::BezierPiece quartic = cubic;
-    quartic.order = 5;
-    quartic.points[4] = {50.0F, 10.0F, 6.0F};
-    quartic.weights[1] = 2.0F;
-    quartic.weights[3] = 0.7F;
-    count_one_move("tick_rational_quartic", to_position({50.0, 10.0, 6.0}), quartic);
+    count_one_curve("tick_cubic",
+                    {4,
+                     {{}, {4.0F, 6.0F, 1.0F}, {9.0F, 7.0F, 2.0F}, {14.0F, 3.0F, 2.5F}},
+                     {1.0F, 1.0F, 1.0F, 1.0F, 1.0F}});
+    count_one_curve(
+        "tick_rational_quartic",
+        {5,
+         {{}, {3.0F, 2.0F, 0.5F}, {6.0F, 3.5F, 1.0F}, {9.0F, 3.0F, 1.5F}, {12.0F, 1.0F, 2.0F}},
+         {1.0F, 1.3F, 1.1F, 0.9F, 1.0F}});
 }
 
 // All three axes at this many nanometres a tick; 800 steps/mm.
