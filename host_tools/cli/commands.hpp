@@ -24,5 +24,7 @@ using AddCommand = void (*)(CLI::App& app, Work& work);
 void add_fit_command(CLI::App& app, Work& work);
 void add_plan_command(CLI::App& app, Work& work);
 void add_verify_command(CLI::App& app, Work& work);
+void add_sim_command(CLI::App& app, Work& work);
+void add_settings_command(CLI::App& app, Work& work);
 
 }  // namespace cusp::host

@@ -35,6 +35,8 @@ const std::vector<AddCommand>& commands()
         add_plan_command,
         add_fit_command,
         add_verify_command,
+        add_sim_command,
+        add_settings_command,
     };
     return all;
 }

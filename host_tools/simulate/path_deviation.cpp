@@ -2,6 +2,7 @@
 #include "host_tools/simulate/path_deviation.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -10,12 +11,12 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-double distance_to_segment(Vec3d point, Vec3d end)
+NearestPlace nearest_on_segment(Vec3d point, Vec3d end)
 {
     const double length_squared = dot(end, end);
     const double t =
         length_squared > 0 ? std::clamp(dot(point, end) / length_squared, 0.0, 1.0) : 0.0;
-    return norm(point - end * t);
+    return {norm(point - end * t), t};
 }
 
 // Point of the arc at t in [0, 1] and, by differences of the closed form, its derivatives.
@@ -36,7 +37,7 @@ ArcPoint arc_at(const path::Arc& arc, double t)
             along * (2.0 * arc.radius_change * arc.sweep) - out * (radius * arc.sweep * arc.sweep)};
 }
 
-double distance_to_arc_near(const path::Arc& arc, Vec3d point, double t)
+NearestPlace nearest_on_arc_from(const path::Arc& arc, Vec3d point, double t)
 {
     for (int iteration = 0; iteration < 12; ++iteration) {
         const ArcPoint at = arc_at(arc, t);
@@ -51,18 +52,21 @@ double distance_to_arc_near(const path::Arc& arc, Vec3d point, double t)
         }
         t = next;
     }
-    return norm(arc_at(arc, t).position - point);
+    return {norm(arc_at(arc, t).position - point), t};
 }
 
-double distance_to_arc(const path::Arc& arc, Vec3d point)
+NearestPlace nearest_on_arc(const path::Arc& arc, Vec3d point)
 {
     const Vec3d from_centre = point - arc.centre;
     double angle = std::atan2(dot(from_centre, arc.v), dot(from_centre, arc.u));
     if (angle < 0) {
         angle += 2.0 * kPi;
     }
-    double nearest =
-        std::min(norm(arc_at(arc, 0.0).position - point), norm(arc_at(arc, 1.0).position - point));
+    NearestPlace nearest{norm(arc_at(arc, 0.0).position - point), 0.0};
+    const NearestPlace at_end{norm(arc_at(arc, 1.0).position - point), 1.0};
+    if (at_end.distance < nearest.distance) {
+        nearest = at_end;
+    }
     const double rise = dot(arc.axial, arc.axial);
     const double turn_by_height =
         rise > 0 ? dot(from_centre, arc.axial) / rise * arc.sweep / (2.0 * kPi) : 0.0;
@@ -71,7 +75,10 @@ double distance_to_arc(const path::Arc& arc, Vec3d point)
     for (double turn = middle - 1.0; turn <= middle + 1.0; ++turn) {
         const double t = (angle + turn * 2.0 * kPi) / arc.sweep;
         if (t >= 0.0 && t <= 1.0) {
-            nearest = std::min(nearest, distance_to_arc_near(arc, point, t));
+            const NearestPlace found = nearest_on_arc_from(arc, point, t);
+            if (found.distance < nearest.distance) {
+                nearest = found;
+            }
         }
     }
     return nearest;
@@ -98,7 +105,7 @@ Vec3d bezier_at(const path::BezierPiece& piece, double t)
     return points[0] / weights[0];
 }
 
-double distance_to_bezier(const path::BezierPiece& piece, Vec3d point)
+NearestPlace nearest_on_bezier(const path::BezierPiece& piece, Vec3d point)
 {
     constexpr int kSamples = 32;
     const auto distance_at = [&](double t) {
@@ -122,63 +129,90 @@ double distance_to_bezier(const path::BezierPiece& piece, Vec3d point)
         const double b = low + (high - low) * kGolden;
         (distance_at(a) < distance_at(b) ? high : low) = distance_at(a) < distance_at(b) ? b : a;
     }
-    return std::min(nearest, distance_at((low + high) / 2));
+    const double middle = (low + high) / 2;
+    if (distance_at(middle) < nearest) {
+        return {distance_at(middle), middle};
+    }
+    return {nearest, static_cast<double>(best) / kSamples};
 }
+
+// Ties between two stretches go to the later one.
+constexpr double kTie = 1e-7;
 
 }  // namespace
 
-double distance_to_move(const path::Move& move, Position point)
+NearestPlace nearest_place(const path::Move& move, Position point)
 {
     const Vec3d relative = to_millimetres(point - move.start);
     if (const auto* arc = std::get_if<path::Arc>(&move.path)) {
-        return distance_to_arc(*arc, relative);
+        return nearest_on_arc(*arc, relative);
     }
     if (const auto* piece = std::get_if<path::BezierPiece>(&move.path)) {
-        return distance_to_bezier(*piece, relative);
+        return nearest_on_bezier(*piece, relative);
     }
-    return distance_to_segment(relative, to_millimetres(move.end - move.start));
+    return nearest_on_segment(relative, to_millimetres(move.end - move.start));
 }
 
 void PathDeviation::add_move(const path::Move& move)
 {
-    if (std::holds_alternative<path::Line>(move.path) && move.start == move.end) {
+    const double length = path::length(move);
+    if (length <= 0.0) {
         return;
     }
-    moves_.push_back(move);
+    stretches_.push_back({move, end_, length});
+    end_ += length;
+    greatest_tolerance_ = std::max(greatest_tolerance_, static_cast<double>(move.tolerance));
 }
 
-void PathDeviation::add_set_point(Position set_point, std::uint32_t executing_line)
+void PathDeviation::restart()
 {
-    if (moves_.empty()) {
+    stretches_.clear();
+    place_ = end_;
+}
+
+// How far along the path the place may have moved since the last set point: what was travelled, and
+// what blending cuts off at a corner.
+double PathDeviation::reach(Position set_point) const
+{
+    constexpr double kSlack = 0.5;
+    constexpr double kMostTravel = 2.0;  // in one tick, at 120 m/min
+    const double travel = std::min(kMostTravel, norm(to_millimetres(set_point - last_)));
+    return kSlack + 2.0 * travel + 8.0 * greatest_tolerance_;
+}
+
+void PathDeviation::add_set_point(Position set_point)
+{
+    if (stretches_.empty() || set_point == last_) {
+        last_ = set_point;
         return;
     }
-    while (current_ + 1 < first_index_ + moves_.size() &&
-           moves_[current_ + 1 - first_index_].line <= executing_line) {
-        ++current_;
-    }
-    recent_.push_back(current_);
-    // The oldest kept index may lie amid the moves of one line: all of that line stay near.
-    if (recent_.size() > kFilterTicks) {
-        recent_.pop_front();
-    }
-    const std::uint32_t oldest_line = moves_[recent_.front() - first_index_].line;
-    while (moves_.front().line < oldest_line) {
-        moves_.pop_front();
-        ++first_index_;
-    }
-    if (set_point == last_) {
-        return;
-    }
+    const double around = reach(set_point);
     last_ = set_point;
-    const std::size_t end =
-        std::min<std::size_t>(moves_.size(), current_ - first_index_ + 1 + kMovesAhead);
     double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = end; i > 0 && nearest > 0.0; --i) {
-        nearest = std::min(nearest, distance_to_move(moves_[i - 1], set_point));
+    double place = place_;
+    std::uint32_t line = 0;
+    for (const Stretch& stretch : stretches_) {
+        if (stretch.start > place_ + around) {
+            break;
+        }
+        if (stretch.start + stretch.length < place_ - around) {
+            continue;
+        }
+        const NearestPlace found = nearest_place(stretch.move, set_point);
+        if (found.distance <= nearest + kTie) {
+            nearest = std::min(nearest, found.distance);
+            place = stretch.start + found.part * stretch.length;
+            line = stretch.move.line;
+        }
     }
-    if (nearest > greatest_) {
+    place_ = place;
+    while (stretches_.size() > 1 &&
+           stretches_.front().start + stretches_.front().length < place_ - 4.0 * around) {
+        stretches_.pop_front();
+    }
+    if (nearest > greatest_ && nearest < std::numeric_limits<double>::infinity()) {
         greatest_ = nearest;
-        line_ = executing_line;
+        line_ = line;
     }
 }
 

@@ -4,7 +4,6 @@
 // them: true distances to lines, helices and rational Bezier curves.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <deque>
 
@@ -12,35 +11,46 @@
 
 namespace cusp::host {
 
-// Distance in mm from a point to a move, within 1e-7 mm. The nearest point of an arc is sought
-// where the angle says, for a helix in the turn that the height says and its neighbours.
-double distance_to_move(const path::Move& move, Position point);
+// The place on a move that is nearest to a point.
+struct NearestPlace {
+    double distance;  // mm, within 1e-7
+    double part;      // of the move's parameter, 0 to 1
+};
 
+// The nearest point of an arc is sought where the angle says, for a helix in the turn that the
+// height says and its neighbours.
+NearestPlace nearest_place(const path::Move& move, Position point);
+
+// Follows the set points along the path. Where the path comes near itself, only the stretch around
+// the place of the last set point counts.
 class PathDeviation {
 public:
-    // Moves in the order of the program; the lines rise. A move of no length is dropped.
+    // Moves in the order of the program. A move of no length is dropped.
     void add_move(const path::Move& move);
 
     // The set point of the next servo tick.
-    //
-    //   executing_line  of the move that the tool is on. Filters delay and blend: the moves of the
-    //                   last kFilterTicks ticks and those that follow count as near.
-    void add_set_point(Position set_point, std::uint32_t executing_line);
+    void add_set_point(Position set_point);
 
-    // Greatest distance so far, mm, and the line executing there.
+    // The machine has moved on its own: the path goes on with the next move.
+    void restart();
+
+    // Greatest distance so far, mm, and the line of the move that was nearest there.
     double greatest() const { return greatest_; }
     std::uint32_t line() const { return line_; }
 
 private:
-    static constexpr std::size_t kFilterTicks = 32;
-    static constexpr std::size_t kMovesAhead = 3;
+    struct Stretch {
+        path::Move move;
+        double start;  // mm along the path
+        double length;
+    };
+    double reach(Position set_point) const;
 
-    std::deque<path::Move> moves_;
-    // Index into moves_ of the last move of the line that was executing, one a tick, newest last.
-    std::deque<std::uint64_t> recent_;
-    std::uint64_t first_index_{0};  // of moves_.front(), counted from the start of the program
-    std::uint64_t current_{0};
+    std::deque<Stretch> stretches_;
+    double end_{0};    // of the path so far, mm
+    double place_{0};  // of the last set point
     Position last_{};
+    double greatest_tolerance_{0};
     double greatest_{0};
     std::uint32_t line_{0};
 };

@@ -17,8 +17,11 @@ constexpr char identifier(unsigned wire) { return static_cast<char>('!' + wire);
 
 }  // namespace
 
-VcdWriter::VcdWriter(const std::string& file, const hal::SimulatedMill& mill)
-    : file_{file}, mill_{mill}
+VcdWriter::VcdWriter(const std::string& file,
+                     const hal::SimulatedMill& mill,
+                     std::uint64_t start,
+                     PulseLines levels)
+    : file_{file}, mill_{mill}, start_{start}, levels_{levels}
 {
     file_.write("$version cusp sim $end\n$timescale 1 us $end\n$scope module mill $end\n");
     for (unsigned wire = 0; wire < kWires.size(); ++wire) {
@@ -29,24 +32,32 @@ VcdWriter::VcdWriter(const std::string& file, const hal::SimulatedMill& mill)
         file_.write(" $end\n");
     }
     file_.write("$upscope $end\n$enddefinitions $end\n#0\n$dumpvars\n");
-    for (unsigned wire = 0; wire < kWires.size(); ++wire) {
-        write_level(false, wire);
+    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+        write_level((levels_ & step_line(axis)) != 0, 2 * axis);
+        write_level((levels_ & direction_line(axis)) != 0, 2 * axis + 1);
     }
+    write_level(false, kSpindleWire);
+    write_level(false, kCoolantWire);
     file_.write("$end\n");
 }
 
 void VcdWriter::frame_played(std::uint64_t start_tick, const PulseFrame& frame)
 {
-    watch_outputs(start_tick);
+    // A frame that was in flight before the dump began is not of it.
+    if (start_tick < start_) {
+        return;
+    }
+    const std::uint64_t tick = start_tick - start_;
+    watch_outputs(tick);
     for (const PulseEdge& edge : frame.edges) {
         const auto now = static_cast<PulseLines>((levels_ | edge.raise) & ~unsigned{edge.lower});
         const auto changed = static_cast<PulseLines>(now ^ levels_);
         levels_ = now;
         if (changed != 0) {
-            write_changes(start_tick + edge.tick, changed);
+            write_changes(tick + edge.tick, changed);
         }
     }
-    end_ = start_tick + kPulseTicksPerFrame;
+    end_ = tick + kPulseTicksPerFrame;
 }
 
 void VcdWriter::close()

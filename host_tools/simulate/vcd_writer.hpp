@@ -15,7 +15,13 @@ namespace cusp::host {
 class VcdWriter : public hal::FrameListener {
 public:
     // Watches the outputs of `mill`, which outlives it. Throws InputError.
-    VcdWriter(const std::string& file, const hal::SimulatedMill& mill);
+    //
+    //   start   pulse tick of virtual time that is 0 in the dump
+    //   levels  of the lines then
+    VcdWriter(const std::string& file,
+              const hal::SimulatedMill& mill,
+              std::uint64_t start,
+              PulseLines levels);
 
     void frame_played(std::uint64_t start_tick, const PulseFrame& frame) override;
 
@@ -30,7 +36,8 @@ private:
 
     TextFile file_;
     const hal::SimulatedMill& mill_;
-    PulseLines levels_{0};
+    std::uint64_t start_;
+    PulseLines levels_;
     bool spindle_{false};
     bool coolant_{false};
     std::uint64_t last_written_{0};

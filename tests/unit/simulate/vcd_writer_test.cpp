@@ -30,7 +30,7 @@ TEST_GROUP(VcdWriter)
 
 TEST(VcdWriter, WritesEachEdgeAtItsTick)
 {
-    host::VcdWriter writer{folder.file("t.vcd"), mill};
+    host::VcdWriter writer{folder.file("t.vcd"), mill, 0, 0};
     writer.frame_played(3000, one_step_back_on_y());
     writer.close();
     const std::string text = folder.text_of("t.vcd");
@@ -42,7 +42,7 @@ TEST(VcdWriter, WritesEachEdgeAtItsTick)
 
 TEST(VcdWriter, ShowsSpindleAndCoolant)
 {
-    host::VcdWriter writer{folder.file("t.vcd"), mill};
+    host::VcdWriter writer{folder.file("t.vcd"), mill, 0, 0};
     hal::OutputLevels levels;
     levels.spindle_on = true;
     mill.set(levels);
@@ -58,7 +58,7 @@ TEST(VcdWriter, ShowsSpindleAndCoolant)
 
 TEST(VcdWriter, RefusesAPlaceThatCantBeWritten)
 {
-    CHECK_THROWS(host::InputError, (host::VcdWriter{folder.file("no/such/t.vcd"), mill}));
+    CHECK_THROWS(host::InputError, (host::VcdWriter{folder.file("no/such/t.vcd"), mill, 0, 0}));
 }
 
 TEST(VcdWriter, WritesSamplesAsIntegers)

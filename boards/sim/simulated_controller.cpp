@@ -1,0 +1,41 @@
+// Main loop, tick and power of the simulated controller.
+#include "boards/sim/simulated_controller.hpp"
+
+namespace cusp::board_sim {
+
+void SimulatedController::settle()
+{
+    while (app_ && app_->poll()) {
+    }
+}
+
+void SimulatedController::tick()
+{
+    tick_firmware();
+    tick_world();
+}
+
+void SimulatedController::tick_firmware()
+{
+    settle();
+    if (app_) {
+        app_->tick();
+    }
+}
+
+void SimulatedController::power_off()
+{
+    app_.reset();
+    board_.byte_link.clear();
+    board_.pulse_player.power_off();
+    board_.panel.set({});
+}
+
+void SimulatedController::power_on()
+{
+    if (!app_) {
+        app_.emplace(board_);
+    }
+}
+
+}  // namespace cusp::board_sim

@@ -1,0 +1,51 @@
+// SimulatedController: the whole firmware on the simulated board, in virtual time.
+//
+// The order of events is fixed, so that runs repeat and the board under QEMU gives the same frames:
+// poll() until it makes no more progress, then one tick(), and so on.
+#pragma once
+
+#include <optional>
+
+#include "firmware/app/app.hpp"
+#include "hal/sim/simulated_board.hpp"
+
+namespace cusp::board_sim {
+
+class SimulatedController {
+public:
+    // Powered off: the store may be filled first.
+    explicit SimulatedController(const hal::MillGeometry& geometry) : board_{geometry} {}
+    SimulatedController(const SimulatedController&) = delete;
+    SimulatedController& operator=(const SimulatedController&) = delete;
+
+    using App = app::App<hal::SimulatedBoard>;
+
+    hal::SimulatedBoard& board() noexcept { return board_; }
+    const hal::SimulatedBoard& board() const noexcept { return board_; }
+    // Precondition: is_on().
+    App& app() noexcept { return *app_; }
+    const App& app() const noexcept { return *app_; }
+
+    // The main loop until nothing more happens.
+    void settle();
+
+    // settle(), then one servo tick of the firmware and of the world.
+    void tick();
+    // The same by halves, for who looks in between.
+    void tick_firmware();
+    void tick_world() { board_.advance(); }
+
+    bool is_on() const noexcept { return app_.has_value(); }
+    // The firmware is gone amid whatever it did; the settings store and the iron stay.
+    void power_off();
+    void power_on();
+
+    // The firmware behind the App. Precondition: is_on().
+    const machine::Machine& machine() const noexcept { return app_->machine(); }
+
+private:
+    hal::SimulatedBoard board_;
+    std::optional<App> app_;
+};
+
+}  // namespace cusp::board_sim

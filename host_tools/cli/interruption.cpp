@@ -1,0 +1,23 @@
+// The one signal handler.
+#include "host_tools/cli/interruption.hpp"
+
+#include <csignal>
+
+namespace cusp::host {
+namespace {
+
+std::atomic<int> interruptions{0};
+static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may use it");
+
+extern "C" void count_one(int /*signal*/) { ++interruptions; }
+
+}  // namespace
+
+const std::atomic<int>& count_interruptions()
+{
+    std::signal(SIGINT, count_one);
+    std::signal(SIGTERM, count_one);
+    return interruptions;
+}
+
+}  // namespace cusp::host

@@ -1,0 +1,11 @@
+// Counts Ctrl-C instead of dying of it, so that machines are stopped and files are ended.
+#pragma once
+
+#include <atomic>
+
+namespace cusp::host {
+
+// From the first call on SIGINT and SIGTERM only count here.
+const std::atomic<int>& count_interruptions();
+
+}  // namespace cusp::host

@@ -1,0 +1,25 @@
+// `cusp settings`: prints the default settings.
+#include <cstdio>
+#include <string>
+
+#include "host_tools/cli/commands.hpp"
+#include "host_tools/simulate/settings_file.hpp"
+
+namespace cusp::host {
+
+void add_settings_command(CLI::App& app, Work& work)
+{
+    CLI::App* command = app.add_subcommand("settings", "Print the default settings");
+    command->footer(
+        "Lines as `$$` prints them; redirect them to a file, change it, and hand it to\n"
+        "`cusp sim --settings FILE`.");
+    command->callback([&work] {
+        work = [] {
+            const std::string text = settings_text(machine::Settings{});
+            std::fputs(text.c_str(), stdout);
+            return static_cast<int>(kDone);
+        };
+    });
+}
+
+}  // namespace cusp::host

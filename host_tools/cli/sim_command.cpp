@@ -1,0 +1,249 @@
+// `cusp sim`: runs a program through the firmware's core, or serves a virtual controller.
+#include <fmt/format.h>
+#include <memory>
+#include <string>
+#include <unistd.h>
+
+#include "host_tools/cli/commands.hpp"
+#include "host_tools/cli/interruption.hpp"
+#include "host_tools/input_error/input_error.hpp"
+#include "host_tools/simulate/fault_command.hpp"
+#include "host_tools/simulate/settings_file.hpp"
+#include "host_tools/simulate/simulation.hpp"
+#include "host_tools/simulate/text_file.hpp"
+#include "host_tools/simulate/virtual_controller.hpp"
+
+namespace cusp::host {
+namespace {
+
+struct SimArguments {
+    std::string program;
+    std::string settings_file;
+    std::string vcd_file;
+    std::string samples_file;
+    std::string stats_file;
+    std::optional<double> probe_z;
+    std::uint32_t bits_per_second{0};
+    bool serve{false};
+    std::string pty_link;
+    std::string tcp;
+    std::string control;
+    std::string line_faults;
+    std::uint32_t seed{1};
+    std::optional<std::uint64_t> cut_power_after;
+    std::vector<std::string> stuck_high;
+    std::vector<std::string> stuck_low;
+};
+
+void show_progress(const SimulationProgress& progress)
+{
+    constexpr int kCells = 30;
+    const int filled = static_cast<int>(progress.fraction * kCells);
+    fmt::print(stderr, "\r\x1b[K[{}{}] {:5.1f} %  line {}  {:.1f} s simulated",
+               std::string(static_cast<std::size_t>(filled), '#'),
+               std::string(static_cast<std::size_t>(kCells - filled), '.'),
+               100.0 * progress.fraction, progress.line, progress.simulated_s);
+    std::fflush(stderr);
+}
+
+void print_result(const SimulationResult& result)
+{
+    const MoveCounts& moves = result.moves;
+    const Vec3d end = to_millimetres(result.end);
+    fmt::print("{} lines, {} rapids, {} lines, {} arcs, {} NURBS\n", result.lines, moves.rapid,
+               moves.line, moves.arc, moves.nurbs);
+    fmt::print("time       {:.3f} s in motion, {:.1f} mm, simulated in {:.3f} s\n",
+               result.duration_s, result.length_mm, result.wall_s);
+    const auto print_axes = [](const char* name, Vec3d value, const char* unit) {
+        fmt::print("{:<10} X {:.3f}  Y {:.3f}  Z {:.3f} {}\n", name, value.x, value.y, value.z,
+                   unit);
+    };
+    print_axes("end", end, "mm");
+    print_axes("speed", result.max_velocity, "mm/s at most");
+    print_axes("accel", result.max_acceleration, "mm/s^2 at most");
+    print_axes("jerk", result.max_jerk, "mm/s^3 at most");
+    fmt::print("deviation  {:.6f} mm at most, in line {}\n", result.max_deviation_mm,
+               result.max_deviation_line);
+    if (result.starved_ticks > 0) {
+        fmt::print("starved    {} ms without a line to run\n", result.starved_ticks);
+    }
+    for (const std::uint64_t line : result.pause_lines) {
+        fmt::print("pause      line {}: went on at once\n", line);
+    }
+}
+
+int run_program(const SimArguments& arguments)
+{
+    SimulationOptions options;
+    if (!arguments.settings_file.empty()) {
+        options.settings = read_settings_file(arguments.settings_file);
+    }
+    options.vcd_file = arguments.vcd_file;
+    options.samples_file = arguments.samples_file;
+    options.probe_z = arguments.probe_z;
+    options.bits_per_second = arguments.bits_per_second;
+    const std::atomic<int>& interruptions = count_interruptions();
+    options.stop = [&interruptions] {
+        return interruptions.load() > 0;
+    };
+    const bool on_terminal = ::isatty(STDERR_FILENO) != 0;
+    if (on_terminal) {
+        options.progress = show_progress;
+    }
+    const SimulationResult result = simulate(arguments.program, options);
+    if (on_terminal) {
+        fmt::print(stderr, "\r\x1b[K");
+    }
+    if (!arguments.stats_file.empty()) {
+        TextFile file{arguments.stats_file};
+        file.write(statistics_json(result));
+        file.close();
+    }
+    print_result(result);
+    std::fflush(stdout);
+    for (const SimulationError& error : result.errors) {
+        const std::string code = error.code == 0     ? ""
+                                 : result.alarm != 0 ? fmt::format("ALARM:{}: ", error.code)
+                                                     : fmt::format("error:{}: ", error.code);
+        fmt::print(stderr, "{}:{}: {}{}\n", arguments.program, error.line, code, error.text);
+    }
+    if (result.stopped) {
+        fmt::print(stderr, "stopped before the end\n");
+    }
+    return result.good() ? kDone : kFoundWrong;
+}
+
+hal::TcpAddress address_of(const std::string& text, const char* option)
+{
+    const auto address = hal::parse_tcp_address(text);
+    if (!address) {
+        throw InputError{fmt::format("{} {}: is not HOST:PORT", option, text)};
+    }
+    return *address;
+}
+
+std::uint16_t inputs_of(const std::vector<std::string>& names, const char* option)
+{
+    unsigned bits = 0;
+    for (const std::string& name : names) {
+        const std::uint16_t bit = input_named(name);
+        if (bit == 0) {
+            throw InputError{fmt::format(
+                "{} {}: is none of x, y, z, probe, door, hold, start, reset", option, name)};
+        }
+        bits |= bit;
+    }
+    return static_cast<std::uint16_t>(bits);
+}
+
+int run_server(const SimArguments& arguments)
+{
+    ServeOptions options;
+    options.pty_link = arguments.pty_link;
+    if (!arguments.tcp.empty()) {
+        options.tcp = address_of(arguments.tcp, "--tcp");
+    }
+    if (!arguments.control.empty()) {
+        options.control = address_of(arguments.control, "--control");
+    }
+    const auto faults = parse_line_faults(arguments.line_faults);
+    if (!faults) {
+        throw InputError{fmt::format(
+            "--line-faults {}: is no list of noise=, loss=, doubling=, delay= with 0 to 1",
+            arguments.line_faults)};
+    }
+    options.settings_file = arguments.settings_file;
+    options.faults = *faults;
+    options.seed = arguments.seed;
+    options.probe_z = arguments.probe_z;
+    options.cut_power_after = arguments.cut_power_after;
+    options.stuck_high = inputs_of(arguments.stuck_high, "--stuck-high");
+    options.stuck_low = inputs_of(arguments.stuck_low, "--stuck-low");
+    options.vcd_file = arguments.vcd_file;
+    options.notice = [](const std::string& text) {
+        fmt::print("{}\n", text);
+        std::fflush(stdout);
+    };
+    serve(options, count_interruptions());
+    return kDone;
+}
+
+int run_sim(const SimArguments& arguments)
+{
+    if (arguments.serve) {
+        if (arguments.pty_link.empty() == arguments.tcp.empty()) {
+            throw InputError{"cusp sim --serve needs one of --pty LINK and --tcp HOST:PORT"};
+        }
+        if (!arguments.program.empty()) {
+            throw InputError{"cusp sim --serve takes no program: a sender sends it"};
+        }
+        return run_server(arguments);
+    }
+    if (arguments.program.empty()) {
+        throw InputError{"cusp sim needs a program, or --serve"};
+    }
+    return run_program(arguments);
+}
+
+void add_serve_options(CLI::App& command, SimArguments& arguments)
+{
+    const char* group = "Virtual controller";
+    command
+        .add_flag("--serve", arguments.serve, "Be a controller in real time for any Grbl sender")
+        ->group(group);
+    command.add_option("--pty", arguments.pty_link, "Link to make to a new pseudo-terminal")
+        ->group(group);
+    command.add_option("--tcp", arguments.tcp, "HOST:PORT to listen on")->group(group);
+    command
+        .add_option("--control", arguments.control,
+                    "HOST:PORT for commands: unplug, plug, power off|on, cut WORDS,\n"
+                    "high|low|free INPUT, plate Z, line noise=P loss=P doubling=P delay=P,\n"
+                    "lose-frame, overrun, where")
+        ->group(group);
+    command
+        .add_option("--line-faults", arguments.line_faults,
+                    "Probabilities a byte: noise=P,loss=P,doubling=P,delay=P")
+        ->group(group);
+    command.add_option("--seed", arguments.seed, "Of the line's faults")->group(group);
+    command
+        .add_option("--cut-power-after", arguments.cut_power_after,
+                    "Words written to the settings store before the power fails")
+        ->group(group);
+    command
+        .add_option("--stuck-high", arguments.stuck_high,
+                    "Input that always reads high: x, y, z, probe, door, hold, start, reset")
+        ->group(group);
+    command.add_option("--stuck-low", arguments.stuck_low, "Input that always reads low")
+        ->group(group);
+}
+
+}  // namespace
+
+void add_sim_command(CLI::App& app, Work& work)
+{
+    CLI::App* command =
+        app.add_subcommand("sim", "Run a program through the controller's core as fast as it goes");
+    const auto arguments = std::make_shared<SimArguments>();
+    command->add_option("program", arguments->program, "G-code to run from machine position 0,0,0");
+    command->add_option("--settings", arguments->settings_file,
+                        "Grbl settings, one $N=v a line; `cusp settings` prints the defaults");
+    command->add_option("--vcd", arguments->vcd_file, "Write every step and direction edge");
+    command->add_option("--samples", arguments->samples_file, "Write the set point of every ms");
+    command->add_option("--stats", arguments->stats_file, "Write the figures as JSON");
+    command->add_option("--probe-z", arguments->probe_z,
+                        "Height of a probe plate, mm from where the machine starts");
+    command->add_option("--baud", arguments->bits_per_second,
+                        "Send the lines at this rate instead of in no time");
+    add_serve_options(*command, *arguments);
+    command->footer(
+        "The first error or alarm ends the run: files are written up to there, exit status 1.\n"
+        "M0, M1 and tool changes go on at once and are listed; G4 takes its time.\n"
+        "With --serve the settings file is read and kept up to date.");
+    command->callback([arguments, &work] {
+        work = [arguments] {
+            return run_sim(*arguments);
+        };
+    });
+}
+
+}  // namespace cusp::host

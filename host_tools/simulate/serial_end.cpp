@@ -1,0 +1,121 @@
+// Senders come and go.
+#include "host_tools/simulate/serial_end.hpp"
+
+#include <algorithm>
+#include <system_error>
+
+#include "host_tools/input_error/input_error.hpp"
+
+namespace cusp::host {
+namespace {
+
+// Answers beyond this are lost where nobody reads them, as on a wire.
+constexpr std::size_t kMostWaiting = 1 << 20;
+
+}  // namespace
+
+SerialEnd::SerialEnd(const std::string& pty_link) : pty_link_{pty_link}
+{
+    link_.survive_hang_up(true);
+    plug();
+}
+
+SerialEnd::SerialEnd(const hal::TcpAddress& address)
+try : listener_{address} {
+} catch (const std::system_error& error) {
+    throw InputError{"can't listen on " + std::string{error.what()}};
+}
+
+void SerialEnd::plug()
+{
+    plugged_ = true;
+    if (pty_link_.empty() || terminal_) {
+        return;
+    }
+    try {
+        terminal_.emplace(pty_link_);
+    } catch (const std::system_error& error) {
+        throw InputError{"can't make a pseudo-terminal at " + std::string{error.what()}};
+    }
+    link_.connect(terminal_->open_controller_end());
+}
+
+void SerialEnd::unplug()
+{
+    plugged_ = false;
+    has_peer_ = false;
+    waiting_.clear();
+    link_.disconnect();
+    terminal_.reset();
+}
+
+bool SerialEnd::look()
+{
+    if (!plugged_) {
+        return false;
+    }
+    const bool had_peer = has_peer_;
+    if (terminal_) {
+        has_peer_ = terminal_->has_peer();
+    } else {
+        hal::Descriptor sender = listener_->accept_waiting();
+        if (link_.lost() || link_.descriptor() < 0) {
+            has_peer_ = false;
+            link_.disconnect();
+        }
+        // A second sender is turned away: its descriptor closes here.
+        if (sender.is_open() && !has_peer_) {
+            link_.connect(std::move(sender));
+            has_peer_ = true;
+            waiting_.clear();
+            return true;
+        }
+    }
+    if (!has_peer_) {
+        waiting_.clear();
+    }
+    return has_peer_ && !had_peer;
+}
+
+std::string SerialEnd::read()
+{
+    std::string bytes;
+    std::uint8_t byte = 0;
+    while (link_.try_read(byte)) {
+        bytes.push_back(static_cast<char>(byte));
+    }
+    return bytes;
+}
+
+void SerialEnd::write(const std::string& bytes)
+{
+    if (!has_peer_) {
+        return;
+    }
+    waiting_ += bytes;
+    if (waiting_.size() > kMostWaiting) {
+        waiting_.clear();
+    }
+    link_.flush();
+    const std::size_t count = std::min<std::size_t>(waiting_.size(), link_.write_room());
+    // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): text as bytes.
+    const auto* data = reinterpret_cast<const std::uint8_t*>(waiting_.data());
+    link_.write(Span<const std::uint8_t>{data, count});
+    waiting_.erase(0, count);
+}
+
+int SerialEnd::descriptor() const
+{
+    if (listener_ && !has_peer_) {
+        return listener_->descriptor();
+    }
+    // The controller's end of a terminal that nobody holds reads as hung up all the time.
+    return has_peer_ ? link_.descriptor() : -1;
+}
+
+std::string SerialEnd::name() const
+{
+    return listener_ ? "port " + std::to_string(listener_->port()) : pty_link_;
+}
+
+}  // namespace cusp::host

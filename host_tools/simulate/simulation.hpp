@@ -1,0 +1,81 @@
+// Simulation: runs a program through the whole firmware, as fast as it goes, and measures it.
+//
+// The simulation is the sender too: a line goes out as soon as the one before is answered, in no
+// time. The first error or alarm ends the run.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware/machine/settings.hpp"
+#include "host_tools/simulate/motion_statistics.hpp"
+#include "host_tools/simulate/program_shadow.hpp"
+
+namespace cusp::host {
+
+// How far a run is; called some ten times a second.
+struct SimulationProgress {
+    double fraction;     // of the program's bytes
+    std::uint64_t line;  // sent last
+    double simulated_s;
+};
+
+struct SimulationOptions {
+    machine::Settings settings;
+    // Files to write; empty: none.
+    std::string vcd_file;
+    std::string samples_file;
+    // Height of the probe plate over the start, mm.
+    std::optional<double> probe_z;
+    // Bits per second of the serial line; 0: lines take no time.
+    std::uint32_t bits_per_second{0};
+    std::function<void(const SimulationProgress&)> progress;
+    // Called when the first set point of a line has been reached; for tables of times.
+    std::function<void(std::uint32_t line, double seconds)> line_started;
+    // Ends the run where it returns true; asked some ten times a second.
+    std::function<bool()> stop;
+};
+
+// An answer that ended the run, or a line that the sender could not send.
+struct SimulationError {
+    std::uint64_t line;  // of the program
+    int code;            // Grbl's; 0 where the fault is not the firmware's
+    std::string text;
+};
+
+struct SimulationResult {
+    double duration_s{0};  // from the first to the last moving tick
+    double total_s{0};     // dwells at both ends too
+    double wall_s{0};
+    std::uint64_t lines{0};
+    MoveCounts moves;
+    PerAxis<std::uint64_t> steps{};  // pulses, both ways
+    Position end;                    // machine coordinates
+    double length_mm{0};
+    Vec3d max_velocity;
+    Vec3d max_acceleration;
+    Vec3d max_jerk;
+    double max_deviation_mm{0};
+    std::uint64_t max_deviation_line{0};
+    std::uint64_t starved_ticks{0};
+    int alarm{0};  // Grbl's code; 0: none
+    std::vector<SimulationError> errors;
+    // M0, M1 and tool changes, which went on at once.
+    std::vector<std::uint64_t> pause_lines;
+    std::uint64_t pauses{0};
+    bool stopped{false};
+
+    bool good() const { return errors.empty() && alarm == 0 && !stopped; }
+};
+
+// Throws InputError where a file can't be read or written.
+SimulationResult simulate(const std::string& program_file, const SimulationOptions& options);
+
+// The result as JSON, keys as docs/simulator.md lists them.
+std::string statistics_json(const SimulationResult& result);
+
+}  // namespace cusp::host

@@ -1,0 +1,49 @@
+// The statistics of a run as JSON.
+#include <nlohmann/json.hpp>
+
+#include "host_tools/simulate/simulation.hpp"
+
+namespace cusp::host {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json per_axis(Vec3d vector) { return Json::array({vector.x, vector.y, vector.z}); }
+
+}  // namespace
+
+std::string statistics_json(const SimulationResult& result)
+{
+    Json errors = Json::array();
+    for (const SimulationError& error : result.errors) {
+        errors.push_back({{"line", error.line}, {"code", error.code}, {"text", error.text}});
+    }
+    const MoveCounts& moves = result.moves;
+    Json json{
+        {"duration_s", result.duration_s},
+        {"total_s", result.total_s},
+        {"wall_s", result.wall_s},
+        {"lines", result.lines},
+        {"moves",
+         {{"rapid", moves.rapid},
+          {"line", moves.line},
+          {"arc", moves.arc},
+          {"nurbs", moves.nurbs}}},
+        {"steps", Json::array({result.steps[0], result.steps[1], result.steps[2]})},
+        {"end_mpos_mm", per_axis(to_millimetres(result.end))},
+        {"length_mm", result.length_mm},
+        {"max_velocity", per_axis(result.max_velocity)},
+        {"max_acceleration", per_axis(result.max_acceleration)},
+        {"max_jerk", per_axis(result.max_jerk)},
+        {"max_deviation_mm", result.max_deviation_mm},
+        {"max_deviation_line", result.max_deviation_line},
+        {"starved_ticks", result.starved_ticks},
+        {"alarm", result.alarm == 0 ? Json(nullptr) : Json(result.alarm)},
+        {"errors", errors},
+        {"pauses", result.pauses},
+        {"pause_lines", result.pause_lines},
+    };
+    return json.dump(2) + "\n";
+}
+
+}  // namespace cusp::host

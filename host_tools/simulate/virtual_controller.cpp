@@ -1,0 +1,286 @@
+// Real time for the simulated controller.
+#include "host_tools/simulate/virtual_controller.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+#include <fmt/format.h>
+#include <memory>
+#include <poll.h>
+
+#include "boards/sim/simulated_controller.hpp"
+#include "host_tools/input_error/input_error.hpp"
+#include "host_tools/simulate/fault_command.hpp"
+#include "host_tools/simulate/mill_setup.hpp"
+#include "host_tools/simulate/serial_end.hpp"
+#include "host_tools/simulate/settings_file.hpp"
+#include "host_tools/simulate/text_file.hpp"
+#include "host_tools/simulate/vcd_writer.hpp"
+
+namespace cusp::host {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using board_sim::SimulatedController;
+
+constexpr std::chrono::microseconds kTick{1'000'000 / kServoTicksPerSecond};
+// A host that was asleep does not make the mill run after the time it missed.
+constexpr std::chrono::milliseconds kMostLag{100};
+
+// What a board with USB says when a sender raises DTR.
+constexpr const char* kBanner = "\r\nGrbl 1.1h ['$' for help]\r\n";
+
+SerialEnd open_end(const ServeOptions& options)
+{
+    return options.tcp ? SerialEnd{*options.tcp} : SerialEnd{options.pty_link};
+}
+
+// The store with the settings file put into it.
+void fill_store(const ServeOptions& options, hal::SimulatedStore& store)
+{
+    if (options.settings_file.empty()) {
+        return;
+    }
+    const std::string kept = options.settings_file + ".store";
+    if (!store.keep_in(kept)) {
+        throw InputError{kept + ": can't be used as a settings store"};
+    }
+    if (std::filesystem::exists(options.settings_file) &&
+        !store_settings(read_settings_file(options.settings_file), store)) {
+        throw InputError{kept + ": can't be written"};
+    }
+}
+
+class VirtualController {
+public:
+    explicit VirtualController(const ServeOptions& options)
+        : options_{options},
+          end_{open_end(options)},
+          to_controller_{options.faults, options.seed},
+          from_controller_{options.faults, options.seed + 1}
+    {
+        hal::SimulatedBoard& board = controller_.board();
+        fill_store(options, board.settings_store);
+        geometry_ = mill_geometry(stored_settings(board.settings_store), options.probe_z);
+        board.mill.set_geometry(geometry_);
+        board.settings_store.cut_power_after(options.cut_power_after);
+        board.mill.force_high(options.stuck_high);
+        board.mill.force_low(options.stuck_low);
+        controller_.power_on();
+        if (options.control) {
+            control_.emplace(*options.control);
+        }
+        if (!options.vcd_file.empty()) {
+            vcd_ = std::make_unique<VcdWriter>(options.vcd_file, board.mill, 0, PulseLines{0});
+            board.pulse_player.add_listener(*vcd_);
+        }
+        keep_settings();
+        words_kept_ = board.settings_store.words_written();
+        say("serving on " + end_.name());
+    }
+
+    void run(const std::atomic<int>& stop)
+    {
+        auto next_tick = Clock::now();
+        while (stop.load() == 0) {
+            wait_until(next_tick);
+            exchange();
+            const auto now = Clock::now();
+            if (now - next_tick > kMostLag) {
+                next_tick = now;
+            }
+            while (next_tick <= now) {
+                controller_.tick();
+                to_controller_.advance();
+                from_controller_.advance();
+                next_tick += kTick;
+            }
+            exchange();
+            obey_control();
+            watch_store();
+        }
+        if (vcd_) {
+            vcd_->close();
+        }
+    }
+
+private:
+    void wait_until(Clock::time_point time)
+    {
+        const auto left = std::chrono::duration_cast<std::chrono::nanoseconds>(time - Clock::now());
+        if (left.count() <= 0) {
+            return;
+        }
+        pollfd sources[] = {{end_.descriptor(), POLLIN, 0},
+                            {control_ ? control_->descriptor() : -1, POLLIN, 0}};
+        const timespec timeout{0, static_cast<long>(left.count())};
+        ::ppoll(sources, 2, &timeout, nullptr);
+    }
+
+    // Bytes in, the firmware's work, bytes out.
+    void exchange()
+    {
+        const bool had_peer = end_.has_peer();
+        if (end_.look()) {
+            say("a sender is there");
+            if (controller_.is_on()) {
+                end_.write(kBanner);
+            }
+        } else if (had_peer && !end_.has_peer()) {
+            say("the sender is gone");
+        }
+        to_controller_.put(end_.read());
+        const std::string arrived = to_controller_.take();
+        if (controller_.is_on()) {
+            controller_.board().byte_link.send(arrived);
+            controller_.settle();
+            from_controller_.put(controller_.board().byte_link.take_answers());
+        }
+        end_.write(from_controller_.take());
+    }
+
+    void obey_control()
+    {
+        if (!control_) {
+            return;
+        }
+        control_->look();
+        control_text_ += control_->read();
+        std::size_t end = 0;
+        while ((end = control_text_.find('\n')) != std::string::npos) {
+            const std::string line = control_text_.substr(0, end);
+            control_text_.erase(0, end + 1);
+            control_->write(obey(line) + "\n");
+        }
+        control_->write({});
+    }
+
+    std::string obey(const std::string& line)
+    {
+        const auto command = parse_fault_command(line);
+        if (!command) {
+            return "unknown: " + line;
+        }
+        hal::SimulatedMill& mill = controller_.board().mill;
+        switch (command->kind) {
+            case FaultKind::kUnplug:
+                end_.unplug();
+                to_controller_.clear();
+                from_controller_.clear();
+                break;
+            case FaultKind::kPlug:
+                end_.plug();
+                break;
+            case FaultKind::kPowerOff:
+                controller_.power_off();
+                break;
+            case FaultKind::kPowerOn:
+                controller_.board().settings_store.cut_power_after(std::nullopt);
+                controller_.power_on();
+                break;
+            case FaultKind::kCutPowerAfter:
+                controller_.board().settings_store.cut_power_after(
+                    static_cast<std::uint64_t>(command->value));
+                break;
+            case FaultKind::kInputHigh:
+                stuck_high_ = static_cast<std::uint16_t>(stuck_high_ | command->inputs);
+                break;
+            case FaultKind::kInputLow:
+                stuck_low_ = static_cast<std::uint16_t>(stuck_low_ | command->inputs);
+                break;
+            case FaultKind::kInputFree:
+                stuck_high_ = static_cast<std::uint16_t>(stuck_high_ & ~command->inputs);
+                stuck_low_ = static_cast<std::uint16_t>(stuck_low_ & ~command->inputs);
+                break;
+            case FaultKind::kProbePlate:
+                geometry_.plate_above_start = command->value;
+                mill.set_geometry(geometry_);
+                break;
+            case FaultKind::kLineFaults:
+                to_controller_.set_faults(command->faults);
+                from_controller_.set_faults(command->faults);
+                break;
+            case FaultKind::kLoseFrame:
+                controller_.board().pulse_player.lose_next_frame();
+                break;
+            case FaultKind::kOverrun:
+                controller_.board().byte_link.mark_overrun();
+                break;
+            case FaultKind::kWhere:
+                return where();
+        }
+        mill.force_high(stuck_high_);
+        mill.force_low(stuck_low_);
+        return "ok";
+    }
+
+    std::string where() const
+    {
+        const hal::SimulatedMill& mill = controller_.board().mill;
+        const Vec3d at = mill.place();
+        const hal::OutputLevels& outputs = mill.outputs();
+        return fmt::format(
+            "iron {:.4f},{:.4f},{:.4f} steps {},{},{} inputs {} spindle {} flood {} "
+            "mist {} power {}",
+            at.x, at.y, at.z, mill.steps()[0], mill.steps()[1], mill.steps()[2], mill.inputs(),
+            outputs.spindle_on ? int{outputs.spindle_pwm} : 0, int{outputs.flood},
+            int{outputs.mist}, controller_.is_on() ? "on" : "off");
+    }
+
+    // The store has changed: so may the settings have. A power cut takes the controller with it.
+    void watch_store()
+    {
+        const hal::SimulatedStore& store = controller_.board().settings_store;
+        if (store.power_is_cut() && controller_.is_on()) {
+            say("the power failed amid a write to the settings store");
+            controller_.power_off();
+        }
+        if (store.words_written() != words_kept_) {
+            words_kept_ = store.words_written();
+            keep_settings();
+        }
+    }
+
+    void keep_settings()
+    {
+        if (options_.settings_file.empty() || !controller_.is_on()) {
+            return;
+        }
+        const std::string fresh = options_.settings_file + ".new";
+        TextFile file{fresh};
+        file.write(settings_text(controller_.machine().settings()));
+        file.close();
+        std::filesystem::rename(fresh, options_.settings_file);
+    }
+
+    void say(const std::string& text) const
+    {
+        if (options_.notice) {
+            options_.notice(text);
+        }
+    }
+
+    const ServeOptions& options_;
+    hal::MillGeometry geometry_;
+    SimulatedController controller_{hal::MillGeometry{}};
+    SerialEnd end_;
+    std::optional<SerialEnd> control_;
+    std::string control_text_;
+    hal::FaultyLine to_controller_;
+    hal::FaultyLine from_controller_;
+    std::unique_ptr<VcdWriter> vcd_;
+    std::uint64_t words_kept_{0};
+    std::uint16_t stuck_high_{options_.stuck_high};
+    std::uint16_t stuck_low_{options_.stuck_low};
+};
+
+}  // namespace
+
+void serve(const ServeOptions& options, const std::atomic<int>& stop)
+{
+    std::make_unique<VirtualController>(options)->run(stop);
+}
+
+}  // namespace cusp::host
