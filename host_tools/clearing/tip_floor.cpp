@@ -204,16 +204,20 @@ double TipFloor::on_edge(double slope, double away, double low, double high) con
 }
 
 // The highest rest of the tool on the piece's plane above the piece's own rectangle. The tip's
-// height is concave over the rectangle: where its top lies outside, it is on an edge.
+// height is concave over the rectangle: where its top lies outside, the best place inside is on an
+// edge that faces it.
 double TipFloor::on_edges(const Piece& piece, Vec2d at) const
 {
     const Vec2d g = piece.gradient;
+    const Vec2d contact = at + g * piece.contact;
     const double here = piece.level + g.x * at.x + g.y * at.y;
     double best = kNothing;
-    for (const double x : {piece.x0 - at.x, piece.x1 - at.x}) {
-        best = std::max(best, here + g.x * x + on_edge(g.y, x, piece.y0 - at.y, piece.y1 - at.y));
+    if (contact.x < piece.x0 || contact.x > piece.x1) {
+        const double x = (contact.x < piece.x0 ? piece.x0 : piece.x1) - at.x;
+        best = here + g.x * x + on_edge(g.y, x, piece.y0 - at.y, piece.y1 - at.y);
     }
-    for (const double y : {piece.y0 - at.y, piece.y1 - at.y}) {
+    if (contact.y < piece.y0 || contact.y > piece.y1) {
+        const double y = (contact.y < piece.y0 ? piece.y0 : piece.y1) - at.y;
         best = std::max(best, here + g.y * y + on_edge(g.x, y, piece.x0 - at.x, piece.x1 - at.x));
     }
     return best;

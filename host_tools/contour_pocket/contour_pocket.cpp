@@ -192,7 +192,7 @@ private:
         settings.laying.lift = budget_.outside;
         settings.laying.cushion = budget_.accuracy;
         settings.laying.spacing =
-            std::clamp(std::sqrt(2.0 * radius * budget_.above), 0.05 * radius, radius);
+            std::clamp(std::sqrt(3.0 * radius * budget_.above), 0.05 * radius, radius);
         settings.laying.arcs = operation_.output == OutputForm::kArcs;
         settings.entry = operation_.entry;
         settings.first = budget_.first;

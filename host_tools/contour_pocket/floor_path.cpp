@@ -119,11 +119,12 @@ FloorPath lay_on_floor(const std::vector<Edge>& plan,
         stations.push_back({at, level ? settings.level : height, level ? Vec2d{} : rest.gradient});
     }
     const bool closed = distance(stations.front().at, stations.back().at) < 1e-9;
-    // Between stations the floor may bend by a little more than at them.
+    // Between stations the floor may bend by a little more than at them, and an arc by an eighth.
     constexpr double kUsed = 0.95;
+    constexpr double kUsedAside = 0.86;
     const double low = settings.lift ? settings.cushion : -kUsed * settings.above;
-    const Chain chain = chain_through(stations, kUsed * settings.aside, low, kUsed * settings.above,
-                                      settings.arcs, closed);
+    const Chain chain = chain_through(stations, kUsedAside * settings.aside, low,
+                                      kUsed * settings.above, settings.arcs, closed);
     path.start = written(chain.start);
     path.moves = chain.moves;
     for (FloorMove& move : path.moves) {

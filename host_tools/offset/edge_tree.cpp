@@ -27,21 +27,23 @@ double square_distance(const Box2d& box, Vec2d p)
 
 }  // namespace
 
-EdgeTree::EdgeTree(const std::vector<Edge>& edges) : edges_{edges}, index_(edges.size())
+EdgeTree::EdgeTree(std::vector<Edge> edges) : edges_{std::move(edges)}, index_(edges_.size())
 {
     std::iota(index_.begin(), index_.end(), 0U);
-    boxes_.reserve(edges.size());
-    for (const Edge& edge : edges) {
+    boxes_.reserve(edges_.size());
+    for (const Edge& edge : edges_) {
         boxes_.push_back(box_of(edge));
     }
-    if (edges.empty()) {
+    if (edges_.empty()) {
         return;
     }
-    nodes_.reserve(edges.size());
+    nodes_.reserve(edges_.size());
     nodes_.push_back({});
-    build(0, 0, static_cast<std::uint32_t>(edges.size()));
+    build(0, 0, static_cast<std::uint32_t>(edges_.size()));
     std::vector<Edge> sorted;
     std::vector<Box2d> sorted_boxes;
+    sorted.reserve(edges_.size());
+    sorted_boxes.reserve(edges_.size());
     for (const std::uint32_t i : index_) {
         sorted.push_back(edges_[i]);
         sorted_boxes.push_back(boxes_[i]);

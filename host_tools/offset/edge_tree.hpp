@@ -10,7 +10,7 @@ namespace cusp::host {
 
 class EdgeTree {
 public:
-    explicit EdgeTree(const std::vector<Edge>& edges);
+    explicit EdgeTree(std::vector<Edge> edges);
 
     // True where some edge lies nearer to the point than `reach`.
     bool any_nearer(Vec2d point, double reach) const;

@@ -1,0 +1,102 @@
+// Offsets of pockets: the replica of Suh & Lee to completion (at most 1 ms asked for), its plan end
+// to end (at most 50 ms), and how the cost of one offset grows with the number of curves.
+#include <benchmark/benchmark.h>
+#include <cmath>
+
+#include "host_tools/contour_pocket/contour_pocket.hpp"
+#include "host_tools/offset/contour_fit.hpp"
+#include "host_tools/offset/offset.hpp"
+
+namespace cusp::host {
+namespace {
+
+std::string part(const char* name)
+{
+    return std::string{CUSP_SOURCE_DIR "/tests/parts/suh-lee-"} + name + ".json";
+}
+
+Region2d replica()
+{
+    Region2d region;
+    region.contours.push_back(fit_contour(read_loop(part("boundary")), 2e-3));
+    region.contours.push_back(reversed(fit_contour(read_loop(part("island")), 2e-3)));
+    return region;
+}
+
+void offset_replica_to_completion(benchmark::State& state)
+{
+    const Region2d source = replica();
+    std::size_t loops = 0;
+    for (auto _ : state) {
+        const RegionOffset offset{source};
+        loops = 0;
+        for (double distance = 6.0;; distance += 4.308) {
+            const Region2d level = offset.at(distance);
+            if (level.contours.empty()) {
+                break;
+            }
+            loops += level.contours.size();
+        }
+    }
+    state.counters["loops"] = static_cast<double>(loops);
+    state.counters["edges"] =
+        static_cast<double>(source.contours[0].size() + source.contours[1].size());
+}
+BENCHMARK(offset_replica_to_completion)->Unit(benchmark::kMicrosecond);
+
+// A gear-like contour of n curves, lines and arcs in turn.
+Contour gear(int n)
+{
+    Contour contour;
+    const auto corner = [&](int i) {
+        const double angle = 6.283185307179586 * i / n;
+        const double radius = 100.0 + (i % 4 < 2 ? 0.0 : 150.0 / n);
+        return Vec2d{radius * std::cos(angle), radius * std::sin(angle)};
+    };
+    for (int i = 0; i < n; ++i) {
+        const Vec2d a = corner(i);
+        const Vec2d b = corner((i + 1) % n);
+        const Vec2d chord = b - a;
+        contour.push_back(i % 2 == 0 ? line_edge(a, b)
+                                     : arc_edge(a, b, (a + b) * 0.5 + left_normal(chord), 1));
+    }
+    return contour;
+}
+
+void offset_by_number_of_curves(benchmark::State& state)
+{
+    const RegionOffset offset{{{gear(static_cast<int>(state.range(0)))}}};
+    // Half the length of a curve, so that each meets its neighbours only.
+    const double distance = 314.0 / static_cast<double>(state.range(0));
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(offset.at(distance));
+    }
+    state.SetComplexityN(state.range(0));
+}
+BENCHMARK(offset_by_number_of_curves)
+    ->RangeMultiplier(10)
+    ->Range(10, 10000)
+    ->Unit(benchmark::kMicrosecond)
+    ->Complexity();
+
+void plan_replica(benchmark::State& state)
+{
+    Job job;
+    job.file = "suh-lee.toml";
+    job.clearance = 5.0;
+    Operation operation;
+    operation.strategy = "contour_pocket";
+    operation.floor = read_surfaces(part("floor"));
+    operation.boundary = read_loop(part("boundary"));
+    operation.islands = {read_loop(part("island"))};
+    operation.tool = {1, ToolShape::kBall, 6.0, 6.0};
+    operation.scallop = 0.4;
+    operation.plan_tolerance = operation.floor_tolerance = 0.02;
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(plan_contour_pocket(job, operation));
+    }
+}
+BENCHMARK(plan_replica)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace cusp::host
