@@ -320,7 +320,8 @@ void report(const Roughing& work, std::vector<PlannedOperation>& out, double sec
         OperationStats& stats = operation.stats;
         stats.strategy = "hull_rough";
         stats.gouge_bound_mm = 0;
-        stats.scallop_bound_mm = thickest;
+        // Hulls bound what is cut, not what is left: only the height of the stock does.
+        stats.scallop_bound_mm = work.stock.top - work.plan.planes.back();
         stats.planning_s = seconds / static_cast<double>(out.size());
         stats.counts = {
             {"layers", static_cast<double>(work.layers())},
