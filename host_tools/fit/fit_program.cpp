@@ -125,6 +125,9 @@ private:
     std::vector<PlainLine> sources_;  // of the run at hand: sources_[i] ends at its vertex i + 1
     std::vector<Replacement> replacements_;
     bool in_run_{false};
+    // A run is written when the line after it has been read, which may have changed these.
+    ModalState run_modal_;
+    Position run_offset_;
     std::size_t run_begin_{0};
     std::size_t next_source_{0};
 
@@ -202,6 +205,8 @@ void Fitter::begin_run(Position start)
 {
     fitter_ = make_fitter(interpreter_.modal().inches);
     in_run_ = true;
+    run_modal_ = interpreter_.modal();
+    run_offset_ = work_offset(run_modal_, interpreter_.parameters());
     run_begin_ = vertices_.size();
     vertices_.push_back(start);
     sources_.clear();
@@ -240,7 +245,6 @@ void Fitter::take_moves()
 
 void Fitter::write(const segmenter::FittedMove& move)
 {
-    const ModalState& modal = interpreter_.modal();
     const std::size_t first = run_begin_ + next_source_;
     const PlainLine& last = sources_[next_source_ + move.lines - 1];
     // The feed of a run is that of its first line; feed words after it repeat it.
@@ -255,8 +259,8 @@ void Fitter::write(const segmenter::FittedMove& move)
         const bool names_plane = move.is_arc && move.plane != written_plane_;
         append_move(out_, move,
                     {last.number, feed_is_new ? opening.feed : std::string_view{}, vertices_[first],
-                     vertices_[first + move.lines], work_offset(modal, interpreter_.parameters()),
-                     modal.inches, modal.incremental, names_plane});
+                     vertices_[first + move.lines], run_offset_, run_modal_.inches,
+                     run_modal_.incremental, names_plane});
         written_plane_ = names_plane ? move.plane : written_plane_;
     }
     end_line();

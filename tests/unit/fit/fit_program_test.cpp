@@ -150,6 +150,20 @@ TEST(FitProgram, FitsInchesAndIncrementalPrograms)
     CHECK(end_of(incremental) == end_of(relative.text));
 }
 
+TEST(FitProgram, WritesARunInTheModeAndOffsetItWasReadIn)
+{
+    // M30 goes back to G90 and G54.
+    for (const char* mode : {"G91", "G90"}) {
+        std::string text =
+            "G10 L2 P2 X7 Y8\nG55 G90\nG0 X0 Y0 Z0\n" + std::string{mode} + "\nG1 F100\n";
+        for (int i = 0; i < 50; ++i) {
+            text += "X0.1" + std::to_string(i) + " Y0." + std::to_string(100 + 7 * i) + "\n";
+        }
+        text += "M30\n";
+        CHECK(end_of(text) == end_of(fit(text).text));
+    }
+}
+
 TEST(FitProgram, KeepsLineNumbersOfWhatItWrites)
 {
     std::string text = "G90 G0 X0 Y0\nG1 F100\n";
