@@ -25,6 +25,7 @@ void add_fit_command(CLI::App& app, Work& work);
 void add_plan_command(CLI::App& app, Work& work);
 void add_verify_command(CLI::App& app, Work& work);
 void add_sim_command(CLI::App& app, Work& work);
+void add_stream_command(CLI::App& app, Work& work);
 void add_settings_command(CLI::App& app, Work& work);
 
 }  // namespace cusp::host

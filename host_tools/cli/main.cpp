@@ -36,6 +36,7 @@ const std::vector<AddCommand>& commands()
         add_fit_command,
         add_verify_command,
         add_sim_command,
+        add_stream_command,
         add_settings_command,
     };
     return all;

@@ -47,7 +47,12 @@ StreamReport Streamer::run(ProgramLines& program, const std::atomic<int>& stop)
     try {
         greet();
         learn_window();
-        send_program(program);
+        if (options_.checked) {
+            switch_checks_on();
+            send_checked_program(program);
+        } else {
+            send_program(program);
+        }
         wait_for_rest();
     } catch (const Ending& ending) {
         report.outcome = ending.outcome;
@@ -129,6 +134,52 @@ void Streamer::send_program(ProgramLines& program)
     }
 }
 
+// $CRC=1 itself is not guarded: where it is damaged it is answered with an error, or not at all.
+void Streamer::switch_checks_on()
+{
+    constexpr int kAttempts = 20;
+    constexpr milliseconds kWait{300};
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+        window_.clear();
+        const std::uint64_t answers = own_answers_;
+        const std::uint64_t errors = own_errors_;
+        const auto start = Clock::now();
+        send_line(0, "$CRC=1");
+        while (own_answers_ == answers && Clock::now() - start < kWait) {
+            pump(kPump);
+        }
+        if (own_answers_ != answers && own_errors_ == errors) {
+            window_.clear();
+            checked_.emplace(window_.capacity());
+            return;
+        }
+    }
+    throw Ending{StreamOutcome::kNotReady, "the controller does not know checked lines ($CRC=1)"};
+}
+
+void Streamer::send_checked_program(ProgramLines& program)
+{
+    auto line = program.next();
+    while (line || !checked_->empty()) {
+        while (line && checked_->has_room()) {
+            checked_->add(line->number, line->text);
+            ++progress_.lines_sent;
+            progress_.sent_fraction = program.progress();
+            line = program.next();
+        }
+        while (outgoing_.empty()) {
+            const auto wire = checked_->next(Clock::now());
+            if (!wire) {
+                break;
+            }
+            outgoing_ += *wire;
+            send_waiting();
+        }
+        pump(milliseconds{5});
+        progress_.lines_resent = checked_->resent();
+    }
+}
+
 void Streamer::wait_for_rest()
 {
     // The second of two idle reports was asked for after the last answer.
@@ -191,12 +242,14 @@ void Streamer::send_line(std::uint64_t number, std::string text)
 
 void Streamer::send_realtime(char byte)
 {
+    // On a checked line all but the question count at their third repetition.
+    std::string bytes(checked_ && byte != '?' ? 3 : 1, byte);
     const auto start = Clock::now();
-    while (transport_.write({&byte, 1}) == 0) {
+    while (!bytes.empty()) {
+        bytes.erase(0, transport_.write(bytes));
         if (Clock::now() - start > options_.silence_limit) {
             throw LinkLost{"the line takes no bytes"};
         }
-        pump(milliseconds{1});
     }
 }
 
@@ -244,6 +297,9 @@ void Streamer::check_silence()
 
 void Streamer::take_line(const std::string& line)
 {
+    if (checked_) {
+        take_checked(line);
+    }
     const Answer answer = parse_answer(line);
     switch (answer.kind) {
         case AnswerKind::kStatus:
@@ -283,7 +339,11 @@ void Streamer::take_line(const std::string& line)
 void Streamer::take_status(const ControllerStatus& status)
 {
     const bool was_held = is_state("Hold");
-    const auto line = status.line ? status.line : progress_.status.line;
+    auto line = status.line ? status.line : progress_.status.line;
+    if (checked_ && status.line) {
+        const std::uint64_t own = checked_->program_line_of(*status.line);
+        line = own != 0 ? std::optional{static_cast<std::uint32_t>(own)} : progress_.status.line;
+    }
     progress_.status = status;
     progress_.status.line = line;
     progress_.work_offset = status.work_offset.value_or(progress_.work_offset);
@@ -305,6 +365,7 @@ void Streamer::take_answer(const Answer& answer)
     }
     if (*number == 0) {
         ++own_answers_;
+        own_errors_ += answer.kind == AnswerKind::kError ? 1 : 0;
         return;
     }
     ++progress_.lines_answered;
@@ -313,6 +374,21 @@ void Streamer::take_answer(const Answer& answer)
         throw Ending{StreamOutcome::kError, name_of(file_, *number) +
                                                 ": error:" + std::to_string(answer.code) + ": " +
                                                 std::string{error_text(answer.code)}};
+    }
+}
+
+void Streamer::take_checked(const std::string& line)
+{
+    const auto verdict = checked_->take(line, Clock::now());
+    if (!verdict || verdict->done_lines == 0) {
+        return;
+    }
+    progress_.lines_answered += verdict->done_lines;
+    progress_.line = verdict->program_line;
+    if (verdict->error != 0 && !stopping_) {
+        throw Ending{StreamOutcome::kError, name_of(file_, verdict->program_line) +
+                                                ": error:" + std::to_string(verdict->error) + ": " +
+                                                std::string{error_text(verdict->error)}};
     }
 }
 

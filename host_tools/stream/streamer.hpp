@@ -14,6 +14,7 @@
 #include "host_tools/dialect/answer.hpp"
 #include "host_tools/dialect/flow_window.hpp"
 #include "host_tools/dialect/program_lines.hpp"
+#include "host_tools/stream/checked_window.hpp"
 #include "host_tools/stream/transport.hpp"
 
 namespace cusp::host {
@@ -24,6 +25,8 @@ struct StreamOptions {
     std::chrono::milliseconds status_interval{200};
     // Silence after which the link counts as lost, though status was asked for all the while.
     std::chrono::milliseconds silence_limit{5000};
+    // Lines with numbers and CRCs, for bad lines; the controller must know them.
+    bool checked{false};
     // How long a controller may take to say its first word.
     std::chrono::milliseconds greeting_limit{5000};
 };
@@ -34,6 +37,7 @@ struct StreamProgress {
     std::uint64_t line{0};      // of the file, answered last
     double sent_fraction{0.0};  // of the file's bytes
     ControllerStatus status;    // the latest
+    std::uint64_t lines_resent{0};
     Vec3d work_offset;
     int feed_override{100};
 };
@@ -104,6 +108,8 @@ private:
     void greet();
     void learn_window();
     void send_program(ProgramLines& program);
+    void switch_checks_on();
+    void send_checked_program(ProgramLines& program);
     void wait_for_rest();
     void hold_and_reset();
 
@@ -114,6 +120,7 @@ private:
     void take_line(const std::string& line);
     void take_status(const ControllerStatus& status);
     void take_answer(const Answer& answer);
+    void take_checked(const std::string& line);
     void take_key(StreamKey key);
     void check_silence();
     bool is_state(const char* state) const { return progress_.status.state == state; }
@@ -124,6 +131,7 @@ private:
     const std::atomic<int>* stop_{nullptr};
     std::string file_;
     FlowWindow window_;
+    std::optional<CheckedWindow> checked_;
     StreamProgress progress_;
     std::string incoming_;
     std::string outgoing_;
@@ -132,6 +140,7 @@ private:
     std::uint64_t statuses_{0};
     std::uint64_t banners_{0};
     std::uint64_t own_answers_{0};
+    std::uint64_t own_errors_{0};
     bool stopping_{false};
     std::string last_message_;
 };

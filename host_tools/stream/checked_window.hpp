@@ -1,0 +1,80 @@
+// CheckedWindow: lines with numbers and CRCs on their way to a controller that refuses damaged,
+// repeated and lost ones; each is executed once, in order, however bad the line is.
+//
+// The protocol is docs/protocol.md's, "Checked lines". Answers count only if their own CRC is
+// right; an answer for line k tells that all before it are done too. After a refusal the sender
+// lets what is under way run dry, then goes on from the line expected.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace cusp::host {
+
+// A line as it goes over the wire, without line end.
+std::string checked_line(std::uint32_t number, std::string_view text);
+
+// What follows the CRC check of an answer: "ok N5*...": the text before '*'. None where the CRC is
+// missing or wrong.
+std::optional<std::string> checked_answer(std::string_view line);
+
+class CheckedWindow {
+public:
+    using Clock = std::chrono::steady_clock;
+
+    //   capacity  of the controller's buffer, bytes; half of it is used, since a line may be under
+    //             way twice
+    explicit CheckedWindow(std::size_t capacity) : capacity_{capacity / 2} {}
+
+    // Whether another line of the program may be added.
+    bool has_room() const { return lines_.size() < kMostLines; }
+    void add(std::uint64_t program_line, std::string_view text);
+
+    // The next line to put on the wire, with line end; none where there is none, no room for it, or
+    // the line has to run dry first.
+    std::optional<std::string> next(Clock::time_point now);
+
+    // What an answer comes to.
+    struct Verdict {
+        std::uint64_t done_lines{0};
+        std::uint64_t program_line{0};  // of the last line that is done; 0: none
+        int error{0};                   // of that line; 0: ok
+    };
+    // A line from the controller that may be an answer. None where it is none or is damaged.
+    std::optional<Verdict> take(std::string_view line, Clock::time_point now);
+
+    bool empty() const { return lines_.empty(); }
+    std::uint64_t resent() const { return resent_; }
+    // The program's line that a checked number stands for; 0 where it is too long past.
+    std::uint64_t program_line_of(std::uint32_t number) const;
+
+private:
+    static constexpr std::size_t kMostLines = 256;
+    static constexpr std::size_t kMostRemembered = 4096;
+
+    struct Line {
+        std::uint32_t number;
+        std::uint64_t program_line;
+        std::string wire;
+    };
+    Verdict finish_before(std::uint32_t number);
+    void rewind(Clock::time_point now);
+
+    std::size_t capacity_;
+    std::deque<Line> lines_;  // not known to be executed
+    std::size_t sent_{0};     // of lines_, on the wire
+    std::size_t sent_bytes_{0};
+    std::uint32_t next_number_{1};
+    std::deque<std::uint64_t> program_lines_;  // of the last numbers done
+    std::uint32_t done_{0};                    // number of the last line done
+    bool draining_{false};
+    Clock::time_point quiet_since_{};
+    std::chrono::milliseconds patience_{1000};
+    std::uint64_t resent_{0};
+};
+
+}  // namespace cusp::host
