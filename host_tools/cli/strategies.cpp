@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include "host_tools/adaptive_isocurve/adaptive_isocurve.hpp"
+#include "host_tools/adaptive_isocurve/parallel_planes.hpp"
 #include "host_tools/contour_pocket/contour_pocket.hpp"
 #include "host_tools/grid_pocket/grid_pocket.hpp"
 #include "host_tools/hull_rough/hull_rough.hpp"
@@ -16,9 +18,12 @@ struct Strategy {
 };
 
 constexpr std::array kStrategies{
+    Strategy{"adaptive_isocurve", plan_adaptive_isocurve},
+    Strategy{"complete_isocurves", plan_complete_isocurves},
     Strategy{"contour_pocket", plan_contour_pocket},
     Strategy{"grid_pocket", plan_grid_pocket},
     Strategy{"hull_rough", plan_hull_rough},
+    Strategy{"parallel_planes", plan_parallel_planes},
 };
 
 }  // namespace

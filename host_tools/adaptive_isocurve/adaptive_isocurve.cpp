@@ -1,0 +1,240 @@
+// From a job to passes, surface by surface; then edges where surfaces meet; then links.
+#include "host_tools/adaptive_isocurve/adaptive_isocurve.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "host_tools/adaptive_isocurve/even_spacing.hpp"
+#include "host_tools/adaptive_isocurve/isocurve_extraction.hpp"
+#include "host_tools/adaptive_isocurve/pass_tracer.hpp"
+#include "host_tools/adaptive_isocurve/ridge.hpp"
+#include "host_tools/adaptive_isocurve/scallop_width.hpp"
+#include "host_tools/adaptive_isocurve/surface_operation.hpp"
+#include "host_tools/input_error/input_error.hpp"
+
+#include "fmt/format.h"
+
+namespace cusp::host {
+namespace {
+
+constexpr int kRidgeLooks = 200;
+constexpr int kCurvatureLooks = 60;
+
+void swap_loops(Surface& surface)
+{
+    for (std::vector<Curve>& loop : surface.trims) {
+        for (Curve& curve : loop) {
+            for (Vec3d& p : curve.points) {
+                std::swap(p.x, p.y);
+            }
+        }
+    }
+}
+
+// The same surface with u and v exchanged.
+Surface transposed(const Surface& s)
+{
+    Surface out = s;
+    out.degree_u = s.degree_v;
+    out.degree_v = s.degree_u;
+    out.knots_u = s.knots_v;
+    out.knots_v = s.knots_u;
+    out.size_u = s.size_v;
+    out.size_v = s.size_u;
+    std::size_t k = 0;
+    for (int j = 0; j < s.size_v; ++j) {
+        for (int i = 0; i < s.size_u; ++i, ++k) {
+            const std::size_t from = static_cast<std::size_t>(i * s.size_v + j);
+            out.points[k] = s.points[from];
+            out.weights[k] = s.weights[from];
+        }
+    }
+    swap_loops(out);
+    return out;
+}
+
+std::vector<Surface> along_u(const Operation& operation)
+{
+    if (operation.direction == 'u') {
+        return operation.floor;
+    }
+    std::vector<Surface> out;
+    for (const Surface& surface : operation.floor) {
+        out.push_back(transposed(surface));
+    }
+    return out;
+}
+
+void check_spacing(const Job& job, const Operation& operation)
+{
+    if (!operation.iso_distance && !operation.scallop) {
+        throw InputError(
+            fmt::format("{}: {}: give iso_distance or scallop", job.file, operation.strategy));
+    }
+    if (operation.iso_distance && *operation.iso_distance >= 2 * operation.tool.radius) {
+        throw InputError(fmt::format(
+            "{}: iso_distance is {:g} mm, passes of a ball of radius {:g} mm must be nearer than "
+            "{:g} mm",
+            job.file, *operation.iso_distance, operation.tool.radius, 2 * operation.tool.radius));
+    }
+    if (operation.scallop && *operation.scallop >= operation.tool.radius) {
+        throw InputError(
+            fmt::format("{}: scallop is {:g} mm, not below the tool's radius of {:g} mm", job.file,
+                        *operation.scallop, operation.tool.radius));
+    }
+}
+
+class IsocurvePlanner {
+public:
+    IsocurvePlanner(const Job& job, const Operation& operation)
+        : operation_{operation},
+          work_{job, operation, along_u(operation)},
+          tracer_{work_.surfaces(), work_.certified()},
+          tool_{operation.tool.radius, work_.outward()}
+    {
+    }
+
+    PlannedOperation plan(bool complete)
+    {
+        std::size_t curves = 0;
+        for (std::size_t k = 0; k < work_.surfaces().size(); ++k) {
+            curves += add_surface(static_cast<int>(k), complete);
+        }
+        PlannedOperation planned = work_.finish(spacing_, ridge_);
+        planned.stats.counts.emplace_back("isocurves", static_cast<double>(curves));
+        if (unreached_ > 0) {
+            planned.stats.warnings.push_back(fmt::format(
+                "{} of {} curves end where the tool would cut another place of the model (concave "
+                "edges, undercuts, valleys narrower than the ball): metal is left standing there",
+                unreached_, curves));
+        }
+        return planned;
+    }
+
+private:
+    SurfaceFunction surface_function(int surface) const
+    {
+        return [this, surface](double u, double v) {
+            return work_.model().evaluate(surface, u, v);
+        };
+    }
+
+    // Steps for which the ridge has the height asked for, less what the tolerance takes.
+    StepDensity density() const
+    {
+        const double ridge = *operation_.scallop - work_.outward();
+        const double radius = operation_.tool.radius;
+        return [ridge, radius](const SurfacePoint& p) {
+            const CrossSection section = cross_section_at(p);
+            return section.speed / scallop_width(radius, ridge, section.curvature);
+        };
+    }
+
+    // The least step that any place of the surface needs.
+    double least_step(int surface) const
+    {
+        const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
+        const double ridge = *operation_.scallop - work_.outward();
+        double least = 2 * operation_.tool.radius;
+        for (int i = 0; i <= kCurvatureLooks; ++i) {
+            for (int j = 0; j <= kCurvatureLooks; ++j) {
+                const SurfacePoint p = work_.model().evaluate(
+                    surface, s.u_begin() + (s.u_end() - s.u_begin()) * i / kCurvatureLooks,
+                    s.v_begin() + (s.v_end() - s.v_begin()) * j / kCurvatureLooks);
+                least = std::min(least, scallop_width(operation_.tool.radius, ridge,
+                                                      cross_section_at(p).curvature));
+            }
+        }
+        return least;
+    }
+
+    std::vector<DomainCurve> curves_of(int surface, bool complete) const
+    {
+        const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
+        if (complete) {
+            const double step =
+                operation_.iso_distance ? *operation_.iso_distance : 0.99 * least_step(surface);
+            return complete_isocurves(s, surface, step);
+        }
+        if (operation_.iso_distance) {
+            return adaptive_isocurves(s, surface, *operation_.iso_distance);
+        }
+        const SurfaceFunction at = surface_function(surface);
+        const double scallop = *operation_.scallop;
+        const StripJudge judge = [&](double u, double low, double high) {
+            const double ridge = ridge_between(at, tool_, u, low, high);
+            const double over = (ridge - tool_.outward) / (scallop - tool_.outward);
+            return std::min(1.5, std::sqrt(std::max(0.0, over)));
+        };
+        return even_passes(s, surface, at, density(), judge).curves;
+    }
+
+    std::size_t add_surface(int surface, bool complete)
+    {
+        const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
+        const std::vector<DomainCurve> curves = curves_of(surface, complete);
+        bool trimmed = false;
+        for (const DomainCurve& curve : curves) {
+            const std::vector<Points> pieces = tracer_.trace(curve);
+            const bool whole = pieces.size() == 1 && reaches_ends(curve, pieces.front());
+            trimmed = trimmed || !whole;
+            unreached_ += whole ? 0 : 1;
+            for (const Points& piece : pieces) {
+                work_.add_pass(piece);
+            }
+        }
+        spacing_ = operation_.iso_distance
+                       ? *operation_.iso_distance
+                       : scallop_width(operation_.tool.radius, *operation_.scallop, 0);
+        if (trimmed) {
+            for (const Points& edge : tracer_.free_region_edges(surface, 0.7 * spacing_)) {
+                work_.add_pass(edge);
+            }
+        }
+        ridge_ = std::max(ridge_, highest_ridge(surface_function(surface), tool_, curves,
+                                                s.u_begin(), s.u_end(), kRidgeLooks));
+        return curves.size();
+    }
+
+    bool reaches_ends(const DomainCurve& curve, const Points& piece) const
+    {
+        constexpr double kSame = 1e-9;
+        return norm(piece.front() - tracer_.tip(curve.surface, curve.u.front(), curve.v.front())) <
+                   kSame &&
+               norm(piece.back() - tracer_.tip(curve.surface, curve.u.back(), curve.v.back())) <
+                   kSame;
+    }
+
+    const Operation& operation_;
+    SurfaceOperation work_;
+    PassTracer tracer_;
+    RidgeTool tool_;
+    double spacing_{};
+    double ridge_{};
+    int unreached_{};
+};
+
+std::vector<PlannedOperation> plan(const Job& job, const Operation& operation, bool complete)
+{
+    const auto begin = std::chrono::steady_clock::now();
+    check_spacing(job, operation);
+    PlannedOperation planned = IsocurvePlanner{job, operation}.plan(complete);
+    planned.stats.planning_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return {std::move(planned)};
+}
+
+}  // namespace
+
+std::vector<PlannedOperation> plan_adaptive_isocurve(const Job& job, const Operation& operation)
+{
+    return plan(job, operation, false);
+}
+
+std::vector<PlannedOperation> plan_complete_isocurves(const Job& job, const Operation& operation)
+{
+    return plan(job, operation, true);
+}
+
+}  // namespace cusp::host

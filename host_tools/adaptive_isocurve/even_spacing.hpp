@@ -1,0 +1,42 @@
+// Passes a full step apart everywhere: where the surface widens, passes begin between others, and
+// each follows its neighbour rather than an isocurve.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "host_tools/adaptive_isocurve/domain_curve.hpp"
+#include "host_tools/nurbs/nurbs.hpp"
+
+namespace cusp::host {
+
+// Steps between passes for a unit of v, at a place of the surface: |S_v| over the allowed distance.
+using StepDensity = std::function<double(const SurfacePoint&)>;
+
+// What lies between two neighbouring curves at a u, to be refused with the factor by which the
+// density there must grow; 1 or less accepts.
+using StripJudge = std::function<double(double u, double v_low, double v_high)>;
+
+using SurfaceFunction = std::function<SurfacePoint(double u, double v)>;
+
+struct EvenSpacing {
+    std::vector<DomainCurve> curves;
+    double worst{};  // largest factor the judge still asked for
+};
+
+// The surface is cut by isocurves into strips of equal numbers of steps, as many as make the whole
+// shortest. In a strip passes are whole steps away from either side and meet in the middle; the
+// strip's sides are isocurves, and complete. Neighbours are at most a step apart at every u, by the
+// integral of the density over v (exact to the accuracy of a quadrature over `nodes` places).
+//
+// The judge, where given, is asked at every node of u, up to five rounds.
+//
+// Why not isocurves alone: whatever their order, sets of isocurves that grow by insertion are
+// 1/ln 2 = 1.44 times as dense as needed on the average (de Bruijn & Erdos 1949), halving included.
+EvenSpacing even_passes(const Surface& surface,
+                        int number,
+                        const SurfaceFunction& at,
+                        const StepDensity& density,
+                        const StripJudge& judge);
+
+}  // namespace cusp::host

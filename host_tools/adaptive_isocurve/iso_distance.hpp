@@ -1,0 +1,38 @@
+// The distance between two isocurves at equal parameters, symbolically: a B-spline whose sign says
+// where they are too far apart.
+#pragma once
+
+#include <vector>
+
+#include "host_tools/nurbs/nurbs.hpp"
+
+namespace cusp::host {
+
+// A polynomial on [begin, end] by its Bernstein coefficients.
+struct BernsteinPiece {
+    double begin{};
+    double end{};
+    std::vector<double> coefficients;
+};
+
+// A piecewise polynomial, its pieces in order.
+using ScalarSpline = std::vector<BernsteinPiece>;
+
+// |a(u) - b(u)|^2 - limit^2, times the square of both weights where these are not constant: its
+// sign says which is larger. Precondition: the curves have the same degree and knots, as isocurves
+// of one surface have.
+//
+// Source: Elber & Cohen 1993, equation (1); products as in [10] there.
+ScalarSpline distance_excess(const Curve& a, const Curve& b, double limit);
+
+struct ParameterRange {
+    double begin{};
+    double end{};
+    bool positive{};
+};
+
+// [begin, end] cut where the sign changes; roots where it only touches zero cut nothing. Zero
+// counts as not positive. The roots are right to 1e-12 of the domain.
+std::vector<ParameterRange> sign_ranges(const ScalarSpline& spline, double begin, double end);
+
+}  // namespace cusp::host

@@ -1,0 +1,193 @@
+// Halving in v where the symbolic distance says so, and where the bound of the way across does.
+#include "host_tools/adaptive_isocurve/isocurve_extraction.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host_tools/adaptive_isocurve/iso_distance.hpp"
+#include "host_tools/surface_offset/bezier_cell.hpp"
+
+namespace cusp::host {
+namespace {
+
+constexpr int kDeepestHalving = 24;
+constexpr int kMostComplete = 1 << 20;
+
+// Bounds of the speed |S_v| on the cells of a grid, for the length of the surface across v.
+class CrossSpeed {
+public:
+    explicit CrossSpeed(const Surface& surface)
+    {
+        for (const BezierPatch& patch : bezier_patches(surface)) {
+            collect(BezierCell{patch, 0}, 4);
+        }
+    }
+
+    // At least the length of every curve of constant u from v_begin to v_end, u in the range.
+    double most_length(double u_begin, double u_end, double v_begin, double v_end) const
+    {
+        std::vector<double> breaks{v_begin, v_end};
+        std::vector<const Cell*> near;
+        for (const Cell& cell : cells_) {
+            if (cell.u_begin < u_end && cell.u_end > u_begin && cell.v_begin < v_end &&
+                cell.v_end > v_begin) {
+                near.push_back(&cell);
+                breaks.push_back(std::clamp(cell.v_begin, v_begin, v_end));
+            }
+        }
+        std::sort(breaks.begin(), breaks.end());
+        double sum = 0;
+        for (std::size_t k = 1; k < breaks.size(); ++k) {
+            const double middle = 0.5 * (breaks[k - 1] + breaks[k]);
+            double most = 0;
+            for (const Cell* cell : near) {
+                if (cell->v_begin <= middle && middle <= cell->v_end) {
+                    most = std::max(most, cell->speed);
+                }
+            }
+            sum += most * (breaks[k] - breaks[k - 1]);
+        }
+        return sum;
+    }
+
+private:
+    struct Cell {
+        double u_begin;
+        double u_end;
+        double v_begin;
+        double v_end;
+        double speed;
+    };
+
+    void collect(const BezierCell& cell, int halvings)
+    {
+        if (halvings > 0) {
+            for (const BezierCell* half : cell.halves()) {
+                collect(*half, halvings - 1);
+            }
+            return;
+        }
+        const double speed =
+            (norm(cell.middle().dv) + cell.spread().dt) / (cell.v_end() - cell.v_begin());
+        cells_.push_back({cell.u_begin(), cell.u_end(), cell.v_begin(), cell.v_end(), speed});
+    }
+
+    std::vector<Cell> cells_;
+};
+
+class Extraction {
+public:
+    Extraction(const Surface& surface, int number, double distance)
+        : surface_{surface}, number_{number}, distance_{distance}, speed_{surface}
+    {
+    }
+
+    std::vector<DomainCurve> run()
+    {
+        const double v0 = surface_.v_begin();
+        const double v1 = surface_.v_end();
+        add(v0, surface_.u_begin(), surface_.u_end());
+        add(v1, surface_.u_begin(), surface_.u_end());
+        fill({v0, isocurve_at_v(surface_, v0)}, {v1, isocurve_at_v(surface_, v1)},
+             surface_.u_begin(), surface_.u_end(), 0);
+        std::sort(out_.begin(), out_.end(), [](const DomainCurve& a, const DomainCurve& b) {
+            return a.v.front() != b.v.front() ? a.v.front() < b.v.front()
+                                              : a.u.front() < b.u.front();
+        });
+        return std::move(out_);
+    }
+
+private:
+    struct Isocurve {
+        double v;
+        Curve curve;
+    };
+
+    void add(double v, double u_begin, double u_end)
+    {
+        out_.push_back(isocurve(number_, v, u_begin, u_end));
+    }
+
+    // A range that is near enough at each u, yet whose way across may be long.
+    bool folds(const Isocurve& a, const Isocurve& b, double begin, double end) const
+    {
+        return speed_.most_length(begin, end, a.v, b.v) >= 2 * distance_;
+    }
+
+    void fill(const Isocurve& a, const Isocurve& b, double begin, double end, int depth)
+    {
+        if (depth > kDeepestHalving) {
+            return;
+        }
+        const ScalarSpline excess = distance_excess(a.curve, b.curve, distance_);
+        const double middle = 0.5 * (a.v + b.v);
+        Isocurve between{middle, {}};
+        for (const ParameterRange& range : sign_ranges(excess, begin, end)) {
+            if (!range.positive && !folds(a, b, range.begin, range.end)) {
+                continue;
+            }
+            if (between.curve.points.empty()) {
+                between.curve = isocurve_at_v(surface_, middle);
+            }
+            add(middle, range.begin, range.end);
+            fill(a, between, range.begin, range.end, depth + 1);
+            fill(between, b, range.begin, range.end, depth + 1);
+        }
+    }
+
+    const Surface& surface_;
+    int number_;
+    double distance_;
+    CrossSpeed speed_;
+    std::vector<DomainCurve> out_;
+};
+
+bool within(const Surface& surface, int strips, double distance)
+{
+    const double v0 = surface.v_begin();
+    const double width = (surface.v_end() - v0) / strips;
+    Curve last = isocurve_at_v(surface, v0);
+    for (int k = 1; k <= strips; ++k) {
+        Curve next = isocurve_at_v(surface, v0 + k * width);
+        const auto ranges =
+            sign_ranges(distance_excess(last, next, distance), surface.u_begin(), surface.u_end());
+        if (std::any_of(ranges.begin(), ranges.end(), [](const auto& r) { return r.positive; })) {
+            return false;
+        }
+        last = std::move(next);
+    }
+    return true;
+}
+
+}  // namespace
+
+std::vector<DomainCurve> adaptive_isocurves(const Surface& surface, int number, double distance)
+{
+    return Extraction{surface, number, distance}.run();
+}
+
+std::vector<DomainCurve> complete_isocurves(const Surface& surface, int number, double distance)
+{
+    const double across = CrossSpeed{surface}.most_length(surface.u_begin(), surface.u_end(),
+                                                          surface.v_begin(), surface.v_end());
+    // The mean way across bounds the fewest from neither side; start low, then bisect.
+    int few = 0;
+    int enough = std::max(1, static_cast<int>(across / distance / 4));
+    while (enough < kMostComplete && !within(surface, enough, distance)) {
+        few = enough;
+        enough *= 2;
+    }
+    while (enough - few > 1) {
+        const int middle = few + (enough - few) / 2;
+        (within(surface, middle, distance) ? enough : few) = middle;
+    }
+    std::vector<DomainCurve> out;
+    const double v0 = surface.v_begin();
+    for (int k = 0; k <= enough; ++k) {
+        const double v = k == enough ? surface.v_end() : v0 + (surface.v_end() - v0) * k / enough;
+        out.push_back(isocurve(number, v, surface.u_begin(), surface.u_end()));
+    }
+    return out;
+}
+
+}  // namespace cusp::host

@@ -1,0 +1,252 @@
+// Isocurves keep their parameters on the offset; the model decides which parts are kept.
+#include "host_tools/adaptive_isocurve/pass_tracer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace cusp::host {
+namespace {
+
+constexpr double kLookSpacing = 1.0;  // mm between places where freedom is looked at
+constexpr int kLeastLooks = 4;
+constexpr int kEdgeHalvings = 22;
+constexpr double kShortestPiece = 1e-3;  // mm
+constexpr std::size_t kMostGrid = 500;
+
+double length_along(const SurfaceModel& model, int surface, Vec2d from, Vec2d to)
+{
+    constexpr int kParts = 12;
+    double sum = 0;
+    Vec3d last = model.evaluate(surface, from.x, from.y).point;
+    for (int k = 1; k <= kParts; ++k) {
+        const Vec2d at = from + (to - from) * (static_cast<double>(k) / kParts);
+        const Vec3d next = model.evaluate(surface, at.x, at.y).point;
+        sum += norm(next - last);
+        last = next;
+    }
+    return sum;
+}
+
+std::vector<double> even(double from, double to, std::size_t parts)
+{
+    std::vector<double> out;
+    for (std::size_t k = 0; k <= parts; ++k) {
+        const double t = static_cast<double>(k) / static_cast<double>(parts);
+        out.push_back(from * (1 - t) + to * t);
+    }
+    return out;
+}
+
+// A side of the grid: its lower node and whether it runs along u.
+using GridSide = std::pair<std::size_t, bool>;
+
+// Chains of sides that follow each other round the free part (marching squares).
+class GridEdges {
+public:
+    GridEdges(const std::vector<bool>& free, std::size_t nu, std::size_t nv)
+    {
+        for (std::size_t i = 0; i + 1 < nu; ++i) {
+            for (std::size_t j = 0; j + 1 < nv; ++j) {
+                cross_cell(free, i * nv + j, nv);
+            }
+        }
+    }
+
+    std::vector<std::vector<GridSide>> chains()
+    {
+        std::vector<std::vector<GridSide>> out;
+        // Open chains start where one cell only knows the side.
+        for (const bool open : {true, false}) {
+            for (const auto& [side, neighbours] : neighbours_) {
+                if (!used_[side] && (neighbours.size() == 1 || !open)) {
+                    out.push_back(walk(side));
+                }
+            }
+        }
+        return out;
+    }
+
+private:
+    void cross_cell(const std::vector<bool>& free, std::size_t k, std::size_t nv)
+    {
+        const std::array<std::pair<GridSide, bool>, 4> sides{
+            {{{k, true}, free[k] != free[k + nv]},
+             {{k + nv, false}, free[k + nv] != free[k + nv + 1]},
+             {{k + 1, true}, free[k + 1] != free[k + nv + 1]},
+             {{k, false}, free[k] != free[k + 1]}}};
+        std::vector<GridSide> crossed;
+        for (const auto& [side, crosses] : sides) {
+            if (crosses) {
+                crossed.push_back(side);
+            }
+        }
+        for (std::size_t n = 0; n + 1 < crossed.size(); n += 2) {
+            neighbours_[crossed[n]].push_back(crossed[n + 1]);
+            neighbours_[crossed[n + 1]].push_back(crossed[n]);
+        }
+    }
+
+    std::vector<GridSide> walk(GridSide from)
+    {
+        std::vector<GridSide> chain{from};
+        used_[from] = true;
+        for (bool more = true; more;) {
+            more = false;
+            for (const GridSide& next : neighbours_[chain.back()]) {
+                if (!used_[next]) {
+                    used_[next] = true;
+                    chain.push_back(next);
+                    more = true;
+                    break;
+                }
+            }
+        }
+        const auto& back = neighbours_[chain.back()];
+        if (chain.size() > 2 && std::find(back.begin(), back.end(), from) != back.end()) {
+            chain.push_back(from);
+        }
+        return chain;
+    }
+
+    std::map<GridSide, std::vector<GridSide>> neighbours_;
+    std::map<GridSide, bool> used_;
+};
+
+}  // namespace
+
+Vec3d PassTracer::tip(int surface, double u, double v) const
+{
+    const SurfacePoint p = certified_.model().evaluate(surface, u, v);
+    const double radius = certified_.tool().radius;
+    Vec3d tip = p.point + upward_normal(p) * (radius + certified_.band().lift);
+    tip.z -= radius;
+    return tip;
+}
+
+bool PassTracer::free_at(int surface, double u, double v) const
+{
+    return certified_.model().inside_trims(surface, u, v) &&
+           certified_.stands_free(tip(surface, u, v));
+}
+
+Points PassTracer::along(const DomainCurve& curve, double from, double to) const
+{
+    const double length = length_along(certified_.model(), curve.surface, {from, curve.v_at(from)},
+                                       {to, curve.v_at(to)});
+    const std::size_t parts =
+        std::max<std::size_t>(2, static_cast<std::size_t>(length / (1.5 * kLookSpacing)));
+    return certified_.sample([&](double u) { return tip(curve.surface, u, curve.v_at(u)); },
+                             even(from, to, parts));
+}
+
+std::vector<Points> PassTracer::trace(const DomainCurve& curve) const
+{
+    const double u0 = curve.u.front();
+    const double u1 = curve.u.back();
+    const double length = length_along(certified_.model(), curve.surface, {u0, curve.v.front()},
+                                       {u1, curve.v.back()});
+    const std::size_t parts =
+        static_cast<std::size_t>(std::max<double>(kLeastLooks, std::ceil(length / kLookSpacing)));
+    const std::vector<double> looks = even(u0, u1, parts);
+    const auto free = [&](double u) {
+        return free_at(curve.surface, u, curve.v_at(u));
+    };
+    std::vector<Points> out;
+    double begin = u0;
+    bool was_free = free(u0);
+    const auto close = [&](double end) {
+        if (end > begin) {
+            Points piece = along(curve, begin, end);
+            if (length_of(piece) > kShortestPiece) {
+                out.push_back(std::move(piece));
+            }
+        }
+    };
+    for (std::size_t k = 1; k < looks.size(); ++k) {
+        const bool is_free = free(looks[k]);
+        if (is_free == was_free) {
+            continue;
+        }
+        double inside = is_free ? looks[k] : looks[k - 1];
+        double outside = is_free ? looks[k - 1] : looks[k];
+        for (int turn = 0; turn < kEdgeHalvings; ++turn) {
+            const double middle = 0.5 * (inside + outside);
+            (free(middle) ? inside : outside) = middle;
+        }
+        if (is_free) {
+            begin = inside;
+        } else {
+            close(inside);
+        }
+        was_free = is_free;
+    }
+    if (was_free) {
+        close(u1);
+    }
+    return out;
+}
+
+std::vector<Points> PassTracer::free_region_edges(int surface, double spacing) const
+{
+    const Surface& s = surfaces_[static_cast<std::size_t>(surface)];
+    const SurfaceModel& model = certified_.model();
+    const double u_middle = 0.5 * (s.u_begin() + s.u_end());
+    const double v_middle = 0.5 * (s.v_begin() + s.v_end());
+    const auto parts = [&](double length) {
+        return std::clamp<std::size_t>(static_cast<std::size_t>(length / spacing), 8, kMostGrid);
+    };
+    const std::vector<double> us =
+        even(s.u_begin(), s.u_end(),
+             parts(length_along(model, surface, {s.u_begin(), v_middle}, {s.u_end(), v_middle})));
+    const std::vector<double> vs =
+        even(s.v_begin(), s.v_end(),
+             parts(length_along(model, surface, {u_middle, s.v_begin()}, {u_middle, s.v_end()})));
+    std::vector<bool> free;
+    for (const double u : us) {
+        for (const double v : vs) {
+            free.push_back(free_at(surface, u, v));
+        }
+    }
+    const auto place = [&](std::size_t k) {
+        return Vec2d{us[k / vs.size()], vs[k % vs.size()]};
+    };
+    std::vector<Points> out;
+    for (const std::vector<GridSide>& chain : GridEdges{free, us.size(), vs.size()}.chains()) {
+        Points points;
+        for (const auto& [node, along_u] : chain) {
+            const std::size_t other = node + (along_u ? vs.size() : 1);
+            const Vec2d inside = place(free[node] ? node : other);
+            const Vec2d outside = place(free[node] ? other : node);
+            const double t = edge_between(surface, inside, outside);
+            const Vec2d at = inside + (outside - inside) * t;
+            points.push_back(tip(surface, at.x, at.y));
+        }
+        Points dense{points.front()};
+        for (std::size_t k = 1; k < points.size(); ++k) {
+            const Points piece = certified_.sample_dropped(points[k - 1], points[k]);
+            dense.insert(dense.end(), piece.begin() + 1, piece.end() - 1);
+            dense.push_back(points[k]);
+        }
+        if (length_of(dense) > kShortestPiece) {
+            out.push_back(std::move(dense));
+        }
+    }
+    return out;
+}
+
+double PassTracer::edge_between(int surface, Vec2d free, Vec2d blocked) const
+{
+    double inside = 0;
+    double outside = 1;
+    for (int turn = 0; turn < kEdgeHalvings; ++turn) {
+        const double middle = 0.5 * (inside + outside);
+        const Vec2d at = free + (blocked - free) * middle;
+        (free_at(surface, at.x, at.y) ? inside : outside) = middle;
+    }
+    return inside;
+}
+
+}  // namespace cusp::host

@@ -1,0 +1,42 @@
+// Curves of the domain mapped to the offset of the surface, and trimmed there by the whole model.
+#pragma once
+
+#include <vector>
+
+#include "host_tools/adaptive_isocurve/domain_curve.hpp"
+#include "host_tools/surface_passes/certified_pass.hpp"
+
+namespace cusp::host {
+
+class PassTracer {
+public:
+    PassTracer(const std::vector<Surface>& surfaces, const CertifiedPasses& certified)
+        : surfaces_{surfaces}, certified_{certified}
+    {
+    }
+
+    // The tip of the ball that touches the surface at (u, v), lifted by the band's lift.
+    Vec3d tip(int surface, double u, double v) const;
+
+    // Whether (u, v) is in the trimmed domain and the tool there is free of the rest of the model.
+    bool free_at(int surface, double u, double v) const;
+
+    // The parts of the curve where the tool is free, as dense tips. A loss of less than 1 mm that
+    // hides between free places is not trimmed here: the proof of the path lifts over it.
+    std::vector<Points> trace(const DomainCurve& curve) const;
+
+    // Lines along the edge of the free part of the surface, on the model: where offsets of two
+    // surfaces meet, and trimmed edges. Empty where all is free.
+    //
+    // spacing  mm: of the grid on which the edge is looked for
+    std::vector<Points> free_region_edges(int surface, double spacing) const;
+
+private:
+    double edge_between(int surface, Vec2d free, Vec2d blocked) const;
+    Points along(const DomainCurve& curve, double from, double to) const;
+
+    const std::vector<Surface>& surfaces_;
+    const CertifiedPasses& certified_;
+};
+
+}  // namespace cusp::host

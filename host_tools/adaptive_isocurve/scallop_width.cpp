@@ -1,0 +1,40 @@
+// The cosine rule at two balls beside a circle.
+#include "host_tools/adaptive_isocurve/scallop_width.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cusp::host {
+
+double scallop_width(double radius, double scallop, double curvature)
+{
+    const double h = std::min(scallop, radius);
+    // k = 1 / rho of the paper: positive where convex.
+    const double k = -std::min(curvature, 0.98 / radius);
+    const double widest = 1.8 * radius;
+    // The cosine of half the angle between the contacts has this sign: beyond a right angle the
+    // valley is as round as the ball, and no ridge gets that high.
+    if (1 + 2 * radius * k + (1 + h * k) * (1 + h * k) <= 0) {
+        return widest;
+    }
+    const double square =
+        h * (2 * radius - h) * (4 + 4 * (radius + h) * k + (2 * radius * h + h * h) * k * k);
+    const double below = (1 + radius * k) * (1 + h * k);
+    return std::min(widest, std::sqrt(std::max(0.0, square)) / below);
+}
+
+CrossSection cross_section_at(const SurfacePoint& p)
+{
+    const double e = dot(p.du, p.du);
+    const Vec3d normal = upward_normal(p);
+    if (e == 0 || dot(normal, normal) == 0) {
+        return {0, e == 0 ? norm(p.dv) : 0};
+    }
+    const double a = -dot(p.du, p.dv) / e;
+    const Vec3d across = p.dv + p.du * a;
+    const Vec3d bend = p.duu * (a * a) + p.duv * (2 * a) + p.dvv;
+    const double square = dot(across, across);
+    return {square > 0 ? dot(normal, bend) / square : 0, std::sqrt(square)};
+}
+
+}  // namespace cusp::host

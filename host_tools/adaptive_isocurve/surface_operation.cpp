@@ -1,0 +1,141 @@
+// Checks come first, and name what is wrong with its value and limit.
+#include "host_tools/adaptive_isocurve/surface_operation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host_tools/input_error/input_error.hpp"
+
+#include "fmt/format.h"
+
+namespace cusp::host {
+namespace {
+
+constexpr double kOverStock = 1.0;   // mm over uncut metal where rapids end
+constexpr double kLeastSize = 1e-6;  // mm
+
+std::string file_of(const Operation& operation)
+{
+    return operation.floor_files.empty() ? std::string{"floor"} : operation.floor_files.front();
+}
+
+}  // namespace
+
+SurfaceOperation::SurfaceOperation(const Job& job,
+                                   const Operation& operation,
+                                   std::vector<Surface> surfaces)
+    : job_{job}, operation_{operation}, surfaces_{std::move(surfaces)}
+{
+    check_tool();
+    check_surfaces();
+    model_ = std::make_unique<SurfaceModel>(surfaces_);
+    const double top = job.stock_top + job.clearance;
+    if (model_->box_high().z > top) {
+        throw InputError(fmt::format(
+            "{}: the part rises to z = {:g} mm, over the clearance height of {:g} mm "
+            "(stock top {:g} + clearance {:g}): rapid moves would hit it",
+            file_of(operation), model_->box_high().z, top, job.stock_top, job.clearance));
+    }
+    certified_ = std::make_unique<CertifiedPasses>(
+        *model_, operation.tool,
+        make_pass_band(operation.floor_tolerance,
+                       operation.tolerance_side == ToleranceSide::kOutside));
+}
+
+void SurfaceOperation::check_tool() const
+{
+    const Tool& tool = operation_.tool;
+    if (tool.shape != ToolShape::kBall) {
+        throw InputError(fmt::format("{}: strategy {} needs a ball, tool {} is none", job_.file,
+                                     operation_.strategy, tool.number));
+    }
+    if (!(operation_.floor_tolerance < tool.radius)) {
+        throw InputError(fmt::format("{}: floor_tolerance is {:g} mm, the tool's radius {:g} mm",
+                                     job_.file, operation_.floor_tolerance, tool.radius));
+    }
+    if (operation_.boundary || !operation_.islands.empty()) {
+        throw InputError(
+            fmt::format("{}: strategy {} takes no boundary or islands: trim the surfaces, or add "
+                        "walls to floor",
+                        job_.file, operation_.strategy));
+    }
+}
+
+void SurfaceOperation::check_surfaces() const
+{
+    for (std::size_t k = 0; k < surfaces_.size(); ++k) {
+        const Surface& s = surfaces_[k];
+        constexpr int kLooks = 8;
+        double area = 0;
+        for (int i = 0; i < kLooks; ++i) {
+            for (int j = 0; j < kLooks; ++j) {
+                const SurfacePoint p =
+                    derivatives_at(s, s.u_begin() + (s.u_end() - s.u_begin()) * (i + 0.5) / kLooks,
+                                   s.v_begin() + (s.v_end() - s.v_begin()) * (j + 0.5) / kLooks);
+                area += norm(cross(p.du, p.dv)) * (s.u_end() - s.u_begin()) *
+                        (s.v_end() - s.v_begin()) / (kLooks * kLooks);
+            }
+        }
+        if (!(area > kLeastSize)) {
+            throw InputError(fmt::format("{}: surface {} has an area of {:g} mm2, it is degenerate",
+                                         file_of(operation_), k + 1, area));
+        }
+    }
+}
+
+double SurfaceOperation::outward() const
+{
+    return certified_->band().lift + certified_->band().band;
+}
+
+double SurfaceOperation::ridge_allowed() const { return operation_.scallop.value_or(0); }
+
+void SurfaceOperation::add_pass(const Points& dense)
+{
+    SurfacePass pass;
+    if (operation_.output == OutputForm::kNurbs) {
+        pass.curve = certified_->fit_nurbs(dense);
+    }
+    if (pass.curve) {
+        pass.points = dense;
+    } else {
+        pass.points = certified_->fit_lines(dense);
+    }
+    if (pass.points.size() >= 2) {
+        passes_.push_back(std::move(pass));
+    }
+}
+
+PlannedOperation SurfaceOperation::finish(double spacing, double scallop_bound)
+{
+    if (passes_.empty()) {
+        throw InputError(
+            fmt::format("{}: a ball of radius {:g} mm reaches no part of the surfaces from above",
+                        file_of(operation_), operation_.tool.radius));
+    }
+    LinkRules rules;
+    rules.stay_down = std::max(2 * operation_.tool.radius, 4 * spacing);
+    rules.clearance_z = job_.stock_top + job_.clearance;
+    rules.plunge_from = job_.stock_top + kOverStock;
+    rules.one_way = operation_.traversal == Traversal::kOneWay;
+    PlannedOperation planned;
+    OperationStats& stats = planned.stats;
+    stats.passes = static_cast<int>(passes_.size());
+    LinkedPasses linked = link_passes(std::move(passes_), rules, *certified_);
+    stats.strategy = operation_.strategy;
+    stats.levels = 1;
+    stats.cl_points = linked.points;
+    stats.retracts = linked.retracts;
+    stats.gouge_bound_mm = std::max(0.0, -certified_->least_clearance());
+    stats.scallop_bound_mm = scallop_bound;
+    stats.counts = {{"pass_length_mm", linked.cut_length}, {"link_length_mm", linked.link_length}};
+    planned.path = {operation_.tool,         job_.feed, job_.plunge_feed, job_.spindle,
+                    std::move(linked.moves), {}};
+    planned.path.comments = {
+        operation_.strategy,
+        fmt::format("gouge at most {:.6f} mm, scallop at most {:.4f} mm where the tool reaches",
+                    stats.gouge_bound_mm, stats.scallop_bound_mm)};
+    return planned;
+}
+
+}  // namespace cusp::host

@@ -1,0 +1,49 @@
+// What the strategies that run a ball over surfaces share: checks of the job, the model, the way
+// from dense passes to a planned operation.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host_tools/import/job.hpp"
+#include "host_tools/surface_passes/certified_pass.hpp"
+#include "host_tools/surface_passes/pass_links.hpp"
+
+namespace cusp::host {
+
+class SurfaceOperation {
+public:
+    // Throws InputError for a job this cannot do: another tool than a ball, a boundary, a surface
+    // without area, a part that rises over the clearance height.
+    SurfaceOperation(const Job& job, const Operation& operation, std::vector<Surface> surfaces);
+
+    const std::vector<Surface>& surfaces() const { return surfaces_; }
+    const SurfaceModel& model() const { return *model_; }
+    CertifiedPasses& certified() { return *certified_; }
+
+    // How far the path may lie off the surface at most, mm.
+    double outward() const;
+    // What the scallop leaves for the ridges between passes, mm.
+    double ridge_allowed() const;
+
+    // Fits the passes in the form the job asks for.
+    void add_pass(const Points& dense);
+    std::size_t pass_count() const { return passes_.size(); }
+
+    // Links all passes; `spacing` (mm) is about the distance of neighbours.
+    PlannedOperation finish(double spacing, double scallop_bound);
+
+private:
+    void check_tool() const;
+    void check_surfaces() const;
+
+    const Job& job_;
+    const Operation& operation_;
+    std::vector<Surface> surfaces_;
+    std::unique_ptr<SurfaceModel> model_;
+    std::unique_ptr<CertifiedPasses> certified_;
+    std::vector<SurfacePass> passes_;
+};
+
+}  // namespace cusp::host

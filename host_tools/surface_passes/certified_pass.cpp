@@ -1,0 +1,335 @@
+// Longest chords by doubling, then the bound of the clearance along each.
+#include "host_tools/surface_passes/certified_pass.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cusp::host {
+namespace {
+
+constexpr int kDeepestHalving = 12;
+constexpr double kSampleShare = 0.08;   // of the band, for what lies between samples
+constexpr double kShortestLine = 0.01;  // mm
+constexpr double kContactSlack = 5e-6;  // mm: nearer than this is the contact itself
+
+double distance_to_chord(Vec3d p, Vec3d a, Vec3d b)
+{
+    const Vec3d d = b - a;
+    const double square = dot(d, d);
+    const double t = square > 0 ? std::clamp(dot(p - a, d) / square, 0.0, 1.0) : 0;
+    return norm(p - a - d * t);
+}
+
+bool chord_fits(const Points& points, std::size_t from, std::size_t to, double allowed)
+{
+    for (std::size_t k = from + 1; k < to; ++k) {
+        if (distance_to_chord(points[k], points[from], points[to]) > allowed) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// The last index for which `fits(index)` holds, by doubling and halving; `from` + 1 always does.
+template <class Fits>
+std::size_t farthest_fit(std::size_t from, std::size_t last, std::size_t guess, const Fits& fits)
+{
+    std::size_t good = from + 1;
+    std::size_t step = std::max<std::size_t>(1, guess);
+    std::size_t bad = last + 1;
+    while (good < last) {
+        const std::size_t next = std::min(last, good + step);
+        if (!fits(next)) {
+            bad = next;
+            break;
+        }
+        good = next;
+        step *= 2;
+    }
+    while (bad <= last && bad - good > 1) {
+        const std::size_t middle = (good + bad) / 2;
+        (fits(middle) ? good : bad) = middle;
+    }
+    return good;
+}
+
+// Unit tangent at a dense point from its neighbours (derivative of the parabola through three).
+Vec3d tangent_at(const Points& p, std::size_t k)
+{
+    Vec3d out;
+    if (p.size() == 2) {
+        out = p[1] - p[0];
+    } else {
+        const std::size_t m = std::clamp<std::size_t>(k, 1, p.size() - 2);
+        const double before = std::max(1e-12, norm(p[m] - p[m - 1]));
+        const double after = std::max(1e-12, norm(p[m + 1] - p[m]));
+        const Vec3d first = (p[m] - p[m - 1]) / before;
+        const Vec3d second = (p[m + 1] - p[m]) / after;
+        const Vec3d bend = (second - first) / (before + after);
+        const double at = k < m ? -before : k > m ? after : 0;
+        out = (first * after + second * before) / (before + after) + bend * (2 * at);
+    }
+    return out / std::max(1e-300, norm(out));
+}
+
+struct Span {
+    std::array<Vec3d, 4> bezier;
+    double length;
+};
+
+Span hermite(const Points& p,
+             const std::vector<double>& way,
+             const Points& tangent,
+             std::size_t from,
+             std::size_t to)
+{
+    const double length = way[to] - way[from];
+    return {{p[from], p[from] + tangent[from] * (length / 3), p[to] - tangent[to] * (length / 3),
+             p[to]},
+            length};
+}
+
+Vec3d bezier_at(const std::array<Vec3d, 4>& b, double t)
+{
+    const double s = 1 - t;
+    return b[0] * (s * s * s) + b[1] * (3 * s * s * t) + b[2] * (3 * s * t * t) +
+           b[3] * (t * t * t);
+}
+
+Vec3d bezier_slope(const std::array<Vec3d, 4>& b, double t)
+{
+    const double s = 1 - t;
+    return (b[1] - b[0]) * (3 * s * s) + (b[2] - b[1]) * (6 * s * t) + (b[3] - b[2]) * (3 * t * t);
+}
+
+bool span_fits(const Span& span,
+               const Points& p,
+               const std::vector<double>& way,
+               std::size_t from,
+               std::size_t to,
+               double allowed)
+{
+    for (std::size_t k = from + 1; k < to; ++k) {
+        double t = (way[k] - way[from]) / span.length;
+        for (int turn = 0; turn < 2; ++turn) {
+            const Vec3d slope = bezier_slope(span.bezier, t);
+            t = std::clamp(t + dot(p[k] - bezier_at(span.bezier, t), slope) / dot(slope, slope),
+                           0.0, 1.0);
+        }
+        if (norm(p[k] - bezier_at(span.bezier, t)) > allowed) {
+            return false;
+        }
+    }
+    return true;
+}
+
+Curve join(const std::vector<Span>& spans)
+{
+    Curve curve;
+    curve.degree = 3;
+    double way = 0;
+    curve.knots.assign(4, 0.0);
+    curve.points.push_back(spans.front().bezier[0]);
+    for (std::size_t k = 0; k < spans.size(); ++k) {
+        curve.points.push_back(spans[k].bezier[1]);
+        curve.points.push_back(spans[k].bezier[2]);
+        way += spans[k].length;
+        curve.knots.insert(curve.knots.end(), k + 1 < spans.size() ? 2 : 4, way);
+    }
+    curve.points.push_back(spans.back().bezier[3]);
+    curve.weights.assign(curve.points.size(), 1.0);
+    return curve;
+}
+
+}  // namespace
+
+PassBand make_pass_band(double tolerance, bool one_sided)
+{
+    if (one_sided) {
+        return {0.6 * tolerance, 0.4 * tolerance, 0};
+    }
+    return {0, 0.45 * tolerance, 0.5 * tolerance};
+}
+
+double length_of(const Points& points)
+{
+    double sum = 0;
+    for (std::size_t k = 1; k < points.size(); ++k) {
+        sum += norm(points[k] - points[k - 1]);
+    }
+    return sum;
+}
+
+CertifiedPasses::CertifiedPasses(const SurfaceModel& model, const Tool& tool, const PassBand& band)
+    : model_{model}, tool_{tool}, lifted_{tool}, band_{band}
+{
+    lifted_.radius += band.lift;
+    lifted_.corner_radius += band.lift;
+}
+
+bool CertifiedPasses::stands_free(Vec3d tip) const
+{
+    const double enough = band_.lift - kContactSlack;
+    return model_.clearance(tool_, tip, enough).distance >= enough - 1e-9;
+}
+
+std::optional<Vec3d> CertifiedPasses::dropped(double x, double y) const
+{
+    const std::optional<double> z = model_.drop(lifted_, x, y);
+    if (!z) {
+        return std::nullopt;
+    }
+    return Vec3d{x, y, *z + band_.lift};
+}
+
+Points CertifiedPasses::sample(const std::function<Vec3d(double)>& at,
+                               const std::vector<double>& breaks) const
+{
+    const double sag = std::max(1e-5, kSampleShare * band_.band);
+    Points out{at(breaks.front())};
+    const std::function<void(double, Vec3d, double, Vec3d, int)> halve =
+        [&](double from, Vec3d a, double to, Vec3d b, int depth) {
+            const double middle = 0.5 * (from + to);
+            const Vec3d m = at(middle);
+            if (depth < kDeepestHalving && norm(m - (a + b) * 0.5) > sag) {
+                halve(from, a, middle, m, depth + 1);
+                halve(middle, m, to, b, depth + 1);
+                return;
+            }
+            out.push_back(m);
+            out.push_back(b);
+        };
+    for (std::size_t k = 1; k < breaks.size(); ++k) {
+        halve(breaks[k - 1], out.back(), breaks[k], at(breaks[k]), 0);
+    }
+    return out;
+}
+
+Points CertifiedPasses::sample_dropped(Vec3d a, Vec3d b) const
+{
+    const double lower = std::min(a.z, b.z);
+    const auto tip = [&](double t) {
+        const Vec3d p = a + (b - a) * t;
+        return dropped(p.x, p.y).value_or(Vec3d{p.x, p.y, lower});
+    };
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    const int pieces = std::max(1, static_cast<int>(std::ceil(length / 1.0)));
+    std::vector<double> breaks;
+    for (int k = 0; k <= pieces; ++k) {
+        breaks.push_back(static_cast<double>(k) / pieces);
+    }
+    return sample(tip, breaks);
+}
+
+bool CertifiedPasses::line_is_free(Vec3d a, Vec3d b)
+{
+    const double bound =
+        model_.clearance_along(tool_, a, b, -band_.deepest, std::max(1e-6, 0.02 * band_.band));
+    if (bound < -band_.deepest - 1e-9) {
+        return false;
+    }
+    least_clearance_ = std::min(least_clearance_, bound);
+    return true;
+}
+
+void CertifiedPasses::append_free_line(Vec3d a, Vec3d b, int depth, Points& out)
+{
+    if (line_is_free(a, b)) {
+        out.push_back(b);
+        return;
+    }
+    const double length = norm(b - a);
+    if (length < kShortestLine || depth > kDeepestHalving) {
+        // Both ends stand free; what is left between is lifted over.
+        const double up = std::max(length, kShortestLine);
+        const Vec3d over{0.5 * (a.x + b.x), 0.5 * (a.y + b.y), std::max(a.z, b.z) + up};
+        out.push_back({a.x, a.y, over.z});
+        out.push_back({b.x, b.y, over.z});
+        out.push_back(b);
+        least_clearance_ = std::min(least_clearance_,
+                                    model_.clearance_along(tool_, a, out[out.size() - 3], 0, 1e-6));
+        return;
+    }
+    Vec3d middle = (a + b) * 0.5;
+    if (const std::optional<Vec3d> on_model = dropped(middle.x, middle.y)) {
+        middle.z = std::max(middle.z, on_model->z);
+    }
+    append_free_line(a, middle, depth + 1, out);
+    append_free_line(middle, b, depth + 1, out);
+}
+
+Points CertifiedPasses::fit_lines(const Points& dense)
+{
+    Points out{dense.front()};
+    const double allowed = band_.band * (1 - kSampleShare);
+    std::size_t from = 0;
+    std::size_t guess = 4;
+    while (from + 1 < dense.size()) {
+        const std::size_t to = farthest_fit(from, dense.size() - 1, guess, [&](std::size_t k) {
+            return chord_fits(dense, from, k, allowed);
+        });
+        guess = (to - from) / 2;
+        append_free_line(out.back(), dense[to], 0, out);
+        from = to;
+    }
+    return out;
+}
+
+bool CertifiedPasses::curve_is_free(const std::array<Vec3d, 4>& b, int depth, double& least) const
+{
+    const double bow =
+        std::max(norm(b[1] - (b[0] * 2 + b[3]) / 3.0), norm(b[2] - (b[0] + b[3] * 2) / 3.0));
+    if (bow > 0.05 * band_.band && depth < kDeepestHalving) {
+        const Vec3d m0 = (b[0] + b[1]) * 0.5;
+        const Vec3d m1 = (b[1] + b[2]) * 0.5;
+        const Vec3d m2 = (b[2] + b[3]) * 0.5;
+        const Vec3d q0 = (m0 + m1) * 0.5;
+        const Vec3d q1 = (m1 + m2) * 0.5;
+        const Vec3d c = (q0 + q1) * 0.5;
+        return curve_is_free({b[0], m0, q0, c}, depth + 1, least) &&
+               curve_is_free({c, q1, m2, b[3]}, depth + 1, least);
+    }
+    const double enough = bow - band_.deepest;
+    const double bound =
+        model_.clearance_along(tool_, b[0], b[3], enough, std::max(1e-6, 0.02 * band_.band));
+    least = std::min(least, bound - bow);
+    return bound >= enough - 1e-9;
+}
+
+std::optional<Curve> CertifiedPasses::fit_nurbs(const Points& dense)
+{
+    Points p{dense.front()};
+    for (const Vec3d& next : dense) {
+        if (norm(next - p.back()) > 1e-6) {
+            p.push_back(next);
+        }
+    }
+    if (p.size() < 2) {
+        return std::nullopt;
+    }
+    std::vector<double> way{0};
+    Points tangent;
+    for (std::size_t k = 0; k < p.size(); ++k) {
+        tangent.push_back(tangent_at(p, k));
+        if (k > 0) {
+            way.push_back(way.back() + norm(p[k] - p[k - 1]));
+        }
+    }
+    std::vector<Span> spans;
+    const double allowed = band_.band * (1 - kSampleShare);
+    double least = least_clearance_;
+    for (std::size_t from = 0; from + 1 < p.size();) {
+        const std::size_t to = farthest_fit(from, p.size() - 1, 8, [&](std::size_t k) {
+            return span_fits(hermite(p, way, tangent, from, k), p, way, from, k, allowed);
+        });
+        spans.push_back(hermite(p, way, tangent, from, to));
+        if (!curve_is_free(spans.back().bezier, 0, least)) {
+            return std::nullopt;
+        }
+        from = to;
+    }
+    least_clearance_ = least;
+    return join(spans);
+}
+
+}  // namespace cusp::host

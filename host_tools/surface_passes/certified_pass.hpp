@@ -1,0 +1,80 @@
+// Turns dense points of the tool tip into few lines or one NURBS, each proved to keep the tool out
+// of the model.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "host_tools/surface_offset/surface_model.hpp"
+
+namespace cusp::host {
+
+// How the allowance for the path is spent, mm. The tip is planned `lift` too far from the surface;
+// the path may leave the planned one by `band` either way.
+struct PassBand {
+    double lift{};
+    double band{};
+    double deepest{};  // how far the tool may cut into the model: 0 for a one-sided tolerance
+};
+
+// One-sided: the tool never enters the model and stays within `tolerance` of it, with a fifth of
+// the tolerance kept for the proof. Both sides: half the tolerance each way.
+PassBand make_pass_band(double tolerance, bool one_sided);
+
+using Points = std::vector<Vec3d>;
+
+class CertifiedPasses {
+public:
+    CertifiedPasses(const SurfaceModel& model, const Tool& tool, const PassBand& band);
+
+    const PassBand& band() const { return band_; }
+    const Tool& tool() const { return tool_; }
+    const SurfaceModel& model() const { return model_; }
+
+    // Whether a tool that stands `lift` off some surface is no nearer to any other.
+    bool stands_free(Vec3d tip) const;
+
+    // Tip at (x, y), `lift` off the model; none where the tool misses the model.
+    std::optional<Vec3d> dropped(double x, double y) const;
+
+    // Points of the tip along a function of a parameter, so dense that straight lines between them
+    // leave it by a small part of the band only.
+    //
+    // at      tip at a parameter
+    // breaks  parameters in order, first and last included; nothing finer than a quarter of their
+    //         distance may hide between them
+    Points sample(const std::function<Vec3d(double)>& at, const std::vector<double>& breaks) const;
+
+    // Tips over the straight line from a to b in plan, on the model where there is one, else at
+    // the lower height of the ends.
+    Points sample_dropped(Vec3d a, Vec3d b) const;
+
+    // Few points of a polyline within the band of the dense one, proved: where a line would cut
+    // deeper than allowed, the tip is lifted on the drop.
+    Points fit_lines(const Points& dense);
+
+    // One cubic NURBS along the points, from first to last, proved; none where it would cut.
+    // Knots are arc lengths: a constant feed runs smoothly through it.
+    std::optional<Curve> fit_nurbs(const Points& dense);
+
+    // Whether the straight move is proved to cut no deeper than allowed; lowers `least_clearance`
+    // if so.
+    bool line_is_free(Vec3d a, Vec3d b);
+
+    // The least clearance proved of all that was returned; negative: a gouge.
+    double least_clearance() const { return least_clearance_; }
+
+private:
+    void append_free_line(Vec3d a, Vec3d b, int depth, Points& out);
+    bool curve_is_free(const std::array<Vec3d, 4>& bezier, int depth, double& least) const;
+
+    const SurfaceModel& model_;
+    Tool tool_;
+    Tool lifted_;
+    PassBand band_;
+    double least_clearance_{};
+};
+
+double length_of(const Points& points);
+
+}  // namespace cusp::host

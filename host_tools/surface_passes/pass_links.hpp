@@ -1,0 +1,38 @@
+// Puts passes in an order and joins them: along the model where they are near, else over it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "host_tools/import/job.hpp"
+#include "host_tools/surface_passes/certified_pass.hpp"
+
+namespace cusp::host {
+
+// A pass as it will be written: lines through the points, or the curve where there is one.
+struct SurfacePass {
+    Points points;
+    std::optional<Curve> curve;
+};
+
+struct LinkRules {
+    double stay_down{};    // mm in plan: nearer passes are joined on the model
+    double clearance_z{};  // height of rapids
+    double plunge_from{};  // height from which the tool goes down at the plunge feed
+    bool one_way{false};
+};
+
+struct LinkedPasses {
+    std::vector<ToolMove> moves;
+    int retracts{};
+    double cut_length{};   // mm, passes
+    double link_length{};  // mm, at feed between passes
+    int points{};
+};
+
+// Nearest end first, from the first pass on; zigzag may turn passes round. O(n^2).
+LinkedPasses link_passes(std::vector<SurfacePass> passes,
+                         const LinkRules& rules,
+                         CertifiedPasses& certified);
+
+}  // namespace cusp::host

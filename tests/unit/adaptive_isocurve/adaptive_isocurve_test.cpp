@@ -1,0 +1,192 @@
+// Whole plans, judged by the certified distance of dense places of the path.
+#include "host_tools/adaptive_isocurve/adaptive_isocurve.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <random>
+#include <string>
+
+#include "CppUTest/TestHarness.h"
+
+#include "host_tools/adaptive_isocurve/parallel_planes.hpp"
+#include "host_tools/input_error/input_error.hpp"
+#include "host_tools/surface_offset/surface_model.hpp"
+#include "host_tools/toolpath/toolpath_measure.hpp"
+
+using namespace cusp;
+using namespace cusp::host;
+
+namespace {
+
+Surface bumps(std::mt19937& random, double height)
+{
+    std::uniform_real_distribution<double> z{0, height};
+    Surface s;
+    s.degree_u = s.degree_v = 3;
+    s.knots_u = s.knots_v = {0, 0, 0, 0, 1, 2, 2, 2, 2};
+    s.size_u = s.size_v = 5;
+    for (int i = 0; i < 5; ++i) {
+        for (int j = 0; j < 5; ++j) {
+            s.points.push_back({5.0 * i, 5.0 * j, z(random)});
+        }
+    }
+    s.weights.assign(25, 1.0);
+    return s;
+}
+
+Surface wall(double x, double z)
+{
+    Surface s;
+    s.degree_u = s.degree_v = 1;
+    s.knots_u = s.knots_v = {0, 0, 1, 1};
+    s.size_u = s.size_v = 2;
+    s.points = {{x, 0, -2}, {x + 1, 0, z}, {x, 20, -2}, {x + 1, 20, z}};
+    s.weights = {1, 1, 1, 1};
+    return s;
+}
+
+Job job_for(std::vector<Surface> floor, const std::string& strategy)
+{
+    Job job;
+    job.file = "job.toml";
+    job.tools = {{1, ToolShape::kBall, 2, 2}};
+    job.feed = 1000;
+    job.plunge_feed = 250;
+    job.stock_top = 20;
+    job.clearance = 5;
+    Operation operation;
+    operation.strategy = strategy;
+    operation.floor = std::move(floor);
+    operation.tool = job.tools.front();
+    operation.plan_tolerance = operation.floor_tolerance = 0.02;
+    operation.scallop = 0.2;
+    job.operations = {operation};
+    return job;
+}
+
+// The deepest cut into the model over the whole path, rapids included.
+double deepest_cut(const Toolpath& path, const std::vector<Surface>& floor)
+{
+    const SurfaceModel model{floor};
+    Vec3d at = end_of(path.moves.front());
+    double deepest = 0;
+    for (const ToolMove& move : path.moves) {
+        for (const Vec3d next : points_of(move, at, 1e-5)) {
+            const int parts = 1 + static_cast<int>(norm(next - at) / 0.3);
+            for (int k = 1; k <= parts; ++k) {
+                const Vec3d tip = at + (next - at) * (static_cast<double>(k) / parts);
+                deepest = std::max(deepest, -model.clearance(path.tool, tip, 0).distance);
+            }
+            at = next;
+        }
+    }
+    return deepest;
+}
+
+void refused(const Job& job, const char* word)
+{
+    try {
+        plan_adaptive_isocurve(job, job.operations.front());
+        FAIL("accepted");
+    } catch (const InputError& error) {
+        STRCMP_CONTAINS(word, error.what());
+    }
+}
+
+}  // namespace
+
+TEST_GROUP(AdaptiveIsocurve)
+{
+    std::mt19937 random{5};
+    std::vector<Surface> floor{bumps(random, 6), wall(9, 9)};
+    Job job = job_for(floor, "adaptive_isocurve");
+    Operation& operation = job.operations.front();
+};
+
+TEST(AdaptiveIsocurve, NeverEntersAModelOfSeveralSurfaces)
+{
+    const PlannedOperation planned = plan_adaptive_isocurve(job, operation).front();
+    DOUBLES_EQUAL(0, planned.stats.gouge_bound_mm, 1e-9);
+    CHECK(deepest_cut(planned.path, floor) <= 1e-6);
+    CHECK(planned.stats.scallop_bound_mm <= 0.2);
+}
+
+TEST(AdaptiveIsocurve, NeverEntersRandomSurfaces)
+{
+    for (unsigned seed = 100; seed < 102; ++seed) {
+        std::printf("seed %u ", seed);
+        std::mt19937 other{seed};
+        operation.floor = {bumps(other, 12)};
+        operation.direction = seed % 2 == 0 ? 'u' : 'v';
+        const PlannedOperation planned = plan_adaptive_isocurve(job, operation).front();
+        CHECK(deepest_cut(planned.path, operation.floor) <= 1e-6);
+    }
+}
+
+TEST(AdaptiveIsocurve, WritesOneNurbsForAPassThatNeverEntersTheModel)
+{
+    operation.floor.pop_back();
+    operation.output = OutputForm::kNurbs;
+    const PlannedOperation planned = plan_adaptive_isocurve(job, operation).front();
+    const MoveCounts moves = measure(planned.path, {}).moves;
+    CHECK(moves.nurbs >= planned.stats.passes - 2);
+    CHECK(deepest_cut(planned.path, operation.floor) <= 1e-6);
+}
+
+TEST(AdaptiveIsocurve, CutsNoDeeperThanHalfTheToleranceWhenBothSidesAreAllowed)
+{
+    operation.tolerance_side = ToleranceSide::kBoth;
+    const PlannedOperation planned = plan_adaptive_isocurve(job, operation).front();
+    CHECK(planned.stats.gouge_bound_mm <= 0.01 + 1e-9);
+    CHECK(deepest_cut(planned.path, floor) <= planned.stats.gouge_bound_mm + 1e-6);
+}
+
+TEST(AdaptiveIsocurve, FewerRetractsThanPassesByStayingDown)
+{
+    operation.floor.pop_back();
+    const PlannedOperation planned = plan_adaptive_isocurve(job, operation).front();
+    CHECK(planned.stats.retracts * 10 <= planned.stats.passes);
+}
+
+TEST(AdaptiveIsocurve, RetractsAfterEachPassOneWay)
+{
+    operation.floor.pop_back();
+    operation.traversal = Traversal::kOneWay;
+    const PlannedOperation planned = plan_adaptive_isocurve(job, operation).front();
+    CHECK(planned.stats.retracts >= planned.stats.passes / 2);
+}
+
+TEST(AdaptiveIsocurve, IsShorterThanParallelPlanesAtTheSameScallop)
+{
+    operation.floor.pop_back();
+    const auto isocurves = plan_adaptive_isocurve(job, operation).front();
+    const auto planes = plan_parallel_planes(job, operation).front();
+    CHECK(measure(isocurves.path, {}).cut_length_mm < measure(planes.path, {}).cut_length_mm);
+    CHECK(deepest_cut(planes.path, operation.floor) <= 1e-6);
+}
+
+TEST(AdaptiveIsocurve, RefusesAToolThatIsNoBall)
+{
+    operation.tool = {1, ToolShape::kFlat, 2, 0};
+    refused(job, "needs a ball");
+}
+
+TEST(AdaptiveIsocurve, RefusesASurfaceWithoutArea)
+{
+    for (Vec3d& p : operation.floor.front().points) {
+        p = {1, 1, 1};
+    }
+    refused(job, "degenerate");
+}
+
+TEST(AdaptiveIsocurve, RefusesAPartOverTheClearanceHeight)
+{
+    job.stock_top = 1;
+    refused(job, "clearance height");
+}
+
+TEST(AdaptiveIsocurve, RefusesToGuessASpacing)
+{
+    operation.scallop.reset();
+    refused(job, "iso_distance or scallop");
+}
