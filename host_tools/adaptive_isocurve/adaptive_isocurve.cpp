@@ -19,6 +19,8 @@ namespace cusp::host {
 namespace {
 
 constexpr int kRidgeLooks = 200;
+// Of what the scallop leaves for the ridge: the rest is for bends of passes along their way.
+constexpr double kRidgeShare = 0.99;
 constexpr int kCurvatureLooks = 60;
 
 void swap_loops(Surface& surface)
@@ -123,7 +125,7 @@ private:
     // Steps for which the ridge has the height asked for, less what the tolerance takes.
     StepDensity density() const
     {
-        const double ridge = *operation_.scallop - work_.outward();
+        const double ridge = kRidgeShare * (*operation_.scallop - work_.outward());
         const double radius = operation_.tool.radius;
         return [ridge, radius](const SurfacePoint& p) {
             const CrossSection section = cross_section_at(p);
@@ -135,7 +137,7 @@ private:
     double least_step(int surface) const
     {
         const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
-        const double ridge = *operation_.scallop - work_.outward();
+        const double ridge = kRidgeShare * (*operation_.scallop - work_.outward());
         double least = 2 * operation_.tool.radius;
         for (int i = 0; i <= kCurvatureLooks; ++i) {
             for (int j = 0; j <= kCurvatureLooks; ++j) {
@@ -162,7 +164,7 @@ private:
         }
         const SurfaceFunction at = surface_function(surface);
         const double scallop = *operation_.scallop;
-        const StripJudge judge = [&](double u, double low, double high) {
+        const StripJudge judge = [&](double u, CurvePlace low, CurvePlace high) {
             const double ridge = ridge_between(at, tool_, u, low, high);
             const double over = (ridge - tool_.outward) / (scallop - tool_.outward);
             return std::min(1.5, std::sqrt(std::max(0.0, over)));

@@ -44,6 +44,27 @@ double DomainCurve::v_at(double at) const
     return v[k] + t * (m0 + t * (3 * rise - 2 * m0 - m1 + t * (m0 + m1 - 2 * rise)));
 }
 
+std::vector<CurvePlace> places_at(const std::vector<DomainCurve>& curves, double u)
+{
+    std::vector<CurvePlace> out;
+    for (const DomainCurve& curve : curves) {
+        if (curve.u.front() > u || u > curve.u.back()) {
+            continue;
+        }
+        if (curve.u.size() == 2) {
+            out.push_back({curve.v_at(u), chord_slope(curve, 0)});
+            continue;
+        }
+        const double step = 1e-5 * (curve.u.back() - curve.u.front());
+        const double before = std::max(u - step, curve.u.front());
+        const double after = std::min(u + step, curve.u.back());
+        out.push_back({curve.v_at(u), (curve.v_at(after) - curve.v_at(before)) / (after - before)});
+    }
+    std::sort(out.begin(), out.end(),
+              [](const CurvePlace& a, const CurvePlace& b) { return a.v < b.v; });
+    return out;
+}
+
 DomainCurve isocurve(int surface, double v, double u_begin, double u_end)
 {
     return {surface, {u_begin, u_end}, {v, v}};

@@ -15,6 +15,15 @@ struct DomainCurve {
     double v_at(double at) const;
 };
 
+// A curve at some u: where it is and how it goes on.
+struct CurvePlace {
+    double v{};
+    double slope{};  // of v by u
+};
+
+// All curves that pass u, in order of v.
+std::vector<CurvePlace> places_at(const std::vector<DomainCurve>& curves, double u);
+
 DomainCurve isocurve(int surface, double v, double u_begin, double u_end);
 
 }  // namespace cusp::host

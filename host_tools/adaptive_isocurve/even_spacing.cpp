@@ -11,11 +11,14 @@ namespace {
 
 constexpr std::size_t kLeastNodes = 160;
 constexpr std::size_t kNodesInSpan = 4;
-constexpr std::size_t kMostNodes = 600;
-constexpr int kJudgeRounds = 5;
+constexpr std::size_t kMostNodes = 800;
+constexpr int kJudgeRounds = 3;
+constexpr double kNearlyRight = 1 + 1e-9;
+constexpr double kMostGrowth = 1.05;     // in a round
 constexpr std::size_t kLooksAtNode = 3;  // of u, up to the next
 constexpr double kOverlap = 0.15;        // steps: how early a pass begins, for the same reason
-constexpr double kFullStep = 0.998;      // the rest is for the interpolation between nodes
+constexpr double kLeastDensity = 1e-6;
+constexpr double kFullStep = 0.998;  // the rest is for the interpolation between nodes
 
 // All distinct knots, and equal parts between them.
 std::vector<double> nodes_of(const std::vector<double>& knots, double begin, double end)
@@ -66,13 +69,21 @@ public:
         return cubic(i, j, (at - v[j]) / h);
     }
 
-    // The v at which so many steps are passed.
+    // The v at which so many steps are passed; it may lie a little outside the surface.
     double inverse(std::size_t i, double wanted) const
     {
         const auto row = sum_.begin() + static_cast<std::ptrdiff_t>(i * v.size());
         const auto next =
             std::upper_bound(row + 1, row + static_cast<std::ptrdiff_t>(v.size()) - 1, wanted);
         const std::size_t j = static_cast<std::size_t>(next - row) - 1;
+        const std::size_t end = i * v.size() + v.size() - 1;
+        // Outside by the density at the side: passes that begin early begin there.
+        if (wanted < 0) {
+            return v.front() + wanted / std::max(kLeastDensity, density_[i * v.size()]);
+        }
+        if (wanted > sum_[end]) {
+            return v.back() + (wanted - sum_[end]) / std::max(kLeastDensity, density_[end]);
+        }
         double low = 0;
         double high = 1;
         const double rise =
@@ -105,11 +116,13 @@ public:
         return std::sqrt(std::max(0.0, g[0] * du * du + 2 * g[1] * du * dv + g[2] * dv * dv));
     }
 
-    void grow(std::size_t i, double from, double to, double factor)
+    // Everywhere alike: a place made denser alone would push all passes beyond it aside.
+    void grow(double factor)
     {
-        for (std::size_t j = cell(from); j <= cell(to) + 1; ++j) {
-            density_[i * v.size() + j] *= factor;
+        for (double& density : density_) {
+            density *= factor;
         }
+        integrate();
     }
 
     void integrate()
@@ -188,7 +201,7 @@ enum class Anchor { kSides, kMiddle };
 class Strip {
 public:
     Strip(const StepTable& table, double low, double high, Anchor anchor, int number)
-        : table_{table}, low_{low}, high_{high}, anchor_{anchor}, number_{number}
+        : table_{table}, anchor_{anchor}, number_{number}
     {
         for (std::size_t i = 0; i < table.u.size(); ++i) {
             first_.push_back(table.steps(i, low));
@@ -254,7 +267,7 @@ private:
     double v_of(std::size_t i, int side, double steps) const
     {
         const double from = first_[i] + 0.5 * (side + 1) * width_[i];
-        return std::clamp(table_.inverse(i, from + steps), low_, high_);
+        return table_.inverse(i, from + steps);
     }
 
     // One curve for each run of u over which the strip's width lies in the range.
@@ -324,8 +337,6 @@ private:
     }
 
     const StepTable& table_;
-    double low_;
-    double high_;
     Anchor anchor_;
     int number_;
     std::vector<double> first_;
@@ -385,34 +396,21 @@ std::vector<DomainCurve> curves_of(const StepTable& table, const Plan& plan, int
     return out;
 }
 
-// Grows the density where the judge asks for it; returns the largest factor asked for. Looks at the
-// nodes of u and between them.
+// The largest factor asked for, at the nodes of u and between them.
 double judge_strips(StepTable& table,
                     const std::vector<DomainCurve>& curves,
                     const StripJudge& judge)
 {
     double worst = 0;
-    std::vector<double> across;
     const std::size_t places = kLooksAtNode * (table.u.size() - 1);
     for (std::size_t place = 0; place <= places; ++place) {
         const std::size_t i = std::min(place / kLooksAtNode, table.u.size() - 2);
         const double t =
             static_cast<double>(place - i * kLooksAtNode) / static_cast<double>(kLooksAtNode);
         const double u = table.u[i] * (1 - t) + table.u[i + 1] * t;
-        across.clear();
-        for (const DomainCurve& curve : curves) {
-            if (curve.u.front() <= u && u <= curve.u.back()) {
-                across.push_back(curve.v_at(u));
-            }
-        }
-        std::sort(across.begin(), across.end());
+        const std::vector<CurvePlace> across = places_at(curves, u);
         for (std::size_t k = 1; k < across.size(); ++k) {
-            const double factor = judge(u, across[k - 1], across[k]);
-            worst = std::max(worst, factor);
-            if (factor > 1) {
-                table.grow(i, across[k - 1], across[k], 1.003 * factor);
-                table.grow(i + 1, across[k - 1], across[k], 1.003 * factor);
-            }
+            worst = std::max(worst, judge(u, across[k - 1], across[k]));
         }
     }
     return worst;
@@ -431,10 +429,10 @@ EvenSpacing even_passes(const Surface& surface,
     EvenSpacing out{curves_of(table, plan, number), 0};
     for (int round = 0; judge && round < kJudgeRounds; ++round) {
         out.worst = judge_strips(table, out.curves, judge);
-        if (out.worst <= 1) {
+        if (out.worst <= kNearlyRight) {
             break;
         }
-        table.integrate();
+        table.grow(1.002 * std::min(kMostGrowth, out.worst));
         out.curves = curves_of(table, plan, number);
     }
     return out;

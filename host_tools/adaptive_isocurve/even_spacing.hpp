@@ -14,8 +14,8 @@ namespace cusp::host {
 using StepDensity = std::function<double(const SurfacePoint&)>;
 
 // What lies between two neighbouring curves at a u, to be refused with the factor by which the
-// density there must grow; 1 or less accepts.
-using StripJudge = std::function<double(double u, double v_low, double v_high)>;
+// density must grow; 1 or less accepts.
+using StripJudge = std::function<double(double u, CurvePlace low, CurvePlace high)>;
 
 using SurfaceFunction = std::function<SurfacePoint(double u, double v)>;
 
@@ -29,7 +29,8 @@ struct EvenSpacing {
 // strip's sides are isocurves, and complete. Neighbours are at most a step apart at every u, by the
 // integral of the density over v (exact to the accuracy of a quadrature over `nodes` places).
 //
-// The judge, where given, is asked at every node of u, up to five rounds.
+// The judge, where given, is asked at every node of u and between; all grows by what it asks for
+// most, up to three rounds. `worst` says what was left.
 //
 // Why not isocurves alone: whatever their order, sets of isocurves that grow by insertion are
 // 1/ln 2 = 1.44 times as dense as needed on the average (de Bruijn & Erdos 1949), halving included.

@@ -9,17 +9,18 @@ namespace cusp::host {
 namespace {
 
 constexpr double kUnreached = std::numeric_limits<double>::infinity();
-constexpr int kTurns = 4;
+constexpr int kTurns = 8;
 
 // A ball that moves straight.
 struct Sweep {
     Vec3d centre;
     Vec3d tangent;
 
-    Sweep(const SurfacePoint& p, const RidgeTool& tool)
+    Sweep(const SurfacePoint& p, double slope, const RidgeTool& tool)
         : centre{p.point + upward_normal(p) * (tool.radius + tool.outward)},
-          tangent{p.du / std::max(1e-300, norm(p.du))}
+          tangent{p.du + p.dv * slope}
     {
+        tangent = tangent / std::max(1e-300, norm(tangent));
     }
 
     // What it leaves over the point along its normal.
@@ -41,13 +42,16 @@ struct Sweep {
 
 }  // namespace
 
-double ridge_between(
-    const SurfaceFunction& at, const RidgeTool& tool, double u, double v_low, double v_high)
+double ridge_between(const SurfaceFunction& at,
+                     const RidgeTool& tool,
+                     double u,
+                     CurvePlace low_place,
+                     CurvePlace high_place)
 {
-    const Sweep low{at(u, v_low), tool};
-    const Sweep high{at(u, v_high), tool};
-    double from = v_low;
-    double to = v_high;
+    const Sweep low{at(u, low_place.v), low_place.slope, tool};
+    const Sweep high{at(u, high_place.v), high_place.slope, tool};
+    double from = low_place.v;
+    double to = high_place.v;
     double bound = kUnreached;
     double v = 0.5 * (from + to);
     for (int turn = 0; turn < kTurns; ++turn) {
@@ -56,12 +60,12 @@ double ridge_between(
         const double by_high = high.left(p, tool.radius);
         bound = std::min(bound, std::max(by_low, by_high));
         const double excess = by_low - by_high;
-        if (excess == 0 || std::abs(excess) < 0.01 * bound) {
+        if (excess == 0 || std::abs(excess) < 0.002 * bound) {
             break;
         }
         (excess > 0 ? to : from) = v;
         // The difference is nearly linear across, and as large at the ends as the step is wide.
-        const double width = v_high - v_low;
+        const double width = high_place.v - low_place.v;
         const double scale = std::isfinite(excess) ? 2 * std::max(by_low, by_high) : kUnreached;
         const double guess = v - 0.5 * width * excess / (2 * scale);
         v = std::isfinite(guess) && guess > from && guess < to ? guess : 0.5 * (from + to);
@@ -77,16 +81,9 @@ double highest_ridge(const SurfaceFunction& at,
                      int count)
 {
     double worst = 0;
-    std::vector<double> across;
     for (int k = 0; k <= count; ++k) {
         const double u = u_begin + (u_end - u_begin) * k / count;
-        across.clear();
-        for (const DomainCurve& curve : curves) {
-            if (curve.u.front() <= u && u <= curve.u.back()) {
-                across.push_back(curve.v_at(u));
-            }
-        }
-        std::sort(across.begin(), across.end());
+        const std::vector<CurvePlace> across = places_at(curves, u);
         for (std::size_t j = 1; j < across.size(); ++j) {
             worst = std::max(worst, ridge_between(at, tool, u, across[j - 1], across[j]));
         }

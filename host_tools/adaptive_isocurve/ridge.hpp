@@ -10,12 +10,12 @@ struct RidgeTool {
     double outward{};  // mm: farthest that the path lies off the surface
 };
 
-// Height of what is left at u between passes at v_low and v_high, square to the surface; infinity
+// Height of what is left at u between two passes, square to the surface; infinity
 // where the ball of neither pass reaches. Both passes count as straight along their tangents there.
 //
 // Returns a bound: never below the ridge where the way across is shorter than the ball is wide.
 double ridge_between(
-    const SurfaceFunction& at, const RidgeTool& tool, double u, double v_low, double v_high);
+    const SurfaceFunction& at, const RidgeTool& tool, double u, CurvePlace low, CurvePlace high);
 
 // The highest ridge over all neighbours at `count` places along u.
 double highest_ridge(const SurfaceFunction& at,

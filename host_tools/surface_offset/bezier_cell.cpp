@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace cusp::host {
 namespace {
@@ -57,6 +58,53 @@ void bernstein(std::size_t degree, double s, Basis& out)
     differences(row, degree, out.first);
     raise_degree(row, degree, s);
     std::copy_n(row.begin(), degree + 1, out.value.begin());
+}
+
+// The same with the degree known to the compiler, which leaves no loop.
+template <std::size_t Count>
+struct FixedBasis {
+    std::array<double, Count> value;
+    std::array<double, Count> first;
+    std::array<double, Count> second;
+};
+
+FixedBasis<2> fixed_basis(std::integral_constant<std::size_t, 2>, double s)
+{
+    return {{1 - s, s}, {-1, 1}, {0, 0}};
+}
+
+FixedBasis<4> fixed_basis(std::integral_constant<std::size_t, 4>, double s)
+{
+    const double r = 1 - s;
+    return {{r * r * r, 3 * r * r * s, 3 * r * s * s, s * s * s},
+            {-3 * r * r, 3 * r * (r - 2 * s), 3 * s * (2 * r - s), 3 * s * s},
+            {6 * r, 6 * (s - 2 * r), 6 * (r - 2 * s), 6 * s}};
+}
+
+template <std::size_t CountS, std::size_t CountT>
+SurfacePoint polynomial_at(const Vec3d* points, double s, double t)
+{
+    const auto bs = fixed_basis(std::integral_constant<std::size_t, CountS>{}, s);
+    const auto bt = fixed_basis(std::integral_constant<std::size_t, CountT>{}, t);
+    SurfacePoint out;
+    for (std::size_t i = 0; i < CountS; ++i) {
+        Vec3d p;
+        Vec3d pt;
+        Vec3d ptt;
+        for (std::size_t j = 0; j < CountT; ++j) {
+            const Vec3d& control = points[i * CountT + j];
+            p = p + control * bt.value[j];
+            pt = pt + control * bt.first[j];
+            ptt = ptt + control * bt.second[j];
+        }
+        out.point = out.point + p * bs.value[i];
+        out.du = out.du + p * bs.first[i];
+        out.duu = out.duu + p * bs.second[i];
+        out.dv = out.dv + pt * bs.value[i];
+        out.duv = out.duv + pt * bs.first[i];
+        out.dvv = out.dvv + ptt * bs.value[i];
+    }
+    return out;
 }
 
 struct Interval {
@@ -226,6 +274,18 @@ Vec3d BezierCell::control(std::size_t i, std::size_t j) const
 }
 
 SurfacePoint BezierCell::at(double s, double t) const
+{
+    if (weights_.empty() && count_s_ == 4 && count_t_ == 4) {
+        return polynomial_at<4, 4>(points_.data(), s, t);
+    }
+    if (weights_.empty() && count_s_ == 2 && count_t_ == 2) {
+        return polynomial_at<2, 2>(points_.data(), s, t);
+    }
+    return at_any_degree(s, t);
+}
+
+// Of the degree count_s - 1 by count_t - 1.
+SurfacePoint BezierCell::at_any_degree(double s, double t) const
 {
     Basis bs;
     Basis bt;

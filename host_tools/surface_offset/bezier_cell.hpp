@@ -51,17 +51,22 @@ public:
     // Two halves across the longer side, made when first asked for.
     std::array<const BezierCell*, 2> halves() const;
 
+    // Made from a patch, not a half of another.
+    bool root() const { return root_; }
+
     enum class Trim : std::uint8_t { kUnknown, kInside, kOutside, kCut };
     Trim trim() const { return trim_; }
     void set_trim(Trim trim) const { trim_ = trim; }
 
 private:
     BezierCell() = default;
+    SurfacePoint at_any_degree(double s, double t) const;
     void find_bounds();
     Spread polynomial_spread() const;
     Spread rational_spread() const;
     Vec3d control(std::size_t i, std::size_t j) const;
 
+    bool root_{false};
     int surface_{};
     std::size_t count_s_{};
     std::size_t count_t_{};

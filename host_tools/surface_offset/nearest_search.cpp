@@ -14,6 +14,7 @@ constexpr int kNewtonSteps = 12;
 constexpr double kDistanceSlack = 2e-7;  // mm that a bound may lie below the truth
 constexpr double kDiscSlack =
     1e-5;  // the same for flat and bull tools: their distance is not strictly convex
+constexpr double kBeside = 0.01;     // mm over the nearest that still starts the next search
 constexpr double kLeastCell = 1e-7;  // mm
 
 struct Symmetric {
@@ -155,13 +156,11 @@ Step newton_step(Symmetric h, double gs, double gt, double s, double t)
     return step;
 }
 
-CellMinimum minimize(const ToolCore& core, const BezierCell& cell)
+CellMinimum minimize(const ToolCore& core, const BezierCell& cell, double s, double t)
 {
     CellMinimum best;
     best.value = kFar;
-    SurfacePoint p = cell.middle();
-    double s = 0.5;
-    double t = 0.5;
+    SurfacePoint p = s == 0.5 && t == 0.5 ? cell.middle() : cell.at(s, t);
     Step tried{0, 0};
     for (int turn = 0; turn < kNewtonSteps; ++turn) {
         const Vec3d r = core.reach(p.point);
@@ -234,6 +233,10 @@ public:
 
     NearestResult run()
     {
+        if (state_.last_cell != nullptr) {
+            first_ = state_.last_cell;
+            look_at_cell(*first_, state_.last_s, state_.last_t);
+        }
         std::array<Waiting, 128> stack;
         std::size_t count = 0;
         if (!state_.tree.nodes.empty()) {
@@ -283,7 +286,9 @@ private:
     void look_at_item(std::size_t item)
     {
         if (item < state_.cells.size()) {
-            look_at_cell(*state_.cells[item]);
+            if (state_.cells[item].get() != first_) {
+                look_at_cell(*state_.cells[item], 0.5, 0.5);
+            }
             return;
         }
         const std::size_t edge = item - state_.cells.size();
@@ -312,13 +317,13 @@ private:
     }
 
     // Depth first; depth is bounded by kLeastCell (each halving shrinks the cell).
-    void look_at_cell(const BezierCell& cell)
+    void look_at_cell(const BezierCell& cell, double s, double t)
     {
         if (oriented_distance(core_, cell) >= found_ ||
             core_.distance_to_box(cell.low(), cell.high()) >= found_ || outside_trims(cell)) {
             return;
         }
-        const CellMinimum least = minimize(core_, cell);
+        const CellMinimum least = minimize(core_, cell, s, t);
         const double distance = std::sqrt(2 * least.value);
         const double u = cell.u(least.s);
         const double v = cell.v(least.t);
@@ -333,6 +338,11 @@ private:
         if (distance - at_least <= slack_) {
             if (counts) {
                 bound_ = std::min(bound_, at_least);
+                if (cell.root() && distance < found_ + kBeside) {
+                    state_.last_cell = &cell;
+                    state_.last_s = least.s;
+                    state_.last_t = least.t;
+                }
             }
             return;
         }
@@ -346,8 +356,8 @@ private:
         const auto [a, b] = cell.halves();
         const bool a_first = core_.distance_to_box(a->low(), a->high()) <=
                              core_.distance_to_box(b->low(), b->high());
-        look_at_cell(a_first ? *a : *b);
-        look_at_cell(a_first ? *b : *a);
+        look_at_cell(a_first ? *a : *b, 0.5, 0.5);
+        look_at_cell(a_first ? *b : *a, 0.5, 0.5);
     }
 
     const SurfaceModel::State& state_;
@@ -356,6 +366,7 @@ private:
     double found_;
     double bound_;
     NearestPlace place_;
+    const BezierCell* first_{nullptr};
 };
 
 int build(BoxTree& tree,

@@ -54,6 +54,10 @@ struct SurfaceModel::State {
         std::size_t first;
     };
     std::vector<Grid> grids;
+    // The cell of the last answer: the next question is mostly beside it.
+    mutable const BezierCell* last_cell{nullptr};
+    mutable double last_s{};
+    mutable double last_t{};
 };
 
 // The lower bound of the distance from the core to the model, cut off at `limit`, and its place.

@@ -55,8 +55,8 @@ std::vector<DomainCurve> passes_within(const Surface& s, double distance)
     return even_passes(
                s, 0, [&](double u, double v) { return derivatives_at(s, u, v); },
                [&](const SurfacePoint& p) { return norm(p.dv) / distance; },
-               [&](double u, double low, double high) {
-                   return norm(point_at(s, u, high) - point_at(s, u, low)) / distance;
+               [&](double u, CurvePlace low, CurvePlace high) {
+                   return norm(point_at(s, u, high.v) - point_at(s, u, low.v)) / distance;
                })
         .curves;
 }
