@@ -33,13 +33,13 @@ public:
     //
     // Errors: 1, 2, 4 and 20 to 38 of error.hpp; docs/gcode.md says which for what.
     // Precondition: the actions of the line before have all been fetched, or discard() was called.
-    Status execute(std::string_view line, std::uint32_t number) noexcept;
+    Status execute(std::string_view text, std::uint32_t number) noexcept;
 
     // Reads the words after `$J=`: G20 G21 G53 G90 G91, axis words, F and N. Yields one Move of
     // kind kFeed and leaves the modal state alone.
     //
     // Errors: kInvalidJogCommand for another command; otherwise as execute().
-    Status execute_jog(std::string_view line, std::uint32_t number) noexcept;
+    Status execute_jog(std::string_view text, std::uint32_t number) noexcept;
 
     // The next action of the line: false, and nothing written, where there is none left.
     // Cost: bounded; a NURBS piece is the dearest.
