@@ -21,6 +21,7 @@ struct SimArguments {
     std::string settings_file;
     std::string vcd_file;
     std::string samples_file;
+    std::string script_file;
     std::string stats_file;
     std::optional<double> probe_z;
     std::uint32_t bits_per_second{0};
@@ -80,6 +81,9 @@ int run_program(const SimArguments& arguments)
     }
     options.vcd_file = arguments.vcd_file;
     options.samples_file = arguments.samples_file;
+    if (!arguments.script_file.empty()) {
+        options.script = read_script(arguments.script_file);
+    }
     options.probe_z = arguments.probe_z;
     options.bits_per_second = arguments.bits_per_second;
     const std::atomic<int>& interruptions = count_interruptions();
@@ -229,6 +233,8 @@ void add_sim_command(CLI::App& app, Work& work)
                         "Grbl settings, one $N=v a line; `cusp settings` prints the defaults");
     command->add_option("--vcd", arguments->vcd_file, "Write every step and direction edge");
     command->add_option("--samples", arguments->samples_file, "Write the set point of every ms");
+    command->add_option("--script", arguments->script_file,
+                        "Lines 'tick byte': realtime bytes and the servo ticks (ms) they come at");
     command->add_option("--stats", arguments->stats_file, "Write the figures as JSON");
     command->add_option("--probe-z", arguments->probe_z,
                         "Height of a probe plate, mm from where the machine starts");

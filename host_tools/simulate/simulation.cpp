@@ -231,6 +231,7 @@ private:
     // Sends all that can be sent now, then lets one servo tick pass.
     void step(Instruments& instruments)
     {
+        send_script();
         controller_.settle();
         sender_.listen();
         while (!sender_.waiting() && !sender_.failed() && send_next(instruments.shadow())) {
@@ -250,6 +251,15 @@ private:
         after_answer(instruments.shadow());
         if (++ticks_ % 1024 == 0) {
             report(instruments);
+        }
+    }
+
+    void send_script()
+    {
+        for (; next_byte_ < options_.script.size() && options_.script[next_byte_].tick <= ticks_;
+             ++next_byte_) {
+            const auto byte = static_cast<char>(options_.script[next_byte_].byte);
+            controller_.board().byte_link.send({&byte, 1});
         }
     }
 
@@ -296,7 +306,8 @@ private:
 
     void go_on_after_pause()
     {
-        if (machine().state() == State::kHold && machine().motion().at_rest()) {
+        const bool scripted = next_byte_ < options_.script.size();
+        if (!scripted && machine().state() == State::kHold && machine().motion().at_rest()) {
             controller_.board().byte_link.send("~");
             controller_.settle();
             sender_.listen();
@@ -353,6 +364,7 @@ private:
     bool no_more_lines_{false};
     bool done_{false};
     std::uint64_t ticks_{0};
+    std::size_t next_byte_{0};  // of the script
     std::uint64_t resting_ticks_{0};
     std::chrono::steady_clock::time_point last_report_{};
 };

@@ -24,8 +24,20 @@ struct SimulationProgress {
     double simulated_s;
 };
 
+// A realtime byte that the firmware reads before the servo tick of this number, counted from 0.
+struct ScriptedByte {
+    std::uint64_t tick;
+    std::uint8_t byte;
+};
+
+// Reads lines `tick byte`, both decimal, ticks not falling. Throws InputError.
+std::vector<ScriptedByte> read_script(const std::string& file);
+
 struct SimulationOptions {
     machine::Settings settings;
+    // While it has bytes left a hold lasts until the script's cycle start; without, it is over at
+    // once.
+    std::vector<ScriptedByte> script;
     // Files to write; empty: none.
     std::string vcd_file;
     std::string samples_file;
