@@ -316,6 +316,10 @@ void report(const Roughing& work, std::vector<PlannedOperation>& out, double sec
     const Rectangle& plan = work.stock.plan;
     const double volume = (plan.x_max - plan.x_min) * (plan.y_max - plan.y_min) *
                           (work.stock.top - work.plan.planes.back());
+    // Where no cutter clears every layer alone there is nothing to compare with.
+    const double saved = std::isfinite(work.choice.seconds_with_one)
+                             ? work.choice.seconds_with_one - work.choice.seconds
+                             : 0.0;
     for (PlannedOperation& operation : out) {
         OperationStats& stats = operation.stats;
         stats.strategy = "hull_rough";
@@ -323,20 +327,19 @@ void report(const Roughing& work, std::vector<PlannedOperation>& out, double sec
         // Hulls bound what is cut, not what is left: only the height of the stock does.
         stats.scallop_bound_mm = work.stock.top - work.plan.planes.back();
         stats.planning_s = seconds / static_cast<double>(out.size());
-        stats.counts = {
-            {"layers", static_cast<double>(work.layers())},
-            {"raw_layers", work.plan.raw_layers},
-            {"split_layers", work.plan.split_layers},
-            {"thinnest_layer_mm", thinnest},
-            {"thickest_layer_mm", thickest},
-            {"patches", static_cast<double>(work.plan.patches.size())},
-            {"boxes", static_cast<double>(work.boxes)},
-            {"islands", islands},
-            {"stock_mm3", volume},
-            {"left_under_boxes_mm3", work.left_under_boxes},
-            {"tool_changes", work.choice.changes},
-            {"seconds_saved_by_tools", work.choice.seconds_with_one - work.choice.seconds},
-            {"engagement_deg", 180}};
+        stats.counts = {{"layers", static_cast<double>(work.layers())},
+                        {"raw_layers", work.plan.raw_layers},
+                        {"split_layers", work.plan.split_layers},
+                        {"thinnest_layer_mm", thinnest},
+                        {"thickest_layer_mm", thickest},
+                        {"patches", static_cast<double>(work.plan.patches.size())},
+                        {"boxes", static_cast<double>(work.boxes)},
+                        {"islands", islands},
+                        {"stock_mm3", volume},
+                        {"left_under_boxes_mm3", work.left_under_boxes},
+                        {"tool_changes", work.choice.changes},
+                        {"seconds_saved_by_tools", saved},
+                        {"engagement_deg", 180}};
         stats.warnings.push_back(
             "the first line of a layer and the ends of islands are cut at the full width "
             "of " +

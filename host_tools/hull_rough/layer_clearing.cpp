@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "firmware/base/math.hpp"
 #include "host_tools/clearing/clearing.hpp"
 #include "host_tools/offset/edge_tree.hpp"
 
@@ -189,6 +190,15 @@ double area_of(const Region2d& region)
     return sum;
 }
 
+// Of what a cutter clears when its axis goes everywhere in the field, the part beside the stock.
+double area_outside(const Rectangle& stock, const Rectangle& field, double radius)
+{
+    const double width = field.x_max - field.x_min + 2 * radius;
+    const double depth = field.y_max - field.y_min + 2 * radius;
+    const double corners = (4 - kPi) * radius * radius;
+    return width * depth - corners - (stock.x_max - stock.x_min) * (stock.y_max - stock.y_min);
+}
+
 // Loops parallel to the outlines, in the order of the project's pockets; linked ones make one run.
 // Loops on the border of the field run outside the stock and are left out.
 std::vector<LevelRun> parallel_runs(const Region2d& region,
@@ -252,7 +262,8 @@ LayerClearing clear_layer(const std::vector<Rectangle>& boxes,
     const RegionOffset source{region};
     const Region2d centres = source.at(kept);
     out.centres = std::make_shared<RegionOffset>(centres);
-    out.cleared_area = area_of(grown(centres, radius));
+    out.cleared_area =
+        std::max(0.0, area_of(grown(centres, radius)) - area_outside(stock, field, radius));
     std::vector<Contour> outlines;
     for (const Contour& contour : centres.contours) {
         if (!on_border(contour, field)) {

@@ -27,7 +27,7 @@ struct LayerClearing {
     std::shared_ptr<RegionOffset> centres;  // the region where the axis may stand
     std::vector<LevelRun> runs;
     double length{};        // mm of cut
-    double cleared_area{};  // mm^2 of the stock's plan view, and of the margin around it
+    double cleared_area{};  // mm^2 of the stock's plan view
     int islands{};
 };
 
