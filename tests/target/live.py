@@ -76,7 +76,7 @@ def stand(port, seconds):
     deadline = time.monotonic() + seconds
     while True:
         line.send("?")
-        report = line.wait_for(r"<(\w+)[^|>]*\|MPos:([-\d.,]+)")
+        report = line.wait_for(r"<(\w+)[^|>]*\|MPos:([-\d.,]+)[|>]")
         if report.group(1) in ("Idle", "Alarm") or time.monotonic() > deadline:
             return report.group(1), report.group(2)
         time.sleep(0.2)
