@@ -1,0 +1,155 @@
+#!/usr/bin/env python3
+"""Calls cusp as a user does, mostly wrongly: each call has its exit status and its words.
+
+usage: cli_test.py CUSP
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+CUSP = str(pathlib.Path(sys.argv[1]).resolve())
+
+PLANE = {"shape": {"type": "surface", "count": 1, "data": [{
+    "degree_u": 1, "degree_v": 1, "size_u": 2, "size_v": 2,
+    "knotvector_u": [0, 0, 1, 1], "knotvector_v": [0, 0, 1, 1],
+    "control_points": {"points": [[-5, -5, -4], [-5, 45, -4], [55, -5, -4], [55, 45, -4]]}}]}}
+
+
+def square(low_x, low_y, high_x, high_y):
+    corners = [[low_x, low_y], [high_x, low_y], [high_x, high_y], [low_x, high_y], [low_x, low_y]]
+    return {"shape": {"type": "curve", "count": 1, "data": [
+        {"degree": 1, "knotvector": [0, 0, 1, 2, 3, 4, 4], "control_points": {"points": corners}}]}}
+
+
+JOB = """
+units = "mm"
+[tool]
+shape = "ball"
+diameter = 6
+[cutting]
+feed = 1000
+[stock]
+top = 0
+[[operation]]
+strategy = "contour_pocket"
+floor = "floor.json"
+boundary = "boundary.json"
+scallop = 0.2
+"""
+
+
+class Cli(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.scratch.name)
+        self.write("floor.json", json.dumps(PLANE))
+        self.write("boundary.json", json.dumps(square(0, 0, 50, 40)))
+        self.write("job.toml", JOB)
+
+    def tearDown(self):
+        self.scratch.cleanup()
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text)
+
+    def run_cusp(self, *arguments):
+        return subprocess.run([CUSP, *arguments], cwd=self.folder, text=True, timeout=300,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+
+    def expect(self, status, words, *arguments):
+        result = self.run_cusp(*arguments)
+        self.assertEqual(status, result.returncode, result.stdout)
+        self.assertIn(words, result.stdout)
+
+    def refused_plan(self, words, job=JOB):
+        self.write("job.toml", job)
+        self.expect(2, words, "plan", "job.toml", "-o", "p.ngc")
+        self.assertFalse((self.folder / "p.ngc").exists())
+
+    def test_help_and_version_are_no_errors(self):
+        self.expect(0, "Exit status", "--help")
+        self.expect(0, "scallop", "verify", "--help")
+        self.expect(0, "cusp 0", "--version")
+
+    def test_wrong_calls_have_status_2(self):
+        self.expect(2, "subcommand")
+        self.expect(2, "no command \"polish\"", "polish")
+        self.expect(2, "required", "plan", "job.toml")
+        self.expect(2, "--shine", "verify", "job.toml", "p.ngc", "--shine")
+
+    def test_plans_and_verifies_a_pocket(self):
+        self.expect(0, "wrote p.ngc", "plan", "job.toml", "-o", "p.ngc", "--stats", "plan.json")
+        stats = json.loads((self.folder / "plan.json").read_text())
+        for key in ("strategy", "passes", "levels", "cl_points", "moves", "cut_length_mm",
+                    "rapid_length_mm", "retracts", "planning_s", "gouge_bound_mm",
+                    "scallop_bound_mm", "estimated_s"):
+            self.assertIn(key, stats)
+            self.assertIn(key, stats["operations"][0])
+        program = (self.folder / "p.ngc").read_text()
+        lines = [line for line in program.splitlines() if not line.startswith("(")]
+        self.assertEqual("G17 G21 G40 G49 G54 G80 G90 G94", lines[0])
+        self.assertEqual("G0 Z5", lines[1])
+        self.assertEqual(["M5", "M30"], lines[-2:])
+        self.expect(0, "all bounds hold", "verify", "job.toml", "p.ngc", "--stats", "v.json",
+                    "--path-picture", "path.svg", "--left-picture", "left.svg")
+        figures = json.loads((self.folder / "v.json").read_text())
+        self.assertEqual(0, figures["gouge_max_mm"])
+        self.assertIn("</svg>", (self.folder / "path.svg").read_text())
+        self.assertIn("</svg>", (self.folder / "left.svg").read_text())
+
+    def test_a_lowered_program_is_found_wrong(self):
+        self.run_cusp("plan", "job.toml", "-o", "p.ngc")
+        text = (self.folder / "p.ngc").read_text()
+        self.write("low.ngc", text.replace("G90 G94\n", "G90 G94\nG92 Z0.1\n", 1))
+        self.expect(1, "broken: ", "verify", "job.toml", "low.ngc")
+
+    def test_files_that_are_missing_or_broken(self):
+        self.expect(2, "none.ngc", "verify", "job.toml", "none.ngc")
+        self.expect(2, "nowhere.toml", "plan", "nowhere.toml", "-o", "p.ngc")
+        self.refused_plan("gone.json", JOB.replace("floor.json", "gone.json"))
+        self.refused_plan("not TOML", JOB + "[[[")
+        self.write("floor.json", "{")
+        self.refused_plan("floor.json: not JSON")
+        self.write("floor.json", "\x00\xff" * 50)
+        self.refused_plan("floor.json: not JSON")
+        self.refused_plan("floor.obj", JOB.replace("floor.json", "floor.obj"))
+
+    def test_an_output_that_cannot_be_written(self):
+        self.expect(2, "can't be written", "plan", "job.toml", "-o", "no/such/folder/p.ngc")
+
+    def test_loops_that_bound_nothing(self):
+        broken = square(0, 0, 50, 40)
+        broken["shape"]["data"][0]["control_points"]["points"][-1] = [0, 5]
+        self.write("boundary.json", json.dumps(broken))
+        self.refused_plan("open")
+
+    def test_an_island_outside_the_boundary(self):
+        self.write("island.json", json.dumps(square(80, 80, 90, 90)))
+        self.refused_plan("outside the boundary", JOB + 'islands = ["island.json"]\n')
+
+    def test_a_tool_too_large_for_the_pocket(self):
+        self.refused_plan("fits nowhere", JOB.replace("diameter = 6", "diameter = 60"))
+
+    def test_keys_and_numbers_out_of_range(self):
+        self.refused_plan("nearest known one is scallop", JOB + "skallop = 1\n")
+        self.refused_plan("feed: is -1000", JOB.replace("feed = 1000", "feed = -1000"))
+        self.refused_plan("known are", JOB.replace("contour_pocket", "contur_pocket"))
+
+    def test_programs_that_cannot_be_run(self):
+        for name, text, words in (
+                ("unknown.ngc", "G0 X1\nG77 X2\n", "unknown.ngc:2"),
+                ("arc.ngc", "G0 X0 Y0\nG2 X10 Y0 I9 J3 F100\n", "arc.ngc:2"),
+                ("number.ngc", "G0 X99999999999999\n", "number.ngc:1"),
+                ("feed.ngc", "G1 X1\n", "feed.ngc:1"),
+                ("curve.ngc", "F100\nG6.2 P3 K0 X0 Y0\nK0 X1 Y1\n", "curve.ngc"),
+                ("tool.ngc", "T9\nG0 Z-1\n", "T9"),
+                ("empty.ngc", "", "no move")):
+            self.write(name, text)
+            self.expect(2, words, "verify", "job.toml", name)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
