@@ -51,6 +51,10 @@ int run(int argc, char** argv)
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
+        if (argc > 1 && argv[1][0] != '-' && app.get_subcommands().empty()) {
+            std::fprintf(stderr, "cusp: no command \"%s\"; see cusp --help\n", argv[1]);
+            return kCannotUse;
+        }
         return app.exit(error) == 0 ? kDone : kCannotUse;
     }
     return work();
