@@ -125,7 +125,8 @@ Settings read_settings_file(const std::string& file)
     }
     if (const auto fault = settings.find_fault()) {
         std::uint64_t line = 0;
-        for (const std::uint16_t number : {fault->first, fault->second}) {
+        // $0 says how close steps may come.
+        for (const std::uint16_t number : {fault->first, fault->second, std::uint16_t{0}}) {
             const auto found = lines.find(number);
             line = found == lines.end() ? line : std::max(line, found->second);
         }

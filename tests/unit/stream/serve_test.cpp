@@ -1,0 +1,108 @@
+// A streamer and a virtual controller, over a pseudo-terminal, on clean and on bad lines.
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "CppUTest/TestHarness.h"
+
+#include "host_tools/simulate/virtual_controller.hpp"
+#include "host_tools/stream/streamer.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace {
+
+using namespace cusp;
+
+struct QuietWatcher : host::StreamWatcher {
+    void progress(const host::StreamProgress&) override {}
+    void notice(const std::string&) override {}
+    host::StreamKey key() override { return host::StreamKey::kNone; }
+};
+
+}  // namespace
+
+TEST_GROUP(Serve)
+{
+    test::TemporaryFolder folder;
+    host::ServeOptions serve_options;
+    host::StreamOptions options;
+    std::atomic<int> serve_stop{0};
+    std::atomic<int> stream_stop{0};
+
+    host::StreamReport stream(const std::string& text)
+    {
+        serve_options.pty_link = folder.file("port");
+        std::thread server{[this] {
+            host::serve(serve_options, serve_stop);
+        }};
+        while (!std::filesystem::exists(serve_options.pty_link)) {
+            std::this_thread::sleep_for(std::chrono::milliseconds{1});
+        }
+        host::StreamReport report;
+        {
+            const auto transport = host::open_transport(serve_options.pty_link, 0);
+            QuietWatcher watcher;
+            host::ProgramLines program{folder.with("part.ngc", text)};
+            report = host::Streamer{*transport, watcher, options}.run(program, stream_stop);
+        }
+        serve_stop = 1;
+        server.join();
+        serve_stop = 0;
+        return report;
+    }
+    static std::string zigzag(int lines)
+    {
+        std::string text = "G21 G90 G64\n";
+        for (int i = 0; i < lines; ++i) {
+            text += "G1 X" + std::to_string(i % 7) + " Y" + std::to_string(i % 3) + " F6000\n";
+        }
+        return text + "G1 X0.5 Y0.25\n";
+    }
+};
+
+TEST(Serve, TakesAProgramToItsEnd)
+{
+    const host::StreamReport report = stream(zigzag(20));
+    STRCMP_EQUAL("", report.text.c_str());
+    LONGS_EQUAL(host::StreamOutcome::kDone, report.outcome);
+    LONGS_EQUAL(22, report.progress.lines_answered);
+    DOUBLES_EQUAL(0.5, report.progress.status.machine_position->x, 1e-9);
+}
+
+TEST(Serve, StopsTheStreamerAtABadLine)
+{
+    const host::StreamReport report = stream("G21\nG1 X1 F1000\nG1 X2 Q1 B5\nG1 X50\n");
+    LONGS_EQUAL(host::StreamOutcome::kError, report.outcome);
+    CHECK(report.text.find("part.ngc:3: error:") != std::string::npos);
+}
+
+TEST(Serve, RunsEachCheckedLineOnceOnALineThatDamagesBytes)
+{
+    options.checked = true;
+    options.silence_limit = std::chrono::milliseconds{20'000};
+    serve_options.faults.noise = 0.002;
+    serve_options.faults.loss = 0.001;
+    serve_options.faults.doubling = 0.001;
+    serve_options.seed = 11;
+    const host::StreamReport report = stream(zigzag(60));
+    STRCMP_EQUAL("", report.text.c_str());
+    LONGS_EQUAL(host::StreamOutcome::kDone, report.outcome);
+    LONGS_EQUAL(62, report.progress.lines_answered);
+    CHECK(report.progress.lines_resent > 0);
+    DOUBLES_EQUAL(0.25, report.progress.status.machine_position->y, 1e-9);
+}
+
+TEST(Serve, KeepsSettingsInItsFile)
+{
+    serve_options.settings_file = folder.file("mill.txt");
+    LONGS_EQUAL(host::StreamOutcome::kDone, stream("$110=4321\n").outcome);
+    CHECK(folder.text_of("mill.txt").find("$110=4321.000\n") != std::string::npos);
+    std::filesystem::remove(folder.file("mill.txt"));
+    LONGS_EQUAL(host::StreamOutcome::kDone, stream("G4 P0.01\n").outcome);
+    CHECK(folder.text_of("mill.txt").find("$110=4321.000\n") != std::string::npos);
+}
