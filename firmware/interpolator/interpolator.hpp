@@ -48,6 +48,14 @@ public:
 
     Position position() const noexcept { return position_; }
 
+    // Path ahead of the servo that it may already follow, mm: where this is short and nothing is to
+    // come, the planner should be closed. Context: main loop.
+    float path_ahead() const noexcept
+    {
+        return static_cast<float>(queue_.published_length() - servo_.travelled()) * 256.0F /
+               kPathUnitsPerMillimetre;
+    }
+
 private:
     static constexpr std::uint32_t kMaxAxisFilter = 12;
 

@@ -40,6 +40,7 @@ void PathServo::reset(std::uint32_t filter) noexcept
     look_out_ = LookOut{};
     offset_ = 0;
     position_ = 0;
+    travelled_.store(0, std::memory_order_relaxed);
     speed_ = 0;
     residue_ = 0;
     last_step_ = 0;
@@ -197,6 +198,7 @@ std::int32_t PathServo::advance(float speed) noexcept
     }
     offset_ += step;
     position_ += step;
+    travelled_.store(static_cast<std::uint32_t>(position_ >> 8U), std::memory_order_relaxed);
     return static_cast<std::int32_t>(step);
 }
 

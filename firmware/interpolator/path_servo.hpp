@@ -2,6 +2,7 @@
 // acceleration allow. Its output still jumps in acceleration; the path filter makes that jerk.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 
 #include "firmware/interpolator/box_filter.hpp"
@@ -22,6 +23,9 @@ public:
     //   factors   of squared speeds, by the overrides; {0, 0} holds.
     //   drained   whether the tool stands where the servo does, with all filters empty.
     std::int32_t tick(const OverrideFactors& factors, bool drained) noexcept;
+
+    // How far it has come since the reset, in units of 256 path units; wraps. Context: any.
+    std::uint32_t travelled() const noexcept { return travelled_.load(std::memory_order_relaxed); }
 
     bool standing() const noexcept { return speed_ == 0; }
 
@@ -46,6 +50,7 @@ private:
     float speed_{0};             // mm/s
     float residue_{0};           // path units not yet travelled, in [0, 1)
     std::int32_t last_step_{0};
+    std::atomic<std::uint32_t> travelled_{0};
 };
 
 }  // namespace cusp::interpolator

@@ -5,24 +5,6 @@
 #include <cmath>
 
 namespace cusp::machine {
-namespace {
-
-// Length of a move, within a few per cent: enough to know when the path runs out.
-float rough_length(const path::Move& move) noexcept
-{
-    if (const auto* arc = std::get_if<path::Arc>(&move.path)) {
-        return static_cast<float>(arc->radius) * static_cast<float>(arc->sweep);
-    }
-    const Position difference = move.end - move.start;
-    constexpr float kMillimetre = 1e-6F;  // of a nanometre
-    const Vec3f chord{static_cast<float>(difference.x) * kMillimetre,
-                      static_cast<float>(difference.y) * kMillimetre,
-                      static_cast<float>(difference.z) * kMillimetre};
-    return norm(chord);
-}
-
-}  // namespace
-
 Motion::Motion(const Settings& settings) noexcept
     : planner_{settings.limits()}, pulses_{settings.steps()}
 {
@@ -56,7 +38,6 @@ void Motion::configure(const Settings& settings) noexcept
 void Motion::push(const path::Move& move) noexcept
 {
     planner_.push(move);
-    pushed_ += static_cast<std::uint32_t>(rough_length(move) * kTravelUnitsPerMillimetre);
     last_push_tick_ = ticks();
     open_ = true;
 }
@@ -71,11 +52,7 @@ void Motion::close() noexcept
 
 void Motion::work(bool more_waits) noexcept
 {
-    if (planner_.empty()) {
-        if (interpolator_.at_rest()) {
-            pushed_ = travelled_.load(std::memory_order_relaxed);
-        }
-    } else {
+    if (!planner_.empty()) {
         (void)planner_.has_room();
     }
     // A sender that waits for each answer needs a moment to send the next line.
@@ -86,9 +63,7 @@ void Motion::work(bool more_waits) noexcept
     const float v = speed();
     const float braking =
         v * (0.05F + 2.0F * path_filter_s_) + v * v / (2.0F * least_acceleration_);
-    const std::uint32_t units = pushed_ - travelled_.load(std::memory_order_relaxed);
-    const float left =
-        static_cast<float>(static_cast<std::int32_t>(units)) / kTravelUnitsPerMillimetre;
+    const float left = interpolator_.path_ahead();
     if (interpolator_.at_rest() || left < braking) {
         close();
     }
@@ -158,11 +133,6 @@ void Motion::tick(std::uint16_t raw_inputs, PulseFrame& frame) noexcept
         sample(raw_inputs);
         if (!limit_hit_.load(std::memory_order_relaxed)) {
             set_point_ = interpolator_.tick();
-            travel_remainder_ += interpolator_.speed() * kServoTick * kTravelUnitsPerMillimetre;
-            const auto units = static_cast<std::uint32_t>(travel_remainder_);
-            travel_remainder_ -= static_cast<float>(units);
-            travelled_.store(travelled_.load(std::memory_order_relaxed) + units,
-                             std::memory_order_relaxed);
         }
     }
     for (std::size_t i = kPlayedBehind; i > 0; --i) {

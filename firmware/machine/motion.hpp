@@ -113,12 +113,6 @@ private:
     std::atomic<bool> gate_shut_{false};
     std::atomic<std::uint32_t> ticks_{0};
 
-    // What was pushed and what of it is travelled, in sixteenths of a micrometre, wrapping: their
-    // difference tells when the path runs out. Integers, since a program may be kilometres long.
-    static constexpr float kTravelUnitsPerMillimetre = 16000.0F;
-    std::uint32_t pushed_{0};
-    std::atomic<std::uint32_t> travelled_{0};
-    float travel_remainder_{0};
     float least_acceleration_{1};
     float path_filter_s_{0};
     std::uint32_t last_push_tick_{0};

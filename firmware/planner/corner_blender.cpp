@@ -54,14 +54,37 @@ void CornerBlender::add(const path::Move& move) noexcept
     held_.reset();
     if (may_blend(next)) {
         held_ = next;
+        release_front(*held_);
     } else {
-        StaticVector<path::Move, 3> shifted;
+        StaticVector<path::Move, 4> shifted;
         (void)shifted.try_push_back(next);
         for (const path::Move& made : made_) {
             (void)shifted.try_push_back(made);
         }
         made_ = shifted;
     }
+}
+
+// Lets all of a long line go but the end that a blend may need, so that the tool need not slow down
+// while the next move is not known.
+void CornerBlender::release_front(path::Move& line) noexcept
+{
+    const Vec3d along = to_millimetres(line.end - line.start);
+    const double length = norm(along);
+    const double kept =
+        2.0 * static_cast<double>(kShareOfTolerance * line.tolerance) / (kApex * kLeastTurn);
+    if (length < 2.0 * kept) {
+        return;
+    }
+    path::Move front = line;
+    front.end = line.end + to_position(along * (-kept / length));
+    line.start = front.end;
+    StaticVector<path::Move, 4> made;
+    (void)made.try_push_back(front);
+    for (const path::Move& move : made_) {
+        (void)made.try_push_back(move);
+    }
+    made_ = made;
 }
 
 // Compares the time over the blend, and over the travel to which its speed is spread, with that of

@@ -39,12 +39,13 @@ public:
 
 private:
     bool faster_than_stop(const path::BezierPiece& piece, float reach, float feed) const noexcept;
+    void release_front(path::Move& line) noexcept;
     bool blend(path::Move& before, path::Move& after) noexcept;
 
     MachineLimits limits_{};
     float filter_s_{1};
     std::optional<path::Move> held_;
-    StaticVector<path::Move, 3> made_;  // last first
+    StaticVector<path::Move, 4> made_;  // last first
 };
 
 }  // namespace cusp::planner

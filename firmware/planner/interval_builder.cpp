@@ -218,6 +218,7 @@ void IntervalBuilder::publish_to(std::uint32_t end) noexcept
         interval.limit.u0 *= interval.scale0;
         interval.limit.u1 *= interval.scale1;
         pending_time_ -= interval.least_time;
+        queue_.add_published_length(interval.length);
     }
     queue_.publish(end);
 }

@@ -40,6 +40,7 @@ void PathQueue::clear() noexcept
     store(published_, 0);
     store(changed_from_, 0);
     interval_end_ = 0;
+    published_length_ = 0;
 }
 
 }  // namespace cusp::planner

@@ -77,6 +77,16 @@ public:
         return curve;
     }
 
+    // Length of all that was published since clear(), in units of 256 path units; wraps after 68 m.
+    std::uint32_t published_length() const noexcept
+    {
+        return static_cast<std::uint32_t>(published_length_ >> 8U);
+    }
+    void add_published_length(std::uint32_t path_units) noexcept
+    {
+        published_length_ += path_units;
+    }
+
     // No interval's envelope is steeper, mm/s^2. Set before the first move.
     float steepest_slope() const noexcept { return steepest_slope_; }
     void set_steepest_slope(float slope) noexcept { steepest_slope_ = slope; }
@@ -138,6 +148,7 @@ private:
     Counter published_{0};
     Counter changed_from_{0};
     std::uint32_t interval_end_{0};
+    std::uint64_t published_length_{0};
     float steepest_slope_{0};
 };
 
