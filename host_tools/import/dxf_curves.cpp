@@ -287,9 +287,8 @@ void DxfReader::add_spline(const Entity& entity)
 void DxfReader::add(const Entity& entity)
 {
     // what draws no outline
-    static const std::array<std::string_view, 10> kSkipped{"TEXT",  "MTEXT",  "DIMENSION", "HATCH",
-                                                           "POINT", "LEADER", "VIEWPORT",  "ATTDEF",
-                                                           "IMAGE", "INSERT"};
+    static const std::array<std::string_view, 9> kSkipped{
+        "TEXT", "MTEXT", "DIMENSION", "HATCH", "POINT", "LEADER", "VIEWPORT", "ATTDEF", "IMAGE"};
     if (entity.type == "LINE") {
         add_line(entity);
     } else if (entity.type == "ARC" || entity.type == "CIRCLE") {
