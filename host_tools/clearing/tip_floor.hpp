@@ -40,7 +40,7 @@ public:
     // margin (mm, >= 0): how far beside the straight line the tool may really be.
     double gap(Vec3d a, Vec3d b, double margin = 0.0) const;
 
-    // True where some surface point lies straight above or below (x, y).
+    // True where some surface lies straight above or below (x, y), to a tenth of the tool radius.
     bool covers(Vec2d at) const;
 
     // Normal curvature of the surface at its point nearest below the contact of the tool at `at`,

@@ -193,7 +193,8 @@ private:
         settings.laying.cushion = budget_.accuracy;
         settings.laying.spacing =
             std::clamp(std::sqrt(3.0 * radius * budget_.above), 0.05 * radius, radius);
-        settings.laying.arcs = operation_.output == OutputForm::kArcs;
+        settings.laying.arcs = operation_.output != OutputForm::kLines;
+        settings.laying.nurbs = operation_.output == OutputForm::kNurbs;
         settings.entry = operation_.entry;
         settings.first = budget_.first;
         const double top = job_.stock_top;

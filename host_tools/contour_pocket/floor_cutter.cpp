@@ -14,6 +14,9 @@ double lowest_of(const FloorPath& path)
     double lowest = path.start.z;
     for (const FloorMove& move : path.moves) {
         lowest = std::min(lowest, move.end.z);
+        for (const Vec3d p : move.curve.points) {
+            lowest = std::min(lowest, p.z);
+        }
     }
     return lowest;
 }
@@ -37,7 +40,7 @@ void FloorCutter::enter(const ClearingPass& pass, const CutSettings& settings)
     const bool helix =
         settings.entry == EntryKind::kHelix || (settings.entry == EntryKind::kAuto && short_pass);
     FloorPathSettings laying = settings.laying;
-    laying.arcs = false;
+    laying.arcs = laying.nurbs = false;
     const FloorPath path = laid(pass.path, laying);
     const EntryHeights heights = settings.entry_heights(path.start.z);
     if (helix && radius > 0.2 * tool) {
@@ -63,7 +66,9 @@ void FloorCutter::cut(const ClearedRegion& cleared, const CutSettings& settings)
         const bool beside =
             distance(pass.link.empty() ? Vec2d{} : pass.link.front().start, last) < 1e-6;
         if (pass.start == PassStart::kLink && cut_before && beside) {
-            const FloorPath link = laid(pass.link, settings.laying);
+            FloorPathSettings linking = settings.laying;
+            linking.nurbs = false;
+            const FloorPath link = laid(pass.link, linking);
             least_gap_ = std::min(least_gap_, link.least_gap);
             moves_.link(link);
         } else {

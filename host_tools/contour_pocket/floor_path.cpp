@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/contour_pocket/nurbs_fit.hpp"
 #include "host_tools/contour_pocket/tolerance_chain.hpp"
 
 namespace cusp::host {
@@ -18,11 +19,16 @@ Vec3d written(Vec3d p)
     return {to_step(p.x), to_step(p.y), std::ceil(p.z / kWrittenStep - 1e-6) * kWrittenStep};
 }
 
-std::vector<Vec2d> stations_in_plan(const std::vector<Edge>& plan,
-                                    const FloorPathSettings& settings)
+struct PlanStations {
+    std::vector<Vec2d> points;
+    std::vector<std::size_t> corners;  // first and last included
+};
+
+PlanStations stations_in_plan(const std::vector<Edge>& plan, const FloorPathSettings& settings)
 {
-    std::vector<Vec2d> points{plan.front().start};
-    for (const Edge& edge : plan) {
+    PlanStations stations{{plan.front().start}, {0}};
+    for (std::size_t e = 0; e < plan.size(); ++e) {
+        const Edge& edge = plan[e];
         double spacing = settings.spacing;
         if (edge.turn != 0) {
             // Chords of the arc keep within an eighth of what is allowed.
@@ -30,10 +36,16 @@ std::vector<Vec2d> stations_in_plan(const std::vector<Edge>& plan,
         }
         const int n = std::max(1, static_cast<int>(std::ceil(length(edge) / spacing)));
         for (int i = 1; i <= n; ++i) {
-            points.push_back(i == n ? edge.end : point_on(edge, static_cast<double>(i) / n));
+            stations.points.push_back(i == n ? edge.end
+                                             : point_on(edge, static_cast<double>(i) / n));
+        }
+        constexpr double kSmooth = 0.999;  // cosine of 2.6 degrees
+        const bool last = e + 1 == plan.size();
+        if (last || dot(tangent_at_end(edge), tangent_at_start(plan[e + 1])) < kSmooth) {
+            stations.corners.push_back(stations.points.size() - 1);
         }
     }
-    return points;
+    return stations;
 }
 
 // Chords of a move, each with how far the move itself may lie from it.
@@ -42,8 +54,33 @@ struct Chords {
     double sagitta;
 };
 
+// The second derivative of a cubic changes evenly between knots, so its largest value stands at
+// one.
+Chords chords_of(const Curve& curve, double fine)
+{
+    Chords chords{{point_at(curve, curve.domain_begin())}, fine};
+    for (std::size_t k = 3; k < curve.points.size(); ++k) {
+        const double u = curve.knots[k];
+        const double width = curve.knots[k + 1] - u;
+        if (width <= 0.0) {
+            continue;
+        }
+        const double inside = 1e-9 * width;
+        const double bend = std::max(norm(derivatives_at(curve, u + inside).second),
+                                     norm(derivatives_at(curve, u + width - inside).second));
+        const int n = 1 + static_cast<int>(width * std::sqrt(bend / (8.0 * fine)));
+        for (int i = 1; i <= n; ++i) {
+            chords.points.push_back(point_at(curve, u + width * i / n));
+        }
+    }
+    return chords;
+}
+
 Chords chords_of(Vec3d start, const FloorMove& move, double fine)
 {
+    if (!move.curve.points.empty()) {
+        return chords_of(move.curve, fine);
+    }
     if (move.turn == 0) {
         return {{start, move.end}, 0.0};
     }
@@ -99,6 +136,62 @@ void certify(FloorPath& path, const TipFloor& floor, const FloorPathSettings& se
     }
 }
 
+// A path of curves is raised as a whole: its pieces share their ends.
+void certify_curves(FloorPath& path, const TipFloor& floor, const FloorPathSettings& settings)
+{
+    constexpr int kRounds = 8;
+    const double fine = std::max(0.5 * settings.cushion, kWrittenStep);
+    for (int round = 0; round < kRounds; ++round) {
+        path.least_gap = 0.0;
+        Vec3d start = path.start;
+        for (const FloorMove& move : path.moves) {
+            path.least_gap = std::min(path.least_gap, gap_of(start, move, floor, fine));
+            start = move.end;
+        }
+        if (!settings.lift || path.least_gap >= 0.0) {
+            return;
+        }
+        const Vec3d raise{0.0, 0.0, kWrittenStep + 1.5 * -path.least_gap};
+        path.start = written(path.start + raise);
+        for (FloorMove& move : path.moves) {
+            move.end = written(move.end + raise);
+            for (Vec3d& p : move.curve.points) {
+                p = written(p + raise);
+            }
+        }
+    }
+}
+
+// The chain with a curve, or lines where none fits, from corner to corner.
+Chain curves_through(const std::vector<Station>& stations,
+                     const std::vector<std::size_t>& corners,
+                     double aside,
+                     double low,
+                     double high)
+{
+    Chain chain;
+    const auto tip = [&](const Station& s) {
+        return Vec3d{s.at.x, s.at.y, s.height + 0.5 * (low + high)};
+    };
+    chain.start = tip(stations.front());
+    for (std::size_t c = 1; c < corners.size(); ++c) {
+        const std::vector<Station> run(
+            stations.begin() + static_cast<std::ptrdiff_t>(corners[c - 1]),
+            stations.begin() + static_cast<std::ptrdiff_t>(corners[c] + 1));
+        if (auto curve = fit_cubic(run, aside, low, high)) {
+            for (Vec3d& p : curve->points) {
+                p = written(p);
+            }
+            chain.moves.push_back({tip(run.back()), {}, 0, std::move(*curve)});
+            continue;
+        }
+        const Chain lines = chain_through(run, aside, low, high, false, false);
+        chain.moves.insert(chain.moves.end(), lines.moves.begin(), lines.moves.end());
+        chain.moves.back().end = tip(run.back());
+    }
+    return chain;
+}
+
 }  // namespace
 
 FloorPath lay_on_floor(const std::vector<Edge>& plan,
@@ -107,7 +200,8 @@ FloorPath lay_on_floor(const std::vector<Edge>& plan,
 {
     FloorPath path;
     std::vector<Station> stations;
-    for (const Vec2d at : stations_in_plan(plan, settings)) {
+    const PlanStations in_plan = stations_in_plan(plan, settings);
+    for (const Vec2d at : in_plan.points) {
         const TipFloor::Rest rest = floor.drop(at);
         if (rest.height == TipFloor::kNothing) {
             path.over_floor = false;
@@ -123,8 +217,11 @@ FloorPath lay_on_floor(const std::vector<Edge>& plan,
     constexpr double kUsed = 0.95;
     constexpr double kUsedAside = 0.86;
     const double low = settings.lift ? settings.cushion : -kUsed * settings.above;
-    const Chain chain = chain_through(stations, kUsedAside * settings.aside, low,
-                                      kUsed * settings.above, settings.arcs, closed);
+    const double aside = kUsedAside * settings.aside;
+    const double high = kUsed * settings.above;
+    const Chain chain = settings.nurbs
+                            ? curves_through(stations, in_plan.corners, aside, low, high)
+                            : chain_through(stations, aside, low, high, settings.arcs, closed);
     path.start = written(chain.start);
     path.moves = chain.moves;
     for (FloorMove& move : path.moves) {
@@ -133,7 +230,11 @@ FloorPath lay_on_floor(const std::vector<Edge>& plan,
     if (closed && !path.moves.empty()) {
         path.moves.back().end = path.start;
     }
-    certify(path, floor, settings, closed);
+    if (settings.nurbs) {
+        certify_curves(path, floor, settings);
+    } else {
+        certify(path, floor, settings, closed);
+    }
     return path;
 }
 

@@ -15,6 +15,7 @@ struct FloorPathSettings {
     double above{};        // mm: width of the band above the floor that moves stay in
     bool lift{true};       // false: moves stay within `above` on either side of the floor
     bool arcs{false};      // true: helical arcs in plan where they reach farther than a line
+    bool nurbs{false};     // true: cubic B-splines between corners, lines where none fits
     double cushion{};      // mm: kept off the floor, so that certifying a move needs no finer floor
     double raise{};        // mm: metal left over the floor, measured along the axis
     double level{-1e300};  // mm: the tip stays at or above this z
@@ -22,10 +23,12 @@ struct FloorPathSettings {
 };
 
 // One move; turn 0: straight. An arc rises evenly with its angle and sweeps less than half a turn.
+// Where the curve has points, it is the move.
 struct FloorMove {
     Vec3d end;
     Vec2d centre{};
     int turn{};
+    Curve curve{};
 };
 
 struct FloorPath {

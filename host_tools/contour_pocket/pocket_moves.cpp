@@ -93,6 +93,12 @@ void PocketMoves::follow(MoveKind kind, const FloorPath& path)
 {
     line(kind, path.start);
     for (const FloorMove& move : path.moves) {
+        if (!move.curve.points.empty()) {
+            moves_.push_back({kind, NurbsTo{move.curve}});
+            at_ = move.end;
+            points_ += kind == MoveKind::kCut ? static_cast<int>(move.curve.points.size()) - 1 : 0;
+            continue;
+        }
         if (move.turn == 0) {
             line(kind, move.end);
             continue;

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "host_tools/contour_pocket/floor_path.hpp"
+#include "host_tools/contour_pocket/nurbs_fit.hpp"
 #include "host_tools/offset/contour_fit.hpp"
 #include "host_tools/offset/region_check.hpp"
 
@@ -65,6 +66,11 @@ Budget make_budget(const Job& job, const Operation& operation)
     }
     if (!operation.scallop) {
         throw InputError(job.file + ": contour_pocket: scallop is missing");
+    }
+    if (operation.output == OutputForm::kNurbs && !nurbs_fit_available()) {
+        throw InputError(job.file +
+                         ": contour_pocket: output \"nurbs\" needs a build with Eigen "
+                         "(libeigen3-dev, CUSP_EIGEN), which this is not");
     }
     check_range(job, "plan_tolerance", operation.plan_tolerance, radius);
     check_range(job, "floor_tolerance", operation.floor_tolerance, radius);
