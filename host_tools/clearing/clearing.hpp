@@ -4,7 +4,8 @@
 // Loops lie at growing distances from the contours. They form trees (a loop's child is the next one
 // inside it), which are cut deepest first, so that the tool works from the inside towards the walls
 // and each loop but the deepest of a branch starts beside metal already cut. Rings around islands
-// that have not met the boundary yet are cut first (Suh & Lee 1990, 2.6).
+// that have not met the boundary yet are cut first (Suh & Lee 1990, "Determination of cutting
+// order").
 #pragma once
 
 #include <functional>
