@@ -53,7 +53,8 @@ void Motion::close() noexcept
 void Motion::work(bool more_waits) noexcept
 {
     if (!planner_.empty()) {
-        (void)planner_.has_room();
+        const bool late = open_ && !more_waits && ticks() != last_push_tick_;
+        late ? planner_.hurry() : static_cast<void>(planner_.has_room());
     }
     // A sender that waits for each answer needs a moment to send the next line.
     constexpr std::uint32_t kPatienceTicks = 5;

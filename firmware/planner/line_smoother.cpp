@@ -215,8 +215,9 @@ path::Move LineSmoother::as_move(const Arc& arc, Position end) const noexcept
     return move;
 }
 
-bool LineSmoother::next(bool ending, path::Move& piece) noexcept
+bool LineSmoother::next(Patience patience, path::Move& piece) noexcept
 {
+    const bool ending = patience == Patience::kNone;
     if (has_second_) {
         piece = second_;
         at_ = piece.end;
@@ -224,7 +225,8 @@ bool LineSmoother::next(bool ending, path::Move& piece) noexcept
         return true;
     }
     const std::size_t lines = vertices_.empty() ? 0 : vertices_.size() - 1;
-    if (lines == 0 || (!ending && !vertices_.full())) {
+    const bool waits = patience == Patience::kShort ? lines <= kBeyond : !vertices_.full();
+    if (lines == 0 || (!ending && waits)) {
         if (ending) {
             vertices_.clear();
         }

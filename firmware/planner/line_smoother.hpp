@@ -34,12 +34,17 @@ public:
     // Precondition: accepts(move), continues(move), !full().
     void add(const path::Move& move) noexcept;
 
-    // The next piece of the curve. Without `ending`, only once the vertices after it are known.
-    //
-    //   ending  the run ends with its last vertex.
+    // How long next() may wait for more vertices: the longer, the longer the arcs.
+    enum class Patience : std::uint8_t {
+        kFull,   // until the vertices fill the memory
+        kShort,  // the tool comes near: take what is known, but for what the tangents need
+        kNone,   // the run ends with its last vertex
+    };
+
+    // The next piece of the curve.
     //
     // Returns false where more vertices are needed, or none is left.
-    bool next(bool ending, path::Move& piece) noexcept;
+    bool next(Patience patience, path::Move& piece) noexcept;
 
     void clear() noexcept;
 

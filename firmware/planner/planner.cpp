@@ -111,6 +111,13 @@ void Planner::close() noexcept
     work();
 }
 
+void Planner::hurry() noexcept
+{
+    hurried_ = path_is_short();
+    work();
+    hurried_ = false;
+}
+
 bool Planner::empty() const noexcept
 {
     return maker_.done() && !waiting_ && smoother_.empty() && blender_.empty() &&
@@ -123,10 +130,27 @@ void Planner::start(const path::Move& move) noexcept
     maker_.start(move, filter_for(move.tolerance).filter);
 }
 
+// Whether the published path could be over in a tenth of a second.
+bool Planner::path_is_short() const noexcept
+{
+    constexpr std::uint32_t kShort = 1'000'000;  // units of 0.1 us
+    std::uint32_t time = 0;
+    for (std::uint32_t i = queue_.interval_begin(); i != queue_.published(); ++i) {
+        time += queue_.interval(i).least_time;
+        if (time > kShort) {
+            return false;
+        }
+    }
+    return true;
+}
+
 // The next move after smoothing: of the run of lines first, then the one that ended it.
 bool Planner::next_smoothed(path::Move& move) noexcept
 {
-    if (smoother_.next(waiting_.has_value() || close_requested_, move)) {
+    using Patience = LineSmoother::Patience;
+    const bool ends = waiting_.has_value() || close_requested_;
+    const Patience patience = hurried_ ? Patience::kShort : Patience::kFull;
+    if (smoother_.next(ends ? Patience::kNone : patience, move)) {
         return true;
     }
     if (!waiting_) {
@@ -135,7 +159,7 @@ bool Planner::next_smoothed(path::Move& move) noexcept
     if (LineSmoother::accepts(*waiting_)) {
         smoother_.add(*waiting_);
         waiting_.reset();
-        return smoother_.next(close_requested_, move);
+        return smoother_.next(close_requested_ ? Patience::kNone : patience, move);
     }
     move = *waiting_;
     waiting_.reset();

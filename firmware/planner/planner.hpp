@@ -47,6 +47,10 @@ public:
     // Precondition: has_room() and move.start == tail(). A move of no length is dropped.
     void push(const path::Move& move) noexcept;
 
+    // The next move is late: where the path could be over soon, plan what is known of a run of
+    // lines instead of waiting for longer arcs.
+    void hurry() noexcept;
+
     // No move follows for now: the path stops at its end.
     void close() noexcept;
 
@@ -65,6 +69,7 @@ public:
 
 private:
     void work() noexcept;
+    bool path_is_short() const noexcept;
     bool next_move() noexcept;
     bool next_smoothed(path::Move& move) noexcept;
     void start(const path::Move& move) noexcept;
@@ -90,6 +95,7 @@ private:
     path::Move move_{};                  // being cut into blocks
     std::optional<path::Move> waiting_;  // until the run of lines before it is done
     bool close_requested_{false};
+    bool hurried_{false};
     // The end of the path so far, where it does not stop there.
     std::optional<EndGeometry> end_;
     AxisFilter end_filter_{};

@@ -49,7 +49,7 @@ void show_progress(const SimulationProgress& progress)
 
 void print_result(const SimulationResult& result)
 {
-    const MoveCounts& moves = result.moves;
+    const ProgramMoveCounts& moves = result.moves;
     const Vec3d end = to_millimetres(result.end);
     fmt::print("{} lines, {} rapids, {} lines, {} arcs, {} NURBS\n", result.lines, moves.rapid,
                moves.line, moves.arc, moves.nurbs);

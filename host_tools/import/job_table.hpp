@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+// toml++ asserts in debug builds on some broken files that it refuses properly in release ones.
+#define TOML_ASSERT(condition) static_cast<void>(0)
 #include "toml++/toml.h"
 
 namespace cusp::host {

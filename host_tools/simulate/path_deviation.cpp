@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-NearestPlace nearest_on_segment(Vec3d point, Vec3d end)
+PathPlace nearest_on_segment(Vec3d point, Vec3d end)
 {
     const double length_squared = dot(end, end);
     const double t =
@@ -37,7 +37,7 @@ ArcPoint arc_at(const path::Arc& arc, double t)
             along * (2.0 * arc.radius_change * arc.sweep) - out * (radius * arc.sweep * arc.sweep)};
 }
 
-NearestPlace nearest_on_arc_from(const path::Arc& arc, Vec3d point, double t)
+PathPlace nearest_on_arc_from(const path::Arc& arc, Vec3d point, double t)
 {
     for (int iteration = 0; iteration < 12; ++iteration) {
         const ArcPoint at = arc_at(arc, t);
@@ -55,15 +55,15 @@ NearestPlace nearest_on_arc_from(const path::Arc& arc, Vec3d point, double t)
     return {norm(arc_at(arc, t).position - point), t};
 }
 
-NearestPlace nearest_on_arc(const path::Arc& arc, Vec3d point)
+PathPlace nearest_on_arc(const path::Arc& arc, Vec3d point)
 {
     const Vec3d from_centre = point - arc.centre;
     double angle = std::atan2(dot(from_centre, arc.v), dot(from_centre, arc.u));
     if (angle < 0) {
         angle += 2.0 * kPi;
     }
-    NearestPlace nearest{norm(arc_at(arc, 0.0).position - point), 0.0};
-    const NearestPlace at_end{norm(arc_at(arc, 1.0).position - point), 1.0};
+    PathPlace nearest{norm(arc_at(arc, 0.0).position - point), 0.0};
+    const PathPlace at_end{norm(arc_at(arc, 1.0).position - point), 1.0};
     if (at_end.distance < nearest.distance) {
         nearest = at_end;
     }
@@ -75,7 +75,7 @@ NearestPlace nearest_on_arc(const path::Arc& arc, Vec3d point)
     for (double turn = middle - 1.0; turn <= middle + 1.0; ++turn) {
         const double t = (angle + turn * 2.0 * kPi) / arc.sweep;
         if (t >= 0.0 && t <= 1.0) {
-            const NearestPlace found = nearest_on_arc_from(arc, point, t);
+            const PathPlace found = nearest_on_arc_from(arc, point, t);
             if (found.distance < nearest.distance) {
                 nearest = found;
             }
@@ -105,7 +105,7 @@ Vec3d bezier_at(const path::BezierPiece& piece, double t)
     return points[0] / weights[0];
 }
 
-NearestPlace nearest_on_bezier(const path::BezierPiece& piece, Vec3d point)
+PathPlace nearest_on_bezier(const path::BezierPiece& piece, Vec3d point)
 {
     constexpr int kSamples = 32;
     const auto distance_at = [&](double t) {
@@ -141,7 +141,7 @@ constexpr double kTie = 1e-7;
 
 }  // namespace
 
-NearestPlace nearest_place(const path::Move& move, Position point)
+PathPlace nearest_place(const path::Move& move, Position point)
 {
     const Vec3d relative = to_millimetres(point - move.start);
     if (const auto* arc = std::get_if<path::Arc>(&move.path)) {
@@ -198,7 +198,7 @@ void PathDeviation::add_set_point(Position set_point)
         if (stretch.start + stretch.length < place_ - around) {
             continue;
         }
-        const NearestPlace found = nearest_place(stretch.move, set_point);
+        const PathPlace found = nearest_place(stretch.move, set_point);
         if (found.distance <= nearest + kTie) {
             nearest = std::min(nearest, found.distance);
             place = stretch.start + found.part * stretch.length;

@@ -12,14 +12,14 @@
 namespace cusp::host {
 
 // The place on a move that is nearest to a point.
-struct NearestPlace {
+struct PathPlace {
     double distance;  // mm, within 1e-7
     double part;      // of the move's parameter, 0 to 1
 };
 
 // The nearest point of an arc is sought where the angle says, for a helix in the turn that the
 // height says and its neighbours.
-NearestPlace nearest_place(const path::Move& move, Position point);
+PathPlace nearest_place(const path::Move& move, Position point);
 
 // Follows the set points along the path. Where the path comes near itself, only the stretch around
 // the place of the last set point counts.

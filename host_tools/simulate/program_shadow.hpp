@@ -10,7 +10,7 @@
 
 namespace cusp::host {
 
-struct MoveCounts {
+struct ProgramMoveCounts {
     std::uint64_t rapid{0};
     std::uint64_t line{0};
     std::uint64_t arc{0};
@@ -44,7 +44,7 @@ public:
     // A NURBS is begun and not ended.
     bool in_nurbs() const;
 
-    const MoveCounts& moves() const { return moves_; }
+    const ProgramMoveCounts& moves() const { return moves_; }
     PathDeviation& deviation() { return deviation_; }
     const PathDeviation& deviation() const { return deviation_; }
 
@@ -53,7 +53,7 @@ private:
     void count(const path::Move& move);
 
     gcode::Interpreter interpreter_;
-    MoveCounts moves_;
+    ProgramMoveCounts moves_;
     PathDeviation deviation_;
 };
 

@@ -64,7 +64,7 @@ struct SimulationResult {
     double total_s{0};     // dwells at both ends too
     double wall_s{0};
     std::uint64_t lines{0};
-    MoveCounts moves;
+    ProgramMoveCounts moves;
     PerAxis<std::uint64_t> steps{};  // pulses, both ways
     Position end;                    // machine coordinates
     double length_mm{0};

@@ -18,7 +18,7 @@ std::string statistics_json(const SimulationResult& result)
     for (const SimulationError& error : result.errors) {
         errors.push_back({{"line", error.line}, {"code", error.code}, {"text", error.text}});
     }
-    const MoveCounts& moves = result.moves;
+    const ProgramMoveCounts& moves = result.moves;
     Json json{
         {"duration_s", result.duration_s},
         {"total_s", result.total_s},

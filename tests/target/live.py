@@ -100,6 +100,7 @@ def main():
                 if options.alone:
                     status = stream_alone(port, options.program)
                 else:
+                    Line(port).socket.close()  # QEMU listens from now on
                     status = subprocess.run(
                         [options.cusp, "stream", f"tcp:127.0.0.1:{port}", options.program],
                         stdin=subprocess.DEVNULL, timeout=options.seconds).returncode

@@ -116,6 +116,7 @@ private:
     CUSP_CHECK_(static_cast<long>(expected) == static_cast<long>(actual),               \
                 "LONGS_EQUAL(" #expected ", " #actual ")")
 #define UNSIGNED_LONGS_EQUAL(expected, actual) LONGS_EQUAL(expected, actual)
+#define BYTES_EQUAL(expected, actual) LONGS_EQUAL((expected)&0xff, (actual)&0xff)
 #define DOUBLES_EQUAL(expected, actual, allowed)                                          \
     CUSP_CHECK_(std::fabs(static_cast<double>(expected) - static_cast<double>(actual)) <= \
                     static_cast<double>(allowed),                                         \
