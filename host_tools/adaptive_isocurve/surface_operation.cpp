@@ -27,6 +27,7 @@ SurfaceOperation::SurfaceOperation(const Job& job,
     : job_{job}, operation_{operation}, surfaces_{std::move(surfaces)}
 {
     check_tool();
+    check_form();
     check_surfaces();
     model_ = std::make_unique<SurfaceModel>(surfaces_);
     const double top = job.stock_top + job.clearance;
@@ -40,6 +41,22 @@ SurfaceOperation::SurfaceOperation(const Job& job,
         *model_, operation.tool,
         make_pass_band(operation.floor_tolerance,
                        operation.tolerance_side == ToleranceSide::kOutside));
+}
+
+// What these strategies do not do yet is refused, never left out silently.
+void SurfaceOperation::check_form() const
+{
+    if (operation_.output == OutputForm::kArcs) {
+        throw InputError(
+            fmt::format("{}: output = \"arcs\" is not made by {}: use \"lines\" or \"nurbs\"",
+                        job_.file, operation_.strategy));
+    }
+    if (operation_.roughing || operation_.allowance > 0) {
+        throw InputError(fmt::format(
+            "{}: {} only finishes: roughing = true and allowance > 0 are not for it; rough with "
+            "strategy = \"hull_rough\" in an operation before",
+            job_.file, operation_.strategy));
+    }
 }
 
 void SurfaceOperation::check_tool() const

@@ -36,6 +36,7 @@ public:
 
 private:
     void check_tool() const;
+    void check_form() const;
     void check_surfaces() const;
 
     const Job& job_;
