@@ -77,23 +77,34 @@ struct MotionRig {
         return samples;
     }
 
-    // Held at one tick, resumed once it stands.
-    std::vector<Position> run_held(const std::vector<path::Move>& moves, std::size_t hold_tick)
+    // What may happen to a program at one tick.
+    enum class Event { kHold, kSlower, kFaster, kStarve };
+
+    // The event at one tick; a hold is resumed once the tool stands, a starved planner is fed
+    // again.
+    std::vector<Position> run_struck(const std::vector<path::Move>& moves,
+                                     std::size_t tick,
+                                     Event event)
     {
         std::vector<Position> samples;
         std::size_t next = 0;
         std::size_t idle = 0;
         while (idle < 3 && samples.size() < kMostTicks) {
-            while (next < moves.size() && planner->has_room()) {
+            if (samples.size() == tick) {
+                strike(event);
+            }
+            const bool starved = event == Event::kStarve && samples.size() < tick;
+            // Until it starves it knows only a few moves, so that it does run dry.
+            const std::size_t known =
+                starved ? std::min<std::size_t>(moves.size(), 5) : moves.size();
+            while (next < known && planner->has_room()) {
                 planner->push(moves[next]);
                 ++next;
             }
-            if (next == moves.size() && planner->has_room()) {
+            if (next == known && planner->has_room()) {
                 planner->close();
             }
-            if (samples.size() == hold_tick) {
-                interpolator->hold();
-            } else if (interpolator->holding() && interpolator->at_rest()) {
+            if (interpolator->holding() && interpolator->at_rest()) {
                 interpolator->resume();
             }
             samples.push_back(interpolator->tick());
@@ -101,6 +112,24 @@ struct MotionRig {
                 next == moves.size() && planner->empty() && interpolator->at_rest() ? idle + 1 : 0;
         }
         return samples;
+    }
+
+    void strike(Event event)
+    {
+        switch (event) {
+            case Event::kHold:
+                interpolator->hold();
+                break;
+            case Event::kSlower:
+                interpolator->set_feed_override(40);
+                interpolator->set_rapid_override(25);
+                break;
+            case Event::kFaster:
+                interpolator->set_feed_override(200);
+                break;
+            case Event::kStarve:
+                break;
+        }
     }
 
     void disturb(std::mt19937_64& random)

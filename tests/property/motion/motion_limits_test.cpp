@@ -70,16 +70,45 @@ TEST(MotionLimits, HoldThroughHoldsOverridesAndStarvation)
     }
 }
 
-TEST(MotionLimits, HoldWhenHeldAtAnyTickOfAProgram)
+TEST(MotionLimits, HoldWhateverHappensAtAnyTickOfAProgram)
 {
     const auto moves = RandomMoves{kSeed + 7}.program();
     MotionRig first;
     first.start_at({});
     const std::size_t ticks = first.run(moves).size();
-    const std::size_t step = 1 + ticks / 2000;
-    for (std::size_t tick = 0; tick < ticks; tick += step) {
+    const std::size_t step = 1 + ticks / 1000;
+    using Event = MotionRig::Event;
+    for (const Event event : {Event::kHold, Event::kSlower, Event::kFaster, Event::kStarve}) {
+        for (std::size_t tick = 0; tick < ticks; tick += step) {
+            MotionRig rig;
+            rig.start_at({});
+            check_limits(rig.run_struck(moves, tick, event), moves.back().end, tick);
+        }
+    }
+}
+
+TEST(MotionLimits, AHoldSlowsTheSetPointsWithinTwoTicks)
+{
+    path::Move line;
+    line.end = {200'000'000, 0, 0};
+    line.feed = 100;
+    line.tolerance = 0.01F;
+    MotionRig free;
+    free.start_at({});
+    const auto undisturbed = free.run({line});
+    for (std::size_t tick = 5; tick + 160 < undisturbed.size(); tick += 7) {
         MotionRig rig;
         rig.start_at({});
-        check_limits(rig.run_held(moves, tick), moves.back().end, tick);
+        const auto held = rig.run_struck({line}, tick, MotionRig::Event::kHold);
+        // While speeding up ends, acceleration falls as fast as jerk allows: nothing is slower
+        // then.
+        const auto speed_up = [&undisturbed](std::size_t k) {
+            return undisturbed[k + 1].x - 2 * undisturbed[k].x + undisturbed[k - 1].x;
+        };
+        const bool already_falling = speed_up(tick) > 0 && speed_up(tick + 1) < speed_up(tick) - 40;
+        const bool ends_speeding_up = speed_up(tick + 12) < speed_up(tick + 2) - 40;
+        if (!already_falling && !ends_speeding_up) {
+            CHECK_TEXT(held[tick + 1].x < undisturbed[tick + 1].x, std::to_string(tick).c_str());
+        }
     }
 }
