@@ -14,12 +14,6 @@
 #include "firmware/nurbs/arc_length_table.hpp"
 #include "host_tools/fit/fit_program.hpp"
 
-void cusp::fault(const char* expression, const char* file, int line) noexcept
-{
-    (void)std::fprintf(stderr, "%s:%d: %s\n", file, line, expression);
-    std::abort();
-}
-
 namespace {
 
 constexpr int kLines = 20000;
