@@ -87,7 +87,7 @@ struct SimulationResult {
 // Throws InputError where a file can't be read or written.
 SimulationResult simulate(const std::string& program_file, const SimulationOptions& options);
 
-// The result as JSON, keys as docs/simulator.md lists them.
+// The result as JSON, one key a figure.
 std::string statistics_json(const SimulationResult& result);
 
 }  // namespace cusp::host

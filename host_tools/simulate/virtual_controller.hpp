@@ -22,7 +22,7 @@ struct ServeOptions {
     // settings file can't hold (offsets, startup lines) goes to the file of this name with ".store"
     // behind it. Empty: nothing is kept.
     std::string settings_file;
-    // Where commands for the panel and the faults are taken: docs/simulator.md lists them.
+    // Where commands for the panel and the faults are taken: fault_command.hpp lists them.
     std::optional<hal::TcpAddress> control;
     std::optional<double> probe_z;
     hal::LineFaults faults;  // of the line, both ways
