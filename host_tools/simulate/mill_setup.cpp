@@ -10,17 +10,19 @@ namespace cusp::host {
 
 using machine::Setting;
 
-hal::MillGeometry mill_geometry(const machine::Settings& settings, std::optional<double> probe_z)
+hal::MillGeometry mill_geometry(const machine::Settings& settings,
+                                std::optional<double> probe_z,
+                                double part_from_home)
 {
     hal::MillGeometry geometry;
     for (unsigned axis = 0; axis < kAxisCount; ++axis) {
         const double travel = static_cast<double>(settings.value(Setting::kTravel, axis));
         const bool homes_to_minus = (settings.whole(Setting::kHomingDirection) >> axis & 1U) != 0;
-        constexpr double kPart = 1.0 / 6.0;
         geometry.steps_per_mm[axis] =
             static_cast<double>(settings.value(Setting::kStepsPerMillimetre, axis));
         geometry.travel[axis] = travel;
-        geometry.start[axis] = homes_to_minus ? travel * (kPart - 1.0) : -travel * kPart;
+        geometry.start[axis] =
+            homes_to_minus ? travel * (part_from_home - 1.0) : -travel * part_from_home;
     }
     geometry.plate_above_start = probe_z;
     return geometry;

@@ -9,11 +9,18 @@
 
 namespace cusp::host {
 
-// A mill whose travel and steps are those of the settings. At power-up the tool stands a sixth of
-// each travel from the end that it homes to.
+// Where the tool stands at power-up: this part of each travel from the end that it homes to. A
+// program that is run as fast as it goes homes at once; a sender's may go either way from there.
+constexpr double kNearHome = 1.0 / 6.0;
+constexpr double kAmidTravel = 0.4;
+
+// A mill whose travel and steps are those of the settings.
 //
-//   probe_z  height of the probe plate over that place, mm; none: no plate
-hal::MillGeometry mill_geometry(const machine::Settings& settings, std::optional<double> probe_z);
+//   probe_z         height of the probe plate over the place at power-up, mm; none: no plate
+//   part_from_home  of each travel, 0 to 1
+hal::MillGeometry mill_geometry(const machine::Settings& settings,
+                                std::optional<double> probe_z,
+                                double part_from_home);
 
 // What the store holds; the defaults where it holds nothing good.
 machine::Settings stored_settings(const hal::SimulatedStore& store);

@@ -58,23 +58,41 @@ bool SerialEnd::look()
     if (terminal_) {
         has_peer_ = terminal_->has_peer();
     } else {
-        hal::Descriptor sender = listener_->accept_waiting();
         if (link_.lost() || link_.descriptor() < 0) {
             has_peer_ = false;
             link_.disconnect();
         }
-        // A second sender is turned away: its descriptor closes here.
-        if (sender.is_open() && !has_peer_) {
-            link_.connect(std::move(sender));
-            has_peer_ = true;
-            waiting_.clear();
-            return true;
-        }
+        return accept_sender();
     }
     if (!has_peer_) {
         waiting_.clear();
     }
     return has_peer_ && !had_peer;
+}
+
+// A sender that comes again may be here before its hang-up is read: the newcomer waits a little. A
+// second sender is turned away.
+bool SerialEnd::accept_sender()
+{
+    constexpr unsigned kPatience = 200;  // looks
+    hal::Descriptor sender = listener_->accept_waiting();
+    if (sender.is_open()) {
+        next_ = std::move(sender);
+        next_looks_ = 0;
+    }
+    if (!has_peer_) {
+        waiting_.clear();
+    }
+    if (next_.is_open() && !has_peer_) {
+        link_.connect(std::move(next_));
+        next_ = {};
+        has_peer_ = true;
+        return true;
+    }
+    if (next_.is_open() && ++next_looks_ > kPatience) {
+        next_ = {};
+    }
+    return false;
 }
 
 std::string SerialEnd::read()

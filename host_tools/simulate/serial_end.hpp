@@ -36,9 +36,13 @@ public:
     std::string name() const;
 
 private:
+    bool accept_sender();
+
     std::string pty_link_;
     std::optional<hal::PseudoTerminal> terminal_;
     std::optional<hal::TcpListener> listener_;
+    hal::Descriptor next_;  // a sender that came while there is one
+    unsigned next_looks_{0};
     hal::DescriptorLink link_;
     std::string waiting_;
     bool has_peer_{false};

@@ -179,7 +179,7 @@ public:
     Simulation(const std::string& program, const SimulationOptions& options)
         : options_{options},
           source_{program},
-          controller_{mill_geometry(options.settings, options.probe_z)},
+          controller_{mill_geometry(options.settings, options.probe_z, kNearHome)},
           sender_{controller_, result_}
     {
         if (!store_settings(options.settings, controller_.board().settings_store)) {

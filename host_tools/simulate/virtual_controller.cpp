@@ -63,7 +63,8 @@ public:
     {
         hal::SimulatedBoard& board = controller_.board();
         fill_store(options, board.settings_store);
-        geometry_ = mill_geometry(stored_settings(board.settings_store), options.probe_z);
+        geometry_ =
+            mill_geometry(stored_settings(board.settings_store), options.probe_z, kAmidTravel);
         board.mill.set_geometry(geometry_);
         board.settings_store.cut_power_after(options.cut_power_after);
         board.mill.force_high(options.stuck_high);
