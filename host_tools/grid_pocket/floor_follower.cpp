@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "firmware/base/math.hpp"
 #include "firmware/segmenter/arc_fitter.hpp"
@@ -34,6 +35,8 @@ Vec2d plan(Vec3d p) { return {p.x, p.y}; }
 
 }  // namespace
 
+double bend_radius(const Tool& tool) { return std::max(tool.corner_radius, tool.radius / 2); }
+
 void TipMoves::line(MoveKind kind, Vec3d end)
 {
     if (!started_ || end != at_) {
@@ -49,31 +52,35 @@ void TipMoves::arc(MoveKind kind, const ArcTo& arc)
     at_ = arc.end;
 }
 
-FloorFollower::FloorFollower(const SurfaceModel& model,
+FloorFollower::FloorFollower(const std::vector<Surface>& floor,
+                             std::shared_ptr<const SurfaceModel> model,
                              const Tool& tool,
                              double allowance,
                              FollowSettings settings)
-    : model_{model}, tool_{grown_tool(tool, allowance)}, allowance_{allowance}, settings_{settings}
+    : contact_{floor, std::move(model), grown_tool(tool, allowance),
+               std::clamp(settings.tolerance / 20, 1e-4, 1e-3)},
+      allowance_{allowance},
+      settings_{settings}
 {
 }
 
 std::optional<double> FloorFollower::height(Vec2d at) const
 {
     // A tool grown all round by the allowance stands with its end that much lower.
-    const auto low = model_.drop(tool_, at.x, at.y);
+    const auto low = contact_.height(at);
     return low ? std::optional<double>{*low + allowance_} : std::nullopt;
 }
 
 double FloorFollower::start_height(Vec2d at) const
 {
-    const double exact = height(at).value_or(model_.box_low().z);
+    const double exact = height(at).value_or(contact_.lowest());
     return settings_.both_sides ? exact : exact + settings_.tolerance / 2;
 }
 
 double FloorFollower::clearance(Vec3d a, Vec3d b, double enough) const
 {
     const Vec3d down{0, 0, -allowance_};
-    return model_.clearance_along(tool_, a + down, b + down, enough, 1e-6);
+    return contact_.clearance(a + down, b + down, enough);
 }
 
 std::vector<BandPoint> FloorFollower::band(Vec2d a, Vec2d b, double tolerance) const
@@ -84,7 +91,7 @@ std::vector<BandPoint> FloorFollower::band(Vec2d a, Vec2d b, double tolerance) c
     std::vector<double> heights;
     for (int i = 0; i <= count; ++i) {
         heights.push_back(
-            height(a + (b - a) * (static_cast<double>(i) / count)).value_or(model_.box_low().z));
+            height(a + (b - a) * (static_cast<double>(i) / count)).value_or(contact_.lowest()));
     }
     std::vector<BandPoint> out;
     for (std::size_t i = 0; i < heights.size(); ++i) {
@@ -98,8 +105,9 @@ std::vector<BandPoint> FloorFollower::band(Vec2d a, Vec2d b, double tolerance) c
         const double before = i > 0 ? std::abs(z - heights[i - 1]) / step : 0.0;
         const double after = i + 1 < heights.size() ? std::abs(heights[i + 1] - z) / step : 0.0;
         const double slope = std::max(before, after);
-        const double bend = std::pow(1 + slope * slope, 1.5) / std::max(tool_.corner_radius, 0.1);
-        const double margin = std::min(step * step / 8 * bend + kRounding, tolerance / 3);
+        const double bend = std::pow(1 + slope * slope, 1.5) / bend_radius(contact_.tool());
+        const double margin =
+            std::min(step * step / 8 * bend + kRounding + contact_.accuracy(), tolerance / 3);
         out.push_back({static_cast<double>(i) * step, z + margin, z + tolerance});
     }
     return out;
@@ -128,11 +136,17 @@ void FloorFollower::chord(TipMoves& moves, Vec3d end, MoveKind kind, int depth)
         chord(moves, end, kind, depth + 1);
         return;
     }
-    // Lifting along the axis by the lack over the cosine of the steepest slope met in practice.
-    const Vec3d lift{0, 0, -kept * 4};
+    // On slopes a lift along the axis gains less than its length: it is doubled until it does.
+    constexpr int kMostLifts = 10;
+    Vec3d lift{0, 0, -kept * 1.5};
+    double room = clearance(from + lift, end + lift, 0);
+    for (int i = 0; i < kMostLifts && room < kProven; ++i) {
+        lift.z *= 2;
+        room = clearance(from + lift, end + lift, 0);
+    }
     moves.line(kind, from + lift);
     moves.line(kind, end + lift);
-    gouge_bound_ = std::max(gouge_bound_, -clearance(from + lift, end + lift, 0));
+    gouge_bound_ = std::max(gouge_bound_, -room);
 }
 
 void FloorFollower::follow_segment(TipMoves& moves, Vec2d a, Vec2d b, MoveKind kind)

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "host_tools/grid_pocket/floor_contact.hpp"
 #include "host_tools/grid_pocket/profile_fit.hpp"
 #include "host_tools/import/job.hpp"
-#include "host_tools/surface_offset/surface_model.hpp"
 
 namespace cusp::host {
 
@@ -18,6 +18,11 @@ struct FollowSettings {
     double max_arc_radius{};  // mm: flatter arcs become lines
     double sample{};          // mm, > 0: between looked-at places
 };
+
+// The height of a tip over a smooth floor is taken to bend no tighter than with this radius, mm:
+// for a ball that is proven, for a flat end, whose rim follows the floor itself, the proof of each
+// move decides.
+double bend_radius(const Tool& tool);
 
 // Where the tip stands and the moves that brought it there.
 class TipMoves {
@@ -37,8 +42,9 @@ private:
 
 class FloorFollower {
 public:
-    // The model outlives this. Heights leave `allowance` mm, square to the surface, all over it.
-    FloorFollower(const SurfaceModel& model,
+    // Heights leave `allowance` mm, square to the surface, all over the floor.
+    FloorFollower(const std::vector<Surface>& floor,
+                  std::shared_ptr<const SurfaceModel> model,
                   const Tool& tool,
                   double allowance,
                   FollowSettings settings);
@@ -63,8 +69,7 @@ public:
     double gouge_bound() const { return gouge_bound_; }
 
 private:
-    const SurfaceModel& model_;
-    Tool tool_;  // grown by the allowance
+    FloorContact contact_;  // of the tool grown by the allowance
     double allowance_;
     FollowSettings settings_;
     double gouge_bound_{0};

@@ -59,7 +59,7 @@ void refuse_grid_pocket(const Job& job, const std::string& what)
 std::string length_text(const Job& job, double mm)
 {
     char text[64];
-    std::snprintf(text, sizeof text, job.inch ? "%.5f in" : "%.4f mm", job.inch ? mm / kInch : mm);
+    std::snprintf(text, sizeof text, job.inch ? "%.6f in" : "%.5f mm", job.inch ? mm / kInch : mm);
     return text;
 }
 
@@ -84,7 +84,8 @@ void check_grid_input(const Job& job, const Operation& operation)
         if (!(size > 0)) {
             refuse_grid_pocket(job, "grid " + length_text(job, size) + " must be above 0");
         }
-        if (size > most * (1 + 1e-9)) {
+        // As many digits as a job file may carry.
+        if (size > most * (1 + 1e-4)) {
             refuse_grid_pocket(job, "grid " + length_text(job, size) +
                                         " is over the diameter / sqrt 2, " +
                                         length_text(job, most));

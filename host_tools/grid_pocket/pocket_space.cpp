@@ -36,7 +36,7 @@ FollowSettings follow_settings(const Operation& operation)
     // Between places this far apart the tip's height rises over a chord by about an eighth of the
     // band.
     const double band = s.arcs ? std::max(s.arc_tolerance, s.tolerance) : s.tolerance;
-    const double bend = std::sqrt(0.5 * std::max(operation.tool.corner_radius, 0.1) * band);
+    const double bend = std::sqrt(0.5 * bend_radius(operation.tool) * band);
     s.sample = std::min(std::max(operation.grid_x, operation.grid_y), bend);
     return s;
 }
@@ -48,9 +48,9 @@ PocketSpace::PocketSpace(const Job& j, const Operation& o, const PocketWalls& po
       walls{pocket.region},
       centres{walls.at(kept + kWallRounding)},
       grid{walls, o.grid_x, o.grid_y, kept},
-      model{o.floor},
-      finish{model, o.tool, 0, follow_settings(o)},
-      rough{model, o.tool, o.allowance, follow_settings(o)}
+      model{std::make_shared<SurfaceModel>(o.floor)},
+      finish{o.floor, model, o.tool, 0, follow_settings(o)},
+      rough{o.floor, model, o.tool, o.allowance, follow_settings(o)}
 {
 }
 

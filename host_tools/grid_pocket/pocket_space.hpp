@@ -1,6 +1,7 @@
 // The pocket as the passes see it: where the axis may stand, how low, and in which order.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "host_tools/grid_pocket/floor_follower.hpp"
@@ -24,7 +25,7 @@ struct PocketSpace {
     RegionOffset walls;
     Region2d centres;
     CellGrid grid;
-    SurfaceModel model;
+    std::shared_ptr<const SurfaceModel> model;
     FloorFollower finish;
     FloorFollower rough;          // leaves the allowance
     std::vector<double> heights;  // finish heights over cells

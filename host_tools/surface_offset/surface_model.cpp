@@ -177,13 +177,16 @@ double SurfaceModel::clearance_along(
     return std::min(enough, chord.between(a, at_a, b, at_b));
 }
 
-std::optional<double> SurfaceModel::drop(const Tool& tool, double x, double y) const
+std::optional<double> SurfaceModel::drop(const Tool& tool,
+                                         double x,
+                                         double y,
+                                         std::optional<double> guess) const
 {
     const double floor = state_->low.z - tool.radius - 1;
     // `high` is free of the model; `low` would touch a known place, so the answer is not below it.
     double high = state_->high.z + 0.01;
     double low = -std::numeric_limits<double>::infinity();
-    double trial = high;
+    double trial = guess ? std::min(*guess, high) : high;
     const double slack = tool.corner_radius < tool.radius ? kDiscDropSlack : kDropSlack;
     for (int step = 0; step < kMostDropSteps && high - low > slack; ++step) {
         const Clearance c = clearance(tool, {x, y, trial}, std::numeric_limits<double>::infinity());

@@ -64,7 +64,13 @@ public:
     // Least height of the tip at (x, y) from which the tool can be lifted out: exact drop of the
     // tool on the model, shank included. None where it meets nothing.
     // Accuracy: clearance at the result is in [-1e-8, 1e-6] mm.
-    std::optional<double> drop(const Tool& tool, double x, double y) const;
+    //
+    // guess  of the answer, mm: a near one makes the drop several times faster, any other costs
+    //        time only
+    std::optional<double> drop(const Tool& tool,
+                               double x,
+                               double y,
+                               std::optional<double> guess = std::nullopt) const;
 
     Vec3d box_low() const;
     Vec3d box_high() const;
