@@ -209,6 +209,7 @@ private:
     Accessories accessories_;
     std::uint32_t still_since_{0};  // tick when motion settled last
     std::uint32_t last_byte_tick_{0};
+    std::uint32_t last_text_tick_{0};
 
     Task task_{Task::kNone};
     Ending ending_{Ending::kAnswer};

@@ -12,6 +12,7 @@ void Machine::receive(std::uint8_t byte) noexcept
         case protocol::ByteKind::kDropped:
             return;
         case protocol::ByteKind::kText:
+            last_text_tick_ = last_byte_tick_;
             checked_.text();
             received_.put(byte);
             return;
@@ -165,7 +166,9 @@ bool Machine::watch_link() noexcept
 {
     constexpr std::uint32_t kCheckedLinesLapse = 3000;  // ticks
     const std::uint32_t silence = motion_.ticks() - last_byte_tick_;
-    if (checked_.on() && silence > kCheckedLinesLapse && idle()) {
+    // Questions are no lines: any sender asks them all the while.
+    const bool no_lines = motion_.ticks() - last_text_tick_ > kCheckedLinesLapse;
+    if (checked_.on() && no_lines && idle()) {
         checked_.switch_off();
         line_.begin_line();
     }

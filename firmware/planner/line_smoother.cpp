@@ -250,7 +250,8 @@ bool LineSmoother::next(Patience patience, path::Move& piece) noexcept
             best = tried;
         }
     }
-    model_.line = vertices_[std::max(good, std::size_t{1})].line;
+    // Of the first line: what is told of the place is never ahead of the tool.
+    model_.line = vertices_[1].line;
     if (good == 0) {
         // Not even one line can be rounded: it stays, and its ends are corners.
         piece = as_move(Arc{}, vertices_[1].at);

@@ -1,16 +1,21 @@
 // `cusp stream`: sends a program to a controller.
 #include <fmt/format.h>
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "host_tools/cli/commands.hpp"
 #include "host_tools/cli/interruption.hpp"
+#include "host_tools/input_error/input_error.hpp"
 #include "host_tools/simulate/settings_file.hpp"
+#include "host_tools/stream/approach.hpp"
 #include "host_tools/stream/keyboard.hpp"
 #include "host_tools/stream/progress_display.hpp"
+#include "host_tools/stream/resume_point.hpp"
 #include "host_tools/stream/streamer.hpp"
 #include "host_tools/stream/time_table.hpp"
+#include "host_tools/stream/transfer_record.hpp"
 
 namespace cusp::host {
 namespace {
@@ -23,24 +28,34 @@ struct StreamArguments {
     std::size_t window{0};
     bool checked{false};
     bool no_estimate{false};
+    bool no_numbers{false};
+    bool resume{false};
+    std::uint64_t resume_line{0};
+    std::optional<double> safe_z;
+    bool yes{false};
+
+    bool resumes() const { return resume || resume_line != 0; }
 };
 
 // The person at the terminal.
 class TerminalWatcher : public StreamWatcher {
 public:
-    explicit TerminalWatcher(const StreamArguments& arguments)
+    explicit TerminalWatcher(const StreamArguments& arguments) : arguments_{arguments} {}
+
+    // The times need the controller's own settings: its planner is that of the estimate.
+    void ready(const ControllerFacts& facts) override
     {
-        if (!arguments.no_estimate) {
-            const auto settings = arguments.settings_file.empty()
-                                      ? machine::Settings{}
-                                      : read_settings_file(arguments.settings_file);
-            times_.emplace(arguments.program, settings);
+        if (!arguments_.no_estimate) {
+            const auto settings = arguments_.settings_file.empty()
+                                      ? facts.settings()
+                                      : read_settings_file(arguments_.settings_file);
+            times_.emplace(arguments_.program, settings);
         }
-        if (keyboard_.is_terminal()) {
+        keyboard_.emplace();
+        if (keyboard_->is_terminal()) {
             display_.say(Keyboard::legend());
         }
     }
-
     void progress(const StreamProgress& progress) override
     {
         double fraction = progress.sent_fraction;
@@ -54,11 +69,12 @@ public:
         display_.show(progress, fraction, left);
     }
     void notice(const std::string& text) override { display_.say(text); }
-    StreamKey key() override { return keyboard_.read(); }
+    StreamKey key() override { return keyboard_ ? keyboard_->read() : StreamKey::kNone; }
     void finish() { display_.finish(); }
 
 private:
-    Keyboard keyboard_;
+    const StreamArguments& arguments_;
+    std::optional<Keyboard> keyboard_;
     ProgressDisplay display_{stdout};
     std::optional<TimeTable> times_;
 };
@@ -68,14 +84,131 @@ int status_of(StreamOutcome outcome)
     return outcome == StreamOutcome::kDone ? kDone : kFoundWrong;
 }
 
+// The record of the transfer that was interrupted, or as good a one as a line number gives.
+TransferRecord record_to_resume(const StreamArguments& arguments)
+{
+    const auto kept = read_record(arguments.program);
+    if (!kept && arguments.resume_line == 0) {
+        throw InputError{fmt::format(
+            "{}: no interrupted transfer is recorded in {}; --resume-line N says where to go on",
+            arguments.program, record_file(arguments.program))};
+    }
+    TransferRecord record = kept.value_or(TransferRecord{});
+    if (arguments.resume_line != 0) {
+        record.executed_line = arguments.resume_line;
+        record.checked_line = 0;
+    }
+    return record;
+}
+
+bool says_yes()
+{
+    fmt::print("go on? [y/N] ");
+    std::fflush(stdout);
+    std::string answer;
+    std::getline(std::cin, answer);
+    return answer == "y" || answer == "Y" || answer == "yes";
+}
+
+class ResumeDialogue {
+public:
+    ResumeDialogue(const StreamArguments& arguments, const TransferRecord& record)
+        : arguments_{arguments},
+          record_{record},
+          point_{find_resume_point(arguments.program, record)}
+    {
+    }
+
+    StreamResume resume()
+    {
+        return {record_, point_.line,
+                [this](const ControllerFacts& facts, Position machine, bool homes, bool lost) {
+                    return confirm(facts, machine, homes, lost);
+                },
+                [this](const ControllerFacts& facts, Position machine) {
+                    return approach(facts, machine).lines;
+                }};
+    }
+
+private:
+    Approach approach(const ControllerFacts& facts, Position machine) const
+    {
+        return make_approach(point_, record_.start.parameters, facts.parameters(), machine,
+                             arguments_.safe_z);
+    }
+
+    bool confirm(const ControllerFacts& facts, Position machine, bool homes, bool lost) const
+    {
+        const Approach way = approach(facts, machine);
+        fmt::print("{}:{} was executing; going on at line {}\n", arguments_.program,
+                   record_.executed_line, point_.line);
+        if (homes) {
+            fmt::print("  homes the machine ($H)\n");
+        }
+        if (point_.modal.tool != 0) {
+            fmt::print("  tool T{} must be in the spindle\n", point_.modal.tool);
+        }
+        fmt::print("  travels at Z {:.3f} to X {:.3f} Y {:.3f}", way.safe_z, way.point.x,
+                   way.point.y);
+        if (point_.modal.spindle != gcode::SpindleMode::kOff) {
+            fmt::print(", spindle at {:.0f}", point_.modal.spindle_speed);
+        }
+        if (way.plunges) {
+            fmt::print(", goes down to Z {:.3f} at {:.0f} mm/min", way.point.z, way.plunge_feed);
+        }
+        fmt::print("\n");
+        if (lost) {
+            fmt::print(
+                "  the controller stands at 0,0,0: it seems to have started anew, and does "
+                "not know where the tool is\n");
+        }
+        if (arguments_.yes && lost) {
+            fmt::print("  that needs a person's eyes: --yes does not answer it\n");
+            return false;
+        }
+        return arguments_.yes || says_yes();
+    }
+
+    const StreamArguments& arguments_;
+    TransferRecord record_;
+    ResumePoint point_;
+};
+
+void tell_ending(const StreamArguments& arguments, const StreamReport& report)
+{
+    fmt::print(stderr, "cusp stream: {}\n", report.text);
+    if (!report.record) {
+        return;
+    }
+    fmt::print(stderr,
+               "the last line answered is {}:{}; the tool had reached line {}\n"
+               "to go on from there: cusp stream {} {} --resume\n",
+               arguments.program, report.progress.line, report.record->executed_line,
+               arguments.port, arguments.program);
+}
+
 int run_stream(const StreamArguments& arguments)
 {
     ProgramLines program{arguments.program};
-    const auto transport = open_transport(arguments.port, arguments.baud);
     StreamOptions options;
     options.window = arguments.window;
     options.checked = arguments.checked;
+    options.numbers = !arguments.no_numbers;
+    std::optional<ResumeDialogue> dialogue;
+    if (arguments.resumes()) {
+        dialogue.emplace(arguments, record_to_resume(arguments));
+        options.resume = dialogue->resume();
+    }
     TerminalWatcher watcher{arguments};
+    bool kept = true;
+    options.keep = [&](const TransferRecord& record) {
+        if (kept && !write_record(arguments.program, record)) {
+            watcher.notice("can't write " + record_file(arguments.program) +
+                           ": this transfer can only be resumed with --resume-line");
+            kept = false;
+        }
+    };
+    const auto transport = open_transport(arguments.port, arguments.baud);
     Streamer streamer{*transport, watcher, options};
     const StreamReport report = streamer.run(program, count_interruptions());
     watcher.finish();
@@ -86,14 +219,10 @@ int run_stream(const StreamArguments& arguments)
     }
     fmt::print("\n");
     std::fflush(stdout);
-    if (report.outcome != StreamOutcome::kDone) {
-        fmt::print(stderr, "cusp stream: {}\n", report.text);
-        if (progress.lines_sent > 0) {
-            fmt::print(stderr,
-                       "the last line answered is {}:{}; the last one seen executing is {}\n",
-                       arguments.program, progress.line,
-                       report.resume_line == 0 ? "unknown" : std::to_string(report.resume_line));
-        }
+    if (report.outcome == StreamOutcome::kDone) {
+        drop_record(arguments.program);
+    } else {
+        tell_ending(arguments, report);
     }
     return status_of(report.outcome);
 }
@@ -113,7 +242,17 @@ void add_stream_command(CLI::App& app, Work& work)
     command->add_flag("--checked", arguments->checked,
                       "Number and check every line: nothing damaged is cut, nothing is lost");
     command->add_option("--settings", arguments->settings_file,
-                        "The controller's settings, for the time left");
+                        "Settings for the time left (default: the controller's own)");
+    command->add_flag("--resume", arguments->resume,
+                      "Go on with a transfer that was interrupted, after asking");
+    command->add_option("--resume-line", arguments->resume_line,
+                        "The same, the tool having reached this line of the file");
+    command->add_option("--safe-z", arguments->safe_z,
+                        "Height to travel at on the way back, mm in the program's coordinates\n"
+                        "(default: the highest that the program was at)");
+    command->add_flag("--yes", arguments->yes, "Resume without asking");
+    command->add_flag("--no-numbers", arguments->no_numbers,
+                      "Send the lines without N words (resuming then goes further back)");
     command->add_flag("--no-estimate", arguments->no_estimate, "Do not compute the time left");
     command->footer(
         std::string{Keyboard::legend()} +

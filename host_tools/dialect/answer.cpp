@@ -64,6 +64,8 @@ void take_field(ControllerStatus& status, std::string_view name, std::string_vie
         }
     } else if (name == "F" || name == "FS") {
         status.feed = decimal(value);
+    } else if (name == "Bf") {
+        status.free_blocks = whole_number(split_off(value, ','));
     } else if (name == "Ov") {
         status.feed_override = whole_number(split_off(value, ','));
     }

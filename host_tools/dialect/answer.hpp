@@ -20,6 +20,7 @@ struct ControllerStatus {
     std::optional<std::uint32_t> line;
     std::optional<double> feed;
     std::optional<int> feed_override;  // per cent
+    std::optional<int> free_blocks;    // of the planner
 };
 
 enum class AnswerKind : std::uint8_t {

@@ -64,6 +64,12 @@ std::optional<std::string> checked_answer(std::string_view line)
     return std::string{line.substr(0, star)};
 }
 
+std::optional<std::uint32_t> refused_number(std::string_view line)
+{
+    const auto answer = checked_answer(line);
+    return answer && answer->rfind("resend", 0) == 0 ? number_after(*answer, " N") : std::nullopt;
+}
+
 void CheckedWindow::add(std::uint64_t program_line, std::string_view text)
 {
     lines_.push_back({next_number_, program_line, checked_line(next_number_, text) + "\n"});

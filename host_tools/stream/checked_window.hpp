@@ -22,6 +22,9 @@ std::string checked_line(std::uint32_t number, std::string_view text);
 // missing or wrong.
 std::optional<std::string> checked_answer(std::string_view line);
 
+// The number that a refusal, "resend N5*...", wants next. None where it is none or is damaged.
+std::optional<std::uint32_t> refused_number(std::string_view line);
+
 class CheckedWindow {
 public:
     using Clock = std::chrono::steady_clock;

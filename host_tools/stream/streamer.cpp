@@ -2,7 +2,6 @@
 #include "host_tools/stream/streamer.hpp"
 
 #include <algorithm>
-#include <charconv>
 
 namespace cusp::host {
 namespace {
@@ -20,17 +19,6 @@ std::string name_of(const std::string& file, std::uint64_t line)
     return file + ":" + std::to_string(line);
 }
 
-// Bytes of the receive buffer, from `OPT:V,15,128`.
-std::size_t buffer_in(std::string_view options)
-{
-    const std::size_t comma = options.rfind(',');
-    std::size_t bytes = 0;
-    if (comma != std::string_view::npos) {
-        std::from_chars(options.data() + comma + 1, options.data() + options.size(), bytes);
-    }
-    return bytes;
-}
-
 }  // namespace
 
 Streamer::Streamer(Transport& transport, StreamWatcher& watcher, const StreamOptions& options)
@@ -46,7 +34,13 @@ StreamReport Streamer::run(ProgramLines& program, const std::atomic<int>& stop)
     StreamReport report;
     try {
         greet();
-        learn_window();
+        learn_controller();
+        prepare_record();
+        if (options_.resume) {
+            prepare_resume(program);
+        }
+        watcher_.ready(facts_);
+        sending_ = true;
         if (options_.checked) {
             switch_checks_on();
             send_checked_program(program);
@@ -72,7 +66,10 @@ StreamReport Streamer::run(ProgramLines& program, const std::atomic<int>& stop)
     }
     watcher_.progress(progress_);
     report.progress = progress_;
-    report.resume_line = progress_.status.line.value_or(0);
+    if (sending_) {
+        keep_record(report.text);
+        report.record = record_;
+    }
     return report;
 }
 
@@ -88,6 +85,10 @@ void Streamer::greet()
                              std::to_string(options_.greeting_limit.count() / 1000) + " s"};
         }
     }
+    if (options_.resume) {
+        come_to_idle();
+        return;
+    }
     if (is_state("Alarm")) {
         throw Ending{StreamOutcome::kNotReady,
                      "the controller is in alarm: home it ($H) or unlock it ($X) first"};
@@ -98,37 +99,183 @@ void Streamer::greet()
     }
 }
 
-void Streamer::learn_window()
+// Before a resume: whatever still runs of the program is held, and all modes are the defaults.
+void Streamer::come_to_idle()
 {
-    if (options_.window != 0) {
-        window_.set_capacity(options_.window);
-        return;
+    hold_and_reset();
+    stopping_ = false;
+    constexpr milliseconds kLastBanner{300};
+    const auto start = Clock::now();
+    while (Clock::now() - start < kLastBanner) {
+        pump(kPump);
     }
-    // A controller that resets when its port is opened may do so now: then the question is lost.
-    constexpr int kAttempts = 3;
+    const std::uint64_t before = statuses_;
+    send_realtime('?');
+    while (statuses_ == before) {
+        pump(kPump);
+    }
+    if (!is_state("Idle") && !is_state("Alarm")) {
+        throw Ending{StreamOutcome::kNotReady,
+                     "the controller is not idle but in state " + progress_.status.state};
+    }
+}
+
+void Streamer::learn_controller()
+{
+    for (const char* command : {"$I", "$$", "$G", "$#"}) {
+        ask(command);
+    }
+    window_.set_capacity(options_.window != 0 ? options_.window
+                                              : std::max(facts_.receive_buffer().value_or(0),
+                                                         FlowWindow::kGrblBuffer));
+}
+
+// A command of the streamer's own, and its answer. A refusal is an answer.
+void Streamer::ask(const std::string& command)
+{
+    // A controller that resets when its port is opened may do so now, and one that checks lines
+    // leaves the question unheard: then it is asked again.
+    constexpr int kAttempts = 4;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         const std::uint64_t answers = own_answers_;
         const std::uint64_t banners = banners_;
         const auto start = Clock::now();
-        send_line(0, "$I");
-        while (banners_ == banners && Clock::now() - start < options_.greeting_limit) {
+        window_.clear();
+        send_line(0, command);
+        while (banners_ == banners && Clock::now() - start < options_.greeting_limit / 2) {
             if (own_answers_ != answers) {
                 return;
             }
             pump(kPump);
         }
     }
-    throw Ending{StreamOutcome::kNotReady, "the controller answers ? but not $I"};
+    throw Ending{StreamOutcome::kNotReady, "the controller answers ? but not " + command};
+}
+
+// Homing is answered when it is finished; meanwhile the reports tell that the line lives.
+void Streamer::home()
+{
+    constexpr std::chrono::minutes kHomingLimit{10};
+    const std::uint64_t answers = own_answers_;
+    const std::uint64_t errors = own_errors_;
+    const auto start = Clock::now();
+    send_line(0, "$H");
+    while (own_answers_ == answers) {
+        pump(kPump);
+        if (Clock::now() - start > kHomingLimit) {
+            throw Ending{StreamOutcome::kNotReady, "homing does not end"};
+        }
+    }
+    if (own_errors_ != errors) {
+        throw Ending{StreamOutcome::kAlarm, "homing failed"};
+    }
+    const std::uint64_t before = statuses_;
+    send_realtime('?');
+    while (statuses_ == before) {
+        pump(kPump);
+    }
+}
+
+Position Streamer::machine_position() const
+{
+    const ControllerStatus& status = progress_.status;
+    Vec3d at = status.machine_position.value_or(Vec3d{});
+    if (!status.machine_position && status.work_position) {
+        at = *status.work_position + progress_.work_offset;
+    }
+    constexpr double kInch = 25.4;
+    const bool inches = facts_.settings().on(machine::Setting::kReportInches);
+    return to_position(inches ? at * kInch : at);
+}
+
+void Streamer::prepare_record()
+{
+    record_.start = {machine_position(), facts_.modal(), facts_.parameters(),
+                     facts_.settings().value(machine::Setting::kPathTolerance)};
+    executed_.begin_at(1);
+}
+
+// Where and how the program goes on.
+void Streamer::prepare_resume(ProgramLines& program)
+{
+    const StreamResume& resume = *options_.resume;
+    const bool homes = is_state("Alarm");
+    if (homes && !facts_.settings().on(machine::Setting::kHoming)) {
+        throw Ending{StreamOutcome::kNotReady,
+                     "the controller is in alarm and can't home ($22=0): see that its position is "
+                     "true and unlock it ($X) first"};
+    }
+    const Vec3d gone = to_millimetres(resume.record.last_seen);
+    constexpr double kNear = 0.01;
+    const bool lost = !homes && machine_position() == Position{} && norm(gone) > kNear;
+    const bool goes_on = resume.confirm(facts_, machine_position(), homes, lost);
+    last_heard_ = last_asked_ = Clock::now();
+    if (!goes_on) {
+        throw Ending{StreamOutcome::kNotReady, "not resumed"};
+    }
+    if (homes) {
+        home();
+    }
+    for (const std::string& line : resume.approach(facts_, machine_position())) {
+        // Under the number of the line that they lead to.
+        first_lines_.push_back(
+            {0, options_.checked || !options_.numbers ? line : numbered_line(line, resume.line)});
+    }
+    record_.start = resume.record.start;
+    executed_.begin_at(resume.line);
+    while (auto line = program.next()) {
+        if (line->number >= resume.line) {
+            first_lines_.push_back(std::move(*line));
+            break;
+        }
+        checks_.add(*line);
+    }
+}
+
+std::optional<ProgramLine> Streamer::next_line(ProgramLines& program)
+{
+    std::optional<ProgramLine> line;
+    if (first_lines_.empty()) {
+        line = program.next();
+    } else {
+        line = std::move(first_lines_.front());
+        first_lines_.pop_front();
+    }
+    if (line && line->number != 0) {
+        checks_.add(*line);
+    }
+    return line;
+}
+
+void Streamer::keep_record(const std::string& ending)
+{
+    record_.executed_line = executed_.line();
+    record_.last_seen = machine_position();
+    const ProgramChecks::Mark mark = checks_.before(record_.executed_line);
+    record_.checked_line = mark.line;
+    record_.crc = mark.crc;
+    record_.ending = ending;
+    last_kept_ = Clock::now();
+    if (options_.keep) {
+        options_.keep(record_);
+    }
 }
 
 void Streamer::send_program(ProgramLines& program)
 {
-    auto line = program.next();
+    const auto numbered = [&] {
+        auto line = next_line(program);
+        if (line && line->number != 0 && options_.numbers) {
+            line->text = numbered_line(line->text, line->number);
+        }
+        return line;
+    };
+    auto line = numbered();
     while (line || !window_.empty()) {
         while (line && outgoing_.empty() && window_.fits(line->text.size() + 1)) {
             send_line(line->number, line->text);
             progress_.sent_fraction = program.progress();
-            line = program.next();
+            line = numbered();
         }
         pump(kPump);
     }
@@ -157,15 +304,26 @@ void Streamer::switch_checks_on()
     throw Ending{StreamOutcome::kNotReady, "the controller does not know checked lines ($CRC=1)"};
 }
 
+// A transfer that was cut off has left lines checked: the refusal tells the number that ends it.
+void Streamer::leave_checks(const std::string& refusal)
+{
+    const auto number = refused_number(refusal);
+    if (number) {
+        window_.clear();
+        outgoing_ += checked_line(*number, "$CRC=0") + "\n";
+        send_waiting();
+    }
+}
+
 void Streamer::send_checked_program(ProgramLines& program)
 {
-    auto line = program.next();
+    auto line = next_line(program);
     while (line || !checked_->empty()) {
         while (line && checked_->has_room()) {
             checked_->add(line->number, line->text);
-            ++progress_.lines_sent;
+            progress_.lines_sent += line->number != 0 ? 1U : 0U;
             progress_.sent_fraction = program.progress();
-            line = program.next();
+            line = next_line(program);
         }
         while (outgoing_.empty()) {
             const auto wire = checked_->next(Clock::now());
@@ -242,8 +400,10 @@ void Streamer::send_line(std::uint64_t number, std::string text)
 
 void Streamer::send_realtime(char byte)
 {
-    // On a checked line all but the question count at their third repetition.
-    std::string bytes(checked_ && byte != '?' ? 3 : 1, byte);
+    // On a checked line all but the question count at their third repetition; whoever sent before
+    // may have left lines checked.
+    const bool repeats = (checked_ || !sending_) && byte != '?';
+    std::string bytes(repeats ? 3 : 1, byte);
     const auto start = Clock::now();
     while (!bytes.empty()) {
         bytes.erase(0, transport_.write(bytes));
@@ -276,6 +436,10 @@ void Streamer::pump(milliseconds wait)
         watcher_.progress(progress_);
     }
     check_silence();
+    constexpr std::chrono::seconds kKeepInterval{1};
+    if (sending_ && Clock::now() - last_kept_ > kKeepInterval) {
+        keep_record("");
+    }
     if (!stopping_) {
         take_key(watcher_.key());
         if (stop_->load() != 0) {
@@ -299,6 +463,8 @@ void Streamer::take_line(const std::string& line)
 {
     if (checked_) {
         take_checked(line);
+    } else if (line.rfind("resend ", 0) == 0) {
+        leave_checks(line);
     }
     const Answer answer = parse_answer(line);
     switch (answer.kind) {
@@ -317,7 +483,7 @@ void Streamer::take_line(const std::string& line)
             break;
         case AnswerKind::kBanner:
             ++banners_;
-            if (!stopping_ && progress_.lines_sent > 0) {
+            if (!stopping_ && sending_) {
                 throw Ending{
                     StreamOutcome::kLinkLost,
                     "the controller has started anew: its power failed or somebody reset it"};
@@ -325,13 +491,13 @@ void Streamer::take_line(const std::string& line)
             window_.clear();
             break;
         case AnswerKind::kMessage:
-            if (answer.text.rfind("OPT:", 0) == 0) {
-                window_.set_capacity(std::max(buffer_in(answer.text), FlowWindow::kGrblBuffer));
-            } else if (answer.text.rfind("MSG:", 0) == 0) {
+            if (answer.text.rfind("MSG:", 0) == 0) {
                 watcher_.notice(answer.text.substr(4));
             }
+            facts_.take(line);
             break;
         case AnswerKind::kOther:
+            facts_.take(line);
             break;
     }
 }
@@ -348,11 +514,17 @@ void Streamer::take_status(const ControllerStatus& status)
     progress_.status.line = line;
     progress_.work_offset = status.work_offset.value_or(progress_.work_offset);
     progress_.feed_override = status.feed_override.value_or(progress_.feed_override);
+    executed_.blocks_free(static_cast<std::size_t>(std::max(0, status.free_blocks.value_or(0))));
+    if (sending_ && line && *line != 0) {
+        executed_.reported(*line, Clock::now());
+    } else if (sending_ && status.feed.value_or(0.0) > 0.0) {
+        executed_.reported_none();
+    }
     ++statuses_;
     if (is_state("Hold") && !was_held && !stopping_) {
         watcher_.notice("the controller holds and waits for resume");
     }
-    if (is_state("Alarm") && progress_.lines_sent > 0 && !stopping_) {
+    if (is_state("Alarm") && sending_ && !stopping_) {
         throw Ending{StreamOutcome::kAlarm, "the controller is in alarm"};
     }
 }
@@ -366,15 +538,25 @@ void Streamer::take_answer(const Answer& answer)
     if (*number == 0) {
         ++own_answers_;
         own_errors_ += answer.kind == AnswerKind::kError ? 1 : 0;
+    } else {
+        ++progress_.lines_answered;
+        progress_.line = *number;
+        executed_.answered(*number);
+    }
+    if (answer.kind == AnswerKind::kError) {
+        take_error(*number, answer.code);
+    }
+}
+
+void Streamer::take_error(std::uint64_t line, int code)
+{
+    if (stopping_ || !sending_) {
         return;
     }
-    ++progress_.lines_answered;
-    progress_.line = *number;
-    if (answer.kind == AnswerKind::kError && !stopping_) {
-        throw Ending{StreamOutcome::kError, name_of(file_, *number) +
-                                                ": error:" + std::to_string(answer.code) + ": " +
-                                                std::string{error_text(answer.code)}};
-    }
+    const std::string where =
+        line == 0 ? std::string{"the way back to the work"} : name_of(file_, line);
+    throw Ending{StreamOutcome::kError,
+                 where + ": error:" + std::to_string(code) + ": " + std::string{error_text(code)}};
 }
 
 void Streamer::take_checked(const std::string& line)
@@ -385,10 +567,8 @@ void Streamer::take_checked(const std::string& line)
     }
     progress_.lines_answered += verdict->done_lines;
     progress_.line = verdict->program_line;
-    if (verdict->error != 0 && !stopping_) {
-        throw Ending{StreamOutcome::kError, name_of(file_, verdict->program_line) +
-                                                ": error:" + std::to_string(verdict->error) + ": " +
-                                                std::string{error_text(verdict->error)}};
+    if (verdict->error != 0) {
+        take_error(verdict->program_line, verdict->error);
     }
 }
 

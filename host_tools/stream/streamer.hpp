@@ -8,16 +8,35 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <deque>
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "host_tools/dialect/answer.hpp"
 #include "host_tools/dialect/flow_window.hpp"
 #include "host_tools/dialect/program_lines.hpp"
 #include "host_tools/stream/checked_window.hpp"
+#include "host_tools/stream/controller_facts.hpp"
+#include "host_tools/stream/executed_line.hpp"
+#include "host_tools/stream/program_check.hpp"
+#include "host_tools/stream/transfer_record.hpp"
 #include "host_tools/stream/transport.hpp"
 
 namespace cusp::host {
+
+// How to take up a program that was interrupted.
+struct StreamResume {
+    TransferRecord record;
+    std::uint64_t line{0};  // of the file, the first to send
+    // Asks the person. The controller is at rest; `homes` tells that it will be homed first,
+    // `place_lost` that it seems not to know where the tool is.
+    std::function<bool(const ControllerFacts&, Position machine, bool homes, bool place_lost)>
+        confirm;
+    // The lines that go before the program's.
+    std::function<std::vector<std::string>(const ControllerFacts&, Position machine)> approach;
+};
 
 struct StreamOptions {
     // Bytes of the controller's receive buffer; 0: ask it, 128 where it does not say.
@@ -29,6 +48,11 @@ struct StreamOptions {
     bool checked{false};
     // How long a controller may take to say its first word.
     std::chrono::milliseconds greeting_limit{5000};
+    // Lines carry their number in the file as N word, so that reports can name them.
+    bool numbers{true};
+    std::optional<StreamResume> resume;
+    // Gets what is needed to resume, from time to time and at the end.
+    std::function<void(const TransferRecord&)> keep;
 };
 
 struct StreamProgress {
@@ -62,6 +86,8 @@ public:
     StreamWatcher& operator=(const StreamWatcher&) = delete;
     virtual ~StreamWatcher() = default;
 
+    // The controller is there; nothing is sent yet.
+    virtual void ready(const ControllerFacts& facts) = 0;
     // Called some fifty times a second.
     virtual void progress(const StreamProgress& progress) = 0;
     // One sentence for the person at the machine.
@@ -83,8 +109,8 @@ struct StreamReport {
     StreamOutcome outcome{StreamOutcome::kDone};
     std::string text;  // what happened, in words; empty where all went well
     StreamProgress progress;
-    // The first line that was perhaps not executed: where to resume.
-    std::uint64_t resume_line{0};
+    // What is needed to resume; none where nothing of the program was sent.
+    std::optional<TransferRecord> record;
 };
 
 class Streamer {
@@ -106,9 +132,17 @@ private:
         std::string text;
     };
     void greet();
-    void learn_window();
+    void come_to_idle();
+    void home();
+    void learn_controller();
+    void ask(const std::string& command);
+    void prepare_record();
+    void prepare_resume(ProgramLines& program);
+    std::optional<ProgramLine> next_line(ProgramLines& program);
+    void keep_record(const std::string& ending);
     void send_program(ProgramLines& program);
     void switch_checks_on();
+    void leave_checks(const std::string& refusal);
     void send_checked_program(ProgramLines& program);
     void wait_for_rest();
     void hold_and_reset();
@@ -122,7 +156,9 @@ private:
     void take_answer(const Answer& answer);
     void take_checked(const std::string& line);
     void take_key(StreamKey key);
+    void take_error(std::uint64_t line, int code);
     void check_silence();
+    Position machine_position() const;
     bool is_state(const char* state) const { return progress_.status.state == state; }
 
     Transport& transport_;
@@ -142,7 +178,13 @@ private:
     std::uint64_t own_answers_{0};
     std::uint64_t own_errors_{0};
     bool stopping_{false};
-    std::string last_message_;
+    ControllerFacts facts_;
+    std::deque<ProgramLine> first_lines_;  // of the approach, and the first of the program
+    bool sending_{false};                  // the program, or the approach to it
+    TransferRecord record_;
+    ExecutedLine executed_;
+    ProgramChecks checks_;
+    Clock::time_point last_kept_;
 };
 
 }  // namespace cusp::host

@@ -47,10 +47,24 @@ bool curve_is_open(const std::string& modal)
            modal.find("[GC:G6.2") != std::string::npos;
 }
 
+// A quick and coarse mill: moves take few ticks and few pulses, so that many inputs are tried.
+cusp::machine::Settings quick_mill()
+{
+    cusp::machine::Settings settings;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+        (void)settings.put(100 + axis, 40.0F);
+        (void)settings.put(110 + axis, 60000.0F);
+        (void)settings.put(120 + axis, 20000.0F);
+        (void)settings.put(800 + axis, 2e6F);
+    }
+    CUSP_ASSERT(settings.sound());
+    return settings;
+}
+
 // Line by line, without realtime bytes.
 void play_line(ControllerBench& bench, const std::string& line)
 {
-    constexpr unsigned kPatience = 400;
+    constexpr unsigned kPatience = 200;
     const cusp::Position before = bench.app.machine().motion().position();
     const bool curve = curve_is_open(bench.exchange("$G\n", 1));
     const std::string said = bench.exchange(line + "\n", 2) + bench.finish(kPatience);
@@ -81,7 +95,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (size < 2) {
         return 0;
     }
-    ControllerBench bench;
+    static const cusp::machine::Settings settings = quick_mill();
+    ControllerBench bench{{}, settings};
     (void)bench.exchange("", 2);
     const std::string bytes(data + 1, data + size);
     if (data[0] % 2 == 0) {

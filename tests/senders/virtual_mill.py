@@ -20,7 +20,8 @@ def free_port():
 class VirtualMill:
     """Starts the controller, and a tap unless `tap` is False; `port` is what a sender opens."""
 
-    def __init__(self, cusp, *options, settings="", tap=True):
+    def __init__(self, cusp, *options, settings="", tap=True, steps_per_mm=800):
+        self.steps_per_mm = steps_per_mm
         self.scratch = tempfile.TemporaryDirectory()
         self.folder = pathlib.Path(self.scratch.name)
         self.control_port = free_port()
@@ -71,10 +72,10 @@ class VirtualMill:
         return answer.decode().strip()
 
     def where(self):
-        """What the iron did: steps from the start, in mm of 800 steps, spindle and power."""
+        """What the iron did: mm from the start."""
         text = self.command("where")
         steps = re.search(r"steps (-?\d+),(-?\d+),(-?\d+)", text)
-        return tuple(int(count) / 800 for count in steps.groups())
+        return tuple(int(count) / self.steps_per_mm for count in steps.groups())
 
 
 def say(text):

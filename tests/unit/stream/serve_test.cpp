@@ -19,6 +19,7 @@ namespace {
 using namespace cusp;
 
 struct QuietWatcher : host::StreamWatcher {
+    void ready(const host::ControllerFacts&) override {}
     void progress(const host::StreamProgress&) override {}
     void notice(const std::string&) override {}
     host::StreamKey key() override { return host::StreamKey::kNone; }

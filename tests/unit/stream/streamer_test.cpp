@@ -17,6 +17,7 @@ namespace {
 using namespace cusp::host;
 
 struct QuietWatcher : StreamWatcher {
+    void ready(const ControllerFacts&) override {}
     void progress(const StreamProgress& now) override { last = now; }
     void notice(const std::string& text) override { notices.push_back(text); }
     StreamKey key() override
@@ -35,6 +36,7 @@ StreamOptions quick()
     StreamOptions options;
     options.silence_limit = options.greeting_limit = std::chrono::milliseconds{200};
     options.status_interval = std::chrono::milliseconds{5};
+    options.numbers = false;
     return options;
 }
 
@@ -67,11 +69,8 @@ TEST(Streamer, SendsEveryLineOnceInOrderWithoutComments)
 {
     const StreamReport report = send("%\nG21 (mm)\n\n; nothing\nG1 X1 F100\r\nM2\n%\n");
     CHECK(report.outcome == StreamOutcome::kDone);
-    LONGS_EQUAL(4, controller.lines.size());
-    STRCMP_EQUAL("$I", controller.lines[0].c_str());
-    STRCMP_EQUAL("G21", controller.lines[1].c_str());
-    STRCMP_EQUAL("G1X1F100", controller.lines[2].c_str());
-    STRCMP_EQUAL("M2", controller.lines[3].c_str());
+    const std::vector<std::string> wanted{"$I", "$$", "$G", "$#", "G21", "G1X1F100", "M2"};
+    CHECK(wanted == controller.lines);
     LONGS_EQUAL(3, report.progress.lines_answered);
 }
 
@@ -79,7 +78,7 @@ TEST(Streamer, NeverHasMoreBytesUnansweredThanAStockGrblHolds)
 {
     controller.delay = 3;
     LONGS_EQUAL(StreamOutcome::kDone, send(many_lines(300)).outcome);
-    LONGS_EQUAL(301, controller.lines.size());
+    LONGS_EQUAL(304, controller.lines.size());
     CHECK(controller.most_unanswered <= 128);
     CHECK(controller.most_unanswered > 100);
 }
@@ -99,8 +98,17 @@ TEST(Streamer, LosesNothingWhenTheLineTakesOneByteAtATime)
 {
     controller.mouthful = 1;
     LONGS_EQUAL(StreamOutcome::kDone, send(many_lines(50)).outcome);
-    LONGS_EQUAL(51, controller.lines.size());
+    LONGS_EQUAL(54, controller.lines.size());
     STRCMP_EQUAL("G1X49F1000", controller.lines.back().c_str());
+}
+
+TEST(Streamer, NumbersTheLinesAsInTheFile)
+{
+    options.numbers = true;
+    send("(head)\nG21\n\nN7 G1 X1 F100\n$100=800\n");
+    STRCMP_EQUAL("N2G21", controller.lines[4].c_str());
+    STRCMP_EQUAL("N4G1X1F100", controller.lines[5].c_str());
+    STRCMP_EQUAL("$100=800", controller.lines[6].c_str());
 }
 
 TEST(Streamer, StopsAtTheFirstErrorHoldsAndResets)

@@ -1,0 +1,108 @@
+// Reading of listings.
+#include "host_tools/stream/controller_facts.hpp"
+
+#include <array>
+#include <charconv>
+
+namespace cusp::host {
+namespace {
+
+using machine::Setting;
+
+template <class Number>
+std::optional<Number> number_in(std::string_view text)
+{
+    Number number{};
+    const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return failed == std::errc{} ? std::optional{number} : std::nullopt;
+}
+
+constexpr std::array<std::string_view, gcode::kCoordinateSystems> kSystems{
+    "G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"};
+
+Position position_in(std::string_view text)
+{
+    Vec3d place;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+        place[axis] = number_in<double>(text).value_or(0.0);
+        const std::size_t comma = text.find(',');
+        text = comma == std::string_view::npos ? std::string_view{} : text.substr(comma + 1);
+    }
+    return to_position(place);
+}
+
+Position in_millimetres(Position inches)
+{
+    return {inches.x * 254 / 10, inches.y * 254 / 10, inches.z * 254 / 10};
+}
+
+}  // namespace
+
+void ControllerFacts::take(std::string_view line)
+{
+    if (line.size() > 2 && line.front() == '[' && line.back() == ']') {
+        const std::string_view inside = line.substr(1, line.size() - 2);
+        const std::size_t colon = inside.find(':');
+        if (colon != std::string_view::npos) {
+            take_parameter(inside.substr(0, colon), inside.substr(colon + 1));
+        }
+        return;
+    }
+    const std::size_t equals = line.find('=');
+    if (line.empty() || line.front() != '$' || equals == std::string_view::npos) {
+        return;
+    }
+    const auto number = number_in<std::uint32_t>(line.substr(1));
+    const auto value = number_in<float>(line.substr(equals + 1));
+    if (number && value) {
+        has_settings_ = true;
+        machine::Settings changed = settings_;
+        if (!changed.put(*number, *value)) {
+            settings_ = changed;
+        }
+    }
+}
+
+void ControllerFacts::take_parameter(std::string_view name, std::string_view value)
+{
+    for (std::size_t i = 0; i < kSystems.size(); ++i) {
+        if (name == kSystems[i]) {
+            parameters_.work_offsets[i] = position_in(value);
+        }
+    }
+    if (name == "GC") {
+        modal_ = std::string{value};
+    } else if (name == "G28") {
+        parameters_.home = position_in(value);
+    } else if (name == "G30") {
+        parameters_.second_home = position_in(value);
+    } else if (name == "G92") {
+        parameters_.coordinate_offset = position_in(value);
+    } else if (name == "TLO") {
+        parameters_.tool_length_offset_nm = to_nanometres(number_in<double>(value).value_or(0.0));
+    } else if (name == "OPT") {
+        // `OPT:V,15,128`: blocks and bytes.
+        const std::size_t comma = value.rfind(',');
+        if (comma != std::string_view::npos) {
+            receive_buffer_ = number_in<std::size_t>(value.substr(comma + 1));
+        }
+    }
+}
+
+gcode::Parameters ControllerFacts::parameters() const
+{
+    gcode::Parameters parameters = parameters_;
+    if (!settings_.on(Setting::kReportInches)) {
+        return parameters;
+    }
+    for (Position& offset : parameters.work_offsets) {
+        offset = in_millimetres(offset);
+    }
+    parameters.home = in_millimetres(parameters.home);
+    parameters.second_home = in_millimetres(parameters.second_home);
+    parameters.coordinate_offset = in_millimetres(parameters.coordinate_offset);
+    parameters.tool_length_offset_nm = parameters.tool_length_offset_nm * 254 / 10;
+    return parameters;
+}
+
+}  // namespace cusp::host

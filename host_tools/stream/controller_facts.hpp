@@ -1,0 +1,44 @@
+// ControllerFacts: what a controller says of itself before a transfer: `$I`, `$$`, `$G` and `$#`.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "firmware/gcode/modal_state.hpp"
+#include "firmware/machine/settings.hpp"
+
+namespace cusp::host {
+
+class ControllerFacts {
+public:
+    // A line of the controller; others than answers to these four are passed over.
+    void take(std::string_view line);
+
+    // Bytes of its receive buffer; none where it does not say.
+    std::optional<std::size_t> receive_buffer() const { return receive_buffer_; }
+
+    // Settings that are not known here are left out; what the controller does not say is at its
+    // default.
+    const machine::Settings& settings() const { return settings_; }
+    // Whether `$$` was answered.
+    bool has_settings() const { return has_settings_; }
+
+    // Words of `$G`: "G0 G54 G17 ...".
+    const std::string& modal() const { return modal_; }
+
+    // Offsets and stored positions as `$#` gives them: to a thousandth of a millimetre.
+    gcode::Parameters parameters() const;
+
+private:
+    void take_parameter(std::string_view name, std::string_view value);
+
+    std::optional<std::size_t> receive_buffer_;
+    machine::Settings settings_;
+    bool has_settings_{false};
+    std::string modal_;
+    gcode::Parameters parameters_;  // millimetres, or inches with $13, times a million
+};
+
+}  // namespace cusp::host

@@ -1,0 +1,73 @@
+// ExecutedLine: the line that the tool has reached for sure, from reports and answers.
+//
+// A report's Ln names the line that the path has reached; the tool follows it within half a second,
+// the longest filters included. So the newest line counts that was reported at least so long before
+// the last word of the controller. A controller that names no lines has taken as many lines off its
+// planner as it has answered beyond the planner's blocks: each motion takes at least one.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+
+namespace cusp::host {
+
+class ExecutedLine {
+public:
+    using Clock = std::chrono::steady_clock;
+
+    // Where the program begins, or goes on.
+    void begin_at(std::uint64_t line) { line_ = begin_ = line; }
+
+    // A report that named a line.
+    void reported(std::uint64_t line, Clock::time_point now)
+    {
+        constexpr std::chrono::milliseconds kLag{500};
+        if (!names_lines_) {
+            names_lines_ = true;
+            line_ = begin_;
+        }
+        while (!reports_.empty() && now - reports_.front().at >= kLag) {
+            line_ = reports_.front().line;
+            reports_.pop_front();
+        }
+        if (reports_.empty() || reports_.back().line != line) {
+            reports_.push_back({line, now});
+        }
+    }
+    // A report in motion that named none.
+    void reported_none() { ++unnamed_; }
+    // Free planner blocks, where a report tells them.
+    void blocks_free(std::size_t blocks) { blocks_ = blocks > blocks_ ? blocks : blocks_; }
+
+    void answered(std::uint64_t line)
+    {
+        constexpr unsigned kSurely = 5;
+        if (names_lines_) {
+            answered_.clear();
+            return;
+        }
+        answered_.push_back(line);
+        while (answered_.size() > blocks_ + 1) {
+            line_ = unnamed_ >= kSurely ? answered_.front() : line_;
+            answered_.pop_front();
+        }
+    }
+
+    std::uint64_t line() const { return line_; }
+
+private:
+    struct Report {
+        std::uint64_t line;
+        Clock::time_point at;
+    };
+    std::uint64_t line_{0};
+    std::uint64_t begin_{0};
+    bool names_lines_{false};
+    unsigned unnamed_{0};
+    std::size_t blocks_{16};  // a stock Grbl's
+    std::deque<Report> reports_;
+    std::deque<std::uint64_t> answered_;
+};
+
+}  // namespace cusp::host
