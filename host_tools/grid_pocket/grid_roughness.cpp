@@ -1,142 +1,178 @@
-// A ball at a track leaves t = R + n.d - sqrt(R^2 - |d across n|^2) over the place where the ball
-// at c touches, d from c to the track, n the normal there: the lower of the two points where the
-// normal through the contact meets the ball at the track.
+// Where the axis stands at c, between tracks, the tool touches the surface at q, aside of c towards
+// the rising side. What stands over q is the lowest of the tools on the tracks around.
 #include "host_tools/grid_pocket/grid_roughness.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "firmware/base/math.hpp"
+
 namespace cusp::host {
 namespace {
 
-// The heights around one square of four cells, in mm over its lower left cell.
-struct Square {
-    double gx;
-    double gy;
-    std::array<double, 4> z;  // lower left, lower right, upper left, upper right
-    double bend_x;            // second derivatives of the tip's height
-    double bend_y;
-    // Sides run along: bottom, top, left, right.
-    std::array<bool, 4> track;
+// Exact heights that one look at the roughness may ask for.
+constexpr int kMostHeights = 20000;
 
-    double height(double s, double t) const
-    {
-        const double plane =
-            (z[0] * (1 - s) + z[1] * s) * (1 - t) + (z[2] * (1 - s) + z[3] * s) * t;
-        return plane - bend_x * gx * gx * s * (1 - s) / 2 - bend_y * gy * gy * t * (1 - t) / 2;
-    }
+// Squares ranked this much under the highest found are not looked at.
+constexpr double kRankDoubt = 1.35;
 
-    Vec3d normal(double s, double t) const
-    {
-        const double zx =
-            ((z[1] - z[0]) * (1 - t) + (z[3] - z[2]) * t) / gx + bend_x * gx * (s - 0.5);
-        const double zy =
-            ((z[2] - z[0]) * (1 - s) + (z[3] - z[1]) * s) / gy + bend_y * gy * (t - 0.5);
-        const Vec3d n{-zx, -zy, 1};
-        return n / norm(n);
-    }
-};
+constexpr double kNothing = 1e300;
 
-double left_by(double radius, Vec3d n, Vec3d d)
+// Between the places looked at a ridge may be this much higher, as a share of it; the rim of a flat
+// end makes steps that fall between them.
+constexpr double kBetween = 1.03;
+constexpr double kBetweenSteps = 1.25;
+
+// mm: a place that a flat end touches lies on its rim, to rounding.
+constexpr double kOnTheRim = 1e-6;
+
+Vec2d plan(Vec3d p) { return {p.x, p.y}; }
+
+// What the tools at `tips` leave over the place that a tool at `here` touches, with the slope of
+// the tip's height there.
+double left_by(const Tool& tool, Vec3d here, Vec2d slope, const std::vector<Vec3d>& tips)
 {
-    const double along = dot(n, d);
-    const double across = dot(d, d) - along * along;
-    return across < radius * radius ? radius + along - std::sqrt(radius * radius - across) : radius;
-}
-
-// Least that any track of the square leaves at (s, t), both in [0, 1].
-double left_at(const Square& q, double radius, double s, double t)
-{
-    const Vec3d here{s * q.gx, t * q.gy, q.height(s, t)};
-    const Vec3d n = q.normal(s, t);
-    double least = radius;
-    const auto look = [&](double a, double b) {
-        // Tracks run straight between their cells.
-        const double z =
-            (q.z[0] * (1 - a) + q.z[1] * a) * (1 - b) + (q.z[2] * (1 - a) + q.z[3] * a) * b;
-        least = std::min(least, left_by(radius, n, Vec3d{a * q.gx, b * q.gy, z} - here));
-    };
-    for (const double a : {0.0, 1.0}) {
-        look(a, 0);
-        look(a, 1);
+    const double steep = norm(slope);
+    const double secant = std::sqrt(1 + steep * steep);
+    const double corner = tool.corner_radius;
+    const double aside = steep > 1e-9 ? tool.radius - corner + corner * steep / secant : 0;
+    const Vec2d touch = plan(here) + slope * (steep > 1e-9 ? aside / steep : 0);
+    const double rim = tool.radius * (1 - 1e-12);
+    const double z = here.z + profile_height(tool, std::min(aside, rim));
+    const Vec3d normal{-slope.x / secant, -slope.y / secant, 1 / secant};
+    double least = kNothing;
+    for (const Vec3d& tip : tips) {
+        const double away = norm(plan(tip) - touch);
+        if (away > tool.radius + kOnTheRim) {
+            continue;
+        }
+        double left = (tip.z + profile_height(tool, std::min(away, rim)) - z) / secant;
+        if (corner == tool.radius) {
+            // For a ball also along the normal: the lower point where it meets the ball on the
+            // track. The larger of both counts.
+            const Vec3d d = tip - here;
+            const double along = dot(normal, d);
+            const double across = dot(d, d) - along * along;
+            if (across < corner * corner) {
+                left = std::max(left, corner + along - std::sqrt(corner * corner - across));
+            }
+        }
+        least = std::min(least, left);
     }
-    for (const double shift : {-0.15, 0.0, 0.15}) {
-        const double a = std::clamp(s + shift, 0.0, 1.0);
-        const double b = std::clamp(t + shift, 0.0, 1.0);
-        if (q.track[0]) {
-            look(a, 0);
-        }
-        if (q.track[1]) {
-            look(a, 1);
-        }
-        if (q.track[2]) {
-            look(0, b);
-        }
-        if (q.track[3]) {
-            look(1, b);
-        }
-    }
-    return least;
-}
-
-double left_in(const Square& q, double radius)
-{
-    double most = 0;
-    for (const double s : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-        for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-            most = std::max(most, left_at(q, radius, s, t));
-        }
-    }
-    return most;
+    // A touch that no track reaches over is none: the slope was taken across a kink.
+    return least < kNothing ? std::clamp(least, 0.0, tool.radius) : 0.0;
 }
 
 class Roughness {
 public:
-    Roughness(const CellGrid& grid,
-              const std::vector<double>& heights,
-              const Tracks& tracks,
-              double radius,
-              const std::function<double(Vec2d)>& to_wall_pass)
-        : grid_{grid},
-          heights_{heights},
-          tracks_{tracks},
-          radius_{radius},
-          to_wall_pass_{to_wall_pass}
+    Roughness(const CellGrid& grid, const TipSurface& surface, const Tracks& tracks, Tool tool)
+        : grid_{grid}, surface_{surface}, tracks_{tracks}, tool_{tool}
     {
     }
 
-    double of_square(Cell c) const
+    // Rank of the square whose lower left cell is `c`: by the heights over cells alone.
+    double ranked(Cell c)
     {
-        const std::array<Cell, 4> cells{c, Cell{c.column + 1, c.row}, Cell{c.column, c.row + 1},
-                                        Cell{c.column + 1, c.row + 1}};
+        const std::array<Cell, 4> cells = corners(c);
         const auto inside =
             std::count_if(cells.begin(), cells.end(), [&](Cell k) { return grid_.inside(k); });
-        if (inside == 0) {
-            return 0;
+        return inside == 4 ? between_cells(cells) : beside_wall(c, cells);
+    }
+
+    // The same with exact heights; `asked` grows by their number.
+    double exact(Cell c, int& asked)
+    {
+        const double reach = std::max(tool_.corner_radius, tool_.radius / 4);
+        const auto places = [&](double size) {
+            return std::clamp(2 * static_cast<int>(std::ceil(5 * size / reach)), 4, 14);
+        };
+        nx_ = places(grid_.gx());
+        ny_ = places(grid_.gy());
+        read_lattice(c, asked);
+        collect_tracks(c);
+        double most = 0;
+        Vec2d top{};
+        for (int j = 0; j <= ny_; ++j) {
+            for (int i = 0; i <= nx_; ++i) {
+                if (known(i, j)) {
+                    const double left = left_at(place(c, i, j), slopes(i, j), asked);
+                    top = left > most ? plan(place(c, i, j)) : top;
+                    most = std::max(most, left);
+                }
+            }
         }
-        if (inside < 4) {
-            return beside_wall(c, cells);
-        }
-        Square q{grid_.gx(), grid_.gy(), {}, 0, 0, {}};
-        for (std::size_t i = 0; i < 4; ++i) {
-            q.z[i] = height(cells[i]);
-        }
-        q.bend_x = bend(cells, 1, 0) / (q.gx * q.gx);
-        q.bend_y = bend(cells, 0, 1) / (q.gy * q.gy);
-        q.track = {tracks_.east(cells[0]), tracks_.east(cells[2]), tracks_.north(cells[0]),
-                   tracks_.north(cells[1])};
-        return left_in(q, radius_);
+        return most > 0 ? climb(top, most, asked) : 0;
     }
 
 private:
     const CellGrid& grid_;
-    const std::vector<double>& heights_;
+    const TipSurface& surface_;
     const Tracks& tracks_;
-    double radius_;
-    const std::function<double(Vec2d)>& to_wall_pass_;
+    Tool tool_;
+    int nx_{};
+    int ny_{};
+    std::vector<double> lattice_;
+    std::vector<Vec3d> tips_;
 
-    double height(Cell c) const { return heights_[grid_.index(c)]; }
+    static std::array<Cell, 4> corners(Cell c)
+    {
+        return {c, Cell{c.column + 1, c.row}, Cell{c.column, c.row + 1},
+                Cell{c.column + 1, c.row + 1}};
+    }
+
+    double height(Cell c) const { return surface_.heights[grid_.index(c)]; }
+    Vec3d tip(Cell c) const
+    {
+        const Vec2d at = grid_.centre(c);
+        return {at.x, at.y, height(c)};
+    }
+
+    bool track(Cell a, bool east) const
+    {
+        const Cell b = east ? Cell{a.column + 1, a.row} : Cell{a.column, a.row + 1};
+        return grid_.inside(a) && grid_.inside(b) && (east ? tracks_.east(a) : tracks_.north(a));
+    }
+
+    // In the middle of the square and of its sides, with the height as a paraboloid through it.
+    double between_cells(const std::array<Cell, 4>& cells)
+    {
+        const double gx = grid_.gx();
+        const double gy = grid_.gy();
+        const std::array<double, 4> z{height(cells[0]), height(cells[1]), height(cells[2]),
+                                      height(cells[3])};
+        const double bend_x = bend(cells, 1, 0);
+        const double bend_y = bend(cells, 0, 1);
+        const Vec2d origin = grid_.centre(cells[0]);
+        const auto flat = [&](double s, double t) {
+            return (z[0] * (1 - s) + z[1] * s) * (1 - t) + (z[2] * (1 - s) + z[3] * s) * t;
+        };
+        tips_.clear();
+        for (const Cell c : cells) {
+            tips_.push_back(tip(c));
+        }
+        const auto foot = [&](bool cut, double s, double t) {
+            if (cut) {
+                tips_.push_back({origin.x + s * gx, origin.y + t * gy, flat(s, t)});
+            }
+        };
+        foot(track(cells[0], true), 0.5, 0);
+        foot(track(cells[2], true), 0.5, 1);
+        foot(track(cells[0], false), 0, 0.5);
+        foot(track(cells[1], false), 1, 0.5);
+        double most = 0;
+        for (const double s : {0.0, 0.5, 1.0}) {
+            for (const double t : {0.0, 0.5, 1.0}) {
+                const double h = flat(s, t) - bend_x * s * (1 - s) / 2 - bend_y * t * (1 - t) / 2;
+                const Vec2d slope{
+                    ((z[1] - z[0]) * (1 - t) + (z[3] - z[2]) * t + bend_x * (s - 0.5)) / gx,
+                    ((z[2] - z[0]) * (1 - s) + (z[3] - z[1]) * s + bend_y * (t - 0.5)) / gy};
+                most = std::max(
+                    most, left_by(tool_, {origin.x + s * gx, origin.y + t * gy, h}, slope, tips_));
+            }
+        }
+        return most;
+    }
 
     // Mean second difference over the square's cells along an axis.
     double bend(const std::array<Cell, 4>& cells, int dx, int dy) const
@@ -154,8 +190,35 @@ private:
         return count > 0 ? sum / count : 0;
     }
 
-    // Distances in plan, stretched by the steepest slope between the square's cells.
+    // By the distance to the next track in plan, stretched by the slope between the square's cells.
     double beside_wall(Cell c, const std::array<Cell, 4>& cells) const
+    {
+        const double middle =
+            surface_.to_wall_pass((grid_.centre(c) + grid_.centre(cells[3])) * 0.5);
+        const double half = std::hypot(grid_.gx(), grid_.gy()) / 2;
+        if (middle < -half) {
+            return 0;
+        }
+        double farthest = 0;
+        for (const double s : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+            for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+                const Vec2d p = grid_.centre(c) + Vec2d{s * grid_.gx(), t * grid_.gy()};
+                const double wall = surface_.to_wall_pass(p);
+                if (wall > 0) {
+                    farthest = std::max(farthest, std::min(wall, to_tracks(p, cells)));
+                }
+            }
+        }
+        // Between the places looked at it may be this much farther.
+        farthest += half / 6;
+        const double steep = steepest(cells);
+        const double reach = tool_.corner_radius > 0 ? tool_.corner_radius : tool_.radius;
+        const double way = std::min(farthest * std::hypot(1.0, steep), reach);
+        return reach - std::sqrt(reach * reach - way * way) +
+               (tool_.corner_radius < tool_.radius ? steep * farthest : 0);
+    }
+
+    double steepest(const std::array<Cell, 4>& cells) const
     {
         double slope = 0;
         for (const Cell a : cells) {
@@ -166,18 +229,7 @@ private:
                 }
             }
         }
-        double farthest = 0;
-        for (const double s : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-            for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-                const Vec2d p = grid_.centre(c) + Vec2d{s * grid_.gx(), t * grid_.gy()};
-                const double wall = to_wall_pass_(p);
-                if (wall > 0) {
-                    farthest = std::max(farthest, std::min(wall, to_tracks(p, cells)));
-                }
-            }
-        }
-        const double half = farthest * std::hypot(1.0, slope);
-        return half < radius_ ? radius_ - std::sqrt(radius_ * radius_ - half * half) : radius_;
+        return slope;
     }
 
     double to_tracks(Vec2d p, const std::array<Cell, 4>& cells) const
@@ -189,15 +241,198 @@ private:
             }
             const Vec2d d = p - grid_.centre(a);
             least = std::min(least, norm(d));
-            if (tracks_.east(a) && d.x >= 0 && d.x <= grid_.gx()) {
+            if (track(a, true) && d.x >= 0 && d.x <= grid_.gx()) {
                 least = std::min(least, std::abs(d.y));
             }
-            if (tracks_.north(a) && d.y >= 0 && d.y <= grid_.gy()) {
+            if (track(a, false) && d.y >= 0 && d.y <= grid_.gy()) {
                 least = std::min(least, std::abs(d.x));
             }
         }
         return least;
     }
+
+    std::size_t index(int i, int j) const
+    {
+        return static_cast<std::size_t>(j) * static_cast<std::size_t>(nx_ + 1) +
+               static_cast<std::size_t>(i);
+    }
+    bool known(int i, int j) const
+    {
+        return i >= 0 && j >= 0 && i <= nx_ && j <= ny_ && !std::isnan(lattice_[index(i, j)]);
+    }
+    Vec2d spot(Cell c, int i, int j) const
+    {
+        return grid_.centre(c) + Vec2d{grid_.gx() * i / nx_, grid_.gy() * j / ny_};
+    }
+    Vec3d place(Cell c, int i, int j) const
+    {
+        const Vec2d at = spot(c, i, j);
+        return {at.x, at.y, lattice_[index(i, j)]};
+    }
+
+    void read_lattice(Cell c, int& asked)
+    {
+        lattice_.assign(static_cast<std::size_t>((nx_ + 1) * (ny_ + 1)), std::nan(""));
+        for (int j = 0; j <= ny_; ++j) {
+            for (int i = 0; i <= nx_; ++i) {
+                const Vec2d at = spot(c, i, j);
+                if (surface_.to_wall_pass(at) > -1e-6) {
+                    lattice_[index(i, j)] = surface_.height(at).value_or(std::nan(""));
+                    ++asked;
+                }
+            }
+        }
+    }
+
+    // Slopes of the tip's height: across the place and, where the tool touches on two sides and the
+    // slope changes at once, on each side.
+    std::array<Vec2d, 5> slopes(int i, int j) const
+    {
+        const auto step = [&](int di, int dj, double length) {
+            return known(i + di, j + dj) && known(i, j)
+                       ? std::optional<double>{(lattice_[index(i + di, j + dj)] -
+                                                lattice_[index(i, j)]) /
+                                               length}
+                       : std::nullopt;
+        };
+        const double sx = grid_.gx() / nx_;
+        const double sy = grid_.gy() / ny_;
+        const auto right = step(1, 0, sx);
+        const auto left = step(-1, 0, -sx);
+        const auto up = step(0, 1, sy);
+        const auto down = step(0, -1, -sy);
+        const double x1 = right ? *right : left.value_or(0);
+        const double x0 = left ? *left : x1;
+        const double y1 = up ? *up : down.value_or(0);
+        const double y0 = down ? *down : y1;
+        return {Vec2d{(x0 + x1) / 2, (y0 + y1) / 2}, Vec2d{x0, y0}, Vec2d{x0, y1}, Vec2d{x1, y0},
+                Vec2d{x1, y1}};
+    }
+
+    // Cells of the square and around it, and the lattice's places on its tracks.
+    void collect_tracks(Cell c)
+    {
+        tips_.clear();
+        for (int row = c.row - 1; row <= c.row + 2; ++row) {
+            for (int column = c.column - 1; column <= c.column + 2; ++column) {
+                if (grid_.inside({column, row})) {
+                    tips_.push_back(tip({column, row}));
+                }
+            }
+        }
+        const auto add = [&](int i, int j) {
+            if (known(i, j)) {
+                tips_.push_back(place(c, i, j));
+            }
+        };
+        for (int i = 1; i < nx_; ++i) {
+            if (track(c, true)) {
+                add(i, 0);
+            }
+            if (track({c.column, c.row + 1}, true)) {
+                add(i, ny_);
+            }
+        }
+        for (int j = 1; j < ny_; ++j) {
+            if (track(c, false)) {
+                add(0, j);
+            }
+            if (track({c.column + 1, c.row}, false)) {
+                add(nx_, j);
+            }
+        }
+    }
+
+    template <class Slopes>
+    double left_at(Vec3d here, const Slopes& slopes, int& asked)
+    {
+        const std::size_t cells = tips_.size();
+        const double wall = surface_.to_wall_pass(plan(here));
+        if (wall < tool_.radius) {
+            // The pass beside the place, and a little on either way, where a flat end may need it.
+            const Vec2d foot = surface_.on_wall_pass(plan(here));
+            for (const Vec2d shift :
+                 {Vec2d{0, 0}, Vec2d{0.3, 0}, Vec2d{-0.3, 0}, Vec2d{0, 0.3}, Vec2d{0, -0.3}}) {
+                const Vec2d on = surface_.on_wall_pass(foot + shift * tool_.radius);
+                if (const auto z = surface_.height(on)) {
+                    tips_.push_back({on.x, on.y, *z});
+                }
+                ++asked;
+            }
+        }
+        double most = 0;
+        for (const Vec2d slope : slopes) {
+            most = std::max(most, left_by(tool_, here, slope, tips_));
+        }
+        if (tool_.corner_radius < tool_.radius) {
+            most = std::max(most, left_around(here));
+        }
+        tips_.resize(cells);
+        return most;
+    }
+
+    // Over the rim of a flat end, which may touch the surface in several places. What the tool at
+    // `here` would leave is never below what can be reached: no place can count for too much.
+    double left_around(Vec3d here) const
+    {
+        constexpr int kPlaces = 24;
+        const double rim = tool_.radius - tool_.corner_radius;
+        double most = 0;
+        for (int k = 0; k < kPlaces; ++k) {
+            const double angle = 2 * kPi * k / kPlaces;
+            const Vec2d touch = plan(here) + Vec2d{std::cos(angle), std::sin(angle)} * rim;
+            double least = kNothing;
+            for (const Vec3d& tip : tips_) {
+                const double away = norm(plan(tip) - touch);
+                if (away <= tool_.radius + kOnTheRim) {
+                    least = std::min(
+                        least,
+                        tip.z - here.z +
+                            profile_height(tool_, std::min(away, rim + 0.9 * tool_.corner_radius)));
+                }
+            }
+            most = least < kNothing ? std::max(most, least) : most;
+        }
+        return most;
+    }
+
+    // From the highest place of the lattice over ever smaller steps to the top.
+    double climb(Vec2d top, double most, int& asked)
+    {
+        Vec2d step{grid_.gx() / nx_ / 2, grid_.gy() / ny_ / 2};
+        for (int round = 0; round < 3; ++round, step = step * 0.5) {
+            const Vec2d around = top;
+            for (const Vec2d way : {Vec2d{1, 0}, Vec2d{-1, 0}, Vec2d{0, 1}, Vec2d{0, -1}}) {
+                const Vec2d at = around + Vec2d{way.x * step.x, way.y * step.y};
+                const double left = left_exactly(at, asked);
+                top = left > most ? at : top;
+                most = std::max(most, left);
+            }
+        }
+        return most;
+    }
+
+    double left_exactly(Vec2d at, int& asked)
+    {
+        if (surface_.to_wall_pass(at) < 0) {
+            return 0;
+        }
+        const double e = tool_.radius * 1e-3;
+        asked += 3;
+        const auto z = surface_.height(at);
+        const auto x = surface_.height(at + Vec2d{e, 0});
+        const auto y = surface_.height(at + Vec2d{0, e});
+        if (!z || !x || !y) {
+            return 0;
+        }
+        const Vec2d slope{(*x - *z) / e, (*y - *z) / e};
+        return left_at({at.x, at.y, *z}, std::array<Vec2d, 1>{slope}, asked);
+    }
+};
+
+struct Ranked {
+    double rank;
+    Cell cell;
 };
 
 }  // namespace
@@ -209,21 +444,38 @@ void Tracks::add(Cell a, Cell b)
 }
 
 double grid_roughness(const CellGrid& grid,
-                      const std::vector<double>& heights,
+                      const TipSurface& surface,
                       const Tracks& tracks,
-                      const Tool& tool,
-                      const std::function<double(Vec2d)>& to_wall_pass)
+                      const Tool& tool)
 {
-    // A flat cutter has no corner to leave ridges: its radius stands for steps on slopes.
-    const double corner = tool.corner_radius > 0 ? tool.corner_radius : tool.radius;
-    const Roughness roughness{grid, heights, tracks, corner, to_wall_pass};
-    double most = 0;
+    Roughness roughness{grid, surface, tracks, tool};
+    std::vector<Ranked> squares;
     for (int row = -1; row < grid.rows(); ++row) {
         for (int column = -1; column < grid.columns(); ++column) {
-            most = std::max(most, roughness.of_square({column, row}));
+            const double rank = roughness.ranked({column, row});
+            if (rank > 0) {
+                squares.push_back({rank, {column, row}});
+            }
         }
     }
-    return most;
+    std::sort(squares.begin(), squares.end(),
+              [](const Ranked& a, const Ranked& b) { return a.rank > b.rank; });
+    const double between = tool.corner_radius < tool.radius ? kBetweenSteps : kBetween;
+    double most = 0;
+    double ratio = 1;
+    int asked = 0;
+    for (const Ranked& square : squares) {
+        if (square.rank * kRankDoubt < most) {
+            break;
+        }
+        if (asked > kMostHeights) {
+            return between * std::max(most, square.rank * std::min(ratio, kRankDoubt));
+        }
+        const double exact = roughness.exact(square.cell, asked);
+        ratio = std::max(ratio, exact / square.rank);
+        most = std::max(most, exact);
+    }
+    return between * most;
 }
 
 }  // namespace cusp::host

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "host_tools/grid_pocket/cell_grid.hpp"
@@ -25,16 +26,31 @@ private:
     std::vector<std::uint8_t> bits_;
 };
 
-// Largest height, square to the surface, that the tracks leave above what the tool could reach.
-// Between four cells the surface of tip heights is taken as a paraboloid through their neighbours;
-// beside walls as a slope, between the cells' tracks and the wall's own.
+// What the roughness is computed from besides the tracks.
+struct TipSurface {
+    const std::vector<double>& heights;  // of the tip over each cell; read where it is inside
+    // Exact height of the tip over any point where the axis may stand.
+    std::function<std::optional<double>(Vec2d)> height;
+    // mm from a point to the pass along the wall; negative beyond it.
+    std::function<double(Vec2d)> to_wall_pass;
+    // The place of that pass nearest to a point.
+    std::function<Vec2d(Vec2d)> on_wall_pass;
+};
+
+// Largest height, square to the surface, that the tracks and the pass along the wall leave above
+// what the tool could reach.
 //
-//   heights       of the tip over each cell of the grid; read where the cell is inside
-//   to_wall_pass  mm from a point to the pass along the wall; negative beyond it
+// All squares between cells are ranked by the heights over the cells; from the highest down they
+// are looked at with exact heights on a lattice of up to 14 x 14 places, until none of the rest can
+// matter. Between the places of the lattice the ridge is followed to its top. Where more squares
+// are alike than can be looked at, the rest count with the largest ratio seen between exact and
+// ranked value.
+//
+// For a ball the result is not below what a cut in memory leaves, and mostly less than a tenth
+// above it; for a flat end it is coarser (tests/property/grid_pocket).
 double grid_roughness(const CellGrid& grid,
-                      const std::vector<double>& heights,
+                      const TipSurface& surface,
                       const Tracks& tracks,
-                      const Tool& tool,
-                      const std::function<double(Vec2d)>& to_wall_pass);
+                      const Tool& tool);
 
 }  // namespace cusp::host

@@ -11,6 +11,15 @@ namespace {
 
 constexpr double kNoHeight = std::numeric_limits<double>::quiet_NaN();
 
+std::vector<Edge> edges_of(const Region2d& region)
+{
+    std::vector<Edge> out;
+    for (const Contour& contour : region.contours) {
+        out.insert(out.end(), contour.begin(), contour.end());
+    }
+    return out;
+}
+
 // Steps between neighbours that only the zigzags along `axis` cut.
 void add_zigzag(const PocketSpace& pocket, char axis, Tracks& tracks)
 {
@@ -47,12 +56,15 @@ PocketSpace::PocketSpace(const Job& j, const Operation& o, const PocketWalls& po
       kept{o.tool.radius + pocket.wall_error},
       walls{pocket.region},
       centres{walls.at(kept + kWallRounding)},
+      centre_edges{edges_of(centres)},
       grid{walls, o.grid_x, o.grid_y, kept},
       model{std::make_shared<SurfaceModel>(o.floor)},
       finish{o.floor, model, o.tool, 0, follow_settings(o)},
       rough{o.floor, model, o.tool, o.allowance, follow_settings(o)}
 {
 }
+
+Vec2d PocketSpace::on_wall_pass(Vec2d p) const { return centre_edges.nearest_edge(p).point; }
 
 bool PocketSpace::clear(Vec2d a, Vec2d b) const
 {
@@ -119,8 +131,12 @@ double roughness_of(const PocketSpace& pocket, const Navigation& navigation)
     for (const char axis : pocket.operation.zigzag) {
         add_zigzag(pocket, axis, tracks);
     }
-    return grid_roughness(pocket.grid, pocket.heights, tracks, pocket.operation.tool,
-                          [&](Vec2d p) { return pocket.walls.clearance(p) - pocket.kept; });
+    const TipSurface surface{pocket.heights, [&](Vec2d p) { return pocket.finish.height(p); },
+                             [&](Vec2d p) { return pocket.walls.clearance(p) - pocket.kept; },
+                             [&](Vec2d p) {
+                                 return pocket.on_wall_pass(p);
+                             }};
+    return grid_roughness(pocket.grid, surface, tracks, pocket.operation.tool);
 }
 
 std::vector<double> layer_planes(const PocketSpace& pocket)

@@ -23,7 +23,8 @@ struct PocketSpace {
     const Operation& operation;
     double kept;  // mm from the axis to the walls
     RegionOffset walls;
-    Region2d centres;
+    Region2d centres;  // where the pass along the walls runs
+    EdgeTree centre_edges;
     CellGrid grid;
     std::shared_ptr<const SurfaceModel> model;
     FloorFollower finish;
@@ -32,6 +33,9 @@ struct PocketSpace {
     std::vector<double> rough_heights;
 
     PocketSpace(const Job& j, const Operation& o, const PocketWalls& pocket);
+
+    // The place of the pass along the walls nearest to a point. Precondition: there is such a pass.
+    Vec2d on_wall_pass(Vec2d p) const;
 
     // Whether the axis may go straight from a to b.
     bool clear(Vec2d a, Vec2d b) const;
