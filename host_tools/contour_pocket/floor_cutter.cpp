@@ -68,6 +68,7 @@ void FloorCutter::cut(const ClearedRegion& cleared, const CutSettings& settings)
         if (pass.start == PassStart::kLink && cut_before && beside) {
             FloorPathSettings linking = settings.laying;
             linking.nurbs = false;
+            linking.even = true;
             const FloorPath link = laid(pass.link, linking);
             least_gap_ = std::min(least_gap_, link.least_gap);
             moves_.link(link);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/contour_pocket/even_pieces.hpp"
 #include "host_tools/contour_pocket/nurbs_fit.hpp"
 #include "host_tools/contour_pocket/tolerance_chain.hpp"
 
@@ -22,12 +23,24 @@ Vec3d written(Vec3d p)
 struct PlanStations {
     std::vector<Vec2d> points;
     std::vector<std::size_t> corners;  // first and last included
+    std::vector<std::size_t> feet;     // of spurs, out and back on a line: passed twice
 };
+
+// Both visits are to meet at one point: a corner micrometres beside the path's other visit would be
+// no place that anyone could tell from it.
+bool is_spur(const std::vector<Edge>& plan, std::size_t e)
+{
+    return e + 1 < plan.size() && plan[e].turn == 0 && plan[e + 1].turn == 0 &&
+           distance(plan[e].start, plan[e + 1].end) < 1e-9;
+}
 
 PlanStations stations_in_plan(const std::vector<Edge>& plan, const FloorPathSettings& settings)
 {
-    PlanStations stations{{plan.front().start}, {0}};
+    PlanStations stations{{plan.front().start}, {0}, {}};
     for (std::size_t e = 0; e < plan.size(); ++e) {
+        if (is_spur(plan, e) || (e > 1 && is_spur(plan, e - 2))) {
+            stations.feet.push_back(stations.points.size() - 1);
+        }
         const Edge& edge = plan[e];
         double spacing = settings.spacing;
         if (edge.turn != 0) {
@@ -212,6 +225,9 @@ FloorPath lay_on_floor(const std::vector<Edge>& plan,
         const bool level = height < settings.level;
         stations.push_back({at, level ? settings.level : height, level ? Vec2d{} : rest.gradient});
     }
+    for (const std::size_t foot : in_plan.feet) {
+        stations[foot].exact = true;
+    }
     const bool closed = distance(stations.front().at, stations.back().at) < 1e-9;
     // Between stations the floor may bend by a little more than at them, and an arc by an eighth.
     constexpr double kUsed = 0.95;
@@ -219,9 +235,12 @@ FloorPath lay_on_floor(const std::vector<Edge>& plan,
     const double low = settings.lift ? settings.cushion : -kUsed * settings.above;
     const double aside = kUsedAside * settings.aside;
     const double high = kUsed * settings.above;
-    const Chain chain = settings.nurbs
-                            ? curves_through(stations, in_plan.corners, aside, low, high)
-                            : chain_through(stations, aside, low, high, settings.arcs, closed);
+    const Chain chain =
+        settings.even    ? even_chain(plan, floor,
+                                      {aside, low, high, settings.raise, settings.level,
+                                       settings.spacing, settings.arcs})
+        : settings.nurbs ? curves_through(stations, in_plan.corners, aside, low, high)
+                         : chain_through(stations, aside, low, high, settings.arcs, closed);
     path.start = written(chain.start);
     path.moves = chain.moves;
     for (FloorMove& move : path.moves) {

@@ -16,6 +16,7 @@ struct FloorPathSettings {
     bool lift{true};       // false: moves stay within `above` on either side of the floor
     bool arcs{false};      // true: helical arcs in plan where they reach farther than a line
     bool nurbs{false};     // true: cubic B-splines between corners, lines where none fits
+    bool even{false};      // true: each edge in equal pieces (links; see even_pieces.hpp)
     double cushion{};      // mm: kept off the floor, so that certifying a move needs no finer floor
     double raise{};        // mm: metal left over the floor, measured along the axis
     double level{-1e300};  // mm: the tip stays at or above this z

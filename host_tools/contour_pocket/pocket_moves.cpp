@@ -9,7 +9,8 @@ namespace cusp::host {
 
 namespace {
 
-constexpr double kSlope = 0.08;  // of ramps and helices: 4.6 degrees
+constexpr double kSlope = 0.08;    // of ramps and helices: 4.6 degrees
+constexpr double kSettled = 0.03;  // mm over the pass: here the slope has met it
 constexpr int kHelixSides = 48;
 constexpr int kMostPoints = 100000;  // of one entry: where a pass is too short for a slope
 
@@ -57,8 +58,10 @@ void PocketMoves::enter_along(const FloorPath& path, const EntryHeights& heights
         sloped = false;
         for (std::size_t i = 1; i < pass.size(); ++i) {
             z -= kSlope * plan_distance(pass[i - 1], pass[i]);
-            sloped = sloped || z > pass[i].z;
-            line(MoveKind::kPlunge, {pass[i].x, pass[i].y, std::max(z, pass[i].z)});
+            // No corner of the slope lies just over the pass.
+            const bool over = z > pass[i].z + kSettled;
+            sloped = sloped || over;
+            line(MoveKind::kPlunge, {pass[i].x, pass[i].y, over ? z : pass[i].z});
         }
     }
 }

@@ -43,7 +43,7 @@ public:
           high_{high},
           arcs_{arcs},
           closed_{closed},
-          last_{stations.size() - 1}
+          last_{0}
     {
     }
 
@@ -53,28 +53,47 @@ public:
         at_ = first.at;
         z_ = first.height + 0.5 * (low_ + high_);
         Chain chain{{at_.x, at_.y, z_}, {}};
-        home_ = chain.start;
-        for (std::size_t i = 0; i < last_;) {
-            Reach best = farthest_line(i);
-            if (arcs_) {
-                const Reach arc = farthest_arc(i, best.station);
-                best = arc.station > best.station + 1 ? arc : best;
+        for (std::size_t i = 0; i + 1 < stations_.size();) {
+            const std::size_t from = i;
+            const auto next =
+                std::find_if(stations_.begin() + static_cast<std::ptrdiff_t>(from) + 1,
+                             stations_.end() - 1, [](const Station& s) { return s.exact; });
+            last_ = static_cast<std::size_t>(next - stations_.begin());
+            home_ = next->exact ? middle_of(*next) : chain.start;
+            fixed_end_ = next->exact || closed_;
+            while (i < last_) {
+                i = extend(chain, i);
             }
-            chain.moves.push_back(best.move);
-            at_ = {best.move.end.x, best.move.end.y};
-            z_ = best.move.end.z;
-            i = best.station;
         }
         return chain;
     }
 
 private:
+    // Appends the longest move from station i; the station it ends at.
+    std::size_t extend(Chain& chain, std::size_t i)
+    {
+        Reach best = farthest_line(i);
+        if (arcs_) {
+            const Reach arc = farthest_arc(i, best.station);
+            best = arc.station > best.station + 1 ? arc : best;
+        }
+        chain.moves.push_back(best.move);
+        at_ = {best.move.end.x, best.move.end.y};
+        z_ = best.move.end.z;
+        return best.station;
+    }
+
+    Vec3d middle_of(const Station& s) const
+    {
+        return {s.at.x, s.at.y, s.height + 0.5 * (low_ + high_)};
+    }
+
     struct Reach {
         std::size_t station;
         FloorMove move;
     };
 
-    bool ends_home(std::size_t j) const { return closed_ && j == last_; }
+    bool ends_home(std::size_t j) const { return fixed_end_ && j == last_; }
 
     // The directions in which a line from here passes all stations up to the one it returns.
     std::size_t widest_wedge(std::size_t i, double& from, double& to) const
@@ -148,8 +167,8 @@ private:
     void narrow_to(std::size_t i, std::size_t limit, double& from, double& to) const
     {
         ChainBuilder part = *this;
+        part.fixed_end_ = ends_home(limit);
         part.last_ = limit;
-        part.closed_ = closed_ && limit == last_;
         part.widest_wedge(i, from, to);
     }
 
@@ -158,8 +177,7 @@ private:
         if (ends_home(j)) {
             return {j, {home_}};
         }
-        const Station& s = stations_[j];
-        return {j, {{s.at.x, s.at.y, s.height + 0.5 * (low_ + high_)}}};
+        return {j, {middle_of(stations_[j])}};
     }
 
     // The line in a direction up to station `limit` or as far as z allows. No value where not even
@@ -279,10 +297,11 @@ private:
     double high_;
     bool arcs_;
     bool closed_;
-    std::size_t last_;
+    std::size_t last_;  // of the run up to an exact station
     Vec2d at_{};
     double z_{};
-    Vec3d home_{};
+    Vec3d home_{};  // where station `last_` must be met
+    bool fixed_end_{};
 };
 
 }  // namespace

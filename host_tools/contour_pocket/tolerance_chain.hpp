@@ -12,6 +12,7 @@ struct Station {
     Vec2d at;
     double height;
     Vec2d gradient;  // of the floor, dz/dx and dz/dy
+    bool exact{};    // a move ends here, at half of the band
 };
 
 struct Chain {
