@@ -38,7 +38,7 @@ NextLevel next_level(const RegionOffset& offset, double distance, double step, b
     const double reach = kShare * step;
     const Region2d rest = offset.at(distance + reach);
     const auto at_share = [&](double share) {
-        return with_corner_spurs(offset.at(distance + share * step), rest, reach);
+        return with_corner_spurs(offset.at(distance + share * step), rest, reach, offset, distance);
     };
     auto best = rest.contours.empty() ? Region2d{} : at_share(1.0);
     if (best) {
@@ -191,6 +191,7 @@ public:
         } else {
             reach(pass, region_.passes.back().path);
         }
+        pass.room = offset_.clearance(pass.path.front().start);
         region_.levels = std::max(region_.levels, loop.level + 1);
         region_.passes.push_back(std::move(pass));
     }

@@ -41,6 +41,7 @@ struct ClearingPass {
     PassStart start{};
     std::vector<Edge> link;  // tangent arcs where there is room, else a straight line
     bool around_island{};
+    double room{};  // mm: from the start of the path to the nearest contour
     // A rest of metal this wide may stand between this level and the next one inward, mm.
     double step{};
 };

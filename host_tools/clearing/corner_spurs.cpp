@@ -27,7 +27,8 @@ std::vector<FarPoint> border_points(const Contour& border, const EdgeTree& tree,
         const int n = 1 + static_cast<int>(4.0 * length(edge) / reach);
         for (int i = 0; i < n; ++i) {
             const Vec2d p = point_on(edge, static_cast<double>(i) / n);
-            points.push_back({p, tree.nearest(p, 1e300)});
+            const bool near = tree.any_nearer(p, reach);
+            points.push_back({p, near ? 0.0 : tree.nearest(p, 1e300)});
         }
     }
     return points;
@@ -57,6 +58,20 @@ std::vector<std::vector<FarPoint>> far_stretches(std::vector<FarPoint> points, d
         stretches.back().push_back(p);
     }
     return stretches;
+}
+
+// The clearance changes by no more than the way.
+bool keeps_room(const RegionOffset& source, Vec2d a, Vec2d b, double room)
+{
+    constexpr double kSlack = 1e-6;
+    const double half = 0.5 * distance(a, b);
+    const double here = source.clearance((a + b) * 0.5);
+    if (here >= room - kSlack + half) {
+        return true;
+    }
+    const Vec2d middle = (a + b) * 0.5;
+    return here >= room - kSlack && (half < kSlack || (keeps_room(source, a, middle, room) &&
+                                                       keeps_room(source, middle, b, room)));
 }
 
 std::optional<Spur> spur_for(const std::vector<FarPoint>& stretch,
@@ -116,7 +131,11 @@ Region2d with_spurs(const Region2d& level, std::vector<Spur> spurs)
 
 }  // namespace
 
-std::optional<Region2d> with_corner_spurs(const Region2d& level, const Region2d& rest, double reach)
+std::optional<Region2d> with_corner_spurs(const Region2d& level,
+                                          const Region2d& rest,
+                                          double reach,
+                                          const RegionOffset& source,
+                                          double room)
 {
     if (level.contours.empty()) {
         return rest.contours.empty() ? std::optional<Region2d>{level} : std::nullopt;
@@ -130,7 +149,7 @@ std::optional<Region2d> with_corner_spurs(const Region2d& level, const Region2d&
     for (const Contour& border : rest.contours) {
         for (const auto& stretch : far_stretches(border_points(border, tree, reach), reach)) {
             const auto spur = spur_for(stretch, tree, reach);
-            if (!spur) {
+            if (!spur || !keeps_room(source, spur->foot, spur->end, room)) {
                 return std::nullopt;
             }
             spurs.push_back(*spur);

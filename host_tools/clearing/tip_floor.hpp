@@ -43,21 +43,30 @@ public:
     // True where some surface lies straight above or below (x, y), to a tenth of the tool radius.
     bool covers(Vec2d at) const;
 
-    // Normal curvature of the surface at its point nearest below the contact of the tool at `at`,
-    // in the plan direction `along`: > 0 bent away from the tool (convex). 1/mm.
+    // Of the surface where the tool touches it, in the plan direction `along`; curvature > 0 where
+    // it is bent away from the tool (convex), 1/mm.
     struct Section {
         double curvature;  // normal curvature across the path
         double slope;      // dz/ds of the floor across the path
         double slope_along;
         bool found;
     };
-    Section section(Vec2d at, Vec2d along) const;
+    // The surface where the tool rests on it, to look at from several directions.
+    struct Contact {
+        double height;  // z of the tip
+        SurfacePoint surface;
+        Vec3d normal;
+        bool found;
+    };
+    Contact contact(Vec2d at) const;
+    static Section section(const Contact& contact, Vec2d along);
 
     const Tool& tool() const { return tool_; }
     double lowest() const { return lowest_; }
     double highest() const { return highest_; }
 
 private:
+    static constexpr std::size_t kStack = 256;
     struct Homogeneous {
         double x, y, z, w;
     };

@@ -10,7 +10,7 @@
 #include "host_tools/clearing/clearing.hpp"
 #include "host_tools/clearing/tip_floor.hpp"
 #include "host_tools/contour_pocket/floor_cutter.hpp"
-#include "host_tools/contour_pocket/path_interval.hpp"
+#include "host_tools/contour_pocket/level_interval.hpp"
 #include "host_tools/contour_pocket/pocket_task.hpp"
 #include "host_tools/contour_pocket/rough_layers.hpp"
 #include "host_tools/offset/offset.hpp"
@@ -18,74 +18,6 @@
 namespace cusp::host {
 
 namespace {
-
-// The least distance inward from a level at which no cusp between is higher than allowed. At
-// corners metal between the loops is reached from askew, so every direction counts.
-class PathInterval {
-public:
-    PathInterval(const TipFloor& floor, const Budget& budget, bool corners)
-        : floor_{floor}, budget_{budget}, corners_{corners}
-    {
-    }
-
-    double from(const Region2d& level)
-    {
-        least_ = 1e300;
-        for (const Contour& contour : level.contours) {
-            Vec2d arriving = tangent_at_end(contour.back());
-            for (const Edge& edge : contour) {
-                along(edge);
-                constexpr double kCorner = 0.995;  // cosine of some 6 degrees
-                if (corners_ && dot(arriving, tangent_at_start(edge)) < kCorner) {
-                    around(edge.start);
-                }
-                arriving = tangent_at_end(edge);
-            }
-        }
-        // Neighbouring moves may stray from their paths, each its own way.
-        const double stray = budget_.outside ? 2.0 * budget_.aside : 0.0;
-        return std::max(least_ - stray, 0.02 * floor_.tool().radius);
-    }
-
-private:
-    double allowed(Vec2d at, Vec2d direction) const
-    {
-        const TipFloor::Section section = floor_.section(at, direction);
-        return path_interval(floor_.tool(), budget_.cusp, section.curvature, section.slope,
-                             section.slope_along);
-    }
-
-    // The cusp stands half an interval away, where the floor may be bent otherwise.
-    void across(Vec2d at, Vec2d direction)
-    {
-        const double here = allowed(at, direction);
-        const double there = allowed(at + direction * (0.5 * here), direction);
-        least_ = std::min({least_, here, there});
-    }
-
-    void along(const Edge& edge)
-    {
-        const int n = 1 + static_cast<int>(length(edge) / (0.5 * floor_.tool().radius));
-        for (int i = 0; i < n; ++i) {
-            const double share = (i + 0.5) / n;
-            across(point_on(edge, share), left_normal(tangent_on(edge, share)));
-        }
-    }
-
-    void around(Vec2d at)
-    {
-        constexpr int kDirections = 16;
-        for (int i = 0; i < kDirections; ++i) {
-            const double angle = 6.28318530717958648 * i / kDirections;
-            across(at, {std::cos(angle), std::sin(angle)});
-        }
-    }
-
-    const TipFloor& floor_;
-    const Budget& budget_;
-    bool corners_;
-    double least_{};
-};
 
 // Area of the pocket that the tool's body can't sweep beside walls, mm^2: corners and necks.
 double unswept_area(const Region2d& region, double radius)
@@ -145,7 +77,7 @@ private:
         settings.step = 2.0 * operation_.tool.radius;
         settings.direction = operation_.direction_of_cut;
         settings.cover_corners = *operation_.scallop > operation_.floor_tolerance;
-        PathInterval interval{floor_, budget_, settings.cover_corners};
+        LevelInterval interval{floor_, budget_, settings.cover_corners};
         settings.step_from = [&](const Region2d& level) {
             return interval.from(level);
         };

@@ -35,7 +35,7 @@ FloorPath FloorCutter::laid(const std::vector<Edge>& plan, const FloorPathSettin
 void FloorCutter::enter(const ClearingPass& pass, const CutSettings& settings)
 {
     const double tool = operation_.tool.radius;
-    const double radius = std::min(0.6 * tool, pass.distance - settings.first);
+    const double radius = std::min(0.6 * tool, pass.room - settings.first - 1e-3);
     const bool short_pass = length(pass.path) < 6.0 * tool;
     const bool helix =
         settings.entry == EntryKind::kHelix || (settings.entry == EntryKind::kAuto && short_pass);

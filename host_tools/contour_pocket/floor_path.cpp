@@ -7,6 +7,7 @@
 
 #include "host_tools/contour_pocket/even_pieces.hpp"
 #include "host_tools/contour_pocket/nurbs_fit.hpp"
+#include "host_tools/contour_pocket/station_row.hpp"
 #include "host_tools/contour_pocket/tolerance_chain.hpp"
 
 namespace cusp::host {
@@ -18,47 +19,6 @@ double to_step(double x) { return std::round(x / kWrittenStep) * kWrittenStep; }
 Vec3d written(Vec3d p)
 {
     return {to_step(p.x), to_step(p.y), std::ceil(p.z / kWrittenStep - 1e-6) * kWrittenStep};
-}
-
-struct PlanStations {
-    std::vector<Vec2d> points;
-    std::vector<std::size_t> corners;  // first and last included
-    std::vector<std::size_t> feet;     // of spurs, out and back on a line: passed twice
-};
-
-// Both visits are to meet at one point: a corner micrometres beside the path's other visit would be
-// no place that anyone could tell from it.
-bool is_spur(const std::vector<Edge>& plan, std::size_t e)
-{
-    return e + 1 < plan.size() && plan[e].turn == 0 && plan[e + 1].turn == 0 &&
-           distance(plan[e].start, plan[e + 1].end) < 1e-9;
-}
-
-PlanStations stations_in_plan(const std::vector<Edge>& plan, const FloorPathSettings& settings)
-{
-    PlanStations stations{{plan.front().start}, {0}, {}};
-    for (std::size_t e = 0; e < plan.size(); ++e) {
-        if (is_spur(plan, e) || (e > 1 && is_spur(plan, e - 2))) {
-            stations.feet.push_back(stations.points.size() - 1);
-        }
-        const Edge& edge = plan[e];
-        double spacing = settings.spacing;
-        if (edge.turn != 0) {
-            // Chords of the arc keep within an eighth of what is allowed.
-            spacing = std::min(spacing, std::sqrt(edge.radius * settings.aside));
-        }
-        const int n = std::max(1, static_cast<int>(std::ceil(length(edge) / spacing)));
-        for (int i = 1; i <= n; ++i) {
-            stations.points.push_back(i == n ? edge.end
-                                             : point_on(edge, static_cast<double>(i) / n));
-        }
-        constexpr double kSmooth = 0.999;  // cosine of 2.6 degrees
-        const bool last = e + 1 == plan.size();
-        if (last || dot(tangent_at_end(edge), tangent_at_start(plan[e + 1])) < kSmooth) {
-            stations.corners.push_back(stations.points.size() - 1);
-        }
-    }
-    return stations;
 }
 
 // Chords of a move, each with how far the move itself may lie from it.
@@ -212,22 +172,21 @@ FloorPath lay_on_floor(const std::vector<Edge>& plan,
                        const FloorPathSettings& settings)
 {
     FloorPath path;
-    std::vector<Station> stations;
-    const PlanStations in_plan = stations_in_plan(plan, settings);
-    for (const Vec2d at : in_plan.points) {
-        const TipFloor::Rest rest = floor.drop(at);
-        if (rest.height == TipFloor::kNothing) {
-            path.over_floor = false;
-            path.missing = at;
-            return path;
+    StationRow row =
+        stations_along(plan, floor, {settings.spacing, settings.aside, settings.above});
+    if (row.missing) {
+        path.over_floor = false;
+        path.missing = *row.missing;
+        return path;
+    }
+    for (Station& s : row.stations) {
+        s.height += settings.raise;
+        if (s.height < settings.level) {
+            s.height = settings.level;
+            s.gradient = {};
         }
-        const double height = rest.height + settings.raise;
-        const bool level = height < settings.level;
-        stations.push_back({at, level ? settings.level : height, level ? Vec2d{} : rest.gradient});
     }
-    for (const std::size_t foot : in_plan.feet) {
-        stations[foot].exact = true;
-    }
+    const std::vector<Station>& stations = row.stations;
     const bool closed = distance(stations.front().at, stations.back().at) < 1e-9;
     // Between stations the floor may bend by a little more than at them, and an arc by an eighth.
     constexpr double kUsed = 0.95;
@@ -239,7 +198,7 @@ FloorPath lay_on_floor(const std::vector<Edge>& plan,
         settings.even    ? even_chain(plan, floor,
                                       {aside, low, high, settings.raise, settings.level,
                                        settings.spacing, settings.arcs})
-        : settings.nurbs ? curves_through(stations, in_plan.corners, aside, low, high)
+        : settings.nurbs ? curves_through(stations, row.corners, aside, low, high)
                          : chain_through(stations, aside, low, high, settings.arcs, closed);
     path.start = written(chain.start);
     path.moves = chain.moves;

@@ -9,6 +9,9 @@ namespace cusp::host {
 
 namespace {
 
+// What the path may stray between stations, to what it may at them.
+constexpr double kBetween = 1.15;
+
 constexpr double kPi = 3.14159265358979323846;
 
 double wrapped(double angle)
@@ -236,15 +239,20 @@ private:
         }
         Rise rise;
         double before = 0.0;
+        double beside = 0.0;
         for (std::size_t k = i + 1; k <= j; ++k) {
             const Station& s = stations_[k];
             const Vec2d spoke = (k == j ? end : s.at) - centre;
             const double angle = angle_of(k == j ? end : s.at);
             const double off = radius / std::sqrt(dot(spoke, spoke)) - 1.0;
-            if (angle < before || angle > 3.0 ||
-                std::abs(off) * std::sqrt(dot(spoke, spoke)) > aside_) {
+            const double here = std::abs(off) * std::sqrt(dot(spoke, spoke));
+            const double apart = radius * (angle - before);
+            const double bulge = 0.125 * apart * apart * std::abs(turn / radius - s.bend);
+            if (angle < before || angle > 3.0 || here > aside_ ||
+                std::max(here, beside) + bulge > kBetween * aside_) {
                 return std::nullopt;
             }
+            beside = here;
             before = angle;
             if (angle < 1e-9) {
                 continue;

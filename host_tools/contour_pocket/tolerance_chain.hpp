@@ -12,6 +12,7 @@ struct Station {
     Vec2d at;
     double height;
     Vec2d gradient;  // of the floor, dz/dx and dz/dy
+    double bend{};   // of the plan path from the station before, 1/mm, > 0 to the left
     bool exact{};    // a move ends here, at half of the band
 };
 

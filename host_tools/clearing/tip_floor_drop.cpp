@@ -1,0 +1,167 @@
+// Drops the tool: branch and bound for the highest place that any piece asks for.
+#include <algorithm>
+#include <cmath>
+
+#include "host_tools/clearing/tip_floor.hpp"
+
+namespace cusp::host {
+
+namespace {
+
+double excess(double low, double high, double x) { return std::max({low - x, 0.0, x - high}); }
+
+}  // namespace
+
+// The highest value of slope y - profile over y in [low, high], at the distance sqrt(away^2 + y^2)
+// from the tool's axis: how far a straight edge lifts the tip. The profile is convex, so the value
+// has one top; halving finds it to nanometres in a fixed number of steps.
+double TipFloor::on_edge(double slope, double away, double low, double high) const
+{
+    const double r = tool_.radius;
+    const double c = tool_.corner_radius;
+    const double room = r * r - away * away;
+    if (room <= 0.0) {
+        return kNothing;
+    }
+    const double reach = std::sqrt(room);
+    low = std::max(low, -reach);
+    high = std::min(high, reach);
+    if (low > high) {
+        return kNothing;
+    }
+    const auto value = [&](double y) {
+        const double out = std::max(0.0, std::sqrt(away * away + y * y) - (r - c));
+        return slope * y - (c - std::sqrt(std::max(c * c - out * out, 0.0)));
+    };
+    if (c == 0.0) {
+        return std::max(value(low), value(high));
+    }
+    if (c == r) {
+        const double best = slope * reach / std::sqrt(1.0 + slope * slope);
+        return value(std::clamp(best, low, high));
+    }
+    const auto rising = [&](double y) {
+        const double d = std::sqrt(away * away + y * y);
+        const double out = d - (r - c);
+        if (out <= 0.0 || d == 0.0) {
+            return slope > 0.0;
+        }
+        return slope * d * std::sqrt(std::max(c * c - out * out, 0.0)) > out * y;
+    };
+    constexpr int kHalvings = 34;
+    double a = low;
+    double b = high;
+    for (int i = 0; i < kHalvings; ++i) {
+        const double middle = 0.5 * (a + b);
+        (rising(middle) ? a : b) = middle;
+    }
+    return std::max({value(a), value(b), value(low), value(high)});
+}
+
+// The highest rest of the tool on the piece's plane above the piece's own rectangle. The tip's
+// height is concave over the rectangle: where its top lies outside, the best place inside is on an
+// edge that faces it.
+double TipFloor::on_edges(const Piece& piece, Vec2d at) const
+{
+    const Vec2d g = piece.gradient;
+    const Vec2d contact = at + g * piece.contact;
+    const double here = piece.level + g.x * at.x + g.y * at.y;
+    double best = kNothing;
+    if (contact.x < piece.x0 || contact.x > piece.x1) {
+        const double x = (contact.x < piece.x0 ? piece.x0 : piece.x1) - at.x;
+        best = here + g.x * x + on_edge(g.y, x, piece.y0 - at.y, piece.y1 - at.y);
+    }
+    if (contact.y < piece.y0 || contact.y > piece.y1) {
+        const double y = (contact.y < piece.y0 ? piece.y0 : piece.y1) - at.y;
+        best = std::max(best, here + g.y * y + on_edge(g.x, y, piece.x0 - at.x, piece.x1 - at.x));
+    }
+    return best;
+}
+
+// Upper bound of the tip's height that the piece asks for, as far as it is above `best`; tight
+// where halving it would change it by no more than its thickness.
+double TipFloor::bound(const Piece& piece, Vec2d at, double best, bool& tight) const
+{
+    tight = false;
+    const Vec2d g = piece.gradient;
+    const double by_plane =
+        piece.graph ? piece.level + g.x * at.x + g.y * at.y + piece.rise : 1e300;
+    if (by_plane <= best) {
+        return kNothing;
+    }
+    const double r = tool_.radius;
+    const double c = tool_.corner_radius;
+    const double dx = excess(piece.x0, piece.x1, at.x);
+    const double dy = excess(piece.y0, piece.y1, at.y);
+    const double square = dx * dx + dy * dy;
+    if (square >= r * r || piece.z1 <= best) {
+        return kNothing;
+    }
+    if (piece.graph) {
+        const Vec2d contact = at + g * piece.contact;
+        if (contact.x >= piece.x0 && contact.x <= piece.x1 && contact.y >= piece.y0 &&
+            contact.y <= piece.y1) {
+            tight = piece.thickness <= accuracy_;
+            return std::min(by_plane, piece.z1);
+        }
+    }
+    const double far = std::max(0.0, std::sqrt(square) - (r - c));
+    const double by_box = piece.z1 - (c - std::sqrt(std::max(c * c - far * far, 0.0)));
+    if (by_box <= best) {
+        return kNothing;
+    }
+    if (!piece.graph) {
+        tight = std::max(piece.x1 - piece.x0, piece.y1 - piece.y0) < 5.0 * accuracy_;
+        return by_box;
+    }
+    tight = piece.thickness <= accuracy_;
+    return std::min({by_plane, by_box, on_edges(piece, at)});
+}
+
+TipFloor::Rest TipFloor::drop(Vec2d at) const
+{
+    struct Entry {
+        double height;
+        std::uint32_t piece;
+    };
+    std::array<Entry, kStack> stack;
+    std::size_t depth = 0;
+    Rest best{kNothing, {0.0, 0.0}, 0};
+    const auto consider = [&](std::uint32_t index) {
+        bool tight = false;
+        const double height = bound(pieces_[index], at, best.height, tight);
+        if (height > best.height && (tight || depth == kStack)) {
+            best = {height, pieces_[index].gradient, index};
+        } else if (height > best.height) {
+            stack[depth++] = {height, index};
+        }
+    };
+    if (last_ != 0 && pieces_[last_].child == 0) {
+        consider(last_);
+        depth = 0;  // where it is not tight it is met again on the way down
+    }
+    for (const std::uint32_t root : roots_) {
+        consider(root);
+        while (depth > 0) {
+            const Entry top = stack[--depth];
+            if (top.height <= best.height) {
+                continue;
+            }
+            if (pieces_[top.piece].child == 0) {
+                halve(top.piece);
+            }
+            const std::uint32_t child = pieces_[top.piece].child;
+            const std::size_t before = depth;
+            consider(child);
+            consider(child + 1);
+            // The more promising half is looked at first.
+            if (depth == before + 2 && stack[before].height > stack[before + 1].height) {
+                std::swap(stack[before], stack[before + 1]);
+            }
+        }
+    }
+    last_ = best.piece;
+    return best;
+}
+
+}  // namespace cusp::host

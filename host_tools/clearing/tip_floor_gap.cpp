@@ -1,0 +1,130 @@
+// Room of a move: branch and bound over pieces of the floor and of the move.
+#include <algorithm>
+#include <cmath>
+
+#include "host_tools/clearing/tip_floor.hpp"
+
+namespace cusp::host {
+
+// Distance from the ball's centre line to the piece's upright box, or component by component to its
+// turned box, whichever says more.
+double TipFloor::ball_gap(const Piece& piece, Vec3d a, Vec3d b) const
+{
+    const auto apart = [](double low, double high, double p, double q) {
+        return std::max({low - std::max(p, q), 0.0, std::min(p, q) - high});
+    };
+    const double ux = apart(piece.x0, piece.x1, a.x, b.x);
+    const double uy = apart(piece.y0, piece.y1, a.y, b.y);
+    const double uz = apart(piece.z0, piece.z1, a.z, b.z);
+    double square = ux * ux + uy * uy + uz * uz;
+    if (piece.graph) {
+        const Vec2d g = piece.gradient;
+        const double run = 1.0 + g.x * g.x;
+        const double along = 1.0 / std::sqrt(run);
+        const double aside = along / piece.secant;
+        const auto first = [&](Vec3d p) {
+            return along * (p.x + g.x * p.z);
+        };
+        const auto second = [&](Vec3d p) {
+            return aside * (run * p.y + g.y * (p.z - g.x * p.x));
+        };
+        const auto over = [&](Vec3d p) {
+            return (p.z - g.x * p.x - g.y * p.y - piece.level) / piece.secant;
+        };
+        const double tx = apart(piece.lateral[0], piece.lateral[1], first(a), first(b));
+        const double ty = apart(piece.lateral[2], piece.lateral[3], second(a), second(b));
+        const double tz = apart(-piece.thickness / piece.secant, 0.0, over(a), over(b));
+        square = std::max(square, tx * tx + ty * ty + tz * tz);
+    }
+    return std::sqrt(square) - tool_.radius;
+}
+
+// Along the axis: how far the tip stays above what the piece asks for while the tool moves from a
+// to b. Over the plane that changes evenly, so the ends tell; the box is met by the tool at its
+// nearest.
+double TipFloor::axial_gap(const Piece& piece, Vec3d a, Vec3d b, double margin) const
+{
+    const auto apart = [](double low, double high, double p, double q) {
+        return std::max({low - std::max(p, q), 0.0, std::min(p, q) - high});
+    };
+    const double dx = apart(piece.x0, piece.x1, a.x, b.x);
+    const double dy = apart(piece.y0, piece.y1, a.y, b.y);
+    const double r = tool_.radius;
+    const double c = tool_.corner_radius;
+    const double away = std::max(0.0, std::sqrt(dx * dx + dy * dy) - margin);
+    if (away >= r) {
+        return 1e300;
+    }
+    const double out = std::max(0.0, away - (r - c));
+    const double profile = c - std::sqrt(std::max(c * c - out * out, 0.0));
+    const double over_box = std::min(a.z, b.z) + profile - piece.z1;
+    if (!piece.graph) {
+        return over_box;
+    }
+    const Vec2d g = piece.gradient;
+    const auto over_plane = [&](Vec3d p) {
+        return p.z - (piece.level + g.x * p.x + g.y * p.y + piece.rise) -
+               margin * std::sqrt(dot(g, g));
+    };
+    return std::max(over_box, std::min(over_plane(a), over_plane(b)));
+}
+
+double TipFloor::gap(Vec3d a, Vec3d b, double margin) const
+{
+    struct Entry {
+        std::uint32_t piece;
+        Vec3d a, b;
+    };
+    const bool ball = tool_.corner_radius == tool_.radius;
+    const Vec3d up{0.0, 0.0, ball ? tool_.radius : 0.0};
+    double least = 0.0;
+    std::array<Entry, kStack> stack;
+    for (const std::uint32_t root : roots_) {
+        std::size_t depth = 0;
+        stack[depth++] = {root, a + up, b + up};
+        while (depth > 0) {
+            const Entry top = stack[--depth];
+            const Piece& piece = pieces_[top.piece];
+            const double here = ball ? ball_gap(piece, top.a, top.b) - margin
+                                     : axial_gap(piece, top.a, top.b, margin);
+            if (here >= least) {
+                continue;
+            }
+            const Vec3d move = top.b - top.a;
+            const double size = std::max(piece.x1 - piece.x0, piece.y1 - piece.y0);
+            const double thin = piece.graph ? piece.thickness / piece.secant : size;
+            const double tilt = move.z - dot(piece.gradient, Vec2d{move.x, move.y});
+            const double turned = piece.graph ? std::abs(tilt) / piece.secant : norm(move);
+            const bool small = norm(move) < accuracy_ && size < accuracy_;
+            // Beyond the piece's rectangle its plane tells of metal that is not there: only a
+            // ball's turned box knows of the rectangle, for other tools the pieces must be small.
+            // A long move passes beside a piece in a corner of the box that it spans, where the
+            // piece's plane is not the floor: what cuts is looked at in short moves.
+            const bool clear = here >= -accuracy_ || norm(move) + size < 0.1 * tool_.radius;
+            const bool flat = thin < accuracy_ && turned < accuracy_;
+            const bool settled =
+                ball ? flat && clear
+                     : thin < 0.5 * accuracy_ && size * piece.secant < 0.05 && norm(move) < 0.05;
+            if (settled || small || depth + 2 > kStack) {
+                least = std::min(least, here);
+                continue;
+            }
+            const bool halve_move = ball && !flat ? turned > thin : norm(move) > size;
+            if (halve_move) {
+                const Vec3d middle = (top.a + top.b) * 0.5;
+                stack[depth++] = {top.piece, top.a, middle};
+                stack[depth++] = {top.piece, middle, top.b};
+                continue;
+            }
+            if (piece.child == 0) {
+                halve(top.piece);
+            }
+            const std::uint32_t child = pieces_[top.piece].child;
+            stack[depth++] = {child, top.a, top.b};
+            stack[depth++] = {child + 1, top.a, top.b};
+        }
+    }
+    return least;
+}
+
+}  // namespace cusp::host

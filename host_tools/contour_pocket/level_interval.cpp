@@ -1,0 +1,169 @@
+// Sections of the floor across every loop, in every direction at corners.
+#include "host_tools/contour_pocket/level_interval.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host_tools/contour_pocket/path_interval.hpp"
+
+namespace cusp::host {
+
+namespace {
+
+constexpr double kLeastShare = 0.02;  // of the tool's radius: no interval is less
+
+// Curvature of the tip's height over a floor of that curvature and slope, for a ball.
+double bend_of_tip(const Tool& tool, const TipFloor::Section& section)
+{
+    const double over = 1.0 + section.curvature * tool.corner_radius;
+    const double secant = std::sqrt(1.0 + section.slope * section.slope);
+    return over > 0.1 ? -section.curvature / over * secant * secant * secant : 1e3;
+}
+
+}  // namespace
+
+double ridge_between(const Tool& tool, const std::vector<double>& heights, double apart)
+{
+    constexpr int kPlaces = 24;
+    const auto n = static_cast<double>(heights.size() - 1);
+    double most = 0.0;
+    for (int i = 1; i < kPlaces; ++i) {
+        const double x = apart * i / kPlaces;
+        const auto cut_from = [&](double t, double height) {
+            return height + profile_height(tool, std::abs(x - t));
+        };
+        const double left =
+            std::min(cut_from(0.0, heights.front()), cut_from(apart, heights.back()));
+        double best = left;
+        std::size_t at = 0;
+        for (std::size_t k = 0; k < heights.size(); ++k) {
+            const double cut = cut_from(apart * static_cast<double>(k) / n, heights[k]);
+            if (cut < best) {
+                best = cut;
+                at = k;
+            }
+        }
+        const std::size_t a = at > 0 ? at - 1 : 0;
+        const std::size_t b = std::min(at + 1, heights.size() - 1);
+        const double slope = (heights[b] - heights[a]) / (apart * static_cast<double>(b - a) / n);
+        most = std::max(most, (left - best) / std::sqrt(1.0 + slope * slope));
+    }
+    return most;
+}
+
+double LevelInterval::from(const Region2d& level)
+{
+    least_ = 1e300;
+    for (const Contour& contour : level.contours) {
+        Vec2d arriving = tangent_at_end(contour.back());
+        for (const Edge& edge : contour) {
+            along(edge);
+            constexpr double kCorner = 0.995;  // cosine of some 6 degrees
+            if (corners_ && dot(arriving, tangent_at_start(edge)) < kCorner) {
+                around(edge.start);
+            }
+            arriving = tangent_at_end(edge);
+        }
+    }
+    // Neighbouring moves may stray from their paths, each its own way.
+    const double stray = budget_.outside ? 2.0 * budget_.aside : 0.0;
+    return std::max(least_ - stray, kLeastShare * floor_.tool().radius);
+}
+
+double LevelInterval::allowed(const TipFloor::Contact& contact, Vec2d direction) const
+{
+    const TipFloor::Section section = TipFloor::section(contact, direction);
+    return path_interval(floor_.tool(), budget_.cusp, section.curvature, section.slope,
+                         section.slope_along);
+}
+
+// The cusp stands half an interval away, where the floor may be bent otherwise.
+void LevelInterval::across(Vec2d at, const TipFloor::Contact& here, Vec2d direction)
+{
+    const double first = allowed(here, direction);
+    const TipFloor::Contact half = floor_.contact(at + direction * (0.5 * first));
+    const double interval = std::min({least_, first, allowed(half, direction)});
+    least_ = interval;
+    if (!here.found || !half.found) {
+        return;
+    }
+    const TipFloor::Contact there = floor_.contact(at + direction * first);
+    if (!as_expected(here, half, direction, 0.5 * first) ||
+        (there.found && !as_expected(half, there, direction, 0.5 * first))) {
+        least_ = by_ridge(at, direction, interval);
+    }
+}
+
+// The tip's height and slope change between two places as the curvatures at both say.
+bool LevelInterval::as_expected(const TipFloor::Contact& a,
+                                const TipFloor::Contact& b,
+                                Vec2d direction,
+                                double apart) const
+{
+    const TipFloor::Section from = TipFloor::section(a, direction);
+    const TipFloor::Section to = TipFloor::section(b, direction);
+    const double rise = b.height - a.height;
+    const double by_slopes = 0.5 * apart * (from.slope + to.slope);
+    const double bend = 0.5 * (bend_of_tip(floor_.tool(), from) + bend_of_tip(floor_.tool(), to));
+    const double turned = to.slope - from.slope - bend * apart;
+    const double slack = 0.1 * budget_.cusp;
+    return std::abs(rise - by_slopes) < slack && std::abs(turned) * apart < 4.0 * slack;
+}
+
+double LevelInterval::by_ridge(Vec2d at, Vec2d direction, double most) const
+{
+    constexpr int kPlaces = 12;
+    constexpr int kHalvings = 6;
+    const auto low_enough = [&](double apart) {
+        std::vector<double> heights;
+        for (int i = 0; i <= kPlaces; ++i) {
+            const double height = floor_.drop(at + direction * (apart * i / kPlaces)).height;
+            if (height == TipFloor::kNothing) {
+                return true;
+            }
+            heights.push_back(height);
+        }
+        // The level's interval may turn out smaller: a valley that this pass clears would then lie
+        // between two passes.
+        while (heights.size() > 2) {
+            const double reach = apart * static_cast<double>(heights.size() - 1) / kPlaces;
+            if (ridge_between(floor_.tool(), heights, reach) > budget_.cusp) {
+                return false;
+            }
+            heights.pop_back();
+        }
+        return true;
+    };
+    if (low_enough(most)) {
+        return most;
+    }
+    double good = kLeastShare * floor_.tool().radius;
+    double bad = most;
+    for (int i = 0; i < kHalvings; ++i) {
+        const double middle = 0.5 * (good + bad);
+        (low_enough(middle) ? good : bad) = middle;
+    }
+    return good;
+}
+
+void LevelInterval::along(const Edge& edge)
+{
+    const int n = 1 + static_cast<int>(length(edge) / (0.5 * floor_.tool().radius));
+    for (int i = 0; i < n; ++i) {
+        const double share = (i + 0.5) / n;
+        const Vec2d at = point_on(edge, share);
+        across(at, floor_.contact(at), left_normal(tangent_on(edge, share)));
+    }
+}
+
+void LevelInterval::around(Vec2d at)
+{
+    constexpr int kDirections = 16;
+    const TipFloor::Contact here = floor_.contact(at);
+    for (int i = 0; i < kDirections; ++i) {
+        const double angle = 6.28318530717958648 * i / kDirections;
+        across(at, here, {std::cos(angle), std::sin(angle)});
+    }
+}
+
+}  // namespace cusp::host

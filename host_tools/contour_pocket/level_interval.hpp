@@ -1,0 +1,46 @@
+// How far inward from a level of loops the next one may lie.
+#pragma once
+
+#include "host_tools/clearing/tip_floor.hpp"
+#include "host_tools/contour_pocket/pocket_task.hpp"
+
+namespace cusp::host {
+
+// The highest ridge, square to the floor, that passes at the first and the last of evenly spaced
+// places leave over what passes at all of them would leave.
+//
+//   heights  of the tip at the places, mm; at least two
+//   apart    mm from the first place to the last
+double ridge_between(const Tool& tool, const std::vector<double>& heights, double apart);
+
+class LevelInterval {
+public:
+    // corners: metal between loops is reached from askew there, so that every direction counts.
+    LevelInterval(const TipFloor& floor, const Budget& budget, bool corners)
+        : floor_{floor}, budget_{budget}, corners_{corners}
+    {
+    }
+
+    // The least distance inward from the level, mm, at which no cusp between is higher than
+    // allowed: by path_interval(); where the floor between two passes is not what its curvature at
+    // one of them says (a valley tighter than the tool, an edge), by the ridge itself.
+    double from(const Region2d& level);
+
+private:
+    double allowed(const TipFloor::Contact& contact, Vec2d direction) const;
+    void across(Vec2d at, const TipFloor::Contact& here, Vec2d direction);
+    bool as_expected(const TipFloor::Contact& a,
+                     const TipFloor::Contact& b,
+                     Vec2d direction,
+                     double apart) const;
+    double by_ridge(Vec2d at, Vec2d direction, double most) const;
+    void along(const Edge& edge);
+    void around(Vec2d at);
+
+    const TipFloor& floor_;
+    const Budget& budget_;
+    bool corners_;
+    double least_{};
+};
+
+}  // namespace cusp::host

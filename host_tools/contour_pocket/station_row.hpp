@@ -1,0 +1,32 @@
+// Places along a plan path where the floor is looked up, close enough that it hides nothing between
+// them.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "host_tools/clearing/tip_floor.hpp"
+#include "host_tools/contour_pocket/tolerance_chain.hpp"
+
+namespace cusp::host {
+
+struct StationSpacing {
+    double along;   // mm between stations at most
+    double aside;   // mm: chords of arcs keep within an eighth of it
+    double height;  // mm: chords of the floor keep within a twentieth of it
+};
+
+struct StationRow {
+    std::vector<Station> stations;     // heights: the tip's lowest
+    std::vector<std::size_t> corners;  // first and last included
+    std::optional<Vec2d> missing;      // a place without floor; the stations are not complete then
+};
+
+// Where the floor's slope changes from one station to the next so much that the chord between them
+// would lie off the floor, there are more of them: a valley that the tool can't round off is met at
+// its bottom.
+StationRow stations_along(const std::vector<Edge>& plan,
+                          const TipFloor& floor,
+                          const StationSpacing& spacing);
+
+}  // namespace cusp::host
