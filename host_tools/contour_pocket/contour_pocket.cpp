@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <iterator>
 
 #include "host_tools/clearing/clearing.hpp"
 #include "host_tools/clearing/tip_floor.hpp"
@@ -54,14 +53,20 @@ public:
     // rough: what has been cut before; null where the stock is whole.
     PlannedOperation plan(const RoughResult* rough)
     {
-        const ClearedRegion cleared = passes();
+        ClearedRegion cleared = passes();
         FloorCutter cutter{operation_, floor_, moves_};
-        std::optional<double> left;
+        CutSettings settings =
+            cutting(rough != nullptr ? std::optional{rough->left} : std::nullopt);
         if (rough != nullptr) {
-            left = rough->left;
-            cut_walls(cutter, cleared, rough->heights);
+            settings.repeated = beside_roughing(cleared, *rough);
+            flatten(cleared, settings);
+            const bool stands = operation_.allowance > 0.0 ||
+                                rough->operation.path.tool.number != operation_.tool.number;
+            if (stands) {
+                cut_walls(cutter, cleared, settings.repeated, rough->heights);
+            }
         }
-        cutter.cut(cleared, cutting(left));
+        cutter.cut(cleared, settings);
         PlannedOperation result;
         fill(result.stats, cleared, cutter.least_gap());
         describe(result.path, result.stats);
@@ -90,19 +95,60 @@ private:
         return cleared;
     }
 
-    // The allowance beside the walls stands to the top of the stock: it is cut in the same layers,
-    // or the finish would cut to its full depth there.
+    // Which passes meet metal that roughing did not reach: the allowance beside the walls, corners
+    // and necks that its tool does not fit into.
+    std::vector<bool> beside_roughing(const ClearedRegion& cleared, const RoughResult& rough) const
+    {
+        const double radius = operation_.tool.radius;
+        const double larger = rough.operation.path.tool.radius - radius;
+        const RegionOffset walls{region_};
+        const Region2d centres = walls.at(rough.first);
+        const auto roughed = [&](Vec2d p) {
+            if (walls.clearance(p) >= rough.first - std::min(larger, 0.0)) {
+                return true;
+            }
+            return larger > 0.0 && distance_to(centres, p) <= larger;
+        };
+        std::vector<bool> beside;
+        for (const ClearingPass& pass : cleared.passes) {
+            beside.push_back(pass.level == 0);
+            for (const Edge& edge : pass.path) {
+                const int n = 1 + static_cast<int>(length(edge) / (0.25 * radius));
+                for (int i = 0; i < n && !beside.back(); ++i) {
+                    beside.back() = !roughed(point_on(edge, static_cast<double>(i) / n));
+                }
+            }
+        }
+        return beside;
+    }
+
+    void flatten(ClearedRegion& cleared, const CutSettings& settings) const
+    {
+        for (std::size_t i = 0; i < cleared.passes.size(); ++i) {
+            if (settings.repeated[i]) {
+                Contour& path = cleared.passes[i].path;
+                path = flattened(path, settings.laying.aside, settings.laying.spacing,
+                                 settings.laying.arcs);
+            }
+        }
+    }
+
+    // What roughing left there stands to the top of the stock: it is cut in the same layers, or the
+    // finish would cut to its full depth.
     void cut_walls(FloorCutter& cutter,
                    const ClearedRegion& cleared,
+                   const std::vector<bool>& beside,
                    const std::vector<double>& heights) const
     {
-        if (operation_.allowance <= 0.0) {
-            return;
-        }
         ClearedRegion walls;
-        std::copy_if(cleared.passes.begin(), cleared.passes.end(), std::back_inserter(walls.passes),
-                     [](const ClearingPass& pass) { return pass.level == 0; });
+        for (std::size_t i = 0; i < cleared.passes.size(); ++i) {
+            if (beside[i]) {
+                walls.passes.push_back(cleared.passes[i]);
+            }
+        }
         CutSettings settings = cutting(std::nullopt);
+        settings.laying.nurbs = false;
+        settings.repeated.assign(walls.passes.size(), true);
         double above = job_.stock_top;
         for (const double level : heights) {
             settings.laying.level = level;

@@ -32,21 +32,23 @@ FloorPath FloorCutter::laid(const std::vector<Edge>& plan, const FloorPathSettin
     return path;
 }
 
-void FloorCutter::enter(const ClearingPass& pass, const CutSettings& settings)
+void FloorCutter::enter(const ClearingPass& pass,
+                        const CutSettings& settings,
+                        FloorPathSettings laying)
 {
     const double tool = operation_.tool.radius;
     const double radius = std::min(0.6 * tool, pass.room - settings.first - 1e-3);
     const bool short_pass = length(pass.path) < 6.0 * tool;
     const bool helix =
         settings.entry == EntryKind::kHelix || (settings.entry == EntryKind::kAuto && short_pass);
-    FloorPathSettings laying = settings.laying;
     laying.arcs = laying.nurbs = false;
     const FloorPath path = laid(pass.path, laying);
     const EntryHeights heights = settings.entry_heights(path.start.z);
     if (helix && radius > 0.2 * tool) {
-        moves_.enter_by_helix(path.start, radius, heights, [&](Vec2d at) {
-            return std::max(floor_.drop(at).height + laying.raise, laying.level);
-        });
+        moves_.enter_by_helix(
+            path.start, radius, heights,
+            [&](Vec2d at) { return std::max(floor_.drop(at).height + laying.raise, laying.level); },
+            [&](Vec3d a, Vec3d b) { return floor_.gap(a, b); });
         return;
     }
     moves_.enter_along(path, heights, settings.entry == EntryKind::kPlunge);
@@ -56,8 +58,13 @@ void FloorCutter::cut(const ClearedRegion& cleared, const CutSettings& settings)
 {
     bool cut_before = false;
     Vec2d last{};
-    for (const ClearingPass& pass : cleared.passes) {
-        const FloorPath path = laid(pass.path, settings.laying);
+    for (std::size_t i = 0; i < cleared.passes.size(); ++i) {
+        const ClearingPass& pass = cleared.passes[i];
+        FloorPathSettings laying = settings.laying;
+        if (i < settings.repeated.size() && settings.repeated[i]) {
+            laying.aside = repeated_aside(laying.aside);
+        }
+        const FloorPath path = laid(pass.path, laying);
         if (lowest_of(path) >= settings.skip_above) {
             cut_before = false;
             continue;
@@ -74,7 +81,7 @@ void FloorCutter::cut(const ClearedRegion& cleared, const CutSettings& settings)
             moves_.link(link);
         } else {
             moves_.retract();
-            enter(pass, settings);
+            enter(pass, settings, laying);
         }
         moves_.cut(path);
         cut_before = true;

@@ -16,6 +16,8 @@ struct CutSettings {
     double first{};  // mm: least distance of the tool's centre from the walls
     // Passes that nowhere go deeper than this are left out (cut by the layer above).
     double skip_above{1e300};
+    // Which passes have paths that are cut at several heights (flattened()); empty: none.
+    std::vector<bool> repeated;
     // Where entries start, from the height of the pass there.
     std::function<EntryHeights(double)> entry_heights;
 };
@@ -35,7 +37,7 @@ public:
 
 private:
     FloorPath laid(const std::vector<Edge>& plan, const FloorPathSettings& laying);
-    void enter(const ClearingPass& pass, const CutSettings& settings);
+    void enter(const ClearingPass& pass, const CutSettings& settings, FloorPathSettings laying);
 
     const Operation& operation_;
     const TipFloor& floor_;

@@ -165,7 +165,30 @@ Chain curves_through(const std::vector<Station>& stations,
     return chain;
 }
 
+// Between stations the floor may bend by a little more than at them, and an arc by an eighth.
+constexpr double kUsed = 0.95;
+constexpr double kUsedAside = 0.86;
+
 }  // namespace
+
+double repeated_aside(double aside) { return std::min(1e-3, 0.2 * aside); }
+
+std::vector<Edge> flattened(const std::vector<Edge>& plan, double aside, double spacing, bool arcs)
+{
+    const double room = aside - 3.0 * repeated_aside(aside);
+    const StationRow row = stations_along(plan, nullptr, {spacing, room, 1.0});
+    const bool closed = distance(row.stations.front().at, row.stations.back().at) < 1e-9;
+    const Chain chain = chain_through(row.stations, kUsedAside * room, -1.0, 1.0, arcs, closed);
+    std::vector<Edge> edges;
+    Vec2d from{chain.start.x, chain.start.y};
+    for (const FloorMove& move : chain.moves) {
+        const Vec2d to{move.end.x, move.end.y};
+        edges.push_back(move.turn == 0 ? line_edge(from, to)
+                                       : arc_edge(from, to, move.centre, move.turn));
+        from = to;
+    }
+    return edges;
+}
 
 FloorPath lay_on_floor(const std::vector<Edge>& plan,
                        const TipFloor& floor,
@@ -173,7 +196,7 @@ FloorPath lay_on_floor(const std::vector<Edge>& plan,
 {
     FloorPath path;
     StationRow row =
-        stations_along(plan, floor, {settings.spacing, settings.aside, settings.above});
+        stations_along(plan, &floor, {settings.spacing, settings.aside, settings.above});
     if (row.missing) {
         path.over_floor = false;
         path.missing = *row.missing;
@@ -188,9 +211,6 @@ FloorPath lay_on_floor(const std::vector<Edge>& plan,
     }
     const std::vector<Station>& stations = row.stations;
     const bool closed = distance(stations.front().at, stations.back().at) < 1e-9;
-    // Between stations the floor may bend by a little more than at them, and an arc by an eighth.
-    constexpr double kUsed = 0.95;
-    constexpr double kUsedAside = 0.86;
     const double low = settings.lift ? settings.cushion : -kUsed * settings.above;
     const double aside = kUsedAside * settings.aside;
     const double high = kUsed * settings.above;

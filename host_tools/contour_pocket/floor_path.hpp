@@ -45,6 +45,14 @@ struct FloorPath {
 // Coordinates are multiples of this, mm: what is certified is what is written.
 constexpr double kWrittenStep = 1e-4;
 
+// How near to a path that is cut more than once its moves stay, mm.
+double repeated_aside(double aside);
+
+// The plan path as lines (and arcs) that may then be laid at several heights, each within
+// repeated_aside() of the others, and all within `aside` (mm) of the plan path: what one lets stand
+// beside a wall, no other meets at its full depth.
+std::vector<Edge> flattened(const std::vector<Edge>& plan, double aside, double spacing, bool arcs);
+
 // Lays a chain of edges on the floor. Where its end is its start, so are the path's.
 FloorPath lay_on_floor(const std::vector<Edge>& plan,
                        const TipFloor& floor,

@@ -127,6 +127,30 @@ std::optional<Curve> least_squares(const Samples& samples, int count)
     return curve;
 }
 
+// From one station to the next a curve is no farther from the even way between its ends than an
+// eighth of the square of the step times the second derivative by which it differs from it. The
+// second derivative of a cubic changes evenly between knots: largest at a station or at a knot.
+bool stays_between(
+    const Curve& curve, const Station& a, const Station& b, double from, double to, Vec3d most)
+{
+    const double step = to - from;
+    const Vec2d way = b.at - a.at;
+    const Vec2d bent = left_normal(way) * (b.bend * std::sqrt(dot(way, way)));
+    const auto strays = [&](double u) {
+        const Vec3d second = derivatives_at(curve, u).second * (step * step);
+        const Vec2d off = Vec2d{second.x, second.y} - bent;
+        return std::sqrt(dot(off, off)) > 8.0 * most.x || std::abs(second.z) > 8.0 * most.z;
+    };
+    const double inside = 1e-6 * step;
+    if (strays(from + inside) || strays(to - inside)) {
+        return false;
+    }
+    const auto last = std::lower_bound(curve.knots.begin(), curve.knots.end(), to);
+    return std::none_of(std::upper_bound(curve.knots.begin(), last, from), last, [&](double knot) {
+        return strays(knot - inside) || strays(knot + inside);
+    });
+}
+
 bool passes(const Curve& curve,
             const std::vector<Station>& stations,
             const Samples& samples,
@@ -139,6 +163,14 @@ bool passes(const Curve& curve,
         const Vec2d off = Vec2d{p.x, p.y} - stations[k].at;
         const double over = p.z - stations[k].height - dot(stations[k].gradient, off);
         if (!(dot(off, off) <= aside * aside) || !(over >= low) || !(over <= high)) {
+            return false;
+        }
+    }
+    // At stations a part of the tolerance is left for what lies between them.
+    const Vec3d between{0.16 * aside, 0.16 * aside, 0.3 * (high - low)};
+    for (std::size_t k = 1; k < stations.size(); ++k) {
+        if (!stays_between(curve, stations[k - 1], stations[k], samples.shares[k - 1],
+                           samples.shares[k], between)) {
             return false;
         }
     }

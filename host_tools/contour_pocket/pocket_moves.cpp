@@ -66,29 +66,51 @@ void PocketMoves::enter_along(const FloorPath& path, const EntryHeights& heights
     }
 }
 
+// Straight there, higher where the floor between is in the way.
+void PocketMoves::plunge_over(Vec3d end, const std::function<double(Vec3d, Vec3d)>& gap)
+{
+    constexpr int kRounds = 12;
+    double lift = 0.0;
+    for (int round = 0; round < kRounds; ++round) {
+        const Vec3d up{0.0, 0.0, lift};
+        const double room = gap(at_ + up, end + up);
+        if (room >= 0.0) {
+            break;
+        }
+        lift += 0.01 - 2.0 * room;
+    }
+    line(MoveKind::kPlunge, at_ + Vec3d{0.0, 0.0, lift});
+    line(MoveKind::kPlunge, end + Vec3d{0.0, 0.0, lift});
+}
+
 void PocketMoves::enter_by_helix(Vec3d centre,
                                  double radius,
                                  const EntryHeights& heights,
-                                 const std::function<double(Vec2d)>& lowest)
+                                 const std::function<double(Vec2d)>& lowest,
+                                 const std::function<double(Vec3d, Vec3d)>& gap)
 {
+    // What stays under the helix is removed by the pass.
+    constexpr double kOver = 0.5;
+    std::vector<Vec3d> sides;
+    double highest = centre.z;
+    for (int i = 1; i <= kHelixSides; ++i) {
+        const double angle = 6.283185307179586 * i / kHelixSides;
+        const Vec2d at{centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)};
+        sides.push_back({at.x, at.y, std::max(lowest(at) + kOver, centre.z)});
+        highest = std::max(highest, sides.back().z);
+    }
     const double drop = kSlope * radius * 6.283185307179586 / kHelixSides;
-    double z = std::max(heights.metal, centre.z);
-    approach({centre.x + radius, centre.y}, {heights.rapid, z});
+    double z = std::max(heights.metal, highest);
+    approach({sides.back().x, sides.back().y}, {std::max(heights.rapid, z + kOver), z});
     for (bool sloped = true; sloped;) {
         sloped = false;
-        for (int i = 1; i <= kHelixSides; ++i) {
-            const double angle = 6.283185307179586 * i / kHelixSides;
-            const Vec2d at{centre.x + radius * std::cos(angle),
-                           centre.y + radius * std::sin(angle)};
+        for (const Vec3d side : sides) {
             z -= drop;
-            // Between two sides of the helix the floor may rise: half a millimetre covers it, and
-            // the pass removes it.
-            const double low = std::max(lowest(at) + 0.5, centre.z);
-            sloped = sloped || z > low;
-            line(MoveKind::kPlunge, {at.x, at.y, std::max(z, low)});
+            sloped = sloped || z > side.z;
+            plunge_over({side.x, side.y, std::max(z, side.z)}, gap);
         }
     }
-    line(MoveKind::kPlunge, {centre.x, centre.y, at_.z});
+    plunge_over({centre.x, centre.y, at_.z}, gap);
     line(MoveKind::kPlunge, centre);
 }
 

@@ -24,11 +24,13 @@ public:
     // slope until it lies wholly at its depth; straight down where `plunge`.
     void enter_along(const FloorPath& path, const EntryHeights& heights, bool plunge);
 
-    // Down on a helix about the start of a pass. lowest(at) is the lowest the tip may stand there.
+    // Down on a helix about the start of a pass. lowest(at) is the lowest the tip may stand there,
+    // gap(a, b) the room of a straight move, negative where it would cut too deep.
     void enter_by_helix(Vec3d centre,
                         double radius,
                         const EntryHeights& heights,
-                        const std::function<double(Vec2d)>& lowest);
+                        const std::function<double(Vec2d)>& lowest,
+                        const std::function<double(Vec3d, Vec3d)>& gap);
 
     void cut(const FloorPath& pass) { follow(MoveKind::kCut, pass); }
     void link(const FloorPath& path) { follow(MoveKind::kLink, path); }
@@ -41,6 +43,7 @@ public:
 private:
     void line(MoveKind kind, Vec3d end);
     void approach(Vec2d at, const EntryHeights& heights);
+    void plunge_over(Vec3d end, const std::function<double(Vec3d, Vec3d)>& gap);
     void follow(MoveKind kind, const FloorPath& path);
 
     double clearance_;

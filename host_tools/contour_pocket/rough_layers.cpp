@@ -82,7 +82,7 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     clearing.first = budget.first - operation.tool.radius + rough.tool.radius + operation.allowance;
     clearing.step = step.across;
     clearing.direction = operation.direction_of_cut;
-    const ClearedRegion cleared = clear_region(region, clearing);
+    ClearedRegion cleared = clear_region(region, clearing);
     if (cleared.passes.empty()) {
         return std::nullopt;
     }
@@ -95,6 +95,11 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     settings.laying.raise = operation.allowance;
     settings.laying.spacing = 0.2 * rough.tool.radius;
     settings.laying.arcs = operation.output != OutputForm::kLines;
+    for (ClearingPass& pass : cleared.passes) {
+        pass.path = flattened(pass.path, settings.laying.aside, settings.laying.spacing,
+                              settings.laying.arcs);
+    }
+    settings.repeated.assign(cleared.passes.size(), true);
     PocketMoves moves{job.stock_top + job.clearance};
     FloorCutter cutter{rough, floor, moves};
     const double bottom = lowest_tip(cleared, floor) + operation.allowance;
@@ -113,6 +118,7 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
         result.heights.push_back(level);
     }
     const std::size_t layers = result.heights.size();
+    result.first = clearing.first;
     result.left = operation.allowance + step.cusp;
     result.operation.path.tool = rough.tool;
     result.operation.path.feed = job.feed;

@@ -10,6 +10,7 @@ namespace cusp::host {
 struct RoughResult {
     PlannedOperation operation;
     std::vector<double> heights;  // z of the layers, from the top
+    double first{};               // mm: least distance of the tool's centre from the walls
     double left{};  // mm over the floor at most, where the floor is level: allowance and cusps
 };
 

@@ -21,7 +21,7 @@ bool is_spur(const std::vector<Edge>& plan, std::size_t e)
 
 class RowBuilder {
 public:
-    RowBuilder(const TipFloor& floor, const StationSpacing& spacing)
+    RowBuilder(const TipFloor* floor, const StationSpacing& spacing)
         : floor_{floor}, spacing_{spacing}
     {
     }
@@ -46,7 +46,10 @@ public:
 private:
     Station look(Vec2d at, double bend)
     {
-        const TipFloor::Rest rest = floor_.drop(at);
+        if (floor_ == nullptr) {
+            return {at, 0.0, {}, bend};
+        }
+        const TipFloor::Rest rest = floor_->drop(at);
         if (rest.height == TipFloor::kNothing) {
             row_.missing = at;
         }
@@ -88,7 +91,7 @@ private:
         halve(edge, whole, middle, to, next);
     }
 
-    const TipFloor& floor_;
+    const TipFloor* floor_;
     const StationSpacing& spacing_;
     StationRow row_;
 };
@@ -96,7 +99,7 @@ private:
 }  // namespace
 
 StationRow stations_along(const std::vector<Edge>& plan,
-                          const TipFloor& floor,
+                          const TipFloor* floor,
                           const StationSpacing& spacing)
 {
     return RowBuilder{floor, spacing}.run(plan);

@@ -25,8 +25,10 @@ struct StationRow {
 // Where the floor's slope changes from one station to the next so much that the chord between them
 // would lie off the floor, there are more of them: a valley that the tool can't round off is met at
 // its bottom.
+//
+// floor  null: a level floor at z = 0
 StationRow stations_along(const std::vector<Edge>& plan,
-                          const TipFloor& floor,
+                          const TipFloor* floor,
                           const StationSpacing& spacing);
 
 }  // namespace cusp::host
