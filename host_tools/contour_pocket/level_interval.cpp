@@ -112,7 +112,8 @@ bool LevelInterval::as_expected(const TipFloor::Contact& a,
 
 double LevelInterval::by_ridge(Vec2d at, Vec2d direction, double most) const
 {
-    constexpr int kPlaces = 12;
+    constexpr int kPlaces = 32;
+    constexpr int kWindow = 4;  // places by which the windows looked at differ
     constexpr int kHalvings = 6;
     const auto low_enough = [&](double apart) {
         std::vector<double> heights;
@@ -130,7 +131,7 @@ double LevelInterval::by_ridge(Vec2d at, Vec2d direction, double most) const
             if (ridge_between(floor_.tool(), heights, reach) > budget_.cusp) {
                 return false;
             }
-            heights.pop_back();
+            heights.resize(heights.size() - kWindow);
         }
         return true;
     };
