@@ -70,6 +70,9 @@ public:
         board.mill.force_high(options.stuck_high);
         board.mill.force_low(options.stuck_low);
         controller_.power_on();
+        // Nobody hears its first words; who comes gets the banner.
+        controller_.settle();
+        controller_.board().byte_link.take_answers();
         if (options.control) {
             control_.emplace(*options.control);
         }

@@ -14,8 +14,8 @@ using std::chrono::milliseconds;
 
 // Longer than answers to what is under way take.
 constexpr milliseconds kDry{40};
-constexpr milliseconds kFirstPatience{1000};
-constexpr milliseconds kMostPatience{8000};
+// Shorter than the silence after which the controller ends the checks.
+constexpr milliseconds kMostPatience{1600};
 constexpr std::size_t kDigits = 8;
 
 std::uint32_t crc_of(std::string_view text)
@@ -76,30 +76,36 @@ void CheckedWindow::add(std::uint64_t program_line, std::string_view text)
     ++next_number_;
 }
 
+// Lines are on the wire and nothing more will be heard of them by itself.
+bool CheckedWindow::wants_to_ask(Clock::time_point now) const
+{
+    return sent_ > 0 && !draining_ && (under_way_ == 0 || now - quiet_since_ >= patience_);
+}
+
 std::optional<std::string> CheckedWindow::next(Clock::time_point now)
 {
-    if (draining_ && now - quiet_since_ >= kDry) {
+    if (draining_ && (under_way_ == 0 || now - quiet_since_ >= kDry)) {
         draining_ = false;
         rewind(now);
     }
-    // Nothing heard of the oldest line for a while: send it again and see.
-    if (!draining_ && sent_ > 0 && now - quiet_since_ >= patience_) {
+    if (wants_to_ask(now)) {
         patience_ = std::min(2 * patience_, kMostPatience);
         quiet_since_ = now;
-        ++resent_;
-        return lines_.front().wire;
+        ++under_way_;
+        return "\n";
     }
     if (draining_ || sent_ == lines_.size()) {
         return std::nullopt;
     }
     const std::string& wire = lines_[sent_].wire;
-    if (sent_ > 0 && sent_bytes_ + wire.size() > capacity_) {
+    if (sent_ > 0 && sent_bytes_ + wire.size() > room_) {
         return std::nullopt;
     }
     if (sent_ == 0) {
         quiet_since_ = now;
     }
     ++sent_;
+    ++under_way_;
     sent_bytes_ += wire.size();
     return wire;
 }
@@ -109,6 +115,7 @@ void CheckedWindow::rewind(Clock::time_point now)
     resent_ += sent_;
     sent_ = 0;
     sent_bytes_ = 0;
+    under_way_ = 0;
     quiet_since_ = now;
 }
 
@@ -137,6 +144,7 @@ std::optional<CheckedWindow::Verdict> CheckedWindow::take(std::string_view line,
 {
     const auto answer = checked_answer(line);
     if (!answer) {
+        count_damaged(line);
         return std::nullopt;
     }
     const auto number = number_after(*answer, " N");
@@ -146,16 +154,36 @@ std::optional<CheckedWindow::Verdict> CheckedWindow::take(std::string_view line,
     }
     quiet_since_ = now;
     patience_ = kFirstPatience;
+    plain_answers_ = 0;
+    under_way_ -= under_way_ > 0 ? 1U : 0U;
     if (answer->rfind("resend", 0) == 0) {
         const Verdict verdict = finish_before(*number);
-        draining_ = !lines_.empty();
+        if (sent_ > 0 && !draining_) {
+            draining_ = true;
+            room_ /= 2;
+        }
         return verdict;
     }
+    constexpr std::size_t kGrowth = 16;
+    room_ = std::min(capacity_, room_ + kGrowth);
     Verdict verdict = finish_before(*number + 1);
     if (answer->rfind("error:", 0) == 0) {
         std::from_chars(answer->data() + 6, answer->data() + answer->size(), verdict.error);
     }
     return verdict;
+}
+
+// Neither a report nor a message, so it was an answer.
+void CheckedWindow::count_damaged(std::string_view line)
+{
+    if (line.empty() || line.front() == '<' || line.front() == '[') {
+        return;
+    }
+    under_way_ -= under_way_ > 0 ? 1U : 0U;
+    const std::string_view code =
+        line.substr(0, 6) == "error:" ? line.substr(6) : std::string_view{};
+    const bool plain = line == "ok" || (!code.empty() && code.size() <= 2);
+    plain_answers_ = plain ? plain_answers_ + 1 : 0;
 }
 
 std::uint64_t CheckedWindow::program_line_of(std::uint32_t number) const

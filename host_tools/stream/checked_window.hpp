@@ -3,7 +3,9 @@
 //
 // The protocol is docs/protocol.md's, "Checked lines". Answers count only if their own CRC is
 // right; an answer for line k tells that all before it are done too. After a refusal the sender
-// lets what is under way run dry, then goes on from the line expected.
+// lets what is under way run dry, then goes on from the line expected. Where nothing is heard, or
+// an answer was damaged, an empty line asks: its answer tells the line expected. On a bad line
+// fewer lines are under way at a time.
 #pragma once
 
 #include <chrono>
@@ -31,7 +33,7 @@ public:
 
     //   capacity  of the controller's buffer, bytes; half of it is used, since a line may be under
     //             way twice
-    explicit CheckedWindow(std::size_t capacity) : capacity_{capacity / 2} {}
+    explicit CheckedWindow(std::size_t capacity) : capacity_{capacity / 2}, room_{capacity_} {}
 
     // Whether another line of the program may be added.
     bool has_room() const { return lines_.size() < kMostLines; }
@@ -50,6 +52,10 @@ public:
     // A line from the controller that may be an answer. None where it is none or is damaged.
     std::optional<Verdict> take(std::string_view line, Clock::time_point now);
 
+    // Answers without a check came where only checked ones are due: the controller does not check
+    // lines any more.
+    bool lapsed() const { return plain_answers_ >= kMostPlain; }
+
     bool empty() const { return lines_.empty(); }
     std::uint64_t resent() const { return resent_; }
     // The program's line that a checked number stands for; 0 where it is too long past.
@@ -58,6 +64,9 @@ public:
 private:
     static constexpr std::size_t kMostLines = 256;
     static constexpr std::size_t kMostRemembered = 4096;
+    // Damage makes a plain answer of a checked one once in a long while, never so many in a row.
+    static constexpr unsigned kMostPlain = 4;
+    static constexpr std::chrono::milliseconds kFirstPatience{100};
 
     struct Line {
         std::uint32_t number;
@@ -66,17 +75,22 @@ private:
     };
     Verdict finish_before(std::uint32_t number);
     void rewind(Clock::time_point now);
+    bool wants_to_ask(Clock::time_point now) const;
+    void count_damaged(std::string_view line);
 
     std::size_t capacity_;
-    std::deque<Line> lines_;  // not known to be executed
-    std::size_t sent_{0};     // of lines_, on the wire
+    std::size_t room_;           // bytes to use of it: less on a bad line
+    std::size_t under_way_{0};   // line ends without an answer, as far as is known
+    unsigned plain_answers_{0};  // in a row
+    std::deque<Line> lines_;     // not known to be executed
+    std::size_t sent_{0};        // of lines_, on the wire
     std::size_t sent_bytes_{0};
     std::uint32_t next_number_{1};
     std::deque<std::uint64_t> program_lines_;  // of the last numbers done
     std::uint32_t done_{0};                    // number of the last line done
     bool draining_{false};
     Clock::time_point quiet_since_{};
-    std::chrono::milliseconds patience_{1000};
+    std::chrono::milliseconds patience_{kFirstPatience};
     std::uint64_t resent_{0};
 };
 

@@ -31,6 +31,10 @@ public:
             line_ = reports_.front().line;
             reports_.pop_front();
         }
+        // Lines never go back: a report that did was damaged, or the one before it was.
+        while (!reports_.empty() && reports_.back().line > line) {
+            reports_.pop_back();
+        }
         if (reports_.empty() || reports_.back().line != line) {
             reports_.push_back({line, now});
         }

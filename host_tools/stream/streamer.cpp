@@ -562,6 +562,12 @@ void Streamer::take_error(std::uint64_t line, int code)
 void Streamer::take_checked(const std::string& line)
 {
     const auto verdict = checked_->take(line, Clock::now());
+    if (checked_->lapsed() && !stopping_) {
+        throw Ending{
+            StreamOutcome::kError,
+            "the controller has stopped checking lines: somebody else reset it, or it heard "
+            "no line for seconds"};
+    }
     if (!verdict || verdict->done_lines == 0) {
         return;
     }

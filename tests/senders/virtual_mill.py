@@ -32,7 +32,9 @@ class VirtualMill:
             [cusp, "sim", "--serve", "--pty", direct, "--control", f"127.0.0.1:{self.control_port}",
              "--settings", str(self.settings), *options],
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        self.wait_until(lambda: os.path.exists(direct), 10)
+        first = self.process.stdout.readline()
+        if "serving on" not in first:
+            raise OSError(f"cusp does not serve: {first}{self.process.stdout.read()}")
         self.direct = direct
         self.tap = LineTap(direct, str(self.folder / "port")) if tap else None
         self.port = self.tap.link if tap else direct

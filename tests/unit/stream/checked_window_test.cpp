@@ -54,11 +54,43 @@ TEST(CheckedWindow, TakesALaterAnswerForThoseBefore)
     CHECK(window.empty());
 }
 
-TEST(CheckedWindow, SendsTheOldestLineAgainWhenNothingIsHeard)
+TEST(CheckedWindow, GoesBackAtOnceWhenNothingIsUnderWay)
 {
     window.add(10, "G21");
     window.next(now);
-    now += std::chrono::milliseconds{1100};
+    window.take("resend N1*B0C18854", now);
     STRCMP_EQUAL("N1G21*A00D41FF\n", window.next(now)->c_str());
+}
+
+TEST(CheckedWindow, AsksByAnEmptyLineWhenNothingIsHeard)
+{
+    window.add(10, "G21");
+    window.next(now);
     CHECK_FALSE(window.next(now).has_value());
+    now += std::chrono::milliseconds{300};
+    STRCMP_EQUAL("\n", window.next(now)->c_str());
+    CHECK_FALSE(window.next(now).has_value());
+    LONGS_EQUAL(1, window.take("resend N2*29C8D9EE", now)->done_lines);
+    CHECK(window.empty());
+}
+
+TEST(CheckedWindow, AsksAtOnceWhenTheLastAnswerWasDamaged)
+{
+    window.add(10, "G21");
+    window.next(now);
+    CHECK_FALSE(window.take("ok N1*360E43D3", now).has_value());
+    STRCMP_EQUAL("\n", window.next(now)->c_str());
+}
+
+TEST(CheckedWindow, TellsOfAControllerThatDoesNotCheckAnyMore)
+{
+    for (int i = 0; i < 3; ++i) {
+        window.take("error:1", now);
+    }
+    window.take("ok N9", now);
+    for (int i = 0; i < 4; ++i) {
+        CHECK_FALSE(window.lapsed());
+        window.take(i == 0 ? "ok" : "error:20", now);
+    }
+    CHECK(window.lapsed());
 }
