@@ -23,6 +23,24 @@ void SimulatedController::tick_firmware()
     }
 }
 
+bool SimulatedController::work(unsigned slices)
+{
+    for (unsigned i = 0; i < slices; ++i) {
+        if (!app_ || !app_->poll()) {
+            return false;
+        }
+    }
+    return true;
+}
+
+void SimulatedController::tick_amid_work()
+{
+    if (app_) {
+        app_->tick();
+    }
+    tick_world();
+}
+
 void SimulatedController::power_off()
 {
     app_.reset();

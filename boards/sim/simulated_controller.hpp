@@ -35,6 +35,11 @@ public:
     void tick_firmware();
     void tick_world() { board_.advance(); }
 
+    // In real time: so many slices of the main loop, and a tick whatever is left to do. Returns
+    // whether there is.
+    bool work(unsigned slices);
+    void tick_amid_work();
+
     bool is_on() const noexcept { return app_.has_value(); }
     // The firmware is gone amid whatever it did; the settings store and the iron stay.
     void power_off();

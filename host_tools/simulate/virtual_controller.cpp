@@ -88,20 +88,26 @@ public:
     void run(const std::atomic<int>& stop)
     {
         auto next_tick = Clock::now();
+        bool busy = false;
         while (stop.load() == 0) {
-            wait_until(next_tick);
-            exchange();
+            if (!busy) {
+                wait_until(next_tick);
+            }
+            busy = exchange();
             const auto now = Clock::now();
             if (now - next_tick > kMostLag) {
                 next_tick = now;
             }
             while (next_tick <= now) {
-                controller_.tick();
+                if (now - next_tick > kTick) {
+                    controller_.tick();  // late: the work between the ticks is due as well
+                } else {
+                    controller_.tick_amid_work();
+                }
                 to_controller_.advance();
                 from_controller_.advance();
                 next_tick += kTick;
             }
-            exchange();
             obey_control();
             watch_store();
         }
@@ -123,9 +129,12 @@ private:
         ::ppoll(sources, 2, &timeout, nullptr);
     }
 
-    // Bytes in, the firmware's work, bytes out.
-    void exchange()
+    // Bytes in, a little of the firmware's work, bytes out. Returns whether work is left: neither a
+    // question nor a tick waits until all is done.
+    bool exchange()
     {
+        constexpr unsigned kSlices = 32;
+        bool busy = false;
         const bool had_peer = end_.has_peer();
         if (end_.look()) {
             say("a sender is there");
@@ -139,10 +148,11 @@ private:
         const std::string arrived = to_controller_.take();
         if (controller_.is_on()) {
             controller_.board().byte_link.send(arrived);
-            controller_.settle();
+            busy = controller_.work(kSlices);
             from_controller_.put(controller_.board().byte_link.take_answers());
         }
         end_.write(from_controller_.take());
+        return busy;
     }
 
     void obey_control()
