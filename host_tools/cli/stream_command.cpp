@@ -66,6 +66,10 @@ public:
             fraction = times->total_s > 0.0 ? times->done_s / times->total_s : fraction;
             left = (times->total_s - times->done_s) * 100.0 / progress.feed_override;
         }
+        if (progress.done) {
+            fraction = 1.0;
+            left = 0.0;
+        }
         display_.show(progress, fraction, left);
     }
     void notice(const std::string& text) override { display_.say(text); }

@@ -64,9 +64,10 @@ StreamReport Streamer::run(ProgramLines& program, const std::atomic<int>& stop)
         report.outcome = StreamOutcome::kLinkLost;
         report.text = std::string{"the link is lost: "} + lost.what();
     }
-    watcher_.progress(progress_);
+    progress_.done = report.outcome == StreamOutcome::kDone;
     report.progress = progress_;
     if (sending_) {
+        watcher_.progress(progress_);
         keep_record(report.text);
         report.record = record_;
     }
@@ -433,7 +434,9 @@ void Streamer::pump(milliseconds wait)
         last_asked_ = Clock::now();
         const char question = '?';
         transport_.write({&question, 1});
-        watcher_.progress(progress_);
+        if (sending_) {
+            watcher_.progress(progress_);
+        }
     }
     check_silence();
     constexpr std::chrono::seconds kKeepInterval{1};

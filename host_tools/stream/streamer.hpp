@@ -64,6 +64,7 @@ struct StreamProgress {
     std::uint64_t lines_resent{0};
     Vec3d work_offset;
     int feed_override{100};
+    bool done{false};  // all of it, and the machine rests
 };
 
 enum class StreamKey : std::uint8_t {
