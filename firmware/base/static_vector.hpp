@@ -29,6 +29,11 @@ public:
         return true;
     }
     // Precondition: !empty().
+    // Precondition: count <= size().
+    constexpr void shrink(std::size_t count) noexcept
+    {
+        size_ = static_cast<decltype(size_)>(count);
+    }
     constexpr void pop_back() noexcept
     {
         CUSP_ASSERT(size_ > 0);

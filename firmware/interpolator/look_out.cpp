@@ -10,7 +10,8 @@ using planner::PathQueue;
 
 float limit_before_end(const Interval& interval, float distance) noexcept
 {
-    return std::min(interval.limit.cap, interval.end_speed + 2.0F * interval.slope * distance);
+    return std::min(interval.envelope.limit.cap,
+                    interval.envelope.end_speed + 2.0F * interval.envelope.slope * distance);
 }
 
 float feed_before_end(const Interval& interval,
@@ -18,9 +19,9 @@ float feed_before_end(const Interval& interval,
                       const OverrideFactors& factors) noexcept
 {
     const float origin = factors.of(interval.origin_is_rapid);
-    const float line = interval.feed_end + 2.0F * interval.slope * distance -
-                       (1.0F - origin) * interval.feed_origin;
-    return std::min(factors.of(interval.rapid) * interval.limit.feed, line);
+    const float line = interval.envelope.feed_end + 2.0F * interval.envelope.slope * distance -
+                       (1.0F - origin) * interval.envelope.feed_origin;
+    return std::min(factors.of(interval.rapid) * interval.envelope.limit.feed, line);
 }
 
 float allowed_before_end(const Interval& interval,
@@ -72,7 +73,7 @@ float LookOut::least_between(const PathQueue& queue,
         const Interval& passed = queue.interval(interval_);
         if (interval_ + 1 == published || passed.stop_at_end || i == kIntervalsPerTick) {
             const bool at_end = i != kIntervalsPerTick;
-            return at_end ? std::min(0.0F, passed.end_speed) : 0.0F;
+            return at_end ? 0.0F : 0.0F;
         }
         push({interval_end_, allowed_before_end(passed, 0.0F, factors)});
         ++interval_;

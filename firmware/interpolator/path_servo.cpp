@@ -89,18 +89,20 @@ PathServo::Bounds PathServo::bounds(float greatest, const OverrideFactors& facto
     for (std::uint32_t i = 0;; ++i) {
         const Interval& interval = queue_.interval(index);
         to_end += millimetres(i == 0 ? interval.length - offset_ : interval.length);
-        const float slope = interval.slope;
-        least.speed = std::min({least.speed, speed_under(interval.end_speed, slope, to_end),
-                                std::sqrt(interval.limit.cap)});
+        const float slope = interval.envelope.slope;
+        least.speed =
+            std::min({least.speed, speed_under(interval.envelope.end_speed, slope, to_end),
+                      std::sqrt(interval.envelope.limit.cap)});
         const float scaled_off =
-            (1.0F - factors.of(interval.origin_is_rapid)) * interval.feed_origin;
-        const float own = factors.of(interval.rapid) * interval.limit.feed;
-        least.feed =
-            std::min({least.feed, speed_under(interval.feed_end - scaled_off, slope, to_end),
-                      std::sqrt(own)});
+            (1.0F - factors.of(interval.origin_is_rapid)) * interval.envelope.feed_origin;
+        const float own = factors.of(interval.rapid) * interval.envelope.limit.feed;
+        least.feed = std::min({least.feed,
+                               speed_under(interval.envelope.feed_end - scaled_off, slope, to_end),
+                               std::sqrt(own)});
         // Implicit in the speed after the tick, where less acceleration may be left.
-        const float drop = (interval.limit.u0 - interval.limit.u1) / interval.limit.cap;
-        const float here = interval.limit.acceleration_at(square);
+        const float drop =
+            (interval.envelope.limit.u0 - interval.envelope.limit.u1) / interval.envelope.limit.cap;
+        const float here = interval.envelope.limit.acceleration_at(square);
         least.acceleration =
             std::min(least.acceleration, here / (1.0F + 2.0F * drop * speed_ * kServoTick));
         ++index;
@@ -121,7 +123,8 @@ float PathServo::next_speed(const OverrideFactors& factors) noexcept
     // acceleration, a difference over one filter, changes by at most one limit.
     const float before =
         static_cast<float>(accelerations_.oldest()) / (kPathUnitsPerTick * kServoTick);
-    const float reach = speed_ + queue_.interval(queue_.interval_begin()).limit.u0 * kServoTick;
+    const float reach =
+        speed_ + queue_.interval(queue_.interval_begin()).envelope.limit.u0 * kServoTick;
     const Bounds bound = bounds(reach, factors);
     const float most = bound.acceleration;
     const float up = std::max(0.0F, most - std::max(0.0F, -before));
@@ -174,7 +177,7 @@ float PathServo::steepest_slope(std::uint32_t last) const noexcept
     }
     float steepest = 0;
     for (std::uint32_t i = begin; i - begin <= last - begin && i != queue_.published(); ++i) {
-        steepest = std::max(steepest, queue_.interval(i).slope);
+        steepest = std::max(steepest, queue_.interval(i).envelope.slope);
     }
     return steepest;
 }

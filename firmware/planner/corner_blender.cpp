@@ -99,8 +99,7 @@ bool CornerBlender::faster_than_stop(const path::BezierPiece& piece,
         bound = larger(
             bound, {magnitude(state.tangent), magnitude(state.curvature), magnitude(state.change)});
     }
-    const SpeedLimit limit = speed_limit(bound, limits_, 1.0F, filter_s_, kUnlimited, feed);
-    const float speed = std::sqrt(limit.cap);
+    const float speed = std::sqrt(allowance(bound, limits_, filter_s_, kUnlimited, feed).cap);
     const float travel = 2.0F * reach + speed * filter_s_;
     const float slowest =
         std::min({limits_.acceleration.x, limits_.acceleration.y, limits_.acceleration.z});

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "firmware/base/assert.hpp"
 
@@ -11,8 +12,6 @@ namespace {
 
 constexpr float kTimeUnitsPerSecond = 1e7F;
 constexpr float kLongestTime = 100.0F;  // s; longer counts as this
-// The feed override goes up to 200 %: squared, four times.
-constexpr float kGreatestFeedFactor = 4.0F;
 // A split leaves no piece shorter than this.
 constexpr float kShortestPiece = 1e-4F;  // mm
 
@@ -26,17 +25,25 @@ std::uint32_t path_units(float mm) noexcept
     return static_cast<std::uint32_t>(mm * kPathUnitsPerMillimetre);
 }
 
-float greatest_speed(const SpeedLimit& limit, bool rapid) noexcept
+// The limits of a stretch alone, and its feed alone: they are spread over different distances.
+Allowance limits_alone(Allowance allowance) noexcept
 {
-    const float feed = rapid ? limit.feed : kGreatestFeedFactor * limit.feed;
-    return std::sqrt(std::min(limit.cap, feed));
+    allowance.feed = kUnlimited;
+    return allowance;
+}
+
+Allowance feed_alone(float squared_feed) noexcept
+{
+    Allowance allowance = kAllowsAll;
+    allowance.feed = squared_feed;
+    return allowance;
 }
 
 }  // namespace
 
 void IntervalBuilder::refresh_time(Interval& interval) noexcept
 {
-    const float speed = greatest_speed(interval.limit, interval.rapid);
+    const float speed = greatest_speed(interval.allowance, interval.rapid);
     const float time =
         std::min(millimetres(interval.length) / std::max(speed, 1e-6F), kLongestTime);
     const auto units = static_cast<std::uint32_t>(time * kTimeUnitsPerSecond);
@@ -45,87 +52,74 @@ void IntervalBuilder::refresh_time(Interval& interval) noexcept
     interval.least_time = units;
 }
 
-void IntervalBuilder::restrict(Interval& interval, const Restriction& restriction) noexcept
+void IntervalBuilder::restrict(Interval& interval, const Allowance& allowance) noexcept
 {
-    interval.limit = stricter(interval.limit, restriction.limit);
-    interval.scale0 = std::min(interval.scale0, restriction.scale0);
-    interval.scale1 = std::min(interval.scale1, restriction.scale1);
+    interval.allowance = stricter(interval.allowance, allowance);
     refresh_time(interval);
 }
 
 void IntervalBuilder::append_piece(std::uint32_t length,
-                                   const SpeedLimit& limit,
+                                   const Allowance& allowance,
                                    bool rapid) noexcept
 {
     Interval interval{};
     interval.length = length;
-    interval.limit = limit;
-    interval.scale0 = 1;
-    interval.scale1 = 1;
+    interval.allowance = allowance;
     interval.rapid = rapid;
     refresh_time(interval);
     queue_.append_interval(interval);
 }
 
-void IntervalBuilder::append(std::uint32_t length, const SpeedLimit& limit, bool rapid) noexcept
+void IntervalBuilder::append(std::uint32_t length, const Allowance& allowance, bool rapid) noexcept
 {
-    const float speed = greatest_speed(limit, rapid);
-    spread_back(speed * reach_.limit, {{limit.cap, limit.u0, limit.u1, kUnlimited}, 1, 1});
-    const float feed = std::sqrt(kGreatestFeedFactor * limit.feed);
-    spread_back(feed * reach_.feed, {{kUnlimited, kUnlimited, kUnlimited, limit.feed}, 1, 1});
+    const Allowance limits = limits_alone(allowance);
+    const Allowance feed = feed_alone(allowance.feed);
+    const float limits_reach = greatest_speed(allowance, rapid) * reach_.limit;
+    const float feed_reach = std::sqrt(kGreatestFeedFactor * allowance.feed) * reach_.feed;
+    spread_back(limits_reach, limits);
+    spread_back(feed_reach, feed);
 
     // Cut where a limit carried over from earlier stretches ends.
     std::uint32_t left = length;
     while (left > 0) {
         std::uint32_t piece = left;
-        Restriction over{};
+        Allowance all = allowance;
         for (const Carry& carried : carries_) {
-            over.limit = stricter(over.limit, carried.restriction.limit);
-            over.scale0 = std::min(over.scale0, carried.restriction.scale0);
-            over.scale1 = std::min(over.scale1, carried.restriction.scale1);
+            all = stricter(all, carried.allowance);
             const std::uint32_t reach = path_units(std::max(carried.distance, kShortestPiece));
             piece = std::min(piece, carried.distance < 60.0F ? reach : piece);
         }
         if (millimetres(left - piece) < kShortestPiece) {
             piece = left;
         }
-        append_piece(piece, limit, rapid);
-        restrict(queue_.interval(queue_.interval_end() - 1), over);
+        append_piece(piece, all, rapid);
         left -= piece;
-        const float passed = millimetres(piece);
-        StaticVector<Carry, kCarries> still;
-        for (Carry carried : carries_) {
-            carried.distance -= passed;
-            if (carried.distance > kShortestPiece) {
-                (void)still.try_push_back(carried);
-            }
-        }
-        carries_ = still;
+        travel(millimetres(piece));
     }
-    carry(speed * reach_.limit, {{limit.cap, limit.u0, limit.u1, kUnlimited}, 1, 1});
-    carry(feed * reach_.feed, {{kUnlimited, kUnlimited, kUnlimited, limit.feed}, 1, 1});
+    carry(limits_reach, limits);
+    carry(feed_reach, feed);
 }
 
-void IntervalBuilder::add_joint(const Restriction& restriction, float speed) noexcept
+void IntervalBuilder::add_joint(const JointShare& joint) noexcept
 {
-    spread_back(speed * reach_.joint, restriction);
-    carry(speed * reach_.joint, restriction);
+    Allowance allowance = kAllowsAll;
+    allowance.cap = joint.speed * joint.speed;
+    allowance.jerk_left = {1.0F - joint.jerk_at_rest, 1.0F - joint.jerk};
+    allowance.acceleration_left = 1.0F - joint.acceleration;
+    spread_back(joint.speed * reach_.joint, allowance);
+    carry(joint.speed * reach_.joint, allowance);
 }
 
-void IntervalBuilder::spread_back(float distance, const Restriction& restriction) noexcept
+void IntervalBuilder::spread_back(float distance, const Allowance& allowance) noexcept
 {
     float left = distance;
     std::uint32_t at = queue_.interval_end();
     while (left > 0 && at != queue_.published()) {
         Interval& interval = queue_.interval(at - 1);
         const float length = millimetres(interval.length);
-        const SpeedLimit& limit = restriction.limit;
-        const bool binds = restriction.scale0 < interval.scale0 ||
-                           restriction.scale1 < interval.scale1 || limit.cap < interval.limit.cap ||
-                           limit.u0 < interval.limit.u0 || limit.u1 < interval.limit.u1 ||
-                           limit.feed < interval.limit.feed;
+        const bool lowers = binds(allowance, interval.allowance);
         const bool split =
-            binds && length - left > kShortestPiece && queue_.free_intervals() > kMostPerAppend;
+            lowers && length - left > kShortestPiece && queue_.free_intervals() > kMostPerAppend;
         if (split) {
             // Only the end of this interval is in reach.
             Interval front = interval;
@@ -135,46 +129,72 @@ void IntervalBuilder::spread_back(float distance, const Restriction& restriction
             interval.length = back;
             queue_.insert_interval(at - 1, front);
             refresh_time(queue_.interval(at - 1));
-            restrict(queue_.interval(at), restriction);
+            restrict(queue_.interval(at), allowance);
             return;
         }
-        if (binds) {
-            restrict(interval, restriction);
+        if (lowers) {
+            restrict(interval, allowance);
         }
         left -= length;
         --at;
     }
 }
 
-void IntervalBuilder::carry(float distance, const Restriction& restriction) noexcept
+// Drops the carried limits that end within `distance`.
+void IntervalBuilder::travel(float distance) noexcept
+{
+    std::size_t kept = 0;
+    for (Carry& carried : carries_) {
+        carried.distance -= distance;
+        if (carried.distance > kShortestPiece) {
+            carries_[kept++] = carried;
+        }
+    }
+    carries_.shrink(kept);
+}
+
+void IntervalBuilder::carry(float distance, const Allowance& allowance) noexcept
 {
     if (distance <= kShortestPiece) {
         return;
     }
-    if (carries_.full()) {
-        // Two become one that is as strict as both and lasts as long as the longer.
-        Carry& last = carries_.back();
-        last.distance = std::max(last.distance, distance);
-        last.restriction.limit = stricter(last.restriction.limit, restriction.limit);
-        last.restriction.scale0 = std::min(last.restriction.scale0, restriction.scale0);
-        last.restriction.scale1 = std::min(last.restriction.scale1, restriction.scale1);
-        return;
-    }
     // One that is nowhere stricter and ends no later is not needed.
-    StaticVector<Carry, kCarries> still;
-    const SpeedLimit& added = restriction.limit;
+    std::size_t kept = 0;
     for (const Carry& carried : carries_) {
-        const SpeedLimit& old = carried.restriction.limit;
-        const bool scales = carried.restriction.scale0 < restriction.scale0 ||
-                            carried.restriction.scale1 < restriction.scale1;
-        const bool needless = !scales && carried.distance <= distance && added.cap <= old.cap &&
-                              added.u0 <= old.u0 && added.u1 <= old.u1 && added.feed <= old.feed;
-        if (!needless) {
-            (void)still.try_push_back(carried);
+        if (carried.distance > distance || binds(carried.allowance, allowance)) {
+            carries_[kept++] = carried;
         }
     }
-    carries_ = still;
-    (void)carries_.try_push_back({distance, restriction});
+    carries_.shrink(kept);
+    if (carries_.full()) {
+        merge_closest_carries();
+    }
+    // In rising order of distance.
+    (void)carries_.try_push_back({distance, allowance});
+    for (std::size_t i = carries_.size() - 1; i > 0 && carries_[i - 1].distance > distance; --i) {
+        std::swap(carries_[i - 1], carries_[i]);
+    }
+}
+
+// The two that end closest together, by ratio, become one that is as strict as both and lasts as
+// long as the longer.
+void IntervalBuilder::merge_closest_carries() noexcept
+{
+    std::size_t closest = 0;
+    float least = kUnlimited;
+    for (std::size_t i = 0; i + 1 < carries_.size(); ++i) {
+        const float ratio = carries_[i + 1].distance / carries_[i].distance;
+        if (ratio < least) {
+            least = ratio;
+            closest = i;
+        }
+    }
+    Carry& longer = carries_[closest + 1];
+    longer.allowance = stricter(longer.allowance, carries_[closest].allowance);
+    for (std::size_t i = closest; i + 1 < carries_.size(); ++i) {
+        carries_[i] = carries_[i + 1];
+    }
+    carries_.pop_back();
 }
 
 void IntervalBuilder::stop() noexcept
@@ -197,8 +217,8 @@ void IntervalBuilder::publish(bool queue_full) noexcept
         const float factor = 0.25F;
         for (std::uint32_t i = queue_.published(); i != queue_.interval_end(); ++i) {
             Interval& interval = queue_.interval(i);
-            interval.limit.cap *= factor;
-            interval.limit.feed *= factor;
+            interval.allowance.cap *= factor;
+            interval.allowance.feed *= factor;
             refresh_time(interval);
         }
     }
@@ -215,8 +235,7 @@ void IntervalBuilder::publish_to(std::uint32_t end) noexcept
 {
     for (std::uint32_t i = queue_.published(); i != end; ++i) {
         Interval& interval = queue_.interval(i);
-        interval.limit.u0 *= interval.scale0;
-        interval.limit.u1 *= interval.scale1;
+        interval.envelope = {speed_limit(interval.allowance), 0, 0, 0, 0};
         pending_time_ -= interval.least_time;
         queue_.add_published_length(interval.length);
     }

@@ -7,16 +7,10 @@
 #pragma once
 
 #include "firmware/base/static_vector.hpp"
+#include "firmware/planner/joint.hpp"
 #include "firmware/planner/path_queue.hpp"
 
 namespace cusp::planner {
-
-// A limit to spread, and factors on the accelerations (for what a joint takes of them).
-struct Restriction {
-    SpeedLimit limit{kNoLimit};
-    float scale0{1};
-    float scale1{1};
-};
 
 class IntervalBuilder {
 public:
@@ -34,10 +28,10 @@ public:
     static constexpr std::uint32_t kMostPerAppend = 12;
 
     // Adds a stretch at the end of the path.
-    void append(std::uint32_t length, const SpeedLimit& limit, bool rapid) noexcept;
+    void append(std::uint32_t length, const Allowance& allowance, bool rapid) noexcept;
 
     // Spreads what the joint at the end of the path so far demands.
-    void add_joint(const Restriction& restriction, float speed) noexcept;
+    void add_joint(const JointShare& joint) noexcept;
 
     // The path stops at its end: all of it may be published, and nothing is spread over the stop.
     void stop() noexcept;
@@ -51,21 +45,23 @@ public:
 private:
     struct Carry {
         float distance;  // mm, still to come
-        Restriction restriction;
+        Allowance allowance;
     };
     static constexpr std::uint32_t kCarries = 8;
 
-    void spread_back(float distance, const Restriction& restriction) noexcept;
-    void carry(float distance, const Restriction& restriction) noexcept;
-    void append_piece(std::uint32_t length, const SpeedLimit& limit, bool rapid) noexcept;
+    void spread_back(float distance, const Allowance& allowance) noexcept;
+    void carry(float distance, const Allowance& allowance) noexcept;
+    void merge_closest_carries() noexcept;
+    void travel(float distance) noexcept;
+    void append_piece(std::uint32_t length, const Allowance& allowance, bool rapid) noexcept;
     void publish_to(std::uint32_t end) noexcept;
     void refresh_time(Interval& interval) noexcept;
-    void restrict(Interval& interval, const Restriction& restriction) noexcept;
+    void restrict(Interval& interval, const Allowance& allowance) noexcept;
 
     PathQueue& queue_;
     Reach reach_{};
-    StaticVector<Carry, kCarries> carries_;
-    std::uint64_t pending_time_{0};  // of the intervals not published, units of 0.1 us
+    StaticVector<Carry, kCarries> carries_;  // in rising order of distance
+    std::uint64_t pending_time_{0};          // of the intervals not published, units of 0.1 us
 };
 
 }  // namespace cusp::planner

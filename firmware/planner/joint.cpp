@@ -11,21 +11,34 @@ constexpr unsigned kBisections = 20;
 
 Vec3f magnitude(Vec3f a) noexcept { return {std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)}; }
 
-// Share of the axes' acceleration and jerk left over by the curves that the joint takes at v.
-float share_at(const Joint& joint, const MachineLimits& limits, AxisFilter filter, float v) noexcept
+struct Shares {
+    float acceleration;
+    float jerk;
+};
+
+float greater(const Shares& shares) noexcept { return std::max(shares.acceleration, shares.jerk); }
+
+// Shares of the axes' acceleration and jerk left over by the curves that the joint takes at v,
+// where the limits left are those at `fastest`.
+Shares shares_at(const Joint& joint,
+                 const MachineLimits& limits,
+                 AxisFilter filter,
+                 float v,
+                 float fastest) noexcept
 {
     const float first = static_cast<float>(filter.first) * kServoTick;
     const float second = static_cast<float>(filter.second) * kServoTick;
     const float square = v * v;
-    const float bend_jerk = joint.bend * joint.bend * square * v;
-    float share = 0;
+    const float bend_acceleration = joint.bend * fastest * fastest;
+    const float bend_jerk = joint.bend * fastest * bend_acceleration;
+    Shares shares{0, 0};
     for (unsigned i = 0; i < 3; ++i) {
         const float jump = v * joint.direction[i];
-        const float acceleration_left = limits.acceleration[i] - joint.bend * square;
+        const float acceleration_left = limits.acceleration[i] - bend_acceleration;
         const float jerk_left = limits.jerk[i] - bend_jerk;
         if (acceleration_left <= 0 || jerk_left <= 0) {
             if (jump > 0 || joint.curvature[i] > 0) {
-                return 1;
+                return {1, 1};
             }
             continue;
         }
@@ -33,9 +46,25 @@ float share_at(const Joint& joint, const MachineLimits& limits, AxisFilter filte
         const float jerk =
             acceleration / second +
             (joint.curvature[i] * square + joint.direction[i] * limits.acceleration[i]) / first;
-        share = std::max({share, acceleration / acceleration_left, jerk / jerk_left});
+        shares.acceleration = std::max(shares.acceleration, acceleration / acceleration_left);
+        shares.jerk = std::max(shares.jerk, jerk / jerk_left);
     }
-    return share;
+    return shares;
+}
+
+// The jerk that jumps of direction make grows with the speed: as a line over the squared speed
+// half of it counts at rest, and all of what does not depend on the speed.
+JointShare joint_share_at(const Joint& joint,
+                          const MachineLimits& limits,
+                          AxisFilter filter,
+                          float v) noexcept
+{
+    const Shares shares = shares_at(joint, limits, filter, v, v);
+    Joint corner = joint;
+    corner.curvature = {};
+    const float moving = shares_at(corner, limits, filter, v, v).jerk;
+    const float standing = shares_at(corner, limits, filter, 0.0F, v).jerk;
+    return {v, shares.acceleration, std::min(0.5F * (moving + standing), shares.jerk), shares.jerk};
 }
 
 }  // namespace
@@ -69,16 +98,16 @@ JointShare joint_share(const Joint& joint,
     if (joint.turn * fast * mean_time > 2.0F * deviation) {
         fast = 2.0F * deviation / (joint.turn * mean_time);
     }
-    const float share = share_at(joint, limits, filter, fast);
-    if (share <= max_share) {
-        return {share, fast};
+    if (greater(shares_at(joint, limits, filter, fast, fast)) <= max_share) {
+        return joint_share_at(joint, limits, filter, fast);
     }
     float slow = 0;
     for (unsigned i = 0; i < kBisections; ++i) {
         const float middle = 0.5F * (slow + fast);
-        (share_at(joint, limits, filter, middle) <= max_share ? slow : fast) = middle;
+        const Shares shares = shares_at(joint, limits, filter, middle, middle);
+        (greater(shares) <= max_share ? slow : fast) = middle;
     }
-    return {share_at(joint, limits, filter, slow), slow};
+    return joint_share_at(joint, limits, filter, slow);
 }
 
 }  // namespace cusp::planner

@@ -18,10 +18,12 @@ Joint make_joint(const EndGeometry& before, const EndGeometry& after) noexcept;
 // A sum of joints that one window of the axis filters may hold.
 Joint together(const Joint& a, const Joint& b) noexcept;
 
-// What a joint may take of the axes' acceleration and jerk.
+// What a joint leaves of the axes' limits to the curves around it.
 struct JointShare {
-    float share;  // in (0, 1)
-    float speed;  // mm/s, greatest that keeps it
+    float speed;         // mm/s, greatest that it may be passed at
+    float acceleration;  // share taken at that speed, in [0, 1)
+    float jerk_at_rest;  // share taken is at most a line over the squared speed: at rest,
+    float jerk;          // and at that speed, in [0, 1)
 };
 
 // The axis filters turn a jump of direction into acceleration of at most v jump/t1 and jerk of at
@@ -31,7 +33,7 @@ struct JointShare {
 //   max_speed  mm/s, of the path around it.
 //   deviation  mm, > 0: how far the filters may leave the corner.
 //
-// Returns the greatest speed, at most max_speed, and the share taken at it.
+// Returns the greatest speed, at most max_speed, and the shares taken.
 // Source: docs/numerics.md, "Joints".
 JointShare joint_share(const Joint& joint,
                        const MachineLimits& limits,

@@ -26,35 +26,37 @@ struct Ahead {
 
 Ahead start_of(const Interval& interval) noexcept
 {
+    const Envelope& envelope = interval.envelope;
     const float length = static_cast<float>(interval.length) / kPathUnitsPerMillimetre;
-    const float speed = interval.end_speed + 2.0F * interval.slope * length;
-    const float feed = interval.feed_end + 2.0F * interval.slope * length;
-    const bool own = interval.limit.feed <= feed;
-    return {std::min(interval.limit.cap, speed), own ? interval.limit.feed : feed,
-            own ? interval.limit.feed : interval.feed_origin,
+    const float speed = envelope.end_speed + 2.0F * envelope.slope * length;
+    const float feed = envelope.feed_end + 2.0F * envelope.slope * length;
+    const bool own = envelope.limit.feed <= feed;
+    return {std::min(envelope.limit.cap, speed), own ? envelope.limit.feed : feed,
+            own ? envelope.limit.feed : envelope.feed_origin,
             own ? interval.rapid : interval.origin_is_rapid};
 }
 
 // False where nothing changed.
 bool update(Interval& interval, const Ahead& ahead) noexcept
 {
+    Envelope& envelope = interval.envelope;
     const bool stops = interval.stop_at_end;
-    const float end = stops ? 0.0F : std::min(interval.limit.cap, ahead.speed);
-    const float feed = stops ? interval.limit.feed : ahead.feed;
-    const bool feed_is_own = stops || interval.limit.feed <= feed;
-    const float feed_end = feed_is_own ? interval.limit.feed : feed;
-    if (end == interval.end_speed && feed_end == interval.feed_end && interval.slope > 0) {
+    const float end = stops ? 0.0F : std::min(envelope.limit.cap, ahead.speed);
+    const float feed = stops ? envelope.limit.feed : ahead.feed;
+    const bool feed_is_own = stops || envelope.limit.feed <= feed;
+    const float feed_end = feed_is_own ? envelope.limit.feed : feed;
+    if (end == envelope.end_speed && feed_end == envelope.feed_end && envelope.slope > 0) {
         return false;
     }
     const float length = static_cast<float>(interval.length) / kPathUnitsPerMillimetre;
     // A higher end may mean less braking over the interval: that first, or the tick could see the
     // higher end with the stronger brake.
-    interval.slope = braking(interval.limit, end, length);
-    interval.feed_origin = feed_is_own ? interval.limit.feed : ahead.feed_origin;
+    envelope.slope = braking(envelope.limit, end, length);
+    envelope.feed_origin = feed_is_own ? envelope.limit.feed : ahead.feed_origin;
     interval.origin_is_rapid = feed_is_own ? interval.rapid : ahead.origin_is_rapid;
     std::atomic_signal_fence(std::memory_order_seq_cst);
-    interval.end_speed = end;
-    interval.feed_end = feed_end;
+    envelope.end_speed = end;
+    envelope.feed_end = feed_end;
     return true;
 }
 

@@ -14,23 +14,28 @@
 
 namespace cusp::planner {
 
-// A stretch of path with one speed limit, and the envelope of speeds from which the machine can
-// always brake. Speeds are squared. Over the interval, d mm before its end, the envelope is
+// The speed limit of a stretch of path, and the envelope of speeds from which the machine can
+// always brake. Speeds are squared. d mm before the end of the stretch the envelope is
 // min(limit.cap, end_speed + 2 slope d).
-struct Interval {
-    std::uint32_t length;  // path units
+struct Envelope {
     SpeedLimit limit;
-    // Factors on the accelerations, for what joints take of them; worked in when published.
-    float scale0;
-    float scale1;
     float end_speed;  // squared, at the end
     float slope;      // braking, mm/s^2
-    // The same for the feed alone: min(limit.feed, feed_end + 2 feed_slope d). An override scales
+    // The same for the feed alone: min(limit.feed, feed_end + 2 slope d). An override scales
     // the part of it that stems from a programmed feed, feed_origin.
     float feed_end;
     float feed_origin;
+};
+
+// A stretch of path.
+struct Interval {
+    std::uint32_t length;      // path units
     std::uint32_t least_time;  // units of 0.1 us, to pass at the greatest speed
-    bool stop_at_end;          // the filters drain there before the path goes on
+    union {
+        Allowance allowance;  // until published
+        Envelope envelope;    // from then on
+    };
+    bool stop_at_end;  // the filters drain there before the path goes on
     bool rapid;
     bool origin_is_rapid;
 };

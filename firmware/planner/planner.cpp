@@ -230,8 +230,10 @@ void Planner::join(const EndGeometry& after, const Block& block) noexcept
         return;
     }
     const FilterChoice choice = filter_for(move_.tolerance);
-    JointShare share = joint_share(joint, limits_, block.filter, kLoneJointShare, kGreatestSpeed,
-                                   choice.deviation);
+    const Allowance after_joint = allowance_of(block, stretch(block, 0));
+    const float fastest = std::min(end_speed_, greatest_speed(after_joint, block.rapid));
+    JointShare share =
+        joint_share(joint, limits_, block.filter, kLoneJointShare, fastest, choice.deviation);
     // Joints within one window of the axis filters add up.
     const float window = static_cast<float>(block.filter.first + block.filter.second) * kServoTick;
     Joint sum = joint;
@@ -251,27 +253,29 @@ void Planner::join(const EndGeometry& after, const Block& block) noexcept
         joints_.pop_back();
     }
     (void)joints_.try_push_back({joint, 0.0F});
-    const float cap = share.speed * share.speed;
-    // The share grows with the speed at least as its root does: at rest half of it may remain.
-    builder_.add_joint(
-        {{cap, kUnlimited, kUnlimited, kUnlimited}, 1.0F - 0.5F * share.share, 1.0F - share.share},
-        share.speed);
+    builder_.add_joint(share);
+}
+
+Allowance Planner::allowance_of(const Block& block, const Stretch& part) const noexcept
+{
+    const float filter_s = static_cast<float>(path_filter_) * kServoTick;
+    const float feed = block.rapid ? kGreatestSpeed : std::min(move_.feed, kGreatestSpeed);
+    Allowance of_part = allowance(part.derivatives, limits_, filter_s,
+                                  max_centripetal(filter_for(move_.tolerance)), kGreatestSpeed);
+    of_part.feed = feed * feed;
+    return of_part;
 }
 
 void Planner::add_stretches(const Block& block) noexcept
 {
-    const FilterChoice choice = filter_for(move_.tolerance);
-    const float filter_s = static_cast<float>(path_filter_) * kServoTick;
-    const float feed = block.rapid ? kGreatestSpeed : std::min(move_.feed, kGreatestSpeed);
     const unsigned count = stretch_count(block);
     std::uint32_t done = 0;
     for (unsigned i = 0; i < count; ++i) {
         const Stretch part = stretch(block, i);
-        SpeedLimit limit = speed_limit(part.derivatives, limits_, 1.0F, filter_s,
-                                       max_centripetal(choice), kGreatestSpeed);
-        limit.feed = feed * feed;
         if (part.end > done) {
-            builder_.append(part.end - done, limit, block.rapid);
+            const Allowance of_part = allowance_of(block, part);
+            builder_.append(part.end - done, of_part, block.rapid);
+            end_speed_ = greatest_speed(of_part, block.rapid);
             done = part.end;
         }
     }

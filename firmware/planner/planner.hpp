@@ -75,6 +75,7 @@ private:
     void start(const path::Move& move) noexcept;
     void add_block(const Block& block) noexcept;
     void join(const EndGeometry& after, const Block& block) noexcept;
+    Allowance allowance_of(const Block& block, const Stretch& part) const noexcept;
     void add_stretches(const Block& block) noexcept;
     void stop() noexcept;
 
@@ -99,6 +100,7 @@ private:
     // The end of the path so far, where it does not stop there.
     std::optional<EndGeometry> end_;
     AxisFilter end_filter_{};
+    float end_speed_{0};  // mm/s, the most that its last stretch allows
     StaticVector<RecentJoint, kRecentJoints> joints_;
 };
 

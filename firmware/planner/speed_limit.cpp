@@ -30,6 +30,12 @@ float cube_root(float q) noexcept
     return v;
 }
 
+// At part of the squared speed's cap.
+float value(const Line& line, float part) noexcept
+{
+    return line.at_rest - (line.at_rest - line.at_cap) * part;
+}
+
 }  // namespace
 
 PathDerivatives larger(const PathDerivatives& a, const PathDerivatives& b) noexcept
@@ -37,18 +43,61 @@ PathDerivatives larger(const PathDerivatives& a, const PathDerivatives& b) noexc
     return {larger(a.first, b.first), larger(a.second, b.second), larger(a.third, b.third)};
 }
 
-SpeedLimit stricter(const SpeedLimit& a, const SpeedLimit& b) noexcept
+Allowance stricter(const Allowance& a, const Allowance& b) noexcept
 {
-    return {std::min(a.cap, b.cap), std::min(a.u0, b.u0), std::min(a.u1, b.u1),
-            std::min(a.feed, b.feed)};
+    Allowance both;
+    both.cap = std::min(a.cap, b.cap);
+    both.feed = std::min(a.feed, b.feed);
+    const float part_of_a = both.cap / a.cap;
+    const float part_of_b = both.cap / b.cap;
+    const auto least = [&](const Line& of_a, const Line& of_b) {
+        return Line{std::min(of_a.at_rest, of_b.at_rest),
+                    std::min(value(of_a, part_of_a), value(of_b, part_of_b))};
+    };
+    both.by_acceleration = least(a.by_acceleration, b.by_acceleration);
+    both.by_jerk = least(a.by_jerk, b.by_jerk);
+    both.jerk_left = least(a.jerk_left, b.jerk_left);
+    both.acceleration_left = std::min(a.acceleration_left, b.acceleration_left);
+    return both;
 }
 
-SpeedLimit speed_limit(const PathDerivatives& derivatives,
-                       const MachineLimits& limits,
-                       float jerk_share,
-                       float filter_s,
-                       float max_centripetal,
-                       float max_speed) noexcept
+bool binds(const Allowance& a, const Allowance& b) noexcept
+{
+    if (a.cap < b.cap || a.feed < b.feed || a.acceleration_left < b.acceleration_left) {
+        return true;
+    }
+    const float part_of_a = b.cap / a.cap;
+    const auto lower = [part_of_a](const Line& of_a, const Line& of_b) {
+        return of_a.at_rest < of_b.at_rest || value(of_a, part_of_a) < of_b.at_cap;
+    };
+    return lower(a.by_acceleration, b.by_acceleration) || lower(a.by_jerk, b.by_jerk) ||
+           lower(a.jerk_left, b.jerk_left);
+}
+
+SpeedLimit speed_limit(const Allowance& allowance) noexcept
+{
+    // The product of two falling lines is convex: above its tangent at the cap.
+    const Line& jerk = allowance.by_jerk;
+    const Line& left = allowance.jerk_left;
+    const float at_cap = jerk.at_cap * left.at_cap;
+    const float at_rest = jerk.at_rest * left.at_cap + jerk.at_cap * (left.at_rest - left.at_cap);
+    const Line& acceleration = allowance.by_acceleration;
+    const float share = allowance.acceleration_left;
+    return {allowance.cap, std::min(share * acceleration.at_rest, at_rest),
+            std::min(share * acceleration.at_cap, at_cap), allowance.feed};
+}
+
+float greatest_speed(const Allowance& allowance, bool rapid) noexcept
+{
+    const float feed = rapid ? allowance.feed : kGreatestFeedFactor * allowance.feed;
+    return std::sqrt(std::min(allowance.cap, feed));
+}
+
+Allowance allowance(const PathDerivatives& derivatives,
+                    const MachineLimits& limits,
+                    float filter_s,
+                    float max_centripetal,
+                    float max_speed) noexcept
 {
     float cap = max_speed * max_speed;
     float jerk_speed = kUnlimited;
@@ -58,7 +107,7 @@ SpeedLimit speed_limit(const PathDerivatives& derivatives,
         const float second = std::max(derivatives.second[i], kTiny);
         cap = std::min(cap, kCentripetalShare * limits.acceleration[i] / second);
         const float third = std::max(derivatives.third[i], kTiny);
-        const float cube = kCurvatureJerkShare * jerk_share * limits.jerk[i] / third;
+        const float cube = kCurvatureJerkShare * limits.jerk[i] / third;
         if (cube < 1e15F) {
             jerk_speed = std::min(jerk_speed, cube_root(cube));
         }
@@ -70,17 +119,28 @@ SpeedLimit speed_limit(const PathDerivatives& derivatives,
     cap = std::min(cap, max_centripetal / std::max(curvature, kTiny));
 
     const float speed = std::sqrt(cap);
-    SpeedLimit limit{cap, kUnlimited, kUnlimited, kUnlimited};
+    Allowance least = kAllowsAll;
+    least.cap = cap;
     for (unsigned i = 0; i < 3; ++i) {
         const float first = std::max(derivatives.first[i], kTiny);
-        const float second = derivatives.second[i];
-        const float jerk_left = jerk_share * limits.jerk[i] - derivatives.third[i] * speed * cap;
-        const float by_jerk = jerk_left / (first / filter_s + 3.0F * second * speed);
-        limit.u0 = std::min({limit.u0, limits.acceleration[i] / first, by_jerk});
-        const float left = limits.acceleration[i] - second * cap;
-        limit.u1 = std::min({limit.u1, left / first, by_jerk});
+        const float bent = derivatives.second[i] * cap;
+        Line& acceleration = least.by_acceleration;
+        acceleration.at_rest = std::min(acceleration.at_rest, limits.acceleration[i] / first);
+        acceleration.at_cap =
+            std::min(acceleration.at_cap, (limits.acceleration[i] - bent) / first);
+        // With y = v^2/cap the bound is (j - k y^1.5)/(p + q y^0.5), not below
+        // (j - k y)/(p + q (1 + y)/2), which is convex: not below its tangent at the cap.
+        const float k = derivatives.third[i] * speed * cap;
+        const float half = 1.5F * derivatives.second[i] * speed;
+        const float rest = first / filter_s + half;
+        const float whole = rest + half;
+        const float at_cap = (limits.jerk[i] - k) / whole;
+        Line& jerk = least.by_jerk;
+        jerk.at_cap = std::min(jerk.at_cap, at_cap);
+        jerk.at_rest =
+            std::min(jerk.at_rest, at_cap + (k * rest + limits.jerk[i] * half) / (whole * whole));
     }
-    return limit;
+    return least;
 }
 
 }  // namespace cusp::planner

@@ -17,8 +17,8 @@ struct PathDerivatives {
 PathDerivatives larger(const PathDerivatives& a, const PathDerivatives& b) noexcept;
 
 // Speed and acceleration along the path that keep every axis inside its limits. Speeds are squared,
-// in (mm/s)^2. The acceleration may be u0 at rest and u1 at the cap; in between linear in the
-// squared speed, which is below the true bound because that is concave.
+// in (mm/s)^2. The acceleration may be u0 at rest and u1 at the cap, and linear in the squared
+// speed in between.
 struct SpeedLimit {
     float cap;   // of the squared speed
     float u0;    // mm/s^2
@@ -31,11 +31,41 @@ struct SpeedLimit {
     }
 };
 
+// A bound that falls linearly with the squared speed.
+struct Line {
+    float at_rest;
+    float at_cap;
+};
+
+// The parts of a speed limit, kept apart until everything that reaches a place is known: the least
+// of each part over the places, but not their products, are bounds.
+struct Allowance {
+    float cap;                // of the squared speed
+    float feed;               // squared programmed feed
+    Line by_acceleration;     // mm/s^2 along the path, by the axes' acceleration
+    Line by_jerk;             // mm/s^2 along the path, by the axes' jerk
+    Line jerk_left;           // share of the jerk that joints leave
+    float acceleration_left;  // share of the acceleration that joints leave
+};
+
 inline constexpr float kUnlimited = 1e30F;
-inline constexpr SpeedLimit kNoLimit{kUnlimited, kUnlimited, kUnlimited, kUnlimited};
+inline constexpr Line kNoLine{kUnlimited, kUnlimited};
+inline constexpr Allowance kAllowsAll{kUnlimited, kUnlimited, kNoLine, kNoLine, {1, 1}, 1};
 
 // Holds wherever both a and b hold.
-SpeedLimit stricter(const SpeedLimit& a, const SpeedLimit& b) noexcept;
+Allowance stricter(const Allowance& a, const Allowance& b) noexcept;
+
+// Whether b allows something that a does not.
+bool binds(const Allowance& a, const Allowance& b) noexcept;
+
+// All parts together.
+SpeedLimit speed_limit(const Allowance& allowance) noexcept;
+
+// The feed override goes up to 200 %: squared, four times.
+inline constexpr float kGreatestFeedFactor = 4.0F;
+
+// The fastest that caps and feed allow at any override, mm/s.
+float greatest_speed(const Allowance& allowance, bool rapid) noexcept;
 
 // Squared speed is capped where the centripetal acceleration takes this part of an axis' limit, so
 // that some is left to change the speed.
@@ -43,21 +73,20 @@ inline constexpr float kCentripetalShare = 0.92F;
 // And where v^3 |d3P/ds3| takes this part of its jerk.
 inline constexpr float kCurvatureJerkShare = 0.8F;
 
-// The limit over a stretch with such derivatives.
+// What a stretch with such derivatives allows.
 //
-//   limits      of the axes.
-//   jerk_share  of the axes' jerk that the stretch may use, in (0, 1].
-//   filter_s    length of the path filter, s, > 0: jerk along the path is at most
-//   acceleration/filter_s. max_centripetal  largest |d2P/ds2| v^2, mm/s^2: bounds the deviation by
-//   the axis filters. max_speed   mm/s; another bound of the speed.
+//   limits           of the axes.
+//   filter_s         length of the path filter, s, > 0: jerk along the path is at most
+//                    acceleration/filter_s.
+//   max_centripetal  largest |d2P/ds2| v^2, mm/s^2: bounds the deviation by the axis filters.
+//   max_speed        mm/s; another bound of the speed.
 //
 // Each axis keeps  |P'| u + |P''| v^2 <= a  and  |P'| u/filter_s + 3 |P''| v u + |P'''| v^3 <= j.
 // Source: docs/numerics.md, "Limits along the path".
-SpeedLimit speed_limit(const PathDerivatives& derivatives,
-                       const MachineLimits& limits,
-                       float jerk_share,
-                       float filter_s,
-                       float max_centripetal,
-                       float max_speed) noexcept;
+Allowance allowance(const PathDerivatives& derivatives,
+                    const MachineLimits& limits,
+                    float filter_s,
+                    float max_centripetal,
+                    float max_speed) noexcept;
 
 }  // namespace cusp::planner
