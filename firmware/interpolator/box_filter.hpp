@@ -34,6 +34,9 @@ public:
     // The value added n calls ago.
     std::int32_t oldest() const noexcept { return values_[next_]; }
 
+    // Ticks until drained, if only zeros follow.
+    std::uint32_t ticks_left() const noexcept { return filled_; }
+
     // Whether all n values are 0.
     bool drained() const noexcept { return filled_ == 0; }
 

@@ -22,17 +22,23 @@ void Interpolator::reset(Position at) noexcept
 {
     const std::uint32_t ticks = planner_.path_filter();
     servo_.reset(ticks);
-    path_filter_.clear();
-    path_filter_.set_length(ticks);
-    path_division_.set(static_cast<std::int32_t>(ticks), 0);
+    for (Track& track : tracks_) {
+        track.filter.clear();
+        track.filter.set_length(ticks);
+        track.division.set(static_cast<std::int32_t>(ticks), 0);
+        track.block = queue_.block_begin();
+        track.offset = 0;
+        track.place = {};
+    }
     for (AxisState& axis : axes_) {
         axis.first.clear();
         axis.second.clear();
     }
     set_axis_filter(axis_filter_);
-    offset_ = 0;
-    place_ = {};
     position_ = at;
+    drained_ = true;
+    drained_before_ = true;
+    trail_drained_ = true;
     along_ = 0;
     holding_ = false;
     at_rest_ = true;
@@ -52,7 +58,7 @@ void Interpolator::set_axis_filter(planner::AxisFilter filter) noexcept
 
 bool Interpolator::filters_drained() const noexcept
 {
-    bool drained = path_filter_.drained();
+    bool drained = leading().filter.drained() && trailing().filter.drained();
     for (const AxisState& axis : axes_) {
         drained = drained && axis.first.drained() && axis.second.drained();
     }
@@ -61,10 +67,23 @@ bool Interpolator::filters_drained() const noexcept
 
 Position Interpolator::tick() noexcept
 {
+    drained_before_ = drained_;
+    drained_ = leading().filter.drained();
     const OverrideFactors factors = holding_ ? OverrideFactors{0, 0} : factors_;
-    const std::int32_t step = servo_.tick(factors, ready_to_go_on());
-    along_ = path_division_.divide(path_filter_.add(step));
-    const PathOffset moved = travel(along_);
+    const std::int32_t step = servo_.tick(factors, ready_to_go_on(), trail_drained_);
+    trail_drained_ = trailing().filter.drained();
+    if (servo_.passed_stop()) {
+        change_track();
+        drained_ = false;
+        trail_drained_ = trailing().filter.drained();
+    }
+    along_ = 0;
+    PathOffset moved{};
+    if (!trailing().filter.drained()) {
+        moved = travel(trailing(), 0);
+    }
+    moved = moved + travel(leading(), step);
+    drop_passed_blocks();
     for (unsigned i = 0; i < kAxisCount; ++i) {
         AxisState& axis = axes_[i];
         position_[i] += axis.division.divide(axis.second.add(axis.first.add(moved[i])));
@@ -73,45 +92,97 @@ Position Interpolator::tick() noexcept
     return position_;
 }
 
-// Whether the path may go on after a stop: the tool stands there. Its axis filters need not be
-// empty: with no speed and no acceleration left they leave the corner by less than a nanometre.
-// They must be where the next block has others.
+// Whether the path may go on after a stop: the tool stands there, or is so near that the corner may
+// be cut. The last jerk of the old and the first of the new stretch take a tick each: with none
+// between them they fall on the same one, which only an overlap allows for. The axis filters need not be empty: with no speed and no acceleration left they leave the
+// corner by less than a nanometre. They must be where the next block has others.
 bool Interpolator::ready_to_go_on() noexcept
 {
-    if (!servo_.standing() || !path_filter_.drained()) {
+    if (!servo_.standing() || !trailing().filter.drained()) {
         return false;
     }
-    if (queue_.block_begin() == queue_.block_end() || offset_ != 0 ||
-        queue_.block(queue_.block_begin()).filter == axis_filter_) {
+    std::uint32_t next = leading().block;
+    if (!leading().filter.drained()) {
+        const planner::Interval& here = queue_.interval(queue_.interval_begin());
+        return queue_.interval_begin() != queue_.published() &&
+               leading().filter.ticks_left() < here.overlap && find_stop(next);
+    }
+    if (!drained_before_) {
+        return false;
+    }
+    if (next == queue_.block_end() || leading().offset != 0 ||
+        queue_.block(next).filter == axis_filter_) {
         return true;
     }
     if (at_rest_) {
-        set_axis_filter(queue_.block(queue_.block_begin()).filter);
+        set_axis_filter(queue_.block(next).filter);
     }
     return at_rest_;
 }
 
-// Moves on along the blocks and returns by how much, per axis, path units.
-PathOffset Interpolator::travel(std::int32_t along) noexcept
+// The block at whose end the leading track stops. False where too many blocks come before it.
+bool Interpolator::find_stop(std::uint32_t& block) const noexcept
 {
+    constexpr std::uint32_t kBlocksToLookAt = 16;
+    for (std::uint32_t i = 0; i < kBlocksToLookAt; ++i) {
+        block = leading().block + i;
+        if (block == queue_.block_end()) {
+            return false;
+        }
+        if (queue_.block(block).stops) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// The path goes on behind a stop: the other track follows it.
+void Interpolator::change_track() noexcept
+{
+    std::uint32_t next = leading().block;
+    if (!leading().filter.drained() && find_stop(next)) {
+        ++next;
+    }
+    leading_ = 1U - leading_;
+    leading().block = next;
+    leading().offset = 0;
+    leading().place = {};
+}
+
+// Moves a track on along its blocks. Returns by how much, per axis, path units.
+PathOffset Interpolator::travel(Track& track, std::int32_t step) noexcept
+{
+    const std::int32_t along = track.division.divide(track.filter.add(step));
+    along_ += along;
     if (along == 0) {
         return {};
     }
-    PathOffset before = place_;
-    offset_ += static_cast<std::uint32_t>(along);
-    while (queue_.block_begin() != queue_.block_end()) {
-        const planner::Block& block = queue_.block(queue_.block_begin());
+    PathOffset before = track.place;
+    track.offset += static_cast<std::uint32_t>(along);
+    while (track.block != queue_.block_end()) {
+        const planner::Block& block = queue_.block(track.block);
         line_ = block.line;
-        if (offset_ < block.length) {
-            place_ = planner::position_at(block, offset_);
-            return place_ - before;
+        if (track.offset < block.length) {
+            track.place = planner::position_at(block, track.offset);
+            return track.place - before;
         }
-        offset_ -= block.length;
+        track.offset -= block.length;
         before = before - block.displacement;
+        ++track.block;
+        if (block.stops) {
+            break;
+        }
+    }
+    track.place = {};
+    return track.place - before;
+}
+
+void Interpolator::drop_passed_blocks() noexcept
+{
+    const Track& last = trailing().filter.drained() ? leading() : trailing();
+    while (queue_.block_begin() != last.block) {
         queue_.drop_block();
     }
-    place_ = {};
-    return place_ - before;
 }
 
 void Interpolator::set_feed_override(unsigned percent) noexcept

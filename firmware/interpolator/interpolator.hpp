@@ -64,20 +64,37 @@ private:
         RunningSum<kMaxAxisFilter> second;
         ExactDivision division;
     };
+    // A stretch of path from stop to stop on its way through the path filter. Two overlap at a
+    // corner that may be cut.
+    struct Track {
+        RunningSum<kMaxPathFilter> filter;
+        ExactDivision division;
+        std::uint32_t block{0};   // that the tool is on, as counted by the queue
+        std::uint32_t offset{0};  // path units into it
+        PathOffset place{};       // relative to its start
+    };
     void set_axis_filter(planner::AxisFilter filter) noexcept;
-    PathOffset travel(std::int32_t along) noexcept;
+    PathOffset travel(Track& track, std::int32_t step) noexcept;
     bool filters_drained() const noexcept;
     bool ready_to_go_on() noexcept;
+    bool find_stop(std::uint32_t& block) const noexcept;
+    void change_track() noexcept;
+    void drop_passed_blocks() noexcept;
+    Track& leading() noexcept { return tracks_[leading_]; }
+    const Track& leading() const noexcept { return tracks_[leading_]; }
+    Track& trailing() noexcept { return tracks_[1U - leading_]; }
+    const Track& trailing() const noexcept { return tracks_[1U - leading_]; }
 
     planner::Planner& planner_;
     planner::PathQueue& queue_;
     PathServo servo_;
-    RunningSum<kMaxPathFilter> path_filter_;
-    ExactDivision path_division_;
+    std::array<Track, 2> tracks_;
+    unsigned leading_{0};
+    bool drained_{false};         // the path filter of the leading track, before this tick
+    bool drained_before_{false};  // and before the last one
+    bool trail_drained_{true};    // that of the trailing track, before the last tick
     PerAxis<AxisState> axes_{};
     planner::AxisFilter axis_filter_{};
-    std::uint32_t offset_{0};  // path units into the first block
-    PathOffset place_{};       // relative to its start
     Position position_{};
     std::int32_t along_{0};  // path units travelled in this tick
     std::uint32_t line_{0};

@@ -21,14 +21,29 @@ float millimetres(std::uint32_t path_units) noexcept
 }
 
 // Greatest speed v, held for one tick, that is still under an envelope which falls by 2 slope a mm
-// and is `end` after `distance` mm (squared speeds): v^2 <= end + 2 slope (distance - v tick), or
-// past the end v^2 <= end.
+// and is `end` after `distance` mm (squared speeds) in the middle of the tick's travel:
+// v^2 <= end + 2 slope (distance - v tick/2), or past the end v^2 <= end. Braking by slope from
+// tick to tick follows it exactly: the travel from middle to middle is (v + v')/2 tick.
 float speed_under(float end, float slope, float distance) noexcept
 {
-    const float drop = slope * kServoTick;
+    const float drop = 0.5F * slope * kServoTick;
     const float under =
         std::sqrt(drop * drop + std::max(end + 2.0F * slope * distance, 0.0F)) - drop;
     return std::max(under, std::sqrt(std::max(end, 0.0F)));
+}
+
+// The same before a stop: the greatest first speed of n ticks that slow down by `slope` each, to
+// stand after the last: distance/(n tick) + slope tick (n - 1)/2, with the least n that can do it.
+float speed_before_stop(float slope, float distance) noexcept
+{
+    constexpr float kManyTicks = 40.0F;  // the difference is 1/(8 n) of a tick's braking
+    const float under = speed_under(0.0F, slope, distance);
+    const float drop = slope * kServoTick;
+    if (under >= kManyTicks * drop) {
+        return under;
+    }
+    const float ticks = 1.0F + static_cast<float>(static_cast<std::uint32_t>(under / drop));
+    return distance / (ticks * kServoTick) + 0.5F * drop * (ticks - 1.0F);
 }
 
 }  // namespace
@@ -44,11 +59,13 @@ void PathServo::reset(std::uint32_t filter) noexcept
     speed_ = 0;
     residue_ = 0;
     last_step_ = 0;
+    passed_stop_ = false;
 }
 
-std::int32_t PathServo::tick(const OverrideFactors& factors, bool drained) noexcept
+std::int32_t PathServo::tick(const OverrideFactors& factors, bool may_pass, bool may_brake) noexcept
 {
-    const float speed = enter_path(drained) ? next_speed(factors) : 0.0F;
+    passed_stop_ = false;
+    const float speed = enter_path(may_pass) ? next_speed(factors, may_brake) : 0.0F;
     const std::int32_t step = speed > 0 ? advance(speed) : 0;
     if (speed <= 0) {
         residue_ = 0;
@@ -60,18 +77,22 @@ std::int32_t PathServo::tick(const OverrideFactors& factors, bool drained) noexc
 }
 
 // Leaves intervals that are passed. False where no path is ahead, or the filters must drain first.
-bool PathServo::enter_path(bool drained) noexcept
+bool PathServo::enter_path(bool may_pass) noexcept
 {
     while (queue_.interval_begin() != queue_.published()) {
         const Interval& here = queue_.interval(queue_.interval_begin());
         if (offset_ < here.length) {
             return true;
         }
-        if (here.stop_at_end && !drained) {
+        if (here.stop_at_end && !may_pass) {
             return false;
         }
         if (!here.stop_at_end && queue_.interval_begin() + 1 == queue_.published()) {
             return false;
+        }
+        if (here.stop_at_end) {
+            passed_stop_ = true;
+            accelerations_.clear();
         }
         offset_ -= here.length;
         queue_.drop_interval();
@@ -90,9 +111,10 @@ PathServo::Bounds PathServo::bounds(float greatest, const OverrideFactors& facto
         const Interval& interval = queue_.interval(index);
         to_end += millimetres(i == 0 ? interval.length - offset_ : interval.length);
         const float slope = interval.envelope.slope;
-        least.speed =
-            std::min({least.speed, speed_under(interval.envelope.end_speed, slope, to_end),
-                      std::sqrt(interval.envelope.limit.cap)});
+        const float end = interval.envelope.end_speed;
+        const float under =
+            end > 0 ? speed_under(end, slope, to_end) : speed_before_stop(slope, to_end);
+        least.speed = std::min({least.speed, under, std::sqrt(interval.envelope.limit.cap)});
         const float scaled_off =
             (1.0F - factors.of(interval.origin_is_rapid)) * interval.envelope.feed_origin;
         const float own = factors.of(interval.rapid) * interval.envelope.limit.feed;
@@ -107,7 +129,7 @@ PathServo::Bounds PathServo::bounds(float greatest, const OverrideFactors& facto
             std::min(least.acceleration, here / (1.0F + 2.0F * drop * speed_ * kServoTick));
         ++index;
         const bool last = interval.stop_at_end || index == published;
-        if (last || least.speed * kServoTick <= to_end) {
+        if (last || 0.5F * least.speed * kServoTick <= to_end) {
             return least;
         }
         if (i == kIntervalsPerTick) {
@@ -117,7 +139,7 @@ PathServo::Bounds PathServo::bounds(float greatest, const OverrideFactors& facto
     }
 }
 
-float PathServo::next_speed(const OverrideFactors& factors) noexcept
+float PathServo::next_speed(const OverrideFactors& factors, bool may_brake) noexcept
 {
     // Between acceleration and braking, one path filter long, neither: so that the filtered
     // acceleration, a difference over one filter, changes by at most one limit.
@@ -128,7 +150,7 @@ float PathServo::next_speed(const OverrideFactors& factors) noexcept
     const Bounds bound = bounds(reach, factors);
     const float most = bound.acceleration;
     const float up = std::max(0.0F, most - std::max(0.0F, -before));
-    const float down = std::max(0.0F, most - std::max(0.0F, before));
+    const float down = may_brake ? std::max(0.0F, most - std::max(0.0F, before)) : 0.0F;
     const float slowest = std::max(0.0F, speed_ - down * kServoTick);
     float wanted = speed_ + up * kServoTick;
     wanted = std::min(wanted, std::max(slowest, bound.feed));
@@ -163,7 +185,8 @@ float PathServo::coasting_speed(float wanted, const OverrideFactors& factors) no
     const float time = ticks * kServoTick;
     const float drop = steepest * time;
     const float allowed = std::max(0.0F, allowed_before_end(here, left, factors));
-    const float surely = std::sqrt(drop * drop + allowed) - drop;
+    // sqrt(drop^2 + allowed) - drop, without the cancellation that would stop it short of the end.
+    const float surely = allowed / (std::sqrt(drop * drop + allowed) + drop);
     return std::min(wanted, std::max(std::sqrt(std::max(least, 0.0F)), surely));
 }
 

@@ -21,13 +21,18 @@ public:
 
     // Advances by one tick. Returns the travel in path units.
     //   factors   of squared speeds, by the overrides; {0, 0} holds.
-    //   drained   whether the tool stands where the servo does, with all filters empty.
-    std::int32_t tick(const OverrideFactors& factors, bool drained) noexcept;
+    //   may_pass  whether a stop that it stands at may be left: the filters are empty, but for what
+    //             the stop lets overlap.
+    //   may_brake whether it may slow down: not while a stretch before the stop still drains.
+    std::int32_t tick(const OverrideFactors& factors, bool may_pass, bool may_brake) noexcept;
 
     // How far it has come since the reset, in units of 256 path units; wraps. Context: any.
     std::uint32_t travelled() const noexcept { return travelled_.load(std::memory_order_relaxed); }
 
     bool standing() const noexcept { return speed_ == 0; }
+
+    // Whether the last tick left a stop behind: the path filter starts anew.
+    bool passed_stop() const noexcept { return passed_stop_; }
 
 private:
     struct Bounds {
@@ -35,9 +40,9 @@ private:
         float feed;          // mm/s, by feed and override
         float acceleration;  // mm/s^2
     };
-    bool enter_path(bool drained) noexcept;
+    bool enter_path(bool may_pass) noexcept;
     Bounds bounds(float greatest, const OverrideFactors& factors) const noexcept;
-    float next_speed(const OverrideFactors& factors) noexcept;
+    float next_speed(const OverrideFactors& factors, bool may_brake) noexcept;
     float coasting_speed(float wanted, const OverrideFactors& factors) noexcept;
     float steepest_slope(std::uint32_t last) const noexcept;
     std::int32_t advance(float speed) noexcept;
@@ -50,6 +55,7 @@ private:
     float speed_{0};             // mm/s
     float residue_{0};           // path units not yet travelled, in [0, 1)
     std::int32_t last_step_{0};
+    bool passed_stop_{false};
     std::atomic<std::uint32_t> travelled_{0};
 };
 

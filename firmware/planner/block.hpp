@@ -48,6 +48,7 @@ struct Block {
     std::uint8_t reciprocal_shift;
     BlockShape shape;
     bool rapid;
+    bool stops;  // the path stops at its end
     AxisFilter filter;
     std::uint32_t line;
     ArcBlock arc;       // for kArc

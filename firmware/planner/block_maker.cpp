@@ -10,8 +10,8 @@
 namespace cusp::planner {
 namespace {
 
-// Arcs are evaluated in float: over 16 mm they stay within 2 nm.
-constexpr double kMaxArcLength = 16.0;
+// Arcs are evaluated in float: over 4 mm they stay within half a nanometre.
+constexpr double kMaxArcLength = 4.0;
 constexpr double kMaxArcAngle = kPi / 2;
 
 Vec3f to_float(Vec3d a) noexcept

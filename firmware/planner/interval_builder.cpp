@@ -32,6 +32,13 @@ Allowance limits_alone(Allowance allowance) noexcept
     return allowance;
 }
 
+Allowance acceleration_alone(float acceleration) noexcept
+{
+    Allowance allowance = kAllowsAll;
+    allowance.by_acceleration = {acceleration, acceleration};
+    return allowance;
+}
+
 Allowance feed_alone(float squared_feed) noexcept
 {
     Allowance allowance = kAllowsAll;
@@ -197,13 +204,20 @@ void IntervalBuilder::merge_closest_carries() noexcept
     carries_.pop_back();
 }
 
-void IntervalBuilder::stop() noexcept
+void IntervalBuilder::stop(const CornerOverlap& overlap) noexcept
 {
     carries_.clear();
     if (queue_.interval_end() == queue_.published()) {
         return;
     }
-    queue_.interval(queue_.interval_end() - 1).stop_at_end = true;
+    if (overlap.ticks > 0) {
+        spread_back(overlap.before, acceleration_alone(overlap.braking));
+        carry(overlap.after, acceleration_alone(overlap.speeding));
+    }
+    Interval& last = queue_.interval(queue_.interval_end() - 1);
+    last.stop_at_end = true;
+    last.overlap = overlap.ticks;
+    queue_.block(queue_.block_end() - 1).stops = true;
     publish_to(queue_.interval_end());
 }
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "firmware/base/static_vector.hpp"
+#include "firmware/planner/corner_overlap.hpp"
 #include "firmware/planner/joint.hpp"
 #include "firmware/planner/path_queue.hpp"
 
@@ -33,8 +34,8 @@ public:
     // Spreads what the joint at the end of the path so far demands.
     void add_joint(const JointShare& joint) noexcept;
 
-    // The path stops at its end: all of it may be published, and nothing is spread over the stop.
-    void stop() noexcept;
+    // The path stops at its end: all of it may be published, and no limit is spread over the stop.
+    void stop(const CornerOverlap& overlap) noexcept;
 
     // Publishes what no later limit can reach. Where the queue is too short for that, slows the
     // path down until it is not.

@@ -199,6 +199,7 @@ bool LineSmoother::fit(std::size_t last, Biarc& biarc) const noexcept
 path::Move LineSmoother::as_move(const Arc& arc, Position end) const noexcept
 {
     path::Move move = model_;
+    move.departure = kShareOfTolerance * model_.tolerance;
     move.start = at_;
     move.end = end;
     move.path = path::Line{};

@@ -35,7 +35,8 @@ struct Interval {
         Allowance allowance;  // until published
         Envelope envelope;    // from then on
     };
-    bool stop_at_end;  // the filters drain there before the path goes on
+    bool stop_at_end;      // the path filter drains there before the path goes on,
+    std::uint8_t overlap;  // but for so many ticks
     bool rapid;
     bool origin_is_rapid;
 };

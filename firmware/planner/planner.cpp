@@ -18,13 +18,19 @@ constexpr float kLeastJointSpeed = 1.5F;  // mm/s
 // Near a joint that stands alone speed hardly changes; in dense runs it must.
 constexpr float kLoneJointShare = 0.98F;
 constexpr float kDenseJointShare = 0.8F;
-// Keeps rounding of set points and speeds below the limits.
-constexpr float kRoundingMargin = 0.9995F;
+// Keeps rounding of set points and speeds below the limits; and, of one tick's braking, the eighth
+// that PathServo may brake harder where its rules for a stop and for the way there meet.
+constexpr float kRoundingMargin = 0.0004F;
+constexpr float kTickMargin = 0.006F;
 constexpr float kGreatestSpeed = 2000.0F;  // mm/s
 
 // Deviation, mm, left to the axis filters on the exact path and as a share of a tolerance.
 constexpr float kExactDeviation = 0.0009F;
 constexpr float kFilterShareOfTolerance = 0.45F;
+// And by which a corner may be cut, but for what the path has departed.
+constexpr float kCornerShareOfTolerance = 0.985F;
+// A joint that takes less of the axes' jerk is none.
+constexpr float kNegligible = 1e-3F;
 
 struct FilterChoice {
     AxisFilter filter;
@@ -37,7 +43,7 @@ FilterChoice filter_for(float tolerance) noexcept
         return {{4, 2}, kExactDeviation};
     }
     const float deviation = std::max(kExactDeviation, kFilterShareOfTolerance * tolerance);
-    return {{deviation < 2 * kExactDeviation ? std::uint8_t{5} : std::uint8_t{9}, 2}, deviation};
+    return {{deviation < 2 * kExactDeviation ? std::uint8_t{5} : std::uint8_t{10}, 2}, deviation};
 }
 
 // Two boxes leave a circle by a (t1^2 + t2^2)/24.
@@ -57,16 +63,17 @@ MachineLimits scaled(const MachineLimits& limits, float factor) noexcept
 
 void Planner::set_limits(const MachineLimits& limits) noexcept
 {
-    limits_ = scaled(limits, kRoundingMargin);
     float longest = 0;
     for (unsigned i = 0; i < kAxisCount; ++i) {
         longest = std::max(longest, limits.acceleration[i] / limits.jerk[i]);
     }
     path_filter_ = std::clamp(static_cast<std::uint32_t>(std::ceil(longest / kServoTick - 0.001F)),
                               std::uint32_t{1}, kMaxPathFilter);
+    limits_ =
+        scaled(limits, 1.0F - kRoundingMargin - kTickMargin / static_cast<float>(path_filter_));
     blender_.set_limits(limits_, static_cast<float>(path_filter_) * kServoTick);
     const float half = 0.5F * static_cast<float>(path_filter_) * kServoTick + 2.0F * kServoTick;
-    constexpr float kLongestAxisFilter = 11.0F * kServoTick;
+    constexpr float kLongestAxisFilter = 12.0F * kServoTick;
     queue_.set_steepest_slope(norm(limits_.acceleration));
     builder_.set_reach({half, half + kLongestAxisFilter, half + kLongestAxisFilter});
 }
@@ -81,6 +88,7 @@ void Planner::reset(Position at) noexcept
     waiting_.reset();
     joints_.clear();
     end_.reset();
+    end_length_ = 0;
     close_requested_ = false;
     tail_ = at;
 }
@@ -200,7 +208,7 @@ void Planner::work() noexcept
     }
     const bool all_done = maker_.done() && !waiting_ && smoother_.empty() && blender_.empty();
     if (all_done && close_requested_) {
-        stop();
+        stop({});
         close_requested_ = false;
     }
     builder_.publish(!maker_.done());
@@ -217,6 +225,8 @@ void Planner::add_block(const Block& block) noexcept
     end_ = end_geometry(block);
     end_filter_ = block.filter;
     const float length = static_cast<float>(block.length) / kPathUnitsPerMillimetre;
+    end_length_ = block.shape == BlockShape::kCurve ? 0.0F : end_length_ + length;
+    end_left_ = kCornerShareOfTolerance * move_.tolerance - move_.departure;
     for (RecentJoint& recent : joints_) {
         recent.distance += length;
     }
@@ -226,7 +236,7 @@ void Planner::join(const EndGeometry& after, const Block& block) noexcept
 {
     const Joint joint = make_joint(*end_, after);
     if (joint.turn > kCornerTurn || end_filter_ != block.filter) {
-        stop();
+        stop(overlap_at_corner(after, block));
         return;
     }
     const FilterChoice choice = filter_for(move_.tolerance);
@@ -243,9 +253,14 @@ void Planner::join(const EndGeometry& after, const Block& block) noexcept
                             choice.deviation);
     }
     if (share.speed < kLeastJointSpeed) {
-        stop();
+        stop({});
         return;
     }
+    if (share.jerk < kNegligible) {
+        builder_.add_joint(share);
+        return;
+    }
+    end_length_ = 0;
     if (joints_.full()) {
         for (std::size_t i = 1; i < joints_.size(); ++i) {
             joints_[i - 1] = joints_[i];
@@ -281,11 +296,26 @@ void Planner::add_stretches(const Block& block) noexcept
     }
 }
 
-void Planner::stop() noexcept
+// How much the corner at the end of the path so far may be cut in time.
+CornerOverlap Planner::overlap_at_corner(const EndGeometry& after,
+                                         const Block& block) const noexcept
 {
-    builder_.stop();
+    const float deviation =
+        std::min(end_left_, kCornerShareOfTolerance * move_.tolerance - move_.departure);
+    if (deviation <= 0 || end_filter_ != block.filter || block.shape == BlockShape::kCurve) {
+        return {};
+    }
+    const float length = static_cast<float>(block.length) / kPathUnitsPerMillimetre;
+    return corner_overlap({*end_, end_length_}, {after, length}, limits_, path_filter_,
+                          block.filter, deviation);
+}
+
+void Planner::stop(const CornerOverlap& overlap) noexcept
+{
+    builder_.stop(overlap);
     joints_.clear();
     end_.reset();
+    end_length_ = 0;
 }
 
 }  // namespace cusp::planner

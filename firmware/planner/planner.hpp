@@ -77,7 +77,8 @@ private:
     void join(const EndGeometry& after, const Block& block) noexcept;
     Allowance allowance_of(const Block& block, const Stretch& part) const noexcept;
     void add_stretches(const Block& block) noexcept;
-    void stop() noexcept;
+    void stop(const CornerOverlap& overlap) noexcept;
+    CornerOverlap overlap_at_corner(const EndGeometry& after, const Block& block) const noexcept;
 
     struct RecentJoint {
         Joint joint;
@@ -100,7 +101,9 @@ private:
     // The end of the path so far, where it does not stop there.
     std::optional<EndGeometry> end_;
     AxisFilter end_filter_{};
-    float end_speed_{0};  // mm/s, the most that its last stretch allows
+    float end_length_{0};  // mm, without a joint
+    float end_left_{0};    // mm, what its path leaves of the tolerance
+    float end_speed_{0};   // mm/s, the most that its last stretch allows
     StaticVector<RecentJoint, kRecentJoints> joints_;
 };
 

@@ -6,6 +6,7 @@
 #include <random>
 #include <vector>
 
+#include "firmware/base/machine_limits.hpp"
 #include "firmware/path/move.hpp"
 
 namespace cusp::test {
@@ -114,5 +115,26 @@ private:
     float feed_{1};
     float tolerance_{0};
 };
+
+// Limits of any machine: 10 to 500 mm/s, 50 to 8000 mm/s^2, reached in 3 to 200 ms. Even seeds: the
+// default settings.
+inline MachineLimits random_limits(std::uint64_t seed)
+{
+    MachineLimits limits{};
+    if (seed % 2 == 0) {
+        return limits;
+    }
+    std::mt19937_64 random{seed};
+    const auto between = [&random](double low, double high) {
+        std::uniform_real_distribution<double> exponent{std::log(low), std::log(high)};
+        return static_cast<float>(std::exp(exponent(random)));
+    };
+    for (unsigned axis = 0; axis < 3; ++axis) {
+        limits.velocity[axis] = between(10, 500);
+        limits.acceleration[axis] = between(50, 8000);
+        limits.jerk[axis] = limits.acceleration[axis] * between(5, 300);
+    }
+    return limits;
+}
 
 }  // namespace cusp::test

@@ -27,10 +27,13 @@ std::uint64_t program_count()
     return text != nullptr ? std::strtoull(text, nullptr, 10) : 300;
 }
 
-void check_limits(const std::vector<Position>& samples, Position end, std::uint64_t seed)
+void check_limits(const std::vector<Position>& samples,
+                  Position end,
+                  const MachineLimits& limits,
+                  std::uint64_t seed)
 {
     const std::string which = "seed " + std::to_string(seed);
-    const test::LimitUse use = test::limit_use(samples, {}, MachineLimits{});
+    const test::LimitUse use = test::limit_use(samples, {}, limits);
     for (unsigned axis = 0; axis < 3; ++axis) {
         CHECK_TEXT(use.velocity[axis] <= 1, (which + ": velocity").c_str());
         CHECK_TEXT(use.acceleration[axis] <= 1, (which + ": acceleration").c_str());
@@ -50,9 +53,10 @@ TEST(MotionLimits, HoldOverRandomPrograms)
         if (moves.empty()) {
             continue;
         }
-        MotionRig rig;
+        const MachineLimits limits = test::random_limits(kSeed + i);
+        MotionRig rig{limits};
         rig.start_at({});
-        check_limits(rig.run(moves), moves.back().end, kSeed + i);
+        check_limits(rig.run(moves), moves.back().end, limits, kSeed + i);
     }
 }
 
@@ -63,10 +67,11 @@ TEST(MotionLimits, HoldThroughHoldsOverridesAndStarvation)
         if (moves.empty()) {
             continue;
         }
-        MotionRig rig;
+        const MachineLimits limits = test::random_limits(kSeed + i);
+        MotionRig rig{limits};
         rig.start_at({});
         const auto samples = rig.run_disturbed(moves, kSeed + i);
-        check_limits(samples, moves.back().end, kSeed + i);
+        check_limits(samples, moves.back().end, limits, kSeed + i);
     }
 }
 
@@ -82,7 +87,7 @@ TEST(MotionLimits, HoldWhateverHappensAtAnyTickOfAProgram)
         for (std::size_t tick = 0; tick < ticks; tick += step) {
             MotionRig rig;
             rig.start_at({});
-            check_limits(rig.run_struck(moves, tick, event), moves.back().end, tick);
+            check_limits(rig.run_struck(moves, tick, event), moves.back().end, {}, tick);
         }
     }
 }

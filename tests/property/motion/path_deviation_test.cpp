@@ -1,0 +1,157 @@
+// The tool stays within the tolerance of the path, and comes within it of every corner.
+#include <cstdlib>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "CppUTest/TestHarness.h"
+
+#include "tests/support/motion_rig.hpp"
+#include "tests/support/random_moves.hpp"
+
+using namespace cusp;
+using cusp::test::MotionRig;
+using cusp::test::RandomMoves;
+
+namespace {
+
+constexpr std::uint64_t kSeed = 41250;
+// G61 promises 0.001 mm; rounding of set points is a nanometre.
+constexpr double kExact = 0.001;
+constexpr double kRounding = 3e-6;
+
+struct Box {
+    Vec3d low, high;
+};
+
+// A move as chords, none farther from it than 2e-5 mm.
+struct Chords {
+    std::vector<Vec3d> points;
+    Box box;
+};
+
+double distance_to_segment(Vec3d p, Vec3d a, Vec3d b)
+{
+    const Vec3d along = b - a;
+    const double square = dot(along, along);
+    const double t = square > 0 ? std::clamp(dot(p - a, along) / square, 0.0, 1.0) : 0.0;
+    return norm(p - a - along * t);
+}
+
+Chords chords_of(const path::Move& move)
+{
+    Chords chords;
+    const Vec3d start = to_millimetres(move.start);
+    if (const auto* arc = std::get_if<path::Arc>(&move.path)) {
+        const double step = std::sqrt(8 * 2e-5 / arc->radius);
+        const int count = 1 + static_cast<int>(arc->sweep / step);
+        for (int i = 0; i <= count; ++i) {
+            const double t = static_cast<double>(i) / count;
+            const double angle = t * arc->sweep;
+            chords.points.push_back(start + arc->centre + arc->u * (arc->radius * std::cos(angle)) +
+                                    arc->v * (arc->radius * std::sin(angle)) + arc->axial * t);
+        }
+    } else {
+        chords.points = {start, to_millimetres(move.end)};
+    }
+    chords.box = {start, start};
+    for (const Vec3d& point : chords.points) {
+        for (unsigned i = 0; i < 3; ++i) {
+            chords.box.low[i] = std::min(chords.box.low[i], point[i]);
+            chords.box.high[i] = std::max(chords.box.high[i], point[i]);
+        }
+    }
+    return chords;
+}
+
+double distance_to_box(Vec3d p, const Box& box)
+{
+    Vec3d outside{};
+    for (unsigned i = 0; i < 3; ++i) {
+        outside[i] = std::max({box.low[i] - p[i], 0.0, p[i] - box.high[i]});
+    }
+    return norm(outside);
+}
+
+double distance_to_path(Vec3d p, const std::vector<Chords>& path, double enough)
+{
+    double least = 1e9;
+    for (const Chords& move : path) {
+        if (distance_to_box(p, move.box) > least) {
+            continue;
+        }
+        for (std::size_t i = 1; i < move.points.size(); ++i) {
+            least = std::min(least, distance_to_segment(p, move.points[i - 1], move.points[i]));
+            if (least < enough) {
+                return least;
+            }
+        }
+    }
+    return least;
+}
+
+double distance_to_samples(Vec3d p, const std::vector<Position>& samples)
+{
+    double least = 1e9;
+    Vec3d before = to_millimetres(samples.front());
+    for (const Position& sample : samples) {
+        const Vec3d here = to_millimetres(sample);
+        least = std::min(least, distance_to_segment(p, before, here));
+        before = here;
+    }
+    return least;
+}
+
+void check_program(std::uint64_t seed, double tolerance)
+{
+    auto moves = RandomMoves{seed}.program();
+    if (moves.empty()) {
+        return;
+    }
+    std::vector<Chords> path;
+    for (path::Move& move : moves) {
+        move.tolerance = static_cast<float>(tolerance);
+        path.push_back(chords_of(move));
+    }
+    MotionRig rig;
+    rig.start_at({});
+    const auto samples = rig.run(moves);
+    const double allowed = (tolerance > 0 ? tolerance : kExact) + kRounding;
+    const std::string which = "seed " + std::to_string(seed);
+    for (std::size_t i = 0; i < samples.size(); i += 3) {
+        const Vec3d here = to_millimetres(samples[i]);
+        CHECK_TEXT(distance_to_path(here, path, 0.5 * allowed) <= allowed,
+                   (which + ": off the path").c_str());
+    }
+    // Samples are points of a curve, which bulges out between them by at most a t^2/8 = 0.3 um.
+    for (const path::Move& move : moves) {
+        const double off = distance_to_samples(to_millimetres(move.end), samples);
+        CHECK_TEXT(off <= allowed + 3e-4, (which + ": " + std::to_string(off) +
+                                           " mm from the end of move " + std::to_string(move.line))
+                                              .c_str());
+    }
+}
+
+std::uint64_t program_count()
+{
+    const char* text = std::getenv("CUSP_MOTION_PROGRAMS");
+    return text != nullptr ? std::strtoull(text, nullptr, 10) : 60;
+}
+
+}  // namespace
+
+TEST_GROUP(PathDeviation){};
+
+TEST(PathDeviation, StaysWithinTheTolerance)
+{
+    for (std::uint64_t i = 0; i < program_count(); ++i) {
+        check_program(kSeed + i, 0.002 * static_cast<double>(1 + i % 25));
+    }
+}
+
+TEST(PathDeviation, StaysOnTheExactPath)
+{
+    for (std::uint64_t i = 0; i < program_count(); ++i) {
+        check_program(kSeed + i, 0.0);
+    }
+}
