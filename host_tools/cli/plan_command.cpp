@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "host_tools/cli/commands.hpp"
+#include "host_tools/cli/share_progress.hpp"
 #include "host_tools/cli/strategies.hpp"
 #include "host_tools/import/job.hpp"
 #include "host_tools/toolpath/gcode_writer.hpp"
@@ -39,8 +40,9 @@ double seconds_since(std::chrono::steady_clock::time_point begin)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-Plan plan_job(const Job& job, const MachineRates& rates)
+Plan plan_job(Job job, const MachineRates& rates)
 {
+    constexpr double kQuiet = 0.5;  // s
     Plan plan;
     // where the tool stands is not known before the first rapid move
     Vec3d at{0, 0, job.stock_top + job.clearance};
@@ -49,6 +51,7 @@ Plan plan_job(const Job& job, const MachineRates& rates)
         fmt::print("operation {} of {}: {}\n", i + 1, job.operations.size(), operation.strategy);
         std::fflush(stdout);
         const auto begin = std::chrono::steady_clock::now();
+        job.progress = ShareProgress{"planning", kQuiet};
         std::vector<PlannedOperation> planned = plan_operation(job, operation);
         const double seconds = seconds_since(begin) / static_cast<double>(planned.size());
         for (PlannedOperation& result : planned) {

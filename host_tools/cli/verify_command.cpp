@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <fstream>
 #include <memory>
-#include <unistd.h>
 
 #include "host_tools/cli/commands.hpp"
+#include "host_tools/cli/share_progress.hpp"
 #include "host_tools/import/job.hpp"
 #include "host_tools/report/pictures.hpp"
 #include "host_tools/verify/verify.hpp"
@@ -27,33 +27,6 @@ struct VerifyOptions {
     std::string left_picture;
     double pitch{};
     double spacing{};
-};
-
-// A bar on a terminal; four plain lines elsewhere.
-class CuttingProgress {
-public:
-    void operator()(double share)
-    {
-        constexpr int kWidth = 40;
-        const int steps = is_terminal_ ? kWidth : 4;
-        const int now = static_cast<int>(share * steps);
-        if (now == shown_) {
-            return;
-        }
-        shown_ = now;
-        if (is_terminal_) {
-            fmt::print(stderr, "\rcutting [{:<{}}] {:3.0f} %{}",
-                       std::string(static_cast<std::size_t>(now), '='), kWidth, 100 * share,
-                       now == kWidth ? "\n" : "");
-        } else {
-            fmt::print(stderr, "cutting {:.0f} %\n", 100 * share);
-        }
-        std::fflush(stderr);
-    }
-
-private:
-    bool is_terminal_{isatty(STDERR_FILENO) != 0};
-    int shown_{0};
 };
 
 double rounded(double value)
@@ -119,7 +92,7 @@ int run_verify(const VerifyOptions& options)
     if (options.spacing > 0) {
         settings.spacing = options.spacing;
     }
-    const Verification result = verify(job, options.program, settings, CuttingProgress{});
+    const Verification result = verify(job, options.program, settings, ShareProgress{"cutting"});
     const Json stats = stats_of(result);
     for (const auto& [name, value] : stats.items()) {
         if (name != "broken") {

@@ -15,7 +15,7 @@ FloorContact::FloorContact(const std::vector<Surface>& surfaces,
 {
     // Distances tell nothing of how deep a flat end cuts, and its disc makes them slow to find.
     if (tool.corner_radius < tool.radius) {
-        flat_ = std::make_unique<FlatContact>(surfaces, tool, accuracy);
+        flat_ = std::make_shared<const FlatContact>(surfaces, tool, accuracy);
     }
 }
 

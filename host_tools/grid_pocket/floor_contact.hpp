@@ -43,7 +43,7 @@ private:
     std::shared_ptr<const SurfaceModel> model_;
     Tool tool_;
     double accuracy_;
-    std::unique_ptr<FlatContact> flat_;  // none for a ball
+    std::shared_ptr<const FlatContact> flat_;  // none for a ball
     // The last two answers of a ball: the next one is mostly on a line with them.
     mutable std::optional<Known> last_;
     mutable std::optional<Known> before_;

@@ -71,10 +71,25 @@ std::optional<double> FloorFollower::height(Vec2d at) const
     return low ? std::optional<double>{*low + allowance_} : std::nullopt;
 }
 
+FloorFollower FloorFollower::above(double level) const
+{
+    FloorFollower out = *this;
+    out.level_ = level;
+    out.gouge_bound_ = 0;
+    return out;
+}
+
+// Where the floor ends, the passes go on at its lowest.
+double FloorFollower::path_height(Vec2d at) const
+{
+    return std::max(level_, height(at).value_or(contact_.lowest()));
+}
+
 double FloorFollower::start_height(Vec2d at) const
 {
-    const double exact = height(at).value_or(contact_.lowest());
-    return settings_.both_sides ? exact : exact + settings_.tolerance / 2;
+    const double exact = path_height(at);
+    const bool on_level = exact == level_;
+    return settings_.both_sides || on_level ? exact : exact + settings_.tolerance / 2;
 }
 
 double FloorFollower::clearance(Vec3d a, Vec3d b, double enough) const
@@ -90,14 +105,19 @@ std::vector<BandPoint> FloorFollower::band(Vec2d a, Vec2d b, double tolerance) c
     const double step = length / count;
     std::vector<double> heights;
     for (int i = 0; i <= count; ++i) {
-        heights.push_back(
-            height(a + (b - a) * (static_cast<double>(i) / count)).value_or(contact_.lowest()));
+        heights.push_back(path_height(a + (b - a) * (static_cast<double>(i) / count)));
     }
     std::vector<BandPoint> out;
     for (std::size_t i = 0; i < heights.size(); ++i) {
         const double z = heights[i];
         if (settings_.both_sides) {
-            out.push_back({static_cast<double>(i) * step, z - tolerance, z + tolerance});
+            out.push_back(
+                {static_cast<double>(i) * step, std::max(level_, z - tolerance), z + tolerance});
+            continue;
+        }
+        if (z == level_ && (i == 0 || heights[i - 1] == level_) &&
+            (i + 1 == heights.size() || heights[i + 1] == level_)) {
+            out.push_back({static_cast<double>(i) * step, z, z});
             continue;
         }
         // The exact height is an upper envelope of arcs of the tool's corner: between two places it
@@ -130,7 +150,7 @@ void FloorFollower::chord(TipMoves& moves, Vec3d end, MoveKind kind, int depth)
     constexpr int kDeepest = 12;
     if (depth < kDeepest && norm(end - from) > kShortest) {
         Vec3d middle = (from + end) * 0.5;
-        const double exact = height(plan(middle)).value_or(middle.z);
+        const double exact = std::max(level_, height(plan(middle)).value_or(middle.z));
         middle.z = std::max(middle.z, exact + kRounding);
         chord(moves, middle, kind, depth + 1);
         chord(moves, end, kind, depth + 1);

@@ -49,6 +49,9 @@ public:
                   double allowance,
                   FollowSettings settings);
 
+    // The same, but never below a level: the floor of a roughing layer.
+    FloorFollower above(double level) const;
+
     // Exact height of the tip over (x, y); none where no surface lies under the tool.
     std::optional<double> height(Vec2d at) const;
 
@@ -65,6 +68,8 @@ public:
     // Lower bound of the distance that a straight move keeps from the floor, cut off at `enough`.
     double clearance(Vec3d a, Vec3d b, double enough) const;
 
+    bool has_flat_end() const { return contact_.tool().corner_radius < contact_.tool().radius; }
+
     // Largest depth that any move so far may cut into the floor; 0 where all are proven clear.
     double gouge_bound() const { return gouge_bound_; }
 
@@ -72,7 +77,10 @@ private:
     FloorContact contact_;  // of the tool grown by the allowance
     double allowance_;
     FollowSettings settings_;
+    double level_{-1e300};
     double gouge_bound_{0};
+
+    double path_height(Vec2d at) const;
 
     std::vector<BandPoint> band(Vec2d a, Vec2d b, double tolerance) const;
     void follow_segment(TipMoves& moves, Vec2d a, Vec2d b, MoveKind kind);

@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/base/math.hpp"
+
 namespace cusp::host {
 namespace {
 
 constexpr double kAboveMetal = 1.0;     // mm: rapids go no nearer
 constexpr double kEntrySlope = 0.0524;  // 3 degrees
+constexpr double kHelixShare = 0.5;     // radius of an entry helix over the cutter's
 constexpr double kShallow = 0.05;       // mm: not worth a ramp
 
 double plan_length(const std::vector<Vec3d>& way)
@@ -31,13 +34,13 @@ void GridMoves::retract()
     }
 }
 
-void GridMoves::enter(const FloorFollower& floor, const std::vector<Vec2d>& corners, double metal)
+void GridMoves::enter(const FloorFollower& floor,
+                      const std::vector<Vec2d>& corners,
+                      double metal,
+                      bool link,
+                      const CircleFloor& circle)
 {
-    enter_level(floor.chords(corners, ramp_length()), metal, false);
-}
-
-void GridMoves::enter_level(const std::vector<Vec3d>& way, double metal, bool link)
-{
+    const std::vector<Vec3d> way = floor.chords(corners, ramp_length());
     const Vec3d start = way.front();
     const double over = std::max(metal, start.z);
     if (link && over + kAboveMetal < clearance_z_) {
@@ -52,13 +55,58 @@ void GridMoves::enter_level(const std::vector<Vec3d>& way, double metal, bool li
         }
     }
     const bool deep = metal - start.z > kShallow;
-    if (deep && entry_ != EntryKind::kPlunge && plan_length(way) > radius_ / 4) {
+    double from = over;
+    if (deep && entry_ == EntryKind::kHelix) {
         tip_.line(MoveKind::kPlunge, {start.x, start.y, over});
-        ramp(way, over);
+        const bool wound = helix(start, over, circle);
+        narrow_entries_ += wound ? 0 : 1;
+        // What the floor around keeps the helix from is left to a ramp.
+        from = tip_.at().z;
+        if (from - start.z <= kShallow) {
+            tip_.line(MoveKind::kPlunge, start);
+            return;
+        }
+    }
+    if (deep && entry_ != EntryKind::kPlunge && plan_length(way) > radius_ / 4) {
+        tip_.line(MoveKind::kPlunge, {start.x, start.y, from});
+        ramp(way, from);
         return;
     }
     plunges_ += deep ? 1 : 0;
     tip_.line(MoveKind::kPlunge, start);
+}
+
+bool GridMoves::helix(Vec3d start, double from, const CircleFloor& circle)
+{
+    constexpr int kSides = 16;
+    const double radius = kHelixShare * radius_;
+    std::optional<double> lowest;
+    Vec2d centre{};
+    for (int i = 0; i < kSides; ++i) {
+        const double angle = 2 * kPi * i / kSides;
+        const Vec2d c = Vec2d{start.x, start.y} + Vec2d{std::cos(angle), std::sin(angle)} * radius;
+        const std::optional<double> z = circle(c, radius);
+        if (z && (!lowest || *z < *lowest)) {
+            lowest = z;
+            centre = c;
+        }
+    }
+    const double end = std::max(start.z, lowest.value_or(from));
+    if (from - end <= kShallow) {
+        return false;
+    }
+    // Half turns, then a level turn that clears what the last slope left.
+    const double depth = from - end;
+    const int halves =
+        2 * std::max(1, static_cast<int>(std::ceil(depth / (2 * kPi * radius * kEntrySlope))));
+    const Vec2d opposite = centre * 2.0 - Vec2d{start.x, start.y};
+    for (int i = 1; i <= halves + 2; ++i) {
+        const Vec2d p = i % 2 == 0 ? Vec2d{start.x, start.y} : opposite;
+        const double z = i < halves ? from - depth * i / halves : end;
+        tip_.arc(MoveKind::kPlunge, {{p.x, p.y, z}, {centre.x, centre.y, z}, ArcPlane::kXY, false});
+    }
+    ++helices_;
+    return true;
 }
 
 void GridMoves::ramp(const std::vector<Vec3d>& way, double from)

@@ -1,6 +1,8 @@
 // Ways in and out of the pocket: lifts, and ramps along the run that follows.
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "host_tools/grid_pocket/floor_follower.hpp"
@@ -15,13 +17,18 @@ public:
     {
     }
 
-    // To the start of a run over the floor, at its height there; `metal` is the z below which metal
-    // may stand. The ramp goes out and back along the run, higher than the run all the way.
-    void enter(const FloorFollower& floor, const std::vector<Vec2d>& corners, double metal);
+    // Where there is room for a helix: the least z of its tip all around, for a circle in plan;
+    // none where it meets a wall.
+    using CircleFloor = std::function<std::optional<double>(Vec2d centre, double radius)>;
 
-    // The same for a run in a level; `way` is its beginning. With `link` it is reached without a
-    // lift to the clearance height, 1 mm above `metal`.
-    void enter_level(const std::vector<Vec3d>& way, double metal, bool link);
+    // To the start of a run over the floor, at its height there; `metal` is the z below which metal
+    // may stand. The ramp goes out and back along the run, higher than the run all the way. With
+    // `link` the start is reached without a lift to the clearance height, 1 mm above `metal`.
+    void enter(const FloorFollower& floor,
+               const std::vector<Vec2d>& corners,
+               double metal,
+               bool link,
+               const CircleFloor& circle);
 
     void retract();
 
@@ -30,6 +37,9 @@ public:
     bool lifted() const { return tip_.at().z >= clearance_z_; }
     int retracts() const { return retracts_; }
     int plunges() const { return plunges_; }
+    int helices() const { return helices_; }
+    // Entries that asked for a helix where none has room.
+    int narrow_entries() const { return narrow_entries_; }
     double ramp_length() const { return 4 * radius_; }
 
 private:
@@ -39,7 +49,10 @@ private:
     double radius_;
     int retracts_{0};
     int plunges_{0};
+    int helices_{0};
+    int narrow_entries_{0};
 
+    bool helix(Vec3d start, double from, const CircleFloor& circle);
     void ramp(const std::vector<Vec3d>& way, double from);
 };
 

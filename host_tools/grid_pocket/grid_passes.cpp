@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/base/math.hpp"
 #include "host_tools/grid_pocket/zigzag_runs.hpp"
 
 namespace cusp::host {
@@ -44,43 +45,38 @@ GridPasses::GridPasses(PocketSpace& pocket, Toolpath& path)
 
 void GridPasses::layer(double plane)
 {
+    // What the layers above have brought down to the floor is left alone; the rest is followed as
+    // low as the layer and the floor allow, so that no fin stands between layers on a slope.
+    const double above = std::min(last_plane_, pocket_.job.stock_top);
     NavigationRules rules;
-    const auto deep = [&](Cell c) {
-        return pocket_.grid.inside(c) && pocket_.rough_heights[pocket_.grid.index(c)] <= plane;
+    rules.free = [&](Cell c) {
+        return pocket_.grid.inside(c) && pocket_.rough_heights[pocket_.grid.index(c)] < above;
     };
-    const auto level = [&](Cell a, Cell b) {
-        return clear_at(plane, a, b);
+    rules.clear_step = [&](Cell a, Cell b) {
+        return pocket_.clear(a, b);
     };
-    rules.free = deep;
-    rules.clear_step = level;
-    rules.clear_link = level;
+    rules.clear_link = rules.clear_step;
     const Navigation navigation = reversed(navigate(pocket_.grid, rules));
     count(navigation);
-    for (std::size_t i = 0; i < navigation.steps.size(); ++i) {
-        const Cell c = navigation.steps[i].cell;
-        const Vec2d at = pocket_.grid.centre(c);
-        if (navigation.steps[i].kind == StepKind::kEnter) {
-            const std::vector<Vec3d> way = level_way(navigation, i, plane);
-            moves_.enter_level(way, metal_at(c), can_link(way.front()));
-        } else {
-            const bool corner = i + 1 == navigation.steps.size() ||
-                                navigation.steps[i + 1].kind == StepKind::kEnter ||
-                                !straight(navigation, i);
-            if (corner) {
-                moves_.tip().line(MoveKind::kCut, {at.x, at.y, plane});
-            }
-        }
-    }
+    FloorFollower floor = pocket_.rough.above(plane);
+    follow_navigation(navigation, floor);
     for (const NavigationStep& step : navigation.steps) {
-        metal_[pocket_.grid.index(step.cell)] = static_cast<float>(plane);
+        const std::size_t cell = pocket_.grid.index(step.cell);
+        metal_[cell] = static_cast<float>(std::max(plane, pocket_.rough_heights[cell]));
     }
-    wall_level(plane);
+    wall_level(above, floor);
     last_plane_ = plane;
 }
 
 void GridPasses::main_path(const Navigation& navigation)
 {
     count(navigation);
+    main_moves_ = follow_navigation(navigation, pocket_.finish);
+}
+
+std::size_t GridPasses::follow_navigation(const Navigation& navigation, FloorFollower& floor)
+{
+    std::size_t cut = 0;
     for (std::size_t i = 0; i < navigation.steps.size();) {
         std::size_t end = i + 1;
         std::vector<Vec2d> corners{pocket_.grid.centre(navigation.steps[i].cell)};
@@ -92,12 +88,19 @@ void GridPasses::main_path(const Navigation& navigation)
                 corners.push_back(pocket_.grid.centre(navigation.steps[end].cell));
             }
         }
-        moves_.enter(pocket_.finish, corners, metal_at(navigation.steps[i].cell));
+        begin_run(corners, metal_at(navigation.steps[i].cell), floor);
         const std::size_t before = path_.moves.size();
-        pocket_.finish.follow(moves_.tip(), corners, MoveKind::kCut);
-        main_moves_ += path_.moves.size() - before;
+        floor.follow(moves_.tip(), corners, MoveKind::kCut);
+        cut += path_.moves.size() - before;
         i = end;
     }
+    return cut;
+}
+
+void GridPasses::begin_run(const std::vector<Vec2d>& corners, double metal, FloorFollower& floor)
+{
+    const double over = std::max(metal, metal_under(corners.front()));
+    moves_.enter(floor, corners, over, can_link(corners.front()), circle_over(floor));
 }
 
 void GridPasses::wall()
@@ -142,17 +145,32 @@ bool GridPasses::straight(const Navigation& navigation, std::size_t i)
     return b.column - a.column == c.column - b.column && b.row - a.row == c.row - b.row;
 }
 
-bool GridPasses::clear_at(double plane, Cell a, Cell b) const
+double GridPasses::metal_under(Vec2d at) const
 {
-    if (!pocket_.clear(a, b)) {
-        return false;
+    const CellGrid& grid = pocket_.grid;
+    const Tool& tool = pocket_.operation.tool;
+    // What stands between cells: ridges, and a cell's own height up to its corners.
+    const double half = std::hypot(grid.gx(), grid.gy()) / 2;
+    const double corner = tool.corner_radius;
+    const double in = std::min(half, corner);
+    const double ridge = corner - std::sqrt(corner * corner - in * in);
+    const Cell middle = grid.nearest(at);
+    const int columns = static_cast<int>((tool.radius + half) / grid.gx()) + 1;
+    const int rows = static_cast<int>((tool.radius + half) / grid.gy()) + 1;
+    double most = -1e300;
+    for (int j = -rows; j <= rows; ++j) {
+        for (int i = -columns; i <= columns; ++i) {
+            const Cell c{middle.column + i, middle.row + j};
+            const double away = std::max(0.0, norm(grid.centre(c) - at) - half);
+            if (grid.inside(c) && away < tool.radius) {
+                most = std::max(most, metal_at(c) + ridge - profile_height(tool, away));
+            }
+        }
     }
-    const Vec2d from = pocket_.grid.centre(a);
-    const Vec2d to = pocket_.grid.centre(b);
-    return pocket_.rough.clearance({from.x, from.y, plane}, {to.x, to.y, plane}, 0) >= -1e-6;
+    return std::min(most, pocket_.job.stock_top);
 }
 
-bool GridPasses::can_link(Vec3d to) const
+bool GridPasses::can_link(Vec2d to) const
 {
     if (last_plane_ > pocket_.job.stock_top || moves_.lifted()) {
         return false;
@@ -160,7 +178,7 @@ bool GridPasses::can_link(Vec3d to) const
     const Vec3d from{here().x, here().y, last_plane_};
     const Vec3d end{to.x, to.y, last_plane_};
     return norm(end - from) < 8 * pocket_.operation.tool.radius && cut_along(from, end) &&
-           pocket_.clear(here(), {to.x, to.y}) && pocket_.rough.clearance(from, end, 0) >= -1e-6;
+           pocket_.clear(here(), to) && pocket_.rough.clearance(from, end, 0) >= -1e-6;
 }
 
 bool GridPasses::cut_along(Vec3d from, Vec3d to) const
@@ -175,22 +193,6 @@ bool GridPasses::cut_along(Vec3d from, Vec3d to) const
         }
     }
     return true;
-}
-
-std::vector<Vec3d> GridPasses::level_way(const Navigation& navigation,
-                                         std::size_t first,
-                                         double plane) const
-{
-    std::vector<Vec3d> way;
-    double length = 0;
-    for (std::size_t i = first; i < navigation.steps.size() && length < moves_.ramp_length() &&
-                                (i == first || navigation.steps[i].kind != StepKind::kEnter);
-         ++i) {
-        const Vec2d at = pocket_.grid.centre(navigation.steps[i].cell);
-        way.push_back({at.x, at.y, plane});
-        length += way.size() > 1 ? norm(way[way.size() - 1] - way[way.size() - 2]) : 0;
-    }
-    return way;
 }
 
 std::vector<Vec2d> GridPasses::wall_corners(const Contour& contour) const
@@ -219,6 +221,43 @@ Vec2d GridPasses::here() const
     return {at.x, at.y};
 }
 
+GridMoves::CircleFloor GridPasses::circle_over(const FloorFollower& floor) const
+{
+    return [this, &floor](Vec2d centre, double radius) -> std::optional<double> {
+        constexpr int kSides = 16;
+        constexpr int kMostLifts = 12;
+        const double sagitta = radius * (1 - std::cos(kPi / kSides));
+        if (pocket_.walls.clearance(centre) < pocket_.kept + radius + sagitta) {
+            return std::nullopt;
+        }
+        // Chords outside the circle: what they and the tool around them keep from, the arcs do too.
+        const double out = (radius + sagitta) / std::cos(kPi / kSides);
+        const auto at = [&](int i) {
+            const double angle = 2 * kPi * i / kSides;
+            return centre + Vec2d{std::cos(angle), std::sin(angle)} * out;
+        };
+        double z = -1e300;
+        for (int i = 0; i < kSides; ++i) {
+            z = std::max(z, floor.height(at(i)).value_or(-1e300));
+        }
+        for (int lift = 0; lift < kMostLifts && z > -1e300; ++lift) {
+            double least = 1e300;
+            for (int i = 0; i < kSides; ++i) {
+                const Vec2d a = at(i);
+                const Vec2d b = at(i + 1);
+                least = std::min(least, floor.clearance({a.x, a.y, z}, {b.x, b.y, z}, 2 * sagitta));
+            }
+            // A flat end's room ends at 0: it stands higher by what the sagitta takes on a slope.
+            const double needed = floor.has_flat_end() ? 0.0 : 2 * sagitta;
+            if (least >= needed - 1e-6) {
+                return z + (floor.has_flat_end() ? 4 * sagitta : 0.0);
+            }
+            z += std::max(needed - least, 1e-3) * 1.5;
+        }
+        return std::nullopt;
+    };
+}
+
 void GridPasses::approach(const std::vector<Vec2d>& corners)
 {
     const Vec2d start = corners.front();
@@ -243,60 +282,60 @@ void GridPasses::approach(const std::vector<Vec2d>& corners)
         }
     }
     if (least < 1e300) {
-        moves_.enter(pocket_.finish, {cut, start}, pocket_.finish.start_height(cut));
+        moves_.enter(pocket_.finish, {cut, start}, pocket_.finish.start_height(cut), false,
+                     circle_over(pocket_.finish));
         pocket_.finish.follow(moves_.tip(), {cut, start}, MoveKind::kCut);
         return;
     }
-    moves_.enter(pocket_.finish, corners, pocket_.job.stock_top);
+    moves_.enter(pocket_.finish, corners, pocket_.job.stock_top, false,
+                 circle_over(pocket_.finish));
 }
 
-void GridPasses::wall_level(double plane)
+void GridPasses::wall_level(double above, FloorFollower& floor)
 {
     for (const Contour& contour : pocket_.centres.contours) {
-        std::vector<Vec3d> run;
+        std::vector<Vec2d> run;
         const std::vector<Vec2d> corners = wall_corners(contour);
         for (std::size_t i = 1; i < corners.size(); ++i) {
-            const double length = norm(corners[i] - corners[i - 1]);
-            const int pieces = std::max(1, static_cast<int>(length / pocket_.grid.gx()));
+            const Vec2d way = corners[i] - corners[i - 1];
+            const int pieces = std::max(1, static_cast<int>(norm(way) / pocket_.grid.gx()));
             for (int k = 0; k < pieces; ++k) {
-                const auto at = [&](int n) {
-                    const Vec2d p = corners[i - 1] + (corners[i] - corners[i - 1]) *
-                                                         (static_cast<double>(n) / pieces);
-                    return Vec3d{p.x, p.y, plane};
-                };
-                if (pocket_.rough.clearance(at(k), at(k + 1), 0) < -1e-6) {
-                    cut_level(run);
+                const Vec2d from = corners[i - 1] + way * (static_cast<double>(k) / pieces);
+                const Vec2d to = corners[i - 1] + way * (static_cast<double>(k + 1) / pieces);
+                if (std::min(height_or(from), height_or(to)) >= above) {
+                    cut_level(run, above, floor);
                     continue;
                 }
                 if (run.empty()) {
-                    run.push_back(at(k));
+                    run.push_back(from);
                 }
                 if (k > 0 && run.size() > 1) {
                     run.pop_back();
                 }
-                run.push_back(at(k + 1));
+                run.push_back(to);
             }
         }
-        cut_level(run);
+        cut_level(run, above, floor);
     }
 }
 
-void GridPasses::cut_level(std::vector<Vec3d>& run)
+double GridPasses::height_or(Vec2d at) const
+{
+    return pocket_.rough.height(at).value_or(pocket_.model->box_low().z);
+}
+
+void GridPasses::cut_level(std::vector<Vec2d>& run, double above, FloorFollower& floor)
 {
     if (run.size() > 1) {
-        // The wall's pass of the layer above has been here.
-        const Vec3d at = moves_.tip_at();
-        const bool level = at.z == run.front().z && pocket_.clear(here(), {run[0].x, run[0].y}) &&
-                           pocket_.rough.clearance(at, run.front(), 0) >= -1e-6;
-        if (level) {
-            moves_.tip().line(MoveKind::kCut, run.front());
+        const double longest =
+            std::max(8 * pocket_.operation.tool.radius, 2 * pocket_.job.clearance);
+        if (moves_.tip().started() && !moves_.lifted() && norm(run.front() - here()) < longest &&
+            pocket_.clear(here(), run.front())) {
+            floor.follow(moves_.tip(), {here(), run.front()}, MoveKind::kCut);
         } else {
-            moves_.enter_level(run, std::min(pocket_.job.stock_top, last_plane_),
-                               can_link(run.front()));
+            begin_run(run, above, floor);
         }
-        for (const Vec3d& p : run) {
-            moves_.tip().line(MoveKind::kCut, p);
-        }
+        floor.follow(moves_.tip(), run, MoveKind::kCut);
         ++passes_;
     }
     run.clear();

@@ -32,7 +32,7 @@ public:
     int passes() const { return passes_; }
     int steps() const { return steps_; }
     int retracts() const { return moves_.retracts(); }
-    int plunges() const { return moves_.plunges(); }
+    const GridMoves& moves() const { return moves_; }
 
 private:
     PocketSpace& pocket_;
@@ -47,26 +47,30 @@ private:
     int steps_{0};
 
     double metal_at(Cell c) const { return static_cast<double>(metal_[pocket_.grid.index(c)]); }
+    // Top of what may stand under the tool at a place, less the height of its lower side.
+    double metal_under(Vec2d at) const;
     void count(const Navigation& navigation);
     // True where the steps before and after `i` go the same way, one cell each.
     static bool straight(const Navigation& navigation, std::size_t i);
-    bool clear_at(double plane, Cell a, Cell b) const;
+    // Returns the number of moves that cut.
+    std::size_t follow_navigation(const Navigation& navigation, FloorFollower& floor);
+    void begin_run(const std::vector<Vec2d>& corners, double metal, FloorFollower& floor);
     // Whether a straight move at the height of the layer above leads there: what the floor leaves
     // free at that height has been cut, but for ridges between tracks.
-    bool can_link(Vec3d to) const;
+    bool can_link(Vec2d to) const;
     // Whether the layer above has visited every cell under the move.
     bool cut_along(Vec3d from, Vec3d to) const;
-    std::vector<Vec3d> level_way(const Navigation& navigation,
-                                 std::size_t first,
-                                 double plane) const;
     std::vector<Vec2d> wall_corners(const Contour& contour) const;
     Vec2d here() const;
+    // For helices over what `floor` leaves.
+    GridMoves::CircleFloor circle_over(const FloorFollower& floor) const;
     // To the first corner: along the floor where the way is clear, else down at a cell beside it,
     // which the main path has cut.
     void approach(const std::vector<Vec2d>& corners);
-    // Along the wall where the floor lies below the plane.
-    void wall_level(double plane);
-    void cut_level(std::vector<Vec3d>& run);
+    // Along the wall where its rough floor lies below `above`.
+    void wall_level(double above, FloorFollower& floor);
+    void cut_level(std::vector<Vec2d>& run, double above, FloorFollower& floor);
+    double height_or(Vec2d at) const;
 };
 
 }  // namespace cusp::host

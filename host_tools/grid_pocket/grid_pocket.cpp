@@ -38,6 +38,18 @@ std::string grid_that_would_do(const PocketSpace& pocket,
            length_text(pocket.job, finer.grid_y) + " would be needed at least";
 }
 
+void warn_of_entries(const GridMoves& moves, const Operation& operation, OperationStats& stats)
+{
+    if (moves.plunges() > 0 && operation.entry != EntryKind::kPlunge) {
+        stats.warnings.push_back(std::to_string(moves.plunges()) +
+                                 " entries have no room for a ramp and plunge straight down");
+    }
+    if (moves.narrow_entries() > 0) {
+        stats.warnings.push_back(std::to_string(moves.narrow_entries()) +
+                                 " entries have no room for a helix and ramp");
+    }
+}
+
 }  // namespace
 
 std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& operation)
@@ -47,13 +59,15 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
     const PocketWalls walls = pocket_walls(job, operation);
     PocketSpace pocket{job, operation, walls};
     const std::size_t cells = pocket.grid.count_inside();
-    if (cells == 0) {
-        refuse_grid_pocket(job, "no cell of the pocket is " + length_text(job, pocket.kept) +
+    if (pocket.centres.contours.empty()) {
+        refuse_grid_pocket(job, "no place in the pocket is " + length_text(job, pocket.kept) +
                                     " from its walls: the tool does not fit");
     }
     pocket.heights = heights_over(pocket, pocket.finish);
     const Navigation navigation = finish_navigation(pocket);
+    job.report_progress(0.2);
     const double roughness = roughness_of(pocket, navigation);
+    job.report_progress(0.3);
     if (operation.max_roughness && roughness > *operation.max_roughness) {
         refuse_grid_pocket(job, "roughness " + length_text(job, roughness) +
                                     " is over max_roughness " +
@@ -71,11 +85,15 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
         pocket.rough_heights =
             operation.allowance > 0 ? heights_over(pocket, pocket.rough) : pocket.heights;
         planes = layer_planes(pocket);
-        for (const double plane : planes) {
-            planner.layer(plane);
+        for (std::size_t i = 0; i < planes.size(); ++i) {
+            planner.layer(planes[i]);
+            job.report_progress(0.3 + 0.2 * static_cast<double>(i + 1) /
+                                          static_cast<double>(planes.size()));
         }
     }
+    job.report_progress(0.5);
     planner.main_path(navigation);
+    job.report_progress(0.9);
     const std::size_t main_moves = planner.main_moves();
     planner.wall();
     Tracks tracks = tracks_of(pocket.grid, navigation);
@@ -83,6 +101,7 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
         planner.zigzag(axis, tracks);
     }
     planner.finish();
+    job.report_progress(1);
     OperationStats& stats = out.stats;
     stats.strategy = "grid_pocket";
     stats.passes = planner.passes();
@@ -99,14 +118,12 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
                     {"backtracks", planner.backtracks()},
                     {"main_path_moves", static_cast<double>(main_moves)},
                     {"layers", static_cast<double>(planes.size())},
-                    {"roughness_mm", roughness}};
+                    {"roughness_mm", roughness},
+                    {"helices", planner.moves().helices()}};
     out.path.comments = {"grid_pocket: " + std::to_string(cells) + " cells, roughness " +
                          length_text(job, roughness) + ", gouge at most " +
                          length_text(job, stats.gouge_bound_mm)};
-    if (planner.plunges() > 0) {
-        stats.warnings.push_back(std::to_string(planner.plunges()) +
-                                 " entries plunge straight down");
-    }
+    warn_of_entries(planner.moves(), operation, stats);
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     stats.planning_s = spent.count();
     std::vector<PlannedOperation> result;

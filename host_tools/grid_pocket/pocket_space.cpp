@@ -9,6 +9,7 @@
 namespace cusp::host {
 namespace {
 
+constexpr double kHeightsShare = 0.15;  // of the time of a plan
 constexpr double kNoHeight = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<Edge> edges_of(const Region2d& region)
@@ -86,6 +87,10 @@ std::vector<double> heights_over(const PocketSpace& pocket, const FloorFollower&
     std::vector<double> out(pocket.grid.size(), kNoHeight);
     for (std::size_t i = 0; i < out.size(); ++i) {
         const Cell c = pocket.grid.cell(i);
+        if (c.column == 0) {
+            pocket.job.report_progress(kHeightsShare * static_cast<double>(i) /
+                                       static_cast<double>(out.size()));
+        }
         if (!pocket.grid.inside(c)) {
             continue;
         }
@@ -144,6 +149,11 @@ std::vector<double> layer_planes(const PocketSpace& pocket)
     double lowest = 1e300;
     for (const double z : pocket.rough_heights) {
         lowest = std::isnan(z) ? lowest : std::min(lowest, z);
+    }
+    for (const Edge& edge : edges_of(pocket.centres)) {
+        for (const Vec2d p : {edge.start, point_on(edge, 0.5)}) {
+            lowest = std::min(lowest, pocket.rough.height(p).value_or(lowest));
+        }
     }
     std::vector<double> planes;
     const Operation& operation = pocket.operation;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -77,6 +78,16 @@ struct Job {
     std::optional<std::array<double, 2>> stock_x;
     std::optional<std::array<double, 2>> stock_y;
     std::vector<Operation> operations;
+    // Called by planners now and then with the share of an operation that is done, 0 to 1; may be
+    // empty.
+    std::function<void(double)> progress;
+
+    void report_progress(double share) const
+    {
+        if (progress) {
+            progress(share);
+        }
+    }
 };
 
 // Reads a TOML job and the parts it names. Throws InputError.

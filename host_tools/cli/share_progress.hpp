@@ -1,0 +1,25 @@
+// How far a computation is: a bar on a terminal, four plain lines elsewhere.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace cusp::host {
+
+class ShareProgress {
+public:
+    // what     it is that goes on, one word
+    // quiet_s  s: what is done sooner is not worth a line
+    explicit ShareProgress(std::string what, double quiet_s = 0.0);
+
+    void operator()(double share);  // of the work that is done, 0 to 1
+
+private:
+    std::string what_;
+    double quiet_s_;
+    std::chrono::steady_clock::time_point begin_;
+    bool is_terminal_;
+    int shown_{0};
+};
+
+}  // namespace cusp::host

@@ -1,0 +1,78 @@
+// Random pockets cut in memory: no gouge, no metal under rapid moves, nothing left over the
+// computed roughness.
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+
+#include "host_tools/grid_pocket/grid_pocket.hpp"
+#include "host_tools/toolpath/gcode_writer.hpp"
+#include "host_tools/verify/verify.hpp"
+#include "tests/property/grid_pocket/random_pockets.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+// Last: CppUTest redefines new, which the standard headers can not bear.
+#include "CppUTest/TestHarness.h"
+
+namespace cusp::host {
+namespace {
+
+int cases()
+{
+    const char* const text = std::getenv("CUSP_PROPERTY_CASES");
+    return text != nullptr ? std::atoi(text) : 8;
+}
+
+VerifyFigures cut_in_memory(const Job& job, const std::vector<PlannedOperation>& plan)
+{
+    const test::TemporaryFolder folder;
+    const std::string file = folder.file("pocket.ngc");
+    {
+        std::ofstream out{file};
+        write_program(out, {"random pocket", false, job.stock_top + job.clearance, {}}, plan);
+    }
+    VerifySettings settings;
+    settings.pitch = 0.23;
+    return verify(job, file, settings, [](double) {}).figures;
+}
+
+void check_pocket(unsigned seed)
+{
+    std::printf("random pocket seed %u\n", seed);
+    Random random{seed};
+    const Job job = random_pocket(random);
+    const Operation& operation = job.operations.front();
+    std::vector<PlannedOperation> plan;
+    try {
+        plan = plan_grid_pocket(job, operation);
+    } catch (const InputError& error) {
+        // A narrow shape may hold no place for the tool: that is for the words to say.
+        CHECK_TEXT(std::string(error.what()).find("does not fit") != std::string::npos,
+                   error.what());
+        return;
+    }
+    const VerifyFigures figures = cut_in_memory(job, plan);
+    const OperationStats& stats = plan.front().stats;
+    CHECK(stats.gouge_bound_mm <= 1e-6);
+    CHECK(figures.gouge_max <= 2e-3);
+    CHECK(figures.ball_gouge_max.value_or(0) <= 1e-3);
+    CHECK(figures.wall_gouge_max.value_or(0) <= 1e-3);
+    CHECK(figures.rapid_cut_max <= 0.01);
+    DOUBLES_EQUAL(0, figures.uncut_share, 0);
+    // The map of heights in memory is itself only so fine.
+    CHECK(figures.scallop_max <= stats.scallop_bound_mm + 0.01);
+    std::printf("  %d passes, left %.4f of %.4f mm, deepest cut %.3f mm\n", stats.passes,
+                figures.scallop_max, stats.scallop_bound_mm, figures.cut_depth_max);
+}
+
+}  // namespace
+
+TEST_GROUP(GridProperty){};
+
+TEST(GridProperty, RandomPocketsAreCutToTheComputedRoughnessWithoutGouge)
+{
+    for (int i = 0; i < cases(); ++i) {
+        check_pocket(static_cast<unsigned>(i) + 1);
+    }
+}
+
+}  // namespace cusp::host

@@ -1,0 +1,229 @@
+// Random pockets of six kinds over random floors, from a seed.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "host_tools/import/job.hpp"
+#include "tests/property/offset/random_regions.hpp"
+
+namespace cusp::host {
+
+using Polygon = std::vector<Vec2d>;
+
+inline int whole(Random& random, int low, int high)
+{
+    return std::uniform_int_distribution<int>{low, high}(random);
+}
+
+inline Polygon star_polygon(Random& random, double inner, double outer, int corners)
+{
+    Polygon out;
+    for (int i = 0; i < corners; ++i) {
+        const double angle = 6.283185307179586 * (i + uniform(random, -0.3, 0.3)) / corners;
+        out.push_back(Vec2d{std::cos(angle), std::sin(angle)} * uniform(random, inner, outer));
+    }
+    return out;
+}
+
+inline Polygon convex_polygon(Random& random, double radius, int corners)
+{
+    std::vector<double> angles;
+    for (int i = 0; i < corners; ++i) {
+        angles.push_back(6.283185307179586 * (i + uniform(random, 0.0, 0.9)) / corners);
+    }
+    const double width = radius * uniform(random, 0.6, 1.0);
+    Polygon out;
+    for (const double angle : angles) {
+        out.push_back({radius * std::cos(angle), width * std::sin(angle)});
+    }
+    return out;
+}
+
+// A band of even width along a spiral.
+inline Polygon spiral_polygon(Random& random, double width)
+{
+    const double pitch = width * uniform(random, 1.25, 1.8);
+    const double turns = uniform(random, 1.0, 1.7);
+    const int count = static_cast<int>(40 * turns);
+    Polygon outer;
+    Polygon inner;
+    for (int i = 0; i <= count; ++i) {
+        const double angle = 6.283185307179586 * turns * i / count;
+        const double r = width + pitch * angle / 6.283185307179586;
+        const Vec2d way{std::cos(angle), std::sin(angle)};
+        outer.push_back(way * (r + width / 2));
+        inner.push_back(way * (r - width / 2));
+    }
+    outer.insert(outer.end(), inner.rbegin(), inner.rend());
+    return outer;
+}
+
+// Two rooms joined by a neck.
+inline Polygon neck_polygon(Random& random, double room, double neck, double apart)
+{
+    const double a = uniform(random, -3.0, 3.0);
+    const double b = a + uniform(random, -2.0, 2.0);
+    return {{-apart - room, -room},        {-apart + room, -room}, {-apart + room, a - neck / 2},
+            {apart - room, b - neck / 2},  {apart - room, -room},  {apart + room, -room},
+            {apart + room, room},          {apart - room, room},   {apart - room, b + neck / 2},
+            {-apart + room, a + neck / 2}, {-apart + room, room},  {-apart - room, room}};
+}
+
+// Fingers on a base.
+inline Polygon comb_polygon(Random& random, int fingers, double width, double gap)
+{
+    const double base = 8;
+    double x = fingers * width + (fingers - 1) * gap;
+    Polygon out{{0, 0}, {x, 0}};
+    for (int i = 0; i < fingers; ++i) {
+        const double height = base + uniform(random, 6.0, 20.0);
+        out.push_back({x, height});
+        out.push_back({x - width, height});
+        x -= width;
+        if (i + 1 < fingers) {
+            out.push_back({x, base});
+            out.push_back({x - gap, base});
+            x -= gap;
+        }
+    }
+    return out;
+}
+
+inline Polygon random_polygon(Random& random, double radius)
+{
+    switch (whole(random, 0, 5)) {
+        case 0:
+            return convex_polygon(random, uniform(random, 14.0, 30.0), whole(random, 3, 9));
+        case 1:
+            return star_polygon(random, uniform(random, 9.0, 14.0), uniform(random, 18.0, 30.0),
+                                whole(random, 5, 14));
+        case 2:
+            return spiral_polygon(random, 2 * radius * uniform(random, 1.4, 2.4));
+        case 3:
+            return neck_polygon(random, uniform(random, 9.0, 14.0),
+                                2 * radius * uniform(random, 0.8, 1.6),
+                                uniform(random, 15.0, 20.0));
+        case 4:
+            return comb_polygon(random, whole(random, 2, 4), 2 * radius * uniform(random, 1.2, 1.9),
+                                uniform(random, 1.0, 5.0));
+        default:
+            return star_polygon(random, 18.0, 22.0, whole(random, 60, 200));
+    }
+}
+
+inline Loop loop_of(const Polygon& corners)
+{
+    Loop loop;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Vec2d a = corners[i];
+        const Vec2d b = corners[(i + 1) % corners.size()];
+        loop.push_back({1, {0, 0, 1, 1}, {{a.x, a.y, 0}, {b.x, b.y, 0}}, {1, 1}});
+    }
+    return loop;
+}
+
+inline std::vector<double> even_knots(int points, int degree)
+{
+    std::vector<double> knots;
+    for (int i = 0; i <= points + degree; ++i) {
+        knots.push_back(std::clamp(static_cast<double>(i - degree) / (points - degree), 0.0, 1.0));
+    }
+    return knots;
+}
+
+// A B-spline graph over the box whose control points wander by `rough` mm about `middle`, rational
+// now and then.
+inline Surface random_floor(Random& random, const Box2d& box, double middle, double rough)
+{
+    Surface s;
+    s.degree_u = s.degree_v = whole(random, 2, 3);
+    s.size_u = whole(random, 4, 8);
+    s.size_v = whole(random, 4, 8);
+    s.knots_u = even_knots(s.size_u, s.degree_u);
+    s.knots_v = even_knots(s.size_v, s.degree_v);
+    const bool rational = whole(random, 0, 3) == 0;
+    for (int i = 0; i < s.size_u; ++i) {
+        for (int j = 0; j < s.size_v; ++j) {
+            s.points.push_back({box.x0 + (box.x1 - box.x0) * i / (s.size_u - 1),
+                                box.y0 + (box.y1 - box.y0) * j / (s.size_v - 1),
+                                middle + uniform(random, -rough, rough)});
+            s.weights.push_back(rational ? uniform(random, 0.6, 1.6) : 1.0);
+        }
+    }
+    return s;
+}
+
+inline Box2d grown_box(const Polygon& polygon, double by)
+{
+    Box2d box;
+    for (const Vec2d p : polygon) {
+        box = {std::min(box.x0, p.x), std::min(box.y0, p.y), std::max(box.x1, p.x),
+               std::max(box.y1, p.y)};
+    }
+    return {box.x0 - by, box.y0 - by, box.x1 + by, box.y1 + by};
+}
+
+inline Tool random_tool(Random& random)
+{
+    constexpr double kRadii[]{1.5, 2.0, 3.0, 4.0};
+    const double radius = kRadii[whole(random, 0, 3)];
+    switch (whole(random, 0, 5)) {
+        case 0:
+            return {1, ToolShape::kFlat, radius, 0};
+        case 1:
+            return {1, ToolShape::kBull, radius, radius * uniform(random, 0.2, 0.7)};
+        default:
+            return {1, ToolShape::kBall, radius, radius};
+    }
+}
+
+// A job of one grid_pocket operation.
+inline Job random_pocket(Random& random)
+{
+    Job job;
+    job.file = "random.toml";
+    job.feed = 1200;
+    job.plunge_feed = 300;
+    job.spindle = 10000;
+    job.clearance = 5;
+    Operation operation;
+    operation.strategy = "grid_pocket";
+    operation.tool = random_tool(random);
+    const double radius = operation.tool.radius;
+    const Polygon polygon = random_polygon(random, radius);
+    operation.boundary = loop_of(polygon);
+    constexpr double kRough[]{0.0, 0.5, 1.0, 2.0, 3.0};
+    const double rough = kRough[whole(random, 0, 4)];
+    operation.floor = {random_floor(random, grown_box(polygon, 2 * radius + 1), -10, rough)};
+    if (whole(random, 0, 4) == 0) {
+        operation.floor.push_back(
+            random_floor(random, grown_box(polygon, 2 * radius + 1), -10, rough));
+    }
+    const double coarsest = 2 * radius / std::sqrt(2.0);
+    operation.grid_x = coarsest * uniform(random, 0.25, 1.0);
+    operation.grid_y = coarsest * uniform(random, 0.25, 1.0);
+    operation.plan_tolerance = operation.floor_tolerance = operation.arc_tolerance =
+        uniform(random, 0.01, 0.05);
+    operation.output = whole(random, 0, 1) == 0 ? OutputForm::kLines : OutputForm::kArcs;
+    constexpr EntryKind kEntries[]{EntryKind::kAuto, EntryKind::kHelix, EntryKind::kRamp,
+                                   EntryKind::kPlunge};
+    operation.entry = kEntries[whole(random, 0, 3)];
+    if (whole(random, 0, 1) == 0) {
+        operation.zigzag.push_back('x');
+    }
+    if (whole(random, 0, 1) == 0) {
+        operation.zigzag.push_back('y');
+    }
+    if (whole(random, 0, 2) != 0) {
+        operation.max_depth = uniform(random, 1.5, 4.0);
+    }
+    operation.allowance = whole(random, 0, 2) == 0 ? 0.3 : 0.0;
+    job.tools = {operation.tool};
+    job.operations = {operation};
+    return job;
+}
+
+}  // namespace cusp::host
