@@ -35,6 +35,8 @@ public:
     //             way twice
     explicit CheckedWindow(std::size_t capacity) : capacity_{capacity / 2}, room_{capacity_} {}
 
+    void set_capacity(std::size_t capacity) { capacity_ = room_ = capacity / 2; }
+
     // Whether another line of the program may be added.
     bool has_room() const { return lines_.size() < kMostLines; }
     void add(std::uint64_t program_line, std::string_view text);

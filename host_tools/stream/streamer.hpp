@@ -137,6 +137,9 @@ private:
     void home();
     void learn_controller();
     void ask(const std::string& command);
+    void ask_checked(const std::string& command);
+    void send_checked_command(const std::string& command);
+    void send_checked_lines();
     void prepare_record();
     void prepare_resume(ProgramLines& program);
     std::optional<ProgramLine> next_line(ProgramLines& program);
@@ -153,6 +156,7 @@ private:
     void send_realtime(char byte);
     void pump(std::chrono::milliseconds wait);
     void take_line(const std::string& line);
+    void take_listing(const std::string& line);
     void take_status(const ControllerStatus& status);
     void take_answer(const Answer& answer);
     void take_checked(const std::string& line);
@@ -180,6 +184,9 @@ private:
     std::uint64_t own_errors_{0};
     bool stopping_{false};
     ControllerFacts facts_;
+    std::vector<std::string>
+        listing_;  // of the command that was asked last, where lines are checked
+    bool in_check_mode_{false};
     std::deque<ProgramLine> first_lines_;  // of the approach, and the first of the program
     bool sending_{false};                  // the program, or the approach to it
     TransferRecord record_;
