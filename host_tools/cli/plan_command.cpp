@@ -149,7 +149,9 @@ void write_text(const std::string& file, const std::string& text)
     }
 }
 
-void print_summary(const Plan& plan, const std::string& output)
+void print_summary(const Plan& plan,
+                   const std::vector<std::string>& notes,
+                   const std::string& output)
 {
     const Json all = totals(plan);
     fmt::print("cut {:.1f} mm, rapid {:.1f} mm, {} retracts; about {:.0f} s\n",
@@ -158,6 +160,9 @@ void print_summary(const Plan& plan, const std::string& output)
     fmt::print("gouge at most {:.4f} mm, scallop at most {:.4f} mm; planned in {:.2f} s\n",
                all["gouge_bound_mm"].get<double>(), all["scallop_bound_mm"].get<double>(),
                all["planning_s"].get<double>());
+    for (const std::string& note : notes) {
+        fmt::print(stderr, "cusp: warning: {}\n", note);
+    }
     for (const PlannedOperation& operation : plan.operations) {
         for (const std::string& warning : operation.stats.warnings) {
             fmt::print(stderr, "cusp: warning: {}\n", warning);
@@ -188,12 +193,15 @@ int run_plan(const PlanOptions& options)
         stats["job"] = options.job;
         stats["units"] = job.inch ? "inch" : "mm";
         stats["bytes"] = program.str().size();
+        if (!job.notes.empty()) {
+            stats["notes"] = job.notes;
+        }
         for (std::size_t i = 0; i < plan.operations.size(); ++i) {
             stats["operations"].push_back(operation_stats(plan.operations[i], plan.measures[i]));
         }
         write_text(options.stats, stats.dump(1) + "\n");
     }
-    print_summary(plan, options.output);
+    print_summary(plan, job.notes, options.output);
     return kDone;
 }
 

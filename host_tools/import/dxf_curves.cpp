@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <set>
 #include <string_view>
 
 #include "host_tools/import/nurbs_validity.hpp"
@@ -34,6 +34,11 @@ struct Entity {
     std::vector<Group> groups;
 };
 
+struct Vertex {
+    Vec2d at;
+    double bulge;  // tangent of a quarter of the sweep to the next vertex
+};
+
 std::string_view trimmed(std::string_view text)
 {
     const auto first = text.find_first_not_of(" \t\r");
@@ -44,8 +49,11 @@ std::string_view trimmed(std::string_view text)
 
 class DxfReader {
 public:
-    DxfReader(std::string file, double millimetres)
-        : file_{std::move(file)}, text_{text_of_file(file_)}, unit_{millimetres}
+    DxfReader(std::string file, std::string layer, double millimetres)
+        : file_{std::move(file)},
+          layer_{std::move(layer)},
+          text_{text_of_file(file_)},
+          unit_{millimetres}
     {
     }
 
@@ -53,10 +61,20 @@ public:
 
 private:
     std::vector<Group> groups() const;
-    std::vector<Entity> entities() const;
+    std::vector<Entity> section(std::string_view wanted, bool& found) const;
+    void read_unit();
+    void read_layers();
+    std::string_view text(const Entity& entity, int code, std::string_view otherwise) const;
+    bool shown(const Entity& entity) const;
     double number(const Group& group) const;
     double value(const Entity& entity, int code, double otherwise) const;
     double required(const Entity& entity, int code) const;
+    // A whole number from 0 to 65535, where others would be cut off.
+    unsigned flags(const Entity& entity, int code) const
+    {
+        constexpr double kMost = 65535;
+        return static_cast<unsigned>(std::clamp(value(entity, code, 0), 0.0, kMost));
+    }
     std::vector<double> values(const Entity& entity, int code) const;
     [[noreturn]] void refuse(int line, const std::string& reason) const
     {
@@ -66,12 +84,19 @@ private:
     void add(const Entity& entity);
     void add_line(const Entity& entity);
     void add_arc(const Entity& entity);
-    void add_polyline(const Entity& entity);
+    void add_ellipse(const Entity& entity);
+    void add_light_polyline(const Entity& entity);
+    // Takes the vertices that follow; returns the number of the last of them.
+    std::size_t add_old_polyline(const std::vector<Entity>& all, std::size_t first);
+    void add_vertices(const Entity& entity, const std::vector<Vertex>& vertices);
     void add_spline(const Entity& entity);
 
     std::string file_;
+    std::string layer_;  // "": all that are shown
     std::string text_;
     double unit_;
+    std::vector<Group> groups_;
+    std::set<std::string_view> hidden_;
     std::vector<Curve> curves_;
 };
 
@@ -106,15 +131,15 @@ std::vector<Group> DxfReader::groups() const
     return out;
 }
 
-std::vector<Entity> DxfReader::entities() const
+// The objects of one section, each from its code 0 on.
+std::vector<Entity> DxfReader::section(std::string_view wanted, bool& found) const
 {
     std::vector<Entity> out;
     bool inside = false;
-    bool found = false;
     bool names_section = false;
-    for (const Group& group : groups()) {
+    for (const Group& group : groups_) {
         if (names_section && group.code == 2) {
-            inside = group.value == "ENTITIES";
+            inside = group.value == wanted;
             found = found || inside;
         }
         names_section = group.code == 0 && group.value == "SECTION";
@@ -126,10 +151,60 @@ std::vector<Entity> DxfReader::entities() const
             out.back().groups.push_back(group);
         }
     }
-    if (!found) {
-        throw InputError(file_ + ": no DXF drawing with an ENTITIES section");
-    }
     return out;
+}
+
+void DxfReader::read_unit()
+{
+    bool asked = false;
+    for (const Group& group : groups_) {
+        if (group.code == 9) {
+            asked = group.value == "$INSUNITS";
+        } else if (asked && group.code == 70) {
+            constexpr double kInches = 1;
+            constexpr double kMillimetres = 4;
+            constexpr double kInch = 25.4;
+            const double unit = number(group);
+            unit_ = unit == kInches ? kInch : unit == kMillimetres ? 1.0 : unit_;
+            return;
+        } else if (group.code == 0 && group.value == "ENDSEC") {
+            return;  // of the header, the first section
+        }
+    }
+}
+
+// Layers that are switched off or frozen draw nothing.
+void DxfReader::read_layers()
+{
+    bool found = false;
+    for (const Entity& table : section("TABLES", found)) {
+        if (table.type != "LAYER") {
+            continue;
+        }
+        const bool frozen = (flags(table, 70) & 1U) != 0;
+        if (frozen || value(table, 62, 1) < 0) {
+            hidden_.insert(text(table, 2, ""));
+        }
+    }
+}
+
+std::string_view DxfReader::text(const Entity& entity, int code, std::string_view otherwise) const
+{
+    for (const Group& group : entity.groups) {
+        if (group.code == code) {
+            return group.value;
+        }
+    }
+    return otherwise;
+}
+
+bool DxfReader::shown(const Entity& entity) const
+{
+    const std::string_view layer = text(entity, 8, "0");
+    const bool chosen = layer_.empty() ? hidden_.count(layer) == 0 : layer == layer_;
+    constexpr int kPaperSpace = 67;
+    constexpr int kInvisible = 60;
+    return chosen && value(entity, kPaperSpace, 0) == 0 && value(entity, kInvisible, 0) == 0;
 }
 
 double DxfReader::number(const Group& group) const
@@ -219,12 +294,55 @@ void DxfReader::add_arc(const Entity& entity)
     curves_.push_back(curve);
 }
 
-void DxfReader::add_polyline(const Entity& entity)
+// Centre, end of the longer half axis from there, ratio of the axes, first and last parameter.
+void DxfReader::add_ellipse(const Entity& entity)
 {
-    struct Vertex {
-        Vec2d at;
-        double bulge;  // tangent of a quarter of the sweep to the next vertex
-    };
+    const Vec2d centre{unit_ * required(entity, 10), unit_ * required(entity, 20)};
+    const Vec2d major{unit_ * required(entity, 11), unit_ * required(entity, 21)};
+    const double ratio = required(entity, 40);
+    if (!(ratio > 0) || !(norm(major) > kLeastLength)) {
+        refuse(entity.line, fmt::format("ELLIPSE with half axes of {:g} and {:g} mm", norm(major),
+                                        ratio * norm(major)));
+    }
+    const double start = value(entity, 41, 0);
+    double sweep = std::fmod(value(entity, 42, 2 * kPi) - start, 2 * kPi);
+    constexpr double kWhole = 1e-9;
+    sweep += sweep <= kWhole ? 2 * kPi : 0;
+    // unlike an arc's its points are never mirrored: a drawing from below turns the short axis
+    const double turn = ratio * side_of(value(entity, 230, 1));
+    const Vec2d minor{-turn * major.y, turn * major.x};
+    Curve curve = arc_curve({0, 0}, 1, start, sweep);
+    for (Vec3d& p : curve.points) {
+        const Vec2d at = centre + p.x * major + p.y * minor;
+        p = {at.x, at.y, 0};
+    }
+    curves_.push_back(curve);
+}
+
+std::size_t DxfReader::add_old_polyline(const std::vector<Entity>& all, std::size_t first)
+{
+    constexpr unsigned kMesh = 16U | 64U;
+    if ((flags(all[first], 70) & kMesh) != 0) {
+        refuse(all[first].line, "POLYLINE: a mesh is no outline");
+    }
+    std::vector<Vertex> vertices;
+    std::size_t last = first;
+    while (last + 1 < all.size() && all[last + 1].type == "VERTEX") {
+        const Entity& vertex = all[++last];
+        constexpr unsigned kControlPoint = 16U;  // of a spline that the other vertices follow
+        if ((flags(vertex, 70) & kControlPoint) == 0) {
+            vertices.push_back({{unit_ * required(vertex, 10), unit_ * required(vertex, 20)},
+                                value(vertex, 42, 0)});
+        }
+    }
+    if (shown(all[first])) {
+        add_vertices(all[first], vertices);
+    }
+    return last;
+}
+
+void DxfReader::add_light_polyline(const Entity& entity)
+{
     std::vector<Vertex> vertices;
     for (const Group& group : entity.groups) {
         if (group.code == 10) {
@@ -235,7 +353,12 @@ void DxfReader::add_polyline(const Entity& entity)
             vertices.back().bulge = number(group);
         }
     }
-    const bool closed = (static_cast<int>(value(entity, 70, 0)) & 1) != 0;
+    add_vertices(entity, vertices);
+}
+
+void DxfReader::add_vertices(const Entity& entity, const std::vector<Vertex>& vertices)
+{
+    const bool closed = (flags(entity, 70) & 1U) != 0;
     const double side = side_of(value(entity, 230, 1));
     for (std::size_t i = 0; i + (closed ? 0 : 1) < vertices.size(); ++i) {
         const Vertex& from = vertices[i];
@@ -265,7 +388,8 @@ void DxfReader::add_polyline(const Entity& entity)
 void DxfReader::add_spline(const Entity& entity)
 {
     Curve curve;
-    curve.degree = static_cast<int>(required(entity, 71));
+    required(entity, 71);
+    curve.degree = static_cast<int>(flags(entity, 71));
     curve.knots = values(entity, 40);
     curve.weights = values(entity, 41);
     const std::vector<double> x = values(entity, 10);
@@ -287,19 +411,24 @@ void DxfReader::add_spline(const Entity& entity)
 void DxfReader::add(const Entity& entity)
 {
     // what draws no outline
-    static const std::array<std::string_view, 9> kSkipped{
-        "TEXT", "MTEXT", "DIMENSION", "HATCH", "POINT", "LEADER", "VIEWPORT", "ATTDEF", "IMAGE"};
+    static const std::array<std::string_view, 10> kSkipped{"SEQEND", "TEXT",  "MTEXT",  "DIMENSION",
+                                                           "HATCH",  "POINT", "LEADER", "VIEWPORT",
+                                                           "ATTDEF", "IMAGE"};
     if (entity.type == "LINE") {
         add_line(entity);
     } else if (entity.type == "ARC" || entity.type == "CIRCLE") {
         add_arc(entity);
     } else if (entity.type == "LWPOLYLINE") {
-        add_polyline(entity);
+        add_light_polyline(entity);
+    } else if (entity.type == "ELLIPSE") {
+        add_ellipse(entity);
     } else if (entity.type == "SPLINE") {
         add_spline(entity);
     } else if (std::find(kSkipped.begin(), kSkipped.end(), entity.type) == kSkipped.end()) {
-        refuse(entity.line,
-               fmt::format("{}: known are LINE, ARC, CIRCLE, LWPOLYLINE and SPLINE", entity.type));
+        refuse(
+            entity.line,
+            fmt::format("{}: known are LINE, ARC, CIRCLE, ELLIPSE, LWPOLYLINE, POLYLINE and SPLINE",
+                        entity.type));
     }
 }
 
@@ -331,11 +460,25 @@ std::vector<Curve> in_order(std::vector<Curve> curves)
 
 std::vector<Curve> DxfReader::read()
 {
-    for (const Entity& entity : entities()) {
-        add(entity);
+    groups_ = groups();
+    read_unit();
+    read_layers();
+    bool found = false;
+    const std::vector<Entity> all = section("ENTITIES", found);
+    if (!found) {
+        throw InputError(file_ + ": no DXF drawing with an ENTITIES section");
+    }
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (all[i].type == "POLYLINE") {
+            i = add_old_polyline(all, i);
+        } else if (shown(all[i])) {
+            add(all[i]);
+        }
     }
     if (curves_.empty()) {
-        throw InputError(file_ + ": the drawing holds no curve");
+        throw InputError(layer_.empty()
+                             ? file_ + ": the drawing holds no curve"
+                             : fmt::format("{}: no curve on the layer \"{}\"", file_, layer_));
     }
     for (const Curve& curve : curves_) {
         check_curve(curve, file_);
@@ -367,9 +510,11 @@ Curve arc_curve(Vec2d centre, double radius, double start, double sweep)
     return curve;
 }
 
-std::vector<Curve> read_dxf_curves(const std::string& file, double millimetres)
+std::vector<Curve> read_dxf_curves(const std::string& file,
+                                   double millimetres,
+                                   const std::string& layer)
 {
-    return DxfReader{file, millimetres}.read();
+    return DxfReader{file, layer, millimetres}.read();
 }
 
 }  // namespace cusp::host

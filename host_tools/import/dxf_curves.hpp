@@ -1,4 +1,5 @@
-// Curves from DXF drawings: LINE, ARC, CIRCLE, LWPOLYLINE with bulges, SPLINE.
+// Curves from DXF drawings: LINE, ARC, CIRCLE, ELLIPSE, LWPOLYLINE and POLYLINE with bulges,
+// SPLINE.
 #pragma once
 
 #include <string>
@@ -8,13 +9,17 @@
 
 namespace cusp::host {
 
-// millimetres  of one unit of the drawing; the drawing's own $INSUNITS is not asked
+// millimetres  of one unit of the drawing, unless its $INSUNITS says millimetres or inches itself
+//              (other units are what drawing programs write unasked)
+// layer        whose curves are wanted; "": all layers that are neither off nor frozen
 //
 // Returns the curves of the ENTITIES section, put in order where each continues the one before,
 // as drawings keep no order; arcs become rational quadratics, exactly.
 // Errors: InputError with the line of the file: no DXF, broken numbers, an entity of another kind
-// (hatches, text and dimensions are skipped), a spline without control points.
-std::vector<Curve> read_dxf_curves(const std::string& file, double millimetres);
+// (hatches, text and dimensions are skipped), a mesh, a spline without control points.
+std::vector<Curve> read_dxf_curves(const std::string& file,
+                                   double millimetres,
+                                   const std::string& layer = "");
 
 // The arc about `centre` from an angle on, counter-clockwise for a positive sweep, radians.
 // Precondition: radius > 0, 0 < |sweep| <= 2 pi.

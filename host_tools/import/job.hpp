@@ -78,6 +78,7 @@ struct Job {
     std::optional<std::array<double, 2>> stock_x;
     std::optional<std::array<double, 2>> stock_y;
     std::vector<Operation> operations;
+    std::vector<std::string> notes;  // what the readers left out or changed, in words
     // Called by planners now and then with the share of an operation that is done, 0 to 1; may be
     // empty.
     std::function<void(double)> progress;
@@ -95,9 +96,14 @@ Job read_job(const std::string& file);
 
 // Geometry by itself, with clamped ends. Throws InputError.
 //
-// millimetres  of one unit of the file: 1 or 25.4
-std::vector<Surface> read_surfaces(const std::string& file, double millimetres = 1.0);
-// Closed to 1e-3 mm, simple, oriented counter-clockwise.
-Loop read_loop(const std::string& file, double millimetres = 1.0);
+// millimetres     of one unit of the file: 1 or 25.4; STEP and IGES name their own
+// mesh_tolerance  mm: how closely a mesh (STL) is followed, never below it (height_field.hpp)
+// notes           gets what was left out or changed; may be null
+std::vector<Surface> read_surfaces(const std::string& file,
+                                   double millimetres = 1.0,
+                                   double mesh_tolerance = 0.01,
+                                   std::vector<std::string>* notes = nullptr);
+// Closed to 1e-3 mm, simple, oriented counter-clockwise. `name` of a drawing may end in #layer.
+Loop read_loop(const std::string& name, double millimetres = 1.0);
 
 }  // namespace cusp::host

@@ -288,7 +288,9 @@ void JobReader::read_parts(JobTable& table, Operation& operation)
     for (const std::string& name : table.texts("floor").value_or(std::vector<std::string>{})) {
         const std::string path = path_of(name);
         if (surfaces_.count(path) == 0) {
-            surfaces_[path] = read_surfaces(path, unit_);
+            // half of what the floor may be off goes to a mesh's height field
+            surfaces_[path] =
+                read_surfaces(path, unit_, operation.floor_tolerance / 2, &job_.notes);
         }
         operation.floor_files.push_back(path);
         operation.floor.insert(operation.floor.end(), surfaces_[path].begin(),

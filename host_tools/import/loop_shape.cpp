@@ -101,17 +101,27 @@ const Segment* find_crossing(std::vector<Segment>& segments)
 
 void check_simple(const std::vector<Vec2d>& closed, const std::string& place)
 {
-    std::vector<Segment> segments;
-    for (std::size_t i = 0; i + 1 < closed.size(); ++i) {
-        segments.push_back({closed[i], closed[i + 1], i});
-    }
-    if (const Segment* at = find_crossing(segments)) {
-        throw InputError(fmt::format("{}: the loop crosses itself near x {:.3f} y {:.3f}", place,
-                                     at->a.x, at->a.y));
+    if (const auto at = crossing_of({closed})) {
+        throw InputError(
+            fmt::format("{}: the loop crosses itself near x {:.3f} y {:.3f}", place, at->x, at->y));
     }
 }
 
 }  // namespace
+
+std::optional<Vec2d> crossing_of(const std::vector<std::vector<Vec2d>>& closed)
+{
+    std::vector<Segment> segments;
+    std::size_t index = 0;
+    for (const std::vector<Vec2d>& polyline : closed) {
+        for (std::size_t i = 0; i + 1 < polyline.size(); ++i) {
+            segments.push_back({polyline[i], polyline[i + 1], index++});
+        }
+        index += 2;  // the next polyline's first segment is no neighbour of this one's last
+    }
+    const Segment* at = find_crossing(segments);
+    return at == nullptr ? std::nullopt : std::optional{at->a};
+}
 
 std::vector<Vec2d> loop_polyline(const Loop& loop, double tolerance)
 {

@@ -2,6 +2,7 @@
 // counter-clockwise.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ std::vector<Vec2d> loop_polyline(const Loop& loop, double tolerance);
 
 // Twice-covered areas count twice; positive where the polyline runs counter-clockwise.
 double signed_area(const std::vector<Vec2d>& closed);
+
+// Where closed polylines cross themselves or each other; none where they only touch.
+std::optional<Vec2d> crossing_of(const std::vector<std::vector<Vec2d>>& closed);
 
 // Even-odd test against a closed polyline.
 bool encloses(const std::vector<Vec2d>& closed, Vec2d point);

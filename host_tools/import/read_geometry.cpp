@@ -7,26 +7,27 @@
 #include <fstream>
 #include <sstream>
 
+#include "host_tools/import/cad_surfaces.hpp"
 #include "host_tools/import/dxf_curves.hpp"
 #include "host_tools/import/geometry_json.hpp"
+#include "host_tools/import/height_field.hpp"
 #include "host_tools/import/job.hpp"
 #include "host_tools/import/loop_shape.hpp"
+#include "host_tools/import/nurbs_validity.hpp"
+#include "host_tools/import/path_ending.hpp"
+#include "host_tools/import/stl_facets.hpp"
 #include "host_tools/import/text_of_file.hpp"
 
 #include "fmt/format.h"
 
 namespace cusp::host {
-namespace {
-
-std::string ending_of(const std::string& file)
+std::string path_ending(const std::string& file)
 {
     std::string ending = std::filesystem::path(file).extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return ending;
 }
-
-}  // namespace
 
 std::string text_of_file(const std::string& file)
 {
@@ -43,24 +44,79 @@ std::string text_of_file(const std::string& file)
     return text.str();
 }
 
-std::vector<Surface> read_surfaces(const std::string& file, double millimetres)
+namespace {
+
+// What becomes of a mesh, in words, where it is more than smooth facets.
+void describe(const std::string& file,
+              const Facets& facets,
+              const HeightField& field,
+              double tolerance,
+              std::vector<std::string>& notes)
 {
-    const std::string ending = ending_of(file);
+    constexpr double kShown = 1e-3;
+    if (facets.degenerate > 0) {
+        notes.push_back(
+            fmt::format("{}: {} facets without area left out", file, facets.degenerate));
+    }
+    if (field.overhang_area > kShown) {
+        notes.push_back(fmt::format(
+            "{}: overhangs: {:.4g} mm2 of facets look down over the base; what is below them is "
+            "out of reach from above and stays",
+            file, field.overhang_area));
+    }
+    if (field.open_share > kShown) {
+        notes.push_back(fmt::format(
+            "{}: no facet over {:.1f} % of its box; there the height is the mesh's lowest", file,
+            100 * field.open_share));
+    }
+    if (field.loose_share > 0) {
+        notes.push_back(fmt::format(
+            "{}: on {:.1f} % of the mesh (steps, sharp edges) the path keeps up to {:.3g} mm above "
+            "it instead of {:.3g} mm: a height field of {:.3g} mm cells follows no closer",
+            file, 100 * field.loose_share, field.lift, tolerance, field.cell));
+    }
+}
+
+}  // namespace
+
+std::vector<Surface> read_surfaces(const std::string& file,
+                                   double millimetres,
+                                   double mesh_tolerance,
+                                   std::vector<std::string>* notes)
+{
+    const std::string ending = path_ending(file);
     if (ending == ".json") {
         return read_json_surfaces(file, millimetres);
     }
-    throw InputError(
-        fmt::format("{}: surfaces are read from .json, not from \"{}\"", file, ending));
+    if (ending == ".stl") {
+        const Facets facets = read_stl(file, millimetres);
+        HeightField field = height_field(facets, mesh_tolerance);
+        if (notes != nullptr) {
+            describe(file, facets, field, mesh_tolerance, *notes);
+        }
+        check_surface(field.surface, file);
+        return {std::move(field.surface)};
+    }
+    if (ending == ".step" || ending == ".stp" || ending == ".iges" || ending == ".igs") {
+        return read_cad_surfaces(file);
+    }
+    throw InputError(fmt::format(
+        "{}: surfaces are read from .json, .stl, .step and .iges, not from \"{}\"", file, ending));
 }
 
-Loop read_loop(const std::string& file, double millimetres)
+Loop read_loop(const std::string& name, double millimetres)
 {
-    const std::string ending = ending_of(file);
+    // "plate.dxf#outline" asks for one layer
+    const std::size_t mark = name.rfind('#');
+    const bool layered = mark != std::string::npos && path_ending(name.substr(0, mark)) == ".dxf";
+    const std::string file = layered ? name.substr(0, mark) : name;
+    const std::string ending = path_ending(file);
     if (ending == ".json") {
         return closed_loop(read_json_curves(file, millimetres), file);
     }
     if (ending == ".dxf") {
-        return closed_loop(read_dxf_curves(file, millimetres), file);
+        return closed_loop(read_dxf_curves(file, millimetres, layered ? name.substr(mark + 1) : ""),
+                           name);
     }
     throw InputError(
         fmt::format("{}: loops are read from .json and .dxf, not from \"{}\"", file, ending));

@@ -72,6 +72,12 @@ std::vector<Loop> grouped(const std::vector<Curve>& curves,
 
 void check_nesting(const std::vector<std::vector<Vec2d>>& polylines, const std::string& place)
 {
+    if (const auto at = crossing_of(polylines)) {
+        throw InputError(
+            fmt::format("{}: trims cross themselves or each other near u {:.6g} v "
+                        "{:.6g}",
+                        place, at->x, at->y));
+    }
     for (std::size_t i = 0; i < polylines.size(); ++i) {
         const Vec2d inside = 0.5 * (polylines[i][0] + polylines[i][1]);
         std::size_t depth = 0;
@@ -81,8 +87,13 @@ void check_nesting(const std::vector<std::vector<Vec2d>>& polylines, const std::
         const bool outer = signed_area(polylines[i]) > 0;
         if (outer != (depth % 2 == 0)) {
             throw InputError(fmt::format(
-                "{}: trims contradict each other: loop {} runs {} and lies inside {} others", place,
-                i + 1, outer ? "counter-clockwise" : "clockwise", depth));
+                "{}: trims contradict each other: loop {} runs {} and lies inside {} others; "
+                "{}",
+                place, i + 1, outer ? "counter-clockwise" : "clockwise", depth,
+                outer        ? "what it encloses is there already: a hole runs clockwise"
+                : depth == 0 ? "a hole outside every outer loop: an outer loop runs "
+                               "counter-clockwise"
+                             : "a hole inside a hole"));
         }
     }
 }

@@ -13,8 +13,8 @@ namespace cusp::host {
 //
 // Returns the loops, an outer one first; where the file gives holes only, the edge of the domain is
 // the outer loop.
-// Errors: an open loop, one that leaves the domain, loops whose directions contradict their
-// nesting.
+// Errors: an open loop, one that leaves the domain, loops that cross, loops whose directions
+// contradict their nesting.
 std::vector<std::vector<Curve>> trim_loops(const std::vector<Curve>& curves,
                                            const Surface& surface,
                                            const std::string& place);

@@ -109,8 +109,59 @@ TEST(DxfCurves, RefuseBrokenDrawings)
     STRCMP_CONTAINS("is not a number", refused(drawing(line("0", "x", "4", "0"))).c_str());
     STRCMP_CONTAINS("LINE without group 11", refused(drawing("0\nLINE\n10\n0\n20\n0\n")).c_str());
     STRCMP_CONTAINS("radius -1", refused(drawing("0\nCIRCLE\n10\n0\n20\n0\n40\n-1\n")).c_str());
-    STRCMP_CONTAINS("ELLIPSE: known are", refused(drawing("0\nELLIPSE\n10\n0\n")).c_str());
+    STRCMP_CONTAINS("3DFACE: known are", refused(drawing("0\n3DFACE\n10\n0\n")).c_str());
     STRCMP_CONTAINS("no curve", refused(drawing("")).c_str());
     STRCMP_CONTAINS("open", refused(drawing(line("0", "0", "4", "0"))).c_str());
     STRCMP_CONTAINS("control points", refused(drawing("0\nSPLINE\n71\n3\n")).c_str());
+}
+
+TEST(DxfCurves, AreExactEllipses)
+{
+    DOUBLES_EQUAL(10 * kPi,
+                  area("0\nELLIPSE\n10\n3\n20\n1\n11\n3\n21\n4\n40\n0.4\n41\n0\n42\n"
+                       "6.283185307179586\n"),
+                  1e-3);
+    // half of it, closed by its long axis
+    DOUBLES_EQUAL(5 * kPi,
+                  area("0\nELLIPSE\n10\n0\n20\n0\n11\n5\n21\n0\n40\n0.4\n41\n0\n42\n"
+                       "3.141592653589793\n" +
+                       line("-5", "0", "5", "0")),
+                  1e-3);
+}
+
+TEST(DxfCurves, TakeOldPolylinesWithBulges)
+{
+    const auto vertex = [](const std::string& x, const std::string& y, const std::string& bulge) {
+        return "0\nVERTEX\n8\n0\n10\n" + x + "\n20\n" + y + "\n30\n0\n42\n" + bulge + "\n";
+    };
+    DOUBLES_EQUAL(
+        2 * 4 + kPi / 2,
+        area("0\nPOLYLINE\n8\n0\n66\n1\n70\n1\n" + vertex("0", "0", "0") + vertex("4", "0", "1") +
+             vertex("4", "2", "0") + vertex("0", "2", "0") + "0\nSEQEND\n8\n0\n"),
+        1e-3);
+}
+
+TEST(DxfCurves, BelieveTheDrawingThatItIsInInches)
+{
+    const std::string text =
+        "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n1\n9\n$MEASUREMENT\n70\n0\n0\nENDSEC\n"
+        "0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n10\n0\n20\n0\n40\n1\n0\nENDSEC\n0\nEOF\n";
+    const Loop loop = read_loop(folder.write("d.dxf", text));
+    DOUBLES_EQUAL(25.4 * 25.4 * kPi, signed_area(loop_polyline(loop, 1e-5)), 0.1);
+}
+
+TEST(DxfCurves, LeaveHiddenLayersOutAndTakeTheLayerAskedFor)
+{
+    const auto circle = [](const std::string& layer, const std::string& radius) {
+        return "0\nCIRCLE\n8\n" + layer + "\n10\n0\n20\n0\n40\n" + radius + "\n";
+    };
+    const std::string file = folder.write(
+        "d.dxf",
+        "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n0\nLAYER\n2\nnotes\n70\n0\n62\n-7\n"
+        "0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" +
+            circle("notes", "9") + circle("outline", "2") + "0\nENDSEC\n0\nEOF\n");
+    DOUBLES_EQUAL(4 * kPi, signed_area(loop_polyline(read_loop(file), 1e-5)), 1e-3);
+    DOUBLES_EQUAL(81 * kPi, signed_area(loop_polyline(read_loop(file + "#notes"), 1e-5)), 1e-2);
+    STRCMP_CONTAINS("no curve on the layer \"holes\"",
+                    refusal([&] { read_loop(file + "#holes"); }).c_str());
 }

@@ -82,3 +82,27 @@ TEST(TrimLoops, RefusesAnOpenTrim)
                                            "s");
                             }).c_str());
 }
+
+TEST(TrimLoops, RefusesAHoleOutsideTheOuterLoop)
+{
+    STRCMP_CONTAINS(
+        "outside every outer loop",
+        refusal([] {
+            trim_loops({square(0.1, 0.4), reversed(square(0.6, 0.9))}, unit_square(), "s");
+        }).c_str());
+}
+
+TEST(TrimLoops, RefusesLoopsThatCross)
+{
+    STRCMP_CONTAINS(
+        "cross", refusal([] {
+                     trim_loops({square(0.1, 0.6), reversed(square(0.4, 0.9))}, unit_square(), "s");
+                 }).c_str());
+}
+
+TEST(TrimLoops, RefusesALoopThatCrossesItself)
+{
+    Curve eight = square(0.1, 0.9);
+    std::swap(eight.points[1], eight.points[2]);
+    STRCMP_CONTAINS("cross", refusal([&] { trim_loops({eight}, unit_square(), "s"); }).c_str());
+}

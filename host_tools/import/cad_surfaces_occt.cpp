@@ -1,0 +1,323 @@
+// The one file that knows Open CASCADE: it reads the model, turns every face into a B-spline and
+// hands surface and trimming curves over.
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "host_tools/import/cad_surfaces.hpp"
+#include "host_tools/import/loop_shape.hpp"
+#include "host_tools/import/nurbs_validity.hpp"
+#include "host_tools/import/path_ending.hpp"
+#include "host_tools/import/text_of_file.hpp"
+#include "host_tools/import/trim_loops.hpp"
+#include "host_tools/input_error/input_error.hpp"
+#include "host_tools/nurbs/knot_insertion.hpp"
+
+#include "fmt/format.h"
+#include "opencascade/BRepBuilderAPI_NurbsConvert.hxx"
+#include "opencascade/BRepBuilderAPI_Sewing.hxx"
+#include "opencascade/BRepLib.hxx"
+#include "opencascade/BRepTools.hxx"
+#include "opencascade/BRepTools_WireExplorer.hxx"
+#include "opencascade/BRep_Builder.hxx"
+#include "opencascade/BRep_Tool.hxx"
+#include "opencascade/Geom2dConvert.hxx"
+#include "opencascade/Geom2d_BSplineCurve.hxx"
+#include "opencascade/Geom2d_TrimmedCurve.hxx"
+#include "opencascade/GeomConvert.hxx"
+#include "opencascade/Geom_BSplineSurface.hxx"
+#include "opencascade/IGESControl_Reader.hxx"
+#include "opencascade/Message.hxx"
+#include "opencascade/Message_Messenger.hxx"
+#include "opencascade/STEPControl_Reader.hxx"
+#include "opencascade/Standard_Failure.hxx"
+#include "opencascade/TopExp_Explorer.hxx"
+#include "opencascade/TopoDS.hxx"
+#include "opencascade/TopoDS_Edge.hxx"
+#include "opencascade/TopoDS_Face.hxx"
+#include "opencascade/TopoDS_Solid.hxx"
+
+namespace cusp::host {
+namespace {
+
+// Ends of neighbouring edges this near in (u, v), as a share of the domain, are the same vertex:
+// model files keep vertices to 1e-3 mm at best.
+constexpr double kSameVertex = 2e-3;
+// Normals below this rise stand upright.
+constexpr double kLeastRise = 1e-6;
+constexpr double kSewing = 1e-3;  // mm
+
+Vec3d vec_of(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
+
+std::vector<double> list_of(const TColStd_Array1OfReal& knots)
+{
+    return {knots.begin(), knots.end()};
+}
+
+TopoDS_Shape read_shape(const std::string& file)
+{
+    Message::DefaultMessenger()->ChangePrinters().Clear();
+    text_of_file(file);  // says why a file can't be read
+    const std::string ending = path_ending(file);
+    const bool step = ending == ".step" || ending == ".stp";
+    std::unique_ptr<XSControl_Reader> reader;
+    if (step) {
+        reader = std::make_unique<STEPControl_Reader>();
+    } else {
+        reader = std::make_unique<IGESControl_Reader>();
+    }
+    if (reader->ReadFile(file.c_str()) != IFSelect_RetDone) {
+        throw InputError(fmt::format("{}: this is no {} file", file, step ? "STEP" : "IGES"));
+    }
+    reader->TransferRoots();
+    const TopoDS_Shape shape = reader->OneShape();
+    if (shape.IsNull()) {
+        throw InputError(file + ": the file holds no shape");
+    }
+    return shape;
+}
+
+struct SolidFace {
+    TopoDS_Face face;
+    bool solid;
+};
+
+void add_faces(const TopoDS_Shape& shape, bool solid, std::vector<SolidFace>& faces)
+{
+    for (TopExp_Explorer at{shape, TopAbs_FACE, solid ? TopAbs_SHAPE : TopAbs_SOLID}; at.More();
+         at.Next()) {
+        faces.push_back({TopoDS::Face(at.Current()), solid});
+    }
+}
+
+// Faces outside solids, sewn: a shell that closes becomes a solid with its faces turned outwards.
+void add_loose_faces(const TopoDS_Shape& shape, std::vector<SolidFace>& faces)
+{
+    BRepBuilderAPI_Sewing sewing{kSewing};
+    bool any = false;
+    for (TopExp_Explorer at{shape, TopAbs_FACE, TopAbs_SOLID}; at.More(); at.Next()) {
+        sewing.Add(at.Current());
+        any = true;
+    }
+    if (!any) {
+        return;
+    }
+    sewing.Perform();
+    const TopoDS_Shape sewn = sewing.SewedShape();
+    const BRep_Builder builder;
+    for (TopExp_Explorer at{sewn, TopAbs_SHELL}; at.More(); at.Next()) {
+        TopoDS_Solid solid;
+        builder.MakeSolid(solid);
+        builder.Add(solid, at.Current());
+        const bool closed = BRep_Tool::IsClosed(at.Current()) && BRepLib::OrientClosedSolid(solid);
+        add_faces(closed ? TopoDS_Shape{solid} : at.Current(), closed, faces);
+    }
+    for (TopExp_Explorer at{sewn, TopAbs_FACE, TopAbs_SHELL}; at.More(); at.Next()) {
+        faces.push_back({TopoDS::Face(at.Current()), false});
+    }
+}
+
+// The part of the surface that the face uses, with clamped ends.
+Surface surface_of(const TopoDS_Face& face)
+{
+    const Handle(Geom_BSplineSurface) found =
+        GeomConvert::SurfaceToBSplineSurface(BRep_Tool::Surface(face));
+    const Handle(Geom_BSplineSurface) spline = Handle(Geom_BSplineSurface)::DownCast(found->Copy());
+    double u0 = 0;
+    double u1 = 0;
+    double v0 = 0;
+    double v1 = 0;
+    BRepTools::UVBounds(face, u0, u1, v0, v1);
+    double low_u = 0;
+    double high_u = 0;
+    double low_v = 0;
+    double high_v = 0;
+    spline->Bounds(low_u, high_u, low_v, high_v);
+    if (!spline->IsUPeriodic()) {
+        u0 = std::max(u0, low_u);
+        u1 = std::min(u1, high_u);
+    }
+    if (!spline->IsVPeriodic()) {
+        v0 = std::max(v0, low_v);
+        v1 = std::min(v1, high_v);
+    }
+    spline->Segment(u0, u1, v0, v1);
+    Surface surface;
+    surface.degree_u = spline->UDegree();
+    surface.degree_v = spline->VDegree();
+    surface.size_u = spline->NbUPoles();
+    surface.size_v = spline->NbVPoles();
+    surface.knots_u = list_of(spline->UKnotSequence());
+    surface.knots_v = list_of(spline->VKnotSequence());
+    for (int i = 1; i <= surface.size_u; ++i) {
+        for (int j = 1; j <= surface.size_v; ++j) {
+            surface.points.push_back(vec_of(spline->Pole(i, j)));
+            surface.weights.push_back(spline->Weight(i, j));
+        }
+    }
+    return surface;
+}
+
+Curve trim_of(const TopoDS_Edge& edge, const TopoDS_Face& face, const std::string& place)
+{
+    double first = 0;
+    double last = 0;
+    const Handle(Geom2d_Curve) found = BRep_Tool::CurveOnSurface(edge, face, first, last);
+    if (found.IsNull() || !(first < last)) {
+        throw InputError(place + ": an edge has no curve on the face");
+    }
+    const Handle(Geom2d_BSplineCurve) spline = Geom2dConvert::CurveToBSplineCurve(
+        Handle(Geom2d_Curve)(new Geom2d_TrimmedCurve(found, first, last)));
+    Curve curve;
+    curve.degree = spline->Degree();
+    curve.knots = list_of(spline->KnotSequence());
+    for (int i = 1; i <= spline->NbPoles(); ++i) {
+        curve.points.push_back({spline->Pole(i).X(), spline->Pole(i).Y(), 0});
+        curve.weights.push_back(spline->Weight(i));
+    }
+    check_curve(curve, place);
+    curve = clamped(curve);
+    return edge.Orientation() == TopAbs_REVERSED ? reversed(curve) : curve;
+}
+
+// On a surface that closes on itself the trims may stand whole periods away from the piece.
+void shift_into_domain(std::vector<Curve>& curves, const TopoDS_Face& face, const Surface& s)
+{
+    const Handle(Geom_Surface) whole = BRep_Tool::Surface(face);
+    const auto shift = [&](double Vec3d::*axis, double period, double low, double high) {
+        double least = curves.front().points.front().*axis;
+        double most = least;
+        for (const Curve& curve : curves) {
+            for (const Vec3d& p : curve.points) {
+                least = std::min(least, p.*axis);
+                most = std::max(most, p.*axis);
+            }
+        }
+        const double by = period * std::round((low + high - least - most) / (2 * period));
+        for (Curve& curve : curves) {
+            for (Vec3d& p : curve.points) {
+                p.*axis += by;
+            }
+        }
+    };
+    if (!curves.empty() && whole->IsUPeriodic()) {
+        shift(&Vec3d::x, whole->UPeriod(), s.u_begin(), s.u_end());
+    }
+    if (!curves.empty() && whole->IsVPeriodic()) {
+        shift(&Vec3d::y, whole->VPeriod(), s.v_begin(), s.v_end());
+    }
+}
+
+// Rounding of the file put right: points just outside the domain, ends that nearly meet.
+void tidy(std::vector<Curve>& loop, const Surface& s)
+{
+    const double width = s.u_end() - s.u_begin();
+    const double height = s.v_end() - s.v_begin();
+    const auto pulled = [](double value, double low, double high) {
+        const double slack = kSameVertex * (high - low);
+        return value < low - slack || value > high + slack ? value : std::clamp(value, low, high);
+    };
+    for (Curve& curve : loop) {
+        for (Vec3d& p : curve.points) {
+            p = {pulled(p.x, s.u_begin(), s.u_end()), pulled(p.y, s.v_begin(), s.v_end()), 0};
+        }
+    }
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        Vec3d& end = loop[i].points.back();
+        Vec3d& next = loop[(i + 1) % loop.size()].points.front();
+        if (std::abs(end.x - next.x) <= kSameVertex * width &&
+            std::abs(end.y - next.y) <= kSameVertex * height) {
+            end = next = 0.5 * (end + next);
+        }
+    }
+}
+
+void add_trims(const TopoDS_Face& face, const std::string& place, Surface& surface)
+{
+    std::vector<Curve> curves;
+    for (TopExp_Explorer wires{face, TopAbs_WIRE}; wires.More(); wires.Next()) {
+        std::vector<Curve> loop;
+        for (BRepTools_WireExplorer at{TopoDS::Wire(wires.Current()), face}; at.More(); at.Next()) {
+            loop.push_back(trim_of(at.Current(), face, place));
+        }
+        shift_into_domain(loop, face, surface);
+        tidy(loop, surface);
+        curves.insert(curves.end(), loop.begin(), loop.end());
+    }
+    surface.trims = trim_loops(curves, surface, place);
+    const double whole =
+        (surface.u_end() - surface.u_begin()) * (surface.v_end() - surface.v_begin());
+    constexpr double kWhole = 1e-9;
+    if (surface.trims.size() == 1 &&
+        std::abs(signed_area(loop_polyline(surface.trims[0], 1e-3 * std::sqrt(whole))) - whole) <=
+            kWhole * whole) {
+        surface.trims.clear();  // the edge of the domain trims nothing
+    }
+}
+
+// Whether a face of a solid looks up somewhere; `outwards` is +1 where du x dv points out.
+bool looks_up(const Surface& s, double outwards)
+{
+    constexpr int kLooks = 16;
+    for (int k = 0; k < kLooks * kLooks; ++k) {
+        const double a = (k % kLooks + 0.5) / kLooks;
+        const double b = (k / kLooks + 0.5) / kLooks;
+        const SurfacePoint p = derivatives_at(s, s.u_begin() + a * (s.u_end() - s.u_begin()),
+                                              s.v_begin() + b * (s.v_end() - s.v_begin()));
+        const Vec3d n = cross(p.du, p.dv);
+        if (outwards * n.z > kLeastRise * norm(n)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+std::vector<Surface> surfaces_of(const std::string& file)
+{
+    const TopoDS_Shape shape = read_shape(file);
+    std::vector<SolidFace> faces;
+    for (TopExp_Explorer at{shape, TopAbs_SOLID}; at.More(); at.Next()) {
+        add_faces(at.Current(), true, faces);
+    }
+    add_loose_faces(shape, faces);
+    if (faces.empty()) {
+        throw InputError(file + ": the file holds no face");
+    }
+    std::vector<Surface> surfaces;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        const std::string place = fmt::format("{}: face {}", file, i + 1);
+        // with the face turned forward its wires keep the material on their left in (u, v)
+        const TopoDS_Shape converted =
+            BRepBuilderAPI_NurbsConvert{faces[i].face.Oriented(TopAbs_FORWARD), true}.Shape();
+        const TopoDS_Face face = TopoDS::Face(converted.Oriented(TopAbs_FORWARD));
+        Surface surface = surface_of(face);
+        const double outwards = faces[i].face.Orientation() == TopAbs_REVERSED ? -1.0 : 1.0;
+        if (faces[i].solid && !looks_up(surface, outwards)) {
+            continue;
+        }
+        check_surface(surface, place);
+        surface = clamped(surface);
+        add_trims(face, place, surface);
+        surfaces.push_back(std::move(surface));
+    }
+    if (surfaces.empty()) {
+        throw InputError(file + ": no face looks up: is z the tool's axis?");
+    }
+    return surfaces;
+}
+
+}  // namespace
+
+std::string missing_for_cad_files() { return ""; }
+
+std::vector<Surface> read_cad_surfaces(const std::string& file)
+{
+    try {
+        return surfaces_of(file);
+    } catch (const Standard_Failure& failure) {
+        throw InputError(
+            fmt::format("{}: Open CASCADE gave up: {}", file, failure.GetMessageString()));
+    }
+}
+
+}  // namespace cusp::host

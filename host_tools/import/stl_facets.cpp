@@ -1,0 +1,222 @@
+// Binary STL: 80 bytes of title, a count, 50 bytes a facet. ASCII STL: words.
+#include "host_tools/import/stl_facets.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <string_view>
+
+#include "host_tools/import/nurbs_validity.hpp"
+#include "host_tools/import/text_of_file.hpp"
+#include "host_tools/input_error/input_error.hpp"
+
+#include "fmt/format.h"
+
+namespace cusp::host {
+namespace {
+
+constexpr std::size_t kHead = 84;
+constexpr std::size_t kFacet = 50;
+constexpr std::size_t kNormal = 12;
+constexpr const char* kAxes = "xyz";
+
+// Bytes in the order of the file, least first.
+std::uint32_t word_at(const std::string& bytes, std::size_t at)
+{
+    std::uint32_t word = 0;
+    for (std::size_t i = 4; i-- > 0;) {
+        word = word << 8U | static_cast<unsigned char>(bytes[at + i]);
+    }
+    return word;
+}
+
+double float_at(const std::string& bytes, std::size_t at)
+{
+    const std::uint32_t word = word_at(bytes, at);
+    float value = 0;
+    std::memcpy(&value, &word, sizeof value);
+    return static_cast<double>(value);
+}
+
+void check_coordinate(double value, std::size_t axis, const std::string& place)
+{
+    if (!(std::abs(value) <= kLargestCoordinate)) {  // also refuses what is no number
+        throw InputError(fmt::format("{}: a corner has {} = {} mm, the limit is {:g}", place,
+                                     kAxes[axis], value, kLargestCoordinate));
+    }
+}
+
+void add(const std::array<Vec3d, 3>& corners, Facets& facets)
+{
+    constexpr double kLeastHeight = 1e-9;  // mm
+    const double area2 = norm(cross(corners[1] - corners[0], corners[2] - corners[0]));
+    const double longest = std::max({norm(corners[1] - corners[0]), norm(corners[2] - corners[1]),
+                                     norm(corners[0] - corners[2])});
+    if (area2 > kLeastHeight * longest) {
+        facets.triangles.push_back(corners);
+    } else {
+        ++facets.degenerate;
+    }
+}
+
+Facets read_binary(const std::string& bytes, double unit, const std::string& file)
+{
+    const std::size_t count = word_at(bytes, kHead - 4);
+    if (bytes.size() < kHead + count * kFacet) {
+        throw InputError(
+            fmt::format("{}: cut short: {} facets are announced, that is {} bytes; the file has {}",
+                        file, count, kHead + count * kFacet, bytes.size()));
+    }
+    Facets facets;
+    for (std::size_t k = 0; k < count; ++k) {
+        std::array<Vec3d, 3> corners;
+        for (std::size_t c = 0; c < 3; ++c) {
+            std::array<double, 3> xyz{};
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                xyz[axis] =
+                    unit * float_at(bytes, kHead + k * kFacet + kNormal + 12 * c + 4 * axis);
+                check_coordinate(xyz[axis], axis, fmt::format("{}: facet {}", file, k + 1));
+            }
+            corners[c] = {xyz[0], xyz[1], xyz[2]};
+        }
+        add(corners, facets);
+    }
+    return facets;
+}
+
+// The words of an ASCII file with the lines they stand on.
+class Words {
+public:
+    Words(const std::string& text, std::string file) : rest_{text}, file_{std::move(file)} {}
+
+    // The next word in small letters; "" at the end.
+    std::string next()
+    {
+        while (!rest_.empty() && std::isspace(static_cast<unsigned char>(rest_.front())) != 0) {
+            line_ += rest_.front() == '\n' ? 1 : 0;
+            rest_.remove_prefix(1);
+        }
+        std::string word;
+        while (!rest_.empty() && std::isspace(static_cast<unsigned char>(rest_.front())) == 0) {
+            word += static_cast<char>(std::tolower(static_cast<unsigned char>(rest_.front())));
+            rest_.remove_prefix(1);
+        }
+        return word;
+    }
+    void skip_line() { rest_.remove_prefix(std::min(rest_.find('\n'), rest_.size())); }
+    void expect(const char* wanted)
+    {
+        const std::string word = next();
+        if (word != wanted) {
+            refuse(word, fmt::format("\"{}\" is needed", wanted));
+        }
+    }
+    double number()
+    {
+        const std::string word = next();
+        const char* begin = word.data() + (!word.empty() && word[0] == '+' ? 1 : 0);
+        const char* end = word.data() + word.size();
+        double value = 0;
+        const auto [stop, error] = std::from_chars(begin, end, value);
+        if (error != std::errc{} || stop != end || begin == end) {
+            refuse(word, "a number is needed");
+        }
+        return value;
+    }
+    [[noreturn]] void refuse(const std::string& word, const std::string& needed) const
+    {
+        throw InputError(word.empty() ? fmt::format("{}:{}: cut short: {}", file_, line_, needed)
+                                      : fmt::format("{}:{}: \"{}\" found, {}", file_, line_,
+                                                    word.substr(0, 40), needed));
+    }
+    std::string place() const { return fmt::format("{}:{}", file_, line_); }
+
+private:
+    std::string_view rest_;
+    std::string file_;
+    int line_{1};
+};
+
+std::array<Vec3d, 3> read_facet(Words& words, double unit)
+{
+    words.expect("normal");
+    for (int i = 0; i < 3; ++i) {
+        words.next();  // the normal follows from the corners; some write "nan" here
+    }
+    words.expect("outer");
+    words.expect("loop");
+    std::array<Vec3d, 3> corners;
+    for (Vec3d& corner : corners) {
+        words.expect("vertex");
+        std::array<double, 3> xyz{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            xyz[axis] = unit * words.number();
+            check_coordinate(xyz[axis], axis, words.place());
+        }
+        corner = {xyz[0], xyz[1], xyz[2]};
+    }
+    words.expect("endloop");
+    words.expect("endfacet");
+    return corners;
+}
+
+Facets read_ascii(const std::string& text, double unit, const std::string& file)
+{
+    Words words{text, file};
+    Facets facets;
+    words.expect("solid");
+    words.skip_line();  // its name may be anything
+    bool open = true;
+    for (std::string word = words.next();; word = words.next()) {
+        if (word == "facet" && open) {
+            add(read_facet(words, unit), facets);
+        } else if (word == "endsolid" && open) {
+            words.skip_line();
+            open = false;
+        } else if (word == "solid" && !open) {
+            words.skip_line();
+            open = true;
+        } else if (word.empty() && !open) {
+            return facets;
+        } else {
+            words.refuse(word,
+                         open ? "\"facet\" or \"endsolid\" is needed" : "\"solid\" is needed");
+        }
+    }
+}
+
+// A binary title may start with "solid", too, so the size decides first.
+bool is_ascii(const std::string& bytes)
+{
+    if (bytes.size() >= kHead && bytes.size() == kHead + word_at(bytes, kHead - 4) * kFacet) {
+        return false;
+    }
+    const std::size_t begin = bytes.find_first_not_of(" \t\r\n");
+    return begin != std::string::npos && bytes.compare(begin, 5, "solid") == 0 &&
+           bytes.find('\0') == std::string::npos;
+}
+
+}  // namespace
+
+Facets read_stl(const std::string& file, double millimetres)
+{
+    const std::string bytes = text_of_file(file);
+    const bool ascii = is_ascii(bytes);
+    if (!ascii && bytes.size() < kHead) {
+        throw InputError(fmt::format(
+            "{}: no STL: neither \"solid\" nor the {} bytes that a binary one has at least", file,
+            kHead));
+    }
+    Facets facets =
+        ascii ? read_ascii(bytes, millimetres, file) : read_binary(bytes, millimetres, file);
+    if (facets.triangles.empty()) {
+        throw InputError(
+            fmt::format("{}: holds no facet with an area ({} without)", file, facets.degenerate));
+    }
+    return facets;
+}
+
+}  // namespace cusp::host

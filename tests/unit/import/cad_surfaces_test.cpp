@@ -1,0 +1,179 @@
+// STEP and IGES: written by Open CASCADE, read back.
+#include "host_tools/import/cad_surfaces.hpp"
+
+#include <cmath>
+
+#include "opencascade/BRepAlgoAPI_Cut.hxx"
+#include "opencascade/BRepBuilderAPI_MakeFace.hxx"
+#include "opencascade/BRepPrimAPI_MakeBox.hxx"
+#include "opencascade/BRepPrimAPI_MakeCylinder.hxx"
+#include "opencascade/BRepPrimAPI_MakeSphere.hxx"
+#include "opencascade/GeomAPI_PointsToBSplineSurface.hxx"
+#include "opencascade/Geom_BSplineSurface.hxx"
+#include "opencascade/IGESControl_Controller.hxx"
+#include "opencascade/IGESControl_Writer.hxx"
+#include "opencascade/Interface_Static.hxx"
+#include "opencascade/STEPControl_Controller.hxx"
+#include "opencascade/STEPControl_Writer.hxx"
+#include "opencascade/TColgp_Array2OfPnt.hxx"
+#include "opencascade/gp_Ax2.hxx"
+// CppUTest's macros come last
+#include "CppUTest/TestHarness.h"
+// it needs the harness before it
+#include "CppUTest/MemoryLeakWarningPlugin.h"
+
+#include "host_tools/import/job.hpp"
+#include "host_tools/import/loop_shape.hpp"
+#include "tests/unit/import/scratch_folder.hpp"
+
+using namespace cusp;
+using namespace cusp::host;
+
+namespace {
+
+// A block of 60 x 40 x 20, its top at z = 0, with a ball's hollow and a round hole through it.
+TopoDS_Shape block()
+{
+    const TopoDS_Shape box = BRepPrimAPI_MakeBox(gp_Pnt(0, 0, -20), gp_Pnt(60, 40, 0)).Shape();
+    const TopoDS_Shape hollow =
+        BRepAlgoAPI_Cut(box, BRepPrimAPI_MakeSphere(gp_Pnt(20, 20, 5), 13).Shape()).Shape();
+    return BRepAlgoAPI_Cut(
+               hollow, BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(45, 20, -30), gp_Dir(0, 0, 1)), 6, 40)
+                           .Shape())
+        .Shape();
+}
+
+double height(double x, double y) { return 3 * std::sin(x / 8) * std::cos(y / 9) - 5; }
+
+Handle(Geom_BSplineSurface) wavy_surface()
+{
+    TColgp_Array2OfPnt points(1, 12, 1, 10);
+    for (int i = 1; i <= 12; ++i) {
+        for (int j = 1; j <= 10; ++j) {
+            const double x = 5.0 * (i - 1);
+            const double y = 5.0 * (j - 1);
+            points.SetValue(i, j, gp_Pnt(x, y, height(x, y)));
+        }
+    }
+    return GeomAPI_PointsToBSplineSurface(points).Surface();
+}
+
+struct Seen {
+    double area{};  // from above, of what the trims leave
+    double low{1e9};
+    double high{-1e9};
+};
+
+// By squares in (u, v).
+Seen seen_from_above(const std::vector<Surface>& surfaces)
+{
+    constexpr int kLooks = 200;
+    Seen seen;
+    for (const Surface& s : surfaces) {
+        std::vector<std::vector<Vec2d>> loops;
+        for (const auto& loop : s.trims) {
+            loops.push_back(loop_polyline(loop, 1e-3));
+        }
+        const double du = (s.u_end() - s.u_begin()) / kLooks;
+        const double dv = (s.v_end() - s.v_begin()) / kLooks;
+        for (int k = 0; k < kLooks * kLooks; ++k) {
+            const double u = s.u_begin() + (k % kLooks + 0.5) * du;
+            const double v = s.v_begin() + (k / kLooks + 0.5) * dv;
+            bool inside = loops.empty();
+            for (const auto& loop : loops) {
+                inside = inside != encloses(loop, {u, v});
+            }
+            const SurfacePoint p = derivatives_at(s, u, v);
+            if (inside) {
+                seen.area += std::abs(cross(p.du, p.dv).z) * du * dv;
+                seen.low = std::min(seen.low, p.point.z);
+                seen.high = std::max(seen.high, p.point.z);
+            }
+        }
+    }
+    return seen;
+}
+
+// Open CASCADE keeps its tables to the end of the process: counting leaks is off from the start on.
+const bool counting_off = [] {
+    MemoryLeakWarningPlugin::turnOffNewDeleteOverloads();
+    return true;
+}();
+
+constexpr double kHole = 36 * 3.141592653589793;
+
+}  // namespace
+
+TEST_GROUP(CadSurfaces)
+{
+    ScratchFolder folder;
+    std::string step(const TopoDS_Shape& shape, const char* unit = "MM")
+    {
+        STEPControl_Controller::Init();
+        Interface_Static::SetCVal("write.step.unit", unit);  // asked when the writer is made
+        STEPControl_Writer writer;
+        writer.Transfer(shape, STEPControl_AsIs);
+        const std::string file = folder.path("part.step");
+        CHECK_EQUAL(IFSelect_RetDone, writer.Write(file.c_str()));
+        return file;
+    }
+    std::string iges(const TopoDS_Shape& shape, bool solids)
+    {
+        IGESControl_Controller::Init();
+        IGESControl_Writer writer{"MM", solids ? 1 : 0};
+        writer.AddShape(shape);
+        writer.ComputeModel();
+        const std::string file = folder.path("part.igs");
+        CHECK(writer.Write(file.c_str()));
+        return file;
+    }
+    void check_block(const std::string& file)
+    {
+        const auto surfaces = read_surfaces(file);
+        LONGS_EQUAL(2, surfaces.size());  // top and hollow; the other faces look nowhere up
+        const Seen seen = seen_from_above(surfaces);
+        DOUBLES_EQUAL(60 * 40 - kHole, seen.area, 2.0);
+        DOUBLES_EQUAL(-8, seen.low, 1e-2);
+        DOUBLES_EQUAL(0, seen.high, 1e-9);
+    }
+};
+
+TEST(CadSurfaces, OfASolidInStepAreThoseThatLookUp) { check_block(step(block())); }
+
+TEST(CadSurfaces, OfAStepFileInInchesAreInMillimetres) { check_block(step(block(), "INCH")); }
+
+TEST(CadSurfaces, OfASolidInIgesAreThoseThatLookUp) { check_block(iges(block(), true)); }
+
+TEST(CadSurfaces, OfLooseIgesFacesThatCloseAVolumeAreThoseThatLookUp)
+{
+    check_block(iges(block(), false));
+}
+
+TEST(CadSurfaces, KeepAFreeFormFaceAndItsShape)
+{
+    const Handle(Geom_BSplineSurface) wavy = wavy_surface();
+    for (const std::string& file : {step(BRepBuilderAPI_MakeFace(wavy, 1e-6).Shape()),
+                                    iges(BRepBuilderAPI_MakeFace(wavy, 1e-6).Shape(), false)}) {
+        const auto surfaces = read_surfaces(file);
+        LONGS_EQUAL(1, surfaces.size());
+        LONGS_EQUAL(0, surfaces[0].trims.size());
+        const Seen seen = seen_from_above(surfaces);
+        DOUBLES_EQUAL(55 * 45, seen.area, 0.5);
+        for (const double share : {0.1, 0.37, 0.8}) {
+            const Surface& s = surfaces[0];
+            const Vec3d p = point_at(s, s.u_begin() + share * (s.u_end() - s.u_begin()),
+                                     s.v_begin() + 0.6 * (s.v_end() - s.v_begin()));
+            DOUBLES_EQUAL(height(p.x, p.y), p.z, 0.02);
+        }
+    }
+}
+
+TEST(CadSurfaces, AreRefusedFromWhatIsNoModel)
+{
+    STRCMP_CONTAINS("this is no STEP file",
+                    refusal([&] { read_surfaces(folder.write("x.step", "nothing")); }).c_str());
+    STRCMP_CONTAINS("can't be read",
+                    refusal([&] { read_surfaces(folder.path("absent.stp")); }).c_str());
+    STRCMP_CONTAINS("igs: ",
+                    refusal([&] { read_surfaces(folder.write("x.igs", "nothing")); }).c_str());
+}
