@@ -24,11 +24,14 @@ std::vector<FarPoint> border_points(const Contour& border, const EdgeTree& tree,
 {
     std::vector<FarPoint> points;
     for (const Edge& edge : border) {
-        const int n = 1 + static_cast<int>(4.0 * length(edge) / reach);
-        for (int i = 0; i < n; ++i) {
-            const Vec2d p = point_on(edge, static_cast<double>(i) / n);
+        const double whole = length(edge);
+        for (double along = 0.0; along < whole;) {
+            const Vec2d p = point_on(edge, along / whole);
             const bool near = tree.any_nearer(p, reach);
             points.push_back({p, near ? 0.0 : tree.nearest(p, 1e300)});
+            // What lies far is near the ends of an edge.
+            const bool amid = near && along > 2.0 * reach && whole - along > 3.0 * reach;
+            along += amid ? reach : 0.25 * reach;
         }
     }
     return points;

@@ -70,19 +70,21 @@ private:
     struct Homogeneous {
         double x, y, z, w;
     };
-    struct Piece {
-        double x0, y0, x1, y1, z0, z1;  // box
+    // What most queries read of a piece stands in its first cache line.
+    struct alignas(64) Piece {
         // A plane above the piece, where it is a graph: z = level + gradient . (x, y).
         Vec2d gradient;
         double level;
-        double thickness;  // vertical, of the slab under that plane
-        double rise;       // of the tip over the plane at the tool's axis
-        double contact;    // where the tool touches the plane: axis + gradient * contact
+        double rise;  // of the tip over the plane at the tool's axis
+        double z1;
+        double contact;             // where the tool touches the plane: axis + gradient * contact
+        double thickness;           // vertical, of the slab under that plane
+        std::uint32_t child;        // 0: not yet halved
+        bool graph;                 // false where too steep for a plane z(x, y)
+        double x0, y0, x1, y1, z0;  // box, with z1
         // A box turned with the piece: ends along (1, 0, gx) and aside of it, made unit vectors.
         std::array<double, 4> lateral;
-        double secant;        // of the plane's slope
-        bool graph;           // false where too steep for a plane z(x, y)
-        std::uint32_t child;  // 0: not yet halved
+        double secant;      // of the plane's slope
         std::uint32_t net;  // first of its control points, v fastest; the first child takes it over
         std::uint32_t patch;
         std::array<float, 2> u;  // its part of the patch, as shares

@@ -10,6 +10,7 @@ namespace cusp::host {
 
 namespace {
 
+constexpr double kClosest = 0.3;      // of the tool's radius: samples along a loop are no closer
 constexpr double kLeastShare = 0.02;  // of the tool's radius: no interval is less
 
 // Curvature of the tip's height over a floor of that curvature and slope, for a ball.
@@ -147,14 +148,42 @@ double LevelInterval::by_ridge(Vec2d at, Vec2d direction, double most) const
     return good;
 }
 
+// Closer where the floor is uneven along the edge.
 void LevelInterval::along(const Edge& edge)
 {
-    const int n = 1 + static_cast<int>(length(edge) / (0.5 * floor_.tool().radius));
+    const double radius = floor_.tool().radius;
+    const double whole = length(edge);
+    const int n = 1 + static_cast<int>(whole / radius);
+    Sample last{};
     for (int i = 0; i < n; ++i) {
-        const double share = (i + 0.5) / n;
-        const Vec2d at = point_on(edge, share);
-        across(at, floor_.contact(at), left_normal(tangent_on(edge, share)));
+        const Sample next = sample(edge, (i + 0.5) / n);
+        if (i > 0) {
+            refine(edge, whole, last, next);
+        }
+        last = next;
     }
+}
+
+LevelInterval::Sample LevelInterval::sample(const Edge& edge, double share)
+{
+    const Vec2d at = point_on(edge, share);
+    const Vec2d way = tangent_on(edge, share);
+    const Sample result{share, way, floor_.contact(at)};
+    across(at, result.contact, left_normal(way));
+    return result;
+}
+
+void LevelInterval::refine(const Edge& edge, double whole, const Sample& a, const Sample& b)
+{
+    const double apart = (b.share - a.share) * whole;
+    const bool known = a.contact.found && b.contact.found;
+    if (apart < kClosest * floor_.tool().radius ||
+        (known && as_expected(a.contact, b.contact, unit(a.way + b.way), apart))) {
+        return;
+    }
+    const Sample middle = sample(edge, 0.5 * (a.share + b.share));
+    refine(edge, whole, a, middle);
+    refine(edge, whole, middle, b);
 }
 
 void LevelInterval::around(Vec2d at)

@@ -27,6 +27,13 @@ public:
     double from(const Region2d& level);
 
 private:
+    struct Sample {
+        double share;  // of the edge
+        Vec2d way;
+        TipFloor::Contact contact;
+    };
+    Sample sample(const Edge& edge, double share);
+    void refine(const Edge& edge, double whole, const Sample& a, const Sample& b);
     double allowed(const TipFloor::Contact& contact, Vec2d direction) const;
     void across(Vec2d at, const TipFloor::Contact& here, Vec2d direction);
     bool as_expected(const TipFloor::Contact& a,
