@@ -134,6 +134,15 @@ TEST(JobReader, RefusesAnUnknownKeyAndNamesTheNearest)
                     refused_head("units = \"mm\"", "unit = \"mm\"").c_str());
 }
 
+TEST(JobReader, RefusesAKeyOfAnotherStrategyWithItsPlace)
+{
+    const std::string text = refused(kHead + pocket("scallop = 0.4\ngrid = [1, 1]\n"));
+    STRCMP_CONTAINS("grid: is a key of grid_pocket, not of contour_pocket", text.c_str());
+    STRCMP_CONTAINS("job.toml:19", text.c_str());
+    STRCMP_CONTAINS("step_over: is a key of adaptive_isocurve, complete_isocurves, parallel_planes",
+                    refused(kHead + pocket("scallop = 0.4\nstep_over = 2\n")).c_str());
+}
+
 TEST(JobReader, RefusesBrokenTomlWithItsLine)
 {
     STRCMP_CONTAINS("job.toml:2: not TOML", refused("units = \"mm\"\n[tool\n").c_str());

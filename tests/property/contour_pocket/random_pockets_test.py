@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+"""Plans random pockets and cuts them in memory: floors and walls are whole, no rapid move meets
+metal, and no more stays than the job allows.
+
+usage: random_pockets_test.py CUSP [CASES [FIRST_SEED]]
+
+A case whose loops cross is refused with the place, as it should be, and does not count. The pockets
+of cases that fail are kept, and named.
+"""
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+from random_pocket import RandomPocket
+
+REFUSALS = ("crosses", "lies outside", "lies inside", "fits nowhere")
+LEAST_GOUGE = 1e-3  # mm, what the judge's grid resolves
+
+
+def call(*words):
+    return subprocess.run([str(w) for w in words], capture_output=True, text=True, check=False)
+
+
+def fault(cusp, job, folder):
+    """What is wrong with the planned pocket; "" where nothing is, None where it is refused."""
+    program, figures = folder / "pocket.ngc", folder / "verify.json"
+    planned = call(cusp, "plan", job, "-o", program)
+    if planned.returncode == 2 and any(word in planned.stderr for word in REFUSALS):
+        return None
+    if planned.returncode != 0:
+        return f"plan: {planned.returncode} {planned.stderr[-300:]}"
+    verified = call(cusp, "verify", job, program, "--stats", figures)
+    if verified.returncode != 0:
+        return f"verify: {(verified.stdout + verified.stderr)[-300:]}"
+    found = json.loads(figures.read_text())
+    for name in ("gouge_max_mm", "wall_gouge_max_mm", "rapid_cut_max_mm"):
+        if found.get(name, 0.0) > LEAST_GOUGE:
+            return f"{name} {found[name]}"
+    return ""
+
+
+def main():
+    cusp = pathlib.Path(sys.argv[1]).resolve()
+    cases = int(sys.argv[2]) if len(sys.argv) > 2 else 6
+    seed = int(sys.argv[3]) if len(sys.argv) > 3 else 1990
+    faults = 0
+    judged = 0
+    while judged < cases:
+        folder = pathlib.Path(tempfile.mkdtemp(prefix=f"pocket-{seed}-"))
+        pocket = RandomPocket(seed)
+        found = fault(cusp, pocket.write(folder), folder)
+        judged += found is not None
+        words = "refused" if found is None else found or "whole"
+        print(f"seed {seed}: {pocket.floor_kind}, R {pocket.radius:.2f}: {words}", flush=True)
+        if found:
+            faults += 1
+            print(f"  kept in {folder}")
+        else:
+            shutil.rmtree(folder)
+        seed += 1
+    print(f"{judged} pockets, {faults} with a fault")
+    return 1 if faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
