@@ -13,7 +13,7 @@ namespace cusp::host {
 namespace {
 
 constexpr int kMostLevels = 20000;
-constexpr double kShare = 0.498;  // of a step: how far from a pass metal is cut by it
+constexpr double kShare = 0.4995;  // of a step: how far from a pass metal is cut by it
 
 struct Loop2d {
     Contour path;
@@ -40,12 +40,13 @@ NextLevel next_level(const RegionOffset& offset, double distance, double step, b
     const auto at_share = [&](double share) {
         return with_corner_spurs(offset.at(distance + share * step), rest, reach, offset, distance);
     };
-    auto best = rest.contours.empty() ? Region2d{} : at_share(1.0);
+    constexpr double kWhole = 2.0 * kShare;
+    auto best = rest.contours.empty() ? Region2d{} : at_share(kWhole);
     if (best) {
-        return {distance + step, std::move(*best)};
+        return {distance + kWhole * step, std::move(*best)};
     }
     double good = kShare;
-    double bad = 1.0;
+    double bad = kWhole;
     best = rest;
     for (int i = 0; i < 5; ++i) {
         const double middle = 0.5 * (good + bad);

@@ -9,6 +9,9 @@ namespace cusp::host {
 
 namespace {
 
+// The border of the rest may lie at just this reach from all of a level.
+constexpr double kRounding = 1.000001;
+
 struct FarPoint {
     Vec2d at;
     double apart;
@@ -24,14 +27,11 @@ std::vector<FarPoint> border_points(const Contour& border, const EdgeTree& tree,
 {
     std::vector<FarPoint> points;
     for (const Edge& edge : border) {
-        const double whole = length(edge);
-        for (double along = 0.0; along < whole;) {
-            const Vec2d p = point_on(edge, along / whole);
-            const bool near = tree.any_nearer(p, reach);
+        const int n = 1 + static_cast<int>(4.0 * length(edge) / reach);
+        for (int i = 0; i < n; ++i) {
+            const Vec2d p = point_on(edge, static_cast<double>(i) / n);
+            const bool near = tree.any_nearer(p, reach * kRounding);
             points.push_back({p, near ? 0.0 : tree.nearest(p, 1e300)});
-            // What lies far is near the ends of an edge.
-            const bool amid = near && along > 2.0 * reach && whole - along > 3.0 * reach;
-            along += amid ? reach : 0.25 * reach;
         }
     }
     return points;
@@ -89,7 +89,7 @@ std::optional<Spur> spur_for(const std::vector<FarPoint>& stretch,
     const Vec2d end = farthest.at + back * (reach / farthest.apart);
     const Edge line = line_edge(foot.point, end);
     const bool covered = std::all_of(stretch.begin(), stretch.end(), [&](const FarPoint& p) {
-        return distance_to(line, p.at) <= reach * 1.0001;
+        return distance_to(line, p.at) <= reach * kRounding;
     });
     if (!covered) {
         return std::nullopt;
