@@ -31,8 +31,8 @@ public:
     static constexpr double kNothing = -1e300;
 
     // The tip's lowest height over (x, y), at most `accuracy` above the true one on smooth
-    // surfaces.
-    Rest drop(Vec2d at) const;
+    // surfaces; or `slack` (mm), where that is more.
+    Rest drop(Vec2d at, double slack = 0.0) const;
 
     // Lower bound of the gap between the tool, moved straight from tip a to tip b, and the
     // surfaces: 0 where it keeps clear of them, negative (mm) by how much it may cut; along the
@@ -58,7 +58,7 @@ public:
         Vec3d normal;
         bool found;
     };
-    Contact contact(Vec2d at) const;
+    Contact contact(Vec2d at, double slack) const;
     static Section section(const Contact& contact, Vec2d along);
 
     const Tool& tool() const { return tool_; }
@@ -99,7 +99,11 @@ private:
     void measure(Piece& piece) const;
     void measure_plane(Piece& piece, const std::vector<Vec3d>& points) const;
     void halve(std::uint32_t piece) const;
-    double bound(const Piece& piece, Vec2d at, double best, bool& tight) const;
+    struct Query {
+        Vec2d at;
+        double thin;  // mm: pieces this thin are not halved
+    };
+    double bound(const Piece& piece, const Query& query, double best, bool& tight) const;
     double ball_gap(const Piece& piece, Vec3d a, Vec3d b) const;
     double axial_gap(const Piece& piece, Vec3d a, Vec3d b, double margin) const;
     double on_edges(const Piece& piece, Vec2d at) const;

@@ -80,9 +80,10 @@ double TipFloor::on_edges(const Piece& piece, Vec2d at) const
 
 // Upper bound of the tip's height that the piece asks for, as far as it is above `best`; tight
 // where halving it would change it by no more than its thickness.
-double TipFloor::bound(const Piece& piece, Vec2d at, double best, bool& tight) const
+double TipFloor::bound(const Piece& piece, const Query& query, double best, bool& tight) const
 {
     tight = false;
+    const Vec2d at = query.at;
     const Vec2d g = piece.gradient;
     const double by_plane =
         piece.graph ? piece.level + g.x * at.x + g.y * at.y + piece.rise : 1e300;
@@ -101,7 +102,7 @@ double TipFloor::bound(const Piece& piece, Vec2d at, double best, bool& tight) c
         const Vec2d contact = at + g * piece.contact;
         if (contact.x >= piece.x0 && contact.x <= piece.x1 && contact.y >= piece.y0 &&
             contact.y <= piece.y1) {
-            tight = piece.thickness <= accuracy_;
+            tight = piece.thickness <= query.thin;
             return std::min(by_plane, piece.z1);
         }
     }
@@ -114,12 +115,13 @@ double TipFloor::bound(const Piece& piece, Vec2d at, double best, bool& tight) c
         tight = std::max(piece.x1 - piece.x0, piece.y1 - piece.y0) < 5.0 * accuracy_;
         return by_box;
     }
-    tight = piece.thickness <= accuracy_;
+    tight = piece.thickness <= query.thin;
     return std::min({by_plane, by_box, on_edges(piece, at)});
 }
 
-TipFloor::Rest TipFloor::drop(Vec2d at) const
+TipFloor::Rest TipFloor::drop(Vec2d at, double slack) const
 {
+    const Query query{at, std::max(accuracy_, slack)};
     struct Entry {
         double height;
         std::uint32_t piece;
@@ -129,7 +131,7 @@ TipFloor::Rest TipFloor::drop(Vec2d at) const
     Rest best{kNothing, {0.0, 0.0}, 0};
     const auto consider = [&](std::uint32_t index) {
         bool tight = false;
-        const double height = bound(pieces_[index], at, best.height, tight);
+        const double height = bound(pieces_[index], query, best.height, tight);
         if (height > best.height && (tight || depth == kStack)) {
             best = {height, pieces_[index].gradient, index};
         } else if (height > best.height) {

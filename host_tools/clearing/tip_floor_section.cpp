@@ -36,9 +36,9 @@ bool TipFloor::covers(Vec2d at) const
     return false;
 }
 
-TipFloor::Contact TipFloor::contact(Vec2d at) const
+TipFloor::Contact TipFloor::contact(Vec2d at, double slack) const
 {
-    const Rest rest = drop(at);
+    const Rest rest = drop(at, slack);
     if (rest.height == kNothing) {
         return {kNothing, {}, {}, false};
     }

@@ -55,13 +55,17 @@ double ridge_between(const Tool& tool, const std::vector<double>& heights, doubl
 double LevelInterval::from(const Region2d& level)
 {
     least_ = 1e300;
+    const double apart = kClosest * floor_.tool().radius;
     for (const Contour& contour : level.contours) {
+        Vec2d corner{1e300, 1e300};
         Vec2d arriving = tangent_at_end(contour.back());
         for (const Edge& edge : contour) {
             along(edge);
             constexpr double kCorner = 0.995;  // cosine of some 6 degrees
-            if (corners_ && dot(arriving, tangent_at_start(edge)) < kCorner) {
-                around(edge.start);
+            const bool turns = dot(arriving, tangent_at_start(edge)) < kCorner;
+            if (corners_ && turns && distance(corner, edge.start) > apart) {
+                corner = edge.start;
+                around(corner);
             }
             arriving = tangent_at_end(edge);
         }
@@ -69,6 +73,12 @@ double LevelInterval::from(const Region2d& level)
     // Neighbouring moves may stray from their paths, each its own way.
     const double stray = budget_.outside ? 2.0 * budget_.aside : 0.0;
     return std::max(least_ - stray, kLeastShare * floor_.tool().radius);
+}
+
+// To a fiftieth of the cusp.
+TipFloor::Contact LevelInterval::contact(Vec2d at) const
+{
+    return floor_.contact(at, 0.02 * budget_.cusp);
 }
 
 double LevelInterval::allowed(const TipFloor::Contact& contact, Vec2d direction) const
@@ -82,13 +92,13 @@ double LevelInterval::allowed(const TipFloor::Contact& contact, Vec2d direction)
 void LevelInterval::across(Vec2d at, const TipFloor::Contact& here, Vec2d direction)
 {
     const double first = allowed(here, direction);
-    const TipFloor::Contact half = floor_.contact(at + direction * (0.5 * first));
+    const TipFloor::Contact half = contact(at + direction * (0.5 * first));
     const double interval = std::min({least_, first, allowed(half, direction)});
     least_ = interval;
     if (!here.found || !half.found) {
         return;
     }
-    const TipFloor::Contact there = floor_.contact(at + direction * first);
+    const TipFloor::Contact there = contact(at + direction * first);
     if (!as_expected(here, half, direction, 0.5 * first) ||
         (there.found && !as_expected(half, there, direction, 0.5 * first))) {
         least_ = by_ridge(at, direction, interval);
@@ -168,7 +178,7 @@ LevelInterval::Sample LevelInterval::sample(const Edge& edge, double share)
 {
     const Vec2d at = point_on(edge, share);
     const Vec2d way = tangent_on(edge, share);
-    const Sample result{share, way, floor_.contact(at)};
+    const Sample result{share, way, contact(at)};
     across(at, result.contact, left_normal(way));
     return result;
 }
@@ -188,8 +198,8 @@ void LevelInterval::refine(const Edge& edge, double whole, const Sample& a, cons
 
 void LevelInterval::around(Vec2d at)
 {
-    constexpr int kDirections = 16;
-    const TipFloor::Contact here = floor_.contact(at);
+    constexpr int kDirections = 12;
+    const TipFloor::Contact here = contact(at);
     for (int i = 0; i < kDirections; ++i) {
         const double angle = 6.28318530717958648 * i / kDirections;
         across(at, here, {std::cos(angle), std::sin(angle)});

@@ -34,6 +34,7 @@ private:
     };
     Sample sample(const Edge& edge, double share);
     void refine(const Edge& edge, double whole, const Sample& a, const Sample& b);
+    TipFloor::Contact contact(Vec2d at) const;
     double allowed(const TipFloor::Contact& contact, Vec2d direction) const;
     void across(Vec2d at, const TipFloor::Contact& here, Vec2d direction);
     bool as_expected(const TipFloor::Contact& a,
