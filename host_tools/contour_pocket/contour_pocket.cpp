@@ -11,6 +11,7 @@
 #include "host_tools/contour_pocket/floor_cutter.hpp"
 #include "host_tools/contour_pocket/level_interval.hpp"
 #include "host_tools/contour_pocket/pocket_task.hpp"
+#include "host_tools/contour_pocket/rest_material.hpp"
 #include "host_tools/contour_pocket/rough_layers.hpp"
 #include "host_tools/offset/offset.hpp"
 
@@ -194,15 +195,41 @@ private:
         stats.retracts = moves_.retracts();
         stats.gouge_bound_mm = std::max(0.0, -gap);
         stats.scallop_bound_mm = budget_.cusp + operation_.floor_tolerance;
-        const double rest = unswept_area(region_, budget_.first);
         stats.counts = {{"loops", static_cast<double>(cleared.passes.size())},
                         {"leaves", static_cast<double>(cleared.leaves)},
-                        {"islands", static_cast<double>(cleared.islands)},
-                        {"rest_area_mm2", rest}};
-        if (rest > 0.5) {
-            stats.warnings.push_back("the tool does not reach " + number_text(rest) +
-                                     " mm2 of the pocket: corners and necks narrower than it "
-                                     "keep their full height");
+                        {"islands", static_cast<double>(cleared.islands)}};
+        report_rest(stats);
+    }
+
+    // Where the tool does not reach, and how much stays there.
+    void report_rest(OperationStats& stats) const
+    {
+        constexpr std::size_t kNamed = 5;
+        const std::vector<RestPlace> places =
+            rest_material(region_, operation_.floor, floor_, budget_.first, job_.stock_top,
+                          std::max(*operation_.scallop, 0.02 * operation_.tool.radius));
+        double volume = 0.0;
+        double height = 0.0;
+        for (const RestPlace& place : places) {
+            volume += place.volume;
+            height = std::max(height, place.height);
+        }
+        stats.counts.emplace_back("rest_area_mm2", unswept_area(region_, budget_.first));
+        stats.counts.emplace_back("rest_places", static_cast<double>(places.size()));
+        stats.counts.emplace_back("rest_volume_mm3", volume);
+        stats.counts.emplace_back("rest_height_max_mm", height);
+        for (std::size_t i = 0; i < std::min(kNamed, places.size()); ++i) {
+            const RestPlace& place = places[i];
+            stats.warnings.push_back(
+                "the tool does not reach " +
+                std::string{place.at_walls ? "between walls" : "a valley"} + " at (" +
+                number_text(place.at.x) + ", " + number_text(place.at.y) + ") mm: about " +
+                number_text(place.volume) + " mm3 on " + number_text(place.area) +
+                " mm2 stay, up to " + number_text(place.height) + " mm high");
+        }
+        if (places.size() > kNamed) {
+            stats.warnings.push_back(number_text(static_cast<double>(places.size() - kNamed)) +
+                                     " smaller places that the tool does not reach");
         }
     }
 

@@ -1,5 +1,6 @@
 #include "host_tools/contour_pocket/contour_pocket.hpp"
 
+#include <algorithm>
 #include <functional>
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
@@ -119,6 +120,44 @@ TEST(ContourPocket, RoughsInLayersNoDeeperThanAskedFor)
     }
     CHECK(layers >= 4.0);
     CHECK(lowest_tip(planned.front().path) >= -8.0 + 0.2);
+}
+
+double count_of(const PlannedOperation& planned, const std::string& name)
+{
+    for (const auto& [key, count] : planned.stats.counts) {
+        if (key == name) {
+            return count;
+        }
+    }
+    return -1.0;
+}
+
+TEST(ContourPocket, SaysWhereTheToolDoesNotReachAndHowMuchStays)
+{
+    const PlannedOperation planned = plan_contour_pocket(job(), pocket()).back();
+    // Four square corners less a quarter of a disc each, 8 mm high; the grid is 1 mm.
+    const double volume = 4.0 * (1.0 - 0.785398) * 16.0 * 8.0;
+    LONGS_EQUAL(4, static_cast<int>(count_of(planned, "rest_places")));
+    DOUBLES_EQUAL(volume, count_of(planned, "rest_volume_mm3"), 0.3 * volume);
+    DOUBLES_EQUAL(8.0, count_of(planned, "rest_height_max_mm"), 0.05);
+    LONGS_EQUAL(4, planned.stats.warnings.size());
+    CHECK(says(planned.stats.warnings.front(), "does not reach between walls at"));
+}
+
+TEST(ContourPocket, SaysWhichValleyItDoesNotReach)
+{
+    // A groove between two planes that a ball of 4 mm rolls over.
+    Operation operation = pocket();
+    Surface left = plane(60.0, 0.0);
+    left.points = {{0.0, 0.0, -4.0}, {0.0, 60.0, -4.0}, {60.0, 0.0, -52.0}, {60.0, 60.0, -52.0}};
+    Surface right = left;
+    right.points = {{0.0, 0.0, -52.0}, {0.0, 60.0, -52.0}, {60.0, 0.0, -4.0}, {60.0, 60.0, -4.0}};
+    operation.floor = {left, right};
+    operation.scallop = 0.1;
+    const PlannedOperation planned = plan_contour_pocket(job(), operation).back();
+    CHECK(std::any_of(planned.stats.warnings.begin(), planned.stats.warnings.end(),
+                      [](const std::string& text) { return says(text, "a valley at ("); }));
+    DOUBLES_EQUAL(0.0, planned.stats.gouge_bound_mm, 1e-9);
 }
 
 TEST(ContourPocket, RefusesWhatIsMissing)

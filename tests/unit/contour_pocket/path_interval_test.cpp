@@ -4,6 +4,8 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "host_tools/contour_pocket/level_interval.hpp"
+
 namespace cusp::host {
 namespace {
 
@@ -46,6 +48,28 @@ TEST(PathInterval, StaysFiniteWhereTheBallDoesNotFit)
         const double apart = path_interval(6.0, 0.4, 1.0 / rho, 0.0);
         CHECK(apart > 0.0 && apart < 12.0);
     }
+}
+
+TEST_GROUP(LevelInterval){};
+
+TEST(LevelInterval, FindsTheRidgeOfAFlatFloor)
+{
+    const Tool ball{1, ToolShape::kBall, 6.0, 6.0};
+    const std::vector<double> level(9, -3.0);
+    const double apart = path_interval(6.0, 0.4, 0.0, 0.0);
+    DOUBLES_EQUAL(0.4, ridge_between(ball, level, apart), 1e-3);
+}
+
+TEST(LevelInterval, FindsTheRidgeInAValleyBetweenTwoPasses)
+{
+    const Tool ball{1, ToolShape::kBall, 6.0, 6.0};
+    std::vector<double> valley;
+    for (int i = 0; i <= 8; ++i) {
+        valley.push_back(0.5 * std::abs(0.25 * i - 1.0));
+    }
+    // Half a millimetre lower in the middle than at both passes, 2 mm apart.
+    CHECK(ridge_between(ball, valley, 2.0) > 0.4);
+    CHECK(ridge_between(ball, {valley.begin(), valley.begin() + 5}, 1.0) < 0.05);
 }
 
 }  // namespace

@@ -1,0 +1,273 @@
+// Cells beside walls by distance; valleys where the tip's slope turns up sharply from cell to cell,
+// by lowering the tool on a finer grid around them.
+#include "host_tools/contour_pocket/rest_material.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "host_tools/offset/offset.hpp"
+
+namespace cusp::host {
+
+namespace {
+
+constexpr double kMostCells = 500.0;  // a side
+
+EdgeTree tree_of(const Region2d& region)
+{
+    std::vector<Edge> edges;
+    for (const Contour& contour : region.contours) {
+        edges.insert(edges.end(), contour.begin(), contour.end());
+    }
+    return EdgeTree{std::move(edges)};
+}
+
+Box2d box_of(const Region2d& region)
+{
+    Box2d box;
+    for (const Contour& contour : region.contours) {
+        for (const Edge& edge : contour) {
+            const Box2d b = box_of(edge);
+            box = {std::min(box.x0, b.x0), std::min(box.y0, b.y0), std::max(box.x1, b.x1),
+                   std::max(box.y1, b.y1)};
+        }
+    }
+    return box;
+}
+
+// A needle: where it rests is the floor itself.
+Tool needle() { return {1, ToolShape::kFlat, 1e-3, 0.0}; }
+
+class RestSearch {
+public:
+    RestSearch(const Region2d& region,
+               const std::vector<Surface>& floor,
+               const TipFloor& tips,
+               double first)
+        : walls_{region},
+          centres_{tree_of(walls_.at(first))},
+          tips_{tips},
+          floor_{floor, needle(), 0.01 * tips.tool().radius},
+          first_{first},
+          radius_{tips.tool().radius},
+          box_{box_of(region)}
+    {
+        const double longest = std::max(box_.x1 - box_.x0, box_.y1 - box_.y0);
+        cell_ = std::max(0.25 * radius_, longest / kMostCells);
+        columns_ = static_cast<int>((box_.x1 - box_.x0) / cell_) + 1;
+        rows_ = static_cast<int>((box_.y1 - box_.y0) / cell_) + 1;
+        rest_.assign(index(columns_, 0), 0.0);
+        by_wall_.assign(rest_.size(), false);
+        slopes_.assign(rest_.size(), std::nullopt);
+        find_places();
+        heights_.assign(4 * rest_.size(), std::nullopt);
+    }
+
+    std::vector<RestPlace> run(double top, double least)
+    {
+        find_rest_at_walls(top, least);
+        find_valleys(least);
+        std::vector<RestPlace> places;
+        for (int i = 0; i < columns_; ++i) {
+            for (int j = 0; j < rows_; ++j) {
+                if (rest_[index(i, j)] > 0.0) {
+                    places.push_back(taken_place(i, j));
+                }
+            }
+        }
+        std::sort(places.begin(), places.end(),
+                  [](const RestPlace& a, const RestPlace& b) { return a.volume > b.volume; });
+        return places;
+    }
+
+private:
+    std::size_t index(int i, int j) const
+    {
+        return static_cast<std::size_t>(i) * static_cast<std::size_t>(rows_) +
+               static_cast<std::size_t>(j);
+    }
+
+    Vec2d centre(int i, int j) const
+    {
+        return {box_.x0 + cell_ * (i + 0.5), box_.y0 + cell_ * (j + 0.5)};
+    }
+
+    // Inside or not changes only where a contour is near.
+    void find_places()
+    {
+        places_.assign(rest_.size(), Place::kOutside);
+        for (int i = 0; i < columns_; ++i) {
+            bool inside = false;
+            for (int j = 0; j < rows_; ++j) {
+                const Vec2d p = centre(i, j);
+                const bool beside = walls_.any_nearer(p, first_);
+                if (j == 0 || (beside && walls_.any_nearer(p, 1.01 * cell_)) ||
+                    1.01 * cell_ > first_) {
+                    inside = contains(walls_.source(), p);
+                }
+                if (inside) {
+                    places_[index(i, j)] = beside ? Place::kBeside : Place::kAllowed;
+                }
+            }
+        }
+    }
+
+    void find_rest_at_walls(double top, double least)
+    {
+        for (int i = 0; i < columns_; ++i) {
+            for (int j = 0; j < rows_; ++j) {
+                const Vec2d p = centre(i, j);
+                if (places_[index(i, j)] != Place::kBeside || centres_.any_nearer(p, first_)) {
+                    continue;
+                }
+                const double floor = floor_.drop(p).height;
+                if (floor != TipFloor::kNothing && top - floor > least) {
+                    rest_[index(i, j)] = top - floor;
+                    by_wall_[index(i, j)] = true;
+                }
+            }
+        }
+    }
+
+    // Where the tool is twice as far apart as cells, it stands on slopes that say where it cannot
+    // reach between.
+    void find_valleys(double least)
+    {
+        for (int i = 0; i + 2 < columns_; i += 2) {
+            for (int j = 0; j + 2 < rows_; j += 2) {
+                if (turns_up(i, j, i + 2, j) || turns_up(i, j, i, j + 2)) {
+                    look_around(i, j, least);
+                }
+            }
+        }
+    }
+
+    bool turns_up(int i, int j, int k, int l)
+    {
+        if (places_[index(i, j)] != Place::kAllowed || places_[index(k, l)] != Place::kAllowed) {
+            return false;
+        }
+        const Vec2d way = centre(k, l) - centre(i, j);
+        const Vec2d turn = slope_at(k, l) - slope_at(i, j);
+        return dot(turn, way) > 0.3 * dot(way, way) / radius_;
+    }
+
+    Vec2d slope_at(int i, int j)
+    {
+        auto& slope = slopes_[index(i, j)];
+        if (!slope) {
+            slope = tips_.drop(centre(i, j), 0.01 * radius_).gradient;
+        }
+        return *slope;
+    }
+
+    void look_around(int i, int j, double least)
+    {
+        for (int k = std::max(0, i - 1); k <= std::min(columns_ - 1, i + 3); ++k) {
+            for (int l = std::max(0, j - 1); l <= std::min(rows_ - 1, j + 3); ++l) {
+                double& rest = rest_[index(k, l)];
+                if (rest == 0.0 && places_[index(k, l)] != Place::kOutside) {
+                    const double left = left_over(centre(k, l));
+                    rest = left > least ? left : 0.0;
+                }
+            }
+        }
+    }
+
+    // How far the tool, at the best of the places on a grid of half the cells, stays over the
+    // floor at p.
+    double left_over(Vec2d p)
+    {
+        const double floor = floor_.drop(p).height;
+        if (floor == TipFloor::kNothing) {
+            return 0.0;
+        }
+        const double fine = 0.5 * cell_;
+        const int reach = static_cast<int>(radius_ / fine);
+        const int i = static_cast<int>((p.x - box_.x0) / fine);
+        const int j = static_cast<int>((p.y - box_.y0) / fine);
+        double best = 1e300;
+        for (int k = std::max(0, i - reach); k <= std::min(2 * columns_ - 1, i + reach); ++k) {
+            for (int l = std::max(0, j - reach); l <= std::min(2 * rows_ - 1, j + reach); ++l) {
+                const Vec2d at{box_.x0 + fine * k, box_.y0 + fine * l};
+                const double apart = distance(at, p);
+                if (apart <= radius_) {
+                    best = std::min(best, tip_at(k, l, at) + profile_height(tips_.tool(), apart));
+                }
+            }
+        }
+        return best < 1e299 ? best - floor - 0.02 * radius_ : 0.0;
+    }
+
+    double tip_at(int k, int l, Vec2d at)
+    {
+        auto& height = heights_[static_cast<std::size_t>(k) * 2 * static_cast<std::size_t>(rows_) +
+                                static_cast<std::size_t>(l)];
+        if (!height) {
+            height = walls_.clearance(at) < first_ ? 1e300 : tips_.drop(at, 0.005 * radius_).height;
+        }
+        return *height;
+    }
+
+    // The cells that hang together with this one, which are taken off the grid.
+    RestPlace taken_place(int i, int j)
+    {
+        RestPlace place;
+        place.at_walls = by_wall_[index(i, j)];
+        std::vector<std::array<int, 2>> stack{{i, j}};
+        while (!stack.empty()) {
+            const auto [k, l] = stack.back();
+            stack.pop_back();
+            if (k < 0 || l < 0 || k >= columns_ || l >= rows_) {
+                continue;
+            }
+            const std::size_t here = index(k, l);
+            if (rest_[here] <= 0.0 || by_wall_[here] != place.at_walls) {
+                continue;
+            }
+            place.area += cell_ * cell_;
+            place.volume += cell_ * cell_ * rest_[here];
+            if (rest_[here] > place.height) {
+                place.height = rest_[here];
+                place.at = centre(k, l);
+            }
+            rest_[here] = 0.0;
+            stack.insert(stack.end(), {{k + 1, l}, {k - 1, l}, {k, l + 1}, {k, l - 1}});
+        }
+        return place;
+    }
+
+    enum class Place : std::uint8_t { kOutside, kBeside, kAllowed };
+
+    RegionOffset walls_;
+    EdgeTree centres_;
+    const TipFloor& tips_;
+    TipFloor floor_;
+    double first_;
+    double radius_;
+    Box2d box_;
+    double cell_{};
+    int columns_{};
+    int rows_{};
+    std::vector<double> rest_;  // mm over the floor
+    std::vector<bool> by_wall_;
+    std::vector<Place> places_;
+    std::vector<std::optional<Vec2d>> slopes_;
+    std::vector<std::optional<double>> heights_;  // of the tip, 1e300 where walls are too near
+};
+
+}  // namespace
+
+std::vector<RestPlace> rest_material(const Region2d& region,
+                                     const std::vector<Surface>& floor,
+                                     const TipFloor& tips,
+                                     double first,
+                                     double top,
+                                     double least)
+{
+    return RestSearch{region, floor, tips, first}.run(top, least);
+}
+
+}  // namespace cusp::host
