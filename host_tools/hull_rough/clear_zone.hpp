@@ -26,6 +26,12 @@ public:
     // True where the axis may move straight from a to b: the swept cutter meets no box. Exact.
     bool clear(Vec2d a, Vec2d b) const { return distance_holds(a, b, radius_); }
 
+    // The same for a cutter smaller by `less` mm.
+    bool nearly_clear(Vec2d a, Vec2d b, double less) const
+    {
+        return distance_holds(a, b, radius_ - less);
+    }
+
     // True where a cutter grown by `extra` mm meets no box at the point, and the field holds it.
     bool room(Vec2d point, double extra) const;
 

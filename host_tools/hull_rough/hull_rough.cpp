@@ -198,6 +198,8 @@ void clear_layers(Roughing& work)
             settings.one_way = operation.traversal == Traversal::kOneWay;
             settings.contour = operation.contour_clearing;
             settings.direction = operation.direction_of_cut;
+            work.job.report_progress(0.9 * static_cast<double>(layer) /
+                                     static_cast<double>(work.layers()));
             work.clearings.back().push_back(
                 clear_layer(boxes, work.stock.plan, tool.radius, settings));
             const LayerClearing& made = work.clearings.back().back();
@@ -303,15 +305,24 @@ std::vector<PlannedOperation> write_groups(const Roughing& work)
     return out;
 }
 
+bool trimmed(const Operation& operation)
+{
+    return std::any_of(operation.floor.begin(), operation.floor.end(),
+                       [](const Surface& s) { return !s.trims.empty(); });
+}
+
 void report(const Roughing& work, std::vector<PlannedOperation>& out, double seconds)
 {
     double thinnest = 1e300;
     double thickest = 0;
     int islands = 0;
+    int zigzags = 0;
     for (std::size_t layer = 0; layer < work.layers(); ++layer) {
         thinnest = std::min(thinnest, work.top(layer) - work.bottom(layer));
         thickest = std::max(thickest, work.top(layer) - work.bottom(layer));
-        islands += work.clearings[layer][work.choice.of_layer[layer]].islands;
+        const LayerClearing& clearing = work.clearings[layer][work.choice.of_layer[layer]];
+        islands += clearing.islands;
+        zigzags += clearing.by_contours ? 0 : 1;
     }
     const Rectangle& plan = work.stock.plan;
     const double volume = (plan.x_max - plan.x_min) * (plan.y_max - plan.y_min) *
@@ -335,6 +346,7 @@ void report(const Roughing& work, std::vector<PlannedOperation>& out, double sec
                         {"patches", static_cast<double>(work.plan.patches.size())},
                         {"boxes", static_cast<double>(work.boxes)},
                         {"islands", islands},
+                        {"zigzag_layers", zigzags},
                         {"stock_mm3", volume},
                         {"left_under_boxes_mm3", work.left_under_boxes},
                         {"tool_changes", work.choice.changes},
@@ -345,6 +357,15 @@ void report(const Roughing& work, std::vector<PlannedOperation>& out, double sec
             "of " +
             text(2 * operation.path.tool.radius) + " mm (180 degrees), at most " + text(thickest) +
             " mm deep");
+        if (work.operation.contour_clearing && zigzags > 0) {
+            stats.warnings.push_back(std::to_string(zigzags) +
+                                     " layers are cleared by zigzag: loops parallel to their "
+                                     "islands would come too near to them");
+        }
+        if (trimmed(work.operation)) {
+            stats.warnings.push_back(
+                "trims are not looked at: what was trimmed away stays under its hull");
+        }
         operation.path.comments = {"hull_rough: " + std::to_string(work.layers()) + " layers of " +
                                    text(thinnest) + " to " + text(thickest) +
                                    " mm, no overcut by the hull of " +
@@ -371,6 +392,7 @@ std::vector<PlannedOperation> plan_hull_rough(const Job& job, const Operation& o
     Roughing work{job, operation, std::move(tools), stock, std::move(plan), {}, {}, 0, 0};
     clear_layers(work);
     std::vector<PlannedOperation> out = write_groups(work);
+    job.report_progress(1);
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     report(work, out, spent.count());
     return out;

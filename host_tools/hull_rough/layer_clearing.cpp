@@ -199,6 +199,26 @@ double area_outside(const Rectangle& stock, const Rectangle& field, double radiu
     return width * depth - corners - (stock.x_max - stock.x_min) * (stock.y_max - stock.y_min);
 }
 
+// Whether the axis keeps its distance all along, to the tolerance.
+bool keeps_clear(const std::vector<Edge>& path, const ClearZone& zone, double tolerance)
+{
+    return std::all_of(path.begin(), path.end(), [&](const Edge& edge) {
+        int pieces = 1;
+        if (edge.turn != 0) {
+            const double step = 2 * std::sqrt(2 * std::min(tolerance / 2 / edge.radius, 0.5));
+            pieces = static_cast<int>(std::ceil(sweep(edge) / step));
+        }
+        for (int i = 0; i < pieces; ++i) {
+            const Vec2d a = point_on(edge, static_cast<double>(i) / pieces);
+            const Vec2d b = point_on(edge, static_cast<double>(i + 1) / pieces);
+            if (!zone.nearly_clear(a, b, tolerance)) {
+                return false;
+            }
+        }
+        return true;
+    });
+}
+
 // Loops parallel to the outlines, in the order of the project's pockets; linked ones make one run.
 // Loops on the border of the field run outside the stock and are left out.
 std::vector<LevelRun> parallel_runs(const Region2d& region,
@@ -273,7 +293,12 @@ LayerClearing clear_layer(const std::vector<Rectangle>& boxes,
     out.islands = static_cast<int>(outlines.size());
     if (settings.contour) {
         out.runs = parallel_runs(region, *out.zone, settings);
-    } else {
+        // Offsets have no proof of their own: each pass is checked against the boxes.
+        out.by_contours = std::all_of(out.runs.begin(), out.runs.end(), [&](const LevelRun& run) {
+            return keeps_clear(run.edges, *out.zone, settings.tolerance);
+        });
+    }
+    if (!out.by_contours) {
         out.runs = zigzag_runs(*out.zone, stock, settings);
         std::vector<LevelRun> around = in_near_order(
             outline_runs(outlines, out.runs, settings.direction == CutDirection::kClimb), false);

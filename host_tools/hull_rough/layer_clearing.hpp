@@ -26,6 +26,7 @@ struct LayerClearing {
     std::shared_ptr<ClearZone> zone;
     std::shared_ptr<RegionOffset> centres;  // the region where the axis may stand
     std::vector<LevelRun> runs;
+    bool by_contours{};     // as asked for; else by zigzag
     double length{};        // mm of cut
     double cleared_area{};  // mm^2 of the stock's plan view
     int islands{};
