@@ -47,6 +47,18 @@ TEST(ChuangPaper, TapIsCutInFifteenLayers)
     DOUBLES_EQUAL(kStock, count(plan, "stock_mm3"), 0.1);
 }
 
+TEST(ChuangPaper, BoxesToTheirOwnTopsRemoveThreeQuartersOfWhatCanBeRemoved)
+{
+    // The 33 slices before thin ones are merged, which raises tops to the layer above.
+    Job job = read_job(CUSP_SOURCE_DIR "/examples/hull_rough/tap.toml");
+    job.operations.front().extra_subdivision = 0;
+    job.operations.front().min_depth = 0;
+    const PlannedOperation plan = plan_hull_rough(job, job.operations.front()).front();
+    DOUBLES_EQUAL(33, count(plan, "layers"), 0);
+    const double removed = kStock - count(plan, "left_under_boxes_mm3");
+    DOUBLES_EQUAL(0.748, removed / (kStock - kPart), 1e-3);
+}
+
 TEST(ChuangPaper, FinerHullsLeaveFivePercentOfWhatCanBeRemoved)
 {
     const PlannedOperation plan = tap(3);
