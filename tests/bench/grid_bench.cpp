@@ -85,6 +85,10 @@ void plan(benchmark::State& state)
     }
     state.counters["peak_MB"] = peak_megabytes();
 }
-BENCHMARK(plan)->RangeMultiplier(10)->Range(1000, 1000000)->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(plan)
+    ->RangeMultiplier(10)
+    ->Range(1000, 1000000)
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
