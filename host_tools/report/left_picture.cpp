@@ -35,33 +35,35 @@ int step_of_square(
     return std::isinf(most) ? kUncut : step_of(most, 0, highest);
 }
 
-// Rectangles of one colour as a single path, which is a third of the text of single ones.
-class Rectangles {
+// Runs of squares of one colour as strokes of a single path, in whole numbers of squares: a tenth
+// of the text of single rectangles.
+class Runs {
 public:
-    explicit Rectangles(const PictureFrame& frame) : frame_{frame} {}
-
-    void add(double x, double y, double width, double height, int step)
+    void add(std::size_t column, std::size_t begin, std::size_t end, int step)
     {
         paths_[static_cast<std::size_t>(step == kUncut ? kColourSteps : step)] +=
-            fmt::format("M{:.2f} {:.2f}h{:.2f}v{:.2f}h{:.2f}z", x, frame_.flipped(y + height),
-                        width, height, -width);
+            fmt::format("M{} {}v{}", column, begin, end - begin);
     }
 
-    std::string text() const
+    // x, y  of the lower left corner of the first square, `side` of a square, in the picture
+    std::string text(double x, double y, double side) const
     {
-        std::string out;
+        constexpr double kOverlap = 1.05;  // no gaps between neighbours
+        std::string out = fmt::format(
+            "<g transform=\"translate({:.4f} {:.4f}) scale({:.6f} {:.6f})\" fill=\"none\" "
+            "stroke-width=\"{}\">\n",
+            x + side / 2, y, side, -side, kOverlap);
         for (std::size_t k = 0; k < paths_.size(); ++k) {
             const std::string colour =
                 k == kColourSteps ? "black" : colour_of_step(static_cast<int>(k));
             if (!paths_[k].empty()) {
-                out += fmt::format("<path fill=\"{}\" d=\"{}\"/>\n", colour, paths_[k]);
+                out += fmt::format("<path stroke=\"{}\" d=\"{}\"/>\n", colour, paths_[k]);
             }
         }
-        return out;
+        return out + "</g>\n";
     }
 
 private:
-    const PictureFrame& frame_;
     std::array<std::string, kColourSteps + 1> paths_;
 };
 
@@ -74,13 +76,13 @@ std::string left_picture(const Job& job, const Verification& result)
     const PictureFrame frame{
         grid.x0 - half, grid.x0 + static_cast<double>(grid.nx) * grid.pitch - half, grid.y0 - half,
         grid.y0 + static_cast<double>(grid.ny) * grid.pitch - half};
-    const std::size_t size = std::max<std::size_t>(1, std::max(grid.nx, grid.ny) / kMostCells);
+    const std::size_t size =
+        std::max<std::size_t>(1, (std::max(grid.nx, grid.ny) + kMostCells - 1) / kMostCells);
     const double highest =
         result.figures.scallop_bound.value_or(std::max(1e-3, result.figures.scallop_p99));
-    Rectangles rectangles{frame};
+    Runs runs;
     const double side = static_cast<double>(size) * grid.pitch;
     for (std::size_t i = 0; i < grid.nx; i += size) {
-        const double x = frame.x_low + static_cast<double>(i) * grid.pitch;
         std::size_t begin = 0;
         int current = kNothing;
         for (std::size_t j = 0; j < grid.ny + size; j += size) {
@@ -89,16 +91,16 @@ std::string left_picture(const Job& job, const Verification& result)
                 continue;
             }
             if (current != kNothing) {
-                rectangles.add(x, frame.y_low + static_cast<double>(begin) * grid.pitch,
-                               1.02 * side, static_cast<double>(j - begin) * grid.pitch, current);
+                runs.add(i / size, begin / size, j / size, current);
             }
             begin = j;
             current = step;
         }
     }
-    std::string out = frame.head() + rectangles.text() + walls(job, frame);
+    std::string out =
+        frame.head() + runs.text(frame.x_low, frame.flipped(frame.y_low), side) + walls(job, frame);
     out += scale_bar(frame.x_high + frame.margin(), frame.y_low, 0.8 * frame.height(), 0, highest,
-                     "left, mm");
+                     "left above the part, mm");
     return out + "</svg>\n";
 }
 

@@ -117,6 +117,66 @@ class Cli(unittest.TestCase):
         self.refused_plan("floor.json: not JSON")
         self.refused_plan("floor.obj", JOB.replace("floor.json", "floor.obj"))
 
+    def with_floor(self, **changes):
+        floor = json.loads(json.dumps(PLANE))
+        shape = floor["shape"]["data"][0]
+        control = shape["control_points"]
+        for key, value in changes.items():
+            (control if key in ("points", "weights") else shape)[key] = value
+        self.write("floor.json", json.dumps(floor))
+
+    def test_surfaces_that_are_none(self):
+        points = PLANE["shape"]["data"][0]["control_points"]["points"]
+        self.with_floor(weights=[1, 1, -2, 1])
+        self.refused_plan("weight 2 is -2, it must be above 0")
+        self.with_floor(knotvector_u=[0, 1, 0, 1])
+        self.refused_plan("knotvector_u")
+        self.with_floor(points=[[0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 0, 0]])
+        self.refused_plan("has no area")
+        self.with_floor(points=points[:3])
+        self.refused_plan("3 control points")
+
+    def test_trims_that_contradict_each_other(self):
+        def loop(*corners):
+            corners = [list(corner) for corner in corners + corners[:1]]
+            knots = [0, *range(len(corners)), len(corners) - 1]
+            return {"type": "spline", "reversed": 0, "degree": 1, "knotvector": knots,
+                    "control_points": {"points": corners}}
+
+        outer = loop((.1, .1), (.4, .1), (.4, .4), (.1, .4))
+        for words, trims in (
+                ("leaves the domain", [loop((.1, .1), (1.4, .1), (.4, .4))]),
+                ("cross", [loop((.1, .1), (.4, .4), (.4, .1), (.1, .4))]),
+                ("cross", [outer, loop((.2, .2), (.2, .6), (.6, .2))]),
+                ("outside every outer loop", [outer, loop((.6, .6), (.6, .9), (.9, .6))]),
+                ("a hole runs clockwise", [outer, loop((.2, .2), (.3, .2), (.2, .3))])):
+            self.with_floor(trims={"count": len(trims), "data": trims})
+            self.refused_plan(words)
+        self.with_floor(trims={"count": 3, "data": [outer]})
+        self.refused_plan("count is 3, data holds 1")
+
+    def test_a_floor_from_a_mesh(self):
+        corners = ("-5 -5 -4", "55 -5 -4", "55 45 -5", "-5 45 -5")
+        text = "solid sheet\n"
+        for facet in ((0, 1, 2), (0, 2, 3), (0, 1, 1)):
+            text += "facet normal 0 0 1\nouter loop\n"
+            text += "".join(f"vertex {corners[k]}\n" for k in facet)
+            text += "endloop\nendfacet\n"
+        self.write("floor.stl", text + "endsolid sheet\n")
+        job = JOB.replace("floor.json", "floor.stl")
+        self.write("job.toml", job)
+        self.expect(0, "1 facets without area left out", "plan", "job.toml", "-o", "p.ngc")
+        self.expect(0, "all bounds hold", "verify", "job.toml", "p.ngc")
+        (self.folder / "p.ngc").unlink()
+        self.write("floor.stl", text)
+        self.refused_plan("floor.stl:23: cut short", job)
+        self.write("floor.stl", text.replace("55 -5 -4", "nan -5 -4"))
+        self.refused_plan("floor.stl:5: a corner has x = nan mm", job)
+
+    def test_cad_files_that_are_none(self):
+        self.write("floor.step", "no model")
+        self.refused_plan("floor.step: ", JOB.replace("floor.json", "floor.step"))
+
     def test_an_output_that_cannot_be_written(self):
         self.expect(2, "can't be written", "plan", "job.toml", "-o", "no/such/folder/p.ngc")
 

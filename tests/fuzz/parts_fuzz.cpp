@@ -1,0 +1,54 @@
+// Bytes as a part or a job: whatever stands in a file, the readers take it or refuse it in words.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <unistd.h>
+
+#include "host_tools/import/job.hpp"
+
+namespace {
+
+// Removed at the end of the process.
+struct Folder {
+    Folder()
+    {
+        std::array<char, 32> name{"/tmp/cusp-parts-fuzz-XXXXXX"};
+        path = ::mkdtemp(name.data()) == nullptr ? "/tmp" : name.data();
+    }
+    std::string path;
+};
+
+}  // namespace
+
+// The first byte picks the format.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+{
+    static const Folder folder;
+    static const std::array<const char*, 5> kNames{"s.json", "c.json", "c.dxf", "s.stl", "j.toml"};
+    if (size == 0) {
+        return 0;
+    }
+    const std::size_t kind = data[0] % kNames.size();
+    const std::string file = folder.path + "/" + kNames[kind];
+    std::FILE* out = std::fopen(file.c_str(), "wb");
+    if (out == nullptr) {
+        return 0;
+    }
+    std::fwrite(data + 1, 1, size - 1, out);
+    std::fclose(out);
+    try {
+        if (kind == 0 || kind == 3) {
+            cusp::host::read_surfaces(file);
+        } else if (kind == 4) {
+            cusp::host::read_job(file);
+        } else {
+            cusp::host::read_loop(file);
+        }
+    } catch (const cusp::host::InputError&) {
+        // refused in words, as it should be
+    }
+    return 0;
+}
