@@ -7,6 +7,7 @@ import unittest
 
 import budgets
 import golden
+import pins
 from qemu import RunFailed
 
 DUMP = """$timescale 1 us $end
@@ -69,6 +70,26 @@ class Comparisons(unittest.TestCase):
         self.assertIsNone(golden.first_difference(edges, array.array("Q", edges)))
         for other in ([256, 769, 1024], [256, 512, 1024], [256, 513]):
             self.assertIsNotNone(golden.first_difference(edges, array.array("Q", other)))
+
+    def read_pins(self, *lines):
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "pins.log"
+            file.write_text("".join(line + "\n" for line in lines))
+            return pins.read_pins(file)
+
+    def test_pins_follow_the_stores_to_the_port(self):
+        write = "GPIOC: unimplemented device write (size 4, offset 0x018, value 0x{:08x})".format
+        other = "GPIOB: unimplemented device write (size 4, offset 0x018, value 0x00000004)"
+        found = self.read_pins(write(8), "pin 10", other, write(8), "pin 20", write(1), "pin 30",
+                               write(0x00010000), "pin 40")
+        self.assertEqual([list(part) for part in found], [[10, 30, 40], [8, 9, 8]])
+        self.assertIsNone(pins.first_difference([10 << 8 | 8, 15 << 8 | 9, 17 << 8 | 8], found))
+        for wrong in ([10 << 8 | 8, 15 << 8 | 1, 17 << 8 | 8], [10 << 8 | 8, 15 << 8 | 9]):
+            self.assertIsNotNone(pins.first_difference(wrong, found))
+        with self.assertRaises(RunFailed):
+            self.read_pins("pin 10")
+        with self.assertRaises(RunFailed):
+            self.read_pins(write(8), write(1), "pin 10")
 
     def test_budgets_see_more_and_less_than_two_per_cent(self):
         record = {"tick": (1000, 2000, "-")}

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Runs a program on the image under QEMU, twice, and in the host simulator, and compares the edges.
 
-usage: golden.py --cusp CUSP --image IMAGE PROGRAM [--settings FILE] [--script FILE] [--keep FOLDER]
+usage: golden.py --cusp CUSP --image IMAGE PROGRAM [--settings FILE] [--script FILE] [--pins PLUGIN]
+                 [--keep FOLDER]
 
 Each run yields the list of (tick, levels of the six lines) after every change; the three lists must
-be equal, tick by tick.
+be equal, tick by tick. With --pins (pins/pin_watch.cpp, built) also what reached the port's pins in
+QEMU must be what the trace says, in order, and at the same instructions in both runs.
 Exit status: 0 they are, 1 they are not, 2 something could not run.
 """
 import argparse
@@ -16,6 +18,7 @@ import sys
 import tempfile
 import time
 
+import pins
 from qemu import RunFailed, run_image
 
 WIRES = ("step_x", "step_y", "step_z", "dir_x", "dir_y", "dir_z")
@@ -112,20 +115,31 @@ def play(options, folder, name):
     words = ["program", program, "trace", trace]
     if options.script:
         words += ["script", pathlib.Path(options.script).resolve()]
-    status, console = run_image(options.image, words, seconds=options.seconds)
+    log = folder / f"{name}.log"
+    extra = pins.options_of(pathlib.Path(options.pins).resolve(), log) if options.pins else ()
+    status, console = run_image(options.image, words, options.seconds, extra)
     (folder / f"{name}.txt").write_text(console)
     if status > 1:
         raise RunFailed(f"{options.image}: status {status}: {console[-500:]}")
-    return status, read_trace(trace)
+    return status, read_trace(trace), pins.read_pins(log) if options.pins else None
+
+
+def compare_pins(board, first, second):
+    difference = pins.first_difference(board, first)
+    if difference:
+        yield f"trace and pins differ: {difference}"
+    if first != second:
+        yield "the pins of two runs of the board differ"
 
 
 def compare(options, folder):
     started = time.monotonic()
     host_status, host = simulate(options, folder)
     simulated = time.monotonic()
-    board_status, board = play(options, folder, "first")
+    board_status, board, board_pins = play(options, folder, "first")
     played = time.monotonic()
-    again = play(options, folder, "second")[1]
+    # A name of the same length: the guest reads it, and its instructions are counted.
+    _, again, again_pins = play(options, folder, "again")
     print(f"{pathlib.Path(options.program).name}: {len(host)} edges on the host in "
           f"{simulated - started:.1f} s, {len(board)} on the board in {played - simulated:.1f} s")
     found = []
@@ -133,6 +147,8 @@ def compare(options, folder):
         found.append("the program moves nothing: nothing is compared")
     if board != again:
         found.append(f"two runs of the board differ: {first_difference(board, again)}")
+    if options.pins:
+        found += compare_pins(board, board_pins, again_pins)
     if host != board:
         found.append(f"host and board differ: {first_difference(host, board)}")
     if host_status != board_status:
@@ -148,6 +164,7 @@ def main():
     parser.add_argument("program")
     parser.add_argument("--settings")
     parser.add_argument("--script")
+    parser.add_argument("--pins", metavar="PLUGIN")
     parser.add_argument("--keep", help="folder for the traces; default: none are kept")
     parser.add_argument("--seconds", type=int, default=300)
     parser.add_argument("--may-stand-still", action="store_true")
