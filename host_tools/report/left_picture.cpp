@@ -100,7 +100,7 @@ std::string left_picture(const Job& job, const Verification& result)
     std::string out =
         frame.head() + runs.text(frame.x_low, frame.flipped(frame.y_low), side) + walls(job, frame);
     out += scale_bar(frame.x_high + frame.margin(), frame.y_low, 0.8 * frame.height(), 0, highest,
-                     "left above the part, mm");
+                     "left, mm");
     return out + "</svg>\n";
 }
 

@@ -112,7 +112,7 @@ std::string path_picture(const Job& job, const Program& program)
     }
     lines.close();
     out += scale_bar(frame.x_high + frame.margin(), frame.y_low, 0.8 * frame.height(), extent.z_low,
-                     extent.z_high, "height of the tip, mm");
+                     extent.z_high, "tip z, mm");
     return out + "</svg>\n";
 }
 
