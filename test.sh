@@ -1,7 +1,7 @@
 #!/bin/sh
 # Installs what is missing, builds, cross-builds the images, runs every test. See docs/testing.md.
 # usage: ./test.sh [--all]
-#   --all, or CI=true: also the unit tests under ASan and UBSan, and a build without Eigen and Open CASCADE
+#   --all, or CI=true: also the unit tests under ASan and UBSan, bounded fuzzing, and a build without Eigen and Open CASCADE
 set -eu
 cd "$(dirname "$0")"
 . ./.ci/packages.sh
@@ -52,6 +52,11 @@ if [ "$all" = yes ]; then
     quietly build/configure-sanitize.log cmake --preset sanitize -DCUSP_TARGET_TESTS=OFF
     quietly build/build-sanitize.log cmake --build --preset sanitize -j "$jobs"
     run_tests sanitize -L unit
+    echo "building the fuzz targets"
+    quietly build/configure-fuzz.log cmake --preset fuzz -DCUSP_FUZZ_SECONDS=10 \
+        -DCUSP_TARGET_TESTS=OFF
+    quietly build/build-fuzz.log cmake --build --preset fuzz -j "$jobs"
+    run_tests fuzz
     echo "building without Eigen and Open CASCADE"
     quietly build/configure-no-eigen.log cmake --preset release -B build/no-eigen -DCUSP_EIGEN=OFF -DCUSP_OCCT=OFF \
         -DCUSP_TARGET_TESTS=OFF

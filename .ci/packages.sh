@@ -7,7 +7,7 @@ host_packages="g++ cmake ninja-build pkg-config python3 cpputest libeigen3-dev l
 test_packages="$host_packages clang-format-14 libpolyclipping-dev libbenchmark-dev
     libocct-data-exchange-dev
     gcc-arm-none-eabi libnewlib-dev libstdc++-arm-none-eabi-dev qemu-system-arm
-    g++-riscv64-linux-gnu qemu-user"
+    g++-riscv64-linux-gnu qemu-user clang libclang-rt-14-dev"
 
 # missing_packages PACKAGE...: those that are not installed
 missing_packages() {
