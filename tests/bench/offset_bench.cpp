@@ -98,5 +98,43 @@ void plan_replica(benchmark::State& state)
 }
 BENCHMARK(plan_replica)->Unit(benchmark::kMillisecond);
 
+// A pocket of 200 mm with a level floor, bounded by n lines, planned end to end.
+void plan_by_number_of_curves(benchmark::State& state)
+{
+    Operation operation;
+    operation.strategy = "contour_pocket";
+    Surface floor;
+    floor.degree_u = floor.degree_v = 1;
+    floor.size_u = floor.size_v = 2;
+    floor.knots_u = floor.knots_v = {0.0, 0.0, 1.0, 1.0};
+    floor.points = {
+        {-120.0, -120.0, -8.0}, {-120.0, 120.0, -8.0}, {120.0, -120.0, -8.0}, {120.0, 120.0, -8.0}};
+    floor.weights = {1.0, 1.0, 1.0, 1.0};
+    operation.floor = {floor};
+    Loop loop;
+    for (const Edge& edge : gear(static_cast<int>(state.range(0)))) {
+        loop.push_back({1,
+                        {0.0, 0.0, 1.0, 1.0},
+                        {{edge.start.x, edge.start.y, 0.0}, {edge.end.x, edge.end.y, 0.0}},
+                        {1.0, 1.0}});
+    }
+    operation.boundary = loop;
+    operation.tool = {1, ToolShape::kBall, 6.0, 6.0};
+    operation.scallop = 0.4;
+    operation.plan_tolerance = operation.floor_tolerance = 0.02;
+    Job job;
+    job.file = "gear.toml";
+    job.clearance = 5.0;
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(plan_contour_pocket(job, operation));
+    }
+    state.SetComplexityN(state.range(0));
+}
+BENCHMARK(plan_by_number_of_curves)
+    ->RangeMultiplier(10)
+    ->Range(10, 10000)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity();
+
 }  // namespace
 }  // namespace cusp::host
