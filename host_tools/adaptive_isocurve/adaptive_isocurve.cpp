@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "host_tools/adaptive_isocurve/even_spacing.hpp"
 #include "host_tools/adaptive_isocurve/isocurve_extraction.hpp"
@@ -12,6 +14,7 @@
 #include "host_tools/adaptive_isocurve/scallop_width.hpp"
 #include "host_tools/adaptive_isocurve/surface_operation.hpp"
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/surface_passes/coverage.hpp"
 
 #include "fmt/format.h"
 
@@ -21,6 +24,8 @@ namespace {
 constexpr int kRidgeLooks = 200;
 // Of what the scallop leaves for the ridge: the rest is for bends of passes along their way.
 constexpr double kRidgeShare = 0.99;
+// The same where cells prove it: those need room between the ridge and the scallop.
+constexpr double kProvedShare = 0.97;
 constexpr int kCurvatureLooks = 60;
 
 void swap_loops(Surface& surface)
@@ -87,6 +92,39 @@ void check_spacing(const Job& job, const Operation& operation)
     }
 }
 
+// Whether the surface has a crease or a pole: there the ridges between neighbours say too little.
+bool is_plain(const Surface& s)
+{
+    if (!s.trims.empty()) {
+        return false;
+    }
+    const auto creased = [](const std::vector<double>& knots, int degree) {
+        const std::size_t p = static_cast<std::size_t>(degree);
+        for (std::size_t k = p + 1; k + 2 * p < knots.size(); ++k) {
+            if (knots[k] == knots[k + p - 1] && knots[k] > knots[p]) {
+                return true;
+            }
+        }
+        return false;
+    };
+    if (creased(s.knots_u, s.degree_u) || creased(s.knots_v, s.degree_v)) {
+        return false;
+    }
+    double least = std::numeric_limits<double>::infinity();
+    double most = 0;
+    for (int i = 0; i <= kCurvatureLooks; ++i) {
+        for (int j = 0; j <= kCurvatureLooks; ++j) {
+            const SurfacePoint p =
+                derivatives_at(s, s.u_begin() + (s.u_end() - s.u_begin()) * i / kCurvatureLooks,
+                               s.v_begin() + (s.v_end() - s.v_begin()) * j / kCurvatureLooks);
+            const double area = norm(cross(p.du, p.dv));
+            least = std::min(least, area);
+            most = std::max(most, area);
+        }
+    }
+    return least > 0.02 * most;
+}
+
 class IsocurvePlanner {
 public:
     IsocurvePlanner(const Job& job, const Operation& operation)
@@ -95,6 +133,13 @@ public:
           tracer_{work_.surfaces(), work_.certified()},
           tool_{operation.tool.radius, work_.outward()}
     {
+        const std::vector<Surface>& surfaces = work_.surfaces();
+        plain_ = surfaces.size() == 1 && is_plain(surfaces.front());
+        ridge_share_ = plain_ ? kRidgeShare : kProvedShare;
+        if (operation.scallop && !operation.iso_distance) {
+            coverage_.emplace(work_.surfaces(), work_.certified(), *operation.scallop,
+                              work_.path_off());
+        }
     }
 
     PlannedOperation plan(bool complete)
@@ -103,7 +148,20 @@ public:
         for (std::size_t k = 0; k < work_.surfaces().size(); ++k) {
             curves += add_surface(static_cast<int>(k), complete);
         }
+        std::size_t bare = 0;
+        if (coverage_ && !(plain_ && unreached_ == 0 && ridge_ <= *operation_.scallop)) {
+            for (std::size_t k = 0; k < work_.surfaces().size(); ++k) {
+                coverage_->look_over(static_cast<int>(k));
+            }
+            coverage_->close_gaps([&](const Points& pass) { add_pass(pass); });
+            bare = coverage_->uncovered();
+            ridge_ = bare == 0 ? *operation_.scallop : std::max(ridge_, *operation_.scallop);
+        }
         PlannedOperation planned = work_.finish(spacing_, ridge_);
+        if (bare > 0) {
+            planned.stats.warnings.push_back(
+                fmt::format("{} places of the surface may keep more than the scallop", bare));
+        }
         planned.stats.counts.emplace_back("isocurves", static_cast<double>(curves));
         if (unreached_ > 0) {
             planned.stats.warnings.push_back(fmt::format(
@@ -115,6 +173,14 @@ public:
     }
 
 private:
+    void add_pass(const Points& dense)
+    {
+        const Points points = work_.add_pass(dense);
+        if (coverage_) {
+            coverage_->add(points);
+        }
+    }
+
     SurfaceFunction surface_function(int surface) const
     {
         return [this, surface](double u, double v) {
@@ -125,7 +191,7 @@ private:
     // Steps for which the ridge has the height asked for, less what the tolerance takes.
     StepDensity density() const
     {
-        const double ridge = kRidgeShare * (*operation_.scallop - work_.outward());
+        const double ridge = ridge_share_ * (*operation_.scallop - work_.outward());
         const double radius = operation_.tool.radius;
         return [ridge, radius](const SurfacePoint& p) {
             const CrossSection section = cross_section_at(p);
@@ -137,7 +203,7 @@ private:
     double least_step(int surface) const
     {
         const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
-        const double ridge = kRidgeShare * (*operation_.scallop - work_.outward());
+        const double ridge = ridge_share_ * (*operation_.scallop - work_.outward());
         double least = 2 * operation_.tool.radius;
         for (int i = 0; i <= kCurvatureLooks; ++i) {
             for (int j = 0; j <= kCurvatureLooks; ++j) {
@@ -159,10 +225,17 @@ private:
                 operation_.iso_distance ? *operation_.iso_distance : 0.99 * least_step(surface);
             return complete_isocurves(s, surface, step);
         }
+        const SurfaceFunction at = surface_function(surface);
+        if (operation_.iso_distance && operation_.even_steps) {
+            const double delta = *operation_.iso_distance;
+            const StepDensity steps = [delta](const SurfacePoint& p) {
+                return norm(p.dv) / delta;
+            };
+            return even_passes(s, surface, at, steps, {}).curves;
+        }
         if (operation_.iso_distance) {
             return adaptive_isocurves(s, surface, *operation_.iso_distance);
         }
-        const SurfaceFunction at = surface_function(surface);
         const double scallop = *operation_.scallop;
         const StripJudge judge = [&](double u, CurvePlace low, CurvePlace high) {
             const double ridge = ridge_between(at, tool_, u, low, high);
@@ -183,7 +256,7 @@ private:
             trimmed = trimmed || !whole;
             unreached_ += whole ? 0 : 1;
             for (const Points& piece : pieces) {
-                work_.add_pass(piece);
+                add_pass(piece);
             }
         }
         spacing_ = operation_.iso_distance
@@ -191,7 +264,7 @@ private:
                        : scallop_width(operation_.tool.radius, *operation_.scallop, 0);
         if (trimmed) {
             for (const Points& edge : tracer_.free_region_edges(surface, 0.7 * spacing_)) {
-                work_.add_pass(edge);
+                add_pass(edge);
             }
         }
         ridge_ = std::max(ridge_, highest_ridge(surface_function(surface), tool_, curves,
@@ -212,6 +285,10 @@ private:
     SurfaceOperation work_;
     PassTracer tracer_;
     RidgeTool tool_;
+    std::optional<Coverage> coverage_;
+    // One smooth surface: where all its passes are whole, the ridges between them are all there is.
+    bool plain_{};
+    double ridge_share_{};
     double spacing_{};
     double ridge_{};
     int unreached_{};

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/toolpath/toolpath_measure.hpp"
 
 #include "fmt/format.h"
 
@@ -46,11 +47,6 @@ SurfaceOperation::SurfaceOperation(const Job& job,
 // What these strategies do not do yet is refused, never left out silently.
 void SurfaceOperation::check_form() const
 {
-    if (operation_.output == OutputForm::kArcs) {
-        throw InputError(
-            fmt::format("{}: output = \"arcs\" is not made by {}: use \"lines\" or \"nurbs\"",
-                        job_.file, operation_.strategy));
-    }
     if (operation_.roughing || operation_.allowance > 0) {
         throw InputError(fmt::format(
             "{}: {} only finishes: roughing = true and allowance > 0 are not for it; rough with "
@@ -107,20 +103,36 @@ double SurfaceOperation::outward() const
 
 double SurfaceOperation::ridge_allowed() const { return operation_.scallop.value_or(0); }
 
-void SurfaceOperation::add_pass(const Points& dense)
+Points SurfaceOperation::add_pass(const Points& dense)
 {
     SurfacePass pass;
     if (operation_.output == OutputForm::kNurbs) {
         pass.curve = certified_->fit_nurbs(dense);
     }
-    if (pass.curve) {
+    if (operation_.output == OutputForm::kArcs) {
+        pass.points = dense;
+        pass.points.front() = certified_->lifted_free(dense.front());
+        pass.moves = certified_->fit_arcs(pass.points);
+        if (pass.moves.empty()) {
+            return {};
+        }
+        pass.points.back() = end_of(pass.moves.back());
+    } else if (pass.curve) {
         pass.points = dense;
     } else {
         pass.points = certified_->fit_lines(dense);
     }
-    if (pass.points.size() >= 2) {
-        passes_.push_back(std::move(pass));
+    if (pass.points.size() < 2) {
+        return {};
     }
+    Points points = pass.points;
+    passes_.push_back(std::move(pass));
+    return points;
+}
+
+double SurfaceOperation::path_off() const
+{
+    return operation_.output == OutputForm::kLines ? 0 : certified_->band().band;
 }
 
 PlannedOperation SurfaceOperation::finish(double spacing, double scallop_bound)

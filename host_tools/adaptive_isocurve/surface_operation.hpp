@@ -27,8 +27,10 @@ public:
     // What the scallop leaves for the ridges between passes, mm.
     double ridge_allowed() const;
 
-    // Fits the passes in the form the job asks for.
-    void add_pass(const Points& dense);
+    // Fits the pass in the form the job asks for. Returns points that the path stays within
+    // `path_off()` of.
+    Points add_pass(const Points& dense);
+    double path_off() const;
     std::size_t pass_count() const { return passes_.size(); }
 
     // Links all passes; `spacing` (mm) is about the distance of neighbours.

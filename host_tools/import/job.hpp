@@ -48,6 +48,7 @@ struct Operation {
     std::vector<double> layers;  // depths below stock.top
     // adaptive_isocurve
     std::optional<double> iso_distance;
+    bool even_steps{false};  // iso_spacing = "even": full steps instead of the paper's halving
     char direction{'u'};
     bool roughing{false};
     // grid_pocket

@@ -308,6 +308,8 @@ void JobReader::read_strategy_keys(JobTable& table, Operation& operation)
 {
     constexpr Range kSubdivisions{0, 8};
     operation.iso_distance = length(table, "iso_distance", kPositive);
+    operation.even_steps =
+        table.one_of("iso_spacing", {"halving", "even"}).value_or("halving") == "even";
     operation.direction = table.one_of("direction", {"u", "v"}).value_or("u")[0];
     operation.roughing = table.flag("roughing").value_or(false);
     read_grid(table, operation);

@@ -11,6 +11,7 @@ namespace cusp::host {
 namespace {
 
 constexpr int kMostDropSteps = 400;
+constexpr int kMostClimbs = 6;
 constexpr double kTouching = 1e-9;   // mm
 constexpr double kDropSlack = 5e-7;  // mm above the least height
 constexpr double kDiscDropSlack = 2e-5;
@@ -183,16 +184,29 @@ std::optional<double> SurfaceModel::drop(const Tool& tool,
                                          std::optional<double> guess) const
 {
     const double floor = state_->low.z - tool.radius - 1;
+    const double nothing = -std::numeric_limits<double>::infinity();
     // `high` is free of the model; `low` would touch a known place, so the answer is not below it.
     double high = state_->high.z + 0.01;
-    double low = -std::numeric_limits<double>::infinity();
+    double low = nothing;
     double trial = guess ? std::min(*guess, high) : high;
+    // Mostly the next question is beside the last one, and so is the answer. A flat tool can't tell
+    // how deep it cuts: it comes from above.
+    const bool feels_depth = tool.corner_radius > 0;
+    if (!guess && feels_depth && state_->last_cell != nullptr) {
+        const Vec3d last = state_->last_cell->at(state_->last_s, state_->last_t).point;
+        if (const auto touch = touch_height(tool, x, y, last)) {
+            low = *touch;
+            trial = low;
+        }
+    }
     const double slack = tool.corner_radius < tool.radius ? kDiscDropSlack : kDropSlack;
+    int deep = 0;
     for (int step = 0; step < kMostDropSteps && high - low > slack; ++step) {
         const Clearance c = clearance(tool, {x, y, trial}, std::numeric_limits<double>::infinity());
         if (c.nearest.surface < 0) {
             return std::nullopt;
         }
+        const double was_low = low;
         if (const auto touch = touch_height(tool, x, y, c.nearest.point)) {
             low = std::max(low, *touch);
         }
@@ -207,10 +221,10 @@ std::optional<double> SurfaceModel::drop(const Tool& tool,
             return std::nullopt;
         }
         const bool cut_a_little = tool.corner_radius > 0 && c.distance > -0.5 * tool.corner_radius;
-        trial = low > -std::numeric_limits<double>::infinity() && cut_a_little && trial != low &&
-                        low < high
-                    ? low
-                    : high;
+        // Cut deep, but what it cuts is known now: up there is a better place to go on.
+        const bool climbs = feels_depth && low > was_low + slack && ++deep <= kMostClimbs;
+        trial =
+            low > nothing && (cut_a_little || climbs) && trial != low && low < high ? low : high;
     }
     return high;
 }

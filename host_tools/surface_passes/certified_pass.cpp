@@ -239,16 +239,19 @@ void CertifiedPasses::append_free_line(Vec3d a, Vec3d b, int depth, Points& out)
         out.push_back(b);
         return;
     }
+    if (depth == 0) {
+        b = lifted_free(b);
+    }
     const double length = norm(b - a);
     if (length < kShortestLine || depth > kDeepestHalving) {
         // Both ends stand free; what is left between is lifted over.
         const double up = std::max(length, kShortestLine);
-        const Vec3d over{0.5 * (a.x + b.x), 0.5 * (a.y + b.y), std::max(a.z, b.z) + up};
-        out.push_back({a.x, a.y, over.z});
-        out.push_back({b.x, b.y, over.z});
-        out.push_back(b);
-        least_clearance_ = std::min(least_clearance_,
-                                    model_.clearance_along(tool_, a, out[out.size() - 3], 0, 1e-6));
+        const double top = std::max(a.z, b.z) + up;
+        for (const Vec3d& next : {Vec3d{a.x, a.y, top}, Vec3d{b.x, b.y, top}, b}) {
+            least_clearance_ = std::min(least_clearance_,
+                                        model_.clearance_along(tool_, out.back(), next, 0, 1e-6));
+            out.push_back(next);
+        }
         return;
     }
     Vec3d middle = (a + b) * 0.5;
@@ -259,9 +262,18 @@ void CertifiedPasses::append_free_line(Vec3d a, Vec3d b, int depth, Points& out)
     append_free_line(middle, b, depth + 1, out);
 }
 
+Vec3d CertifiedPasses::lifted_free(Vec3d tip) const
+{
+    if (model_.clearance(tool_, tip, -band_.deepest + 1e-9).distance >= -band_.deepest - 1e-9) {
+        return tip;
+    }
+    const std::optional<Vec3d> on_model = dropped(tip.x, tip.y);
+    return on_model ? Vec3d{tip.x, tip.y, std::max(tip.z, on_model->z)} : tip;
+}
+
 Points CertifiedPasses::fit_lines(const Points& dense)
 {
-    Points out{dense.front()};
+    Points out{lifted_free(dense.front())};
     const double allowed = band_.band * (1 - kSampleShare);
     std::size_t from = 0;
     std::size_t guess = 4;

@@ -53,6 +53,13 @@ public:
     // deeper than allowed, the tip is lifted on the drop.
     Points fit_lines(const Points& dense);
 
+    // The tip itself where the tool stands free there, else on the model over it.
+    Vec3d lifted_free(Vec3d tip) const;
+
+    // Arcs and lines within the band of the dense polyline, from its first point on, proved; where
+    // an arc would cut, lines as `fit_lines` makes them.
+    std::vector<ToolMove> fit_arcs(const Points& dense);
+
     // One cubic NURBS along the points, from first to last, proved; none where it would cut.
     // Knots are arc lengths: a constant feed runs smoothly through it.
     std::optional<Curve> fit_nurbs(const Points& dense);
@@ -65,6 +72,7 @@ public:
     double least_clearance() const { return least_clearance_; }
 
 private:
+    bool arc_is_free(Vec3d start, const ToolMove& arc);
     void append_free_line(Vec3d a, Vec3d b, int depth, Points& out);
     bool curve_is_free(const std::array<Vec3d, 4>& bezier, int depth, double& least) const;
 

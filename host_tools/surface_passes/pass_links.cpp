@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <variant>
+
+#include "host_tools/toolpath/toolpath_measure.hpp"
 
 namespace cusp::host {
 namespace {
@@ -13,11 +16,32 @@ constexpr double kLongestDetour = 3;  // times the direct way, before a retract 
 
 double plan_distance(Vec3d a, Vec3d b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
+// From the end of the last move back to `start`.
+std::vector<ToolMove> reversed_moves(Vec3d start, const std::vector<ToolMove>& moves)
+{
+    std::vector<ToolMove> out;
+    for (std::size_t k = moves.size(); k-- > 0;) {
+        const Vec3d end = k > 0 ? end_of(moves[k - 1]) : start;
+        ToolMove move = moves[k];
+        if (ArcTo* arc = std::get_if<ArcTo>(&move.shape)) {
+            arc->end = end;
+            arc->clockwise = !arc->clockwise;
+        } else {
+            move.shape = LineTo{end};
+        }
+        out.push_back(move);
+    }
+    return out;
+}
+
 void turn_round(SurfacePass& pass)
 {
     std::reverse(pass.points.begin(), pass.points.end());
     if (pass.curve) {
         pass.curve = reversed(*pass.curve);
+    }
+    if (!pass.moves.empty()) {
+        pass.moves = reversed_moves(pass.points.back(), pass.moves);
     }
 }
 
@@ -103,6 +127,11 @@ private:
         if (pass.curve) {
             out_.moves.push_back({MoveKind::kCut, NurbsTo{*pass.curve}});
             ++out_.points;
+            return;
+        }
+        if (!pass.moves.empty()) {
+            out_.moves.insert(out_.moves.end(), pass.moves.begin(), pass.moves.end());
+            out_.points += static_cast<int>(pass.moves.size());
             return;
         }
         for (std::size_t k = 1; k < pass.points.size(); ++k) {

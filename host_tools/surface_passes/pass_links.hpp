@@ -9,10 +9,12 @@
 
 namespace cusp::host {
 
-// A pass as it will be written: lines through the points, or the curve where there is one.
+// A pass as it will be written: the curve where there is one, else the moves from the first point
+// where there are any, else lines through the points. The points stay near whichever it is.
 struct SurfacePass {
     Points points;
     std::optional<Curve> curve;
+    std::vector<ToolMove> moves;
 };
 
 struct LinkRules {

@@ -1,0 +1,339 @@
+// Cells are halved across the passes as long as one move covers each half.
+#include "host_tools/surface_passes/coverage.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace cusp::host {
+namespace {
+
+constexpr double kSmallest = 1.0 / 96;  // cells, in steps between passes
+constexpr double kLargest = 4;          // the same
+constexpr double kBlockedCell = 0.25;   // the same, where the tool can't touch
+constexpr double kSlopeShare = 0.02;    // of the scallop, for the slope in a smallest cell
+constexpr double kTraceStep = 0.125;    // in steps between passes
+constexpr std::array<std::array<double, 2>, 8> kDirections{
+    {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {0.7, 0.7}, {-0.7, 0.7}, {0.7, -0.7}, {-0.7, -0.7}}};
+constexpr int kMostTraced = 4000;  // places of one pass
+constexpr int kRounds = 3;
+constexpr int kDeepest = 40;
+constexpr std::size_t kMostGaps = 200000;
+constexpr double kHidden = 1e-3;    // mm
+constexpr double kShortest = 1e-3;  // mm
+
+double largest(const std::array<double, 4>& of) { return *std::max_element(of.begin(), of.end()); }
+
+}  // namespace
+
+Coverage::Coverage(const std::vector<Surface>& surfaces,
+                   const CertifiedPasses& certified,
+                   double scallop,
+                   double path_off)
+    : surfaces_{surfaces},
+      certified_{certified},
+      radius_{certified.tool().radius},
+      scallop_{scallop},
+      path_off_{path_off},
+      step_{std::sqrt(8 * certified.tool().radius * scallop)},
+      swept_{radius_, 0.6 * step_},
+      tops_{surfaces, certified.model(), kBlockedCell * step_}
+{
+}
+
+Coverage::Corner Coverage::corner(int surface, double u, double v) const
+{
+    Corner out{surface, u, v, certified_.model().evaluate(surface, u, v), {}};
+    out.normal = upward_normal(out.point);
+    return out;
+}
+
+Vec3d Coverage::touching_tip(const Corner& at) const
+{
+    return at.point.point + at.normal * (radius_ + certified_.band().lift) - Vec3d{0, 0, radius_};
+}
+
+bool Coverage::place_covered(const Corner& at) const
+{
+    const Vec3d raised = at.point.point + at.normal * (scallop_ * (1 - kSlopeShare));
+    swept_.near(at.point.point + at.normal * radius_, near_);
+    return std::any_of(near_.begin(), near_.end(),
+                       [&](std::uint32_t move) { return swept_.removes(move, raised, path_off_); });
+}
+
+Coverage::Verdict Coverage::judge(const Cell& cell) const
+{
+    const std::array<Corner, 4> at{
+        corner(cell.surface, cell.u0, cell.v0), corner(cell.surface, cell.u1, cell.v0),
+        corner(cell.surface, cell.u0, cell.v1), corner(cell.surface, cell.u1, cell.v1)};
+    const double width_u = cell.u1 - cell.u0;
+    const double width_v = cell.v1 - cell.v0;
+    std::array<double, 4> along_u{};
+    std::array<double, 4> along_v{};
+    std::array<double, 4> bow{};
+    double turn = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const SurfacePoint& p = at[k].point;
+        along_u[k] = norm(p.du) * width_u;
+        along_v[k] = norm(p.dv) * width_v;
+        bow[k] = 0.25 * (norm(p.duu) * width_u * width_u + norm(p.dvv) * width_v * width_v);
+        turn = std::max(turn, norm(at[k].normal - at[0].normal));
+    }
+    const double long_u = std::max(largest(along_u), norm(at[1].point.point - at[0].point.point));
+    const double long_v = std::max(largest(along_v), norm(at[2].point.point - at[0].point.point));
+    const Verdict longer = long_u >= long_v ? Verdict::kHalveU : Verdict::kHalveV;
+    if (std::max(long_u, long_v) > kLargest * step_ || turn > 0.5) {
+        if (std::max(long_u, long_v) > kSmallest * step_) {
+            return longer;
+        }
+    }
+    const double less = path_off_ + largest(bow) + 0.5 * scallop_ * turn * turn;
+    Corner middle = corner(cell.surface, 0.5 * (cell.u0 + cell.u1), 0.5 * (cell.v0 + cell.v1));
+    swept_.near(middle.point.point + middle.normal * radius_, near_);
+    // One bit a corner, of the moves that cover it.
+    std::array<bool, 16> together{};
+    for (const std::uint32_t move : near_) {
+        unsigned covers = 0;
+        for (unsigned k = 0; k < 4; ++k) {
+            if (swept_.removes(move, at[k].point.point + at[k].normal * scallop_, less)) {
+                covers |= 1U << k;
+            }
+        }
+        if (covers == 15) {
+            return Verdict::kCovered;
+        }
+        together[covers] = true;
+    }
+    const auto some = [&](unsigned corners) {
+        for (unsigned k = corners; k < 16; ++k) {
+            if ((k & corners) == corners && together[k]) {
+                return true;
+            }
+        }
+        return false;
+    };
+    if (std::max(long_u, long_v) < kBlockedCell * step_ && blocked_somewhere(at)) {
+        return Verdict::kUncovered;
+    }
+    if (std::max(long_u, long_v) < kSmallest * step_) {
+        const bool each =
+            std::all_of(at.begin(), at.end(), [&](const Corner& c) { return place_covered(c); });
+        return each ? Verdict::kCovered : Verdict::kUncovered;
+    }
+    const double least = 0.5 * kSmallest * step_;
+    if (long_u > least && long_v > least) {
+        if (some(3) && some(12)) {
+            return Verdict::kHalveV;
+        }
+        if (some(5) && some(10)) {
+            return Verdict::kHalveU;
+        }
+    }
+    if (near_.empty() && std::max(long_u, long_v) < step_ && hidden(middle) &&
+        std::all_of(at.begin(), at.end(), [&](const Corner& c) { return hidden(c); })) {
+        return Verdict::kCovered;
+    }
+    return longer;
+}
+
+// Whether some corner is bare because the tool can't touch it, or is trimmed away.
+bool Coverage::blocked_somewhere(const std::array<Corner, 4>& at) const
+{
+    return std::any_of(at.begin(), at.end(), [&](const Corner& c) {
+        return !place_covered(c) &&
+               !(dot(c.normal, c.normal) > 0 && certified_.stands_free(touching_tip(c)));
+    });
+}
+
+// Whether the place is trimmed away or lies well under another surface.
+bool Coverage::hidden(const Corner& at) const
+{
+    const Vec3d p = at.point.point;
+    return !certified_.model().inside_trims(at.surface, at.u, at.v) ||
+           tops_.least_around(p.x, p.y) > p.z + kHidden + 2 * tops_.pitch();
+}
+
+void Coverage::look_into(const Cell& cell, int depth)
+{
+    const Verdict verdict = judge(cell);
+    if (verdict == Verdict::kCovered) {
+        return;
+    }
+    if (verdict == Verdict::kUncovered || depth == 0) {
+        if (gaps_.size() < kMostGaps) {
+            gaps_.push_back(cell);
+        }
+        return;
+    }
+    Cell a = cell;
+    Cell b = cell;
+    if (verdict == Verdict::kHalveU) {
+        a.u1 = b.u0 = 0.5 * (cell.u0 + cell.u1);
+    } else {
+        a.v1 = b.v0 = 0.5 * (cell.v0 + cell.v1);
+    }
+    look_into(a, depth - 1);
+    look_into(b, depth - 1);
+}
+
+void Coverage::look_over(int surface)
+{
+    for (const BezierPatch& patch : bezier_patches(surfaces_[static_cast<std::size_t>(surface)])) {
+        look_into({surface, patch.u_begin, patch.u_end, patch.v_begin, patch.v_end}, kDeepest);
+    }
+}
+
+std::optional<Vec3d> Coverage::missing_tip(int surface,
+                                           double u,
+                                           double v,
+                                           bool where_blocked) const
+{
+    const Corner at = corner(surface, u, v);
+    if (!certified_.model().inside_trims(surface, u, v) || place_covered(at)) {
+        return std::nullopt;
+    }
+    if (dot(at.normal, at.normal) > 0) {
+        const Vec3d tip = touching_tip(at);
+        if (certified_.stands_free(tip)) {
+            return tip;
+        }
+    }
+    return where_blocked ? better_tip(at) : std::nullopt;
+}
+
+// Where the tool would stand lowest over the place, from where it does now.
+std::optional<Vec3d> Coverage::better_tip(const Corner& at) const
+{
+    const Vec3d p = at.point.point;
+    const double cosine = std::max(0.02, at.normal.z);
+    if (hidden(at)) {
+        return std::nullopt;
+    }
+    const SweptBalls::Lowest now = swept_.lowest(p.x, p.y);
+    if ((now.height - p.z) * cosine <= scallop_) {
+        return std::nullopt;
+    }
+    // The map finds where; the model says how low.
+    const auto height = [&](double x, double y) {
+        const double square = radius_ * radius_ - (x - p.x) * (x - p.x) - (y - p.y) * (y - p.y);
+        if (square < 0) {
+            return std::numeric_limits<double>::infinity();
+        }
+        return tops_.drop(x, y, radius_) + radius_ - std::sqrt(square);
+    };
+    double x = p.x;
+    double y = p.y;
+    double best = height(x, y);
+    if (std::isfinite(now.height) && height(now.centre.x, now.centre.y) < best) {
+        x = now.centre.x;
+        y = now.centre.y;
+        best = height(x, y);
+    }
+    for (double step = 0.5 * radius_; step > 0.05 * step_;) {
+        const double from = best;
+        for (const auto& [dx, dy] : kDirections) {
+            const double there = height(x + dx * step, y + dy * step);
+            if (there < best) {
+                best = there;
+                x += dx * step;
+                y += dy * step;
+                break;
+            }
+        }
+        if (best == from) {
+            step *= 0.5;
+        }
+    }
+    const std::optional<Vec3d> tip = certified_.dropped(x, y);
+    if (!tip) {
+        return std::nullopt;
+    }
+    const double square = radius_ * radius_ - (x - p.x) * (x - p.x) - (y - p.y) * (y - p.y);
+    const double exact = tip->z + radius_ - std::sqrt(std::max(0.0, square));
+    return (now.height - exact) * cosine > scallop_ ? tip : std::nullopt;
+}
+
+Points Coverage::trace(int surface, Place place, bool along_u) const
+{
+    const Surface& s = surfaces_[static_cast<std::size_t>(surface)];
+    const double begin = along_u ? s.u_begin() : s.v_begin();
+    const double end = along_u ? s.u_end() : s.v_end();
+    Points out;
+    for (const double sign : {-1.0, 1.0}) {
+        double at_u = place.u;
+        double at_v = place.v;
+        for (int k = 0; k < kMostTraced; ++k) {
+            const std::optional<Vec3d> tip = missing_tip(surface, at_u, at_v, true);
+            if (k == 0 && sign > 0) {
+                // the start is there already
+            } else if (tip) {
+                out.push_back(*tip);
+            } else {
+                break;
+            }
+            const SurfacePoint p = certified_.model().evaluate(surface, at_u, at_v);
+            const double speed = norm(along_u ? p.du : p.dv);
+            double& at = along_u ? at_u : at_v;
+            const double step =
+                std::min(kTraceStep * step_ / std::max(1e-9, speed), (end - begin) / 8);
+            const double next = std::clamp(at + sign * step, begin, end);
+            if (next == at) {
+                break;
+            }
+            at = next;
+        }
+        if (sign < 0) {
+            std::reverse(out.begin(), out.end());
+        }
+    }
+    return out;
+}
+
+// A place of the cell that lacks a pass.
+std::optional<Coverage::Place> Coverage::bare_place(const Cell& cell) const
+{
+    const double u = 0.5 * (cell.u0 + cell.u1);
+    const double v = 0.5 * (cell.v0 + cell.v1);
+    for (const Place& place : {Place{u, v}, Place{cell.u0, cell.v0}, Place{cell.u1, cell.v0},
+                               Place{cell.u0, cell.v1}, Place{cell.u1, cell.v1}}) {
+        if (missing_tip(cell.surface, place.u, place.v, place.u == u)) {
+            return place;
+        }
+    }
+    return std::nullopt;
+}
+
+void Coverage::close_gaps(const std::function<void(const Points&)>& cut)
+{
+    for (int round = 0; round < kRounds && !gaps_.empty(); ++round) {
+        const std::vector<Cell> open = std::move(gaps_);
+        gaps_.clear();
+        std::vector<Cell> changed;
+        for (const Cell& cell : open) {
+            const std::optional<Place> place = bare_place(cell);
+            if (!place) {
+                continue;
+            }
+            changed.push_back(cell);
+            Points one = trace(cell.surface, *place, true);
+            Points other = trace(cell.surface, *place, false);
+            if (length_of(other) > length_of(one)) {
+                std::swap(one, other);
+            }
+            if (one.size() == 1) {
+                one.push_back(one.front() + Vec3d{kShortest, 0, 0});
+            }
+            cut(one);
+        }
+        for (const Cell& cell : changed) {
+            look_into(cell, kDeepest / 4);
+        }
+    }
+    const auto met = [&](const Cell& cell) {
+        return !bare_place(cell).has_value();
+    };
+    gaps_.erase(std::remove_if(gaps_.begin(), gaps_.end(), met), gaps_.end());
+}
+
+}  // namespace cusp::host

@@ -1,0 +1,91 @@
+// Whether passes of a ball leave no more than the scallop, proved cell by cell of the surfaces; and
+// the passes that are missing where they do leave more.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "host_tools/surface_passes/certified_pass.hpp"
+#include "host_tools/surface_passes/swept_balls.hpp"
+#include "host_tools/surface_passes/top_map.hpp"
+
+namespace cusp::host {
+
+// What is left at a place is measured square to the surface, where the tool can touch it. Where it
+// can't (valleys, concave edges), by what the best position of the tool would leave.
+//
+// Proof for a cell of the domain: what one straight move removes is convex. Where it holds all four
+// corners raised by the scallop, it holds all of the cell raised, by a ball smaller by how far the
+// cell is from flat. Cells that no one move covers are halved. The smallest are covered where each
+// corner is, with a share of the scallop kept for the slope between.
+//
+// How far a cell is from flat is taken from the second derivatives at its corners, doubled. Places
+// that the tool can't touch are looked at a quarter of a step apart and not proved between.
+class Coverage {
+public:
+    // scallop   mm: what may be left
+    // path_off  mm: how far the path that is cut may be from the points given to `add`
+    Coverage(const std::vector<Surface>& surfaces,
+             const CertifiedPasses& certified,
+             double scallop,
+             double path_off);
+
+    // A pass that will be cut, by its tips.
+    void add(const Points& tips) { swept_.add(tips); }
+
+    // Looks over one surface; what is not covered is kept for `close_gaps`.
+    void look_over(int surface);
+
+    // Passes for what is not covered, each handed to `cut`, which must `add` what it makes of it.
+    void close_gaps(const std::function<void(const Points&)>& cut);
+
+    // Cells that stay uncovered, after `close_gaps`.
+    std::size_t uncovered() const { return gaps_.size(); }
+
+private:
+    struct Place {
+        double u;
+        double v;
+    };
+    struct Corner {
+        int surface;
+        double u;
+        double v;
+        SurfacePoint point;
+        Vec3d normal;
+    };
+    struct Cell {
+        int surface;
+        double u0, u1, v0, v1;
+    };
+    enum class Verdict : std::uint8_t { kCovered, kHalveU, kHalveV, kUncovered };
+
+    Corner corner(int surface, double u, double v) const;
+    Vec3d touching_tip(const Corner& at) const;
+    void look_into(const Cell& cell, int depth);
+    Verdict judge(const Cell& cell) const;
+    bool place_covered(const Corner& at) const;
+    bool blocked_somewhere(const std::array<Corner, 4>& at) const;
+    bool hidden(const Corner& at) const;
+    std::optional<Place> bare_place(const Cell& cell) const;
+    // The tip that is missing at a place; none where nothing is, or the tool can't touch and
+    // `where_blocked` is false.
+    std::optional<Vec3d> missing_tip(int surface, double u, double v, bool where_blocked) const;
+    std::optional<Vec3d> better_tip(const Corner& at) const;
+    Points trace(int surface, Place place, bool along_u) const;
+
+    const std::vector<Surface>& surfaces_;
+    const CertifiedPasses& certified_;
+    double radius_;
+    double scallop_;
+    double path_off_;
+    double step_;  // mm, between passes on flat ground
+    SweptBalls swept_;
+    TopMap tops_;
+    std::vector<Cell> gaps_;
+    mutable std::vector<std::uint32_t> near_;
+};
+
+}  // namespace cusp::host

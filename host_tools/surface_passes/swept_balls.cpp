@@ -1,0 +1,131 @@
+// Moves are kept in squares seen from above.
+#include "host_tools/surface_passes/swept_balls.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cusp::host {
+namespace {
+
+constexpr int kShareTurns = 40;
+
+double square_to_move(Vec3d p, const SweptBalls::Move& move)
+{
+    const Vec3d d = move.to - move.from;
+    const double square = dot(d, d);
+    const Vec3d off = p - move.from;
+    const double t = square > 0 ? std::clamp(dot(off, d) / square, 0.0, 1.0) : 0;
+    const Vec3d rest = off - d * t;
+    return dot(rest, rest);
+}
+
+}  // namespace
+
+SweptBalls::SweptBalls(double radius, double reach) : radius_{radius}, pitch_{reach} {}
+
+std::int64_t SweptBalls::cell(double at) const
+{
+    return static_cast<std::int64_t>(std::floor(at / pitch_));
+}
+
+SweptBalls::Key SweptBalls::key(std::int64_t i, std::int64_t j) const
+{
+    return (static_cast<Key>(i) << 32) ^ (static_cast<Key>(j) & 0xffffffffU);
+}
+
+void SweptBalls::add(const std::vector<Vec3d>& tips)
+{
+    const Vec3d up{0, 0, radius_};
+    for (std::size_t k = 1; k < tips.size(); ++k) {
+        const Move move{tips[k - 1] + up, tips[k] + up};
+        const std::uint32_t number = static_cast<std::uint32_t>(moves_.size());
+        moves_.push_back(move);
+        const double length = std::hypot(move.to.x - move.from.x, move.to.y - move.from.y);
+        const int parts = std::max(1, static_cast<int>(std::ceil(4 * length / pitch_)));
+        for (int part = 0; part <= parts; ++part) {
+            const Vec3d at =
+                move.from + (move.to - move.from) * (static_cast<double>(part) / parts);
+            std::vector<std::uint32_t>& here = cells_[key(cell(at.x), cell(at.y))];
+            if (here.empty() || here.back() != number) {
+                here.push_back(number);
+            }
+        }
+    }
+}
+
+void SweptBalls::near(Vec3d centre, std::vector<std::uint32_t>& out) const
+{
+    out.clear();
+    // A move may cut the corner of a square between the places where it was put down.
+    const double reach = 1.13 * pitch_;
+    const std::int64_t j_end = cell(centre.y + reach);
+    for (std::int64_t i = cell(centre.x - reach); i <= cell(centre.x + reach); ++i) {
+        for (std::int64_t j = cell(centre.y - reach); j <= j_end; ++j) {
+            const auto found = cells_.find(key(i, j));
+            if (found == cells_.end()) {
+                continue;
+            }
+            for (const std::uint32_t number : found->second) {
+                const Move& move = moves_[number];
+                const double low = std::min(move.from.z, move.to.z) - pitch_;
+                const double high = std::max(move.from.z, move.to.z) + pitch_;
+                if (centre.z >= low && centre.z <= high &&
+                    (out.empty() || std::find(out.begin(), out.end(), number) == out.end())) {
+                    out.push_back(number);
+                }
+            }
+        }
+    }
+}
+
+bool SweptBalls::removes(std::uint32_t move, Vec3d point, double less) const
+{
+    const double radius = radius_ - less;
+    return radius > 0 && square_to_move(point, moves_[move]) <= radius * radius;
+}
+
+SweptBalls::Lowest SweptBalls::lowest(double x, double y) const
+{
+    Lowest best{std::numeric_limits<double>::infinity(), {}};
+    const auto try_move = [&](const Move& move) {
+        if (std::min(move.from.z, move.to.z) - radius_ >= best.height) {
+            return;
+        }
+        const auto height = [&](double t) {
+            const Vec3d c = move.from + (move.to - move.from) * t;
+            const double away = (c.x - x) * (c.x - x) + (c.y - y) * (c.y - y);
+            const double square = radius_ * radius_ - away;
+            return square >= 0 ? c.z - std::sqrt(square)
+                               : 1e6 + away;  // convex on, so that the search finds its way in
+        };
+        double low = 0;
+        double high = 1;
+        for (int turn = 0; turn < kShareTurns && high - low > 1e-4; ++turn) {
+            const double a = low + 0.382 * (high - low);
+            const double b = low + 0.618 * (high - low);
+            (height(a) < height(b) ? high : low) = height(a) < height(b) ? b : a;
+        }
+        const double t = 0.5 * (low + high);
+        for (const double share : {0.0, t, 1.0}) {
+            const double there = height(share);
+            if (there < best.height && there < 1e6) {
+                best = {there, move.from + (move.to - move.from) * share};
+            }
+        }
+    };
+    const std::int64_t j_end = cell(y + radius_);
+    for (std::int64_t i = cell(x - radius_); i <= cell(x + radius_); ++i) {
+        for (std::int64_t j = cell(y - radius_); j <= j_end; ++j) {
+            const auto found = cells_.find(key(i, j));
+            if (found != cells_.end()) {
+                for (const std::uint32_t number : found->second) {
+                    try_move(moves_[number]);
+                }
+            }
+        }
+    }
+    return best;
+}
+
+}  // namespace cusp::host

@@ -1,0 +1,53 @@
+// The metal that straight moves of a ball remove, and the moves near a place.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "host_tools/nurbs/nurbs.hpp"
+
+namespace cusp::host {
+
+// Moves by the centres of the ball. What one removes, a ball swept along a line, is convex.
+class SweptBalls {
+public:
+    struct Move {
+        Vec3d from;
+        Vec3d to;
+    };
+
+    // radius  mm, of the ball
+    // reach   mm: how near to a centre moves are looked for
+    SweptBalls(double radius, double reach);
+
+    // Straight moves through tips of the tool.
+    void add(const std::vector<Vec3d>& tips);
+
+    // The numbers of all moves that pass within `reach` of the centre, and some more.
+    void near(Vec3d centre, std::vector<std::uint32_t>& out) const;
+
+    // Whether the point lies in what the move removes, by a ball that is smaller by `less`.
+    bool removes(std::uint32_t move, Vec3d point, double less) const;
+
+    // The lowest point that all moves leave free of metal straight above (x, y), and the centre of
+    // the ball that does; height is infinite where there is none.
+    struct Lowest {
+        double height;
+        Vec3d centre;
+    };
+    Lowest lowest(double x, double y) const;
+
+private:
+    using Key = std::uint64_t;
+    Key key(std::int64_t i, std::int64_t j) const;
+    std::int64_t cell(double at) const;
+
+    double radius_;
+    double pitch_;
+    std::vector<Move> moves_;
+    std::unordered_map<Key, std::vector<std::uint32_t>> cells_;
+};
+
+}  // namespace cusp::host
