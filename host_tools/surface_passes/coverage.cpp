@@ -20,6 +20,7 @@ constexpr int kMostTraced = 4000;  // places of one pass
 constexpr int kRounds = 3;
 constexpr int kDeepest = 40;
 constexpr std::size_t kMostGaps = 200000;
+constexpr double kUpright = 0.05;   // z of the normal
 constexpr double kHidden = 1e-3;    // mm
 constexpr double kShortest = 1e-3;  // mm
 
@@ -206,8 +207,9 @@ std::optional<Vec3d> Coverage::missing_tip(int surface,
 std::optional<Vec3d> Coverage::better_tip(const Corner& at) const
 {
     const Vec3d p = at.point.point;
-    const double cosine = std::max(0.02, at.normal.z);
-    if (hidden(at)) {
+    const double cosine = at.normal.z;
+    // On upright walls heights say nothing.
+    if (at.normal.z < kUpright || hidden(at)) {
         return std::nullopt;
     }
     const SweptBalls::Lowest now = swept_.lowest(p.x, p.y);

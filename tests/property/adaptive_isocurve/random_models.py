@@ -205,7 +205,7 @@ def make_case(seed, folder):
 
 
 def run(arguments, **extra):
-    return subprocess.run(arguments, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=100, **extra)
+    return subprocess.run(arguments, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=400, **extra)
 
 
 def main():
