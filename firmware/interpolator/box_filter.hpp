@@ -8,8 +8,9 @@
 
 namespace cusp::interpolator {
 
-// Sum of the last n values. The caller divides, or passes the sum on to the next filter.
-template <std::uint32_t kMost>
+// Sum of the last n values, integers or vectors of them. The caller divides, or passes the sum on
+// to the next filter.
+template <class Value, std::uint32_t kMost>
 class RunningSum {
 public:
     // Precondition: 1 <= n <= kMost, drained().
@@ -22,17 +23,18 @@ public:
     std::uint32_t length() const noexcept { return length_; }
 
     // Adds a value, forgets the one n calls ago, and returns the new sum.
-    std::int32_t add(std::int32_t value) noexcept
+    Value add(Value value) noexcept
     {
-        sum_ += value - values_[next_];
-        values_[next_] = value;
+        Value& place = values_[next_];
+        sum_ = sum_ + (value - place);
+        place = value;
         next_ = next_ + 1 == length_ ? 0 : next_ + 1;
-        filled_ = value == 0 ? filled_ - (filled_ > 0 ? 1U : 0U) : length_;
+        filled_ = value == Value{} ? filled_ - (filled_ > 0 ? 1U : 0U) : length_;
         return sum_;
     }
 
     // The value added n calls ago.
-    std::int32_t oldest() const noexcept { return values_[next_]; }
+    Value oldest() const noexcept { return values_[next_]; }
 
     // Ticks until drained, if only zeros follow.
     std::uint32_t ticks_left() const noexcept { return filled_; }
@@ -42,17 +44,17 @@ public:
 
     void clear() noexcept
     {
-        values_.fill(0);
-        sum_ = 0;
+        values_.fill(Value{});
+        sum_ = Value{};
         filled_ = 0;
     }
 
 private:
-    std::array<std::int32_t, kMost> values_{};
+    std::array<Value, kMost> values_{};
     std::uint32_t length_{1};
     std::uint32_t next_{0};
     std::uint32_t filled_{0};
-    std::int32_t sum_{0};
+    Value sum_{};
 };
 
 // Quotient that keeps its remainder for the next call, so that nothing is lost. Rounds down.

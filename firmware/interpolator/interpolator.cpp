@@ -1,6 +1,8 @@
 // One set point a tick.
 #include "firmware/interpolator/interpolator.hpp"
 
+#include <utility>
+
 namespace cusp::interpolator {
 namespace {
 
@@ -30,10 +32,8 @@ void Interpolator::reset(Position at) noexcept
         track.offset = 0;
         track.place = {};
     }
-    for (AxisState& axis : axes_) {
-        axis.first.clear();
-        axis.second.clear();
-    }
+    first_.clear();
+    second_.clear();
     set_axis_filter(axis_filter_);
     position_ = at;
     drained_ = true;
@@ -48,45 +48,43 @@ void Interpolator::set_axis_filter(planner::AxisFilter filter) noexcept
 {
     axis_filter_ = filter;
     const std::int32_t divisor = kPathUnitsPerNanometre * filter.first * filter.second;
-    for (AxisState& axis : axes_) {
-        axis.first.set_length(filter.first);
-        axis.second.set_length(filter.second);
+    first_.set_length(filter.first);
+    second_.set_length(filter.second);
+    for (ExactDivision& division : axis_division_) {
         // Half a divisor: to the nearest nanometre.
-        axis.division.set(divisor, divisor / 2);
+        division.set(divisor, divisor / 2);
     }
 }
 
 bool Interpolator::filters_drained() const noexcept
 {
-    bool drained = leading().filter.drained() && trailing().filter.drained();
-    for (const AxisState& axis : axes_) {
-        drained = drained && axis.first.drained() && axis.second.drained();
-    }
-    return drained;
+    return leading_->filter.drained() && trailing_->filter.drained() && first_.drained() &&
+           second_.drained();
 }
 
 Position Interpolator::tick() noexcept
 {
     drained_before_ = drained_;
-    drained_ = leading().filter.drained();
+    drained_ = leading_->filter.drained();
     const OverrideFactors factors = holding_ ? OverrideFactors{0, 0} : factors_;
-    const std::int32_t step = servo_.tick(factors, ready_to_go_on(), trail_drained_);
-    trail_drained_ = trailing().filter.drained();
+    const std::int32_t step =
+        servo_.tick({factors, ready_to_go_on(), trail_drained_, leading_->filter.oldest()});
+    trail_drained_ = trailing_->filter.drained();
     if (servo_.passed_stop()) {
         change_track();
         drained_ = false;
-        trail_drained_ = trailing().filter.drained();
+        trail_drained_ = trailing_->filter.drained();
     }
     along_ = 0;
     PathOffset moved{};
-    if (!trailing().filter.drained()) {
-        moved = travel(trailing(), 0);
+    if (!trailing_->filter.drained()) {
+        moved = travel(*trailing_, 0);
     }
-    moved = moved + travel(leading(), step);
+    moved = moved + travel(*leading_, step);
     drop_passed_blocks();
+    const PathOffset smooth = second_.add(first_.add(moved));
     for (unsigned i = 0; i < kAxisCount; ++i) {
-        AxisState& axis = axes_[i];
-        position_[i] += axis.division.divide(axis.second.add(axis.first.add(moved[i])));
+        position_[i] += axis_division_[i].divide(smooth[i]);
     }
     at_rest_ = servo_.standing() && filters_drained();
     return position_;
@@ -99,19 +97,19 @@ Position Interpolator::tick() noexcept
 // nanometre. They must be where the next block has others.
 bool Interpolator::ready_to_go_on() noexcept
 {
-    if (!servo_.standing() || !trailing().filter.drained()) {
+    if (!servo_.standing() || !trailing_->filter.drained()) {
         return false;
     }
-    std::uint32_t next = leading().block;
-    if (!leading().filter.drained()) {
+    std::uint32_t next = leading_->block;
+    if (!leading_->filter.drained()) {
         const planner::Interval& here = queue_.interval(queue_.interval_begin());
         return queue_.interval_begin() != queue_.published() &&
-               leading().filter.ticks_left() < here.overlap && find_stop(next);
+               leading_->filter.ticks_left() < here.overlap && find_stop(next);
     }
     if (!drained_before_) {
         return false;
     }
-    if (next == queue_.block_end() || leading().offset != 0 ||
+    if (next == queue_.block_end() || leading_->offset != 0 ||
         queue_.block(next).filter == axis_filter_) {
         return true;
     }
@@ -126,7 +124,7 @@ bool Interpolator::find_stop(std::uint32_t& block) const noexcept
 {
     constexpr std::uint32_t kBlocksToLookAt = 16;
     for (std::uint32_t i = 0; i < kBlocksToLookAt; ++i) {
-        block = leading().block + i;
+        block = leading_->block + i;
         if (block == queue_.block_end()) {
             return false;
         }
@@ -140,14 +138,14 @@ bool Interpolator::find_stop(std::uint32_t& block) const noexcept
 // The path goes on behind a stop: the other track follows it.
 void Interpolator::change_track() noexcept
 {
-    std::uint32_t next = leading().block;
-    if (!leading().filter.drained() && find_stop(next)) {
+    std::uint32_t next = leading_->block;
+    if (!leading_->filter.drained() && find_stop(next)) {
         ++next;
     }
-    leading_ = 1U - leading_;
-    leading().block = next;
-    leading().offset = 0;
-    leading().place = {};
+    std::swap(leading_, trailing_);
+    leading_->block = next;
+    leading_->offset = 0;
+    leading_->place = {};
 }
 
 // Moves a track on along its blocks. Returns by how much, per axis, path units.
@@ -180,7 +178,7 @@ PathOffset Interpolator::travel(Track& track, std::int32_t step) noexcept
 
 void Interpolator::drop_passed_blocks() noexcept
 {
-    const Track& last = trailing().filter.drained() ? leading() : trailing();
+    const Track& last = trailing_->filter.drained() ? *leading_ : *trailing_;
     while (queue_.block_begin() != last.block) {
         queue_.drop_block();
     }

@@ -59,15 +59,10 @@ public:
 private:
     static constexpr std::uint32_t kMaxAxisFilter = 12;
 
-    struct AxisState {
-        RunningSum<kMaxAxisFilter> first;
-        RunningSum<kMaxAxisFilter> second;
-        ExactDivision division;
-    };
     // A stretch of path from stop to stop on its way through the path filter. Two overlap at a
     // corner that may be cut.
     struct Track {
-        RunningSum<kMaxPathFilter> filter;
+        RunningSum<std::int32_t, kMaxPathFilter> filter;
         ExactDivision division;
         std::uint32_t block{0};   // that the tool is on, as counted by the queue
         std::uint32_t offset{0};  // path units into it
@@ -80,20 +75,19 @@ private:
     bool find_stop(std::uint32_t& block) const noexcept;
     void change_track() noexcept;
     void drop_passed_blocks() noexcept;
-    Track& leading() noexcept { return tracks_[leading_]; }
-    const Track& leading() const noexcept { return tracks_[leading_]; }
-    Track& trailing() noexcept { return tracks_[1U - leading_]; }
-    const Track& trailing() const noexcept { return tracks_[1U - leading_]; }
 
     planner::Planner& planner_;
     planner::PathQueue& queue_;
     PathServo servo_;
     std::array<Track, 2> tracks_;
-    unsigned leading_{0};
+    Track* leading_{&tracks_[0]};
+    Track* trailing_{&tracks_[1]};
     bool drained_{false};         // the path filter of the leading track, before this tick
     bool drained_before_{false};  // and before the last one
     bool trail_drained_{true};    // that of the trailing track, before the last tick
-    PerAxis<AxisState> axes_{};
+    RunningSum<PathOffset, kMaxAxisFilter> first_;
+    RunningSum<PathOffset, kMaxAxisFilter> second_;
+    PerAxis<ExactDivision> axis_division_{};
     planner::AxisFilter axis_filter_{};
     Position position_{};
     std::int32_t along_{0};  // path units travelled in this tick

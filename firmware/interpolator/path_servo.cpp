@@ -20,26 +20,38 @@ float millimetres(std::uint32_t path_units) noexcept
     return static_cast<float>(path_units) / kPathUnitsPerMillimetre;
 }
 
+// The root of a squared speed, or `speed` where that is lower.
+float lower_root(float square, float speed) noexcept
+{
+    return square < speed * speed ? std::sqrt(square) : speed;
+}
+
 // Greatest speed v, held for one tick, that is still under an envelope which falls by 2 slope a mm
 // and is `end` after `distance` mm (squared speeds) in the middle of the tick's travel:
 // v^2 <= end + 2 slope (distance - v tick/2), or past the end v^2 <= end. Braking by slope from
 // tick to tick follows it exactly: the travel from middle to middle is (v + v')/2 tick.
-float speed_under(float end, float slope, float distance) noexcept
+// At most `greatest`.
+float speed_under(float end, float slope, float distance, float greatest) noexcept
 {
     const float drop = 0.5F * slope * kServoTick;
-    const float under =
-        std::sqrt(drop * drop + std::max(end + 2.0F * slope * distance, 0.0F)) - drop;
-    return std::max(under, std::sqrt(std::max(end, 0.0F)));
+    const float square = drop * drop + std::max(end + 2.0F * slope * distance, 0.0F);
+    const float most = greatest + drop;
+    if (square >= most * most) {
+        return greatest;
+    }
+    const float under = std::sqrt(square) - drop;
+    const bool past_end = 0.5F * under * kServoTick > distance;
+    return past_end ? std::max(under, std::sqrt(std::max(end, 0.0F))) : under;
 }
 
 // The same before a stop: the greatest first speed of n ticks that slow down by `slope` each, to
 // stand after the last: distance/(n tick) + slope tick (n - 1)/2, with the least n that can do it.
-float speed_before_stop(float slope, float distance) noexcept
+float speed_before_stop(float slope, float distance, float greatest) noexcept
 {
     constexpr float kManyTicks = 40.0F;  // the difference is 1/(8 n) of a tick's braking
-    const float under = speed_under(0.0F, slope, distance);
+    const float under = speed_under(0.0F, slope, distance, greatest);
     const float drop = slope * kServoTick;
-    if (under >= kManyTicks * drop) {
+    if (under >= kManyTicks * drop || under == greatest) {
         return under;
     }
     const float ticks = 1.0F + static_cast<float>(static_cast<std::uint32_t>(under / drop));
@@ -50,29 +62,27 @@ float speed_before_stop(float slope, float distance) noexcept
 
 void PathServo::reset(std::uint32_t filter) noexcept
 {
-    accelerations_.clear();
-    accelerations_.set_length(filter);
+    filter_ = filter;
     look_out_ = LookOut{};
     offset_ = 0;
     position_ = 0;
     travelled_.store(0, std::memory_order_relaxed);
     speed_ = 0;
     residue_ = 0;
-    last_step_ = 0;
+    oldest_step_ = 0;
     passed_stop_ = false;
 }
 
-std::int32_t PathServo::tick(const OverrideFactors& factors, bool may_pass, bool may_brake) noexcept
+std::int32_t PathServo::tick(const Conditions& conditions) noexcept
 {
     passed_stop_ = false;
-    const float speed = enter_path(may_pass) ? next_speed(factors, may_brake) : 0.0F;
+    const float speed = enter_path(conditions.may_pass) ? next_speed(conditions) : 0.0F;
     const std::int32_t step = speed > 0 ? advance(speed) : 0;
     if (speed <= 0) {
         residue_ = 0;
     }
     speed_ = speed;
-    accelerations_.add(step - last_step_);
-    last_step_ = step;
+    oldest_step_ = passed_stop_ ? 0 : conditions.oldest_step;
     return step;
 }
 
@@ -92,7 +102,6 @@ bool PathServo::enter_path(bool may_pass) noexcept
         }
         if (here.stop_at_end) {
             passed_stop_ = true;
-            accelerations_.clear();
         }
         offset_ -= here.length;
         queue_.drop_interval();
@@ -102,31 +111,24 @@ bool PathServo::enter_path(bool may_pass) noexcept
 
 PathServo::Bounds PathServo::bounds(float greatest, const OverrideFactors& factors) const noexcept
 {
-    Bounds least{greatest, kUnlimited, kUnlimited};
-    const float square = speed_ * speed_;
+    Bounds least{greatest, greatest, kUnlimited};
     std::uint32_t index = queue_.interval_begin();
     const std::uint32_t published = queue_.published();
     float to_end = 0;
     for (std::uint32_t i = 0;; ++i) {
         const Interval& interval = queue_.interval(index);
+        const planner::Envelope& envelope = interval.envelope;
+        const float slope = envelope.slope;
         to_end += millimetres(i == 0 ? interval.length - offset_ : interval.length);
-        const float slope = interval.envelope.slope;
-        const float end = interval.envelope.end_speed;
-        const float under =
-            end > 0 ? speed_under(end, slope, to_end) : speed_before_stop(slope, to_end);
-        least.speed = std::min({least.speed, under, std::sqrt(interval.envelope.limit.cap)});
+        least.speed = lower_root(envelope.limit.cap, least.speed);
+        least.speed = envelope.end_speed > 0
+                          ? speed_under(envelope.end_speed, slope, to_end, least.speed)
+                          : speed_before_stop(slope, to_end, least.speed);
         const float scaled_off =
-            (1.0F - factors.of(interval.origin_is_rapid)) * interval.envelope.feed_origin;
-        const float own = factors.of(interval.rapid) * interval.envelope.limit.feed;
-        least.feed = std::min({least.feed,
-                               speed_under(interval.envelope.feed_end - scaled_off, slope, to_end),
-                               std::sqrt(own)});
-        // Implicit in the speed after the tick, where less acceleration may be left.
-        const float drop =
-            (interval.envelope.limit.u0 - interval.envelope.limit.u1) / interval.envelope.limit.cap;
-        const float here = interval.envelope.limit.acceleration_at(square);
-        least.acceleration =
-            std::min(least.acceleration, here / (1.0F + 2.0F * drop * speed_ * kServoTick));
+            (1.0F - factors.of(interval.origin_is_rapid)) * envelope.feed_origin;
+        least.feed = lower_root(factors.of(interval.rapid) * envelope.limit.feed, least.feed);
+        least.feed = speed_under(envelope.feed_end - scaled_off, slope, to_end, least.feed);
+        least.acceleration = std::min(least.acceleration, acceleration_left(envelope.limit));
         ++index;
         const bool last = interval.stop_at_end || index == published;
         if (last || 0.5F * least.speed * kServoTick <= to_end) {
@@ -139,18 +141,30 @@ PathServo::Bounds PathServo::bounds(float greatest, const OverrideFactors& facto
     }
 }
 
-float PathServo::next_speed(const OverrideFactors& factors, bool may_brake) noexcept
+// Implicit in the speed after the tick, where less acceleration may be left.
+float PathServo::acceleration_left(const planner::SpeedLimit& limit) const noexcept
 {
+    if (limit.u0 == limit.u1) {
+        return limit.u0;
+    }
+    const float drop = (limit.u0 - limit.u1) / limit.cap;
+    const float here = limit.acceleration_at(speed_ * speed_);
+    return here / (1.0F + 2.0F * drop * speed_ * kServoTick);
+}
+
+float PathServo::next_speed(const Conditions& conditions) noexcept
+{
+    const OverrideFactors& factors = conditions.factors;
     // Between acceleration and braking, one path filter long, neither: so that the filtered
     // acceleration, a difference over one filter, changes by at most one limit.
-    const float before =
-        static_cast<float>(accelerations_.oldest()) / (kPathUnitsPerTick * kServoTick);
+    const std::int32_t change = passed_stop_ ? 0 : conditions.oldest_step - oldest_step_;
+    const float before = static_cast<float>(change) / (kPathUnitsPerTick * kServoTick);
     const float reach =
         speed_ + queue_.interval(queue_.interval_begin()).envelope.limit.u0 * kServoTick;
     const Bounds bound = bounds(reach, factors);
     const float most = bound.acceleration;
     const float up = std::max(0.0F, most - std::max(0.0F, -before));
-    const float down = may_brake ? std::max(0.0F, most - std::max(0.0F, before)) : 0.0F;
+    const float down = conditions.may_brake ? std::max(0.0F, most - std::max(0.0F, before)) : 0.0F;
     const float slowest = std::max(0.0F, speed_ - down * kServoTick);
     float wanted = speed_ + up * kServoTick;
     wanted = std::min(wanted, std::max(slowest, bound.feed));
@@ -167,7 +181,7 @@ float PathServo::next_speed(const OverrideFactors& factors, bool may_brake) noex
 // say), what follows from the envelope here, since ahead it falls by at most its steepest slope.
 float PathServo::coasting_speed(float wanted, const OverrideFactors& factors) noexcept
 {
-    const auto ticks = static_cast<float>(accelerations_.length() + 2);
+    const auto ticks = static_cast<float>(filter_ + 2);
     const auto travel = static_cast<std::uint64_t>(wanted * kPathUnitsPerTick * ticks);
     const std::uint32_t begin = queue_.interval_begin();
     const Interval& here = queue_.interval(begin);

@@ -19,12 +19,19 @@ public:
     // Precondition: at rest. `filter` is the length of the path filter in ticks.
     void reset(std::uint32_t filter) noexcept;
 
+    struct Conditions {
+        OverrideFactors factors;  // of squared speeds, by the overrides; {0, 0} holds
+        // Whether a stop that it stands at may be left: the filters are empty, but for what the
+        // stop lets overlap.
+        bool may_pass;
+        // Whether it may slow down: not while a stretch before the stop still drains.
+        bool may_brake;
+        // Its travel one path filter ago, which leaves the filter in this tick, path units.
+        std::int32_t oldest_step;
+    };
+
     // Advances by one tick. Returns the travel in path units.
-    //   factors   of squared speeds, by the overrides; {0, 0} holds.
-    //   may_pass  whether a stop that it stands at may be left: the filters are empty, but for what
-    //             the stop lets overlap.
-    //   may_brake whether it may slow down: not while a stretch before the stop still drains.
-    std::int32_t tick(const OverrideFactors& factors, bool may_pass, bool may_brake) noexcept;
+    std::int32_t tick(const Conditions& conditions) noexcept;
 
     // How far it has come since the reset, in units of 256 path units; wraps. Context: any.
     std::uint32_t travelled() const noexcept { return travelled_.load(std::memory_order_relaxed); }
@@ -42,19 +49,20 @@ private:
     };
     bool enter_path(bool may_pass) noexcept;
     Bounds bounds(float greatest, const OverrideFactors& factors) const noexcept;
-    float next_speed(const OverrideFactors& factors, bool may_brake) noexcept;
+    float acceleration_left(const planner::SpeedLimit& limit) const noexcept;
+    float next_speed(const Conditions& conditions) noexcept;
     float coasting_speed(float wanted, const OverrideFactors& factors) noexcept;
     float steepest_slope(std::uint32_t last) const noexcept;
     std::int32_t advance(float speed) noexcept;
 
     planner::PathQueue& queue_;
-    RunningSum<kMaxPathFilter> accelerations_;  // path units per tick^2
+    std::uint32_t filter_{1};  // length of the path filter, ticks
     LookOut look_out_;
-    std::uint32_t offset_{0};    // path units into the first interval
-    std::uint64_t position_{0};  // path units since the reset
-    float speed_{0};             // mm/s
-    float residue_{0};           // path units not yet travelled, in [0, 1)
-    std::int32_t last_step_{0};
+    std::uint32_t offset_{0};      // path units into the first interval
+    std::uint64_t position_{0};    // path units since the reset
+    float speed_{0};               // mm/s
+    float residue_{0};             // path units not yet travelled, in [0, 1)
+    std::int32_t oldest_step_{0};  // of the last tick
     bool passed_stop_{false};
     std::atomic<std::uint32_t> travelled_{0};
 };

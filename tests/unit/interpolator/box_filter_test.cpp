@@ -14,7 +14,7 @@ TEST(BoxFilters, WhatGoesInComesOutToTheLastUnit)
 {
     std::mt19937_64 random{811};
     for (std::uint32_t length = 1; length <= 50; ++length) {
-        RunningSum<50> filter;
+        RunningSum<std::int32_t, 50> filter;
         filter.set_length(length);
         ExactDivision division;
         division.set(static_cast<std::int32_t>(length), 0);
