@@ -17,11 +17,25 @@ constexpr float kFlat = 2e-6F;
 // Neighbours at least this far away give a tangent that rounded decimals hardly turn, mm.
 constexpr float kTangentSpan = 0.15F;
 
+// Of a short distance, below 2 m: the target converts 32 bits in one instruction.
 Vec3f millimetres(Position p) noexcept
 {
     constexpr float kScale = 1e-6F;
-    return {static_cast<float>(p.x) * kScale, static_cast<float>(p.y) * kScale,
-            static_cast<float>(p.z) * kScale};
+    const auto scaled = [](std::int64_t nm) {
+        return static_cast<float>(static_cast<std::int32_t>(nm)) * kScale;
+    };
+    return {scaled(p.x), scaled(p.y), scaled(p.z)};
+}
+
+bool is_short(Position p) noexcept
+{
+    constexpr auto kLongest = static_cast<std::int64_t>(LineSmoother::kLongestLine * 1e6F);
+    for (unsigned i = 0; i < 3; ++i) {
+        if (p[i] > kLongest || p[i] < -kLongest) {
+            return false;
+        }
+    }
+    return true;
 }
 
 Vec3d to_double(Vec3f a) noexcept
@@ -40,7 +54,8 @@ Vec3f unit(Vec3f a) noexcept
 bool LineSmoother::accepts(const path::Move& move) noexcept
 {
     if (move.kind != path::MoveKind::kFeed || move.tolerance <= 0 ||
-        !std::holds_alternative<path::Line>(move.path) || move.start == move.end) {
+        !std::holds_alternative<path::Line>(move.path) || move.start == move.end ||
+        !is_short(move.end - move.start)) {
         return false;
     }
     const Vec3f along = millimetres(move.end - move.start);
@@ -129,14 +144,12 @@ LineSmoother::Arc LineSmoother::tangent_arc(Vec3f start, Vec3f tangent, Vec3f en
     const float along = dot(chord, tangent);
     const Vec3f across = chord - tangent * along;
     const float height = norm(across);
-    Arc arc{start, end, tangent, {}, 0, 0};
+    Arc arc{start, end, tangent, {}, 0};
     if (height < kFlat || along <= 0) {
         return arc;
     }
     arc.normal = across / height;
     arc.radius = dot(chord, chord) / (2.0F * height);
-    arc.sweep =
-        2.0F * static_cast<float>(atan2(static_cast<double>(height), static_cast<double>(along)));
     return arc;
 }
 
@@ -210,7 +223,12 @@ path::Move LineSmoother::as_move(const Arc& arc, Position end) const noexcept
         shape.centre = normal * shape.radius;
         shape.u = -normal;
         shape.v = to_double(arc.tangent);
-        shape.sweep = static_cast<double>(arc.sweep);
+        // The height over the tangent from the radius: a product with the normal would have the
+        // rounding of the whole chord.
+        const Vec3f chord = arc.end - arc.start;
+        const float height = dot(chord, chord) / (2.0F * arc.radius);
+        shape.sweep =
+            2.0 * atan2(static_cast<double>(height), static_cast<double>(dot(chord, arc.tangent)));
         move.path = shape;
     }
     return move;

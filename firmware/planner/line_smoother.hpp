@@ -64,7 +64,6 @@ private:
         Vec3f tangent;  // unit, at the start
         Vec3f normal;   // unit, to the centre; zero for a line
         float radius;
-        float sweep;
     };
     struct Biarc {
         Arc first, second;

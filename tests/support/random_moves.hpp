@@ -1,6 +1,7 @@
 // Random programs for the motion core: lines, arcs, helices, reversals, tiny and huge, mixed feeds.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -42,6 +43,10 @@ private:
         if (number() % 5 == 0) {
             scale_ = std::pow(10, between(-3, 1.7));
         }
+        if (number() % 12 == 0) {
+            add_dense_run();
+            return;
+        }
         path::Move move;
         move.kind = number() % 6 == 0 ? path::MoveKind::kRapid : path::MoveKind::kFeed;
         move.start = at_;
@@ -55,6 +60,34 @@ private:
         }
         moves_.push_back(move);
         at_ = move.end;
+    }
+
+    // Chords of a curve whose bend drifts, with ends of whole micrometres or of none.
+    void add_dense_run()
+    {
+        const auto chords = 5 + number() % 60;
+        const double chord = between(0.02, 0.5);
+        const std::int64_t grain = number() % 2 == 0 ? 1000 : 1;
+        double bend = between(-1, 1) / chord * 0.2;
+        for (std::uint64_t i = 0; i < chords; ++i) {
+            bend += between(-0.1, 0.1) * 0.2 / chord;
+            const double turn = std::clamp(bend * chord, -0.25, 0.25);
+            const Vec3d side = unit(cross(direction_, {0.1, 0.2, 1}));
+            direction_ = unit(direction_ + side * turn);
+            path::Move move;
+            move.start = at_;
+            move.tolerance = tolerance_;
+            move.feed = feed_;
+            move.line = static_cast<std::uint32_t>(moves_.size() + 1);
+            move.end = at_ + to_position(direction_ * chord);
+            for (unsigned axis = 0; axis < 3; ++axis) {
+                move.end[axis] -= move.end[axis] % grain;
+            }
+            if (move.end != move.start) {
+                moves_.push_back(move);
+                at_ = move.end;
+            }
+        }
     }
 
     // Anywhere, nearly straight on, or exactly straight on.

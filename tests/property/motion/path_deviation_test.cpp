@@ -135,7 +135,7 @@ void check_program(std::uint64_t seed, double tolerance)
 std::uint64_t program_count()
 {
     const char* text = std::getenv("CUSP_MOTION_PROGRAMS");
-    return text != nullptr ? std::strtoull(text, nullptr, 10) : 60;
+    return text != nullptr ? std::strtoull(text, nullptr, 10) : 25;
 }
 
 }  // namespace
