@@ -7,6 +7,7 @@ namespace cusp::machine {
 namespace {
 
 constexpr float kMostAny = 1e7F;
+constexpr float kMostJerk = 1e10F;
 constexpr float kLeastPositive = 0.001F;
 constexpr float kLongestFilter = 0.250F;  // s: what the interpolator's filter holds
 constexpr float kSecondsPerMinute = 60.0F;
@@ -40,9 +41,9 @@ constexpr std::array<SettingEntry, kSettingCount> kTable{{
     {110, 3, 6000, kLeastPositive, 120000},
     {111, 3, 6000, kLeastPositive, 120000},
     {112, 3, 3000, kLeastPositive, 120000},
-    {120, 3, 1000, kLeastPositive, 100000},
-    {121, 3, 1000, kLeastPositive, 100000},
-    {122, 3, 500, kLeastPositive, 100000},
+    {120, 3, 1000, kLeastPositive, kMostAny},
+    {121, 3, 1000, kLeastPositive, kMostAny},
+    {122, 3, 500, kLeastPositive, kMostAny},
     {130, 3, 300, kLeastPositive, 100000},
     {131, 3, 200, kLeastPositive, 100000},
     {132, 3, 80, kLeastPositive, 100000},
@@ -50,9 +51,9 @@ constexpr std::array<SettingEntry, kSettingCount> kTable{{
     {790, 0, 3, 0, 100},
     {791, 0, 0, 0, 600000},
     {792, 0, 0, 0, 1},
-    {800, 3, 50000, kLeastPositive, kMostAny},
-    {801, 3, 50000, kLeastPositive, kMostAny},
-    {802, 3, 25000, kLeastPositive, kMostAny},
+    {800, 3, 50000, kLeastPositive, kMostJerk},
+    {801, 3, 50000, kLeastPositive, kMostJerk},
+    {802, 3, 25000, kLeastPositive, kMostJerk},
 }};
 
 std::optional<std::size_t> find_index(std::uint32_t number) noexcept

@@ -32,26 +32,20 @@ constexpr float kCornerShareOfTolerance = 0.985F;
 // A joint that takes less of the axes' jerk is none.
 constexpr float kNegligible = 1e-3F;
 
-struct FilterChoice {
-    AxisFilter filter;
-    float deviation;  // mm
-};
+constexpr float kMostTicks = 12.0F;
+// Positions on arcs and curves are off by up to half a nanometre, third differences by 4 and,
+// rounded once more, 8. Divided by the filters' lengths, n and 2, this is to be 1 % of the least
+// jerk; behind 4 ticks it is a nanometre at most.
+constexpr float kRoughJerk = 4e5F;
+constexpr float kFilterForRoughness = 4.0F;
 
-FilterChoice filter_for(float tolerance) noexcept
+// Two boxes of n and m ticks leave a circle by a (n^2 + m^2 - 2)/24 ticks^2: a box of one tick does
+// nothing.
+float circle_factor(AxisFilter filter) noexcept
 {
-    if (tolerance <= 0) {
-        return {{4, 2}, kExactDeviation};
-    }
-    const float deviation = std::max(kExactDeviation, kFilterShareOfTolerance * tolerance);
-    return {{deviation < 2 * kExactDeviation ? std::uint8_t{5} : std::uint8_t{10}, 2}, deviation};
-}
-
-// Two boxes leave a circle by a (t1^2 + t2^2)/24.
-float max_centripetal(const FilterChoice& choice) noexcept
-{
-    const float first = static_cast<float>(choice.filter.first) * kServoTick;
-    const float second = static_cast<float>(choice.filter.second) * kServoTick;
-    return 24.0F * choice.deviation / (first * first + second * second);
+    const auto first = static_cast<float>(filter.first);
+    const auto second = static_cast<float>(filter.second);
+    return (first * first + second * second - 2.0F) * (kServoTick * kServoTick / 24.0F);
 }
 
 MachineLimits scaled(const MachineLimits& limits, float factor) noexcept
@@ -61,19 +55,42 @@ MachineLimits scaled(const MachineLimits& limits, float factor) noexcept
 
 }  // namespace
 
+// The longest filter that leaves a circle at the axes' greatest acceleration by no more than its
+// part of the tolerance, but long enough to smooth the rounding of positions.
+Planner::FilterChoice Planner::filter_for(float tolerance) const noexcept
+{
+    const float deviation = std::max(kExactDeviation, kFilterShareOfTolerance * tolerance);
+    constexpr float kSecond = 2.0F;
+    const float square = deviation * 24.0F / (greatest_acceleration_ * kServoTick * kServoTick) -
+                         kSecond * kSecond + 2.0F;
+    const float ticks = std::clamp(std::sqrt(std::max(square, 1.0F)), 1.0F, kMostTicks);
+    const auto first = static_cast<std::uint8_t>(std::max(ticks, least_filter_));
+    return {{first, first > 1 ? std::uint8_t{2} : std::uint8_t{1}}, deviation};
+}
+
+float Planner::max_centripetal(const FilterChoice& choice) noexcept
+{
+    return choice.deviation / std::max(circle_factor(choice.filter), 1e-12F);
+}
+
 void Planner::set_limits(const MachineLimits& limits) noexcept
 {
     float longest = 0;
+    float least_jerk = kUnlimited;
+    greatest_acceleration_ = 0;
     for (unsigned i = 0; i < kAxisCount; ++i) {
         longest = std::max(longest, limits.acceleration[i] / limits.jerk[i]);
+        greatest_acceleration_ = std::max(greatest_acceleration_, limits.acceleration[i]);
+        least_jerk = std::min(least_jerk, limits.jerk[i]);
     }
     path_filter_ = std::clamp(static_cast<std::uint32_t>(std::ceil(longest / kServoTick - 0.001F)),
                               std::uint32_t{1}, kMaxPathFilter);
+    least_filter_ = std::clamp(std::ceil(kRoughJerk / least_jerk), 1.0F, kFilterForRoughness);
     limits_ =
         scaled(limits, 1.0F - kRoundingMargin - kTickMargin / static_cast<float>(path_filter_));
     blender_.set_limits(limits_, static_cast<float>(path_filter_) * kServoTick);
     const float half = 0.5F * static_cast<float>(path_filter_) * kServoTick + 2.0F * kServoTick;
-    constexpr float kLongestAxisFilter = 12.0F * kServoTick;
+    constexpr float kLongestAxisFilter = (kMostTicks + 2.0F) * kServoTick;
     queue_.set_steepest_slope(norm(limits_.acceleration));
     builder_.set_reach({half, half + kLongestAxisFilter, half + kLongestAxisFilter});
 }

@@ -68,6 +68,12 @@ public:
     std::uint32_t path_filter() const noexcept { return path_filter_; }
 
 private:
+    struct FilterChoice {
+        AxisFilter filter;
+        float deviation;  // mm
+    };
+    FilterChoice filter_for(float tolerance) const noexcept;
+    static float max_centripetal(const FilterChoice& choice) noexcept;
     void work() noexcept;
     bool path_is_short() const noexcept;
     bool next_move() noexcept;
@@ -87,6 +93,8 @@ private:
     static constexpr std::size_t kRecentJoints = 16;
 
     MachineLimits limits_{};
+    float greatest_acceleration_{1};  // of any axis
+    float least_filter_{1};           // ticks of the first axis filter
     std::uint32_t path_filter_{1};
     PathQueue queue_;
     IntervalBuilder builder_;
