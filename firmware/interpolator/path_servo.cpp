@@ -128,7 +128,8 @@ PathServo::Bounds PathServo::bounds(float greatest, const OverrideFactors& facto
             (1.0F - factors.of(interval.origin_is_rapid)) * envelope.feed_origin;
         least.feed = lower_root(factors.of(interval.rapid) * envelope.limit.feed, least.feed);
         least.feed = speed_under(envelope.feed_end - scaled_off, slope, to_end, least.feed);
-        least.acceleration = std::min(least.acceleration, acceleration_left(envelope.limit));
+        least.acceleration = std::min(
+            least.acceleration, envelope.limit.acceleration_behind(speed_, queue_.half_filter()));
         ++index;
         const bool last = interval.stop_at_end || index == published;
         if (last || 0.5F * least.speed * kServoTick <= to_end) {
@@ -139,17 +140,6 @@ PathServo::Bounds PathServo::bounds(float greatest, const OverrideFactors& facto
             return least;
         }
     }
-}
-
-// Implicit in the speed after the tick, where less acceleration may be left.
-float PathServo::acceleration_left(const planner::SpeedLimit& limit) const noexcept
-{
-    if (limit.u0 == limit.u1) {
-        return limit.u0;
-    }
-    const float drop = (limit.u0 - limit.u1) / limit.cap;
-    const float here = limit.acceleration_at(speed_ * speed_);
-    return here / (1.0F + 2.0F * drop * speed_ * kServoTick);
 }
 
 float PathServo::next_speed(const Conditions& conditions) noexcept

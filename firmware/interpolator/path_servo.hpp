@@ -49,7 +49,6 @@ private:
     };
     bool enter_path(bool may_pass) noexcept;
     Bounds bounds(float greatest, const OverrideFactors& factors) const noexcept;
-    float acceleration_left(const planner::SpeedLimit& limit) const noexcept;
     float next_speed(const Conditions& conditions) noexcept;
     float coasting_speed(float wanted, const OverrideFactors& factors) noexcept;
     float steepest_slope(std::uint32_t last) const noexcept;

@@ -3,17 +3,18 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 
 namespace cusp::planner {
 namespace {
 
 // Braking acceleration over an interval that ends at the squared speed `end`.
-float braking(const SpeedLimit& limit, float end, float length) noexcept
+float braking(const SpeedLimit& limit, float end, float length, float half_filter) noexcept
 {
     // Implicit step: the acceleration at the highest speed of the interval, which is the least.
     const float drop = (limit.u0 - limit.u1) / limit.cap;
     const float start = (end + 2.0F * length * limit.u0) / (1.0F + 2.0F * length * drop);
-    return limit.acceleration_at(std::min(start, limit.cap));
+    return limit.acceleration_behind(std::sqrt(std::min(start, limit.cap)), half_filter);
 }
 
 // What the path after an interval allows at the interval's end.
@@ -37,7 +38,7 @@ Ahead start_of(const Interval& interval) noexcept
 }
 
 // False where nothing changed.
-bool update(Interval& interval, const Ahead& ahead) noexcept
+bool update(Interval& interval, const Ahead& ahead, float half_filter) noexcept
 {
     Envelope& envelope = interval.envelope;
     const bool stops = interval.stop_at_end;
@@ -51,7 +52,7 @@ bool update(Interval& interval, const Ahead& ahead) noexcept
     const float length = static_cast<float>(interval.length) / kPathUnitsPerMillimetre;
     // A higher end may mean less braking over the interval: that first, or the tick could see the
     // higher end with the stronger brake.
-    envelope.slope = braking(envelope.limit, end, length);
+    envelope.slope = braking(envelope.limit, end, length, half_filter);
     envelope.feed_origin = feed_is_own ? envelope.limit.feed : ahead.feed_origin;
     interval.origin_is_rapid = feed_is_own ? interval.rapid : ahead.origin_is_rapid;
     std::atomic_signal_fence(std::memory_order_seq_cst);
@@ -68,7 +69,7 @@ void look_ahead(PathQueue& queue) noexcept
     const std::uint32_t begin = queue.interval_begin();
     for (std::uint32_t i = queue.published(); i != begin; --i) {
         Interval& interval = queue.interval(i - 1);
-        if (!update(interval, ahead)) {
+        if (!update(interval, ahead, queue.half_filter())) {
             return;
         }
         queue.note_change(i - 1);

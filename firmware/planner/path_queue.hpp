@@ -97,6 +97,10 @@ public:
     float steepest_slope() const noexcept { return steepest_slope_; }
     void set_steepest_slope(float slope) noexcept { steepest_slope_ = slope; }
 
+    // Half the length of the path filter, s. Set before the first move.
+    float half_filter() const noexcept { return half_filter_; }
+    void set_half_filter(float seconds) noexcept { half_filter_ = seconds; }
+
     // Context: main loop.
     void append_block(const Block& block) noexcept;
     void append_interval(const Interval& interval) noexcept;
@@ -156,6 +160,7 @@ private:
     std::uint32_t interval_end_{0};
     std::uint64_t published_length_{0};
     float steepest_slope_{0};
+    float half_filter_{0};
 };
 
 }  // namespace cusp::planner

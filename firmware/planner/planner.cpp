@@ -89,10 +89,8 @@ void Planner::set_limits(const MachineLimits& limits) noexcept
     limits_ =
         scaled(limits, 1.0F - kRoundingMargin - kTickMargin / static_cast<float>(path_filter_));
     blender_.set_limits(limits_, static_cast<float>(path_filter_) * kServoTick);
-    const float half = 0.5F * static_cast<float>(path_filter_) * kServoTick + 2.0F * kServoTick;
-    constexpr float kLongestAxisFilter = (kMostTicks + 2.0F) * kServoTick;
+    queue_.set_half_filter(0.5F * static_cast<float>(path_filter_) * kServoTick);
     queue_.set_steepest_slope(norm(limits_.acceleration));
-    builder_.set_reach({half, half + kLongestAxisFilter, half + kLongestAxisFilter});
 }
 
 void Planner::reset(Position at) noexcept
@@ -152,7 +150,12 @@ bool Planner::empty() const noexcept
 void Planner::start(const path::Move& move) noexcept
 {
     move_ = move;
-    maker_.start(move, filter_for(move.tolerance).filter);
+    const AxisFilter filter = filter_for(move.tolerance).filter;
+    maker_.start(move, filter);
+    // Where the axis filters change the path stops: nothing reaches over that.
+    const float half = queue_.half_filter() + 2.0F * kServoTick;
+    const float beyond = half + static_cast<float>(filter.first + filter.second) * kServoTick;
+    builder_.set_reach({half, beyond, beyond});
 }
 
 // Whether the published path could be over in a tenth of a second.

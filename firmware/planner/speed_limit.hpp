@@ -29,6 +29,17 @@ struct SpeedLimit {
     {
         return squared_speed >= cap ? u1 : u0 - (u0 - u1) * (squared_speed / cap);
     }
+
+    // What may be used at a speed, mm/s, though the tool, behind half a path filter (s), is
+    // faster by what that gains or loses.
+    float acceleration_behind(float speed, float half_filter) const noexcept
+    {
+        if (u0 == u1) {
+            return u0;
+        }
+        const float faster = speed + half_filter * acceleration_at(speed * speed);
+        return acceleration_at(faster * faster);
+    }
 };
 
 // A bound that falls linearly with the squared speed.
