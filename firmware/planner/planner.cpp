@@ -216,6 +216,7 @@ bool Planner::next_move() noexcept
 void Planner::work() noexcept
 {
     constexpr std::uint32_t kIntervalsOfABlock = 16 * IntervalBuilder::kMostPerAppend;
+    bool changed = false;
     Block block;
     while (queue_.free_blocks() > 0 && queue_.free_curves() > 0 &&
            queue_.free_intervals() > kIntervalsOfABlock) {
@@ -224,15 +225,20 @@ void Planner::work() noexcept
         }
         if (!maker_.done() && maker_.make(move_, queue_, block)) {
             add_block(block);
+            changed = true;
         }
     }
     const bool all_done = maker_.done() && !waiting_ && smoother_.empty() && blender_.empty();
     if (all_done && close_requested_) {
         stop({});
         close_requested_ = false;
+        changed = true;
     }
-    builder_.publish(!maker_.done());
-    look_ahead(queue_);
+    // Without news there is nothing to publish, but where the whole queue is too short for it.
+    if (changed || queue_.published() == queue_.interval_begin()) {
+        builder_.publish(!maker_.done());
+        look_ahead(queue_);
+    }
 }
 
 void Planner::add_block(const Block& block) noexcept
