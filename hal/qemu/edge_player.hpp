@@ -55,6 +55,7 @@ private:
     static constexpr std::uint32_t kLeastWait = 100;
 
     void ask_again() noexcept;
+    std::int32_t until_due() const noexcept;  // ns
     bool finish_frame() noexcept;
     std::uint32_t next_tick() const noexcept;
 
@@ -128,10 +129,16 @@ void EdgePlayer<Chip, Port, Trace>::ask_again() noexcept
         Chip::interrupts().ispr[kNumber / 32].write(1U << kNumber % 32);
         return;
     }
-    const std::uint32_t due = frame_clock_ + next_tick() * kNanosecondsPerTick;
-    const auto wait = static_cast<std::int32_t>(due - Chip::timer5().cnt.read());
+    const std::int32_t wait = until_due();
     const bool late = wait < static_cast<std::int32_t>(kLeastWait);
     Chip::timer2().arr.write(late ? kLeastWait : static_cast<std::uint32_t>(wait));
+}
+
+template <class Chip, class Port, class Trace>
+std::int32_t EdgePlayer<Chip, Port, Trace>::until_due() const noexcept
+{
+    const std::uint32_t due = frame_clock_ + next_tick() * kNanosecondsPerTick;
+    return static_cast<std::int32_t>(due - Chip::timer5().cnt.read());
 }
 
 template <class Chip, class Port, class Trace>
@@ -140,6 +147,11 @@ bool EdgePlayer<Chip, Port, Trace>::on_interrupt() noexcept
     Chip::timer2().sr.write(0);
     if (!real_pace_) {
         active_ = ready_[playing_].load(std::memory_order_acquire);
+    } else if (until_due() > static_cast<std::int32_t>(kLeastWait)) {
+        // The short period that an edge just passed had asked for ended once more before the next
+        // was set: nothing is due.
+        ask_again();
+        return false;
     }
     const auto& edges = frames_[playing_].edges;
     bool tick_due = false;
