@@ -26,36 +26,32 @@ float lower_root(float square, float speed) noexcept
     return square < speed * speed ? std::sqrt(square) : speed;
 }
 
-// Greatest speed v, held for one tick, that is still under an envelope which falls by 2 slope a mm
-// and is `end` after `distance` mm (squared speeds) in the middle of the tick's travel:
-// v^2 <= end + 2 slope (distance - v tick/2), or past the end v^2 <= end. Braking by slope from
-// tick to tick follows it exactly: the travel from middle to middle is (v + v')/2 tick.
-// At most `greatest`.
+// Greatest speed v, held for one tick and at most `greatest`, that is still under an envelope which
+// falls by 2 slope a mm and is `end` after `distance` mm (squared speeds) in the middle of the
+// tick's travel: v^2 <= end + 2 slope (distance - v tick/2), or past the end v^2 <= end. Braking by
+// slope from tick to tick follows it exactly: the travel from middle to middle is (v + v')/2 tick.
+//
+// So that the last tick before a stop brakes no harder, the slowest speeds are those from which n
+// ticks that slow down by `slope` each end where the envelope does, after D mm, were it to fall on:
+// D/(n tick) + slope tick (n - 1)/2, with the least n that can do it.
 float speed_under(float end, float slope, float distance, float greatest) noexcept
 {
-    const float drop = 0.5F * slope * kServoTick;
-    const float square = drop * drop + std::max(end + 2.0F * slope * distance, 0.0F);
-    const float most = greatest + drop;
+    constexpr float kManyTicks = 40.0F;  // the difference is 1/(8 n) of a tick's braking
+    const float half = 0.5F * slope * kServoTick;
+    const float square = half * half + std::max(end + 2.0F * slope * distance, 0.0F);
+    const float most = greatest + half;
     if (square >= most * most) {
         return greatest;
     }
-    const float under = std::sqrt(square) - drop;
+    float under = std::sqrt(square) - half;
+    const float drop = 2.0F * half;
+    if (under < kManyTicks * drop) {
+        const float whole = 1.0F + static_cast<float>(static_cast<std::uint32_t>(under / drop));
+        const float to_stop = std::max(distance + 0.5F * end / slope, 0.0F);
+        under = std::min(under, to_stop / (whole * kServoTick) + half * (whole - 1.0F));
+    }
     const bool past_end = 0.5F * under * kServoTick > distance;
     return past_end ? std::max(under, std::sqrt(std::max(end, 0.0F))) : under;
-}
-
-// The same before a stop: the greatest first speed of n ticks that slow down by `slope` each, to
-// stand after the last: distance/(n tick) + slope tick (n - 1)/2, with the least n that can do it.
-float speed_before_stop(float slope, float distance, float greatest) noexcept
-{
-    constexpr float kManyTicks = 40.0F;  // the difference is 1/(8 n) of a tick's braking
-    const float under = speed_under(0.0F, slope, distance, greatest);
-    const float drop = slope * kServoTick;
-    if (under >= kManyTicks * drop || under == greatest) {
-        return under;
-    }
-    const float ticks = 1.0F + static_cast<float>(static_cast<std::uint32_t>(under / drop));
-    return distance / (ticks * kServoTick) + 0.5F * drop * (ticks - 1.0F);
 }
 
 }  // namespace
@@ -121,9 +117,7 @@ PathServo::Bounds PathServo::bounds(float greatest, const OverrideFactors& facto
         const float slope = envelope.slope;
         to_end += millimetres(i == 0 ? interval.length - offset_ : interval.length);
         least.speed = lower_root(envelope.limit.cap, least.speed);
-        least.speed = envelope.end_speed > 0
-                          ? speed_under(envelope.end_speed, slope, to_end, least.speed)
-                          : speed_before_stop(slope, to_end, least.speed);
+        least.speed = speed_under(envelope.end_speed, slope, to_end, least.speed);
         const float scaled_off =
             (1.0F - factors.of(interval.origin_is_rapid)) * envelope.feed_origin;
         least.feed = lower_root(factors.of(interval.rapid) * envelope.limit.feed, least.feed);
