@@ -18,8 +18,8 @@ constexpr float kLeastJointSpeed = 1.5F;  // mm/s
 // Near a joint that stands alone speed hardly changes; in dense runs it must.
 constexpr float kLoneJointShare = 0.98F;
 constexpr float kDenseJointShare = 0.8F;
-// Keeps rounding of set points and speeds below the limits; and, of one tick's braking, the eighth
-// that PathServo may brake harder where its rules for a stop and for the way there meet.
+// Keeps rounding of set points and speeds below the limits; and, of one tick's braking, what
+// PathServo may brake harder near a stop where the slopes of neighbouring intervals differ.
 constexpr float kRoundingMargin = 0.0004F;
 constexpr float kTickMargin = 0.006F;
 constexpr float kGreatestSpeed = 2000.0F;  // mm/s
