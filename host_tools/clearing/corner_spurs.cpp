@@ -97,20 +97,22 @@ std::optional<Spur> spur_for(const std::vector<FarPoint>& stretch,
     return Spur{foot.edge, foot.point, end};
 }
 
+// Where along its edge the spur leaves; ordered as the path goes.
+double along(const Edge& edge, Vec2d foot) { return dot(foot - edge.start, edge.end - edge.start); }
+
 Region2d with_spurs(const Region2d& level, std::vector<Spur> spurs)
 {
+    const std::vector<Edge> edges = edges_of(level);
+    std::sort(spurs.begin(), spurs.end(), [&](const Spur& a, const Spur& b) {
+        return a.edge != b.edge ? a.edge < b.edge
+                                : along(edges[a.edge], a.foot) < along(edges[b.edge], b.foot);
+    });
     Region2d result;
     std::size_t index = 0;
+    auto spur = spurs.begin();
     for (const Contour& contour : level.contours) {
         Contour path;
         for (const Edge& edge : contour) {
-            std::vector<Spur> here;
-            std::copy_if(spurs.begin(), spurs.end(), std::back_inserter(here),
-                         [&](const Spur& spur) { return spur.edge == index; });
-            const Vec2d chord = edge.end - edge.start;
-            std::sort(here.begin(), here.end(), [&](const Spur& a, const Spur& b) {
-                return dot(a.foot - b.foot, chord) < 0.0;
-            });
             Vec2d from = edge.start;
             const auto advance = [&](Vec2d to) {
                 if (distance(from, to) > 1e-6) {
@@ -118,10 +120,10 @@ Region2d with_spurs(const Region2d& level, std::vector<Spur> spurs)
                     from = to;
                 }
             };
-            for (const Spur& spur : here) {
-                advance(spur.foot);
-                path.push_back(line_edge(from, spur.end));
-                path.push_back(line_edge(spur.end, from));
+            for (; spur != spurs.end() && spur->edge == index; ++spur) {
+                advance(spur->foot);
+                path.push_back(line_edge(from, spur->end));
+                path.push_back(line_edge(spur->end, from));
             }
             advance(edge.end);
             path.back().end = edge.end;
@@ -143,11 +145,7 @@ std::optional<Region2d> with_corner_spurs(const Region2d& level,
     if (level.contours.empty()) {
         return rest.contours.empty() ? std::optional<Region2d>{level} : std::nullopt;
     }
-    std::vector<Edge> edges;
-    for (const Contour& contour : level.contours) {
-        edges.insert(edges.end(), contour.begin(), contour.end());
-    }
-    const EdgeTree tree{edges};
+    const EdgeTree tree{edges_of(level)};
     std::vector<Spur> spurs;
     for (const Contour& border : rest.contours) {
         for (const auto& stretch : far_stretches(border_points(border, tree, reach), reach)) {

@@ -103,12 +103,12 @@ private:
         const double radius = operation_.tool.radius;
         const double larger = rough.operation.path.tool.radius - radius;
         const RegionOffset walls{region_};
-        const Region2d centres = walls.at(rough.first);
+        const EdgeTree centres{edges_of(walls.at(rough.first))};
         const auto roughed = [&](Vec2d p) {
             if (walls.clearance(p) >= rough.first - std::min(larger, 0.0)) {
                 return true;
             }
-            return larger > 0.0 && distance_to(centres, p) <= larger;
+            return larger > 0.0 && centres.any_nearer(p, larger);
         };
         std::vector<bool> beside;
         for (const ClearingPass& pass : cleared.passes) {

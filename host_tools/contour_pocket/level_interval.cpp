@@ -59,6 +59,7 @@ double LevelInterval::from(const Region2d& level)
     for (const Contour& contour : level.contours) {
         Vec2d corner{1e300, 1e300};
         Vec2d arriving = tangent_at_end(contour.back());
+        since_ = 1e300;
         for (const Edge& edge : contour) {
             along(edge);
             constexpr double kCorner = 0.995;  // cosine of some 6 degrees
@@ -158,11 +159,16 @@ double LevelInterval::by_ridge(Vec2d at, Vec2d direction, double most) const
     return good;
 }
 
-// Closer where the floor is uneven along the edge.
+// Closer where the floor is uneven along the edge. Of a chain of short edges only every one is
+// looked at that begins `kClosest` after the last sample.
 void LevelInterval::along(const Edge& edge)
 {
     const double radius = floor_.tool().radius;
     const double whole = length(edge);
+    since_ += whole;
+    if (since_ < kClosest * radius) {
+        return;
+    }
     const int n = 1 + static_cast<int>(whole / radius);
     Sample last{};
     for (int i = 0; i < n; ++i) {
@@ -172,6 +178,7 @@ void LevelInterval::along(const Edge& edge)
         }
         last = next;
     }
+    since_ = 0.5 * whole / n;
 }
 
 LevelInterval::Sample LevelInterval::sample(const Edge& edge, double share)

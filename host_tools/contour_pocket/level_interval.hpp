@@ -49,6 +49,7 @@ private:
     const Budget& budget_;
     bool corners_;
     double least_{};
+    double since_{};  // mm along the loop from the last sample
 };
 
 }  // namespace cusp::host

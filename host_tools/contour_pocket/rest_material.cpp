@@ -15,28 +15,6 @@ namespace {
 
 constexpr double kMostCells = 500.0;  // a side
 
-EdgeTree tree_of(const Region2d& region)
-{
-    std::vector<Edge> edges;
-    for (const Contour& contour : region.contours) {
-        edges.insert(edges.end(), contour.begin(), contour.end());
-    }
-    return EdgeTree{std::move(edges)};
-}
-
-Box2d box_of(const Region2d& region)
-{
-    Box2d box;
-    for (const Contour& contour : region.contours) {
-        for (const Edge& edge : contour) {
-            const Box2d b = box_of(edge);
-            box = {std::min(box.x0, b.x0), std::min(box.y0, b.y0), std::max(box.x1, b.x1),
-                   std::max(box.y1, b.y1)};
-        }
-    }
-    return box;
-}
-
 // A needle: where it rests is the floor itself.
 Tool needle() { return {1, ToolShape::kFlat, 1e-3, 0.0}; }
 
@@ -47,7 +25,7 @@ public:
                const TipFloor& tips,
                double first)
         : walls_{region},
-          centres_{tree_of(walls_.at(first))},
+          centres_{edges_of(walls_.at(first))},
           tips_{tips},
           floor_{floor, needle(), 0.01 * tips.tool().radius},
           first_{first},
@@ -105,7 +83,7 @@ private:
                 const bool beside = walls_.any_nearer(p, first_);
                 if (j == 0 || (beside && walls_.any_nearer(p, 1.01 * cell_)) ||
                     1.01 * cell_ > first_) {
-                    inside = contains(walls_.source(), p);
+                    inside = walls_.contains(p);
                 }
                 if (inside) {
                     places_[index(i, j)] = beside ? Place::kBeside : Place::kAllowed;

@@ -8,19 +8,6 @@
 namespace cusp::host {
 namespace {
 
-Box2d box_of(const Region2d& region)
-{
-    Box2d box;
-    for (const Contour& contour : region.contours) {
-        for (const Edge& edge : contour) {
-            const Box2d b = box_of(edge);
-            box = {std::min(box.x0, b.x0), std::min(box.y0, b.y0), std::max(box.x1, b.x1),
-                   std::max(box.y1, b.y1)};
-        }
-    }
-    return box;
-}
-
 // Whole cells that cover `length`; a last one of less than a millionth is rounding.
 int cells(double length, double size) { return static_cast<int>(std::ceil(length / size - 1e-6)); }
 

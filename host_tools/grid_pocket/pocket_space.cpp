@@ -12,15 +12,6 @@ namespace {
 constexpr double kHeightsShare = 0.15;  // of the time of a plan
 constexpr double kNoHeight = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<Edge> edges_of(const Region2d& region)
-{
-    std::vector<Edge> out;
-    for (const Contour& contour : region.contours) {
-        out.insert(out.end(), contour.begin(), contour.end());
-    }
-    return out;
-}
-
 // Steps between neighbours that only the zigzags along `axis` cut.
 void add_zigzag(const PocketSpace& pocket, char axis, Tracks& tracks)
 {

@@ -161,18 +161,23 @@ Contour reversed(const Contour& contour)
     return result;
 }
 
-// The chords' polygon, corrected by every circular segment that the point lies in.
+// The chord's ray crossing, corrected by the circular segment that the point lies in.
+bool crossed_by_ray(const Edge& edge, Vec2d point)
+{
+    const bool rises = edge.end.y > point.y;
+    const bool straddles = (edge.start.y > point.y) != rises;
+    const double side = side_of_chord(edge, straddles, point);
+    const bool by_chord = straddles && (side > 0.0) == rises;
+    const bool in_segment =
+        edge.turn != 0 && side * edge.turn < 0.0 && distance(point, edge.centre) < edge.radius;
+    return by_chord != in_segment;
+}
+
 bool surrounds(const Contour& contour, Vec2d point)
 {
     bool inside = false;
     for (const Edge& edge : contour) {
-        const bool rises = edge.end.y > point.y;
-        const bool straddles = (edge.start.y > point.y) != rises;
-        const double side = side_of_chord(edge, straddles, point);
-        inside ^= straddles && (side > 0.0) == rises;
-        if (edge.turn != 0 && side * edge.turn < 0.0) {
-            inside ^= distance(point, edge.centre) < edge.radius;
-        }
+        inside ^= crossed_by_ray(edge, point);
     }
     return inside;
 }
@@ -218,6 +223,28 @@ Box2d box_of(const Edge& edge)
         }
     }
     return box;
+}
+
+Box2d box_of(const Region2d& region)
+{
+    Box2d box;
+    for (const Contour& contour : region.contours) {
+        for (const Edge& edge : contour) {
+            const Box2d b = box_of(edge);
+            box = {std::min(box.x0, b.x0), std::min(box.y0, b.y0), std::max(box.x1, b.x1),
+                   std::max(box.y1, b.y1)};
+        }
+    }
+    return box;
+}
+
+std::vector<Edge> edges_of(const Region2d& region)
+{
+    std::vector<Edge> edges;
+    for (const Contour& contour : region.contours) {
+        edges.insert(edges.end(), contour.begin(), contour.end());
+    }
+    return edges;
 }
 
 std::vector<RegionPart> connected_parts(const Region2d& region)

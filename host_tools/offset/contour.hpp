@@ -56,6 +56,10 @@ double length(const Contour& contour);
 double area(const Contour& contour);  // > 0 where it runs counter-clockwise
 Contour reversed(const Contour& contour);
 
+// True where a ray from the point to the right counts the edge an odd number of times: over all
+// edges of a contour, the parity says whether the contour runs around the point.
+bool crossed_by_ray(const Edge& edge, Vec2d point);
+
 // True where the contour runs around the point, whichever way.
 bool surrounds(const Contour& contour, Vec2d point);
 
@@ -72,6 +76,10 @@ struct Box2d {
     double y1{-1e300};
 };
 Box2d box_of(const Edge& edge);
+Box2d box_of(const Region2d& region);
+
+// The edges of all contours, contour by contour.
+std::vector<Edge> edges_of(const Region2d& region);
 
 // An outer contour with the holes directly inside it; indices into Region2d::contours.
 struct RegionPart {

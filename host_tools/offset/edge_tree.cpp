@@ -130,6 +130,28 @@ void EdgeTree::search(Vec2d point, const double& best, Better better) const
     }
 }
 
+std::optional<Vec2d> EdgeTree::some_nearer(Vec2d point, double reach) const
+{
+    std::optional<Vec2d> found;
+    double best = reach;
+    search(point, best, [&](std::uint32_t i) {
+        const Vec2d near = nearest_on(edges_[i], point);
+        if (!found && distance(near, point) < reach) {
+            found = near;
+            best = 0.0;  // ends the search
+        }
+    });
+    return found;
+}
+
+bool EdgeTree::surrounds(Vec2d point) const
+{
+    bool inside = false;
+    visit_sorted({point.x, point.y, 1e300, point.y},
+                 [&](std::uint32_t i) { inside ^= crossed_by_ray(edges_[i], point); });
+    return inside;
+}
+
 double EdgeTree::nearest(Vec2d point, double limit) const
 {
     double best = limit;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "host_tools/offset/contour.hpp"
@@ -18,6 +19,11 @@ public:
     // Least distance to an edge, at most `limit`.
     double nearest(Vec2d point, double limit) const;
 
+    // True where the edges run around the point an odd number of times: for the contours of a
+    // region, where it belongs to the region. As cusp::host::contains(), in O(log n + edges to its
+    // right).
+    bool surrounds(Vec2d point) const;
+
     struct Nearest {
         double distance;
         Vec2d point;
@@ -26,11 +32,18 @@ public:
     // Precondition: there are edges.
     Nearest nearest_edge(Vec2d point) const;
 
+    // Some edge's nearest point within `reach` of the point: the first that is found.
+    std::optional<Vec2d> some_nearer(Vec2d point, double reach) const;
+
     // Indices of the edges whose boxes meet the given one.
     template <class Visit>
     void visit_meeting(const Box2d& box, Visit visit) const;
 
 private:
+    // As visit_meeting(), with indices into edges_.
+    template <class Visit>
+    void visit_sorted(const Box2d& box, Visit visit) const;
+
     struct Node {
         Box2d box;
         std::uint32_t first;  // edge of a leaf, or left child; the right child is next to it
@@ -54,6 +67,12 @@ inline bool meet(const Box2d& a, const Box2d& b)
 template <class Visit>
 void EdgeTree::visit_meeting(const Box2d& box, Visit visit) const
 {
+    visit_sorted(box, [&](std::uint32_t i) { visit(index_[i]); });
+}
+
+template <class Visit>
+void EdgeTree::visit_sorted(const Box2d& box, Visit visit) const
+{
     std::uint32_t stack[64];
     int depth = 0;
     stack[depth++] = 0;
@@ -69,7 +88,7 @@ void EdgeTree::visit_meeting(const Box2d& box, Visit visit) const
         }
         for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
             if (meet(boxes_[i], box)) {
-                visit(index_[i]);
+                visit(i);
             }
         }
     }

@@ -3,10 +3,12 @@
 #include "host_tools/offset/offset.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
 #include <optional>
 
 #include "host_tools/offset/edge_crossings.hpp"
+#include "host_tools/offset/piece_trim.hpp"
 #include "host_tools/offset/raw_offset.hpp"
 
 namespace cusp::host {
@@ -17,6 +19,7 @@ constexpr double kSlack = 1e-9;       // a crossing may lie this far beyond an e
 constexpr double kShortest = 1e-8;    // pieces below are dropped
 constexpr double kNearer = 2e-8;      // a run this much too near is still kept
 constexpr double kSameVertex = 1e-6;  // run ends that meet
+constexpr std::size_t kCrowded = 60;  // pairs a piece beside each other: trimming them is cheaper
 
 struct Cut {
     std::uint32_t piece;
@@ -71,10 +74,11 @@ std::vector<std::uint32_t> successors(const std::vector<RawPiece>& pieces)
     return next;
 }
 
-// Every crossing of two pieces, by a sweep along x.
-std::vector<Cut> find_cuts(const std::vector<RawPiece>& pieces,
-                           const std::vector<std::uint32_t>& next)
+// Every crossing of two pieces, by a sweep along x. No value where more pairs than `most` of the
+// boxes overlap in x.
+std::optional<std::vector<Cut>> find_cuts(const std::vector<RawPiece>& pieces, std::size_t most)
 {
+    const std::vector<std::uint32_t> next = successors(pieces);
     struct Entry {
         Box2d box;
         std::uint32_t piece;
@@ -87,9 +91,13 @@ std::vector<Cut> find_cuts(const std::vector<RawPiece>& pieces,
     std::sort(entries.begin(), entries.end(),
               [](const Entry& a, const Entry& b) { return a.box.x0 < b.box.x0; });
     std::vector<Cut> cuts;
+    std::size_t pairs = 0;
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const Box2d& box = entries[i].box;
         for (std::size_t j = i + 1; j < entries.size() && entries[j].box.x0 <= box.x1; ++j) {
+            if (++pairs > most) {
+                return std::nullopt;
+            }
             if (entries[j].box.y0 <= box.y1 && box.y0 <= entries[j].box.y1) {
                 cut_pair(pieces, next, entries[i].piece, entries[j].piece, cuts);
             }
@@ -282,16 +290,21 @@ bool encloses_nothing(const Contour& contour)
 
 // Source contours that touch or share edges put runs upon each other, and runs on their wrong side
 // that no other edge is nearer to. This removes both; elsewhere it finds nothing to do.
-void remove_wrong_and_double(const Region2d& source, std::vector<Run>& runs)
+void remove_wrong_and_double(const EdgeTree& source, std::vector<Run>& runs)
 {
-    std::vector<Vec2d> middles;
+    std::vector<Vec2d> middles;  // by x
+    const auto left_of = [](Vec2d a, double x) {
+        return a.x < x;
+    };
     const auto wrong_or_double = [&](const Run& run) {
         const Vec2d middle = middle_of(run);
-        const bool seen = std::any_of(middles.begin(), middles.end(), [&](Vec2d other) {
-            return distance(other, middle) < kSameVertex;
-        });
-        middles.push_back(middle);
-        return seen || !contains(source, middle);
+        auto at = std::lower_bound(middles.begin(), middles.end(), middle.x - kSameVertex, left_of);
+        bool seen = false;
+        for (; at != middles.end() && at->x < middle.x + kSameVertex; ++at) {
+            seen = seen || distance(*at, middle) < kSameVertex;
+        }
+        middles.insert(std::lower_bound(middles.begin(), middles.end(), middle.x, left_of), middle);
+        return seen || !source.surrounds(middle);
     };
     runs.erase(std::remove_if(runs.begin(), runs.end(), wrong_or_double), runs.end());
 }
@@ -319,9 +332,13 @@ bool contours_touch(const Region2d& source, const EdgeTree& tree)
 
 std::vector<Run> kept_runs(const Region2d& source, const EdgeTree& tree, double distance)
 {
-    const std::vector<RawPiece> pieces = raw_offset(source, distance);
-    const std::vector<Cut> cuts = find_cuts(pieces, successors(pieces));
-    std::vector<Run> runs = split_into_runs(pieces, cuts);
+    std::vector<RawPiece> pieces = raw_offset(source, distance);
+    auto cuts = find_cuts(pieces, kCrowded * pieces.size());
+    if (!cuts) {
+        pieces = trimmed(pieces, tree, distance);
+        cuts = find_cuts(pieces, SIZE_MAX);
+    }
+    std::vector<Run> runs = split_into_runs(pieces, *cuts);
     const auto too_near = [&](const Run& run) {
         return run.open_end || run.edges.empty() ||
                tree.any_nearer(middle_of(run), distance - kNearer);
@@ -337,7 +354,7 @@ std::optional<Region2d> offset_once(const Region2d& source,
 {
     std::vector<Run> runs = kept_runs(source, tree, distance);
     if (touching) {
-        remove_wrong_and_double(source, runs);
+        remove_wrong_and_double(tree, runs);
     }
     std::optional<Region2d> region = joined(runs);
     if (region) {
@@ -348,20 +365,11 @@ std::optional<Region2d> offset_once(const Region2d& source,
     return region;
 }
 
-std::vector<Edge> all_edges(const Region2d& region)
-{
-    std::vector<Edge> edges;
-    for (const Contour& contour : region.contours) {
-        edges.insert(edges.end(), contour.begin(), contour.end());
-    }
-    return edges;
-}
-
 }  // namespace
 
 RegionOffset::RegionOffset(Region2d source)
     : source_{std::move(source)},
-      tree_{all_edges(source_)},
+      tree_{edges_of(source_)},
       touching_{contours_touch(source_, tree_)}
 {
 }
@@ -382,7 +390,7 @@ Region2d RegionOffset::at(double distance) const
 double RegionOffset::clearance(Vec2d point) const
 {
     const double apart = tree_.nearest(point, 1e300);
-    return contains(source_, point) ? apart : -apart;
+    return contains(point) ? apart : -apart;
 }
 
 Region2d grown(const Region2d& region, double distance)

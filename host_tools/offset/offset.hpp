@@ -25,6 +25,9 @@ public:
     // Distance from the nearest contour; negative outside the region.
     double clearance(Vec2d point) const;
 
+    // True where the point belongs to the region; points on a contour count either way.
+    bool contains(Vec2d point) const { return tree_.surrounds(point); }
+
     // True where the distance from the nearest contour is below `reach`.
     bool any_nearer(Vec2d point, double reach) const { return tree_.any_nearer(point, reach); }
 

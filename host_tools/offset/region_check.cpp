@@ -71,15 +71,36 @@ std::optional<RegionFault> find_crossing(const Region2d& region)
 // A point of the hole on the wrong side of another contour. Contours do not cross between corners
 // here, so an edge lies on one side with its middle; an edge that runs along the other contour
 // tells nothing.
-std::optional<Vec2d> stray_point(const Contour& hole, const Contour& other, bool should_surround)
+std::optional<Vec2d> stray_point(const Contour& hole, const EdgeTree& other, bool should_surround)
 {
     for (const Edge& edge : hole) {
         const Vec2d p = point_on(edge, 0.4142);
-        const bool upon = std::any_of(other.begin(), other.end(), [&](const Edge& near) {
-            return distance_to(near, p) < kSamePoint;
-        });
-        if (!upon && surrounds(other, p) != should_surround) {
+        if (!other.any_nearer(p, kSamePoint) && other.surrounds(p) != should_surround) {
             return p;
+        }
+    }
+    return std::nullopt;
+}
+
+// The first hole that is not directly inside the outer contour.
+std::optional<RegionFault> find_stray_hole(const Region2d& region)
+{
+    std::vector<EdgeTree> trees;
+    std::vector<Box2d> boxes;
+    for (const Contour& contour : region.contours) {
+        trees.emplace_back(contour);
+        boxes.push_back(box_of(Region2d{{contour}}));
+    }
+    for (std::size_t i = 1; i < region.contours.size(); ++i) {
+        for (std::size_t j = 0; j < region.contours.size(); ++j) {
+            if (j == i || (j > 0 && !meet(boxes[i], boxes[j]))) {
+                continue;
+            }
+            if (const auto p = stray_point(region.contours[i], trees[j], j == 0)) {
+                const auto kind =
+                    j == 0 ? RegionFaultKind::kHoleOutside : RegionFaultKind::kHoleInHole;
+                return RegionFault{kind, j, i, *p};
+            }
         }
     }
     return std::nullopt;
@@ -99,19 +120,7 @@ std::optional<RegionFault> find_fault(const Region2d& region)
     if (const auto fault = find_crossing(region)) {
         return fault;
     }
-    for (std::size_t i = 1; i < region.contours.size(); ++i) {
-        for (std::size_t j = 0; j < region.contours.size(); ++j) {
-            if (j == i) {
-                continue;
-            }
-            if (const auto p = stray_point(region.contours[i], region.contours[j], j == 0)) {
-                const auto kind =
-                    j == 0 ? RegionFaultKind::kHoleOutside : RegionFaultKind::kHoleInHole;
-                return RegionFault{kind, j, i, *p};
-            }
-        }
-    }
-    return std::nullopt;
+    return find_stray_hole(region);
 }
 
 }  // namespace cusp::host

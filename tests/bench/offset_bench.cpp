@@ -132,7 +132,7 @@ void plan_by_number_of_curves(benchmark::State& state)
 }
 BENCHMARK(plan_by_number_of_curves)
     ->RangeMultiplier(10)
-    ->Range(10, 1000)
+    ->Range(10, 10000)
     ->Unit(benchmark::kMillisecond)
     ->Complexity();
 

@@ -109,6 +109,48 @@ TEST(RandomOffset, KeepsItsDistanceAndMissesNothing)
     LONGS_EQUAL(4 * cases(), offsets);
 }
 
+// A circle of many short lines and arcs: at a distance of many of their lengths each raw piece
+// crosses many others, which the kernel trims first.
+Region2d rough_circle(Random& random, int count)
+{
+    Contour contour;
+    std::vector<Vec2d> corners;
+    for (int i = 0; i < count; ++i) {
+        const double angle = 6.283185307179586 * i / count;
+        const double out = 50.0 + uniform(random, -120.0, 120.0) / count;
+        corners.push_back({out * std::cos(angle), out * std::sin(angle)});
+    }
+    for (int i = 0; i < count; ++i) {
+        const Vec2d a = corners[static_cast<std::size_t>(i)];
+        const Vec2d b = corners[static_cast<std::size_t>((i + 1) % count)];
+        const double side = uniform(random, 0.0, 1.0);
+        const Vec2d out = left_normal(b - a) * uniform(random, 0.8, 2.0);
+        contour.push_back(side < 0.4   ? line_edge(a, b)
+                          : side < 0.7 ? arc_edge(a, b, (a + b) * 0.5 + out, 1)
+                                       : arc_edge(a, b, (a + b) * 0.5 - out, -1));
+    }
+    return {{contour}};
+}
+
+TEST(RandomOffset, OfManySmallCurvesMissesNothing)
+{
+    constexpr unsigned kSeed = 808;
+    Random random{kSeed};
+    for (int i = 0; i < cases() / 500; ++i) {
+        Region2d source = rough_circle(random, static_cast<int>(uniform(random, 150.0, 600.0)));
+        if (i % 2 == 0) {
+            source.contours.push_back(reversed(random_star(random, {5.0, 3.0}, 12.0, 5, 0.0)));
+        }
+        const RegionOffset kernel{source};
+        for (int k = 0; k < 4; ++k) {
+            const double distance = uniform(random, 1.0, 48.0);
+            const Region2d result = kernel.at(distance);
+            CHECK(worst_distance(source, result, distance) <= 1e-6);
+            LONGS_EQUAL(0, wrong_points(random, source, result, distance));
+        }
+    }
+}
+
 constexpr double kClipperUnit = 1e6;
 
 ClipperLib::Paths polygons(const Region2d& region)
