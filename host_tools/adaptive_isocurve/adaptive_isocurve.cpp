@@ -11,6 +11,7 @@
 #include "host_tools/adaptive_isocurve/isocurve_extraction.hpp"
 #include "host_tools/adaptive_isocurve/pass_tracer.hpp"
 #include "host_tools/adaptive_isocurve/ridge.hpp"
+#include "host_tools/adaptive_isocurve/rough_levels.hpp"
 #include "host_tools/adaptive_isocurve/scallop_width.hpp"
 #include "host_tools/adaptive_isocurve/surface_operation.hpp"
 #include "host_tools/input_error/input_error.hpp"
@@ -296,12 +297,17 @@ private:
 
 std::vector<PlannedOperation> plan(const Job& job, const Operation& operation, bool complete)
 {
-    const auto begin = std::chrono::steady_clock::now();
     check_spacing(job, operation);
-    PlannedOperation planned = IsocurvePlanner{job, operation}.plan(complete);
-    planned.stats.planning_s =
+    std::vector<PlannedOperation> out;
+    IsocurvePlanner planner{job, operation};
+    if (operation.roughing) {
+        out.push_back(plan_rough_levels(job, operation));
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    out.push_back(planner.plan(complete));
+    out.back().stats.planning_s =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    return {std::move(planned)};
+    return out;
 }
 
 }  // namespace

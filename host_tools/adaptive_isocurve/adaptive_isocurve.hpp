@@ -21,8 +21,10 @@ namespace cusp::host {
 // surfaces: gouge_bound_mm is 0 unless tolerance_side = "both".
 // Source: Elber & Cohen 1993; docs/papers.md says where this departs from it.
 //
-// Errors: InputError as `SurfaceOperation`; neither iso_distance nor scallop given; nothing of the
-// surfaces in the tool's reach.
+// With roughing = true the layers of `plan_rough_levels` come first, as an operation of their own.
+//
+// Errors: InputError as `SurfaceOperation` and `plan_rough_levels`; neither iso_distance nor
+// scallop given; nothing of the surfaces in the tool's reach.
 std::vector<PlannedOperation> plan_adaptive_isocurve(const Job& job, const Operation& operation);
 
 // The same with complete isocurves, equally spaced in the parameter, within iso_distance (or for

@@ -44,14 +44,33 @@ SurfaceOperation::SurfaceOperation(const Job& job,
                        operation.tolerance_side == ToleranceSide::kOutside));
 }
 
-// What these strategies do not do yet is refused, never left out silently.
+// Keys without effect are refused, never left out silently.
 void SurfaceOperation::check_form() const
 {
-    if (operation_.roughing || operation_.allowance > 0) {
-        throw InputError(fmt::format(
-            "{}: {} only finishes: roughing = true and allowance > 0 are not for it; rough with "
-            "strategy = \"hull_rough\" in an operation before",
-            job_.file, operation_.strategy));
+    if (operation_.roughing && operation_.strategy == "parallel_planes") {
+        throw InputError(
+            fmt::format("{}: parallel_planes only finishes: roughing = true is for "
+                        "adaptive_isocurve",
+                        job_.file));
+    }
+    if (!operation_.roughing && operation_.allowance > 0) {
+        throw InputError(
+            fmt::format("{}: {}: allowance is {:g} mm, but it is what roughing leaves: "
+                        "add roughing = true, or leave it out",
+                        job_.file, operation_.strategy, operation_.allowance));
+    }
+    const bool other_tools =
+        std::any_of(operation_.tools.begin(), operation_.tools.end(),
+                    [&](const Tool& tool) { return tool.number != operation_.tool.number; });
+    if (!operation_.roughing && other_tools) {
+        throw InputError(
+            fmt::format("{}: {}: tools names the tool that roughs: add roughing = "
+                        "true; `tool` is the one that finishes",
+                        job_.file, operation_.strategy));
+    }
+    if (!operation_.roughing && (operation_.max_depth || !operation_.layers.empty())) {
+        throw InputError(fmt::format("{}: {}: max_depth and layers are for roughing = true",
+                                     job_.file, operation_.strategy));
     }
 }
 
@@ -59,8 +78,12 @@ void SurfaceOperation::check_tool() const
 {
     const Tool& tool = operation_.tool;
     if (tool.shape != ToolShape::kBall) {
-        throw InputError(fmt::format("{}: strategy {} needs a ball, tool {} is none", job_.file,
-                                     operation_.strategy, tool.number));
+        throw InputError(fmt::format(
+            "{}: {} finishes with a ball; tool {} has shape = \"{}\" (flat and bull cutters can "
+            "rough: tools = [{}] with roughing = true and tool = a ball; contour_pocket and "
+            "grid_pocket finish with them)",
+            job_.file, operation_.strategy, tool.number,
+            tool.shape == ToolShape::kFlat ? "flat" : "bull", tool.number));
     }
     if (!(operation_.floor_tolerance < tool.radius)) {
         throw InputError(fmt::format("{}: floor_tolerance is {:g} mm, the tool's radius {:g} mm",

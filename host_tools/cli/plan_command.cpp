@@ -107,6 +107,8 @@ Json totals(const Plan& plan)
     MoveCounts moves;
     PathMeasure sum;
     OperationStats stats;
+    const bool finished = std::any_of(plan.operations.begin(), plan.operations.end(),
+                                      [](const auto& o) { return !o.stats.roughing; });
     for (std::size_t i = 0; i < plan.operations.size(); ++i) {
         const PathMeasure& m = plan.measures[i];
         moves.lines += m.moves.lines;
@@ -123,7 +125,9 @@ Json totals(const Plan& plan)
         stats.retracts += s.retracts;
         stats.planning_s += s.planning_s;
         stats.gouge_bound_mm = std::max(stats.gouge_bound_mm, s.gouge_bound_mm);
-        stats.scallop_bound_mm = std::max(stats.scallop_bound_mm, s.scallop_bound_mm);
+        if (!finished || !s.roughing) {
+            stats.scallop_bound_mm = std::max(stats.scallop_bound_mm, s.scallop_bound_mm);
+        }
     }
     return {{"strategy", plan.operations.front().stats.strategy},
             {"passes", stats.passes},

@@ -129,6 +129,7 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
                                       number_text(operation.allowance) + " mm"};
     OperationStats& stats = result.operation.stats;
     stats.strategy = operation.strategy;
+    stats.roughing = true;
     stats.passes = static_cast<int>(cleared.passes.size());
     stats.levels = cleared.levels;
     stats.cl_points = moves.points();

@@ -252,10 +252,10 @@ private:
     const Roughing& work_;
     std::size_t tool_;
     Toolpath path_;
-    RoughMoves moves_;
+    LevelMoves moves_;
     int passes_{0};
 
-    static RoughMoves::Settings settings(const Roughing& work)
+    static LevelMoves::Settings settings(const Roughing& work)
     {
         return {std::max(work.stock.top, work.job.stock_top) + work.job.clearance,
                 work.operation.entry, work.operation.output == OutputForm::kArcs,
@@ -264,10 +264,18 @@ private:
 
     void add(const std::vector<LevelRun>& runs, std::size_t layer, std::size_t zone_tool_above)
     {
-        LayerSpace space{work_.top(layer), work_.bottom(layer),
-                         work_.clearings[layer][tool_].zone.get(), nullptr, work_.stock.plan};
+        const ClearZone& zone = *work_.clearings[layer][tool_].zone;
+        LayerSpace space{work_.top(layer), work_.bottom(layer), zone.radius(), {}, {}, {}};
+        space.room = [&zone](Vec2d place, double extra) {
+            return zone.room(place, extra);
+        };
+        space.beside_stock = [&](Vec2d place) {
+            return distance(place, place, work_.stock.plan) >= zone.radius();
+        };
         if (layer > 0) {
-            space.zone_above = work_.clearings[layer - 1][zone_tool_above].zone.get();
+            space.cleared_above = [&](Vec2d from, Vec2d to) {
+                return work_.clearings[layer - 1][zone_tool_above].zone->clear(from, to);
+            };
         }
         for (const LevelRun& run : runs) {
             moves_.add(run, space);
@@ -334,6 +342,7 @@ void report(const Roughing& work, std::vector<PlannedOperation>& out, double sec
     for (PlannedOperation& operation : out) {
         OperationStats& stats = operation.stats;
         stats.strategy = "hull_rough";
+        stats.roughing = true;
         stats.gouge_bound_mm = 0;
         // Hulls bound what is cut, not what is left: only the height of the stock does.
         stats.scallop_bound_mm = work.stock.top - work.plan.planes.back();

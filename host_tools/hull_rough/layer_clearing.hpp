@@ -5,7 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "host_tools/hull_rough/rough_moves.hpp"
+#include "host_tools/clearing/level_moves.hpp"
+#include "host_tools/hull_rough/zigzag.hpp"
 #include "host_tools/offset/offset.hpp"
 
 namespace cusp::host {

@@ -32,19 +32,20 @@ struct OwnedKey {
     std::string_view strategies;
 };
 constexpr std::string_view kIsocurves{"adaptive_isocurve, complete_isocurves, parallel_planes"};
-constexpr OwnedKey kOwnedKeys[]{{"iso_distance", kIsocurves},
-                                {"direction", kIsocurves},
-                                {"roughing", kIsocurves},
-                                {"step_over", kIsocurves},
-                                {"grid", "grid_pocket"},
-                                {"zigzag", "grid_pocket"},
-                                {"arc_tolerance", "grid_pocket"},
-                                {"max_arc_radius", "grid_pocket"},
-                                {"max_roughness", "grid_pocket"},
-                                {"overlap", "hull_rough"},
-                                {"extra_subdivision", "hull_rough"},
-                                {"clearing", "hull_rough"},
-                                {"tools", "hull_rough, contour_pocket"}};
+constexpr OwnedKey kOwnedKeys[]{
+    {"iso_distance", kIsocurves},
+    {"direction", kIsocurves},
+    {"roughing", kIsocurves},
+    {"step_over", kIsocurves},
+    {"grid", "grid_pocket"},
+    {"zigzag", "grid_pocket"},
+    {"arc_tolerance", "grid_pocket"},
+    {"max_arc_radius", "grid_pocket"},
+    {"max_roughness", "grid_pocket"},
+    {"overlap", "hull_rough"},
+    {"extra_subdivision", "hull_rough"},
+    {"clearing", "hull_rough"},
+    {"tools", "hull_rough, contour_pocket, adaptive_isocurve, complete_isocurves"}};
 
 void refuse_keys_of_others(const toml::table& entry,
                            const JobTable& table,

@@ -63,6 +63,8 @@ struct Toolpath {
 // What every planner reports; planners add their own counts (PRODUCT.md, "What cusp plan reports").
 struct OperationStats {
     std::string strategy;
+    bool roughing{
+        false};  // what it leaves is for another operation: its scallop bound is no promise
     int passes{};
     int levels{};
     int cl_points{};

@@ -1,9 +1,9 @@
 // Moves of the cutter through one layer: the way in, along, over to the next run, and out.
 #pragma once
 
+#include <functional>
 #include <vector>
 
-#include "host_tools/hull_rough/zigzag.hpp"
 #include "host_tools/import/job.hpp"
 #include "host_tools/offset/contour.hpp"
 
@@ -15,18 +15,22 @@ struct LevelRun {
     bool starts_in_cut_metal{false};  // this layer is already cleared where the run starts
 };
 
-// One layer with where the axis may stand in it and, at its top, where the layer above was cleared.
+// One layer and what its moves ask of it; places are of the cutter's axis, in plan.
 struct LayerSpace {
-    double top{};
+    double top{};  // z: no metal stands higher where the layer above was cleared
     double bottom{};
-    const ClearZone* zone{};
-    const ClearZone* zone_above{};  // none: nothing stands above `top`
-    Rectangle stock;
+    double radius{};  // of the cutter, with what it keeps from the part
+    // Whether the axis may stand, at `bottom`, everywhere within `extra` mm of the place.
+    std::function<bool(Vec2d place, double extra)> room;
+    // Whether all of the straight way was cleared down to `top`; empty where nothing was yet.
+    std::function<bool(Vec2d from, Vec2d to)> cleared_above;
+    // Whether the cutter stands beside the stock there.
+    std::function<bool(Vec2d place)> beside_stock;
 };
 
 // Writes runs to a tool path. Rapid moves happen at the clearance height or straight down to 1 mm
 // above metal that is cut; links below it cross only what the layer above has cleared.
-class RoughMoves {
+class LevelMoves {
 public:
     struct Settings {
         double clearance_z{};
@@ -35,7 +39,7 @@ public:
         double chord_tolerance{};  // mm, > 0
     };
 
-    RoughMoves(Toolpath& path, Settings settings) : path_{path}, settings_{settings} {}
+    LevelMoves(Toolpath& path, Settings settings) : path_{path}, settings_{settings} {}
 
     void add(const LevelRun& run, const LayerSpace& layer);
     void retract();

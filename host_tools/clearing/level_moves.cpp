@@ -1,6 +1,6 @@
 // Ways in: straight down where no metal is, else a helix where it has room, else a ramp along the
 // run.
-#include "host_tools/hull_rough/rough_moves.hpp"
+#include "host_tools/clearing/level_moves.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,12 +14,6 @@ constexpr double kAboveMetal = 1.0;     // mm: rapids go no nearer
 constexpr double kEntrySlope = 0.0524;  // 3 degrees
 constexpr double kHelixShare = 0.5;     // radius of an entry helix over the cutter's
 constexpr double kLongLink = 8.0;  // radii: a link longer than this and twice the lift is no gain
-
-double clearance_from(const Rectangle& box, Vec2d p)
-{
-    return std::hypot(std::max({box.x_min - p.x, p.x - box.x_max, 0.0}),
-                      std::max({box.y_min - p.y, p.y - box.y_max, 0.0}));
-}
 
 // Points along the run, so close on arcs that straight moves between them stay within the
 // tolerance.
@@ -51,7 +45,7 @@ double length_of(const std::vector<Vec2d>& points)
 
 }  // namespace
 
-void RoughMoves::line(MoveKind kind, Vec3d end)
+void LevelMoves::line(MoveKind kind, Vec3d end)
 {
     if (!(end == at_) || !started_) {
         path_.moves.push_back({kind, LineTo{end}});
@@ -59,7 +53,7 @@ void RoughMoves::line(MoveKind kind, Vec3d end)
     }
 }
 
-void RoughMoves::retract()
+void LevelMoves::retract()
 {
     if (started_ && at_.z < settings_.clearance_z) {
         line(MoveKind::kRapid, {at_.x, at_.y, settings_.clearance_z});
@@ -67,7 +61,7 @@ void RoughMoves::retract()
     }
 }
 
-void RoughMoves::cut(const Edge& edge, double z)
+void LevelMoves::cut(const Edge& edge, double z)
 {
     // Rounded to G-code's digits a short arc could close to a full circle.
     constexpr double kShortArc = 0.02;
@@ -84,15 +78,14 @@ void RoughMoves::cut(const Edge& edge, double z)
     at_ = end;
 }
 
-bool RoughMoves::link(Vec2d start, const LayerSpace& layer)
+bool LevelMoves::link(Vec2d start, const LayerSpace& layer)
 {
-    if (!started_ || layer.zone_above == nullptr || at_.z > layer.top + kAboveMetal) {
+    if (!started_ || !layer.cleared_above || at_.z > layer.top + kAboveMetal) {
         return false;
     }
     const double lift = settings_.clearance_z - layer.top;
     const double way = norm(start - place());
-    if (way > 2 * lift + kLongLink * layer.zone->radius() ||
-        !layer.zone_above->clear(place(), start)) {
+    if (way > 2 * lift + kLongLink * layer.radius || !layer.cleared_above(place(), start)) {
         return false;
     }
     if (at_.z < layer.top) {
@@ -102,15 +95,15 @@ bool RoughMoves::link(Vec2d start, const LayerSpace& layer)
     return true;
 }
 
-bool RoughMoves::helix(Vec2d start, const LayerSpace& layer)
+bool LevelMoves::helix(Vec2d start, const LayerSpace& layer)
 {
-    const double radius = kHelixShare * layer.zone->radius();
+    const double radius = kHelixShare * layer.radius;
     Vec2d centre{};
     bool found = false;
     for (int i = 0; i < 16 && !found; ++i) {
         const double angle = i * (kPi / 8);
         centre = start + Vec2d{std::cos(angle), std::sin(angle)} * radius;
-        found = layer.zone->room(centre, radius);
+        found = layer.room(centre, radius);
     }
     if (!found) {
         return false;
@@ -129,7 +122,7 @@ bool RoughMoves::helix(Vec2d start, const LayerSpace& layer)
     return true;
 }
 
-void RoughMoves::ramp(const std::vector<Vec2d>& way, double length, double from, double bottom)
+void LevelMoves::ramp(const std::vector<Vec2d>& way, double length, double from, double bottom)
 {
     // Out and back along the run, losing height all the way, so that it ends at its start at depth.
     const double depth = from - bottom;
@@ -156,11 +149,10 @@ void RoughMoves::ramp(const std::vector<Vec2d>& way, double length, double from,
     line(MoveKind::kPlunge, {way.front().x, way.front().y, bottom});
 }
 
-void RoughMoves::enter(const LevelRun& run, const LayerSpace& layer)
+void LevelMoves::enter(const LevelRun& run, const LayerSpace& layer)
 {
     const Vec2d start = run.edges.front().start;
-    const bool open =
-        run.starts_in_cut_metal || clearance_from(layer.stock, start) >= layer.zone->radius();
+    const bool open = run.starts_in_cut_metal || layer.beside_stock(start);
     const double metal = open ? layer.bottom : layer.top;
     const double down = std::min(metal + kAboveMetal, settings_.clearance_z);
     if (at_.z > down) {
@@ -175,7 +167,7 @@ void RoughMoves::enter(const LevelRun& run, const LayerSpace& layer)
         }
         const std::vector<Vec2d> way = polyline(run.edges, settings_.chord_tolerance);
         const double length = length_of(way);
-        if (length > layer.zone->radius() / 4) {
+        if (length > layer.radius / 4) {
             ramp(way, length, at_.z, layer.bottom);
             return;
         }
@@ -184,7 +176,7 @@ void RoughMoves::enter(const LevelRun& run, const LayerSpace& layer)
     line(MoveKind::kPlunge, {start.x, start.y, layer.bottom});
 }
 
-void RoughMoves::add(const LevelRun& run, const LayerSpace& layer)
+void LevelMoves::add(const LevelRun& run, const LayerSpace& layer)
 {
     const Vec2d start = run.edges.front().start;
     const bool stays = started_ && at_.z == layer.bottom && norm(start - place()) < 1e-6;
