@@ -48,7 +48,9 @@ public:
         const auto first = by_top_.lower_bound(plane - kSamePlane);
         const auto last = by_top_.upper_bound(plane + kSamePlane);
         for (auto it = first; it != last;) {
-            if (it->second.second < kMostQuarterings) {
+            // Quarters of a flat patch are as high as it is.
+            const auto& [patch, times] = it->second;
+            if (times < kMostQuarterings && patch.top - patch.bottom > kSamePlane) {
                 found.push_back(std::move(it->second));
                 it = by_top_.erase(it);
             } else {

@@ -82,12 +82,11 @@ DepthLimits depth_limits(const Job& job, const Operation& operation, const Tool&
     return {most, least};
 }
 
-// Width that the cutter clears flat: all of it but what a round corner leaves higher than a quarter
-// of the layer.
-double cleared_width(const Tool& tool, double thickness)
+// Width that the cutter clears but for ridges of this height, which a round corner leaves.
+double cleared_width(const Tool& tool, double ridge)
 {
     const double corner = tool.shape == ToolShape::kFlat ? 0.0 : tool.corner_radius;
-    const double height = std::min(corner, thickness / 4);
+    const double height = std::min(corner, ridge);
     return 2 * (tool.radius - corner + std::sqrt(height * (2 * corner - height)));
 }
 
@@ -167,6 +166,7 @@ struct Roughing {
     std::vector<Tool> tools;  // largest first
     Stock stock;
     LayerPlan plan;
+    double most_depth;                                  // mm: of a layer
     std::vector<std::vector<LayerClearing>> clearings;  // layers x tools
     ToolChoice choice;
     double left_under_boxes{};  // mm^3 of the stock that the boxes keep
@@ -175,6 +175,25 @@ struct Roughing {
     double top(std::size_t layer) const { return plan.planes[layer]; }
     double bottom(std::size_t layer) const { return plan.planes[layer + 1]; }
     std::size_t layers() const { return plan.planes.size() - 1; }
+    double thickness(std::size_t layer) const { return top(layer) - bottom(layer); }
+
+    // How high ridges may stand in a layer: the next one cuts them with its own depth, which stays
+    // within the limit where a tenth of it allows that.
+    double ridge(std::size_t layer) const
+    {
+        const double next = layer + 1 < layers() ? thickness(layer + 1) : 0.0;
+        return std::min(thickness(layer) / 4, std::max(most_depth - next, most_depth / 10));
+    }
+
+    double deepest_cut() const
+    {
+        double deepest = thickness(0);
+        for (std::size_t layer = 1; layer < layers(); ++layer) {
+            const bool round = tools[choice.of_layer[layer - 1]].corner_radius > 0;
+            deepest = std::max(deepest, thickness(layer) + (round ? ridge(layer - 1) : 0.0));
+        }
+        return deepest;
+    }
 };
 
 void clear_layers(Roughing& work)
@@ -182,7 +201,7 @@ void clear_layers(Roughing& work)
     const Operation& operation = work.operation;
     std::vector<std::vector<ToolOffer>> offers;
     for (std::size_t layer = 0; layer < work.layers(); ++layer) {
-        const double thickness = work.top(layer) - work.bottom(layer);
+        const double thickness = work.thickness(layer);
         const auto boxes = boxes_above(work.plan.patches, work.bottom(layer) - operation.allowance,
                                        operation.extra_subdivision);
         work.boxes += boxes.size();
@@ -192,7 +211,8 @@ void clear_layers(Roughing& work)
         for (const Tool& tool : work.tools) {
             LayerSettings settings;
             const double overlap = std::max(operation.overlap, 2 * tool.radius * kLeastOverlap);
-            settings.step = std::max(cleared_width(tool, thickness) - overlap, tool.radius / 50);
+            settings.clears = cleared_width(tool, work.ridge(layer)) / 2;
+            settings.step = std::max(2 * settings.clears - overlap, tool.radius / 50);
             settings.tolerance = std::max(operation.plan_tolerance, kLeastTolerance);
             settings.side_allowance = operation.allowance;
             settings.one_way = operation.traversal == Traversal::kOneWay;
@@ -325,12 +345,23 @@ void report(const Roughing& work, std::vector<PlannedOperation>& out, double sec
     double thickest = 0;
     int islands = 0;
     int zigzags = 0;
+    double closed = 0;
+    double left = 0;
+    std::string left_place;
     for (std::size_t layer = 0; layer < work.layers(); ++layer) {
-        thinnest = std::min(thinnest, work.top(layer) - work.bottom(layer));
-        thickest = std::max(thickest, work.top(layer) - work.bottom(layer));
+        thinnest = std::min(thinnest, work.thickness(layer));
+        thickest = std::max(thickest, work.thickness(layer));
         const LayerClearing& clearing = work.clearings[layer][work.choice.of_layer[layer]];
         islands += clearing.islands;
         zigzags += clearing.by_contours ? 0 : 1;
+        closed += clearing.closed_area;
+        if (left <= 0 && clearing.left.area > 0) {
+            const Rectangle& spot = clearing.left.squares.front();
+            left_place = "x " + text((spot.x_min + spot.x_max) / 2) + ", y " +
+                         text((spot.y_min + spot.y_max) / 2) + ", z " + text(work.bottom(layer)) +
+                         " mm";
+        }
+        left += clearing.left.area;
     }
     const Rectangle& plan = work.stock.plan;
     const double volume = (plan.x_max - plan.x_min) * (plan.y_max - plan.y_min) *
@@ -360,16 +391,23 @@ void report(const Roughing& work, std::vector<PlannedOperation>& out, double sec
                         {"left_under_boxes_mm3", work.left_under_boxes},
                         {"tool_changes", work.choice.changes},
                         {"seconds_saved_by_tools", saved},
+                        {"deepest_cut_mm", work.deepest_cut()},
+                        {"closed_mm2", closed},
+                        {"left_mm2", left},
                         {"engagement_deg", 180}};
         stats.warnings.push_back(
             "the first line of a layer and the ends of islands are cut at the full width "
             "of " +
-            text(2 * operation.path.tool.radius) + " mm (180 degrees), at most " + text(thickest) +
-            " mm deep");
+            text(2 * operation.path.tool.radius) + " mm (180 degrees), at most " +
+            text(work.deepest_cut()) + " mm deep");
         if (work.operation.contour_clearing && zigzags > 0) {
             stats.warnings.push_back(std::to_string(zigzags) +
                                      " layers are cleared by zigzag: loops parallel to their "
                                      "islands would come too near to them");
+        }
+        if (left > 0) {
+            stats.warnings.push_back(text(left) + " mm2 of layers are left uncleared, first at " +
+                                     left_place);
         }
         if (trimmed(work.operation)) {
             stats.warnings.push_back(
@@ -396,9 +434,10 @@ std::vector<PlannedOperation> plan_hull_rough(const Job& job, const Operation& o
     check(job, operation, tools);
     std::vector<HullPatch> patches = hull_patches(operation.floor);
     const Stock stock = stock_of(job, patches);
-    LayerPlan plan = planned_layers(job, operation, std::move(patches), stock,
-                                    depth_limits(job, operation, tools.back()));
-    Roughing work{job, operation, std::move(tools), stock, std::move(plan), {}, {}, 0, 0};
+    const DepthLimits limits = depth_limits(job, operation, tools.back());
+    LayerPlan plan = planned_layers(job, operation, std::move(patches), stock, limits);
+    Roughing work{job, operation, std::move(tools), stock, std::move(plan), limits.most, {}, {},
+                  0,   0};
     clear_layers(work);
     std::vector<PlannedOperation> out = write_groups(work);
     job.report_progress(1);

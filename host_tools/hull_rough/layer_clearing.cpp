@@ -298,12 +298,25 @@ LayerClearing clear_layer(const std::vector<Rectangle>& boxes,
             return keeps_clear(run.edges, *out.zone, settings.tolerance);
         });
     }
-    if (!out.by_contours) {
-        out.runs = zigzag_runs(*out.zone, stock, settings);
+    const auto proven_runs = [&] {
+        std::vector<LevelRun> runs = zigzag_runs(*out.zone, stock, settings);
         std::vector<LevelRun> around = in_near_order(
-            outline_runs(outlines, out.runs, settings.direction == CutDirection::kClimb), false);
-        out.runs.insert(out.runs.end(), around.begin(), around.end());
+            outline_runs(outlines, runs, settings.direction == CutDirection::kClimb), false);
+        runs.insert(runs.end(), around.begin(), around.end());
+        return runs;
+    };
+    if (!out.by_contours) {
+        out.runs = proven_runs();
     }
+    BareSpots bare = bare_spots(out.runs, *out.centres, settings.clears, stock);
+    if (!bare.squares.empty() && out.by_contours) {
+        out.closed_area = bare.area;
+        const std::vector<LevelRun> rest =
+            in_near_order(runs_near(proven_runs(), bare, settings.clears), false);
+        out.runs.insert(out.runs.end(), rest.begin(), rest.end());
+        bare = bare_spots(out.runs, *out.centres, settings.clears, stock);
+    }
+    out.left = std::move(bare);
     out.length = length_of(out.runs);
     return out;
 }

@@ -6,13 +6,15 @@
 #include <vector>
 
 #include "host_tools/clearing/level_moves.hpp"
+#include "host_tools/hull_rough/layer_coverage.hpp"
 #include "host_tools/hull_rough/zigzag.hpp"
 #include "host_tools/offset/offset.hpp"
 
 namespace cusp::host {
 
 struct LayerSettings {
-    double step{};       // mm between lines, > 0, at most what the cutter clears
+    double step{};       // mm between lines, > 0, at most twice `clears`
+    double clears{};     // mm to either side that the cutter clears flat enough; at most its radius
     double tolerance{};  // mm, > 0: what chords on rounded corners may take from the distance kept
     double side_allowance{};
     bool one_way{};
@@ -22,13 +24,16 @@ struct LayerSettings {
 
 // Every point of the layer that a cutter of this radius can reach without touching a box is
 // cleared: it lies within the radius of a line, or of an outline, whatever the islands are. Proof
-// in docs/papers.md, "Chuang & Pan".
+// in docs/papers.md, "Chuang & Pan". Loops parallel to the outlines have no such proof: what
+// bare_spots() finds that they leave is cleared by the parts of lines and outlines around it.
 struct LayerClearing {
     std::shared_ptr<ClearZone> zone;
     std::shared_ptr<RegionOffset> centres;  // the region where the axis may stand
     std::vector<LevelRun> runs;
     bool by_contours{};     // as asked for; else by zigzag
     double length{};        // mm of cut
+    BareSpots left;         // what could be cleared and is not
+    double closed_area{};   // mm^2 that contours left and parts of lines and outlines cleared
     double cleared_area{};  // mm^2 of the stock's plan view
     int islands{};
 };

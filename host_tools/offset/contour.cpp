@@ -168,8 +168,11 @@ bool crossed_by_ray(const Edge& edge, Vec2d point)
     const bool straddles = (edge.start.y > point.y) != rises;
     const double side = side_of_chord(edge, straddles, point);
     const bool by_chord = straddles && (side > 0.0) == rises;
-    const bool in_segment =
-        edge.turn != 0 && side * edge.turn < 0.0 && distance(point, edge.centre) < edge.radius;
+    // Below half a turn a segment lies in the circle over its chord. Of an arc without length the
+    // chord's direction, and so the side, is rounding.
+    const bool in_segment = edge.turn != 0 && side * edge.turn < 0.0 &&
+                            dot(point - edge.start, point - edge.end) <= 0.0 &&
+                            distance(point, edge.centre) < edge.radius;
     return by_chord != in_segment;
 }
 

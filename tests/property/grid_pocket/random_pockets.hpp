@@ -6,17 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "host_tools/import/job.hpp"
-#include "tests/property/offset/random_regions.hpp"
+#include "host_tools/offset/contour.hpp"
+#include "tests/support/loops.hpp"
+#include "tests/support/random_jobs.hpp"
 
 namespace cusp::host {
 
 using Polygon = std::vector<Vec2d>;
-
-inline int whole(Random& random, int low, int high)
-{
-    return std::uniform_int_distribution<int>{low, high}(random);
-}
 
 inline Polygon star_polygon(Random& random, double inner, double outer, int corners)
 {
@@ -114,48 +110,6 @@ inline Polygon random_polygon(Random& random, double radius)
     }
 }
 
-inline Loop loop_of(const Polygon& corners)
-{
-    Loop loop;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const Vec2d a = corners[i];
-        const Vec2d b = corners[(i + 1) % corners.size()];
-        loop.push_back({1, {0, 0, 1, 1}, {{a.x, a.y, 0}, {b.x, b.y, 0}}, {1, 1}});
-    }
-    return loop;
-}
-
-inline std::vector<double> even_knots(int points, int degree)
-{
-    std::vector<double> knots;
-    for (int i = 0; i <= points + degree; ++i) {
-        knots.push_back(std::clamp(static_cast<double>(i - degree) / (points - degree), 0.0, 1.0));
-    }
-    return knots;
-}
-
-// A B-spline graph over the box whose control points wander by `rough` mm about `middle`, rational
-// now and then.
-inline Surface random_floor(Random& random, const Box2d& box, double middle, double rough)
-{
-    Surface s;
-    s.degree_u = s.degree_v = whole(random, 2, 3);
-    s.size_u = whole(random, 4, 8);
-    s.size_v = whole(random, 4, 8);
-    s.knots_u = even_knots(s.size_u, s.degree_u);
-    s.knots_v = even_knots(s.size_v, s.degree_v);
-    const bool rational = whole(random, 0, 3) == 0;
-    for (int i = 0; i < s.size_u; ++i) {
-        for (int j = 0; j < s.size_v; ++j) {
-            s.points.push_back({box.x0 + (box.x1 - box.x0) * i / (s.size_u - 1),
-                                box.y0 + (box.y1 - box.y0) * j / (s.size_v - 1),
-                                middle + uniform(random, -rough, rough)});
-            s.weights.push_back(rational ? uniform(random, 0.6, 1.6) : 1.0);
-        }
-    }
-    return s;
-}
-
 inline Box2d grown_box(const Polygon& polygon, double by)
 {
     Box2d box;
@@ -166,29 +120,9 @@ inline Box2d grown_box(const Polygon& polygon, double by)
     return {box.x0 - by, box.y0 - by, box.x1 + by, box.y1 + by};
 }
 
-inline Tool random_tool(Random& random)
-{
-    constexpr double kRadii[]{1.5, 2.0, 3.0, 4.0};
-    const double radius = kRadii[whole(random, 0, 3)];
-    switch (whole(random, 0, 5)) {
-        case 0:
-            return {1, ToolShape::kFlat, radius, 0};
-        case 1:
-            return {1, ToolShape::kBull, radius, radius * uniform(random, 0.2, 0.7)};
-        default:
-            return {1, ToolShape::kBall, radius, radius};
-    }
-}
-
 // A job of one grid_pocket operation.
 inline Job random_pocket(Random& random)
 {
-    Job job;
-    job.file = "random.toml";
-    job.feed = 1200;
-    job.plunge_feed = 300;
-    job.spindle = 10000;
-    job.clearance = 5;
     Operation operation;
     operation.strategy = "grid_pocket";
     operation.tool = random_tool(random);
@@ -221,9 +155,7 @@ inline Job random_pocket(Random& random)
         operation.max_depth = uniform(random, 1.5, 4.0);
     }
     operation.allowance = whole(random, 0, 2) == 0 ? 0.3 : 0.0;
-    job.tools = {operation.tool};
-    job.operations = {operation};
-    return job;
+    return job_of(operation);
 }
 
 }  // namespace cusp::host

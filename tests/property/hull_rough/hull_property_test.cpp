@@ -1,5 +1,5 @@
-// Random models of one to four surfaces, roughed and cut in memory: no overcut, no metal under
-// rapid moves.
+// Random models of one to nine surfaces, roughed by one or two tools and cut in memory: no overcut,
+// no metal under rapid moves, no layer left uncleared.
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -7,7 +7,7 @@
 #include "host_tools/hull_rough/hull_rough.hpp"
 #include "host_tools/toolpath/gcode_writer.hpp"
 #include "host_tools/verify/verify.hpp"
-#include "tests/property/grid_pocket/random_pockets.hpp"
+#include "tests/support/random_jobs.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
@@ -22,35 +22,103 @@ int cases()
     return text != nullptr ? std::atoi(text) : 8;
 }
 
+// Sheets anywhere; steps that meet edge to edge, flat or nearly; small islands over a floor.
+std::vector<Surface> random_surfaces(Random& random)
+{
+    std::vector<Surface> out;
+    switch (whole(random, 0, 2)) {
+        case 0:
+            for (int i = whole(random, 1, 4); i > 0; --i) {
+                const double x = uniform(random, 0.0, 30.0);
+                const double y = uniform(random, 0.0, 20.0);
+                const Box2d box{x, y, x + uniform(random, 20.0, 40.0),
+                                y + uniform(random, 20.0, 40.0)};
+                out.push_back(random_floor(random, box, uniform(random, -5.0, 5.0),
+                                           uniform(random, 1.0, 8.0)));
+            }
+            return out;
+        case 1:
+            for (int i = 0; i < 9; ++i) {
+                const double x = 10.0 * (i / 3);
+                const double y = 10.0 * (i % 3);
+                out.push_back(random_floor(random, {x, y, x + 10, y + 10},
+                                           -2.5 * whole(random, 0, 3), 0.5 * whole(random, 0, 2)));
+            }
+            return out;
+        default:
+            out.push_back(random_floor(random, {0, 0, 50, 40}, -8, 0.5));
+            for (int i = whole(random, 1, 5); i > 0; --i) {
+                const double x = uniform(random, 0.0, 42.0);
+                const double y = uniform(random, 0.0, 32.0);
+                const Box2d box{x, y, x + uniform(random, 2.0, 10.0),
+                                y + uniform(random, 2.0, 10.0)};
+                out.push_back(random_floor(random, box, uniform(random, -6.0, 3.0),
+                                           uniform(random, 0.5, 4.0)));
+            }
+            return out;
+    }
+}
+
 Job random_model(Random& random)
 {
-    Job job;
-    job.file = "random.toml";
-    job.feed = 1200;
-    job.plunge_feed = 300;
-    job.spindle = 10000;
-    job.clearance = 5;
     Operation operation;
     operation.strategy = "hull_rough";
+    operation.floor = random_surfaces(random);
     operation.tool = random_tool(random);
-    for (int i = whole(random, 1, 4); i > 0; --i) {
-        const double x = uniform(random, 0.0, 30.0);
-        const double y = uniform(random, 0.0, 20.0);
-        const Box2d box{x, y, x + uniform(random, 20.0, 40.0), y + uniform(random, 20.0, 40.0)};
-        operation.floor.push_back(
-            random_floor(random, box, uniform(random, -5.0, 5.0), uniform(random, 1.0, 8.0)));
+    if (whole(random, 0, 1) == 0) {
+        Tool small = operation.tool;
+        small.number = 2;
+        small.radius *= 0.5;
+        small.corner_radius *= 0.5;
+        operation.tools = {operation.tool, small};
     }
     operation.max_depth = uniform(random, 1.5, 4.0);
     operation.min_depth = *operation.max_depth * 0.4;
     operation.extra_subdivision = whole(random, 0, 3);
-    operation.contour_clearing = whole(random, 0, 2) == 0;
+    operation.contour_clearing = whole(random, 0, 1) == 0;
     operation.allowance = whole(random, 0, 1) == 0 ? 0.0 : 0.4;
     operation.plan_tolerance = 0.02;
     operation.floor_tolerance = 0.02;
     operation.output = whole(random, 0, 1) == 0 ? OutputForm::kLines : OutputForm::kArcs;
-    job.tools = {operation.tool};
-    job.operations = {operation};
-    return job;
+    return job_of(operation);
+}
+
+// Top of the stock: of the hull box, or of the job where that is higher.
+double stock_top(const Job& job)
+{
+    double top = job.stock_top;
+    for (const Surface& surface : job.operations.front().floor) {
+        for (const Vec3d& p : surface.points) {
+            top = std::max(top, p.z);
+        }
+    }
+    return top;
+}
+
+VerifyFigures cut_in_memory(const Job& job, const std::vector<PlannedOperation>& plan)
+{
+    Job raised = job;
+    raised.stock_top = stock_top(job);
+    const test::TemporaryFolder folder;
+    const std::string file = folder.file("model.ngc");
+    {
+        std::ofstream out{file};
+        write_program(out, {"random model", false, raised.stock_top + job.clearance, {}}, plan);
+    }
+    VerifySettings settings;
+    settings.pitch = 0.3;
+    return verify(raised, file, settings, [](double) {}).figures;
+}
+
+double counted(const PlannedOperation& operation, const std::string& name)
+{
+    for (const auto& [key, value] : operation.stats.counts) {
+        if (key == name) {
+            return value;
+        }
+    }
+    FAIL(("no count of " + name).c_str());
+    return 0;
 }
 
 void check_model(unsigned seed)
@@ -59,26 +127,14 @@ void check_model(unsigned seed)
     Random random{seed};
     const Job job = random_model(random);
     const auto plan = plan_hull_rough(job, job.operations.front());
-    double top = job.stock_top;
-    for (const Surface& surface : job.operations.front().floor) {
-        for (const Vec3d& p : surface.points) {
-            top = std::max(top, p.z);
-        }
-    }
-    Job cut = job;
-    cut.stock_top = top;
-    const test::TemporaryFolder folder;
-    const std::string file = folder.file("model.ngc");
-    {
-        std::ofstream out{file};
-        write_program(out, {"random model", false, top + job.clearance, {}}, plan);
-    }
-    VerifySettings settings;
-    settings.pitch = 0.3;
-    const VerifyFigures figures = verify(cut, file, settings, [](double) {}).figures;
+    const VerifyFigures figures = cut_in_memory(job, plan);
     CHECK(figures.gouge_max <= 2e-3);
     CHECK(figures.ball_gouge_max.value_or(0) <= 1e-3);
     CHECK(figures.rapid_cut_max <= 0.01);
+    DOUBLES_EQUAL(0, counted(plan.front(), "left_mm2"), 0);
+    CHECK(figures.cut_depth_max <= counted(plan.front(), "deepest_cut_mm") + 0.01);
+    CHECK(counted(plan.front(), "deepest_cut_mm") <=
+          1.1 * *job.operations.front().max_depth + 1e-5);
 }
 
 }  // namespace

@@ -15,23 +15,13 @@
 #include "host_tools/grid_pocket/grid_pocket.hpp"
 #include "host_tools/offset/offset.hpp"
 #include "host_tools/surface_offset/surface_model.hpp"
+#include "tests/support/loops.hpp"
 #include "tests/support/tap.hpp"
 
 using namespace cusp::host;
 using cusp::Vec3d;
 
 namespace {
-
-Loop loop_of(const std::vector<Vec2d>& corners)
-{
-    Loop loop;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const Vec2d a = corners[i];
-        const Vec2d b = corners[(i + 1) % corners.size()];
-        loop.push_back({1, {0, 0, 1, 1}, {{a.x, a.y, 0}, {b.x, b.y, 0}}, {1, 1}});
-    }
-    return loop;
-}
 
 Surface hills(double width, double depth, std::mt19937& random)
 {

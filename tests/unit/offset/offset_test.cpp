@@ -108,6 +108,23 @@ TEST(Offset, GrowsARegionWithRoundedCorners)
     DOUBLES_EQUAL(100.0 + 4 * 20.0 + kPi * 4.0, total_area(result), 1e-9);
 }
 
+// An arc that rounding has left a direction but no length turned points far from it inside out.
+TEST(Offset, AnArcWithoutLengthChangesNoPointsSide)
+{
+    Contour square = rectangle(0, 0, 20, 20);
+    const Vec2d a{10.0, 20.0};
+    const Vec2d b{10.0, 20.0 - 7e-15};
+    const Edge top = square[2];
+    square[2] = line_edge(top.start, a);
+    square.insert(square.begin() + 3, {arc_edge(a, b, {10.0, 15.0}, -1), line_edge(b, top.end)});
+    CHECK(surrounds(square, {14.0, 16.0}));
+    CHECK(surrounds(square, {6.0, 16.0}));
+    CHECK_FALSE(surrounds(square, {14.0, 21.0}));
+    square[3] = arc_edge(a, b, {10.0, 25.0}, 1);
+    CHECK_FALSE(surrounds(square, {14.0, 24.0}));
+    CHECK_FALSE(surrounds(square, {6.0, 24.0}));
+}
+
 TEST(Offset, TellsTheClearanceOfAPoint)
 {
     const RegionOffset offset{{{rectangle(0, 0, 20, 20)}}};

@@ -1,0 +1,77 @@
+// What random jobs of all strategies are made of: floors, tools, feeds.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "host_tools/import/job.hpp"
+#include "tests/property/offset/random_regions.hpp"
+
+namespace cusp::host {
+
+inline int whole(Random& random, int low, int high)
+{
+    return std::uniform_int_distribution<int>{low, high}(random);
+}
+
+inline std::vector<double> even_knots(int points, int degree)
+{
+    std::vector<double> knots;
+    for (int i = 0; i <= points + degree; ++i) {
+        knots.push_back(std::clamp(static_cast<double>(i - degree) / (points - degree), 0.0, 1.0));
+    }
+    return knots;
+}
+
+// A B-spline graph over the box whose control points wander by `rough` mm about `middle`, rational
+// now and then.
+inline Surface random_floor(Random& random, const Box2d& box, double middle, double rough)
+{
+    Surface s;
+    s.degree_u = s.degree_v = whole(random, 2, 3);
+    s.size_u = whole(random, 4, 8);
+    s.size_v = whole(random, 4, 8);
+    s.knots_u = even_knots(s.size_u, s.degree_u);
+    s.knots_v = even_knots(s.size_v, s.degree_v);
+    const bool rational = whole(random, 0, 3) == 0;
+    for (int i = 0; i < s.size_u; ++i) {
+        for (int j = 0; j < s.size_v; ++j) {
+            s.points.push_back({box.x0 + (box.x1 - box.x0) * i / (s.size_u - 1),
+                                box.y0 + (box.y1 - box.y0) * j / (s.size_v - 1),
+                                middle + uniform(random, -rough, rough)});
+            s.weights.push_back(rational ? uniform(random, 0.6, 1.6) : 1.0);
+        }
+    }
+    return s;
+}
+
+inline Tool random_tool(Random& random)
+{
+    constexpr double kRadii[]{1.5, 2.0, 3.0, 4.0};
+    const double radius = kRadii[whole(random, 0, 3)];
+    switch (whole(random, 0, 5)) {
+        case 0:
+            return {1, ToolShape::kFlat, radius, 0};
+        case 1:
+            return {1, ToolShape::kBull, radius, radius * uniform(random, 0.2, 0.7)};
+        default:
+            return {1, ToolShape::kBall, radius, radius};
+    }
+}
+
+// A job of one operation, at feeds and a clearance that suit all.
+inline Job job_of(const Operation& operation)
+{
+    Job job;
+    job.file = "random.toml";
+    job.feed = 1200;
+    job.plunge_feed = 300;
+    job.spindle = 10000;
+    job.clearance = 5;
+    job.tools = operation.tools.empty() ? std::vector<Tool>{operation.tool} : operation.tools;
+    job.operations = {operation};
+    return job;
+}
+
+}  // namespace cusp::host
