@@ -16,6 +16,12 @@ TipFloor::TipFloor(const std::vector<Surface>& surfaces, const Tool& tool, doubl
     : tool_{tool}, accuracy_{accuracy}, surfaces_{surfaces}
 {
     pieces_.push_back({});  // child 0 means none
+    if (std::any_of(surfaces_.begin(), surfaces_.end(),
+                    [](const Surface& s) { return !s.trims.empty(); })) {
+        for (const Surface& surface : surfaces_) {
+            trims_.emplace_back(surface, 0.5 * accuracy);
+        }
+    }
     for (std::uint32_t s = 0; s < surfaces_.size(); ++s) {
         for (const BezierPatch& patch : bezier_patches(surfaces_[s])) {
             const Surface& bezier = patch.surface;
@@ -32,6 +38,8 @@ TipFloor::TipFloor(const std::vector<Surface>& surfaces, const Tool& tool, doubl
                                 static_cast<std::uint32_t>(bezier.degree_v + 1), patch.u_begin,
                                 patch.u_end, patch.v_begin, patch.v_end});
             measure(piece);
+            piece.cut = !trims_.empty() && trims_[s].trimmed();
+            trim(piece);
             roots_.push_back(static_cast<std::uint32_t>(pieces_.size()));
             pieces_.push_back(piece);
             lowest_ = std::min(lowest_, piece.z0);
@@ -58,6 +66,28 @@ void TipFloor::measure(Piece& piece) const
         piece.z1 = std::max(piece.z1, p.z);
     }
     measure_plane(piece, corners_);
+}
+
+// Of a piece that an edge may cut, whether it still does. One that is trimmed away becomes a box
+// that nothing meets.
+void TipFloor::trim(Piece& piece) const
+{
+    if (!piece.cut) {
+        return;
+    }
+    const Patch& patch = patches_[piece.patch];
+    const auto share = [](double from, double to, float at) {
+        return from + (to - from) * static_cast<double>(at);
+    };
+    const TrimRegion::Part part = trims_[patch.surface].part(
+        share(patch.u0, patch.u1, piece.u[0]), share(patch.u0, patch.u1, piece.u[1]),
+        share(patch.v0, patch.v1, piece.v[0]), share(patch.v0, patch.v1, piece.v[1]));
+    piece.cut = part == TrimRegion::Part::kCut;
+    if (part == TrimRegion::Part::kOutside) {
+        piece.graph = false;
+        piece.x0 = piece.y0 = piece.z0 = 1e300;
+        piece.x1 = piece.y1 = piece.z1 = -1e300;
+    }
 }
 
 void TipFloor::measure_plane(Piece& piece, const std::vector<Vec3d>& points) const
@@ -147,6 +177,8 @@ void TipFloor::halve(std::uint32_t index) const
         by_u ? 0.5F * (piece.u[0] + piece.u[1]) : 0.5F * (piece.v[0] + piece.v[1]);
     measure(first);
     measure(second);
+    trim(first);
+    trim(second);
     pieces_[index].child = static_cast<std::uint32_t>(pieces_.size());
     pieces_.push_back(first);
     pieces_.push_back(second);

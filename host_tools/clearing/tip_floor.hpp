@@ -5,14 +5,17 @@
 // through their highest ones. Dropping the tool on such planes bounds the true height from above;
 // halving the pieces near the contact brings the bound down to the accuracy asked for. Nothing is
 // iterated that could fail to converge, and the tool touches whatever is highest: several surfaces,
-// walls and narrow valleys need no case of their own.
+// walls and narrow valleys need no case of their own. Where a surface is trimmed, pieces across the
+// edge are halved until what hangs over it is as small as the accuracy.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
 
 #include "host_tools/nurbs/nurbs.hpp"
+#include "host_tools/surface_offset/trim_region.hpp"
 #include "host_tools/toolpath/toolpath.hpp"
 
 namespace cusp::host {
@@ -23,9 +26,8 @@ public:
     TipFloor(const std::vector<Surface>& surfaces, const Tool& tool, double accuracy);
 
     struct Rest {
-        double height;  // z of the tip; kNothing where no surface lies under the tool
-        Vec2d
-            gradient;  // of the surface where the tool rests on it: the floor's slope under the tip
+        double height;   // z of the tip; kNothing where no surface lies under the tool
+        Vec2d gradient;  // slope of the tip's height: of the surface where the tool rests on it
         std::uint32_t piece;
     };
     static constexpr double kNothing = -1e300;
@@ -40,7 +42,8 @@ public:
     // margin (mm, >= 0): how far beside the straight line the tool may really be.
     double gap(Vec3d a, Vec3d b, double margin = 0.0) const;
 
-    // True where some surface lies straight above or below (x, y), to a tenth of the tool radius.
+    // True where some surface, as far as it is not trimmed away, lies straight above or below (x,
+    // y), to a tenth of the tool radius.
     bool covers(Vec2d at) const;
 
     // Of the surface where the tool touches it, in the plan direction `along`; curvature > 0 where
@@ -81,6 +84,7 @@ private:
         double thickness;           // vertical, of the slab under that plane
         std::uint32_t child;        // 0: not yet halved
         bool graph;                 // false where too steep for a plane z(x, y)
+        bool cut;                   // by the edge of a trimmed surface
         double x0, y0, x1, y1, z0;  // box, with z1
         // A box turned with the piece: ends along (1, 0, gx) and aside of it, made unit vectors.
         std::array<double, 4> lateral;
@@ -97,6 +101,11 @@ private:
     };
 
     void measure(Piece& piece) const;
+    void trim(Piece& piece) const;
+    static double extent(const Piece& piece)
+    {
+        return std::max({piece.x1 - piece.x0, piece.y1 - piece.y0, piece.z1 - piece.z0});
+    }
     void measure_plane(Piece& piece, const std::vector<Vec3d>& points) const;
     void halve(std::uint32_t piece) const;
     struct Query {
@@ -106,12 +115,14 @@ private:
     double bound(const Piece& piece, const Query& query, double best, bool& tight) const;
     double ball_gap(const Piece& piece, Vec3d a, Vec3d b) const;
     double axial_gap(const Piece& piece, Vec3d a, Vec3d b, double margin) const;
+    Vec2d slope_of(const Piece& piece, Vec2d at) const;
     double on_edges(const Piece& piece, Vec2d at) const;
     double on_edge(double slope, double away, double low, double high) const;
 
     Tool tool_;
     double accuracy_;
     std::vector<Surface> surfaces_;
+    std::vector<TrimRegion> trims_;  // of each surface; empty where none is trimmed
     std::vector<Patch> patches_;
     // Halved when first needed; a const query only makes them finer.
     mutable std::vector<Piece> pieces_;

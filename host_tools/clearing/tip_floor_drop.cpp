@@ -3,10 +3,14 @@
 #include <cmath>
 
 #include "host_tools/clearing/tip_floor.hpp"
+#include "host_tools/offset/contour.hpp"
 
 namespace cusp::host {
 
 namespace {
+
+constexpr double kOnPiece = 0.01;       // of the radius: pieces beside the contact touch as well
+constexpr double kSteepestSide = 30.0;  // slope
 
 double excess(double low, double high, double x) { return std::max({low - x, 0.0, x - high}); }
 
@@ -98,11 +102,12 @@ double TipFloor::bound(const Piece& piece, const Query& query, double best, bool
     if (square >= r * r || piece.z1 <= best) {
         return kNothing;
     }
+    const bool whole = !piece.cut || extent(piece) < query.thin;
     if (piece.graph) {
         const Vec2d contact = at + g * piece.contact;
         if (contact.x >= piece.x0 && contact.x <= piece.x1 && contact.y >= piece.y0 &&
             contact.y <= piece.y1) {
-            tight = piece.thickness <= query.thin;
+            tight = whole && piece.thickness <= query.thin;
             return std::min(by_plane, piece.z1);
         }
     }
@@ -112,10 +117,10 @@ double TipFloor::bound(const Piece& piece, const Query& query, double best, bool
         return kNothing;
     }
     if (!piece.graph) {
-        tight = std::max(piece.x1 - piece.x0, piece.y1 - piece.y0) < 5.0 * accuracy_;
+        tight = whole && std::max(piece.x1 - piece.x0, piece.y1 - piece.y0) < 5.0 * accuracy_;
         return by_box;
     }
-    tight = piece.thickness <= query.thin;
+    tight = whole && piece.thickness <= query.thin;
     return std::min({by_plane, by_box, on_edges(piece, at)});
 }
 
@@ -163,7 +168,31 @@ TipFloor::Rest TipFloor::drop(Vec2d at, double slack) const
         }
     }
     last_ = best.piece;
+    if (best.height != kNothing) {
+        best.gradient = slope_of(pieces_[best.piece], at);
+    }
     return best;
+}
+
+// The slope of the tip's height: of the piece's plane, or where the tool touches beyond the piece,
+// on an edge, of the tool's side there.
+Vec2d TipFloor::slope_of(const Piece& piece, Vec2d at) const
+{
+    const Vec2d contact = at + piece.gradient * piece.contact;
+    const Vec2d place{std::clamp(contact.x, piece.x0, piece.x1),
+                      std::clamp(contact.y, piece.y0, piece.y1)};
+    const Vec2d arm = place - at;
+    const double away = std::sqrt(dot(arm, arm));
+    const double c = tool_.corner_radius;
+    const double out = away - (tool_.radius - c);
+    if (piece.graph && distance(place, contact) < kOnPiece * tool_.radius) {
+        return piece.gradient;
+    }
+    if (out <= 0.0) {
+        return {0.0, 0.0};
+    }
+    const double side = std::sqrt(std::max(c * c - out * out, 0.0));
+    return arm * (std::min(out / std::max(side, 1e-9 * tool_.radius), kSteepestSide) / away);
 }
 
 }  // namespace cusp::host

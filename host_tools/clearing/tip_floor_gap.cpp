@@ -6,6 +6,12 @@
 
 namespace cusp::host {
 
+namespace {
+
+constexpr double kDeepShare = 0.1;
+
+}  // namespace
+
 // Distance from the ball's centre line to the piece's upright box, or component by component to its
 // turned box, whichever says more.
 double TipFloor::ball_gap(const Piece& piece, Vec3d a, Vec3d b) const
@@ -105,11 +111,17 @@ double TipFloor::gap(Vec3d a, Vec3d b, double margin) const
             const bool settled =
                 ball ? flat && clear
                      : thin < 0.5 * accuracy_ && size * piece.secant < 0.05 && norm(move) < 0.05;
-            if (settled || small || depth + 2 > kStack) {
+            const bool whole = !piece.cut || extent(piece) < accuracy_;
+            // How deep a deep cut is need not be known better than to a tenth.
+            const bool deep =
+                here < -accuracy_ && std::max(extent(piece), norm(move)) < kDeepShare * -here;
+            if ((settled && whole) || deep || small || depth + 2 > kStack) {
                 least = std::min(least, here);
                 continue;
             }
-            const bool halve_move = ball && !flat ? turned > thin : norm(move) > size;
+            const bool halve_move = settled         ? false
+                                    : ball && !flat ? turned > thin
+                                                    : norm(move) > size;
             if (halve_move) {
                 const Vec3d middle = (top.a + top.b) * 0.5;
                 stack[depth++] = {top.piece, top.a, middle};

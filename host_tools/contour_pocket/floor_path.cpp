@@ -83,11 +83,28 @@ double gap_of(Vec3d start, const FloorMove& move, const TipFloor& floor, double 
     return least;
 }
 
-// Raises both ends of every move by what it lacks to keep off the floor, until none lacks anything.
+// Beside a cliff a move must not begin to climb before its end, nor sink before it is there:
+// raising it helps nothing.
+bool is_steep(Vec3d start, const FloorMove& move)
+{
+    const double along = std::hypot(move.end.x - start.x, move.end.y - start.y);
+    const double rise = std::abs(move.end.z - start.z);
+    return move.turn == 0 && move.curve.points.empty() && along > 0.0 &&
+           rise > 2.0 * along + 10.0 * kWrittenStep;
+}
+
+// The corner of a steep move that goes level at its higher end and upright otherwise.
+Vec3d level_corner(Vec3d start, Vec3d end)
+{
+    return start.z > end.z ? Vec3d{end.x, end.y, start.z} : Vec3d{start.x, start.y, end.z};
+}
+
+// Raises the ends of every move by what it lacks to keep off the floor, until none lacks anything.
 // Raising only ever adds room to the neighbours; a closed path's ends are raised together.
 void certify(FloorPath& path, const TipFloor& floor, const FloorPathSettings& settings, bool closed)
 {
-    constexpr int kRounds = 8;
+    constexpr int kRounds = 20;
+    constexpr int kGentleRounds = 4;  // later ones raise by more and more
     path.least_gap = 0.0;
     // An arc's chords leave half of the cushion to the slope.
     const double fine = std::max(0.5 * settings.cushion, kWrittenStep);
@@ -95,10 +112,17 @@ void certify(FloorPath& path, const TipFloor& floor, const FloorPathSettings& se
         Vec3d& start = i == 0 ? path.start : path.moves[i - 1].end;
         Vec3d& end = path.moves[i].end;
         double gap = gap_of(start, path.moves[i], floor, fine);
+        if (settings.lift && gap < 0.0 && is_steep(start, path.moves[i])) {
+            const FloorMove corner{level_corner(start, end)};
+            path.moves.insert(path.moves.begin() + static_cast<std::ptrdiff_t>(i), corner);
+            --i;
+            continue;
+        }
         for (int round = 0; settings.lift && gap < 0.0 && round < kRounds; ++round) {
-            const double raise = kWrittenStep + 1.5 * -gap;
-            start = written(start + Vec3d{0.0, 0.0, raise});
-            end = written(end + Vec3d{0.0, 0.0, raise});
+            const double more = std::exp2(std::max(0, round - kGentleRounds));
+            const Vec3d raise{0.0, 0.0, more * (kWrittenStep - 1.5 * gap)};
+            start = written(start + raise);
+            end = written(end + raise);
             gap = gap_of(start, path.moves[i], floor, fine);
         }
         path.least_gap = std::min(path.least_gap, gap);

@@ -27,7 +27,9 @@ Budget make_budget(const Job& job, const Operation& operation);
 // cross.
 Region2d make_region(const Operation& operation, double tolerance);
 
-// Throws InputError where a place of the boundary or of an island has no floor.
+// Throws InputError where a place of the boundary or of an island has no floor; where there are
+// several surfaces or trims, a place inside, too: looked at every quarter of the tool's radius
+// (coarser in pockets of more than 250 such places a side).
 void check_coverage(const Operation& operation, const Region2d& region, const TipFloor& floor);
 
 [[noreturn]] void refuse_uncovered(const Operation& operation, Vec2d place);

@@ -69,23 +69,33 @@ private:
         for (int i = 1; i <= n && !row_.missing; ++i) {
             const double from = static_cast<double>(i - 1) / n;
             const double to = static_cast<double>(i) / n;
-            const Station next = look(i == n ? edge.end : point_on(edge, to), bend);
+            Station next = look(i == n ? edge.end : point_on(edge, to), bend);
             halve(edge, whole, from, to, next);
             row_.stations.push_back(next);
         }
     }
 
     // Stations between the last one and `next`, shares `from` and `to` of the edge.
-    void halve(const Edge& edge, double whole, double from, double to, const Station& next)
+    void halve(const Edge& edge, double whole, double from, double to, Station& next)
     {
         const Station& last = row_.stations.back();
         const Vec2d step = next.at - last.at;
         const double hidden = 0.125 * std::abs(dot(next.gradient - last.gradient, step));
-        if (row_.missing || hidden < 0.05 * spacing_.height || (to - from) * whole < kClosest) {
+        const double by_slopes = 0.5 * dot(next.gradient + last.gradient, step);
+        const double jump = std::abs(next.height - last.height - by_slopes);
+        const bool even = hidden < 0.05 * spacing_.height && jump < 0.5 * spacing_.height;
+        if (row_.missing || even) {
+            return;
+        }
+        if ((to - from) * whole < kClosest) {
+            // A cliff: no move may start to climb before it.
+            const bool cliff = jump >= 0.5 * spacing_.height;
+            row_.stations.back().exact = row_.stations.back().exact || cliff;
+            next.exact = next.exact || cliff;
             return;
         }
         const double middle = 0.5 * (from + to);
-        const Station between = look(point_on(edge, middle), next.bend);
+        Station between = look(point_on(edge, middle), next.bend);
         halve(edge, whole, from, middle, between);
         row_.stations.push_back(between);
         halve(edge, whole, middle, to, next);

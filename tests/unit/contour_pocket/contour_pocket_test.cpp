@@ -207,5 +207,57 @@ TEST(ContourPocket, RefusesAFloorThatDoesNotCoverThePocket)
                "floor.json: the floor does not cover the pocket at"));
 }
 
+// The plane over the pocket, trimmed to x in [from, to].
+Surface strip(double z, double from, double to)
+{
+    Surface s = plane(60.0, z);
+    const Vec2d p[] = {{from / 60.0, 0.0}, {to / 60.0, 0.0}, {to / 60.0, 1.0}, {from / 60.0, 1.0}};
+    s.trims = {{line_curve(p[0], p[1]), line_curve(p[1], p[2]), line_curve(p[2], p[3]),
+                line_curve(p[3], p[0])}};
+    return s;
+}
+
+TEST(ContourPocket, CutsToTheHigherOfTrimmedFacesOnlyWhereItIs)
+{
+    Operation operation = pocket();
+    operation.floor = {strip(-8.0, 0.0, 40.0), strip(-6.0, 40.0, 60.0)};
+    const PlannedOperation planned = plan_contour_pocket(job(), operation).back();
+    DOUBLES_EQUAL(0.0, planned.stats.gouge_bound_mm, 1e-9);
+    double left = 1e300;
+    double right = 1e300;
+    for (const ToolMove& move : planned.path.moves) {
+        if (const auto* line = std::get_if<LineTo>(&move.shape)) {
+            double& lowest = line->end.x < 35.9 ? left : right;
+            lowest =
+                line->end.x < 35.9 || line->end.x > 40.0 ? std::min(lowest, line->end.z) : lowest;
+        }
+    }
+    CHECK(left >= -8.0 && left <= -7.98);
+    CHECK(right >= -6.0 && right <= -5.98);
+}
+
+TEST(ContourPocket, RefusesAGapBetweenTrimmedFaces)
+{
+    const std::string text = refusal([](Operation& operation) {
+        operation.floor = {strip(-8.0, 0.0, 38.0), strip(-6.0, 40.0, 60.0)};
+    });
+    CHECK(says(text, "floor.json"));
+    CHECK(says(text, "does not cover the pocket"));
+}
+
+TEST(ContourPocket, RefusesAHoleInATrimmedFloor)
+{
+    const std::string text = refusal([](Operation& operation) {
+        Surface& floor = operation.floor.front();
+        floor = strip(-8.0, 0.0, 60.0);
+        const Loop hole = square_loop(0.5, 0.6, 0.04);
+        floor.trims.push_back({hole[3], hole[2], hole[1], hole[0]});
+        for (Curve& curve : floor.trims.back()) {
+            std::swap(curve.points[0], curve.points[1]);
+        }
+    });
+    CHECK(says(text, "does not cover the pocket"));
+}
+
 }  // namespace
 }  // namespace cusp::host
