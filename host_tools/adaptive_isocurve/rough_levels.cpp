@@ -273,11 +273,28 @@ private:
         if (room_from + room_to >= length) {
             return true;
         }
-        if (length < 0.05) {
-            return false;
+        if (length < 2.0 * kChord) {
+            return true;  // out by no more than chords may be
         }
         const Vec2d middle = (from + to) * 0.5;
         return way_inside(region, from, middle) && way_inside(region, middle, to);
+    }
+
+    // Links are looked at for themselves: what makes them takes looks a tenth of a millimetre
+    // apart.
+    static bool way_inside(const RegionOffset& region, const std::vector<Edge>& way)
+    {
+        return std::all_of(way.begin(), way.end(), [&](const Edge& edge) {
+            const int parts = edge.turn == 0 ? 1 : 1 + static_cast<int>(sweep(edge) / 0.02);
+            for (int k = 0; k < parts; ++k) {
+                const Vec2d from = point_on(edge, static_cast<double>(k) / parts);
+                const Vec2d to = point_on(edge, static_cast<double>(k + 1) / parts);
+                if (!way_inside(region, from, to)) {
+                    return false;
+                }
+            }
+            return true;
+        });
     }
 
     struct Level {
@@ -356,7 +373,7 @@ private:
         });
     }
 
-    std::vector<LevelRun> runs_of(const ClearedRegion& cleared)
+    std::vector<LevelRun> runs_of(const ClearedRegion& cleared, const RegionOffset& region)
     {
         const bool arcs = operation_.output != OutputForm::kLines;
         std::vector<LevelRun> out;
@@ -370,7 +387,7 @@ private:
             const std::vector<Edge> edges =
                 arcs || pass.level == 0 ? pass.path : fitted(pass.path, inner_fit_, false);
             ++loops_;
-            if (linked && pass.start == PassStart::kLink) {
+            if (linked && pass.start == PassStart::kLink && way_inside(region, pass.link)) {
                 std::vector<Edge>& run = out.back().edges;
                 run.insert(run.end(), pass.link.begin(), pass.link.end());
                 run.insert(run.end(), edges.begin(), edges.end());
@@ -400,7 +417,7 @@ private:
                 return way_inside(*region_above, from, to);
             };
         }
-        const std::vector<LevelRun> runs = runs_of(level.cleared);
+        const std::vector<LevelRun> runs = runs_of(level.cleared, region);
         for (const LevelRun& run : runs) {
             moves.add(run, space);
         }
