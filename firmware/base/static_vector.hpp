@@ -28,12 +28,13 @@ public:
         ++size_;
         return true;
     }
-    // Precondition: !empty().
-    // Precondition: count <= size().
+    // Keeps the first `count` elements. Precondition: count <= size().
     constexpr void shrink(std::size_t count) noexcept
     {
+        CUSP_ASSERT(count <= size_);
         size_ = static_cast<decltype(size_)>(count);
     }
+    // Precondition: !empty().
     constexpr void pop_back() noexcept
     {
         CUSP_ASSERT(size_ > 0);

@@ -8,28 +8,20 @@ namespace cusp::interpolator {
 using planner::Interval;
 using planner::PathQueue;
 
-float limit_before_end(const Interval& interval, float distance) noexcept
-{
-    return std::min(interval.envelope.limit.cap,
-                    interval.envelope.end_speed + 2.0F * interval.envelope.slope * distance);
-}
-
-float feed_before_end(const Interval& interval,
-                      float distance,
-                      const OverrideFactors& factors) noexcept
-{
-    const float origin = factors.of(interval.origin_is_rapid);
-    const float line = interval.envelope.feed_end + 2.0F * interval.envelope.slope * distance -
-                       (1.0F - origin) * interval.envelope.feed_origin;
-    return std::min(factors.of(interval.rapid) * interval.envelope.limit.feed, line);
-}
-
-float allowed_before_end(const Interval& interval,
+float braking_before_end(const Interval& interval,
                          float distance,
                          const OverrideFactors& factors) noexcept
 {
-    return std::min(limit_before_end(interval, distance),
-                    feed_before_end(interval, distance, factors));
+    const planner::Envelope& envelope = interval.envelope;
+    const float scaled_off = (1.0F - factors.of(interval.origin_is_rapid)) * envelope.feed_origin;
+    return std::min(envelope.end_speed, envelope.feed_end - scaled_off) +
+           2.0F * envelope.slope * distance;
+}
+
+float cap_of(const Interval& interval, const OverrideFactors& factors) noexcept
+{
+    const planner::SpeedLimit& limit = interval.envelope.limit;
+    return std::min(limit.cap, factors.of(interval.rapid) * limit.feed);
 }
 
 void LookOut::restart(std::uint32_t interval, std::uint64_t end_position) noexcept
@@ -72,16 +64,17 @@ float LookOut::least_between(const PathQueue& queue,
     for (std::uint32_t i = 0; interval_end_ < to; ++i) {
         const Interval& passed = queue.interval(interval_);
         if (interval_ + 1 == published || passed.stop_at_end || i == kIntervalsPerTick) {
-            const bool at_end = i != kIntervalsPerTick;
-            return at_end ? 0.0F : 0.0F;
+            return 0.0F;
         }
-        push({interval_end_, allowed_before_end(passed, 0.0F, factors)});
+        push({interval_end_,
+              std::min(cap_of(passed, factors), braking_before_end(passed, 0.0F, factors))});
         ++interval_;
         interval_end_ += queue.interval(interval_).length;
     }
     const float left = static_cast<float>(static_cast<std::uint32_t>(interval_end_ - to)) /
                        kPathUnitsPerMillimetre;
-    float least = allowed_before_end(queue.interval(interval_), left, factors);
+    const Interval& last = queue.interval(interval_);
+    float least = std::min(cap_of(last, factors), braking_before_end(last, left, factors));
     if (begin_ != end_) {
         least = std::min(least, entries_[begin_ % kEntries].speed);
     }

@@ -16,16 +16,14 @@ struct OverrideFactors {
     float of(bool is_rapid) const noexcept { return is_rapid ? rapid : feed; }
 };
 
-// Squared speed allowed `distance` mm before the end of the interval, both envelopes.
-float allowed_before_end(const planner::Interval& interval,
+// Squared speed from which braking reaches what both envelopes allow at the end of the interval and
+// beyond, `distance` mm before that end.
+float braking_before_end(const planner::Interval& interval,
                          float distance,
                          const OverrideFactors& factors) noexcept;
 
-// The same, apart: by the machine's limits alone, and by the feed alone.
-float limit_before_end(const planner::Interval& interval, float distance) noexcept;
-float feed_before_end(const planner::Interval& interval,
-                      float distance,
-                      const OverrideFactors& factors) noexcept;
+// Squared speed allowed in the interval by its caps.
+float cap_of(const planner::Interval& interval, const OverrideFactors& factors) noexcept;
 
 // A window that only moves forward, with the minimum over it: a queue of ends of intervals in
 // rising order of their speeds. Context: servo tick.

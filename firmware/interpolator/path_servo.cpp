@@ -160,47 +160,54 @@ float PathServo::next_speed(const Conditions& conditions) noexcept
     return wanted;
 }
 
-// The greatest speed up to `wanted` that can surely be kept for one path filter: what the envelope
-// allows at its lowest over the travel at `wanted`; or, where that reaches too far (to a stop,
-// say), what follows from the envelope here, since ahead it falls by at most its steepest slope.
+// The greatest speed up to `wanted` that can surely be kept for one path filter: where the envelope
+// falls below `wanted` over the travel at that speed, by a look at the nearest intervals.
 float PathServo::coasting_speed(float wanted, const OverrideFactors& factors) noexcept
 {
     const auto ticks = static_cast<float>(filter_ + 2);
     const auto travel = static_cast<std::uint64_t>(wanted * kPathUnitsPerTick * ticks);
     const std::uint32_t begin = queue_.interval_begin();
-    const Interval& here = queue_.interval(begin);
     if (!look_out_.started() ||
         queue_.take_changed_from() - begin <= look_out_.interval() - begin ||
         look_out_.interval() - begin > planner::kIntervalCount) {
-        look_out_.restart(begin, position_ - offset_ + here.length);
+        look_out_.restart(begin, position_ - offset_ + queue_.interval(begin).length);
     }
     const float least = look_out_.least_between(queue_, position_, position_ + travel, factors);
     if (least >= wanted * wanted) {
         return wanted;
     }
-    const float steepest = steepest_slope(look_out_.interval());
-    const float left = millimetres(here.length - offset_);
-    const float time = ticks * kServoTick;
-    const float drop = steepest * time;
-    const float allowed = std::max(0.0F, allowed_before_end(here, left, factors));
-    // sqrt(drop^2 + allowed) - drop, without the cancellation that would stop it short of the end.
-    const float surely = allowed / (std::sqrt(drop * drop + allowed) + drop);
-    return std::min(wanted, std::max(std::sqrt(std::max(least, 0.0F)), surely));
+    return std::min(wanted, std::max(std::sqrt(std::max(least, 0.0F)),
+                                     kept_speed(ticks * kServoTick, factors)));
 }
 
-// Largest slope of the envelope from here through interval `last`.
-float PathServo::steepest_slope(std::uint32_t last) const noexcept
+// The greatest speed v that the envelope allows all over its own travel v time; no more than what
+// passes the nearest intervals in that time.
+float PathServo::kept_speed(float time, const OverrideFactors& factors) const noexcept
 {
     constexpr std::uint32_t kIntervalsToLookAt = 8;
-    const std::uint32_t begin = queue_.interval_begin();
-    if (last - begin > kIntervalsToLookAt) {
-        return queue_.steepest_slope();
+    float least = kUnlimited;  // squared speed allowed before the interval
+    float to_begin = 0;
+    for (std::uint32_t i = 0; i < kIntervalsToLookAt; ++i) {
+        const std::uint32_t index = queue_.interval_begin() + i;
+        if (index == queue_.published()) {
+            break;
+        }
+        const Interval& interval = queue_.interval(index);
+        const float to_end = to_begin + millimetres(interval.length - (i == 0 ? offset_ : 0U));
+        // v^2 <= braking - 2 slope v time, without the cancellation that would stop it short of
+        // the end.
+        const float braking = std::max(0.0F, braking_before_end(interval, to_end, factors));
+        const float drop = interval.envelope.slope * time;
+        const float falling = braking / (std::sqrt(drop * drop + braking) + drop);
+        least = std::min(least, cap_of(interval, factors));
+        const float kept = lower_root(std::max(0.0F, least), falling);
+        if (kept * time <= to_end) {
+            return std::max(kept, to_begin / time);
+        }
+        least = std::min(least, braking_before_end(interval, 0.0F, factors));
+        to_begin = to_end;
     }
-    float steepest = 0;
-    for (std::uint32_t i = begin; i - begin <= last - begin && i != queue_.published(); ++i) {
-        steepest = std::max(steepest, queue_.interval(i).envelope.slope);
-    }
-    return steepest;
+    return to_begin / time;
 }
 
 std::int32_t PathServo::advance(float speed) noexcept

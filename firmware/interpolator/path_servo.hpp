@@ -51,7 +51,7 @@ private:
     Bounds bounds(float greatest, const OverrideFactors& factors) const noexcept;
     float next_speed(const Conditions& conditions) noexcept;
     float coasting_speed(float wanted, const OverrideFactors& factors) noexcept;
-    float steepest_slope(std::uint32_t last) const noexcept;
+    float kept_speed(float time, const OverrideFactors& factors) const noexcept;
     std::int32_t advance(float speed) noexcept;
 
     planner::PathQueue& queue_;

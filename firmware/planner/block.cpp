@@ -120,14 +120,20 @@ PathOffset curve_position(CurveBlock& curve, std::uint32_t offset) noexcept
             rounded(place.z * kPathUnitsPerMillimetre)};
 }
 
-// Bounds over one interval of the table: its ends and middle, and what may lie between them.
-PathDerivatives curve_derivatives(const CurveBlock& curve, float from, float to) noexcept
+// Bounds over one interval of the table, `length` mm long: five places of it, and what may lie
+// between them.
+PathDerivatives curve_derivatives(const CurveBlock& curve,
+                                  float from,
+                                  float to,
+                                  float length) noexcept
 {
+    constexpr unsigned kParts = 4;
     // The third derivative may change fast within an interval: a quarter on top of the largest.
     constexpr float kBetween = 1.25F;
     PathDerivatives bound{};
-    for (unsigned k = 0; k <= 4; ++k) {
-        const float u = from + (to - from) * 0.25F * static_cast<float>(k);
+    for (unsigned k = 0; k <= kParts; ++k) {
+        const float part = static_cast<float>(k) / static_cast<float>(kParts);
+        const float u = from + (to - from) * part;
         const nurbs::CurveState state = nurbs::state_at(curve.piece, u);
         for (unsigned i = 0; i < 3; ++i) {
             bound.first[i] = std::max(bound.first[i], std::fabs(state.tangent[i]));
@@ -135,6 +141,10 @@ PathDerivatives curve_derivatives(const CurveBlock& curve, float from, float to)
             bound.third[i] = std::max(bound.third[i], kBetween * std::fabs(state.change[i]));
         }
     }
+    // Between places h apart a function exceeds their larger by at most h^2/8 of its second
+    // derivative.
+    const float step = length / static_cast<float>(kParts);
+    bound.first = bound.first + bound.third * (0.125F * step * step);
     return bound;
 }
 
@@ -161,14 +171,14 @@ void set_length(Block& block, std::uint32_t length) noexcept
 {
     CUSP_ASSERT(length > 0);
     block.length = length;
-    // The reciprocal has its top bit set: 2^(31 + shift) / length in [2^31, 2^32).
+    // The reciprocal has its top bit set: 2^(32 + shift) / length in (2^31, 2^32].
     std::uint8_t shift = 0;
     while (shift < 31 && (std::uint32_t{2} << shift) <= length) {
         ++shift;
     }
-    const std::uint64_t scaled = (std::uint64_t{1} << (31U + shift)) * 1U;
-    block.reciprocal = static_cast<std::uint32_t>(
-        std::min<std::uint64_t>((scaled + scaled) / length, 0xFFFFFFFFU));
+    const std::uint64_t scaled = std::uint64_t{1} << (32U + shift);
+    block.reciprocal =
+        static_cast<std::uint32_t>(std::min<std::uint64_t>(scaled / length, 0xFFFFFFFFU));
     block.reciprocal_shift = shift;
 }
 
@@ -244,7 +254,7 @@ Stretch stretch(const Block& block, unsigned index) noexcept
         const nurbs::ArcLengthNode& from = curve.table.nodes[index];
         const nurbs::ArcLengthNode& to = curve.table.nodes[index + 1];
         const std::uint32_t end = last ? block.length : units_at(to.s / curve.table.length());
-        return {end, curve_derivatives(curve, from.u, to.u)};
+        return {end, curve_derivatives(curve, from.u, to.u, to.s - from.s)};
     }
     const float from = static_cast<float>(index) / static_cast<float>(count);
     const float to = static_cast<float>(index + 1) / static_cast<float>(count);

@@ -107,14 +107,14 @@ void IntervalBuilder::append(std::uint32_t length, const Allowance& allowance, b
     carry(feed_reach, feed);
 }
 
-void IntervalBuilder::add_joint(const JointShare& joint) noexcept
+void IntervalBuilder::add_joint(const JointShare& joint, float distance) noexcept
 {
     Allowance allowance = kAllowsAll;
     allowance.cap = joint.speed * joint.speed;
     allowance.jerk_left = {1.0F - joint.jerk_at_rest, 1.0F - joint.jerk};
     allowance.acceleration_left = 1.0F - joint.acceleration;
-    spread_back(joint.speed * reach_.joint, allowance);
-    carry(joint.speed * reach_.joint, allowance);
+    spread_back(joint.speed * reach_.joint + distance, allowance);
+    carry(joint.speed * reach_.joint - distance, allowance);
 }
 
 void IntervalBuilder::spread_back(float distance, const Allowance& allowance) noexcept

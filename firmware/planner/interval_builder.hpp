@@ -31,8 +31,8 @@ public:
     // Adds a stretch at the end of the path.
     void append(std::uint32_t length, const Allowance& allowance, bool rapid) noexcept;
 
-    // Spreads what the joint at the end of the path so far demands.
-    void add_joint(const JointShare& joint) noexcept;
+    // Spreads what a joint demands, `distance` mm before the end of the path so far.
+    void add_joint(const JointShare& joint, float distance) noexcept;
 
     // The path stops at its end: all of it may be published, and no limit is spread over the stop.
     void stop(const CornerOverlap& overlap) noexcept;

@@ -29,13 +29,13 @@ Shares shares_at(const Joint& joint,
     const float first = static_cast<float>(filter.first) * kServoTick;
     const float second = static_cast<float>(filter.second) * kServoTick;
     const float square = v * v;
-    const float bend_acceleration = joint.bend * fastest * fastest;
-    const float bend_jerk = joint.bend * fastest * bend_acceleration;
+    const float fastest_square = fastest * fastest;
+    const float fastest_cube = fastest_square * fastest;
     Shares shares{0, 0};
     for (unsigned i = 0; i < 3; ++i) {
         const float jump = v * joint.direction[i];
-        const float acceleration_left = limits.acceleration[i] - bend_acceleration;
-        const float jerk_left = limits.jerk[i] - bend_jerk;
+        const float acceleration_left = limits.acceleration[i] - joint.second[i] * fastest_square;
+        const float jerk_left = limits.jerk[i] - joint.third[i] * fastest_cube;
         if (acceleration_left <= 0 || jerk_left <= 0) {
             if (jump > 0 || joint.curvature[i] > 0) {
                 return {1, 1};
@@ -69,17 +69,19 @@ JointShare joint_share_at(const Joint& joint,
 
 }  // namespace
 
-Joint make_joint(const EndGeometry& before, const EndGeometry& after) noexcept
+Joint make_joint(const EndGeometry& before,
+                 const EndGeometry& after,
+                 const PathDerivatives& around) noexcept
 {
     const Vec3f direction = after.tangent - before.tangent;
-    return {magnitude(direction), magnitude(after.curvature - before.curvature),
-            std::max(norm(before.curvature), norm(after.curvature)), norm(direction)};
+    return {magnitude(direction), magnitude(after.curvature - before.curvature), around.second,
+            around.third, norm(direction)};
 }
 
 Joint together(const Joint& a, const Joint& b) noexcept
 {
-    return {a.direction + b.direction, a.curvature + b.curvature, std::max(a.bend, b.bend),
-            a.turn + b.turn};
+    return {a.direction + b.direction, a.curvature + b.curvature, larger(a.second, b.second),
+            larger(a.third, b.third), a.turn + b.turn};
 }
 
 JointShare joint_share(const Joint& joint,

@@ -9,16 +9,20 @@ namespace cusp::planner {
 struct Joint {
     Vec3f direction;  // |change of dP/ds|
     Vec3f curvature;  // |change of d2P/ds2|, 1/mm
-    float bend;       // largest |d2P/ds2| of both sides, 1/mm
+    Vec3f second;     // largest |d2P/ds2| of the path around it, 1/mm
+    Vec3f third;      // and |d3P/ds3|, 1/mm^2
     float turn;       // length of the change of direction: about the angle, radians
 };
 
-Joint make_joint(const EndGeometry& before, const EndGeometry& after) noexcept;
+// around: bounds over the path that one window of the axis filters may hold with the joint.
+Joint make_joint(const EndGeometry& before,
+                 const EndGeometry& after,
+                 const PathDerivatives& around) noexcept;
 
 // A sum of joints that one window of the axis filters may hold.
 Joint together(const Joint& a, const Joint& b) noexcept;
 
-// What a joint leaves of the axes' limits to the curves around it.
+// What a joint takes of what the path around it leaves of the axes' limits.
 struct JointShare {
     float speed;         // mm/s, greatest that it may be passed at
     float acceleration;  // share taken at that speed, in [0, 1)

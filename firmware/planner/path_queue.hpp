@@ -93,10 +93,6 @@ public:
         published_length_ += path_units;
     }
 
-    // No interval's envelope is steeper, mm/s^2. Set before the first move.
-    float steepest_slope() const noexcept { return steepest_slope_; }
-    void set_steepest_slope(float slope) noexcept { steepest_slope_ = slope; }
-
     // Half the length of the path filter, s. Set before the first move.
     float half_filter() const noexcept { return half_filter_; }
     void set_half_filter(float seconds) noexcept { half_filter_ = seconds; }
@@ -159,7 +155,6 @@ private:
     Counter changed_from_{0};
     std::uint32_t interval_end_{0};
     std::uint64_t published_length_{0};
-    float steepest_slope_{0};
     float half_filter_{0};
 };
 

@@ -35,9 +35,10 @@ constexpr float kNegligible = 1e-3F;
 constexpr float kMostTicks = 12.0F;
 // Positions on arcs and curves are off by up to half a nanometre, third differences by 4 and,
 // rounded once more, 8. Divided by the filters' lengths, n and 2, this is to be 1 % of the least
-// jerk; behind 4 ticks it is a nanometre at most.
+// jerk; behind 4 ticks it is a nanometre at most, which is to be an eighth of it.
 constexpr float kRoughJerk = 4e5F;
 constexpr float kFilterForRoughness = 4.0F;
+constexpr float kRoughestJerk = 3.2e4F;
 
 // Two boxes of n and m ticks leave a circle by a (n^2 + m^2 - 2)/24 ticks^2: a box of one tick does
 // nothing.
@@ -46,6 +47,24 @@ float circle_factor(AxisFilter filter) noexcept
     const auto first = static_cast<float>(filter.first);
     const auto second = static_cast<float>(filter.second);
     return (first * first + second * second - 2.0F) * (kServoTick * kServoTick / 24.0F);
+}
+
+// Duration of what the axis filters make of a jump, s.
+float filter_window(AxisFilter filter) noexcept
+{
+    return static_cast<float>(filter.first + filter.second) * kServoTick;
+}
+
+// Whether the bounds that a joint was made with hold for the stretch too, within a hundredth.
+bool reckons_with(const Joint& joint, const PathDerivatives& stretch) noexcept
+{
+    constexpr float kSlack = 1.01F;
+    bool all = true;
+    for (unsigned i = 0; i < 3; ++i) {
+        all = all && stretch.second[i] <= kSlack * joint.second[i] &&
+              stretch.third[i] <= kSlack * joint.third[i];
+    }
+    return all;
 }
 
 MachineLimits scaled(const MachineLimits& limits, float factor) noexcept
@@ -65,12 +84,8 @@ Planner::FilterChoice Planner::filter_for(float tolerance) const noexcept
                          kSecond * kSecond + 2.0F;
     const float ticks = std::clamp(std::sqrt(std::max(square, 1.0F)), 1.0F, kMostTicks);
     const auto first = static_cast<std::uint8_t>(std::max(ticks, least_filter_));
-    return {{first, first > 1 ? std::uint8_t{2} : std::uint8_t{1}}, deviation};
-}
-
-float Planner::max_centripetal(const FilterChoice& choice) noexcept
-{
-    return choice.deviation / std::max(circle_factor(choice.filter), 1e-12F);
+    const AxisFilter filter{first, first > 1 ? std::uint8_t{2} : std::uint8_t{1}};
+    return {filter, deviation, deviation / std::max(circle_factor(filter), 1e-12F)};
 }
 
 void Planner::set_limits(const MachineLimits& limits) noexcept
@@ -86,11 +101,11 @@ void Planner::set_limits(const MachineLimits& limits) noexcept
     path_filter_ = std::clamp(static_cast<std::uint32_t>(std::ceil(longest / kServoTick - 0.001F)),
                               std::uint32_t{1}, kMaxPathFilter);
     least_filter_ = std::clamp(std::ceil(kRoughJerk / least_jerk), 1.0F, kFilterForRoughness);
+    least_filter_ = std::clamp(std::ceil(kRoughestJerk / least_jerk), least_filter_, kMostTicks);
     limits_ =
         scaled(limits, 1.0F - kRoundingMargin - kTickMargin / static_cast<float>(path_filter_));
     blender_.set_limits(limits_, static_cast<float>(path_filter_) * kServoTick);
     queue_.set_half_filter(0.5F * static_cast<float>(path_filter_) * kServoTick);
-    queue_.set_steepest_slope(norm(limits_.acceleration));
 }
 
 void Planner::reset(Position at) noexcept
@@ -102,6 +117,7 @@ void Planner::reset(Position at) noexcept
     blender_.clear();
     waiting_.reset();
     joints_.clear();
+    bends_.clear();
     end_.reset();
     end_length_ = 0;
     close_requested_ = false;
@@ -150,7 +166,8 @@ bool Planner::empty() const noexcept
 void Planner::start(const path::Move& move) noexcept
 {
     move_ = move;
-    const AxisFilter filter = filter_for(move.tolerance).filter;
+    choice_ = filter_for(move.tolerance);
+    const AxisFilter filter = choice_.filter;
     maker_.start(move, filter);
     // Where the axis filters change the path stops: nothing reaches over that.
     const float half = queue_.half_filter() + 2.0F * kServoTick;
@@ -243,79 +260,154 @@ void Planner::work() noexcept
 
 void Planner::add_block(const Block& block) noexcept
 {
+    const Stretch first = stretch(block, 0);
+    const Allowance of_first = allowance_of(block, first);
     if (end_) {
-        join(start_geometry(block), block);
+        join(start_geometry(block), block, first, of_first);
     }
     queue_.append_block(block);
-    add_stretches(block);
+    add_stretches(block, first, of_first);
     end_ = end_geometry(block);
     end_filter_ = block.filter;
     const float length = static_cast<float>(block.length) / kPathUnitsPerMillimetre;
     end_length_ = block.shape == BlockShape::kCurve ? 0.0F : end_length_ + length;
     end_left_ = kCornerShareOfTolerance * move_.tolerance - move_.departure;
-    for (RecentJoint& recent : joints_) {
-        recent.distance += length;
-    }
 }
 
-void Planner::join(const EndGeometry& after, const Block& block) noexcept
+void Planner::join(const EndGeometry& after,
+                   const Block& block,
+                   const Stretch& first,
+                   const Allowance& of_first) noexcept
 {
-    const Joint joint = make_joint(*end_, after);
+    const float fastest = std::min(end_speed_, greatest_speed(of_first, block.rapid));
+    const float window = filter_window(end_filter_);
+    const Joint joint =
+        make_joint(*end_, after, larger(behind(fastest * window), first.derivatives));
     if (joint.turn > kCornerTurn || end_filter_ != block.filter) {
         stop(overlap_at_corner(after, block));
         return;
     }
-    const FilterChoice choice = filter_for(move_.tolerance);
-    const Allowance after_joint = allowance_of(block, stretch(block, 0));
-    const float fastest = std::min(end_speed_, greatest_speed(after_joint, block.rapid));
-    JointShare share =
-        joint_share(joint, limits_, block.filter, kLoneJointShare, fastest, choice.deviation);
-    // Joints within one window of the axis filters add up.
-    const float window = static_cast<float>(block.filter.first + block.filter.second) * kServoTick;
-    Joint sum = joint;
-    for (std::size_t i = joints_.size(); i-- > 0 && joints_[i].distance < share.speed * window;) {
-        sum = together(sum, joints_[i].joint);
-        share = joint_share(sum, limits_, block.filter, kDenseJointShare, share.speed,
-                            choice.deviation);
-    }
+    const JointShare share = share_of(joint, joints_.size(), 0.0F, fastest);
     if (share.speed < kLeastJointSpeed) {
         stop({});
         return;
     }
-    if (share.jerk < kNegligible) {
-        builder_.add_joint(share);
-        return;
+    if (share.jerk >= kNegligible) {
+        end_length_ = 0;
+        remember(joint, share.speed);
     }
-    end_length_ = 0;
+    builder_.add_joint(share, 0.0F);
+}
+
+// What a joint takes, `distance` mm back, together with the `earlier` oldest ones.
+JointShare Planner::share_of(const Joint& joint,
+                             std::size_t earlier,
+                             float distance,
+                             float fastest) const noexcept
+{
+    JointShare share =
+        joint_share(joint, limits_, end_filter_, kLoneJointShare, fastest, choice_.deviation);
+    // Joints within one window of the axis filters add up.
+    const float window = filter_window(end_filter_);
+    Joint sum = joint;
+    for (std::size_t i = earlier;
+         i-- > 0 && joints_[i].distance - distance < share.speed * window;) {
+        sum = together(sum, joints_[i].joint);
+        share = joint_share(sum, limits_, end_filter_, kDenseJointShare, share.speed,
+                            choice_.deviation);
+    }
+    return share;
+}
+
+void Planner::remember(const Joint& joint, float speed) noexcept
+{
     if (joints_.full()) {
         for (std::size_t i = 1; i < joints_.size(); ++i) {
             joints_[i - 1] = joints_[i];
         }
         joints_.pop_back();
     }
-    (void)joints_.try_push_back({joint, 0.0F});
-    builder_.add_joint(share);
+    (void)joints_.try_push_back({joint, speed, 0.0F});
+}
+
+// A stretch is to be added that takes more of the limits than a joint, within one window of the
+// axis filters before it, reckoned with.
+void Planner::mind_joints(const PathDerivatives& coming) noexcept
+{
+    const float window = filter_window(end_filter_);
+    for (std::size_t i = joints_.size(); i-- > 0;) {
+        RecentJoint& recent = joints_[i];
+        if (recent.distance >= recent.speed * window) {
+            continue;
+        }
+        if (reckons_with(recent.joint, coming)) {
+            continue;
+        }
+        recent.joint.second = larger(recent.joint.second, coming.second);
+        recent.joint.third = larger(recent.joint.third, coming.third);
+        const JointShare share = share_of(recent.joint, i, recent.distance, recent.speed);
+        recent.speed = share.speed;
+        builder_.add_joint(share, recent.distance);
+    }
+}
+
+// Bounds over the last `distance` mm of the path.
+PathDerivatives Planner::behind(float distance) const noexcept
+{
+    PathDerivatives bounds{};
+    for (const RecentBend& bend : bends_) {
+        if (bend.distance < distance) {
+            bounds = larger(bounds, bend.derivatives);
+        }
+    }
+    return bounds;
+}
+
+// The path has grown by a stretch.
+void Planner::travel(const PathDerivatives& passed, float length) noexcept
+{
+    for (RecentJoint& recent : joints_) {
+        recent.distance += length;
+    }
+    for (RecentBend& bend : bends_) {
+        bend.distance += length;
+    }
+    if (norm(passed.third) + norm(passed.second) <= 0) {
+        return;
+    }
+    if (bends_.full()) {
+        bends_[1].derivatives = larger(bends_[0].derivatives, bends_[1].derivatives);
+        for (std::size_t i = 1; i < bends_.size(); ++i) {
+            bends_[i - 1] = bends_[i];
+        }
+        bends_.pop_back();
+    }
+    (void)bends_.try_push_back({passed, 0.0F});
 }
 
 Allowance Planner::allowance_of(const Block& block, const Stretch& part) const noexcept
 {
     const float filter_s = static_cast<float>(path_filter_) * kServoTick;
     const float feed = block.rapid ? kGreatestSpeed : std::min(move_.feed, kGreatestSpeed);
-    Allowance of_part = allowance(part.derivatives, limits_, filter_s,
-                                  max_centripetal(filter_for(move_.tolerance)), kGreatestSpeed);
+    Allowance of_part =
+        allowance(part.derivatives, limits_, filter_s, choice_.centripetal, kGreatestSpeed);
     of_part.feed = feed * feed;
     return of_part;
 }
 
-void Planner::add_stretches(const Block& block) noexcept
+void Planner::add_stretches(const Block& block,
+                            const Stretch& first,
+                            const Allowance& of_first) noexcept
 {
     const unsigned count = stretch_count(block);
     std::uint32_t done = 0;
     for (unsigned i = 0; i < count; ++i) {
-        const Stretch part = stretch(block, i);
+        const Stretch part = i == 0 ? first : stretch(block, i);
         if (part.end > done) {
-            const Allowance of_part = allowance_of(block, part);
+            const Allowance of_part = i == 0 ? of_first : allowance_of(block, part);
+            mind_joints(part.derivatives);
             builder_.append(part.end - done, of_part, block.rapid);
+            travel(part.derivatives, static_cast<float>(part.end - done) / kPathUnitsPerMillimetre);
             end_speed_ = greatest_speed(of_part, block.rapid);
             done = part.end;
         }
@@ -340,6 +432,7 @@ void Planner::stop(const CornerOverlap& overlap) noexcept
 {
     builder_.stop(overlap);
     joints_.clear();
+    bends_.clear();
     end_.reset();
     end_length_ = 0;
 }

@@ -70,27 +70,47 @@ public:
 private:
     struct FilterChoice {
         AxisFilter filter;
-        float deviation;  // mm
+        float deviation;    // mm
+        float centripetal;  // mm/s^2, most that leaves no more than the deviation
     };
     FilterChoice filter_for(float tolerance) const noexcept;
-    static float max_centripetal(const FilterChoice& choice) noexcept;
     void work() noexcept;
     bool path_is_short() const noexcept;
     bool next_move() noexcept;
     bool next_smoothed(path::Move& move) noexcept;
     void start(const path::Move& move) noexcept;
     void add_block(const Block& block) noexcept;
-    void join(const EndGeometry& after, const Block& block) noexcept;
+    void join(const EndGeometry& after,
+              const Block& block,
+              const Stretch& first,
+              const Allowance& of_first) noexcept;
     Allowance allowance_of(const Block& block, const Stretch& part) const noexcept;
-    void add_stretches(const Block& block) noexcept;
+    void add_stretches(const Block& block,
+                       const Stretch& first,
+                       const Allowance& of_first) noexcept;
+    JointShare share_of(const Joint& joint,
+                        std::size_t earlier,
+                        float distance,
+                        float fastest) const noexcept;
+    void remember(const Joint& joint, float speed) noexcept;
+    void mind_joints(const PathDerivatives& coming) noexcept;
+    PathDerivatives behind(float distance) const noexcept;
+    void travel(const PathDerivatives& passed, float length) noexcept;
     void stop(const CornerOverlap& overlap) noexcept;
     CornerOverlap overlap_at_corner(const EndGeometry& after, const Block& block) const noexcept;
 
     struct RecentJoint {
         Joint joint;
+        float speed;     // mm/s, that it may be passed at
         float distance;  // mm, back from the end of the path
     };
     static constexpr std::size_t kRecentJoints = 16;
+    // Bounds over a bent stretch of the path so far.
+    struct RecentBend {
+        PathDerivatives derivatives;
+        float distance;  // mm, from its end to the end of the path
+    };
+    static constexpr std::size_t kRecentBends = 6;
 
     MachineLimits limits_{};
     float greatest_acceleration_{1};  // of any axis
@@ -103,6 +123,7 @@ private:
     LineSmoother smoother_;
     CornerBlender blender_;
     path::Move move_{};                  // being cut into blocks
+    FilterChoice choice_{};              // for it
     std::optional<path::Move> waiting_;  // until the run of lines before it is done
     bool close_requested_{false};
     bool hurried_{false};
@@ -112,7 +133,9 @@ private:
     float end_length_{0};  // mm, without a joint
     float end_left_{0};    // mm, what its path leaves of the tolerance
     float end_speed_{0};   // mm/s, the most that its last stretch allows
+    // Since the path stopped last, the newest at the back.
     StaticVector<RecentJoint, kRecentJoints> joints_;
+    StaticVector<RecentBend, kRecentBends> bends_;
 };
 
 }  // namespace cusp::planner

@@ -9,11 +9,6 @@ namespace {
 
 constexpr float kTiny = 1e-20F;
 
-Vec3f larger(Vec3f a, Vec3f b) noexcept
-{
-    return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
-}
-
 // Largest v with k v^3 <= j, by bisection on the exponent-free form: v = (j/k)^(1/3).
 float cube_root(float q) noexcept
 {
@@ -37,6 +32,11 @@ float value(const Line& line, float part) noexcept
 }
 
 }  // namespace
+
+Vec3f larger(Vec3f a, Vec3f b) noexcept
+{
+    return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+}
 
 PathDerivatives larger(const PathDerivatives& a, const PathDerivatives& b) noexcept
 {

@@ -14,6 +14,7 @@ struct PathDerivatives {
 };
 
 // The larger of both, axis by axis.
+Vec3f larger(Vec3f a, Vec3f b) noexcept;
 PathDerivatives larger(const PathDerivatives& a, const PathDerivatives& b) noexcept;
 
 // Speed and acceleration along the path that keep every axis inside its limits. Speeds are squared,

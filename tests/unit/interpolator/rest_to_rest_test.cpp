@@ -12,7 +12,7 @@ using cusp::test::MotionRig;
 
 namespace {
 
-constexpr double kFilter = 0.02;  // a/j of the default settings
+constexpr double kFilter = 0.02;  // a/j of the default settings, s
 
 path::Move line(Position start, Position end, float feed, float tolerance)
 {
@@ -40,16 +40,16 @@ double moving_time(const std::vector<Position>& samples)
 
 // With a fixed filter between acceleration and its change: v/a to speed up, twice the filter to
 // ramp the acceleration, and where the speed is not reached a rest of one filter between.
-double closed_form(double length, double speed, double acceleration)
+double closed_form(double length, double speed, double acceleration, double filter = kFilter)
 {
-    const double cruise = length - speed * (speed / acceleration + kFilter);
+    const double cruise = length - speed * (speed / acceleration + filter);
     if (cruise >= 0) {
-        return length / speed + speed / acceleration + kFilter;
+        return length / speed + speed / acceleration + filter;
     }
     // l = v (v/a + filter)
     const double top =
-        0.5 * acceleration * (std::sqrt(kFilter * kFilter + 4 * length / acceleration) - kFilter);
-    return length / top + top / acceleration + kFilter;
+        0.5 * acceleration * (std::sqrt(filter * filter + 4 * length / acceleration) - filter);
+    return length / top + top / acceleration + filter;
 }
 
 }  // namespace
@@ -67,6 +67,27 @@ TEST(RestToRest, WithinTenMillisecondsOfTheClosedForm)
             const double ideal = closed_form(length, static_cast<double>(feed), 1000);
             CHECK(time <= ideal + 0.010);
             CHECK(time >= ideal - 0.002);
+        }
+    }
+}
+
+// A filter of 150 ms reaches beyond the end of each move.
+TEST(RestToRest, ShortMovesOfAStrongMachineWithLittleJerk)
+{
+    MachineLimits limits;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+        limits.velocity[axis] = 100;
+        limits.acceleration[axis] = 6000;
+        limits.jerk[axis] = 40000;
+    }
+    for (const double length : {0.002, 0.02, 0.15, 0.5}) {
+        for (const float feed : {0.5F, 2.0F, 20.0F}) {
+            const Position end = to_position(Vec3d{length, 0, 0});
+            MotionRig rig{limits};
+            rig.start_at({});
+            const double time = moving_time(rig.run({line({}, end, feed, 0)}));
+            const double ideal = closed_form(length, static_cast<double>(feed), 6000, 0.15);
+            CHECK(time <= 1.03 * ideal + 0.010);
         }
     }
 }

@@ -56,7 +56,7 @@ TEST(Joints, TheFiltersKeepTheSharesOfATurn)
     const MachineLimits limits{};
     for (const AxisFilter filter : {AxisFilter{4, 2}, AxisFilter{5, 2}, AxisFilter{10, 2}}) {
         for (const float turn : {0.0002F, 0.001F, 0.004F, 0.008F}) {
-            const Joint joint{{0, turn, 0}, {}, 0, turn};
+            const Joint joint{{0, turn, 0}, {}, {}, {}, turn};
             const JointShare share = joint_share(joint, limits, filter, 0.98F, 200.0F, 0.0045F);
             const Largest largest =
                 filtered(static_cast<double>(share.speed), static_cast<double>(turn), filter);
@@ -72,7 +72,9 @@ TEST(Joints, TheLineOfSharesIsAboveTheShareAtLowerSpeeds)
 {
     const MachineLimits limits{};
     const AxisFilter filter{10, 2};
-    const Joint joint{{0, 0.001F, 0}, {0.02F, 0.03F, 0}, 0.05F, 0.001F};
+    const Vec3f second{0.05F, 0.05F, 0.05F};
+    const Vec3f third = second * 0.05F;
+    const Joint joint{{0, 0.001F, 0}, {0.02F, 0.03F, 0}, second, third, 0.001F};
     const JointShare fast = joint_share(joint, limits, filter, 0.98F, 120.0F, 0.0045F);
     for (int k = 1; k < 10; ++k) {
         const float part = 0.1F * static_cast<float>(k);
@@ -84,7 +86,7 @@ TEST(Joints, TheLineOfSharesIsAboveTheShareAtLowerSpeeds)
 
 TEST(Joints, ACornerWithinTheDeviationOnly)
 {
-    const Joint joint{{0, 0.008F, 0}, {}, 0, 0.008F};
+    const Joint joint{{0, 0.008F, 0}, {}, {}, {}, 0.008F};
     const JointShare share = joint_share(joint, {}, {10, 2}, 0.98F, 200.0F, 1e-5F);
     // Half of v turn times the mean of |t| under the filters.
     const double off = 0.5 * static_cast<double>(share.speed) * 0.008 * (0.0025 + 0.002 / 12);
