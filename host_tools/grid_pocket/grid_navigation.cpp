@@ -24,9 +24,11 @@ Cell towards(Cell c, Heading h) { return {c.column + h.x, c.row + h.y}; }
 
 class Navigator {
 public:
-    Navigator(const CellGrid& grid, const NavigationRules& rules)
+    // looked_at: free cells that a dead end looks at for one in sight.
+    Navigator(const CellGrid& grid, const NavigationRules& rules, std::size_t looked_at)
         : grid_{grid},
           rules_{rules},
+          looked_at_{looked_at},
           state_(grid.size(), State::kClosed),
           seen_(grid.size(), 0),
           from_(grid.size(), 0)
@@ -56,6 +58,7 @@ private:
     enum class State : std::uint8_t { kClosed, kFree, kVisited };
     const CellGrid& grid_;
     const NavigationRules& rules_;
+    std::size_t looked_at_;
     std::vector<State> state_;
     std::vector<std::uint32_t> seen_;  // number of the search that reached the cell
     std::vector<std::size_t> from_;
@@ -72,7 +75,7 @@ private:
     void visit(Cell c, StepKind kind)
     {
         state_[grid_.index(c)] = State::kVisited;
-        out_.steps.push_back({c, kind});
+        out_.steps.push_back({c, kind, {}});
         here_ = c;
     }
 
@@ -97,95 +100,237 @@ private:
         return h.has_value();
     }
 
-    // The visited cells from here to the nearest one with a free neighbour, both ends included.
-    std::vector<Cell> way_out()
+    // A visited cell with a free neighbour, and the free cell that the priorities take from it.
+    struct Exit {
+        Cell beside;
+        Cell target;
+        Heading heading;
+    };
+
+    // Over visited cells outwards to the exits, nearest first: the first one in sight among those
+    // looked at, else the first.
+    std::optional<Exit> find_exit()
     {
         ++search_;
         std::vector<std::size_t> queue{grid_.index(here_)};
         seen_[queue[0]] = search_;
-        for (std::size_t done = 0; done < queue.size(); ++done) {
+        std::optional<Exit> nearest;
+        std::size_t looked = 0;
+        std::size_t last = grid_.size();  // cells to look over
+        for (std::size_t done = 0; done < std::min(queue.size(), last); ++done) {
             const Cell c = grid_.cell(queue[done]);
-            if (choice(c, heading_)) {
-                std::vector<Cell> way{c};
-                for (std::size_t i = queue[done]; i != queue[0]; i = from_[i]) {
-                    way.push_back(grid_.cell(from_[i]));
+            if (const auto exit = exit_at(c, done == 0 ? queue[done] : from_[queue[done]])) {
+                if (rules_.clear_link(grid_.centre(here_), grid_.centre(exit->target))) {
+                    return exit;
                 }
-                std::reverse(way.begin(), way.end());
-                return way;
+                if (!nearest) {
+                    nearest = exit;
+                    last = 4 * done + 1000;
+                }
+                if (++looked >= looked_at_) {
+                    return nearest;
+                }
             }
-            for (const Heading h : priorities(heading_)) {
-                const Cell next = towards(c, h);
-                if (is(next, State::kVisited) && seen_[grid_.index(next)] != search_ &&
-                    rules_.clear_step(c, next)) {
-                    seen_[grid_.index(next)] = search_;
-                    from_[grid_.index(next)] = queue[done];
-                    queue.push_back(grid_.index(next));
-                }
+            spread(queue, done);
+        }
+        return nearest;
+    }
+
+    std::optional<Exit> exit_at(Cell c, std::size_t before) const
+    {
+        const Cell from = grid_.cell(before);
+        const Heading arriving =
+            from == c ? heading_ : Heading{c.column - from.column, c.row - from.row};
+        const auto h = choice(c, arriving);
+        return h ? std::optional<Exit>{{c, towards(c, *h), *h}} : std::nullopt;
+    }
+
+    void spread(std::vector<std::size_t>& queue, std::size_t at)
+    {
+        const Cell c = grid_.cell(queue[at]);
+        for (const Heading h : priorities(heading_)) {
+            const Cell next = towards(c, h);
+            if (is(next, State::kVisited) && seen_[grid_.index(next)] != search_ &&
+                rules_.clear_step(c, next)) {
+                seen_[grid_.index(next)] = search_;
+                from_[grid_.index(next)] = queue[at];
+                queue.push_back(grid_.index(next));
             }
         }
-        return {};
     }
 
     bool leave_dead_end()
     {
-        const std::vector<Cell> way = way_out();
-        if (way.empty()) {
+        const auto exit = find_exit();
+        if (!exit) {
             return false;
         }
         ++out_.dead_ends;
-        const Cell before = way[way.size() - 2];
-        const Heading arriving{way.back().column - before.column, way.back().row - before.row};
-        const Heading h = *choice(way.back(), arriving);
-        const Cell target = towards(way.back(), h);
-        add_link(way, target);
-        visit(target, kind_of_step_to(target));
-        heading_ = h;
+        std::vector<Vec2d> bends = bends_to(*exit);
+        const int apart =
+            std::abs(here_.column - exit->target.column) + std::abs(here_.row - exit->target.row);
+        const bool next = bends.empty() && apart == 1;
+        visit(exit->target, next ? StepKind::kNeighbour : StepKind::kLink);
+        out_.backtracks += static_cast<int>(bends.size());
+        out_.steps.back().bends = std::move(bends);
+        heading_ = exit->heading;
         return true;
     }
 
-    StepKind kind_of_step_to(Cell target) const
+    std::vector<Vec2d> bends_to(const Exit& exit) const
     {
-        const Cell last = out_.steps.back().cell;
-        const int way = std::abs(last.column - target.column) + std::abs(last.row - target.row);
-        return way == 1 ? StepKind::kNeighbour : StepKind::kLink;
+        const Vec2d from = grid_.centre(here_);
+        const Vec2d to = grid_.centre(exit.target);
+        if (rules_.clear_link(from, to)) {
+            return {};
+        }
+        std::vector<Vec2d> way;
+        const std::size_t first = grid_.index(here_);
+        for (std::size_t i = grid_.index(exit.beside); i != first; i = from_[i]) {
+            way.push_back(grid_.centre(grid_.cell(i)));
+        }
+        std::reverse(way.begin(), way.end());
+        if (auto bends = fewest_bends(from, to, stops_beside(way))) {
+            return std::move(*bends);
+        }
+        return bends_on(from, to, way);
     }
 
-    // Few straight links over the way: each is tried to its end, then half as far, and so on.
-    void add_link(const std::vector<Cell>& way, Cell target)
+    // Places where a link along the way may turn: some of its own, and the corners around it.
+    std::vector<Vec2d> stops_beside(const std::vector<Vec2d>& way) const
     {
-        std::vector<Cell> stops = way;
-        stops.push_back(target);
+        constexpr std::size_t kOfWay = 24;
+        constexpr std::size_t kOfCorners = 32;
+        std::vector<std::pair<double, Vec2d>> corners;
+        for (const Vec2d corner : rules_.corners) {
+            double least = 1e300;
+            for (const Vec2d p : way) {
+                least = std::min(least, norm(p - corner));
+            }
+            corners.push_back({least, corner});
+        }
+        const std::size_t count = std::min(kOfCorners, corners.size());
+        std::partial_sort(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(count),
+                          corners.end(),
+                          [](const auto& a, const auto& b) { return a.first < b.first; });
+        std::vector<Vec2d> stops;
+        for (std::size_t i = 0; i < count; ++i) {
+            stops.push_back(corners[i].second);
+        }
+        const std::size_t stride = way.size() / kOfWay + 1;
+        for (std::size_t i = 0; i < way.size(); i += stride) {
+            stops.push_back(way[i]);
+        }
+        return stops;
+    }
+
+    // Breadth first over the stops that see each other; nothing where they do not lead there.
+    std::optional<std::vector<Vec2d>> fewest_bends(Vec2d from,
+                                                   Vec2d to,
+                                                   const std::vector<Vec2d>& stops) const
+    {
+        constexpr std::size_t kNone = ~std::size_t{0};
+        std::vector<std::size_t> before(stops.size(), kNone);
+        std::vector<std::size_t> queue;
+        const auto look_from = [&](std::size_t at) {
+            const Vec2d place = at == stops.size() ? from : stops[at];
+            for (std::size_t i = 0; i < stops.size(); ++i) {
+                if (before[i] == kNone && rules_.clear_link(place, stops[i])) {
+                    before[i] = at;
+                    queue.push_back(i);
+                }
+            }
+        };
+        look_from(stops.size());
+        for (std::size_t done = 0; done < queue.size(); ++done) {
+            const std::size_t at = queue[done];
+            if (rules_.clear_link(stops[at], to)) {
+                std::vector<Vec2d> bends;
+                for (std::size_t i = at; i != stops.size(); i = before[i]) {
+                    bends.push_back(stops[i]);
+                }
+                std::reverse(bends.begin(), bends.end());
+                return bends;
+            }
+            look_from(at);
+        }
+        return std::nullopt;
+    }
+
+    // On the way itself: each stretch is tried to the end, then half as far, and so on.
+    std::vector<Vec2d> bends_on(Vec2d from, Vec2d to, const std::vector<Vec2d>& way) const
+    {
+        std::vector<Vec2d> stops{from};
+        stops.insert(stops.end(), way.begin(), way.end());
+        stops.push_back(to);
+        std::vector<Vec2d> bends;
         for (std::size_t at = 0; at + 1 < stops.size();) {
             std::size_t next = stops.size() - 1;
             while (next > at + 1 && !rules_.clear_link(stops[at], stops[next])) {
                 next = at + std::max<std::size_t>(1, (next - at) / 2);
             }
             if (next + 1 < stops.size()) {
-                out_.steps.push_back({stops[next], StepKind::kLink});
-                ++out_.backtracks;
+                bends.push_back(stops[next]);
             }
             at = next;
         }
+        return bends;
     }
 };
+
+// The links that bend most become lifts, until bends are within a hundredth of the steps.
+void lift_worst_links(Navigation& navigation)
+{
+    std::vector<NavigationStep*> bent;
+    for (NavigationStep& step : navigation.steps) {
+        if (!step.bends.empty()) {
+            bent.push_back(&step);
+        }
+    }
+    std::stable_sort(bent.begin(), bent.end(), [](const auto* a, const auto* b) {
+        return a->bends.size() > b->bends.size();
+    });
+    const int most = static_cast<int>(navigation.steps.size() / 100);
+    for (NavigationStep* step : bent) {
+        if (navigation.backtracks <= most) {
+            return;
+        }
+        navigation.backtracks -= static_cast<int>(step->bends.size());
+        ++navigation.lifts;
+        step->bends.clear();
+        step->kind = StepKind::kEnter;
+    }
+}
 
 }  // namespace
 
 Navigation navigate(const CellGrid& grid, const NavigationRules& rules)
 {
-    return Navigator{grid, rules}.run();
+    constexpr std::size_t kInSight = 64;
+    Navigation best = Navigator{grid, rules, 1}.run();
+    if (best.backtracks > 0) {
+        Navigation other = Navigator{grid, rules, kInSight}.run();
+        if (other.backtracks < best.backtracks) {
+            best = std::move(other);
+        }
+    }
+    lift_worst_links(best);
+    return best;
 }
 
 Navigation reversed(Navigation navigation)
 {
-    // A step's kind says how its cell is reached; the other way round that belongs to the cell
-    // before.
+    // A step's kind and bends say how its cell is reached; the other way round they belong to the
+    // cell before.
     auto& steps = navigation.steps;
     for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
         steps[i].kind = steps[i + 1].kind;
+        steps[i].bends = std::move(steps[i + 1].bends);
+        std::reverse(steps[i].bends.begin(), steps[i].bends.end());
     }
     if (!steps.empty()) {
         steps.back().kind = StepKind::kEnter;
+        steps.back().bends.clear();
     }
     std::reverse(steps.begin(), steps.end());
     return navigation;

@@ -52,10 +52,7 @@ void GridPasses::layer(double plane)
     rules.free = [&](Cell c) {
         return pocket_.grid.inside(c) && pocket_.rough_heights[pocket_.grid.index(c)] < above;
     };
-    rules.clear_step = [&](Cell a, Cell b) {
-        return pocket_.clear(a, b);
-    };
-    rules.clear_link = rules.clear_step;
+    pocket_.add_ways(rules);
     const Navigation navigation = reversed(navigate(pocket_.grid, rules));
     count(navigation);
     FloorFollower floor = pocket_.rough.above(plane);
@@ -82,6 +79,8 @@ std::size_t GridPasses::follow_navigation(const Navigation& navigation, FloorFol
         std::vector<Vec2d> corners{pocket_.grid.centre(navigation.steps[i].cell)};
         for (; end < navigation.steps.size() && navigation.steps[end].kind != StepKind::kEnter;
              ++end) {
+            const auto& bends = navigation.steps[end].bends;
+            corners.insert(corners.end(), bends.begin(), bends.end());
             const bool last = end + 1 == navigation.steps.size() ||
                               navigation.steps[end + 1].kind == StepKind::kEnter;
             if (last || !straight(navigation, end)) {
@@ -131,6 +130,7 @@ void GridPasses::count(const Navigation& navigation)
 {
     backtracks_ += navigation.backtracks;
     dead_ends_ += navigation.dead_ends;
+    lifts_ += navigation.lifts;
     steps_ += static_cast<int>(navigation.steps.size());
     passes_ += static_cast<int>(
         std::count_if(navigation.steps.begin(), navigation.steps.end(),
@@ -139,6 +139,9 @@ void GridPasses::count(const Navigation& navigation)
 
 bool GridPasses::straight(const Navigation& navigation, std::size_t i)
 {
+    if (!navigation.steps[i].bends.empty() || !navigation.steps[i + 1].bends.empty()) {
+        return false;
+    }
     const Cell a = navigation.steps[i - 1].cell;
     const Cell b = navigation.steps[i].cell;
     const Cell c = navigation.steps[i + 1].cell;

@@ -29,6 +29,7 @@ public:
     std::size_t main_moves() const { return main_moves_; }
     int backtracks() const { return backtracks_; }
     int dead_ends() const { return dead_ends_; }
+    int lifts() const { return lifts_; }
     int passes() const { return passes_; }
     int steps() const { return steps_; }
     int retracts() const { return moves_.retracts(); }
@@ -43,6 +44,7 @@ private:
     std::size_t main_moves_{0};
     int backtracks_{0};
     int dead_ends_{0};
+    int lifts_{0};
     int passes_{0};
     int steps_{0};
 

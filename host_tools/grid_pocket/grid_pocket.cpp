@@ -116,6 +116,7 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
                     {"steps", planner.steps()},
                     {"dead_ends", planner.dead_ends()},
                     {"backtracks", planner.backtracks()},
+                    {"dead_end_lifts", planner.lifts()},
                     {"main_path_moves", static_cast<double>(main_moves)},
                     {"layers", static_cast<double>(planes.size())},
                     {"roughness_mm", roughness},

@@ -12,6 +12,31 @@ namespace {
 constexpr double kHeightsShare = 0.15;  // of the time of a plan
 constexpr double kNoHeight = std::numeric_limits<double>::quiet_NaN();
 
+// Where links turn around an arc of the pass along the walls: where its tangents meet, one place
+// for each third of a turn; near wide corners also on the arc, where a narrow pocket leaves no
+// more.
+void add_corner(const Edge& arc, std::vector<Vec2d>& out)
+{
+    constexpr double kLeastSweep = 0.1;  // flatter arcs belong to a curved wall
+    constexpr double kMostSweep = 2.1;
+    constexpr double kOutside = 1e-3;  // mm
+    const double angle = sweep(arc);
+    if (angle < kLeastSweep) {
+        return;
+    }
+    const int pieces = 1 + static_cast<int>(angle / kMostSweep);
+    for (int i = 0; i < pieces; ++i) {
+        const Vec2d middle = point_on(arc, (i + 0.5) / pieces);
+        const Vec2d out_of_centre = (middle - arc.centre) * (1 / arc.radius);
+        const double apex = arc.radius / std::cos(angle / pieces / 2) + kOutside;
+        out.push_back(arc.centre + out_of_centre * apex);
+    }
+    for (const double share : {0.0, 0.5, 1.0}) {
+        const Vec2d on = point_on(arc, share);
+        out.push_back(on + (on - arc.centre) * (kOutside / arc.radius));
+    }
+}
+
 // Steps between neighbours that only the zigzags along `axis` cut.
 void add_zigzag(const PocketSpace& pocket, char axis, Tracks& tracks)
 {
@@ -73,6 +98,24 @@ bool PocketSpace::clear(Vec2d a, Vec2d b) const
     return walls.clearance(b) >= kept - kOnTheWall;
 }
 
+void PocketSpace::add_ways(NavigationRules& rules) const
+{
+    rules.clear_step = [this](Cell a, Cell b) {
+        return clear(a, b);
+    };
+    rules.clear_link = [this](Vec2d a, Vec2d b) {
+        return clear(a, b);
+    };
+    for (const Contour& contour : centres.contours) {
+        for (const Edge& edge : contour) {
+            // The pass along the walls rounds corners of the wall clockwise.
+            if (edge.turn < 0) {
+                add_corner(edge, rules.corners);
+            }
+        }
+    }
+}
+
 std::vector<double> heights_over(const PocketSpace& pocket, const FloorFollower& follower)
 {
     std::vector<double> out(pocket.grid.size(), kNoHeight);
@@ -103,10 +146,7 @@ Navigation finish_navigation(const PocketSpace& pocket)
     rules.free = [&](Cell c) {
         return pocket.grid.inside(c);
     };
-    rules.clear_step = [&](Cell a, Cell b) {
-        return pocket.clear(a, b);
-    };
-    rules.clear_link = rules.clear_step;
+    pocket.add_ways(rules);
     return reversed(navigate(pocket.grid, rules));
 }
 

@@ -40,6 +40,9 @@ struct PocketSpace {
     // Whether the axis may go straight from a to b.
     bool clear(Vec2d a, Vec2d b) const;
     bool clear(Cell a, Cell b) const { return clear(grid.centre(a), grid.centre(b)); }
+
+    // Where a navigation may go. The rules must not outlive this.
+    void add_ways(NavigationRules& rules) const;
 };
 
 // Heights of the tip over all cells inside, NaN elsewhere. Errors: InputError where no floor lies.

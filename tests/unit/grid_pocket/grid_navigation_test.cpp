@@ -37,7 +37,7 @@ NavigationRules open_rules(const CellGrid& grid)
     rules.clear_step = [](Cell, Cell) {
         return true;
     };
-    rules.clear_link = [](Cell, Cell) {
+    rules.clear_link = [](Vec2d, Vec2d) {
         return true;
     };
     return rules;
@@ -46,13 +46,15 @@ NavigationRules open_rules(const CellGrid& grid)
 void check_visits_each_once(const CellGrid& grid, const Navigation& navigation)
 {
     std::set<std::size_t> seen;
-    int again = 0;
+    std::size_t bends = 0;
     for (const NavigationStep& step : navigation.steps) {
         CHECK(grid.inside(step.cell));
-        again += seen.insert(grid.index(step.cell)).second ? 0 : 1;
+        CHECK(seen.insert(grid.index(step.cell)).second);
+        bends += step.bends.size();
     }
     LONGS_EQUAL(static_cast<int>(grid.count_inside()), static_cast<int>(seen.size()));
-    LONGS_EQUAL(navigation.backtracks, again);
+    LONGS_EQUAL(navigation.backtracks, static_cast<int>(bends));
+    CHECK(navigation.backtracks * 100 <= static_cast<int>(navigation.steps.size()));
 }
 
 }  // namespace
@@ -121,9 +123,9 @@ TEST(GridNavigation, VisitsEveryCellOfRandomPocketsOnce)
         const RegionOffset pocket{{{polygon(star)}}};
         const CellGrid grid{pocket, 0.8, 1.1, 1.5};
         NavigationRules rules = open_rules(grid);
-        // Links only as far as two cells, so that longer ways are walked.
-        rules.clear_link = [](Cell a, Cell b) {
-            return std::abs(a.column - b.column) + std::abs(a.row - b.row) <= 2;
+        // Links only as far as two cells, so that longer ones bend.
+        rules.clear_link = [](Vec2d a, Vec2d b) {
+            return norm(a - b) <= 2.2;
         };
         check_visits_each_once(grid, navigate(grid, rules));
     }
