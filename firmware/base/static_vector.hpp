@@ -28,6 +28,13 @@ public:
         ++size_;
         return true;
     }
+    // Takes in elements that have been written in place beyond the last.
+    // Precondition: size() <= count <= capacity().
+    constexpr void grow(std::size_t count) noexcept
+    {
+        CUSP_ASSERT(count >= size_ && count <= N);
+        size_ = count;
+    }
     // Keeps the first `count` elements. Precondition: count <= size().
     constexpr void shrink(std::size_t count) noexcept
     {

@@ -37,6 +37,58 @@ Split split(std::int64_t position) noexcept
 
 float in_steps(std::int64_t value) noexcept { return static_cast<float>(value) * 1e-9F; }
 
+// The pulse tick nearest to a time in servo ticks.
+std::int32_t to_pulse_tick(float time) noexcept
+{
+    return static_cast<std::int32_t>(time * static_cast<float>(kFrame) + 0.5F);
+}
+
+// `lines`: raised ones in the low byte, lowered ones in the high byte.
+PulseEdge edge_at(std::uint32_t tick, std::uint32_t lines) noexcept
+{
+    return {static_cast<std::uint16_t>(tick), static_cast<PulseLines>(lines & 0xFFU),
+            static_cast<PulseLines>(lines >> 8U)};
+}
+
+// Puts the steps of one axis into the frame's edges.
+class StepWriter {
+public:
+    template <std::size_t N>
+    StepWriter(std::array<std::uint16_t, N>& edges,
+               const StepSettings& settings,
+               PulseLines line,
+               std::int32_t last_rise) noexcept
+        : edges_{edges.data()},
+          pulse_{settings.pulse_us},
+          delay_{settings.direction_setup_us},
+          end_{static_cast<std::int32_t>(N) - pulse_},
+          earliest_{last_rise + 2 * pulse_},
+          raise_{line},
+          lower_{static_cast<std::uint32_t>(line) << 8U}
+    {
+    }
+
+    // The step that is due at `rise` comes a set-up time later, or when the last lets it.
+    void add(std::int32_t rise) noexcept
+    {
+        rise = std::max(rise + delay_, earliest_);
+        CUSP_ASSERT(rise < end_);
+        edges_[rise] = static_cast<std::uint16_t>(edges_[rise] | raise_);
+        edges_[rise + pulse_] = static_cast<std::uint16_t>(edges_[rise + pulse_] | lower_);
+        earliest_ = rise + 2 * pulse_;
+    }
+    std::int32_t last_rise() const noexcept { return earliest_ - 2 * pulse_; }
+
+private:
+    std::uint16_t* edges_;
+    std::int32_t pulse_;
+    std::int32_t delay_;
+    std::int32_t end_;
+    std::int32_t earliest_;
+    std::uint32_t raise_;
+    std::uint32_t lower_;
+};
+
 }  // namespace
 
 void PulseMaker::configure(const StepSettings& settings) noexcept
@@ -102,29 +154,36 @@ void PulseMaker::play_axis(unsigned index, std::int64_t before) noexcept
     const Split end = split(axis.remainder + axis.now);
     const TickCubic cubic = tick_cubic(in_steps(axis.remainder), in_steps(before),
                                        in_steps(axis.now), in_steps(axis.next));
-    const bool forward = end.steps > 0;
-    const std::int32_t count = forward ? end.steps : -end.steps;
-    const float bend = sharpest_bend(cubic);
-    const float one_step = forward ? 1.0F : -1.0F;
-    float level = 0.5F * one_step;
-    float time = 0;
-    for (std::int32_t k = 0; k < count; ++k) {
-        if (!take_newton_step(cubic, bend, level, time)) {
-            time = crossing_time(cubic, level, time, forward);
-        }
-        const auto rise = static_cast<std::int32_t>(time * static_cast<float>(kFrame) + 0.5F);
-        if (k == 0) {
-            turn(index, rise, forward);
-        }
-        add_step(index, rise);
-        level += one_step;
-    }
     axis.steps += end.steps;
     axis.remainder = end.remainder;
-    if (count > 0) {
-        const std::int32_t last_fall = axis.last_rise + settings_.pulse_us;
-        edges_end_ = std::max(edges_end_, static_cast<std::uint32_t>(last_fall) + 1);
+    if (end.steps != 0) {
+        add_steps(index, StepTimes{cubic, end.steps > 0}, end.steps);
     }
+}
+
+// One call a tick and axis; what it does for each step is most of the firmware's work at high
+// rates.
+void PulseMaker::add_steps(unsigned index, StepTimes times, std::int32_t steps) noexcept
+{
+    AxisState& axis = axes_[index];
+    const bool forward = steps > 0;
+    const std::int32_t count = forward ? steps : -steps;
+    const std::int32_t first = to_pulse_tick(times.next());
+    turn(index, first, forward);
+    StepWriter writer{edges_, settings_, step_line(index), axis.last_rise};
+    writer.add(first);
+    std::int32_t done = 1;
+    if (times.steady()) {
+        for (; done < count - 1; ++done) {
+            writer.add(to_pulse_tick(times.next_steady()));
+        }
+    }
+    for (; done < count; ++done) {
+        writer.add(to_pulse_tick(times.next()));
+    }
+    axis.last_rise = writer.last_rise();
+    const std::int32_t last_fall = axis.last_rise + settings_.pulse_us;
+    edges_end_ = std::max(edges_end_, static_cast<std::uint32_t>(last_fall) + 1);
 }
 
 void PulseMaker::turn(unsigned index, std::int32_t rise, bool forward) noexcept
@@ -146,39 +205,30 @@ void PulseMaker::turn(unsigned index, std::int32_t rise, bool forward) noexcept
     axis.direction_known = true;
 }
 
-inline void PulseMaker::add_step(unsigned index, std::int32_t rise) noexcept
-{
-    AxisState& axis = axes_[index];
-    const std::int32_t pulse = settings_.pulse_us;
-    rise = std::max(rise + settings_.direction_setup_us, axis.last_rise + 2 * pulse);
-    CUSP_ASSERT(static_cast<std::size_t>(rise + pulse) < edges_.size());
-    const auto line = static_cast<std::uint16_t>(step_line(index));
-    edges_[static_cast<std::size_t>(rise)] |= line;
-    edges_[static_cast<std::size_t>(rise + pulse)] |= static_cast<std::uint16_t>(line << 8U);
-    axis.last_rise = rise;
-}
-
 void PulseMaker::compress(PulseFrame& frame) noexcept
 {
-    frame.edges.clear();
     const std::uint32_t end = std::min(edges_end_, kPulseTicksPerFrame);
-    // Two ticks at a time: most have no edge.
+    frame.edges.clear();
+    // Written past the vector's size, which is set at the end: no count is kept in memory.
+    PulseEdge* const first = frame.edges.begin();
+    PulseEdge* out = first;
+    // Two ticks at a time, the earlier in the low half: most have no edge.
+    static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__);
     for (std::uint32_t pair = 0; pair < end; pair += 2) {
         std::uint32_t both = 0;
         __builtin_memcpy(&both, &edges_[pair], sizeof both);
         if (both == 0) {
             continue;
         }
-        for (std::uint32_t tick = pair; tick < pair + 2; ++tick) {
-            const std::uint16_t edge = edges_[tick];
-            if (edge != 0) {
-                (void)frame.edges.try_push_back({static_cast<std::uint16_t>(tick),
-                                                 static_cast<PulseLines>(edge & 0xFFU),
-                                                 static_cast<PulseLines>(edge >> 8U)});
-                edges_[tick] = 0;
-            }
+        __builtin_memset(&edges_[pair], 0, sizeof both);
+        if ((both & 0xFFFFU) != 0) {
+            *out++ = edge_at(pair, both & 0xFFFFU);
+        }
+        if (both >> 16U != 0) {
+            *out++ = edge_at(pair + 1, both >> 16U);
         }
     }
+    frame.edges.grow(static_cast<std::size_t>(out - first));
     const std::uint32_t left = edges_end_ - end;
     for (std::uint32_t i = 0; i < left; ++i) {
         edges_[i] = edges_[kPulseTicksPerFrame + i];

@@ -6,6 +6,7 @@
 #include "firmware/base/axis.hpp"
 #include "firmware/base/pulse_frame.hpp"
 #include "firmware/base/vec.hpp"
+#include "firmware/pulse/step_times.hpp"
 
 namespace cusp::pulse {
 
@@ -56,7 +57,7 @@ private:
     };
     void play_axis(unsigned axis, std::int64_t before) noexcept;
     void turn(unsigned axis, std::int32_t rise, bool forward) noexcept;
-    void add_step(unsigned axis, std::int32_t rise) noexcept;
+    void add_steps(unsigned axis, StepTimes times, std::int32_t steps) noexcept;
     void compress(PulseFrame& frame) noexcept;
 
     // Edges of the frame being made and the beginning of the next: raised lines in the low byte,

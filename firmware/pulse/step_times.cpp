@@ -10,7 +10,7 @@ TickCubic tick_cubic(float start, float before, float now, float after) noexcept
     return {start, first, 3.0F * now - 2.0F * first - last, first + last - 2.0F * now};
 }
 
-float crossing_time(const TickCubic& cubic, float level, float from, bool rising) noexcept
+float crossing_time(TickCubic cubic, float level, float from, bool rising) noexcept
 {
     constexpr unsigned kMostSteps = 24;
     constexpr float kCloseLevel = 1e-6F;

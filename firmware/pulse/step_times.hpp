@@ -21,37 +21,109 @@ TickCubic tick_cubic(float start, float before, float now, float after) noexcept
 // Times closer than this, in ticks, are the same: a fiftieth of a pulse tick.
 inline constexpr float kCloseTime = 2e-5F;
 
-// The largest second derivative of the cubic over the tick, without its sign.
-inline float sharpest_bend(const TickCubic& cubic) noexcept
-{
-    const float at_start = std::fabs(2.0F * cubic.c2);
-    const float at_end = std::fabs(2.0F * cubic.c2 + 6.0F * cubic.c3);
-    return at_start > at_end ? at_start : at_end;
-}
-
-// Goes from `time`, where the cubic is short of `level`, to the crossing in one Newton step, where
-// that is provably within kCloseTime of it: the step misses by at most bend step^2 / 2, divided by
-// the least slope on the way. Returns whether it did; `time` is left alone otherwise.
-inline bool take_newton_step(const TickCubic& cubic, float bend, float level, float& time) noexcept
-{
-    const float slope = cubic.slope_at(time);
-    const float step = (level - cubic.at(time)) / slope;
-    const float least_slope = std::fabs(slope) - bend * step;
-    // False for a slope of 0 too, whose step is infinite or none.
-    const bool close = step >= 0.0F && time + step <= 1.0F && least_slope > 0.0F &&
-                       0.5F * bend * step * step <= kCloseTime * least_slope;
-    if (close) {
-        time += step;
-    }
-    return close;
-}
-
 // A time in [from, 1] at which the cubic is at `level`, within 2e-5 of a tick or 1e-6 of a step.
 //
 //   rising  whether the cubic comes from below the level.
 //
 // Precondition: level lies between at(from) and at(1), but for rounding: at the very end of the
 // tick the answer is 1.
-float crossing_time(const TickCubic& cubic, float level, float from, bool rising) noexcept;
+float crossing_time(TickCubic cubic, float level, float from, bool rising) noexcept;
+
+// The crossings of the middles between steps, one after the other, from the start of a tick on.
+class StepTimes {
+public:
+    StepTimes(const TickCubic& cubic, bool rising) noexcept
+        : cubic_{cubic},
+          twice_c2_{2.0F * cubic.c2},
+          bend_{sharpest_bend(cubic)},
+          one_step_{rising ? 1.0F : -1.0F},
+          level_{0.5F * one_step_}
+    {
+    }
+
+    // The time of the next crossing. Precondition: there is one in the tick.
+    float next() noexcept
+    {
+        if (!take_newton_steps()) {
+            time_ = crossing_time(cubic_, level_, time_, one_step_ > 0.0F);
+        }
+        level_ += one_step_;
+        return time_;
+    }
+
+    // Whether from every crossing a single Newton step is provably within kCloseTime of the next:
+    // the slope keeps its sign and at least `least`, so a step takes 1 / least at most, and the
+    // step misses by bend / (2 least^3) at most. The tenth more is for the times' own errors.
+    bool steady() const noexcept
+    {
+        const float least = std::fabs(cubic_.c1) - bend_;
+        return least > 0.0F && 0.55F * bend_ <= kCloseTime * least * least * least;
+    }
+
+    // As next(), with the same answer in a fraction of the work. Precondition: steady(), next() has
+    // been called, and there is another crossing after this one.
+    float next_steady() noexcept
+    {
+        time_ += (level_ - cubic_.at(time_)) / slope_at(time_);
+        level_ += one_step_;
+        return time_;
+    }
+
+private:
+    // The largest second derivative of the cubic over the tick, without its sign.
+    static float sharpest_bend(const TickCubic& cubic) noexcept
+    {
+        const float at_start = std::fabs(2.0F * cubic.c2);
+        const float at_end = std::fabs(2.0F * cubic.c2 + 6.0F * cubic.c3);
+        return at_start > at_end ? at_start : at_end;
+    }
+    float slope_at(float time) const noexcept
+    {
+        return cubic_.c1 + time * (twice_c2_ + time * 3.0F * cubic_.c3);
+    }
+
+    struct NewtonStep {
+        float length;
+        bool close;  // provably within the error allowed
+    };
+    // From `time`; `allowed` is an error in ticks. A step misses by at most bend length^2 / 2,
+    // divided by the least slope on the way.
+    NewtonStep newton_step_from(float time, float allowed) const noexcept
+    {
+        const float slope = slope_at(time);
+        const float length = (level_ - cubic_.at(time)) / slope;
+        const float least_slope = std::fabs(slope) - bend_ * std::fabs(length);
+        // False for a slope of 0 too, whose step is infinite or none.
+        return {length,
+                least_slope > 0.0F && 0.5F * bend_ * length * length <= allowed * least_slope};
+    }
+    // Goes to the crossing in one Newton step or two, where these are close and stay in the tick.
+    // Returns whether it did; the time is left alone otherwise.
+    bool take_newton_steps() noexcept
+    {
+        const NewtonStep first = newton_step_from(time_, kCloseTime);
+        const float there = time_ + first.length;
+        if (!(first.length >= 0.0F && there <= 1.0F)) {
+            return false;
+        }
+        if (first.close) {
+            time_ = there;
+            return true;
+        }
+        const NewtonStep second = newton_step_from(there, 0.01F * kCloseTime);
+        const float nearer = there + second.length;
+        const bool found =
+            second.close && slope_at(there) * one_step_ > 0.0F && nearer >= time_ && nearer <= 1.0F;
+        time_ = found ? nearer : time_;
+        return found;
+    }
+
+    TickCubic cubic_;
+    float twice_c2_;
+    float bend_;
+    float one_step_;
+    float level_;
+    float time_{0.0F};
+};
 
 }  // namespace cusp::pulse

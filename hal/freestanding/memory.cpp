@@ -64,14 +64,23 @@ void* memset(void* to, int value, std::size_t size)
         --size;
     }
     const Word word = byte * 0x01010101U;
-    while (size >= 4 * sizeof(Word)) {
+    while (size >= 8 * sizeof(Word)) {
         auto* words = reinterpret_cast<Word*>(target);
         words[0] = word;
         words[1] = word;
         words[2] = word;
         words[3] = word;
-        target += 4 * sizeof(Word);
-        size -= 4 * sizeof(Word);
+        words[4] = word;
+        words[5] = word;
+        words[6] = word;
+        words[7] = word;
+        target += 8 * sizeof(Word);
+        size -= 8 * sizeof(Word);
+    }
+    while (size >= sizeof(Word)) {
+        *reinterpret_cast<Word*>(target) = word;
+        target += sizeof(Word);
+        size -= sizeof(Word);
     }
     while (size-- > 0) {
         *target++ = byte;

@@ -122,16 +122,22 @@ void count_interpolation()
          {1.0F, 1.3F, 1.1F, 0.9F, 1.0F}});
 }
 
-// All three axes at this many nanometres a tick; 800 steps/mm.
-void count_pulses(std::string_view frame_name, std::string_view fill_name, std::int64_t travel)
+// All three axes at this many nanometres a tick, reached by `gain` a tick; 800 steps/mm. Each axis
+// has its own place between the steps and a rate that drifts, so that few edges coincide.
+void count_pulses(std::string_view frame_name,
+                  std::string_view fill_name,
+                  std::int64_t travel,
+                  std::int64_t gain)
 {
     InstructionMeter make{frame_name};
     InstructionMeter fill{fill_name};
-    Position at{};
+    Position at{0, -400, 400};
     pulse_maker.reset(at);
     player.start(168000000);
+    std::int64_t speed = 0;
     for (unsigned tick = 0; tick < 200; ++tick) {
-        at = {at.x + travel, at.y + travel + tick % 7, at.z - travel};
+        speed = speed + gain < travel ? speed + gain : travel;
+        at = {at.x + speed, at.y + speed + tick % 7, at.z - speed};
         make.begin();
         pulse_maker.make_frame(at, frame);
         make.end();
@@ -205,9 +211,12 @@ void cusp_main()
     out = hal::qemu::HostFile{":tt", hal::qemu::FileMode::kWrite};
     InstructionMeter::start_clock();
     count_interpolation();
-    count_pulses("frame_at_0", "player_at_0", 0);
-    count_pulses("frame_at_50k", "player_at_50k", 62500);
-    count_pulses("frame_at_250k", "player_at_250k", 312500);
+    count_pulses("frame_at_0", "player_at_0", 0, 0);
+    // The whole speed within a tick: more than any settings allow, and the dearest frame there is.
+    count_pulses("frame_at_50k", "player_at_50k", 62500, 62500);
+    count_pulses("frame_at_250k", "player_at_250k", 312500, 312500);
+    // 10 m/s^2 on each axis.
+    count_pulses("frame_to_250k", "player_to_250k", 312500, 10000);
     count_look_ahead();
     count_parsing();
     hal::qemu::exit_qemu(0);

@@ -170,6 +170,38 @@ TEST(StepTimes, AreWithinAFifthOfAMicrosecondOfTheCubic)
     }
 }
 
+TEST(StepTimes, AreAllCrossingsOfATickInOrder)
+{
+    unsigned steady_ticks = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const double now = std::uniform_real_distribution<double>{1, 250}(random);
+        const double spread = i % 2 == 0 ? 0.02 : 1.0;
+        std::uniform_real_distribution<double> change{1 - spread, 1 + spread};
+        const auto travel = static_cast<float>(now);
+        const auto before = static_cast<float>(now * change(random));
+        const auto after = static_cast<float>(now * change(random));
+        const bool rising = i % 3 != 0;
+        const float sign = rising ? 1.0F : -1.0F;
+        const pulse::TickCubic cubic =
+            pulse::tick_cubic(0.0F, sign * before, sign * travel, sign * after);
+        pulse::StepTimes times{cubic, rising};
+        steady_ticks += times.steady() ? 1U : 0U;
+        const int count = static_cast<int>(now + 0.5);
+        float last = 0.0F;
+        for (int k = 0; k < count; ++k) {
+            const bool amid = k > 0 && k + 1 < count;
+            const float time = amid && times.steady() ? times.next_steady() : times.next();
+            const float level = sign * (static_cast<float>(k) + 0.5F);
+            // 2e-5 of a tick, and what single floats make of the level.
+            const float least = std::fabs(cubic.slope_at(time)) * 2.1e-5F + 1e-4F;
+            DOUBLES_EQUAL(level, cubic.at(time), least);
+            CHECK(time >= last && time <= 1.0F);
+            last = time;
+        }
+    }
+    CHECK(steady_ticks > 500 && steady_ticks < 1500);
+}
+
 TEST(StepTimes, AtTheEndOfATickIsTheEnd)
 {
     const pulse::TickCubic cubic = pulse::tick_cubic(-0.5F, 20, 20, 20);
