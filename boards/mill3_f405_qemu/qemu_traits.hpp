@@ -110,6 +110,7 @@ private:
         }
         // After an error what was taken already is still done.
         while (!machine.motion().settled() && !held(machine)) {
+            settle(application);
             play_tick(board, application);
         }
         while (!board.pulse_player.silent()) {

@@ -41,7 +41,8 @@ public:
 
     // Every line is sent and answered.
     bool finished() const noexcept { return ended_ && unanswered_ == 0; }
-    // A line was answered by an error, or an alarm was raised: the run is over.
+    // A line was answered by an error, an alarm was raised or the controller was reset: the run is
+    // over.
     bool refused() const noexcept { return refused_; }
     // Whether the script has bytes that are still to come.
     bool script_waits() const noexcept { return script_waits_; }
@@ -80,6 +81,7 @@ private:
     };
 
     void read_script_line() noexcept;
+    bool next_of_program(std::uint8_t& byte) noexcept;
     bool try_read_program(std::uint8_t& byte) noexcept;
     void take_answer() noexcept;
 
@@ -92,6 +94,7 @@ private:
     std::uint8_t own_{0};
     bool may_begin_line_{true};
     bool amid_line_{false};
+    bool after_return_{false};
     bool ended_{false};
     std::uint32_t unanswered_{0};
     bool refused_{false};
@@ -137,12 +140,27 @@ inline bool ProgramLink::try_read(std::uint8_t& byte) noexcept
     return try_read_program(byte);
 }
 
+// Any of LF, CR LF and CR ends a line, as for `cusp stream`; the controller, as Grbl does, would
+// answer CR LF twice.
+inline bool ProgramLink::next_of_program(std::uint8_t& byte) noexcept
+{
+    bool found = program_.next(byte);
+    if (found && after_return_ && byte == '\n') {
+        found = program_.next(byte);
+    }
+    after_return_ = found && byte == '\r';
+    if (after_return_) {
+        byte = '\n';
+    }
+    return found;
+}
+
 inline bool ProgramLink::try_read_program(std::uint8_t& byte) noexcept
 {
     if (ended_ || refused_ || (!amid_line_ && (unanswered_ > 0 || !may_begin_line_))) {
         return false;
     }
-    if (!program_.next(byte)) {
+    if (!next_of_program(byte)) {
         // A last line without its end gets one.
         ended_ = true;
         if (amid_line_) {
@@ -180,7 +198,9 @@ inline void ProgramLink::take_answer() noexcept
     if ((answer == "ok" || error) && unanswered_ > 0) {
         --unanswered_;
     }
-    refused_ = refused_ || error || answer.substr(0, 6) == "ALARM:";
+    // A banner amid the program: the controller was reset, and what it had is gone.
+    const bool reset = tick_ > 0 && answer.substr(0, 5) == "Grbl ";
+    refused_ = refused_ || error || reset || answer.substr(0, 6) == "ALARM:";
     // What follows M2 or M30 is not sent.
     ended_ = ended_ || answer == "[MSG:Pgm End]";
 }

@@ -149,6 +149,8 @@ public:
         }
     }
 
+    // From here on a banner means that the program is gone.
+    void begin() { begun_ = true; }
     bool waiting() const { return waiting_; }
     bool failed() const { return !result_.errors.empty() || result_.alarm != 0; }
 
@@ -164,6 +166,9 @@ private:
             result_.alarm = answer.code;
             result_.errors.push_back(
                 {number_, answer.code, "alarm: " + std::string{alarm_text(answer.code)}});
+        } else if (answer.kind == AnswerKind::kBanner && begun_) {
+            waiting_ = false;
+            result_.errors.push_back({number_, 0, "the controller was reset"});
         }
     }
 
@@ -172,6 +177,7 @@ private:
     std::string heard_;
     std::uint64_t number_{0};
     bool waiting_{false};
+    bool begun_{false};
 };
 
 class Simulation {
@@ -197,6 +203,7 @@ public:
         home();
         controller_.board().byte_link.set_bits_per_second(options_.bits_per_second);
         Instruments instruments{controller_, options_};
+        sender_.begin();
         while (!sender_.failed() && !done_) {
             step(instruments);
         }

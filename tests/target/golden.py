@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Runs a program on the image under QEMU, twice, and in the host simulator, and compares the edges.
 
-usage: golden.py --cusp CUSP --image IMAGE PROGRAM [--settings FILE] [--script FILE] [--pins PLUGIN]
-                 [--keep FOLDER]
+usage: golden.py PROGRAM [--settings FILE] [--script FILE] [--pins PLUGIN] [--as-it-is]
+                 [--keep FOLDER] [--cusp CUSP] [--image IMAGE]
 
 Each run yields the list of (tick, levels of the six lines) after every change; the three lists must
 be equal, tick by tick. With --pins (pins/pin_watch.cpp, built) also what reached the port's pins in
@@ -24,6 +24,7 @@ from qemu import RunFailed, run_image
 WIRES = ("step_x", "step_y", "step_z", "dir_x", "dir_y", "dir_z")
 UNITS_IN_PICOSECONDS = {"s": 10**12, "ms": 10**9, "us": 10**6, "ns": 10**3, "ps": 1}
 MICROSECOND = 10**6
+BUILD = pathlib.Path(__file__).resolve().parents[2] / "build"
 
 
 def read_trace(path):
@@ -100,7 +101,7 @@ def simulate(options, folder):
 
 def bare_lines(path):
     """What a sender sends of a file: no comments, no empty lines."""
-    for line in pathlib.Path(path).read_text().splitlines():
+    for line in re.split(r"\r\n|\r|\n", pathlib.Path(path).read_bytes().decode("latin-1")):
         bare = re.sub(r"\([^)]*\)|;.*", "", line).strip()
         if bare and bare != "%":
             yield bare
@@ -109,8 +110,12 @@ def bare_lines(path):
 def play(options, folder, name):
     """The settings go ahead of the program, as the lines that a sender would send."""
     program = folder / "board.ngc"
-    files = [file for file in (options.settings, options.program) if file]
-    program.write_text("".join(line + "\n" for file in files for line in bare_lines(file)))
+    text = "".join(f"{line}\n" for line in bare_lines(options.settings)) if options.settings else ""
+    if options.as_it_is:
+        text += pathlib.Path(options.program).read_bytes().decode("latin-1")
+    else:
+        text += "".join(f"{line}\n" for line in bare_lines(options.program))
+    program.write_bytes(text.encode("latin-1"))
     trace = folder / name
     words = ["program", program, "trace", trace]
     if options.script:
@@ -159,12 +164,14 @@ def compare(options, folder):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--cusp", required=True)
-    parser.add_argument("--image", required=True)
+    parser.add_argument("--cusp", default=BUILD / "release/bin/cusp")
+    parser.add_argument("--image", default=BUILD / "cortex-m4f/bin/mill3_f405_qemu.elf")
     parser.add_argument("program")
     parser.add_argument("--settings")
     parser.add_argument("--script")
     parser.add_argument("--pins", metavar="PLUGIN")
+    parser.add_argument("--as-it-is", action="store_true",
+                        help="the board reads comments and blank lines too")
     parser.add_argument("--keep", help="folder for the traces; default: none are kept")
     parser.add_argument("--seconds", type=int, default=300)
     parser.add_argument("--may-stand-still", action="store_true")
