@@ -185,7 +185,8 @@ Vec2d TipFloor::slope_of(const Piece& piece, Vec2d at) const
     const double away = std::sqrt(dot(arm, arm));
     const double c = tool_.corner_radius;
     const double out = away - (tool_.radius - c);
-    if (piece.graph && distance(place, contact) < kOnPiece * tool_.radius) {
+    const bool on_plane = piece.graph && distance(place, contact) < kOnPiece * tool_.radius;
+    if (c == 0.0 || on_plane) {
         return piece.gradient;
     }
     if (out <= 0.0) {
