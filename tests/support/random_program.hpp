@@ -120,9 +120,8 @@ private:
         }
         const char letters[] = "IJK";
         std::string words = std::string{kPlanes[plane]} + (clockwise ? " G2" : " G3");
-        std::string offsets = std::string{" "} + letters[first] +
-                              length(-radius * std::cos(from)) + " " + letters[second] +
-                              length(-radius * std::sin(from));
+        std::string offsets = std::string{" "} + letters[first] + length(-radius * std::cos(from)) +
+                              " " + letters[second] + length(-radius * std::sin(from));
         to(end, words, offsets);
         decimals_ = digits;
     }
@@ -143,6 +142,7 @@ private:
         const auto order = 2 + number() % 4;
         const auto points = order + number() % 8;
         const bool even = number() % 2 == 0;
+        to(at_, "G1");  // the first point is the place itself, in the program's decimals
         double knot = 0;
         std::uint64_t repeated = 1;
         for (std::uint64_t i = 0; i < points; ++i) {

@@ -1,5 +1,4 @@
 // Limits hold for random G-code: arcs of all planes, splines, inches, numbers of few decimals.
-#include <cstdlib>
 #include <string>
 #include <variant>
 #include <vector>
@@ -7,7 +6,7 @@
 #include "CppUTest/TestHarness.h"
 
 #include "firmware/gcode/interpreter.hpp"
-#include "tests/support/motion_rig.hpp"
+#include "tests/support/motion_limits.hpp"
 #include "tests/support/random_moves.hpp"
 #include "tests/support/random_program.hpp"
 
@@ -17,13 +16,6 @@ using cusp::test::MotionRig;
 namespace {
 
 constexpr std::uint64_t kSeed = 8000;
-
-// CUSP_MOTION_PROGRAMS sets how many random programs each test runs.
-std::uint64_t program_count()
-{
-    const char* text = std::getenv("CUSP_MOTION_PROGRAMS");
-    return text != nullptr ? std::strtoull(text, nullptr, 10) : 300;
-}
 
 struct Moves {
     std::vector<path::Move> moves;
@@ -52,21 +44,6 @@ Moves moves_of(std::uint64_t seed)
     return result;
 }
 
-void check(const std::vector<Position>& samples,
-           Position end,
-           const MachineLimits& limits,
-           std::uint64_t seed)
-{
-    const std::string which = "seed " + std::to_string(seed);
-    const test::LimitUse use = test::limit_use(samples, {}, limits);
-    for (unsigned axis = 0; axis < 3; ++axis) {
-        CHECK_TEXT(use.velocity[axis] <= 1, (which + ": velocity").c_str());
-        CHECK_TEXT(use.acceleration[axis] <= 1, (which + ": acceleration").c_str());
-        CHECK_TEXT(use.jerk[axis] <= 1, (which + ": jerk").c_str());
-    }
-    CHECK_TEXT(samples.back() == end, (which + ": end").c_str());
-}
-
 }  // namespace
 
 TEST_GROUP(RandomGcode){};
@@ -75,7 +52,7 @@ TEST(RandomGcode, HoldsEveryLimitAndEndsExactly)
 {
     std::uint64_t curves = 0;
     std::uint64_t refused = 0;
-    for (std::uint64_t seed = kSeed; seed < kSeed + program_count(); ++seed) {
+    for (std::uint64_t seed = kSeed; seed < kSeed + test::motion_program_count(); ++seed) {
         const Moves program = moves_of(seed);
         curves += program.curves;
         refused += program.refused;
@@ -85,16 +62,16 @@ TEST(RandomGcode, HoldsEveryLimitAndEndsExactly)
         const MachineLimits limits = test::random_limits(seed);
         MotionRig rig{limits};
         rig.start_at({});
-        check(rig.run(program.moves), program.moves.back().end, limits, seed);
+        test::check_motion(rig.run(program.moves), program.moves.back().end, limits, seed);
     }
     // The programs are what they are meant to be.
-    CHECK(curves > program_count());
+    CHECK(curves > test::motion_program_count());
     UNSIGNED_LONGS_EQUAL(0, refused);
 }
 
 TEST(RandomGcode, HoldsEveryLimitThroughHoldsOverridesAndStarvation)
 {
-    for (std::uint64_t seed = kSeed; seed < kSeed + program_count(); ++seed) {
+    for (std::uint64_t seed = kSeed; seed < kSeed + test::motion_program_count(); ++seed) {
         const Moves program = moves_of(seed);
         if (program.moves.empty()) {
             continue;
@@ -103,6 +80,6 @@ TEST(RandomGcode, HoldsEveryLimitThroughHoldsOverridesAndStarvation)
         MotionRig rig{limits};
         rig.start_at({});
         const auto samples = rig.run_disturbed(program.moves, seed);
-        check(samples, program.moves.back().end, limits, seed);
+        test::check_motion(samples, program.moves.back().end, limits, seed);
     }
 }

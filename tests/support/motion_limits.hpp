@@ -1,0 +1,36 @@
+// What the property tests of motion share: how many programs, and that limits and end are kept.
+#pragma once
+
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "CppUTest/TestHarness.h"
+
+#include "tests/support/motion_rig.hpp"
+
+namespace cusp::test {
+
+// CUSP_MOTION_PROGRAMS sets how many random programs each test runs.
+inline std::uint64_t motion_program_count()
+{
+    const char* text = std::getenv("CUSP_MOTION_PROGRAMS");
+    return text != nullptr ? std::strtoull(text, nullptr, 10) : 300;
+}
+
+inline void check_motion(const std::vector<Position>& samples,
+                         Position end,
+                         const MachineLimits& limits,
+                         std::uint64_t seed)
+{
+    const std::string which = "seed " + std::to_string(seed);
+    const LimitUse use = limit_use(samples, {}, limits);
+    for (unsigned axis = 0; axis < 3; ++axis) {
+        CHECK_TEXT(use.velocity[axis] <= 1, (which + ": velocity").c_str());
+        CHECK_TEXT(use.acceleration[axis] <= 1, (which + ": acceleration").c_str());
+        CHECK_TEXT(use.jerk[axis] <= 1, (which + ": jerk").c_str());
+    }
+    CHECK_TEXT(samples.back() == end, (which + ": end").c_str());
+}
+
+}  // namespace cusp::test
