@@ -71,6 +71,25 @@ const Tool& tool_of(const Job& job, int number, const std::string& program)
     throw InputError(fmt::format("{}: T{} is no tool of the job {}", program, number, job.file));
 }
 
+// The tools that owe the scallop: a larger one that roughs before may come deeper into a valley
+// than they do. All that cut where no operation promises one.
+std::vector<Tool> finishing_tools(const Job& job, const std::vector<ToolPositions>& runs)
+{
+    std::vector<Tool> all;
+    std::vector<Tool> finishing;
+    for (const ToolPositions& run : runs) {
+        all.push_back(run.tool);
+        const bool owes =
+            std::any_of(job.operations.begin(), job.operations.end(), [&](const Operation& o) {
+                return o.scallop.has_value() && o.tool.number == run.tool.number;
+            });
+        if (owes) {
+            finishing.push_back(run.tool);
+        }
+    }
+    return finishing.empty() ? all : finishing;
+}
+
 // Runs of positions, a new one at every change of tool; lengths on the way.
 std::vector<ToolPositions> positions_of(const Job& job,
                                         const Program& program,
@@ -209,7 +228,7 @@ Verification verify(const Job& job,
     result.grid = make_grid(job, scene, least_radius, settings.pitch);
 
     Stock stock{result.grid, job.stock_top};
-    std::vector<Tool> tools;
+    const std::vector<Tool> tools = finishing_tools(job, runs);
     double widest = 0;
     for (const ToolPositions& run : runs) {
         figures.tool_positions += run.tips.size();
@@ -223,7 +242,6 @@ Verification verify(const Job& job,
         done += run.tips.size();
         figures.rapid_cut_max = std::max(figures.rapid_cut_max, cut.rapid_cut);
         figures.cut_depth_max = std::max(figures.cut_depth_max, cut.cut_depth);
-        tools.push_back(run.tool);
         widest = std::max(widest, run.tool.radius);
     }
     progress(1.0);
