@@ -15,6 +15,7 @@
 #include "host_tools/adaptive_isocurve/scallop_width.hpp"
 #include "host_tools/adaptive_isocurve/surface_operation.hpp"
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/surface_offset/offset_surface.hpp"
 #include "host_tools/surface_passes/coverage.hpp"
 
 #include "fmt/format.h"
@@ -28,6 +29,8 @@ constexpr double kRidgeShare = 0.99;
 // The same where cells prove it: those need room between the ridge and the scallop.
 constexpr double kProvedShare = 0.97;
 constexpr int kCurvatureLooks = 60;
+// Of the band, for how far an approximated offset is from the exact one.
+constexpr double kOffsetShare = 0.9;
 
 void swap_loops(Surface& surface)
 {
@@ -164,6 +167,11 @@ public:
                 fmt::format("{} places of the surface may keep more than the scallop", bare));
         }
         planned.stats.counts.emplace_back("isocurves", static_cast<double>(curves));
+        if (operation_.output == OutputForm::kNurbs) {
+            planned.stats.counts.emplace_back("offset_isocurves", exact_curves_);
+            planned.stats.counts.emplace_back("offset_bound_mm", offset_error_);
+            planned.stats.counts.emplace_back("offset_control_points", offset_points_);
+        }
         if (unreached_ > 0) {
             planned.stats.warnings.push_back(fmt::format(
                 "{} of {} curves end where the tool would cut another place of the model (concave "
@@ -174,9 +182,9 @@ public:
     }
 
 private:
-    void add_pass(const Points& dense)
+    void add_pass(const Points& dense, const std::optional<Curve>& exact = std::nullopt)
     {
-        const Points points = work_.add_pass(dense);
+        const Points points = work_.add_pass(dense, exact);
         if (coverage_) {
             coverage_->add(points);
         }
@@ -250,14 +258,25 @@ private:
     {
         const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
         const std::vector<DomainCurve> curves = curves_of(surface, complete);
+        std::optional<OffsetSurface> offset;
+        if (operation_.output == OutputForm::kNurbs) {
+            const PassBand& band = work_.certified().band();
+            offset.emplace(
+                s, OffsetRequest{operation_.tool.radius + band.lift, kOffsetShare * band.band});
+            offset_error_ = std::max(offset_error_, offset->error_bound());
+            offset_points_ += offset->control_points();
+        }
         bool trimmed = false;
         for (const DomainCurve& curve : curves) {
-            const std::vector<Points> pieces = tracer_.trace(curve);
-            const bool whole = pieces.size() == 1 && reaches_ends(curve, pieces.front());
+            const std::vector<TracedPiece> pieces = tracer_.trace(curve);
+            const bool whole = pieces.size() == 1 && reaches_ends(curve, pieces.front().points);
             trimmed = trimmed || !whole;
             unreached_ += whole ? 0 : 1;
-            for (const Points& piece : pieces) {
-                add_pass(piece);
+            for (const TracedPiece& piece : pieces) {
+                const std::optional<Curve> exact =
+                    offset ? tip_isocurve(*offset, curve, piece) : std::nullopt;
+                exact_curves_ += exact ? 1 : 0;
+                add_pass(piece.points, exact);
             }
         }
         spacing_ = operation_.iso_distance
@@ -271,6 +290,24 @@ private:
         ridge_ = std::max(ridge_, highest_ridge(surface_function(surface), tool_, curves,
                                                 s.u_begin(), s.u_end(), kRidgeLooks));
         return curves.size();
+    }
+
+    // The piece on the approximated offset, where the curve is an isocurve.
+    std::optional<Curve> tip_isocurve(const OffsetSurface& offset,
+                                      const DomainCurve& curve,
+                                      const TracedPiece& piece) const
+    {
+        const auto [low, high] = std::minmax_element(curve.v.begin(), curve.v.end());
+        if (*low != *high) {
+            return std::nullopt;
+        }
+        std::optional<Curve> tip = offset.isocurve(*low, piece.u_begin, piece.u_end);
+        if (tip) {
+            for (Vec3d& p : tip->points) {
+                p.z -= operation_.tool.radius;
+            }
+        }
+        return tip;
     }
 
     bool reaches_ends(const DomainCurve& curve, const Points& piece) const
@@ -293,6 +330,9 @@ private:
     double spacing_{};
     double ridge_{};
     int unreached_{};
+    int exact_curves_{};
+    double offset_error_{};
+    int offset_points_{};
 };
 
 std::vector<PlannedOperation> plan(const Job& job, const Operation& operation, bool complete)

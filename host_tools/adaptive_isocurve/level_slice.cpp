@@ -88,8 +88,9 @@ bool LevelSlices::buried(Vec2d middle, double reach, const Levels& levels) const
 {
     Tool smaller = tool_;
     smaller.radius -= reach + std::hypot(pitch_x_, pitch_y_);
+    constexpr double kTold = 0.01;  // mm: distances below are told apart from a cut
     return smaller.radius >= tool_.corner_radius &&
-           model_.clearance(smaller, {middle.x, middle.y, levels.z}, 0.0).distance <=
+           model_.clearance(smaller, {middle.x, middle.y, levels.z}, kTold).distance <=
                -tool_.corner_radius;
 }
 

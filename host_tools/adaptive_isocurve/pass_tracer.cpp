@@ -142,7 +142,7 @@ Points PassTracer::along(const DomainCurve& curve, double from, double to) const
                              even(from, to, parts));
 }
 
-std::vector<Points> PassTracer::trace(const DomainCurve& curve) const
+std::vector<TracedPiece> PassTracer::trace(const DomainCurve& curve) const
 {
     const double u0 = curve.u.front();
     const double u1 = curve.u.back();
@@ -154,14 +154,14 @@ std::vector<Points> PassTracer::trace(const DomainCurve& curve) const
     const auto free = [&](double u) {
         return free_at(curve.surface, u, curve.v_at(u));
     };
-    std::vector<Points> out;
+    std::vector<TracedPiece> out;
     double begin = u0;
     bool was_free = free(u0);
     const auto close = [&](double end) {
         if (end > begin) {
             Points piece = along(curve, begin, end);
             if (length_of(piece) > kShortestPiece) {
-                out.push_back(std::move(piece));
+                out.push_back({std::move(piece), begin, end});
             }
         }
     };

@@ -8,6 +8,13 @@
 
 namespace cusp::host {
 
+// A part of a curve where the tool is free, as dense tips.
+struct TracedPiece {
+    Points points;
+    double u_begin;
+    double u_end;
+};
+
 class PassTracer {
 public:
     PassTracer(const std::vector<Surface>& surfaces, const CertifiedPasses& certified)
@@ -21,9 +28,9 @@ public:
     // Whether (u, v) is in the trimmed domain and the tool there is free of the rest of the model.
     bool free_at(int surface, double u, double v) const;
 
-    // The parts of the curve where the tool is free, as dense tips. A loss of less than 1 mm that
+    // The parts of the curve where the tool is free. A loss of less than 1 mm that
     // hides between free places is not trimmed here: the proof of the path lifts over it.
-    std::vector<Points> trace(const DomainCurve& curve) const;
+    std::vector<TracedPiece> trace(const DomainCurve& curve) const;
 
     // Lines along the edge of the free part of the surface, on the model: where offsets of two
     // surfaces meet, and trimmed edges. Empty where all is free.

@@ -126,11 +126,12 @@ double SurfaceOperation::outward() const
 
 double SurfaceOperation::ridge_allowed() const { return operation_.scallop.value_or(0); }
 
-Points SurfaceOperation::add_pass(const Points& dense)
+Points SurfaceOperation::add_pass(const Points& dense, const std::optional<Curve>& exact)
 {
     SurfacePass pass;
     if (operation_.output == OutputForm::kNurbs) {
-        pass.curve = certified_->fit_nurbs(dense);
+        pass.curve =
+            exact && certified_->nurbs_is_free(*exact) ? exact : certified_->fit_nurbs(dense);
     }
     if (operation_.output == OutputForm::kArcs) {
         pass.points = dense;
@@ -142,6 +143,8 @@ Points SurfaceOperation::add_pass(const Points& dense)
         pass.points.back() = end_of(pass.moves.back());
     } else if (pass.curve) {
         pass.points = dense;
+        pass.points.front() = pass.curve->points.front();
+        pass.points.back() = pass.curve->points.back();
     } else {
         pass.points = certified_->fit_lines(dense);
     }

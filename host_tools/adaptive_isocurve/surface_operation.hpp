@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,7 +30,10 @@ public:
 
     // Fits the pass in the form the job asks for. Returns points that the path stays within
     // `path_off()` of.
-    Points add_pass(const Points& dense);
+    //
+    // exact  where the job asks for NURBS: the same pass as a cubic within the band, taken as it is
+    //        where it is proved to be free
+    Points add_pass(const Points& dense, const std::optional<Curve>& exact = std::nullopt);
     double path_off() const;
     std::size_t pass_count() const { return passes_.size(); }
 

@@ -309,6 +309,19 @@ bool CertifiedPasses::curve_is_free(const std::array<Vec3d, 4>& b, int depth, do
     return bound >= enough - 1e-9;
 }
 
+bool CertifiedPasses::nurbs_is_free(const Curve& curve)
+{
+    double least = least_clearance_;
+    for (const Curve& piece : bezier_pieces(curve)) {
+        if (!curve_is_free({piece.points[0], piece.points[1], piece.points[2], piece.points[3]}, 0,
+                           least)) {
+            return false;
+        }
+    }
+    least_clearance_ = least;
+    return true;
+}
+
 std::optional<Curve> CertifiedPasses::fit_nurbs(const Points& dense)
 {
     Points p{dense.front()};

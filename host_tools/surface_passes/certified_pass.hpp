@@ -64,6 +64,10 @@ public:
     // Knots are arc lengths: a constant feed runs smoothly through it.
     std::optional<Curve> fit_nurbs(const Points& dense);
 
+    // Whether the curve (cubic) is proved to cut no deeper than allowed; lowers `least_clearance`
+    // if so.
+    bool nurbs_is_free(const Curve& curve);
+
     // Whether the straight move is proved to cut no deeper than allowed; lowers `least_clearance`
     // if so.
     bool line_is_free(Vec3d a, Vec3d b);

@@ -123,6 +123,55 @@ TEST(AdaptiveIsocurve, NeverEntersRandomSurfaces)
     }
 }
 
+TEST(AdaptiveIsocurve, IsocurvesAreThoseOfTheApproximatedOffsetToItsBound)
+{
+    operation.floor.pop_back();
+    operation.output = OutputForm::kNurbs;
+    operation.scallop.reset();
+    operation.iso_distance = 1.0;
+    const PlannedOperation planned = plan_adaptive_isocurve(job, operation).front();
+    double exact = 0;
+    double bound = 1;
+    for (const auto& [name, value] : planned.stats.counts) {
+        exact = name == "offset_isocurves" ? value : exact;
+        bound = name == "offset_bound_mm" ? value : bound;
+    }
+    CHECK_EQUAL(planned.stats.passes, static_cast<int>(exact));
+    CHECK(bound <= 0.4 * operation.floor_tolerance);
+    // The ball stands the lift of 0.6 tolerances over the surface, to the bound.
+    const SurfaceModel model{operation.floor};
+    for (const ToolMove& move : planned.path.moves) {
+        if (const NurbsTo* nurbs = std::get_if<NurbsTo>(&move.shape)) {
+            const Curve& curve = nurbs->curve;
+            for (int k = 0; k <= 300; ++k) {
+                const double u =
+                    curve.domain_begin() + (curve.domain_end() - curve.domain_begin()) * k / 300;
+                const double apart =
+                    model.clearance(planned.path.tool, point_at(curve, u), 1).distance;
+                DOUBLES_EQUAL(0.6 * operation.floor_tolerance, apart, bound + 1e-6);
+            }
+        }
+    }
+}
+
+TEST(AdaptiveIsocurve, RefusesKeysOfRoughingWithoutIt)
+{
+    operation.allowance = 0.3;
+    refused(job, "allowance is 0.3 mm");
+    operation.allowance = 0;
+    operation.max_depth = 2.0;
+    refused(job, "max_depth");
+    operation.max_depth.reset();
+    operation.tools = {{2, ToolShape::kFlat, 3, 0}};
+    refused(job, "tools names the tool that roughs");
+    operation.roughing = true;
+    operation.max_depth = 1e-4;
+    refused(job, "max_depth is 0.0001 mm");
+    operation.max_depth = 2.0;
+    operation.allowance = 500;
+    refused(job, "nothing is to be roughed");
+}
+
 TEST(AdaptiveIsocurve, WritesOneNurbsForAPassThatNeverEntersTheModel)
 {
     operation.floor.pop_back();
@@ -168,7 +217,7 @@ TEST(AdaptiveIsocurve, IsShorterThanParallelPlanesAtTheSameScallop)
 TEST(AdaptiveIsocurve, RefusesAToolThatIsNoBall)
 {
     operation.tool = {1, ToolShape::kFlat, 2, 0};
-    refused(job, "needs a ball");
+    refused(job, "finishes with a ball");
 }
 
 TEST(AdaptiveIsocurve, RefusesASurfaceWithoutArea)
