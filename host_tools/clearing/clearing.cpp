@@ -73,14 +73,21 @@ std::vector<Loop2d> make_levels(const RegionOffset& offset, const ClearingSettin
     for (int k = 0; k < kMostLevels && !level.loops.contours.empty(); ++k) {
         NextLevel inner = next_level(offset, level.distance, step, settings.cover_corners);
         double inner_step = step;
-        // The step must suit the loops on both of its sides.
+        // The step must suit the loops on both of its sides. Loops that move by a fiftieth of it
+        // are not looked at again: a thousandth is taken off for that.
+        constexpr double kAlike = 0.98;
+        constexpr double kMargin = 0.999;
         for (int round = 0; round < 4 && !inner.loops.contours.empty(); ++round) {
             inner_step = step_from(inner.loops);
-            if (inner_step >= 0.999 * step) {
+            if (inner_step >= kMargin * step) {
                 break;
             }
-            step = inner_step;
+            const bool alike = inner_step >= kAlike * step;
+            step = alike ? kMargin * inner_step : inner_step;
             inner = next_level(offset, level.distance, step, settings.cover_corners);
+            if (alike) {
+                break;
+            }
         }
         for (Contour& contour : level.loops.contours) {
             const bool outer = area(contour) > 0.0;

@@ -15,6 +15,9 @@ constexpr double kSteepest = 60.0;  // planes beyond this slope are not used as 
 TipFloor::TipFloor(const std::vector<Surface>& surfaces, const Tool& tool, double accuracy)
     : tool_{tool}, accuracy_{accuracy}, surfaces_{surfaces}
 {
+    constexpr std::size_t kManyPieces = 20000;  // moving fewer of them costs more than the room
+    pieces_.reserve(kManyPieces);
+    nets_.reserve(8 * kManyPieces);
     pieces_.push_back({});  // child 0 means none
     if (std::any_of(surfaces_.begin(), surfaces_.end(),
                     [](const Surface& s) { return !s.trims.empty(); })) {

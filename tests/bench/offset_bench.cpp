@@ -6,6 +6,7 @@
 #include "host_tools/contour_pocket/contour_pocket.hpp"
 #include "host_tools/offset/contour_fit.hpp"
 #include "host_tools/offset/offset.hpp"
+#include "tests/papers/suh_lee/tiller_hanson.hpp"
 
 namespace cusp::host {
 namespace {
@@ -78,6 +79,42 @@ BENCHMARK(offset_by_number_of_curves)
     ->Range(10, 10000)
     ->Unit(benchmark::kMicrosecond)
     ->Complexity();
+
+// A rational cubic wave, offset by 4 mm within 0.001 mm: Tiller and Hanson's way (decision 0005)
+// and as biarcs, which are offset without further error.
+Curve wave()
+{
+    Curve curve;
+    curve.degree = 3;
+    curve.knots = {0.0, 0.0, 0.0, 0.0, 0.2, 0.4, 0.6, 0.8, 1.0, 1.0, 1.0, 1.0};
+    for (int i = 0; i < 8; ++i) {
+        curve.points.push_back({15.0 * i, i % 3 == 0 ? 4.0 : -3.0, 0.0});
+        curve.weights.push_back(i % 2 == 0 ? 1.0 : 1.3);
+    }
+    return curve;
+}
+
+void offset_curve_by_tiller_hanson(benchmark::State& state)
+{
+    const Curve source = wave();
+    std::size_t points = 0;
+    for (auto _ : state) {
+        points = tiller_hanson(source, 4.0, 1e-3).curve.points.size();
+    }
+    state.counters["points"] = static_cast<double>(points);
+}
+BENCHMARK(offset_curve_by_tiller_hanson)->Unit(benchmark::kMicrosecond);
+
+void offset_curve_by_biarcs(benchmark::State& state)
+{
+    const Curve source = wave();
+    std::size_t arcs = 0;
+    for (auto _ : state) {
+        arcs = fit_edges(source, 1e-3).size();
+    }
+    state.counters["arcs"] = static_cast<double>(arcs);
+}
+BENCHMARK(offset_curve_by_biarcs)->Unit(benchmark::kMicrosecond);
 
 void plan_replica(benchmark::State& state)
 {
