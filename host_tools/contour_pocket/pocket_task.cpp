@@ -5,10 +5,10 @@
 #include <cmath>
 #include <cstdio>
 
+#include "host_tools/clearing/floor_coverage.hpp"
 #include "host_tools/contour_pocket/floor_path.hpp"
 #include "host_tools/contour_pocket/nurbs_fit.hpp"
 #include "host_tools/offset/contour_fit.hpp"
-#include "host_tools/offset/edge_tree.hpp"
 #include "host_tools/offset/region_check.hpp"
 
 namespace cusp::host {
@@ -119,43 +119,11 @@ Region2d make_region(const Operation& operation, double tolerance)
     return region;
 }
 
-namespace {
-
-// Places inside walls: one whole surface that lies under all of them lies under what is between.
-void check_inside(const Operation& operation, const Region2d& region, const TipFloor& floor)
-{
-    constexpr double kMostPlaces = 250.0;  // a side
-    const Box2d box = box_of(region);
-    const double longest = std::max(box.x1 - box.x0, box.y1 - box.y0);
-    const double spacing = std::max(0.25 * operation.tool.radius, longest / kMostPlaces);
-    const EdgeTree walls{edges_of(region)};
-    for (double x = box.x0 + 0.5 * spacing; x < box.x1; x += spacing) {
-        for (double y = box.y0 + 0.5 * spacing; y < box.y1; y += spacing) {
-            if (!floor.covers({x, y}) && walls.surrounds({x, y})) {
-                refuse_uncovered(operation, {x, y});
-            }
-        }
-    }
-}
-
-}  // namespace
-
 void check_coverage(const Operation& operation, const Region2d& region, const TipFloor& floor)
 {
-    const double spacing = operation.tool.radius;
-    for (const Contour& contour : region.contours) {
-        for (const Edge& edge : contour) {
-            const int n = 1 + static_cast<int>(length(edge) / spacing);
-            for (int i = 0; i < n; ++i) {
-                const Vec2d p = point_on(edge, static_cast<double>(i) / n);
-                if (!floor.covers(p)) {
-                    refuse_uncovered(operation, p);
-                }
-            }
-        }
-    }
-    if (operation.floor.size() > 1 || !operation.floor.front().trims.empty()) {
-        check_inside(operation, region, floor);
+    const bool inside = operation.floor.size() > 1 || !operation.floor.front().trims.empty();
+    if (const auto place = uncovered_place(region, floor, operation.tool.radius, inside)) {
+        refuse_uncovered(operation, *place);
     }
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "host_tools/surface_offset/bezier_cell.hpp"
+#include "host_tools/surface_offset/trim_region.hpp"
 
 namespace cusp::host {
 namespace {
@@ -128,6 +129,14 @@ FloorBend::FloorBend(const std::vector<Surface>& floor, double reach)
                        {fold_u(patch.u_begin), fold_u(patch.u_end), fold_v(patch.v_begin),
                         fold_v(patch.v_end)},
                        0);
+        }
+        // A trimmed surface ends at its trims too.
+        const double edge_error = reach / 64;
+        const TrimRegion trims{s, edge_error};
+        for (const auto& [a, b] : trims.edges()) {
+            folds.sharp.push_back({std::min(a.x, b.x) - edge_error, std::min(a.y, b.y) - edge_error,
+                                   std::max(a.x, b.x) + edge_error,
+                                   std::max(a.y, b.y) + edge_error});
         }
         ++number;
     }

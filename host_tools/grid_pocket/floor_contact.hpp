@@ -14,7 +14,7 @@ namespace cusp::host {
 // faster.
 class FloorContact {
 public:
-    // surfaces   the floor; a ball honours its trims, a flat end stands on what was trimmed away
+    // surfaces   the floor; its trims are honoured
     // model      of the same surfaces, shared by all balls
     // accuracy   mm, > 0: how much too high a flat end's answers may be (never too low)
     FloorContact(const std::vector<Surface>& surfaces,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "host_tools/clearing/floor_coverage.hpp"
 #include "host_tools/offset/contour_fit.hpp"
 #include "host_tools/offset/region_check.hpp"
 
@@ -147,6 +148,18 @@ PocketWalls pocket_walls(const Job& job, const Operation& operation)
                                     std::to_string(static_cast<long long>(kMostCells)));
     }
     return walls;
+}
+
+void check_grid_floor(const Job& job, const Operation& operation, const Region2d& region)
+{
+    const bool inside = operation.floor.size() > 1 || !operation.floor.front().trims.empty();
+    const TipFloor floor{operation.floor, operation.tool, 0.01};
+    if (const auto at = uncovered_place(region, floor, operation.tool.radius, inside)) {
+        const std::string file =
+            operation.floor_files.empty() ? "floor" : operation.floor_files.front();
+        refuse_grid_pocket(job, file + ": the floor does not cover the pocket at x " +
+                                    length_text(job, at->x) + ", y " + length_text(job, at->y));
+    }
 }
 
 }  // namespace cusp::host

@@ -24,4 +24,7 @@ struct PocketWalls {
 };
 PocketWalls pocket_walls(const Job& job, const Operation& operation);
 
+// Refuses a pocket with a place that no floor lies under, or only one that is trimmed away.
+void check_grid_floor(const Job& job, const Operation& operation, const Region2d& region);
+
 }  // namespace cusp::host

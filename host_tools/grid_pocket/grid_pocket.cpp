@@ -57,6 +57,7 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
     const auto start = std::chrono::steady_clock::now();
     check_grid_input(job, operation);
     const PocketWalls walls = pocket_walls(job, operation);
+    check_grid_floor(job, operation, walls.region);
     PocketSpace pocket{job, operation, walls};
     const std::size_t cells = pocket.grid.count_inside();
     if (pocket.centres.contours.empty()) {

@@ -57,7 +57,9 @@ void set_height(HullPatch& patch)
 
 HullPatch from_net(const Net& net, int degree_u, int degree_v)
 {
-    HullPatch patch{degree_u, degree_v, {}, {}, 0, 0};
+    HullPatch patch;
+    patch.degree_u = degree_u;
+    patch.degree_v = degree_v;
     for (const Homogeneous& h : net) {
         patch.points.push_back(h.point / h.weight);
         patch.weights.push_back(h.weight);
@@ -94,35 +96,86 @@ void collect(const HullPatch& patch, double plane, int levels, std::vector<Recta
     }
 }
 
+// Adds the patch, unless it is trimmed away.
+void add_kept(HullPatch patch, std::vector<HullPatch>& out)
+{
+    if (patch.trims) {
+        const TrimRegion::Part part =
+            patch.trims->part(patch.u[0], patch.u[1], patch.v[0], patch.v[1]);
+        if (part == TrimRegion::Part::kOutside) {
+            return;
+        }
+        if (part == TrimRegion::Part::kInside) {
+            patch.trims.reset();
+        }
+    }
+    out.push_back(std::move(patch));
+}
+
+// Quarters that no edge crosses stay whole.
+void add_fitted(HullPatch patch, int levels, std::vector<HullPatch>& out)
+{
+    std::vector<HullPatch> kept;
+    add_kept(std::move(patch), kept);
+    for (HullPatch& piece : kept) {
+        if (!piece.trims || levels == 0) {
+            out.push_back(std::move(piece));
+            continue;
+        }
+        for (HullPatch& quarter : quarters(piece)) {
+            add_fitted(std::move(quarter), levels - 1, out);
+        }
+    }
+}
+
 }  // namespace
 
 std::vector<HullPatch> hull_patches(const std::vector<Surface>& surfaces)
 {
+    constexpr int kTrimLevels = 4;
     std::vector<HullPatch> out;
     for (const Surface& surface : surfaces) {
+        const auto trims = surface.trims.empty()
+                               ? nullptr
+                               : std::make_shared<const TrimRegion>(surface, kTrimError);
         for (BezierPatch& piece : bezier_patches(surface)) {
-            out.push_back({piece.surface.degree_u, piece.surface.degree_v,
-                           std::move(piece.surface.points), std::move(piece.surface.weights), 0,
-                           0});
-            set_height(out.back());
+            HullPatch patch{piece.surface.degree_u,
+                            piece.surface.degree_v,
+                            std::move(piece.surface.points),
+                            std::move(piece.surface.weights),
+                            0,
+                            0,
+                            trims,
+                            {piece.u_begin, piece.u_end},
+                            {piece.v_begin, piece.v_end}};
+            set_height(patch);
+            add_fitted(std::move(patch), kTrimLevels, out);
         }
     }
     return out;
 }
 
-std::array<HullPatch, 4> quarters(const HullPatch& patch)
+std::vector<HullPatch> quarters(const HullPatch& patch)
 {
     Net net(patch.points.size());
     for (std::size_t i = 0; i < net.size(); ++i) {
         net[i] = {patch.points[i] * patch.weights[i], patch.weights[i]};
     }
     const auto along_u = halves(net, patch.degree_u, patch.degree_v, true);
-    const auto low = halves(along_u[0], patch.degree_u, patch.degree_v, false);
-    const auto high = halves(along_u[1], patch.degree_u, patch.degree_v, false);
-    const auto piece = [&](const Net& quarter) {
-        return from_net(quarter, patch.degree_u, patch.degree_v);
-    };
-    return {piece(low[0]), piece(low[1]), piece(high[0]), piece(high[1])};
+    const std::array<double, 3> u{patch.u[0], (patch.u[0] + patch.u[1]) / 2, patch.u[1]};
+    const std::array<double, 3> v{patch.v[0], (patch.v[0] + patch.v[1]) / 2, patch.v[1]};
+    std::vector<HullPatch> out;
+    for (std::size_t i = 0; i < 2; ++i) {
+        const auto along_v = halves(along_u[i], patch.degree_u, patch.degree_v, false);
+        for (std::size_t j = 0; j < 2; ++j) {
+            HullPatch quarter = from_net(along_v[j], patch.degree_u, patch.degree_v);
+            quarter.trims = patch.trims;
+            quarter.u = {u[i], u[i + 1]};
+            quarter.v = {v[j], v[j + 1]};
+            add_kept(std::move(quarter), out);
+        }
+    }
+    return out;
 }
 
 Rectangle plan_box(const HullPatch& patch)

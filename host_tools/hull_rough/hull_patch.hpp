@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "host_tools/hull_rough/box_union.hpp"
 #include "host_tools/nurbs/nurbs.hpp"
+#include "host_tools/surface_offset/trim_region.hpp"
 
 namespace cusp::host {
 
@@ -18,14 +20,22 @@ struct HullPatch {
     std::vector<double> weights;
     double bottom{};  // least and greatest z of the control points
     double top{};
+    std::shared_ptr<const TrimRegion> trims{};  // none where no edge of its surface crosses it
+    std::array<double, 2> u{};                  // the patch in its surface's domain
+    std::array<double, 2> v{};
 };
 
-// The Bezier patches of all surfaces. Trims are not looked at: a trimmed part is kept whole, which
-// leaves metal but never cuts any.
+// How far from the true edge of a trimmed surface a piece may be taken to be trimmed away, mm: the
+// tolerance that every layer keeps is larger.
+constexpr double kTrimError = 5e-4;
+
+// The Bezier patches of all surfaces. Patches that are trimmed away are left out; those that an
+// edge crosses are quartered up to four times, and the quarters that are trimmed away left out.
 std::vector<HullPatch> hull_patches(const std::vector<Surface>& surfaces);
 
-// The four quarters of a patch, by de Casteljau at the middle of both parameters.
-std::array<HullPatch, 4> quarters(const HullPatch& patch);
+// The quarters of a patch, by de Casteljau at the middle of both parameters, without those that are
+// trimmed away.
+std::vector<HullPatch> quarters(const HullPatch& patch);
 
 // Plan view of the convex hull box.
 Rectangle plan_box(const HullPatch& patch);

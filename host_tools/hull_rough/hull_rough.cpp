@@ -96,11 +96,15 @@ struct Stock {
     double bottom;
 };
 
-// The box of all hulls, widened to the job's stock and raised to its top where that is higher.
-Stock stock_of(const Job& job, const std::vector<HullPatch>& patches)
+// The box of all hulls, of what is trimmed away too, widened to the job's stock and raised to its
+// top where that is higher.
+Stock stock_of(const Job& job, std::vector<Surface> surfaces)
 {
-    Stock stock{plan_box(patches.front()), patches.front().top, patches.front().bottom};
-    for (const HullPatch& patch : patches) {
+    Stock stock{{1e300, 1e300, -1e300, -1e300}, -1e300, 1e300};
+    for (Surface& surface : surfaces) {
+        surface.trims.clear();
+    }
+    for (const HullPatch& patch : hull_patches(surfaces)) {
         const Rectangle box = plan_box(patch);
         stock.plan = {std::min(stock.plan.x_min, box.x_min), std::min(stock.plan.y_min, box.y_min),
                       std::max(stock.plan.x_max, box.x_max), std::max(stock.plan.y_max, box.y_max)};
@@ -188,8 +192,9 @@ struct Roughing {
     double deepest_cut() const
     {
         double deepest = thickness(0);
+        const bool round = std::any_of(tools.begin(), tools.end(),
+                                       [](const Tool& t) { return t.corner_radius > 0; });
         for (std::size_t layer = 1; layer < layers(); ++layer) {
-            const bool round = tools[choice.of_layer[layer - 1]].corner_radius > 0;
             deepest = std::max(deepest, thickness(layer) + (round ? ridge(layer - 1) : 0.0));
         }
         return deepest;
@@ -248,8 +253,10 @@ public:
 
     void clear_rest(std::size_t layer, std::size_t large, std::size_t zone_tool_above)
     {
-        add(rest_runs(work_.clearings[layer][tool_], work_.tools[tool_].radius,
-                      work_.clearings[layer][large], work_.tools[large].radius),
+        const Tool& tool = work_.tools[tool_];
+        const double nested = nested_reach(work_.tools[large], tool, work_.ridge(layer));
+        add(rest_runs(work_.clearings[layer][tool_], tool.radius, work_.clearings[layer][large],
+                      nested),
             layer, zone_tool_above);
     }
 
@@ -333,12 +340,6 @@ std::vector<PlannedOperation> write_groups(const Roughing& work)
     return out;
 }
 
-bool trimmed(const Operation& operation)
-{
-    return std::any_of(operation.floor.begin(), operation.floor.end(),
-                       [](const Surface& s) { return !s.trims.empty(); });
-}
-
 void report(const Roughing& work, std::vector<PlannedOperation>& out, double seconds)
 {
     double thinnest = 1e300;
@@ -409,10 +410,6 @@ void report(const Roughing& work, std::vector<PlannedOperation>& out, double sec
             stats.warnings.push_back(text(left) + " mm2 of layers are left uncleared, first at " +
                                      left_place);
         }
-        if (trimmed(work.operation)) {
-            stats.warnings.push_back(
-                "trims are not looked at: what was trimmed away stays under its hull");
-        }
         operation.path.comments = {"hull_rough: " + std::to_string(work.layers()) + " layers of " +
                                    text(thinnest) + " to " + text(thickest) +
                                    " mm, no overcut by the hull of " +
@@ -433,7 +430,10 @@ std::vector<PlannedOperation> plan_hull_rough(const Job& job, const Operation& o
               [](const Tool& a, const Tool& b) { return a.radius > b.radius; });
     check(job, operation, tools);
     std::vector<HullPatch> patches = hull_patches(operation.floor);
-    const Stock stock = stock_of(job, patches);
+    if (patches.empty()) {
+        refuse(job, "the trims of the floor leave nothing of it");
+    }
+    const Stock stock = stock_of(job, operation.floor);
     const DepthLimits limits = depth_limits(job, operation, tools.back());
     LayerPlan plan = planned_layers(job, operation, std::move(patches), stock, limits);
     Roughing work{job, operation, std::move(tools), stock, std::move(plan), limits.most, {}, {},

@@ -321,15 +321,46 @@ LayerClearing clear_layer(const std::vector<Rectangle>& boxes,
     return out;
 }
 
+double nested_reach(const Tool& large, const Tool& small, double ridge)
+{
+    constexpr int kPlaces = 64;
+    const auto fits = [&](double apart) {
+        for (int i = 0; i <= kPlaces; ++i) {
+            const double at = small.radius * i / kPlaces;
+            const double from_large = std::min(large.radius, at + apart);
+            if (profile_height(large, from_large) > profile_height(small, at) + ridge) {
+                return false;
+            }
+        }
+        return true;
+    };
+    if (small.radius > large.radius || !fits(0)) {
+        return -1;
+    }
+    double held = 0;
+    double open = large.radius - small.radius;
+    if (fits(open)) {
+        return open;
+    }
+    for (int i = 0; i < 30; ++i) {
+        const double middle = (held + open) / 2;
+        (fits(middle) ? held : open) = middle;
+    }
+    return held;
+}
+
 std::vector<LevelRun> rest_runs(const LayerClearing& clearing,
                                 double radius,
                                 const LayerClearing& large,
-                                double large_radius)
+                                double nested)
 {
-    // A point is done where its cutter lies inside one of the large cutter's places. Between
-    // looked-at points the distance changes by no more than the way between them.
+    if (nested < 0) {
+        return clearing.runs;
+    }
+    // A point is done where one of the large cutter's places is so near. Between looked-at points
+    // the distance changes by no more than the way between them.
     const double step = radius / 8;
-    const double reach = large_radius - radius - step;
+    const double reach = nested - step;
     std::vector<LevelRun> out;
     for (const LevelRun& run : clearing.runs) {
         LevelRun part;

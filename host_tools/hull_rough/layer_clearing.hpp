@@ -43,11 +43,16 @@ LayerClearing clear_layer(const std::vector<Rectangle>& boxes,
                           double radius,
                           const LayerSettings& settings);
 
-// The parts of the runs where a cutter of the smaller `radius` takes metal that one of
-// `large_radius` left when it cleared `large`.
+// How far from an axis of the large cutter that of the small one may stand on the same level and
+// meet nothing higher than `ridge` (mm, >= 0) that the large one left; below 0 where it meets more
+// everywhere, as a flat end does under a ball.
+double nested_reach(const Tool& large, const Tool& small, double ridge);
+
+// The parts of the runs where the cutter takes metal that a larger one left when it cleared
+// `large`. `nested`: of the two, from nested_reach().
 std::vector<LevelRun> rest_runs(const LayerClearing& clearing,
                                 double radius,
                                 const LayerClearing& large,
-                                double large_radius);
+                                double nested);
 
 }  // namespace cusp::host

@@ -7,6 +7,7 @@
 
 #include "host_tools/import/job.hpp"
 #include "tests/property/offset/random_regions.hpp"
+#include "tests/support/loops.hpp"
 
 namespace cusp::host {
 
@@ -44,6 +45,17 @@ inline Surface random_floor(Random& random, const Box2d& box, double middle, dou
         }
     }
     return s;
+}
+
+// Trims the surface to a smaller square with a hole. The domain is that of even_knots().
+inline void trim(Random& random, Surface& surface)
+{
+    const double low = uniform(random, 0.02, 0.2);
+    const double high = uniform(random, 0.8, 0.98);
+    const double hole = uniform(random, 0.05, 0.25);
+    surface.trims = {
+        loop_of({{low, low}, {high, low}, {high, high}, {low, high}}),
+        loop_of({{0.5, 0.5 - hole}, {0.5 - hole, 0.5}, {0.5, 0.5 + hole}, {0.5 + hole, 0.5}})};
 }
 
 inline Tool random_tool(Random& random)

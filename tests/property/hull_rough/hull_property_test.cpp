@@ -64,6 +64,11 @@ Job random_model(Random& random)
     Operation operation;
     operation.strategy = "hull_rough";
     operation.floor = random_surfaces(random);
+    for (Surface& surface : operation.floor) {
+        if (whole(random, 0, 3) == 0) {
+            trim(random, surface);
+        }
+    }
     operation.tool = random_tool(random);
     if (whole(random, 0, 1) == 0) {
         Tool small = operation.tool;

@@ -6,6 +6,7 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "tests/support/loops.hpp"
 #include "tests/support/tap.hpp"
 
 using namespace cusp::host;
@@ -87,4 +88,28 @@ TEST(HullPatch, CountsAPartThatOnlyTouchesThePlaneFromAbove)
     // The rim lies in the plane itself: the hull above the plane reaches down to it.
     const auto boxes = boxes_above(hull_patches({tap()}), 0, 3);
     CHECK(covered(boxes, {26, -23.9, 0}));
+}
+
+TEST(HullPatch, OfATrimmedSurfaceCoverWhatIsLeftAndNotMuchMore)
+{
+    constexpr unsigned kSeed = 32;
+    std::printf("HullPatch seed %u\n", kSeed);
+    std::mt19937 random{kSeed};
+    std::uniform_real_distribution<double> parameter{0, 1};
+    for (int round = 0; round < 20; ++round) {
+        Surface surface = random_surface(random);
+        surface.trims = {loop_of({{0.3, 0.2}, {0.9, 0.2}, {0.9, 0.8}, {0.3, 0.8}}),
+                         loop_of({{0.6, 0.4}, {0.5, 0.5}, {0.6, 0.6}, {0.7, 0.5}})};
+        const TrimRegion trims{surface, 1e-4};
+        const auto patches = hull_patches({surface});
+        for (int levels = 0; levels <= 3; ++levels) {
+            const auto boxes = boxes_above(patches, -1e3, levels);
+            for (int k = 0; k < 200; ++k) {
+                const double u = parameter(random);
+                const double v = parameter(random);
+                CHECK(!trims.inside(u, v) || covered(boxes, point_at(surface, u, v)));
+            }
+            CHECK_FALSE(covered(boxes, point_at(surface, 0.05, 0.05)));
+        }
+    }
 }
