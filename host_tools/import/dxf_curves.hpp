@@ -1,5 +1,6 @@
 // Curves from DXF drawings: LINE, ARC, CIRCLE, ELLIPSE, LWPOLYLINE and POLYLINE with bulges,
-// SPLINE.
+// SPLINE, and blocks of them where INSERT draws them: moved, turned, scaled, mirrored, in arrays,
+// in each other.
 #pragma once
 
 #include <string>
@@ -15,8 +16,10 @@ namespace cusp::host {
 //
 // Returns the curves of the ENTITIES section, put in order where each continues the one before,
 // as drawings keep no order; arcs become rational quadratics, exactly.
-// Errors: InputError with the line of the file: no DXF, broken numbers, an entity of another kind
-// (hatches, text and dimensions are skipped), a mesh, a spline without control points.
+// What a block has on layer "0" is on the layer of its INSERT.
+// Errors: InputError with the line of the file: no DXF, an unknown block, blocks more than 16 deep,
+// broken numbers, an entity of another kind (hatches, text and dimensions are skipped), a mesh, a
+// spline without control points.
 std::vector<Curve> read_dxf_curves(const std::string& file,
                                    double millimetres,
                                    const std::string& layer = "");

@@ -165,3 +165,93 @@ TEST(DxfCurves, LeaveHiddenLayersOutAndTakeTheLayerAskedFor)
     STRCMP_CONTAINS("no curve on the layer \"holes\"",
                     refusal([&] { read_loop(file + "#holes"); }).c_str());
 }
+
+namespace {
+
+std::string with_blocks(const std::string& blocks, const std::string& entities)
+{
+    return "0\nSECTION\n2\nBLOCKS\n" + blocks + "0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" + entities +
+           "0\nENDSEC\n0\nEOF\n";
+}
+
+std::string block(const std::string& name, const std::string& entities)
+{
+    return "0\nBLOCK\n8\n0\n2\n" + name + "\n10\n1\n20\n0\n" + entities + "0\nENDBLK\n8\n0\n";
+}
+
+std::string insert(const std::string& name, const std::string& groups)
+{
+    return "0\nINSERT\n8\n0\n2\n" + name + "\n" + groups;
+}
+
+const std::string kSquare = line("1", "0", "3", "0") + line("3", "0", "3", "2") +
+                            line("3", "2", "1", "2") + line("1", "2", "1", "0");
+
+}  // namespace
+
+TEST(DxfCurves, DrawBlocksWhereTheyAreInserted)
+{
+    // The base point (1, 0) comes to (10, 20), turned by a quarter.
+    const std::string text = with_blocks(
+        block("Square", kSquare),
+        insert("SQUARE", "10\n10\n20\n20\n41\n2\n42\n3\n50\n90\n0\nATTRIB\n1\nname\n0\nSEQEND\n"));
+    const Loop loop = read_loop(folder.write("d.dxf", text));
+    DOUBLES_EQUAL(24, signed_area(loop_polyline(loop, 1e-5)), 1e-9);
+    for (const Curve& curve : loop) {
+        for (const Vec3d& p : curve.points) {
+            CHECK(std::abs(p.x - 10) < 1e-9 || std::abs(p.x - 4) < 1e-9);
+            CHECK(std::abs(p.y - 20) < 1e-9 || std::abs(p.y - 24) < 1e-9);
+        }
+    }
+}
+
+TEST(DxfCurves, ScaleCirclesOfBlocksToEllipsesAndNestThem)
+{
+    const std::string text =
+        with_blocks(block("inner", "0\nCIRCLE\n8\n0\n10\n1\n20\n0\n40\n1\n") +
+                        block("outer", insert("inner", "10\n1\n20\n0\n41\n-2\n42\n3\n50\n30\n")),
+                    insert("outer", "10\n5\n20\n6\n41\n2\n42\n2\n"));
+    const Loop loop = read_loop(folder.write("d.dxf", text));
+    DOUBLES_EQUAL(24 * kPi, signed_area(loop_polyline(loop, 1e-5)), 1e-2);
+}
+
+TEST(DxfCurves, RepeatBlocksInArrays)
+{
+    const std::string text =
+        with_blocks(block("dot", "0\nCIRCLE\n8\n0\n10\n1\n20\n0\n40\n1\n"),
+                    insert("dot", "10\n0\n20\n0\n70\n3\n71\n2\n44\n5\n45\n7\n"));
+    const auto curves = read_dxf_curves(folder.write("d.dxf", text), 1);
+    CHECK_EQUAL(6U, curves.size());
+    double sum = 0;
+    for (const Curve& curve : curves) {
+        sum += curve.points.front().x - 1;
+    }
+    DOUBLES_EQUAL(2 * (0 + 5 + 10), sum, 1e-9);
+}
+
+TEST(DxfCurves, PutLayerZeroOfABlockOnTheLayerOfItsReference)
+{
+    const std::string text =
+        with_blocks(block("square", kSquare + "0\nCIRCLE\n8\nother\n10\n9\n20\n9\n40\n1\n"),
+                    "0\nINSERT\n8\ncut\n2\nsquare\n10\n0\n20\n0\n" + line("50", "50", "60", "60"));
+    CHECK_EQUAL(4U, read_dxf_curves(folder.write("d.dxf", text), 1, "cut").size());
+    CHECK_EQUAL(1U, read_dxf_curves(folder.write("d.dxf", text), 1, "other").size());
+    CHECK_EQUAL(6U, read_dxf_curves(folder.write("d.dxf", text), 1).size());
+}
+
+TEST(DxfCurves, RefuseReferencesThatCannotBeDrawn)
+{
+    const std::string at = "10\n0\n20\n0\n";
+    STRCMP_CONTAINS("no such block",
+                    refused(with_blocks(block("a", kSquare), insert("b", at))).c_str());
+    STRCMP_CONTAINS("more than 16 deep",
+                    refused(with_blocks(block("a", insert("a", at)), insert("a", at))).c_str());
+    STRCMP_CONTAINS("scale 0, 1",
+                    refused(with_blocks(block("a", kSquare), insert("a", at + "41\n0\n"))).c_str());
+    STRCMP_CONTAINS("more than 100000 curves",
+                    refused(with_blocks(block("a", kSquare),
+                                        insert("a", at + "70\n60000\n71\n60000\n44\n1\n45\n1\n")))
+                        .c_str());
+    STRCMP_CONTAINS("without group 10",
+                    refused(with_blocks(block("a", kSquare), insert("a", "20\n0\n"))).c_str());
+}

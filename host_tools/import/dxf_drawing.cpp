@@ -1,0 +1,217 @@
+// Sections are found by their names; unknown ones are passed over.
+#include "host_tools/import/dxf_drawing.hpp"
+
+#include <cctype>
+#include <charconv>
+#include <cmath>
+
+#include "host_tools/import/text_of_file.hpp"
+#include "host_tools/input_error/input_error.hpp"
+
+#include "fmt/format.h"
+
+namespace cusp::host {
+namespace {
+
+std::string_view trimmed(std::string_view text)
+{
+    const auto first = text.find_first_not_of(" \t\r");
+    const auto last = text.find_last_not_of(" \t\r");
+    return first == std::string_view::npos ? std::string_view{}
+                                           : text.substr(first, last - first + 1);
+}
+
+std::string upper(std::string_view text)
+{
+    std::string out{text};
+    std::transform(out.begin(), out.end(), out.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    return out;
+}
+
+}  // namespace
+
+DxfDrawing::DxfDrawing(std::string file, double millimetres)
+    : file_{std::move(file)}, text_{text_of_file(file_)}, unit_{millimetres}
+{
+    groups_ = groups();
+    read_unit();
+    read_layers();
+    read_blocks();
+    bool found = false;
+    entities_ = section("ENTITIES", found);
+    if (!found) {
+        throw InputError(file_ + ": no DXF drawing with an ENTITIES section");
+    }
+}
+
+void DxfDrawing::refuse(int line, const std::string& reason) const
+{
+    throw InputError(fmt::format("{}:{}: {}", file_, line, reason));
+}
+
+std::vector<DxfGroup> DxfDrawing::groups() const
+{
+    std::vector<DxfGroup> out;
+    std::string_view rest{text_};
+    int line = 0;
+    const auto next = [&] {
+        const std::size_t end = std::min(rest.find('\n'), rest.size());
+        const std::string_view text = trimmed(rest.substr(0, end));
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+        ++line;
+        return text;
+    };
+    while (!rest.empty()) {
+        const std::string_view code = next();
+        if (code.empty() && rest.empty()) {
+            break;
+        }
+        int number = 0;
+        const auto [end, error] = std::from_chars(code.data(), code.data() + code.size(), number);
+        if (error != std::errc{} || end != code.data() + code.size()) {
+            refuse(line, fmt::format("\"{}\" is no DXF group code", code.substr(0, 40)));
+        }
+        if (rest.empty()) {
+            refuse(line, "the drawing ends after a group code");
+        }
+        const std::string_view text = next();
+        out.push_back({number, text, line});
+    }
+    return out;
+}
+
+// The objects of one section, each from its code 0 on.
+std::vector<DxfEntity> DxfDrawing::section(std::string_view wanted, bool& found) const
+{
+    std::vector<DxfEntity> out;
+    bool inside = false;
+    bool names_section = false;
+    for (const DxfGroup& group : groups_) {
+        if (names_section && group.code == 2) {
+            inside = group.value == wanted;
+            found = found || inside;
+        }
+        names_section = group.code == 0 && group.value == "SECTION";
+        if (group.code == 0 && group.value == "ENDSEC") {
+            inside = false;
+        } else if (inside && group.code == 0) {
+            out.push_back({group.value, group.line, {}});
+        } else if (inside && !out.empty()) {
+            out.back().groups.push_back(group);
+        }
+    }
+    return out;
+}
+
+void DxfDrawing::read_unit()
+{
+    bool asked = false;
+    for (const DxfGroup& group : groups_) {
+        if (group.code == 9) {
+            asked = group.value == "$INSUNITS";
+        } else if (asked && group.code == 70) {
+            constexpr double kInches = 1;
+            constexpr double kMillimetres = 4;
+            constexpr double kInch = 25.4;
+            const double unit = number(group);
+            unit_ = unit == kInches ? kInch : unit == kMillimetres ? 1.0 : unit_;
+            return;
+        } else if (group.code == 0 && group.value == "ENDSEC") {
+            return;  // of the header, the first section
+        }
+    }
+}
+
+void DxfDrawing::read_layers()
+{
+    bool found = false;
+    for (const DxfEntity& table : section("TABLES", found)) {
+        if (table.type != "LAYER") {
+            continue;
+        }
+        const bool frozen = (flags(table, 70) & 1U) != 0;
+        if (frozen || value(table, 62, 1) < 0) {
+            hidden_.insert(text(table, 2, ""));
+        }
+    }
+}
+
+void DxfDrawing::read_blocks()
+{
+    bool found = false;
+    DxfBlock* open = nullptr;
+    for (DxfEntity& entity : section("BLOCKS", found)) {
+        if (entity.type == "BLOCK") {
+            const std::string name = upper(text(entity, 2, ""));
+            open = &blocks_[name];
+            *open = {std::move(entity), {}};
+        } else if (entity.type == "ENDBLK") {
+            open = nullptr;
+        } else if (open != nullptr) {
+            open->entities.push_back(std::move(entity));
+        }
+    }
+}
+
+const DxfBlock* DxfDrawing::block(std::string_view name) const
+{
+    const auto at = blocks_.find(upper(name));
+    return at == blocks_.end() ? nullptr : &at->second;
+}
+
+std::string_view DxfDrawing::text(const DxfEntity& entity, int code, std::string_view otherwise)
+{
+    for (const DxfGroup& group : entity.groups) {
+        if (group.code == code) {
+            return group.value;
+        }
+    }
+    return otherwise;
+}
+
+double DxfDrawing::number(const DxfGroup& group) const
+{
+    double value = 0;
+    const char* end = group.value.data() + group.value.size();
+    const char* begin = group.value.data();
+    begin += begin != end && *begin == '+' ? 1 : 0;
+    const auto [stop, error] = std::from_chars(begin, end, value);
+    if (error != std::errc{} || stop != end || !std::isfinite(value)) {
+        refuse(group.line, fmt::format("\"{}\" is not a number", group.value.substr(0, 40)));
+    }
+    return value;
+}
+
+double DxfDrawing::value(const DxfEntity& entity, int code, double otherwise) const
+{
+    for (const DxfGroup& group : entity.groups) {
+        if (group.code == code) {
+            return number(group);
+        }
+    }
+    return otherwise;
+}
+
+double DxfDrawing::required(const DxfEntity& entity, int code) const
+{
+    const bool there = std::any_of(entity.groups.begin(), entity.groups.end(),
+                                   [&](const DxfGroup& group) { return group.code == code; });
+    if (!there) {
+        refuse(entity.line, fmt::format("{} without group {}", entity.type, code));
+    }
+    return value(entity, code, 0);
+}
+
+std::vector<double> DxfDrawing::values(const DxfEntity& entity, int code) const
+{
+    std::vector<double> out;
+    for (const DxfGroup& group : entity.groups) {
+        if (group.code == code) {
+            out.push_back(number(group));
+        }
+    }
+    return out;
+}
+
+}  // namespace cusp::host

@@ -1,0 +1,78 @@
+// The objects of a DXF drawing: pairs of lines, a group code, then its value. Code 0 starts an
+// object.
+#pragma once
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace cusp::host {
+
+struct DxfGroup {
+    int code;
+    std::string_view value;
+    int line;  // of the value
+};
+
+struct DxfEntity {
+    std::string_view type;
+    int line;
+    std::vector<DxfGroup> groups;
+};
+
+// A named group of objects that INSERT draws again.
+struct DxfBlock {
+    DxfEntity head;  // with its base point
+    std::vector<DxfEntity> entities;
+};
+
+// Reads a file; what it hands out stays valid as long as it does. All errors are InputError with
+// file and line.
+class DxfDrawing {
+public:
+    // millimetres  of one unit, where $INSUNITS doesn't name millimetres or inches
+    DxfDrawing(std::string file, double millimetres);
+    DxfDrawing(const DxfDrawing&) = delete;
+    DxfDrawing& operator=(const DxfDrawing&) = delete;
+
+    const std::vector<DxfEntity>& entities() const { return entities_; }
+    // Names are the same whatever their case; none: nullptr.
+    const DxfBlock* block(std::string_view name) const;
+    double unit() const { return unit_; }  // mm
+    // Layers that are switched off or frozen draw nothing.
+    bool hidden(std::string_view layer) const { return hidden_.count(layer) > 0; }
+
+    static std::string_view text(const DxfEntity& entity, int code, std::string_view otherwise);
+    double number(const DxfGroup& group) const;
+    double value(const DxfEntity& entity, int code, double otherwise) const;
+    double required(const DxfEntity& entity, int code) const;
+    std::vector<double> values(const DxfEntity& entity, int code) const;
+    // A whole number from 0 to 65535, where others would be cut off.
+    unsigned flags(const DxfEntity& entity, int code, unsigned otherwise = 0) const
+    {
+        constexpr double kMost = 65535;
+        return static_cast<unsigned>(std::clamp(value(entity, code, otherwise), 0.0, kMost));
+    }
+    [[noreturn]] void refuse(int line, const std::string& reason) const;
+    const std::string& file() const { return file_; }
+
+private:
+    std::vector<DxfGroup> groups() const;
+    std::vector<DxfEntity> section(std::string_view wanted, bool& found) const;
+    void read_unit();
+    void read_layers();
+    void read_blocks();
+
+    std::string file_;
+    std::string text_;
+    double unit_;
+    std::vector<DxfGroup> groups_;
+    std::set<std::string_view> hidden_;
+    std::map<std::string, DxfBlock> blocks_;
+    std::vector<DxfEntity> entities_;
+};
+
+}  // namespace cusp::host
