@@ -2,8 +2,9 @@
 // clocks, its flash controller and most of its timers): all that differs from the chip stands here.
 //
 // Arguments (-semihosting-config arg=...): `program FILE`, `script FILE`, `trace FILE`, `real`.
-// With a program the run is deterministic: the main loop runs until nothing is left to do, then
-// comes one servo tick, and so on to the program's end. Without one the serial line is live.
+// With a program the run is that of the simulator: the main loop runs until nothing is left to do,
+// then comes one servo tick, and so on to the program's end; with `real` the servo tick interrupts
+// the main loop instead, each millisecond. Without a program the serial line is live.
 #pragma once
 
 #include <cstdint>
@@ -61,11 +62,15 @@ struct QemuTraits {
     template <class Board, class Application>
     [[noreturn]] static void run(Board& board, Application& application) noexcept
     {
-        if (board.byte_link.program().is_open()) {
+        const bool has_program = board.byte_link.program().is_open();
+        if (has_program && !board.pulse_player.real_pace()) {
             hal::qemu::exit_qemu(run_program(board, application));
         }
         live_ = true;
         hal::stm32f4::pend_servo_tick<Chip>();
+        if (has_program) {
+            hal::qemu::exit_qemu(play_program(board, application));
+        }
         for (;;) {
             if (!application.poll()) {
                 idle();
@@ -116,6 +121,39 @@ private:
         while (!board.pulse_player.silent()) {
             idle();
         }
+        board.pulse_player.trace().flush();
+        return program.refused() ? 1 : 0;
+    }
+
+    // A program at its real pace: the servo tick interrupts planning, as on the chip.
+    template <class Board, class Application>
+    static std::uint32_t play_program(Board& board, Application& application) noexcept
+    {
+        auto& program = board.byte_link.program();
+        const machine::Machine& machine = application.machine();
+        while (!program.refused() &&
+               !(program.finished() && machine.idle() && machine.motion().settled())) {
+            program.set_tick(board.pulse_player.frames());
+            if (application.poll()) {
+                continue;
+            }
+            if (held(machine) && !program.script_waits()) {
+                program.send('~');
+            } else {
+                idle();
+            }
+        }
+        while (!machine.motion().settled() && !held(machine)) {
+            if (!application.poll()) {
+                idle();
+            }
+        }
+        constexpr std::uint32_t kFramesInFlight = 3;
+        const std::uint32_t last = board.pulse_player.frames() + kFramesInFlight;
+        while (static_cast<std::int32_t>(board.pulse_player.frames() - last) < 0) {
+            idle();
+        }
+        __asm volatile("cpsid i" ::: "memory");
         board.pulse_player.trace().flush();
         return program.refused() ? 1 : 0;
     }

@@ -38,6 +38,9 @@ public:
         return !ready_[0].load(std::memory_order_acquire) &&
                !ready_[1].load(std::memory_order_acquire);
     }
+    // Frames and silences of a frame's length that have been played at the real pace; wraps.
+    std::uint32_t frames() const noexcept { return frames_played_.load(std::memory_order_relaxed); }
+    bool real_pace() const noexcept { return real_pace_; }
     // Whether try_play() would take a frame.
     bool has_room() const noexcept { return !ready_[filling_].load(std::memory_order_acquire); }
 
@@ -68,6 +71,7 @@ private:
     std::uint64_t frame_start_{0};  // ticks since the first frame
     PulseLines levels_{0};
     std::atomic<bool> underrun_{false};
+    std::atomic<std::uint32_t> frames_played_{0};
     bool real_pace_{false};
     bool active_{false};            // a frame plays
     std::uint32_t frame_clock_{0};  // timer 5 at the start of the frame that plays
@@ -185,6 +189,7 @@ bool EdgePlayer<Chip, Port, Trace>::finish_frame() noexcept
         return played;
     }
     frame_clock_ += kPulseTicksPerFrame * kNanosecondsPerTick;
+    frames_played_.store(frames() + 1, std::memory_order_relaxed);
     active_ = ready_[playing_].load(std::memory_order_acquire);
     if (was_moving && !active_) {
         stop();
