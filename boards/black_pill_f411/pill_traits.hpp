@@ -41,7 +41,7 @@ struct PillTraits : ChipStart<PillTraits> {
     static constexpr bool kTransmitInterrupt = true;
     static constexpr bool kSpindleTimer = true;
     static constexpr const PanelPins& kPanelPins = kPillPins;
-    static constexpr hal::stm32f4::ClockPlan kClocks{25000000, 100000000, 3, 1, 2};
+    static constexpr hal::stm32f4::ClockPlan kClocks{25000000, 100000000, 3, 1, 2, 3};
     static constexpr std::uint32_t kSpindleTimerHz = kClocks.slow_timer_hz();
     static constexpr std::uint32_t kBaud = 115200;
 };

@@ -22,7 +22,7 @@ struct MillTraits : ChipStart<MillTraits> {
     static constexpr bool kTransmitInterrupt = true;
     static constexpr bool kSpindleTimer = true;
     static constexpr const PanelPins& kPanelPins = kMillPins;
-    static constexpr hal::stm32f4::ClockPlan kClocks{8000000, 168000000, 5, 2, 4};
+    static constexpr hal::stm32f4::ClockPlan kClocks{8000000, 168000000, 5, 2, 4, 1};
     static constexpr std::uint32_t kSpindleTimerHz = kClocks.slow_timer_hz();
     static constexpr std::uint32_t kBaud = 115200;
 };

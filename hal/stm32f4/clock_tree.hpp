@@ -14,6 +14,7 @@ struct ClockPlan {
     std::uint32_t wait_states;       // of the flash at this rate and 3.3 V
     std::uint32_t fast_bus_divisor;  // 1 or 2
     std::uint32_t slow_bus_divisor;  // 2 or 4
+    std::uint32_t regulator_scale;   // VOS of PWR_CR that allows this rate: 1 (F405), 3 (F411)
 
     constexpr std::uint32_t fast_bus_hz() const { return core_hz / fast_bus_divisor; }
     constexpr std::uint32_t slow_bus_hz() const { return core_hz / slow_bus_divisor; }
@@ -47,9 +48,38 @@ bool wait_for(Word& word, std::uint32_t mask, std::uint32_t value) noexcept
     return false;
 }
 
+// Back to the chip's own oscillator, the multiplier off: its settings can't be changed while it
+// runs, as it does when a boot loader has started the firmware. RM0090 section 7.3.2.
+template <class Chip>
+bool stop_multiplier() noexcept
+{
+    constexpr std::uint32_t kOscillatorOn = 1U << 0U;
+    constexpr std::uint32_t kOscillatorReady = 1U << 1U;
+    constexpr std::uint32_t kMultiplierOn = 1U << 24U;
+    constexpr std::uint32_t kMultiplierReady = 1U << 25U;
+    auto& rcc = Chip::rcc();
+    set_bits(rcc.cr, kOscillatorOn);
+    bool done = wait_for(rcc.cr, kOscillatorReady, kOscillatorReady);
+    clear_bits(rcc.cfgr, 3U);
+    done = wait_for(rcc.cfgr, 3U << 2U, 0) && done;
+    clear_bits(rcc.cr, kMultiplierOn);
+    return wait_for(rcc.cr, kMultiplierReady, 0) && done;
+}
+
+// The core's voltage, which bounds its rate; takes effect when the multiplier starts. RM0090
+// section 5.4.1, RM0383 section 5.4.1.
+template <class Chip>
+void set_regulator(std::uint32_t scale) noexcept
+{
+    constexpr std::uint32_t kPowerClock = 1U << 28U;
+    set_bits(Chip::rcc().apb1enr, kPowerClock);
+    static_cast<void>(Chip::rcc().apb1enr.read());
+    set_bits(Chip::power().cr, scale << 14U);
+}
+
 }  // namespace detail
 
-// Sets the clocks up as planned. RM0090 section 7.3.
+// Sets the clocks up as planned, whatever they were. RM0090 section 7.3.
 template <class Chip>
 ClockSource start_clocks(const ClockPlan& plan) noexcept
 {
@@ -61,14 +91,20 @@ ClockSource start_clocks(const ClockPlan& plan) noexcept
     constexpr std::uint32_t kOscillatorHz = 16000000;
     constexpr std::uint32_t kInputHz = 1000000;
     constexpr std::uint32_t kUnusedDivisor = 7U << 24U;
+    constexpr std::uint32_t kRegulatorReady = 1U << 14U;
     auto& rcc = Chip::rcc();
+    if (!detail::stop_multiplier<Chip>()) {
+        return ClockSource::kNone;
+    }
+    detail::set_regulator<Chip>(plan.regulator_scale);
     set_bits(rcc.cr, kCrystalOn);
     const bool crystal = detail::wait_for(rcc.cr, kCrystalReady, kCrystalReady);
     const std::uint32_t divisor = (crystal ? plan.crystal_hz : kOscillatorHz) / kInputHz;
     const std::uint32_t multiplier = 2 * plan.core_hz / kInputHz;
     rcc.pllcfgr.write(divisor | multiplier << 6U | (crystal ? kFromCrystal : 0U) | kUnusedDivisor);
     set_bits(rcc.cr, kMultiplierOn);
-    if (!detail::wait_for(rcc.cr, kMultiplierReady, kMultiplierReady)) {
+    if (!detail::wait_for(rcc.cr, kMultiplierReady, kMultiplierReady) ||
+        !detail::wait_for(Chip::power().csr, kRegulatorReady, kRegulatorReady)) {
         return ClockSource::kNone;
     }
     // Prefetch, both caches, the wait states: before the clock rises.

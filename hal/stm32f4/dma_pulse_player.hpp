@@ -164,6 +164,8 @@ void DmaPulsePlayer<Chip, Port, Pace>::start_stream() noexcept
     dma.m0ar.write(Chip::bus_address(halves_.data()));
     dma.ndtr.write(kWords);
     dma.fcr.write(0);
+    // The silence is in memory before the stream reads it.
+    std::atomic_thread_fence(std::memory_order_release);
     dma.cr.write(kStreamSettings);
     dma.cr.write(kStreamSettings | kStreamEnable);
     Pace::timer().cr1.write(kTimerEnable);

@@ -52,6 +52,7 @@ public:
             Chip::flash().cr.write(command);
             Chip::flash().cr.write(command | kStart);
             erased = wait_ready();
+            forget_cached();
         }
         lock();
         return erased;
@@ -89,6 +90,19 @@ private:
             }
         }
         return false;
+    }
+    // After an erase the data cache still has what was there (RM0090 section 3.5.2); it may be
+    // emptied only while it is off. A write goes through it.
+    static void forget_cached() noexcept
+    {
+        constexpr std::uint32_t kDataCache = 1U << 10U;
+        constexpr std::uint32_t kEmptyDataCache = 1U << 12U;
+        auto& access = Chip::flash().acr;
+        const std::uint32_t before = access.read();
+        access.write(before & ~kDataCache);
+        access.write((before & ~kDataCache) | kEmptyDataCache);
+        access.write(before & ~kDataCache);
+        access.write(before);
     }
     static void unlock() noexcept
     {

@@ -16,6 +16,7 @@ using Constructor = void (*)();
 extern "C" {
 extern std::uint32_t cusp_data_load, cusp_data_begin, cusp_data_end;
 extern std::uint32_t cusp_zero_begin, cusp_zero_end;
+extern const std::uint32_t cusp_vectors;
 extern Constructor cusp_constructors_begin, cusp_constructors_end;
 
 void cusp_reset()
@@ -23,6 +24,8 @@ void cusp_reset()
     // The compiler may use float registers anywhere, so the unit goes on before all else.
     constexpr std::uint32_t kFullAccess = 0xFU << 20U;
     cusp::hal::stm32f4::set_bits(Chip::system().cpacr, kFullAccess);
+    // A boot loader that has started the firmware may have left its own table in force.
+    Chip::system().vtor.write(Chip::bus_address(&cusp_vectors));
     __asm volatile("dsb\n isb" ::: "memory");
 
     const std::uint32_t* from = &cusp_data_load;
@@ -41,14 +44,30 @@ void cusp_reset()
 
 [[noreturn]] void cusp_exception_with_frame(const std::uint32_t* frame)
 {
-    // The core saves r0 to r3, r12, lr, pc, psr.
-    cusp::hal::stm32f4::core_fault(Chip::system().icsr.read() & 0x1FFU, frame[6], frame[5],
+    // The core saves r0 to r3, r12, lr, pc, psr; nowhere where the stack has overflowed.
+    const std::uint32_t pc = frame != nullptr ? frame[6] : 0;
+    const std::uint32_t lr = frame != nullptr ? frame[5] : 0;
+    cusp::hal::stm32f4::core_fault(Chip::system().icsr.read() & 0x1FFU, pc, lr,
                                    Chip::system().cfsr.read());
 }
 
-// The saved registers lie on the stack that was in use; only the main one is used here.
+// The saved registers lie on the stack that was in use; only the main one is used here. Where less
+// than 256 bytes of it are left, the handler begins it anew: it could not run otherwise, and the
+// pulse stream would play on.
 __attribute__((naked)) void cusp_exception()
 {
-    __asm volatile("mrs r0, msp\n b cusp_exception_with_frame");
+    __asm volatile(
+        "mrs r0, msp\n"
+        "ldr r1, =cusp_stack_bottom\n"
+        "add r2, r1, #256\n"
+        "cmp r0, r2\n"
+        "bhs 1f\n"
+        "ldr r2, =cusp_stack_top\n"
+        "msr msp, r2\n"
+        "cmp r0, r1\n"
+        "bhs 1f\n"
+        "movs r0, #0\n"
+        "1: b cusp_exception_with_frame\n"
+        ".ltorg");
 }
 }

@@ -13,6 +13,10 @@ constexpr std::uint32_t kFlashLock = 1U << 31U;
 constexpr std::uint32_t kFlashStart = 1U << 16U;
 constexpr std::uint32_t kFlashBusy = 1U << 16U;
 constexpr std::uint32_t kWriteProtectionError = 1U << 4U;
+constexpr std::uint32_t kDataCache = 1U << 10U;
+constexpr std::uint32_t kEmptyDataCache = 1U << 12U;
+constexpr std::uint32_t kCrystalOn = 1U << 16U;
+constexpr std::uint32_t kMultiplierOn = 1U << 24U;
 constexpr std::uint32_t kErased = 0xFFFFFFFF;
 
 }  // namespace
@@ -73,9 +77,59 @@ void ChipModel::on_write(ModelWord& word, std::uint32_t value)
         write_flash_control(value);
     } else if (&word == &flash.sr) {
         word.value &= ~value;
+    } else if (&word == &flash.acr) {
+        write_flash_access(value);
+    } else if (&word == &rcc.cr) {
+        write_clock_control(value);
+    } else if (&word == &rcc.cfgr) {
+        write_clock_choice(value);
+    } else if (&word == &rcc.pllcfgr && (rcc.cr.value & kMultiplierOn) != 0) {
+        // Section 7.3.2: may be written only while the multiplier is off.
+        ++violations;
     } else {
         word.value = value;
     }
+}
+
+// Section 7.3.1: each clock's ready bit follows its on bit, where it works.
+void ChipModel::write_clock_control(std::uint32_t value)
+{
+    const bool multiplied = (rcc.cfgr.value >> 2U & 3U) == 2;
+    if (multiplied && (value & kMultiplierOn) == 0) {
+        ++violations;
+    }
+    const auto ready = [&](std::uint32_t on, bool works) {
+        return (value & on) != 0 && works ? on << 1U : 0U;
+    };
+    constexpr std::uint32_t kReadyBits = 2U | kCrystalOn << 1U | kMultiplierOn << 1U;
+    rcc.cr.value = (value & ~kReadyBits) | ready(1U, true) | ready(kCrystalOn, crystal_works) |
+                   ready(kMultiplierOn, multiplier_works);
+    power.csr.value = (rcc.cr.value & kMultiplierOn << 1U) != 0 ? 1U << 14U : 0U;
+}
+
+void ChipModel::write_clock_choice(std::uint32_t value)
+{
+    const std::uint32_t choice = value & 3U;
+    const bool multiplied = choice == 2;
+    // Five wait states and the highest voltage for 168 MHz.
+    if (multiplied && ((rcc.cr.value & kMultiplierOn << 1U) == 0 || (flash.acr.value & 7U) < 5 ||
+                       (power.cr.value & 1U << 14U) == 0)) {
+        ++violations;
+    }
+    rcc.cfgr.value = (value & ~0xCU) | choice << 2U;
+}
+
+// Section 3.9.1: the data cache may be emptied only while it is off.
+void ChipModel::write_flash_access(std::uint32_t value)
+{
+    if ((value & kEmptyDataCache) != 0) {
+        if ((value & kDataCache) != 0) {
+            ++violations;
+        } else {
+            cached_.clear();
+        }
+    }
+    flash.acr.value = value;
 }
 
 void ChipModel::write_port(std::uint32_t word)
@@ -165,10 +219,14 @@ bool ChipModel::spend_power()
     return power_left > 0;
 }
 
-std::uint32_t ChipModel::read_memory(std::uint32_t address) const
+std::uint32_t ChipModel::read_memory(std::uint32_t address)
 {
     const auto found = flash_words.find(address);
-    return found == flash_words.end() ? kErased : found->second;
+    const std::uint32_t there = found == flash_words.end() ? kErased : found->second;
+    if ((flash.acr.value & kDataCache) == 0) {
+        return there;
+    }
+    return cached_.emplace(address, there).first->second;
 }
 
 void ChipModel::write_memory(std::uint32_t address, std::uint32_t value)
@@ -190,6 +248,11 @@ void ChipModel::write_memory(std::uint32_t address, std::uint32_t value)
     } else if (was_on) {
         // The power fails amid the write: some of the bits are cleared.
         flash_words[address] = before & (value | 0x0F0F3355U);
+    }
+    // A write changes what is cached too (section 3.5.2); an erase does not.
+    const auto cached = cached_.find(address);
+    if (cached != cached_.end()) {
+        cached->second = flash_words.count(address) != 0 ? flash_words[address] : kErased;
     }
     busy_reads_ = 3;
 }

@@ -1,6 +1,6 @@
 // A model of the parts of the STM32F405 that the drivers touch, register by register: timer 8,
-// stream 1 of DMA2, port C, the flash. What the reference manual says a register does, the model
-// does; what the manual forbids, it counts.
+// stream 1 of DMA2, port C, the flash and its data cache, the clocks. What the reference manual
+// says a register does, the model does; what the manual forbids, it counts.
 #pragma once
 
 #include <cstdint>
@@ -48,10 +48,15 @@ public:
     // start, flash writes without unlocking, programming what is not erased.
     std::uint32_t violations{0};
 
+    // Which of the clocks start; and that the core never runs from a clock that is off, nor faster
+    // than the flash's wait states allow, is among the violations.
+    bool crystal_works{false};
+    bool multiplier_works{false};
+
     // Flash: after this many words and erasures the power fails; nothing more is written.
     std::int64_t power_left{1000000};
     std::map<std::uint32_t, std::uint32_t> flash_words;  // not there: erased
-    std::uint32_t read_memory(std::uint32_t address) const;
+    std::uint32_t read_memory(std::uint32_t address);
     void write_memory(std::uint32_t address, std::uint32_t value);
 
     std::uint32_t bus_address(const volatile void* memory);
@@ -60,6 +65,7 @@ public:
 
     hal::stm32f4::Rcc<ModelWord> rcc{};
     hal::stm32f4::Flash<ModelWord> flash{};
+    hal::stm32f4::Power<ModelWord> power{};
     hal::stm32f4::Gpio<ModelWord> port_c{};
     hal::stm32f4::Dma<ModelWord> dma2{};
     hal::stm32f4::Timer<ModelWord> timer8{};
@@ -71,6 +77,9 @@ private:
     void write_port(std::uint32_t word);
     void write_stream_control(std::uint32_t value);
     void write_flash_control(std::uint32_t value);
+    void write_flash_access(std::uint32_t value);
+    void write_clock_control(std::uint32_t value);
+    void write_clock_choice(std::uint32_t value);
     std::uint32_t word_of_memory(std::uint32_t index) const;
     bool spend_power();
 
@@ -78,6 +87,7 @@ private:
     std::vector<const volatile void*> addresses_;
     std::uint32_t start_count_{0};
     std::uint32_t fetched_{0};
+    std::map<std::uint32_t, std::uint32_t> cached_;  // flash words in the data cache
     std::uint32_t keys_{0};
     std::uint32_t busy_reads_{0};
 };
@@ -87,6 +97,7 @@ struct ModelChip {
     using Word = ModelWord;
     static auto& rcc() { return ChipModel::current->rcc; }
     static auto& flash() { return ChipModel::current->flash; }
+    static auto& power() { return ChipModel::current->power; }
     static auto& port_c() { return ChipModel::current->port_c; }
     static auto& dma2() { return ChipModel::current->dma2; }
     static auto& timer8() { return ChipModel::current->timer8; }

@@ -1,4 +1,4 @@
-// The clocks against registers that never change, which is a chip whose crystal is broken.
+// The clocks against a model of theirs, whole or broken.
 #include "hal/stm32f4/clock_tree.hpp"
 
 #include <map>
@@ -15,7 +15,7 @@ using cusp::test::ModelChip;
 
 namespace {
 
-constexpr cusp::hal::stm32f4::ClockPlan kPlan{8000000, 168000000, 5, 2, 4};
+constexpr cusp::hal::stm32f4::ClockPlan kPlan{8000000, 168000000, 5, 2, 4, 1};
 static_assert(kPlan.fast_bus_hz() == 84000000 && kPlan.slow_bus_hz() == 42000000);
 static_assert(kPlan.fast_timer_hz() == 168000000 && kPlan.slow_timer_hz() == 84000000);
 
@@ -28,10 +28,37 @@ TEST(ClockTree, GivesUpOnAMultiplierThatNeverLocks)
     CHECK_TRUE(start_clocks<ModelChip>(kPlan) == ClockSource::kNone);
 }
 
-TEST(ClockTree, MakesTheSameRateFromEitherSource)
+TEST(ClockTree, RunsFromTheCrystal)
+{
+    chip.crystal_works = chip.multiplier_works = true;
+    CHECK_TRUE(start_clocks<ModelChip>(kPlan) == ClockSource::kCrystal);
+    // 8 MHz by 8, times 336, by 2; the slow bus by 4, the fast one by 2.
+    LONGS_EQUAL(8, chip.rcc.pllcfgr.value & 0x3FU);
+    LONGS_EQUAL(336, chip.rcc.pllcfgr.value >> 6U & 0x1FFU);
+    LONGS_EQUAL(0, chip.rcc.pllcfgr.value >> 16U & 3U);
+    LONGS_EQUAL(1, chip.rcc.pllcfgr.value >> 22U & 1U);
+    LONGS_EQUAL(5, chip.rcc.cfgr.value >> 10U & 7U);
+    LONGS_EQUAL(4, chip.rcc.cfgr.value >> 13U & 7U);
+    LONGS_EQUAL(2, chip.rcc.cfgr.value & 3U);
+    LONGS_EQUAL(0, chip.violations);
+}
+
+TEST(ClockTree, MakesTheSameRateFromTheOscillator)
 {
     // The crystal never starts: the oscillator's 16 MHz by 16, times 336, by 2.
-    static_cast<void>(start_clocks<ModelChip>(kPlan));
+    chip.multiplier_works = true;
+    CHECK_TRUE(start_clocks<ModelChip>(kPlan) == ClockSource::kOscillator);
     LONGS_EQUAL(16, chip.rcc.pllcfgr.value & 0x3FU);
     LONGS_EQUAL(336, chip.rcc.pllcfgr.value >> 6U & 0x1FFU);
+    LONGS_EQUAL(0, chip.rcc.pllcfgr.value >> 22U & 1U);
+    LONGS_EQUAL(0, chip.violations);
+}
+
+TEST(ClockTree, StartsAnewWhereABootLoaderLeftItsOwnClocks)
+{
+    chip.crystal_works = chip.multiplier_works = true;
+    static_cast<void>(start_clocks<ModelChip>({8000000, 96000000, 5, 2, 4, 1}));
+    CHECK_TRUE(start_clocks<ModelChip>(kPlan) == ClockSource::kCrystal);
+    LONGS_EQUAL(336, chip.rcc.pllcfgr.value >> 6U & 0x1FFU);
+    LONGS_EQUAL(0, chip.violations);
 }

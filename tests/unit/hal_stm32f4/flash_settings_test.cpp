@@ -71,6 +71,19 @@ TEST(FlashSettings, ErasesOneSectorAlone)
     LONGS_EQUAL(0, chip.violations);
 }
 
+TEST(FlashSettings, ReadsNothingOldFromTheDataCache)
+{
+    chip.flash.acr.value = 1U << 10U;
+    CHECK_TRUE(store.write(0, 0, some_bytes(1)));
+    CHECK_TRUE(read(store, 0, 0) == some_bytes(1));
+    CHECK_TRUE(store.erase(0));
+    LONGS_EQUAL(0xFF, read(store, 0, 0)[0]);
+    CHECK_TRUE(store.write(0, 0, some_bytes(9)));
+    CHECK_TRUE(read(store, 0, 0) == some_bytes(9));
+    LONGS_EQUAL(1U << 10U, chip.flash.acr.value);
+    LONGS_EQUAL(0, chip.violations);
+}
+
 TEST(FlashSettings, StaysInSectorsOneAndTwo)
 {
     CHECK_TRUE(store.write(0, 0, some_bytes(1)));
