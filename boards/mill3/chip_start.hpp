@@ -21,6 +21,10 @@ template <class Own>
 struct ChipStart {
     using Chip = hal::stm32f4::Chip;
 
+    // Whether the end of a frame calls for the servo tick.
+    static constexpr bool live() noexcept { return true; }
+    static constexpr unsigned player_interrupt() noexcept { return Own::Pace::kInterrupt; }
+
     template <class Board>
     static void start(Board& board) noexcept
     {
@@ -50,7 +54,7 @@ struct ChipStart {
     {
         using namespace hal::stm32f4;
         report_last_fault(board.byte_link);
-        enable_interrupt<Chip>(Own::Pace::kInterrupt, kPlayerPriority);
+        enable_interrupt<Chip>(player_interrupt(), kPlayerPriority);
         board.pulse_player.start(Own::kClocks.fast_timer_hz());
         start_watchdog<Chip>();
         for (;;) {

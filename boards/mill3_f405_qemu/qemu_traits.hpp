@@ -90,6 +90,7 @@ struct QemuTraits {
 
     // Whether the player's interrupt calls for the servo tick; a program's run makes its own.
     static bool live() noexcept { return live_; }
+    static constexpr unsigned player_interrupt() noexcept { return hal::stm32f4::kTimer2Interrupt; }
 
 private:
     static inline bool live_{false};

@@ -128,11 +128,14 @@ def add_calls_by_pointer(image, functions):
     """Lets each function that calls by pointer call every function whose address is kept somewhere.
 
     An address is kept as a word of its own: in a table, or among the constants behind a function.
+    Debug sections are not in the chip's memory, and theirs are no addresses that the code could use.
     """
     by_address = {function.address | 1: function.name for function in functions.values()}
-    kept = set()
+    kept, loaded = set(), True
     for line in run("arm-none-eabi-objdump", "-s", image).splitlines():
-        match = re.match(r"^ [0-9a-f]+ ((?:[0-9a-f]{2,8} ?)+)", line)
+        if line.startswith("Contents of section "):
+            loaded = not line[20:].startswith((".debug", ".comment", ".ARM.attributes"))
+        match = loaded and re.match(r"^ [0-9a-f]+ ((?:[0-9a-f]{2,8} ?)+)", line)
         for word in match.group(1).split() if match else ():
             if len(word) == 8:
                 value = int.from_bytes(bytes.fromhex(word), "little")

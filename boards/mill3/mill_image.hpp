@@ -1,0 +1,45 @@
+// MillImage: all objects of a mill controller's firmware, and how its interrupts reach them.
+#pragma once
+
+#include <array>
+
+#include "boards/mill3/mill_board.hpp"
+#include "firmware/app/app.hpp"
+#include "hal/stm32f4/vectors.hpp"
+
+namespace cusp::boards {
+
+// A board's main.cpp has one, as a static, and hands it what the vectors call; `Traits` as in
+// boards/mill3/chip_start.hpp.
+template <class Traits>
+class MillImage {
+    using Board = MillBoard<Traits>;
+    static_assert(hal::is_board<Board>());
+
+public:
+    void servo_tick() noexcept { application_.tick(); }
+    void player_interrupt() noexcept
+    {
+        if (board_.pulse_player.on_interrupt() && Traits::live()) {
+            hal::stm32f4::pend_servo_tick<typename Traits::Chip>();
+        }
+    }
+    void serial_interrupt() noexcept { board_.byte_link.on_interrupt(); }
+    [[noreturn]] void run() noexcept { Traits::run(board_, application_); }
+
+    static constexpr hal::stm32f4::VectorTable vectors() noexcept
+    {
+        const std::array<hal::stm32f4::InterruptEntry, 2> interrupts{{
+            {Traits::player_interrupt(), cusp_player_interrupt},
+            {hal::stm32f4::kUsart1Interrupt, cusp_serial_interrupt},
+        }};
+        return hal::stm32f4::make_vectors(&cusp_stack_top, cusp_reset, cusp_exception,
+                                          cusp_servo_tick, interrupts);
+    }
+
+private:
+    Board board_;
+    app::App<Board> application_{board_};
+};
+
+}  // namespace cusp::boards
