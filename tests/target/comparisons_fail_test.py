@@ -8,6 +8,7 @@ import unittest
 import budgets
 import golden
 import pins
+import ram_map
 from qemu import RunFailed
 
 DUMP = """$timescale 1 us $end
@@ -98,6 +99,23 @@ class Comparisons(unittest.TestCase):
         self.assertEqual(len(list(budgets.compare({"tick": (1000, 1900)}, record))), 1)
         self.assertEqual(len(list(budgets.compare({}, record))), 1)
         self.assertEqual(len(list(budgets.compare({"new": (1, 1)}, {}))), 1)
+
+    def test_a_map_of_the_memory_that_is_not_true_is_refused(self):
+        wanted = ["| bytes | what |", "|---:|---|", "| 10000 | stack |", "| 90000 | image.queue |"]
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder) / "a.md"
+
+            def found(lines):
+                file.write_text("\n".join(["text", ram_map.BEGIN, *lines, ram_map.END, ""]))
+                return ram_map.differences(file, wanted)
+            self.assertEqual(found(wanted), [])
+            self.assertEqual(found([*wanted[:3], "| 91000 | image.queue |"]), [])
+            self.assertEqual(len(found([*wanted[:3], "| 99000 | image.queue |"])), 1)
+            self.assertEqual(len(found([*wanted[:3], "| 90000 | image.ring |"])), 1)
+            self.assertEqual(len(found(wanted[:3])), 1)
+            self.assertEqual(len(found([*wanted, "| 9000 | more |"])), 1)
+            file.write_text("no marks")
+            self.assertEqual(len(ram_map.differences(file, wanted)), 1)
 
 
 if __name__ == "__main__":
