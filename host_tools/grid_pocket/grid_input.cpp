@@ -22,6 +22,13 @@ bool has_free_curve(const Loop& loop)
     return std::any_of(loop.begin(), loop.end(), [](const Curve& c) { return c.degree > 1; });
 }
 
+std::string count_text(double count)
+{
+    char text[32];
+    std::snprintf(text, sizeof text, "%.10g", std::floor(count));
+    return text;
+}
+
 std::string fault_text(const Job& job, const Operation& operation, const RegionFault& fault)
 {
     const auto name = [&](std::size_t contour) {
@@ -60,8 +67,10 @@ void refuse_grid_pocket(const Job& job, const std::string& what)
 std::string length_text(const Job& job, double mm)
 {
     char text[64];
-    std::snprintf(text, sizeof text, job.inch ? "%.6f in" : "%.5f mm", job.inch ? mm / kInch : mm);
-    return text;
+    const double value = job.inch ? mm / kInch : mm;
+    const bool tiny = value != 0 && std::abs(value) < 1e-4;
+    std::snprintf(text, sizeof text, tiny ? "%.3g" : job.inch ? "%.6f" : "%.5f", value);
+    return std::string{text} + (job.inch ? " in" : " mm");
 }
 
 void check_grid_input(const Job& job, const Operation& operation)
@@ -93,10 +102,11 @@ void check_grid_input(const Job& job, const Operation& operation)
         }
     }
     for (const double tolerance :
-         {operation.floor_tolerance, operation.arc_tolerance, operation.max_arc_radius}) {
-        if (tolerance < 0) {
+         {operation.floor_tolerance, operation.plan_tolerance, operation.arc_tolerance,
+          operation.max_arc_radius, operation.allowance}) {
+        if (!(tolerance >= 0) || !std::isfinite(tolerance)) {
             refuse_grid_pocket(
-                job, "tolerance or radius " + length_text(job, tolerance) + " is below 0");
+                job, "tolerance or radius " + length_text(job, tolerance) + " must be at least 0");
         }
     }
     if (operation.max_depth && !(*operation.max_depth > 0)) {
@@ -143,9 +153,8 @@ PocketWalls pocket_walls(const Job& job, const Operation& operation)
     if (cells > kMostCells) {
         refuse_grid_pocket(job, "grid " + length_text(job, operation.grid_x) + " x " +
                                     length_text(job, operation.grid_y) + " makes " +
-                                    std::to_string(static_cast<long long>(cells)) +
-                                    " cells; at most " +
-                                    std::to_string(static_cast<long long>(kMostCells)));
+                                    count_text(cells) + " cells; at most " +
+                                    count_text(kMostCells));
     }
     return walls;
 }

@@ -55,12 +55,17 @@ void check(const Job& job, const Operation& operation, const std::vector<Tool>& 
         refuse(job, "extra_subdivision " + std::to_string(operation.extra_subdivision) +
                         " lies outside 0 to " + std::to_string(kMostSubdivisions));
     }
+    for (const double size : {operation.allowance, operation.plan_tolerance}) {
+        if (!(size >= 0) || !std::isfinite(size)) {
+            refuse(job, "allowance or tolerance " + text(size) + " mm must be at least 0");
+        }
+    }
     for (const Tool& tool : tools) {
         if (!(tool.radius > 0)) {
             refuse(job, "tool " + std::to_string(tool.number) + " has radius " + text(tool.radius) +
                             " mm; it must be above 0");
         }
-        if (operation.overlap < 0 || operation.overlap >= 2 * tool.radius) {
+        if (!(operation.overlap >= 0 && operation.overlap < 2 * tool.radius)) {
             refuse(job, "overlap " + text(operation.overlap) +
                             " mm lies outside 0 to the diameter " + text(2 * tool.radius) +
                             " mm of tool " + std::to_string(tool.number));
@@ -72,10 +77,10 @@ DepthLimits depth_limits(const Job& job, const Operation& operation, const Tool&
 {
     const double most = operation.max_depth.value_or(tool.radius);
     const double least = operation.min_depth.value_or(most / 2);
-    if (!(most > 0)) {
+    if (!(most > 0) || !std::isfinite(most)) {
         refuse(job, "max_depth " + text(most) + " mm must be above 0");
     }
-    if (least < 0 || least > most) {
+    if (!(least >= 0 && least <= most)) {
         refuse(job, "min_depth " + text(least) + " mm lies outside 0 to max_depth " + text(most) +
                         " mm");
     }

@@ -3,12 +3,14 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <string>
 #include <variant>
 #include <vector>
 
 #include "CppUTest/TestHarness.h"
 
 #include "host_tools/hull_rough/hull_rough.hpp"
+#include "tests/support/loops.hpp"
 #include "tests/support/tap.hpp"
 
 using namespace cusp::host;
@@ -200,26 +202,44 @@ TEST(HullPlan, KeepsTheDepthWhenASmallCutterFollowsALargeOne)
     CHECK(block.deepest_rapid <= 0);
 }
 
-TEST(HullPlan, RefusesInputThatCannotBeUsed)
+TEST(HullPlan, RefusesInputThatCannotBeUsedWithItsValueAndLimit)
 {
-    const auto refused = [](auto change) {
+    const double nothing = std::nan("");
+    const auto says = [](const char* part, auto change) {
         Operation operation = tap_operation(0);
         change(operation);
+        std::string text;
         try {
             plan_hull_rough(tap_job(), operation);
-        } catch (const InputError&) {
-            return true;
+        } catch (const InputError& error) {
+            text = error.what();
         }
-        return false;
+        STRCMP_CONTAINS(part, text.c_str());
     };
-    CHECK(refused([](Operation& o) { o.floor.clear(); }));
-    CHECK(refused([](Operation& o) { o.max_depth = 0.0; }));
-    CHECK(refused([](Operation& o) { o.min_depth = 3.0; }));
-    CHECK(refused([](Operation& o) { o.max_depth = 1e-5; }));
-    CHECK(refused([](Operation& o) { o.overlap = 12; }));
-    CHECK(refused([](Operation& o) { o.overlap = -1; }));
-    CHECK(refused([](Operation& o) { o.extra_subdivision = 9; }));
-    CHECK(refused([](Operation& o) { o.output = OutputForm::kNurbs; }));
-    CHECK(refused([](Operation& o) { o.layers = {2, 1}; }));
-    CHECK(refused([](Operation& o) { o.tool.radius = 0; }));
+    says("floor names no surface", [](Operation& o) { o.floor.clear(); });
+    says("max_depth 0.0 mm must be above 0", [](Operation& o) { o.max_depth = 0.0; });
+    says("max_depth nan mm must be above 0", [&](Operation& o) { o.max_depth = nothing; });
+    says("min_depth 3.0 mm lies outside 0 to max_depth 2.0 mm",
+         [](Operation& o) { o.min_depth = 3.0; });
+    says("min_depth nan", [&](Operation& o) { o.min_depth = nothing; });
+    says("makes more than 10000 layers of a stock 18.66", [](Operation& o) {
+        o.max_depth = 1e-5;
+        o.min_depth = 0.0;
+    });
+    says("overlap 12.0 mm lies outside 0 to the diameter 12.0 mm of tool 1",
+         [](Operation& o) { o.overlap = 12; });
+    says("overlap -1.0 mm", [](Operation& o) { o.overlap = -1; });
+    says("overlap nan", [&](Operation& o) { o.overlap = nothing; });
+    says("allowance or tolerance -0.5 mm must be at least 0",
+         [](Operation& o) { o.allowance = -0.5; });
+    says("extra_subdivision 9 lies outside 0 to 8", [](Operation& o) { o.extra_subdivision = 9; });
+    says("output \"nurbs\"", [](Operation& o) { o.output = OutputForm::kNurbs; });
+    says("layers: depth 1.0 mm is not below the one before", [](Operation& o) {
+        o.layers = {2, 1};
+    });
+    says("bottom at z 0.0 mm", [](Operation& o) { o.layers = {2, 100}; });
+    says("tool 1 has radius 0.0 mm", [](Operation& o) { o.tool.radius = 0; });
+    says("leave nothing of it", [](Operation& o) {
+        o.floor.front().trims = {loop_of({{2, 2}, {3, 2}, {3, 3}, {2, 3}})};
+    });
 }
