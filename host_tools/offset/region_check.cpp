@@ -71,15 +71,19 @@ std::optional<RegionFault> find_crossing(const Region2d& region)
 // A point of the hole on the wrong side of another contour. Contours do not cross between corners
 // here, so an edge lies on one side with its middle; an edge that runs along the other contour
 // tells nothing.
+// Of two contours that are the same, every point does.
 std::optional<Vec2d> stray_point(const Contour& hole, const EdgeTree& other, bool should_surround)
 {
+    bool apart = false;
     for (const Edge& edge : hole) {
         const Vec2d p = point_on(edge, 0.4142);
-        if (!other.any_nearer(p, kSamePoint) && other.surrounds(p) != should_surround) {
+        const bool upon = other.any_nearer(p, kSamePoint);
+        if (!upon && other.surrounds(p) != should_surround) {
             return p;
         }
+        apart = apart || !upon;
     }
-    return std::nullopt;
+    return apart ? std::nullopt : std::optional{hole.front().start};
 }
 
 // The first hole that is not directly inside the outer contour.

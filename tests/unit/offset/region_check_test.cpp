@@ -33,6 +33,13 @@ TEST(RegionCheck, FindsHolesThatCrossLieOutsideOrLieInEachOther)
     CHECK(nested->kind == RegionFaultKind::kHoleInHole);
 }
 
+TEST(RegionCheck, FindsTheSameHoleTwice)
+{
+    const Contour hole = reversed(square(0, 0, 3));
+    CHECK(find_fault({{square(0, 0, 10), hole, hole}})->kind == RegionFaultKind::kHoleInHole);
+    CHECK(!find_fault({{square(0, 0, 10), hole, reversed(square(6, 0, 3))}}));
+}
+
 TEST(RegionCheck, FindsAnEdgeWithoutLength)
 {
     const auto fault = find_fault({{polygon({{0, 0}, {10, 0}, {10, 0}, {0, 10}})}});
