@@ -121,9 +121,10 @@ std::vector<double> level_heights(const Job& job,
     const double deep = stock.top - stock.bottom;
     if (deep < kWritten) {
         throw InputError(
-            fmt::format("{}: roughing: the stock is {:g} mm high over the part: "
-                        "nothing is to be roughed",
-                        job.file, std::max(0.0, deep)));
+            fmt::format("{}: roughing: with an allowance of {:g} mm the lowest level "
+                        "is at z = {:g} mm, the stock's top at {:g} mm: nothing is to "
+                        "be roughed",
+                        job.file, operation.allowance, stock.bottom, stock.top));
     }
     if (deep / step > kMostLevels) {
         throw InputError(
@@ -463,10 +464,9 @@ private:
         path.feed = job_.feed;
         path.plunge_feed = job_.plunge_feed;
         path.spindle = job_.spindle;
-        path.comments = {
-            fmt::format("{}: {} roughing levels, allowance {:g} mm, clearance from "
-                        "the model at least {:.4f} mm",
-                        operation_.strategy, levels_, operation_.allowance, least)};
+        path.comments = {fmt::format("{}: {} roughing levels, allowance {:g} mm",
+                                     operation_.strategy, levels_, operation_.allowance),
+                         fmt::format("clearance from the model at least {:.4f} mm", least)};
         OperationStats& stats = planned_.stats;
         stats.strategy = operation_.strategy;
         stats.roughing = true;
