@@ -6,6 +6,7 @@
 
 #include "host_tools/grid_pocket/grid_navigation.hpp"
 #include "host_tools/grid_pocket/grid_pocket.hpp"
+#include "tests/support/loops.hpp"
 #include "tests/support/tap.hpp"
 
 namespace {
@@ -45,7 +46,9 @@ void navigation(benchmark::State& state)
         rules.clear_step = [](Cell, Cell) {
             return true;
         };
-        rules.clear_link = rules.clear_step;
+        rules.clear_link = [](Vec2d, Vec2d) {
+            return true;
+        };
         benchmark::DoNotOptimize(navigate(grid, rules));
         cells = grid.count_inside();
     }
@@ -66,14 +69,9 @@ void plan(benchmark::State& state)
     job.clearance = 5;
     Operation operation;
     operation.floor = {tap()};
-    operation.boundary.emplace();
-    const std::vector<Vec2d> corners{{2, -10}, {115, -10}, {115, 10}, {2, 10}};
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-        const Vec2d a = corners[i];
-        const Vec2d b = corners[(i + 1) % corners.size()];
-        operation.boundary->push_back({1, {0, 0, 1, 1}, {{a.x, a.y, 0}, {b.x, b.y, 0}}, {1, 1}});
-    }
-    operation.tool = {1, ToolShape::kBall, 3, 3};
+    operation.boundary = loop_of({{2, -10}, {115, -10}, {115, 10}, {2, 10}});
+    const bool flat = state.range(1) != 0;
+    operation.tool = {1, flat ? ToolShape::kFlat : ToolShape::kBall, 3, flat ? 0.0 : 3.0};
     operation.floor_tolerance = 0.02;
     operation.plan_tolerance = 0.02;
     const double side = std::sqrt(107.0 * 14 / static_cast<double>(state.range(0)));
@@ -86,8 +84,8 @@ void plan(benchmark::State& state)
     state.counters["peak_MB"] = peak_megabytes();
 }
 BENCHMARK(plan)
-    ->RangeMultiplier(10)
-    ->Range(1000, 1000000)
+    ->ArgNames({"cells", "flat"})
+    ->ArgsProduct({{1000, 10000, 100000, 1000000}, {0, 1}})
     ->Iterations(1)
     ->Unit(benchmark::kMillisecond);
 
