@@ -22,6 +22,10 @@ constexpr float kDenseJointShare = 0.8F;
 // PathServo may brake harder near a stop where the slopes of neighbouring intervals differ.
 constexpr float kRoundingMargin = 0.0004F;
 constexpr float kTickMargin = 0.006F;
+// Path units are sixteenths of a nanometre: differences of the set points before their own rounding
+// are off by so much, and by no more than this part of small limits.
+constexpr float kRoughAcceleration = 0.1F;  // mm/s^2
+constexpr float kRoughestShare = 0.05F;
 constexpr float kGreatestSpeed = 2000.0F;  // mm/s
 
 // Deviation, mm, left to the axis filters on the exact path and as a share of a tolerance.
@@ -67,9 +71,16 @@ bool reckons_with(const Joint& joint, const PathDerivatives& stretch) noexcept
     return all;
 }
 
-MachineLimits scaled(const MachineLimits& limits, float factor) noexcept
+// What of the limits the motion before rounding may use.
+MachineLimits with_margin(const MachineLimits& limits, std::uint32_t path_filter) noexcept
 {
-    return {limits.velocity * factor, limits.acceleration * factor, limits.jerk * factor};
+    const float factor = 1.0F - kRoundingMargin - kTickMargin / static_cast<float>(path_filter);
+    MachineLimits kept{limits.velocity * factor, limits.acceleration * factor,
+                       limits.jerk * factor};
+    for (unsigned i = 0; i < kAxisCount; ++i) {
+        kept.acceleration[i] -= std::min(kRoughAcceleration, kRoughestShare * kept.acceleration[i]);
+    }
+    return kept;
 }
 
 }  // namespace
@@ -102,8 +113,7 @@ void Planner::set_limits(const MachineLimits& limits) noexcept
                               std::uint32_t{1}, kMaxPathFilter);
     least_filter_ = std::clamp(std::ceil(kRoughJerk / least_jerk), 1.0F, kFilterForRoughness);
     least_filter_ = std::clamp(std::ceil(kRoughestJerk / least_jerk), least_filter_, kMostTicks);
-    limits_ =
-        scaled(limits, 1.0F - kRoundingMargin - kTickMargin / static_cast<float>(path_filter_));
+    limits_ = with_margin(limits, path_filter_);
     blender_.set_limits(limits_, static_cast<float>(path_filter_) * kServoTick);
     queue_.set_half_filter(0.5F * static_cast<float>(path_filter_) * kServoTick);
 }

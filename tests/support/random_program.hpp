@@ -23,8 +23,8 @@ public:
         decimals_ = static_cast<int>(2 + number() % 4);
         line(inches_ ? "G20 G90" : "G21 G90");
         choose_control();
-        choose_feed();
         scale_ = std::pow(10, between(-2, 1.5));
+        choose_feed();
         const auto count = 1 + number() % 15;
         for (std::uint64_t i = 0; i < count; ++i) {
             add();
@@ -38,9 +38,9 @@ private:
     {
         switch (number() % 9) {
             case 0:
+                scale_ = std::pow(10, between(-2, 1.5));
                 choose_feed();
                 choose_control();
-                scale_ = std::pow(10, between(-2, 1.5));
                 break;
             case 1:
                 to(at_ + any() * scale_, "G0");
@@ -64,7 +64,12 @@ private:
         }
     }
 
-    void choose_feed() { line("F" + value(std::pow(10, between(1, 3.9)), 1)); }
+    // Not so slow that the program takes an hour.
+    void choose_feed()
+    {
+        const double feed = std::max(std::pow(10, between(1, 3.9)), 5 * scale_);
+        line("F" + value(inches_ ? feed / 25.4 : feed, 1));
+    }
 
     void choose_control()
     {
