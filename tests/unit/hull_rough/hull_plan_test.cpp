@@ -234,7 +234,7 @@ TEST(HullPlan, RefusesInputThatCannotBeUsedWithItsValueAndLimit)
          [](Operation& o) { o.allowance = -0.5; });
     says("extra_subdivision 9 lies outside 0 to 8", [](Operation& o) { o.extra_subdivision = 9; });
     says("output \"nurbs\"", [](Operation& o) { o.output = OutputForm::kNurbs; });
-    says("layers: depth 1.0 mm is not below the one before", [](Operation& o) {
+    says("layers: depth 2.0 mm is not below the one before", [](Operation& o) {
         o.layers = {2, 1};
     });
     says("bottom at z 0.0 mm", [](Operation& o) { o.layers = {2, 100}; });
