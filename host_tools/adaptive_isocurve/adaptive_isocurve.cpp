@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include "host_tools/adaptive_isocurve/even_spacing.hpp"
@@ -31,6 +32,8 @@ constexpr double kProvedShare = 0.97;
 constexpr int kCurvatureLooks = 60;
 // Of the band, for how far an approximated offset is from the exact one.
 constexpr double kOffsetShare = 0.9;
+constexpr int kHandLooks = 8;
+constexpr double kSameEdge = 0.1;  // in steps: edges nearer than this are one
 
 void swap_loops(Surface& surface)
 {
@@ -153,13 +156,13 @@ public:
             curves += add_surface(static_cast<int>(k), complete);
         }
         std::size_t bare = 0;
-        if (coverage_ && !(plain_ && unreached_ == 0 && ridge_ <= *operation_.scallop)) {
+        if (coverage_ && !(plain_ && whole_ && ridge_ <= *operation_.scallop)) {
             for (std::size_t k = 0; k < work_.surfaces().size(); ++k) {
                 coverage_->look_over(static_cast<int>(k));
             }
             coverage_->close_gaps([&](const Points& pass) { add_pass(pass); });
             bare = coverage_->uncovered();
-            ridge_ = bare == 0 ? *operation_.scallop : std::max(ridge_, *operation_.scallop);
+            ridge_ = std::max(*operation_.scallop, coverage_->most_left());
         }
         PlannedOperation planned = work_.finish(spacing_, ridge_);
         if (bare > 0) {
@@ -257,7 +260,10 @@ private:
     std::size_t add_surface(int surface, bool complete)
     {
         const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
-        const std::vector<DomainCurve> curves = curves_of(surface, complete);
+        std::vector<DomainCurve> curves = curves_of(surface, complete);
+        if (operation_.traversal == Traversal::kOneWay) {
+            put_in_cutting_order(surface, curves);
+        }
         std::optional<OffsetSurface> offset;
         if (operation_.output == OutputForm::kNurbs) {
             const PassBand& band = work_.certified().band();
@@ -268,24 +274,24 @@ private:
         }
         bool trimmed = false;
         for (const DomainCurve& curve : curves) {
-            const std::vector<TracedPiece> pieces = tracer_.trace(curve);
-            const bool whole = pieces.size() == 1 && reaches_ends(curve, pieces.front().points);
+            const TracedCurve traced = tracer_.trace(curve);
+            const bool whole = traced.pieces.size() == 1 && !traced.blocked &&
+                               reaches_ends(curve, traced.pieces.front().points);
             trimmed = trimmed || !whole;
-            unreached_ += whole ? 0 : 1;
-            for (const TracedPiece& piece : pieces) {
+            unreached_ += traced.blocked ? 1 : 0;
+            for (const TracedPiece& piece : traced.pieces) {
                 const std::optional<Curve> exact =
                     offset ? tip_isocurve(*offset, curve, piece) : std::nullopt;
                 exact_curves_ += exact ? 1 : 0;
                 add_pass(piece.points, exact);
             }
         }
+        whole_ = whole_ && !trimmed;
         spacing_ = operation_.iso_distance
                        ? *operation_.iso_distance
                        : scallop_width(operation_.tool.radius, *operation_.scallop, 0);
         if (trimmed) {
-            for (const Points& edge : tracer_.free_region_edges(surface, 0.7 * spacing_)) {
-                add_pass(edge);
-            }
+            add_edges(surface);
         }
         ridge_ = std::max(ridge_, highest_ridge(surface_function(surface), tool_, curves,
                                                 s.u_begin(), s.u_end(), kRidgeLooks));
@@ -310,6 +316,74 @@ private:
         return tip;
     }
 
+    // Climb: what is not cut yet lies to the right of the way, since the tool turns clockwise.
+    void put_in_cutting_order(int surface, std::vector<DomainCurve>& curves) const
+    {
+        const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
+        double up = 0;
+        for (int i = 1; i < kHandLooks; ++i) {
+            for (int j = 1; j < kHandLooks; ++j) {
+                const SurfacePoint p = work_.model().evaluate(
+                    surface, s.u_begin() + (s.u_end() - s.u_begin()) * i / kHandLooks,
+                    s.v_begin() + (s.v_end() - s.v_begin()) * j / kHandLooks);
+                up += cross(p.du, p.dv).z;
+            }
+        }
+        const auto middle = [](const DomainCurve& curve) {
+            return std::accumulate(curve.v.begin(), curve.v.end(), 0.0) /
+                   static_cast<double>(curve.v.size());
+        };
+        const bool climb = operation_.direction_of_cut == CutDirection::kClimb;
+        const double sign = (up > 0) == climb ? -1 : 1;
+        std::stable_sort(curves.begin(), curves.end(),
+                         [&](const DomainCurve& a, const DomainCurve& b) {
+                             return sign * middle(a) < sign * middle(b);
+                         });
+    }
+
+    // An edge where the tool touches two surfaces belongs to both: it is cut once.
+    void add_edges(int surface)
+    {
+        const double near = kSameEdge * spacing_;
+        if (!edges_) {
+            edges_.emplace(near, std::max(near, 0.25 * operation_.tool.radius));
+        }
+        const std::vector<Points> found = tracer_.free_region_edges(surface, 0.7 * spacing_);
+        for (const Points& edge : found) {
+            Points run;
+            for (const Vec3d& tip : edge) {
+                if (!cut_already(tip)) {
+                    run.push_back(tip);
+                    continue;
+                }
+                // One place more, so that the runs meet.
+                run.push_back(tip);
+                add_run(run);
+            }
+            add_run(run);
+        }
+        for (const Points& edge : found) {
+            edges_->add(edge);
+        }
+    }
+
+    void add_run(Points& run)
+    {
+        if (run.size() > 1 && length_of(run) > kSameEdge * spacing_) {
+            add_pass(run);
+        }
+        run.clear();
+    }
+
+    bool cut_already(Vec3d tip) const
+    {
+        const Vec3d centre = tip + Vec3d{0, 0, kSameEdge * spacing_};
+        std::vector<std::uint32_t> moves;
+        edges_->near(centre, moves);
+        return std::any_of(moves.begin(), moves.end(),
+                           [&](std::uint32_t move) { return edges_->removes(move, centre, 0); });
+    }
+
     bool reaches_ends(const DomainCurve& curve, const Points& piece) const
     {
         constexpr double kSame = 1e-9;
@@ -324,6 +398,8 @@ private:
     PassTracer tracer_;
     RidgeTool tool_;
     std::optional<Coverage> coverage_;
+    std::optional<SweptBalls> edges_;  // of free parts, as thin balls
+    bool whole_{true};                 // all passes run from end to end
     // One smooth surface: where all its passes are whole, the ridges between them are all there is.
     bool plain_{};
     double ridge_share_{};

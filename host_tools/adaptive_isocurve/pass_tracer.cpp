@@ -142,7 +142,7 @@ Points PassTracer::along(const DomainCurve& curve, double from, double to) const
                              even(from, to, parts));
 }
 
-std::vector<TracedPiece> PassTracer::trace(const DomainCurve& curve) const
+TracedCurve PassTracer::trace(const DomainCurve& curve) const
 {
     const double u0 = curve.u.front();
     const double u1 = curve.u.back();
@@ -154,19 +154,29 @@ std::vector<TracedPiece> PassTracer::trace(const DomainCurve& curve) const
     const auto free = [&](double u) {
         return free_at(curve.surface, u, curve.v_at(u));
     };
-    std::vector<TracedPiece> out;
+    TracedCurve out;
+    const auto look_at_blocked = [&](double u) {
+        out.blocked =
+            out.blocked || certified_.model().inside_trims(curve.surface, u, curve.v_at(u));
+    };
     double begin = u0;
     bool was_free = free(u0);
+    if (!was_free) {
+        look_at_blocked(u0);
+    }
     const auto close = [&](double end) {
         if (end > begin) {
             Points piece = along(curve, begin, end);
             if (length_of(piece) > kShortestPiece) {
-                out.push_back({std::move(piece), begin, end});
+                out.pieces.push_back({std::move(piece), begin, end});
             }
         }
     };
     for (std::size_t k = 1; k < looks.size(); ++k) {
         const bool is_free = free(looks[k]);
+        if (!is_free) {
+            look_at_blocked(looks[k]);
+        }
         if (is_free == was_free) {
             continue;
         }
@@ -176,6 +186,7 @@ std::vector<TracedPiece> PassTracer::trace(const DomainCurve& curve) const
             const double middle = 0.5 * (inside + outside);
             (free(middle) ? inside : outside) = middle;
         }
+        look_at_blocked(outside);
         if (is_free) {
             begin = inside;
         } else {

@@ -15,6 +15,11 @@ struct TracedPiece {
     double u_end;
 };
 
+struct TracedCurve {
+    std::vector<TracedPiece> pieces;
+    bool blocked{};  // somewhere by another place of the model, not by a trim only
+};
+
 class PassTracer {
 public:
     PassTracer(const std::vector<Surface>& surfaces, const CertifiedPasses& certified)
@@ -30,7 +35,7 @@ public:
 
     // The parts of the curve where the tool is free. A loss of less than 1 mm that
     // hides between free places is not trimmed here: the proof of the path lifts over it.
-    std::vector<TracedPiece> trace(const DomainCurve& curve) const;
+    TracedCurve trace(const DomainCurve& curve) const;
 
     // Lines along the edge of the free part of the surface, on the model: where offsets of two
     // surfaces meet, and trimmed edges. Empty where all is free.

@@ -140,6 +140,15 @@ bool SurfaceModel::inside_trims(int surface, double u, double v) const
     return state_->regions[static_cast<std::size_t>(surface)].inside(u, v);
 }
 
+bool SurfaceModel::outside_trims(int surface, Vec2d low, Vec2d high) const
+{
+    const TrimRegion& region = state_->regions[static_cast<std::size_t>(surface)];
+    return region.trimmed() &&
+           region.part(low.x, high.x, low.y, high.y) == TrimRegion::Part::kOutside;
+}
+
+double SurfaceModel::edge_error() const { return state_->edges.empty() ? 0 : state_->edge_error; }
+
 SurfacePoint SurfaceModel::evaluate(int surface, double u, double v) const
 {
     const State::Grid& grid = state_->grids[static_cast<std::size_t>(surface)];

@@ -78,6 +78,12 @@ public:
     // Whether (u, v) lies in the trimmed domain of the surface.
     bool inside_trims(int surface, double u, double v) const;
 
+    // Whether all of a rectangle of the domain is trimmed away.
+    bool outside_trims(int surface, Vec2d low, Vec2d high) const;
+
+    // mm: how far below the truth distances to trimmed surfaces may be near their edges.
+    double edge_error() const;
+
     // Evaluation by the cells: as `derivatives_at`, several times faster.
     SurfacePoint evaluate(int surface, double u, double v) const;
 

@@ -9,6 +9,8 @@ namespace {
 
 constexpr int kFirstPieces = 4;  // of a span, so that no wave hides between the ends
 constexpr int kDeepestHalving = 14;
+constexpr std::size_t kSidesInRow = 4;
+constexpr std::size_t kMostRows = 2000;
 
 struct EdgePoint {
     double t;
@@ -116,12 +118,44 @@ TrimRegion::TrimRegion(const Surface& surface, double edge_error)
         }
         loops_.push_back(std::move(domain));
     }
+    make_rows();
+}
+
+std::size_t TrimRegion::row(double v) const
+{
+    const double share = high_ > low_ ? (v - low_) / (high_ - low_) : 0;
+    const double last = static_cast<double>(rows_.size() - 1);
+    return static_cast<std::size_t>(
+        std::clamp(share * static_cast<double>(rows_.size()), 0.0, last));
+}
+
+void TrimRegion::make_rows()
+{
+    if (sides_.empty()) {
+        return;
+    }
+    low_ = high_ = sides_.front()[0].y;
+    for (const auto& [a, b] : sides_) {
+        low_ = std::min({low_, a.y, b.y});
+        high_ = std::max({high_, a.y, b.y});
+    }
+    rows_.resize(std::clamp<std::size_t>(sides_.size() / kSidesInRow, 1, kMostRows));
+    for (std::size_t k = 0; k < sides_.size(); ++k) {
+        const std::size_t last = row(std::max(sides_[k][0].y, sides_[k][1].y));
+        for (std::size_t at = row(std::min(sides_[k][0].y, sides_[k][1].y)); at <= last; ++at) {
+            rows_[at].push_back(static_cast<std::uint32_t>(k));
+        }
+    }
 }
 
 bool TrimRegion::inside(double u, double v) const
 {
-    bool in = sides_.empty();
-    for (const auto& [a, b] : sides_) {
+    if (sides_.empty()) {
+        return true;
+    }
+    bool in = false;
+    for (const std::uint32_t side : rows_[row(v)]) {
+        const auto& [a, b] = sides_[side];
         if ((a.y > v) != (b.y > v) && u < a.x + (b.x - a.x) * (v - a.y) / (b.y - a.y)) {
             in = !in;
         }
@@ -135,9 +169,15 @@ TrimRegion::Part TrimRegion::part(double u_begin, double u_end, double v_begin, 
     const Vec2d slack{1e-9 * (u_end - u_begin), 1e-9 * (v_end - v_begin)};
     const Vec2d low = Vec2d{u_begin, v_begin} - slack;
     const Vec2d high = Vec2d{u_end, v_end} + slack;
-    for (const std::array<Vec2d, 2>& side : sides_) {
-        if (touches(side, low, high)) {
-            return Part::kCut;
+    if (sides_.empty()) {
+        return Part::kInside;
+    }
+    const std::size_t last = row(high.y);
+    for (std::size_t at = row(low.y); at <= last; ++at) {
+        for (const std::uint32_t side : rows_[at]) {
+            if (touches(sides_[side], low, high)) {
+                return Part::kCut;
+            }
         }
     }
     return inside(0.5 * (u_begin + u_end), 0.5 * (v_begin + v_end)) ? Part::kInside

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "host_tools/nurbs/nurbs.hpp"
@@ -28,7 +29,14 @@ public:
     const std::vector<std::vector<Vec2d>>& loops() const { return loops_; }
 
 private:
+    std::size_t row(double v) const;
+    void make_rows();
+
     std::vector<std::array<Vec2d, 2>> sides_;
+    // The sides that touch each of the equal rows between the least and the greatest v.
+    std::vector<std::vector<std::uint32_t>> rows_;
+    double low_{};
+    double high_{};
     std::vector<std::array<Vec3d, 2>> edges_;
     std::vector<std::vector<Vec2d>> loops_;
 };

@@ -169,7 +169,9 @@ CertifiedPasses::CertifiedPasses(const SurfaceModel& model, const Tool& tool, co
 
 bool CertifiedPasses::stands_free(Vec3d tip) const
 {
-    const double enough = band_.lift - kContactSlack;
+    // A surface's own trimmed edge is no other place, but the polyline for it is not quite the
+    // edge.
+    const double enough = band_.lift - std::max(kContactSlack, 2 * model_.edge_error());
     return model_.clearance(tool_, tip, enough).distance >= enough - 1e-9;
 }
 

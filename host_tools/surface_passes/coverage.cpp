@@ -13,16 +13,23 @@ constexpr double kSmallest = 1.0 / 96;  // cells, in steps between passes
 constexpr double kLargest = 4;          // the same
 constexpr double kBlockedCell = 0.25;   // the same, where the tool can't touch
 constexpr double kSlopeShare = 0.02;    // of the scallop, for the slope in a smallest cell
+constexpr double kReachPitch = 0.125;   // radii, at least
 constexpr double kTraceStep = 0.125;    // in steps between passes
-constexpr std::array<std::array<double, 2>, 8> kDirections{
-    {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {0.7, 0.7}, {-0.7, 0.7}, {0.7, -0.7}, {-0.7, -0.7}}};
-constexpr int kMostTraced = 4000;  // places of one pass
-constexpr int kRounds = 3;
+constexpr int kMostTraced = 4000;       // places of one pass
+constexpr int kRounds = 5;
 constexpr int kDeepest = 40;
 constexpr std::size_t kMostGaps = 200000;
 constexpr double kUpright = 0.05;   // z of the normal
+constexpr double kSteep = 0.2;      // the same
 constexpr double kHidden = 1e-3;    // mm
 constexpr double kShortest = 1e-3;  // mm
+
+// Where metal may stand at most. On all but steep ground it is measured upright and turned square:
+// over sharp ridges that asks for more than the way along the normal.
+Vec3d raised(Vec3d point, Vec3d normal, double scallop, bool upright)
+{
+    return upright ? point + Vec3d{0, 0, scallop / normal.z} : point + normal * scallop;
+}
 
 double largest(const std::array<double, 4>& of) { return *std::max_element(of.begin(), of.end()); }
 
@@ -39,7 +46,8 @@ Coverage::Coverage(const std::vector<Surface>& surfaces,
       path_off_{path_off},
       step_{std::sqrt(8 * certified.tool().radius * scallop)},
       swept_{radius_, 0.6 * step_},
-      tops_{surfaces, certified.model(), kBlockedCell * step_}
+      tops_{surfaces, certified.model(), kBlockedCell * step_},
+      reach_{certified, std::max(kBlockedCell * step_, kReachPitch * radius_)}
 {
 }
 
@@ -57,14 +65,18 @@ Vec3d Coverage::touching_tip(const Corner& at) const
 
 bool Coverage::place_covered(const Corner& at) const
 {
-    const Vec3d raised = at.point.point + at.normal * (scallop_ * (1 - kSlopeShare));
+    const Vec3d top =
+        raised(at.point.point, at.normal, scallop_ * (1 - kSlopeShare), at.normal.z >= kSteep);
     swept_.near(at.point.point + at.normal * radius_, near_);
     return std::any_of(near_.begin(), near_.end(),
-                       [&](std::uint32_t move) { return swept_.removes(move, raised, path_off_); });
+                       [&](std::uint32_t move) { return swept_.removes(move, top, path_off_); });
 }
 
 Coverage::Verdict Coverage::judge(const Cell& cell) const
 {
+    if (certified_.model().outside_trims(cell.surface, {cell.u0, cell.v0}, {cell.u1, cell.v1})) {
+        return Verdict::kCovered;
+    }
     const std::array<Corner, 4> at{
         corner(cell.surface, cell.u0, cell.v0), corner(cell.surface, cell.u1, cell.v0),
         corner(cell.surface, cell.u0, cell.v1), corner(cell.surface, cell.u1, cell.v1)};
@@ -74,12 +86,14 @@ Coverage::Verdict Coverage::judge(const Cell& cell) const
     std::array<double, 4> along_v{};
     std::array<double, 4> bow{};
     double turn = 0;
+    double least_z = 1;
     for (std::size_t k = 0; k < 4; ++k) {
         const SurfacePoint& p = at[k].point;
         along_u[k] = norm(p.du) * width_u;
         along_v[k] = norm(p.dv) * width_v;
         bow[k] = 0.25 * (norm(p.duu) * width_u * width_u + norm(p.dvv) * width_v * width_v);
         turn = std::max(turn, norm(at[k].normal - at[0].normal));
+        least_z = std::min(least_z, at[k].normal.z);
     }
     const double long_u = std::max(largest(along_u), norm(at[1].point.point - at[0].point.point));
     const double long_v = std::max(largest(along_v), norm(at[2].point.point - at[0].point.point));
@@ -89,15 +103,21 @@ Coverage::Verdict Coverage::judge(const Cell& cell) const
             return longer;
         }
     }
-    const double less = path_off_ + largest(bow) + 0.5 * scallop_ * turn * turn;
+    const bool upright = least_z >= kSteep;
+    const double bend = upright ? turn / least_z : turn;
+    const double less = path_off_ + largest(bow) + 0.5 * scallop_ * bend * bend;
     Corner middle = corner(cell.surface, 0.5 * (cell.u0 + cell.u1), 0.5 * (cell.v0 + cell.v1));
     swept_.near(middle.point.point + middle.normal * radius_, near_);
+    std::array<Vec3d, 4> tops{};
+    for (std::size_t k = 0; k < 4; ++k) {
+        tops[k] = raised(at[k].point.point, at[k].normal, scallop_, upright);
+    }
     // One bit a corner, of the moves that cover it.
     std::array<bool, 16> together{};
     for (const std::uint32_t move : near_) {
         unsigned covers = 0;
         for (unsigned k = 0; k < 4; ++k) {
-            if (swept_.removes(move, at[k].point.point + at[k].normal * scallop_, less)) {
+            if (swept_.removes(move, tops[k], less)) {
                 covers |= 1U << k;
             }
         }
@@ -216,44 +236,9 @@ std::optional<Vec3d> Coverage::better_tip(const Corner& at) const
     if ((now.height - p.z) * cosine <= scallop_) {
         return std::nullopt;
     }
-    // The map finds where; the model says how low.
-    const auto height = [&](double x, double y) {
-        const double square = radius_ * radius_ - (x - p.x) * (x - p.x) - (y - p.y) * (y - p.y);
-        if (square < 0) {
-            return std::numeric_limits<double>::infinity();
-        }
-        return tops_.drop(x, y, radius_) + radius_ - std::sqrt(square);
-    };
-    double x = p.x;
-    double y = p.y;
-    double best = height(x, y);
-    if (std::isfinite(now.height) && height(now.centre.x, now.centre.y) < best) {
-        x = now.centre.x;
-        y = now.centre.y;
-        best = height(x, y);
-    }
-    for (double step = 0.5 * radius_; step > 0.05 * step_;) {
-        const double from = best;
-        for (const auto& [dx, dy] : kDirections) {
-            const double there = height(x + dx * step, y + dy * step);
-            if (there < best) {
-                best = there;
-                x += dx * step;
-                y += dy * step;
-                break;
-            }
-        }
-        if (best == from) {
-            step *= 0.5;
-        }
-    }
-    const std::optional<Vec3d> tip = certified_.dropped(x, y);
-    if (!tip) {
-        return std::nullopt;
-    }
-    const double square = radius_ * radius_ - (x - p.x) * (x - p.x) - (y - p.y) * (y - p.y);
-    const double exact = tip->z + radius_ - std::sqrt(std::max(0.0, square));
-    return (now.height - exact) * cosine > scallop_ ? tip : std::nullopt;
+    const std::optional<LowestReach::Answer> best = reach_.over(p, now.height - scallop_ / cosine);
+    return best && (now.height - best->height) * cosine > scallop_ ? std::optional{best->tip}
+                                                                   : std::nullopt;
 }
 
 Points Coverage::trace(int surface, Place place, bool along_u) const
@@ -336,6 +321,28 @@ void Coverage::close_gaps(const std::function<void(const Points&)>& cut)
         return !bare_place(cell).has_value();
     };
     gaps_.erase(std::remove_if(gaps_.begin(), gaps_.end(), met), gaps_.end());
+    for (const Cell& cell : gaps_) {
+        most_left_ = std::max(most_left_, left_over(cell));
+    }
+}
+
+// What is left at a bare place of the cell, square to the surface, over the best that can be done.
+double Coverage::left_over(const Cell& cell) const
+{
+    const std::optional<Place> place = bare_place(cell);
+    if (!place) {
+        return 0;
+    }
+    const Corner at = corner(cell.surface, place->u, place->v);
+    const Vec3d p = at.point.point;
+    const SweptBalls::Lowest now = swept_.lowest(p.x, p.y);
+    if (!std::isfinite(now.height)) {
+        return radius_;
+    }
+    const std::optional<LowestReach::Answer> best =
+        reach_.over(p, std::numeric_limits<double>::infinity());
+    const double from = best ? std::max(p.z, best->height) : p.z;
+    return std::min(radius_, std::max(0.0, (now.height - from) * at.normal.z));
 }
 
 }  // namespace cusp::host

@@ -8,12 +8,14 @@
 #include <vector>
 
 #include "host_tools/surface_passes/certified_pass.hpp"
+#include "host_tools/surface_passes/lowest_reach.hpp"
 #include "host_tools/surface_passes/swept_balls.hpp"
 #include "host_tools/surface_passes/top_map.hpp"
 
 namespace cusp::host {
 
-// What is left at a place is measured square to the surface, where the tool can touch it. Where it
+// What is left at a place is measured upright and turned square to the surface (steep walls: along
+// the normal), where the tool can touch it. Where it
 // can't (valleys, concave edges), by what the best position of the tool would leave.
 //
 // Proof for a cell of the domain: what one straight move removes is convex. Where it holds all four
@@ -43,6 +45,9 @@ public:
 
     // Cells that stay uncovered, after `close_gaps`.
     std::size_t uncovered() const { return gaps_.size(); }
+
+    // The most that was found left there over what the tool can reach, mm.
+    double most_left() const { return most_left_; }
 
 private:
     struct Place {
@@ -74,6 +79,7 @@ private:
     // `where_blocked` is false.
     std::optional<Vec3d> missing_tip(int surface, double u, double v, bool where_blocked) const;
     std::optional<Vec3d> better_tip(const Corner& at) const;
+    double left_over(const Cell& cell) const;
     Points trace(int surface, Place place, bool along_u) const;
 
     const std::vector<Surface>& surfaces_;
@@ -84,7 +90,9 @@ private:
     double step_;  // mm, between passes on flat ground
     SweptBalls swept_;
     TopMap tops_;
+    mutable LowestReach reach_;
     std::vector<Cell> gaps_;
+    double most_left_{};
     mutable std::vector<std::uint32_t> near_;
 };
 

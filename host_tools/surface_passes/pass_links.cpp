@@ -1,4 +1,4 @@
-// Greedy order; a link lies on the model, or it is a retract.
+// Greedy order, or the one given; a link lies on the model, or it is a retract.
 #include "host_tools/surface_passes/pass_links.hpp"
 
 #include <algorithm>
@@ -157,6 +157,10 @@ LinkedPasses link_passes(std::vector<SurfacePass> passes,
     for (std::size_t count = 0; count < passes.size(); ++count) {
         done[next] = true;
         linker.add(passes[next]);
+        if (rules.one_way) {
+            ++next;
+            continue;
+        }
         const Vec3d at = passes[next].points.back();
         double nearest = std::numeric_limits<double>::infinity();
         bool turned = false;
@@ -165,7 +169,7 @@ LinkedPasses link_passes(std::vector<SurfacePass> passes,
                 continue;
             }
             const double forward = norm(passes[k].points.front() - at);
-            const double backward = rules.one_way ? forward : norm(passes[k].points.back() - at);
+            const double backward = norm(passes[k].points.back() - at);
             if (std::min(forward, backward) < nearest - kSamePlace) {
                 nearest = std::min(forward, backward);
                 next = k;

@@ -21,7 +21,7 @@ struct LinkRules {
     double stay_down{};    // mm in plan: nearer passes are joined on the model
     double clearance_z{};  // height of rapids
     double plunge_from{};  // height from which the tool goes down at the plunge feed
-    bool one_way{false};
+    bool one_way{false};   // passes keep their order and their direction
 };
 
 struct LinkedPasses {
@@ -32,7 +32,7 @@ struct LinkedPasses {
     int points{};
 };
 
-// Nearest end first, from the first pass on; zigzag may turn passes round. O(n^2).
+// Zigzag: nearest end first, from the first pass on; passes may be turned round. O(n^2).
 LinkedPasses link_passes(std::vector<SurfacePass> passes,
                          const LinkRules& rules,
                          CertifiedPasses& certified);

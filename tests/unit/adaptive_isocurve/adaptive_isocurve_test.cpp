@@ -83,6 +83,28 @@ double deepest_cut(const Toolpath& path, const std::vector<Surface>& floor)
     return deepest;
 }
 
+// Of each run of cuts: its way from start to end, and its middle.
+std::vector<Vec3d> pass_middles(const Toolpath& path)
+{
+    std::vector<Vec3d> out;
+    Vec3d at;
+    Vec3d start;
+    bool cutting = false;
+    for (const ToolMove& move : path.moves) {
+        const bool cuts = move.kind == MoveKind::kCut;
+        if (cuts != cutting) {
+            if (!cuts) {
+                out.push_back(at - start);
+                out.push_back((at + start) * 0.5);
+            }
+            start = at;
+            cutting = cuts;
+        }
+        at = end_of(move);
+    }
+    return out;
+}
+
 void refused(const Job& job, const char* word)
 {
     try {
@@ -203,6 +225,28 @@ TEST(AdaptiveIsocurve, RetractsAfterEachPassOneWay)
     operation.traversal = Traversal::kOneWay;
     const PlannedOperation planned = plan_adaptive_isocurve(job, operation).front();
     CHECK(planned.stats.retracts >= planned.stats.passes / 2);
+}
+
+// Climb: metal lies to the right of the way, so that passes follow each other to the right.
+TEST(AdaptiveIsocurve, CutsOneWayInTheDirectionAskedFor)
+{
+    operation.floor.pop_back();
+    operation.traversal = Traversal::kOneWay;
+    for (const CutDirection direction : {CutDirection::kClimb, CutDirection::kConventional}) {
+        operation.direction_of_cut = direction;
+        for (const char parameter : {'u', 'v'}) {
+            operation.direction = parameter;
+            const std::vector<Vec3d> mids =
+                pass_middles(plan_adaptive_isocurve(job, operation).front().path);
+            int right = 0;
+            for (std::size_t k = 3; k < mids.size(); k += 2) {
+                const Vec3d on = mids[k] - mids[k - 2];
+                const Vec3d way = mids[k - 1];
+                right += way.y * on.x - way.x * on.y > 0 ? 1 : -1;
+            }
+            CHECK(direction == CutDirection::kClimb ? right > 0 : right < 0);
+        }
+    }
 }
 
 TEST(AdaptiveIsocurve, IsShorterThanParallelPlanesAtTheSameScallop)

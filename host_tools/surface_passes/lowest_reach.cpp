@@ -1,0 +1,177 @@
+// Kelley's way: contacts bound the drop from below, each exact drop adds one.
+#include "host_tools/surface_passes/lowest_reach.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cusp::host {
+namespace {
+
+constexpr int kMostDrops = 10;          // from a start
+constexpr std::size_t kMostStarts = 3;  // apart from each other
+constexpr double kApart = 0.3;          // radii
+constexpr double kAgrees = 2e-4;        // mm
+constexpr double kFinest = 1e-3;        // of the pitch
+constexpr int kDirections = 8;
+constexpr double kTurn = 0.41;  // radians, so that no valley lies between all directions
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+double square(double a) { return a * a; }
+
+}  // namespace
+
+LowestReach::LowestReach(const CertifiedPasses& certified, double pitch)
+    : certified_{certified},
+      radius_{certified.tool().radius},
+      contact_radius_{radius_ + certified.band().lift},
+      pitch_{pitch}
+{
+}
+
+LowestReach::Node LowestReach::dropped(double x, double y) const
+{
+    const std::optional<Vec3d> tip = certified_.dropped(x, y);
+    if (!tip) {
+        return {{x, y, kNever}, {}};
+    }
+    const Clearance touch = certified_.model().clearance(certified_.tool(), *tip, kNever);
+    return {*tip + Vec3d{0, 0, radius_}, touch.nearest.point};
+}
+
+const LowestReach::Node& LowestReach::node(std::int64_t i, std::int64_t j)
+{
+    const std::uint64_t key =
+        (static_cast<std::uint64_t>(i) << 32) ^ (static_cast<std::uint64_t>(j) & 0xffffffffU);
+    const auto found = nodes_.find(key);
+    if (found != nodes_.end()) {
+        return found->second;
+    }
+    return nodes_
+        .emplace(key, dropped(static_cast<double>(i) * pitch_, static_cast<double>(j) * pitch_))
+        .first->second;
+}
+
+// The best nodes, apart from each other; the contacts of all nodes are kept.
+std::vector<LowestReach::Start> LowestReach::starts_over(Vec3d place)
+{
+    contacts_.clear();
+    std::vector<Start> all;
+    const auto cell = [&](double at) {
+        return static_cast<std::int64_t>(std::floor(at / pitch_));
+    };
+    for (std::int64_t i = cell(place.x - radius_) + 1; i <= cell(place.x + radius_); ++i) {
+        for (std::int64_t j = cell(place.y - radius_) + 1; j <= cell(place.y + radius_); ++j) {
+            const double x = static_cast<double>(i) * pitch_;
+            const double y = static_cast<double>(j) * pitch_;
+            const double under = square(radius_) - square(x - place.x) - square(y - place.y);
+            if (under < 0) {
+                continue;
+            }
+            const Node& at = node(i, j);
+            if (std::isfinite(at.centre.z)) {
+                contacts_.push_back(at.contact);
+                all.push_back({at.centre.z - std::sqrt(under), at.centre});
+            }
+        }
+    }
+    std::sort(all.begin(), all.end(),
+              [](const Start& a, const Start& b) { return a.height < b.height; });
+    std::vector<Start> out;
+    for (const Start& start : all) {
+        const bool apart = std::all_of(out.begin(), out.end(), [&](const Start& other) {
+            return std::hypot(start.centre.x - other.centre.x, start.centre.y - other.centre.y) >
+                   kApart * radius_;
+        });
+        if (apart) {
+            out.push_back(start);
+        }
+        if (out.size() == kMostStarts) {
+            break;
+        }
+    }
+    return out;
+}
+
+// What a ball that stands on the contacts known leaves over the place: never above the truth.
+double LowestReach::height_over(Vec3d place, double x, double y) const
+{
+    const double under = square(radius_) - square(x - place.x) - square(y - place.y);
+    if (under < 0) {
+        return kNever;
+    }
+    double centre = -kNever;
+    for (const Vec3d& contact : contacts_) {
+        const double up = square(contact_radius_) - square(x - contact.x) - square(y - contact.y);
+        if (up > 0) {
+            centre = std::max(centre, contact.z + std::sqrt(up));
+        }
+    }
+    return centre - std::sqrt(under);
+}
+
+// A place where `height_over` is least, near the one given.
+std::array<double, 2> LowestReach::improved(Vec3d place, double x, double y) const
+{
+    double best = height_over(place, x, y);
+    double turn = 0;
+    for (double step = pitch_; step > kFinest * pitch_; turn += kTurn) {
+        const double from = best;
+        for (int k = 0; k < kDirections; ++k) {
+            const double angle = turn + k * 0.78539816339744831;
+            const double to_x = x + step * std::cos(angle);
+            const double to_y = y + step * std::sin(angle);
+            const double there = height_over(place, to_x, to_y);
+            if (there < best) {
+                best = there;
+                x = to_x;
+                y = to_y;
+                break;
+            }
+        }
+        if (best == from) {
+            step *= 0.5;
+        }
+    }
+    return {x, y};
+}
+
+std::optional<LowestReach::Answer> LowestReach::over(Vec3d place, double worth)
+{
+    std::optional<Answer> best;
+    const auto take = [&](Vec3d centre, double height) {
+        if (!best || height < best->height) {
+            best = Answer{centre - Vec3d{0, 0, radius_}, height};
+        }
+    };
+    for (const Start& start : starts_over(place)) {
+        take(start.centre, start.height);
+        double x = start.centre.x;
+        double y = start.centre.y;
+        for (int drops = 0; drops < kMostDrops; ++drops) {
+            const auto [to_x, to_y] = improved(place, x, y);
+            const double hoped = height_over(place, to_x, to_y);
+            // The contacts know that this start leads no lower than what is known or asked for.
+            if (hoped > worth || (best && hoped > best->height - kAgrees)) {
+                break;
+            }
+            const Node at = dropped(to_x, to_y);
+            if (!std::isfinite(at.centre.z)) {
+                break;
+            }
+            const double height =
+                at.centre.z - std::sqrt(std::max(0.0, square(radius_) - square(to_x - place.x) -
+                                                          square(to_y - place.y)));
+            take(at.centre, height);
+            contacts_.push_back(at.contact);
+            if (height - hoped < kAgrees) {
+                break;
+            }
+            x = to_x;
+            y = to_y;
+        }
+    }
+    return best;
+}
+
+}  // namespace cusp::host

@@ -1,0 +1,58 @@
+// How low a ball gets over a place that it can't touch: the best position of the tool in valleys,
+// concave edges and under overhangs.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "host_tools/surface_passes/certified_pass.hpp"
+
+namespace cusp::host {
+
+// Exact drops of the tool on a grid, made where first asked for, say where to begin. From there the
+// position is improved over all contacts found so far, which are the floor that the ball stands on,
+// dropped exactly, and so on until drop and contacts agree.
+//
+// A search, not a proof: a better position may hide between the places of the grid.
+class LowestReach {
+public:
+    // pitch  mm, of the grid
+    LowestReach(const CertifiedPasses& certified, double pitch);
+
+    struct Answer {
+        Vec3d tip;
+        double height;  // mm: what this tip leaves straight above or below the place
+    };
+    // worth  mm: heights above this are not told apart; a low one saves most of the time
+    //
+    // None where the tool can't stand over the place.
+    std::optional<Answer> over(Vec3d place, double worth);
+
+private:
+    struct Node {
+        Vec3d centre;  // of the ball; z is infinite where the tool misses the model
+        Vec3d contact;
+    };
+    struct Start {
+        double height;
+        Vec3d centre;
+    };
+
+    const Node& node(std::int64_t i, std::int64_t j);
+    Node dropped(double x, double y) const;
+    std::vector<Start> starts_over(Vec3d place);
+    double height_over(Vec3d place, double x, double y) const;
+    std::array<double, 2> improved(Vec3d place, double x, double y) const;
+
+    const CertifiedPasses& certified_;
+    double radius_;
+    double contact_radius_;  // mm: of a ball that touches what the tool stays `lift` off
+    double pitch_;
+    std::unordered_map<std::uint64_t, Node> nodes_;
+    Points contacts_;  // near the place asked for
+};
+
+}  // namespace cusp::host
