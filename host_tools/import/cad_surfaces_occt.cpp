@@ -2,6 +2,7 @@
 // hands surface and trimming curves over.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "host_tools/import/cad_surfaces.hpp"
@@ -117,6 +118,25 @@ void add_loose_faces(const TopoDS_Shape& shape, std::vector<SolidFace>& faces)
     }
 }
 
+// The least u and v of the ends of the face's edges.
+gp_Pnt2d least_corner(const TopoDS_Face& face)
+{
+    gp_Pnt2d least{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
+    for (TopExp_Explorer edges{face, TopAbs_EDGE}; edges.More(); edges.Next()) {
+        double first = 0;
+        double last = 0;
+        const Handle(Geom2d_Curve) curve =
+            BRep_Tool::CurveOnSurface(TopoDS::Edge(edges.Current()), face, first, last);
+        for (const double t : {first, last}) {
+            if (!curve.IsNull()) {
+                const gp_Pnt2d p = curve->Value(t);
+                least.SetCoord(std::min(least.X(), p.X()), std::min(least.Y(), p.Y()));
+            }
+        }
+    }
+    return least;
+}
+
 // The part of the surface that the face uses, with clamped ends.
 Surface surface_of(const TopoDS_Face& face)
 {
@@ -133,14 +153,21 @@ Surface surface_of(const TopoDS_Face& face)
     double low_v = 0;
     double high_v = 0;
     spline->Bounds(low_u, high_u, low_v, high_v);
-    if (!spline->IsUPeriodic()) {
-        u0 = std::max(u0, low_u);
-        u1 = std::min(u1, high_u);
-    }
-    if (!spline->IsVPeriodic()) {
-        v0 = std::max(v0, low_v);
-        v1 = std::min(v1, high_v);
-    }
+    // Bounds of a face reach over a whole turn by some tolerance: there its edges say where it
+    // begins.
+    const gp_Pnt2d first = least_corner(face);
+    const auto keep_within = [](bool periodic, double low, double high, double least, double& from,
+                                double& to) {
+        if (!periodic) {
+            from = std::max(from, low);
+            to = std::min(to, high);
+        } else if (to - from > high - low) {
+            from = least;
+            to = least + (high - low);
+        }
+    };
+    keep_within(spline->IsUPeriodic(), low_u, high_u, first.X(), u0, u1);
+    keep_within(spline->IsVPeriodic(), low_v, high_v, first.Y(), v0, v1);
     spline->Segment(u0, u1, v0, v1);
     Surface surface;
     surface.degree_u = spline->UDegree();
@@ -232,14 +259,46 @@ void tidy(std::vector<Curve>& loop, const Surface& s)
     }
 }
 
+// The edges of a wire in order. Open CASCADE's walk ends early where a seam meets a pole: there
+// each curve is followed by the one that starts nearest to its end in (u, v).
+std::vector<Curve> loop_of(const TopoDS_Wire& wire,
+                           const TopoDS_Face& face,
+                           const std::string& place)
+{
+    std::vector<Curve> walked;
+    for (BRepTools_WireExplorer at{wire, face}; at.More(); at.Next()) {
+        walked.push_back(trim_of(at.Current(), face, place));
+    }
+    std::vector<Curve> all;
+    for (TopExp_Explorer edges{wire.Oriented(TopAbs_FORWARD), TopAbs_EDGE}; edges.More();
+         edges.Next()) {
+        all.push_back(trim_of(TopoDS::Edge(edges.Current()), face, place));
+    }
+    if (walked.size() >= all.size()) {
+        return walked;
+    }
+    if (wire.Orientation() == TopAbs_REVERSED) {
+        for (Curve& curve : all) {
+            curve = reversed(curve);
+        }
+    }
+    for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+        const Vec3d end = all[i].points.back();
+        const auto next =
+            std::min_element(all.begin() + static_cast<std::ptrdiff_t>(i) + 1, all.end(),
+                             [&](const Curve& a, const Curve& b) {
+                                 return norm(a.points.front() - end) < norm(b.points.front() - end);
+                             });
+        std::swap(all[i + 1], *next);
+    }
+    return all;
+}
+
 void add_trims(const TopoDS_Face& face, const std::string& place, Surface& surface)
 {
     std::vector<Curve> curves;
     for (TopExp_Explorer wires{face, TopAbs_WIRE}; wires.More(); wires.Next()) {
-        std::vector<Curve> loop;
-        for (BRepTools_WireExplorer at{TopoDS::Wire(wires.Current()), face}; at.More(); at.Next()) {
-            loop.push_back(trim_of(at.Current(), face, place));
-        }
+        std::vector<Curve> loop = loop_of(TopoDS::Wire(wires.Current()), face, place);
         shift_into_domain(loop, face, surface);
         tidy(loop, surface);
         curves.insert(curves.end(), loop.begin(), loop.end());
