@@ -72,6 +72,10 @@ class ProofsOfTheImage(unittest.TestCase):
     def test_a_heap_of_ones_own_is_refused(self):
         self.refuse("symbols: malloc", extra='extern "C" void* malloc(unsigned) { return 0; }')
 
+    def test_exceptions_and_type_information_are_refused(self):
+        self.refuse("symbols: __cxa_throw", extra='extern "C" void __cxa_throw() {}')
+        self.refuse("symbols: _ZTI", extra='extern "C" { extern const int _ZTI1A; const int _ZTI1A = 1; }')
+
     def test_stdio_is_refused(self):
         self.refuse("symbols: printf", extra='extern "C" int printf(const char*, ...) { return 0; }')
 
@@ -117,6 +121,10 @@ class ProofsOfTheImage(unittest.TestCase):
 
     def test_too_much_ram_is_refused(self):
         self.refuse("bytes of RAM", extra="char large[100000];", reset="large[sink] = 1;")
+
+    def test_too_much_flash_does_not_even_link(self):
+        large = "extern const char large[600000]; const char large[600000] = {1};"
+        self.assertIn("overflowed", self.build(extra=large).stderr)
 
     def test_a_missing_image_is_no_success(self):
         run = subprocess.run([sys.executable, str(HERE / "image.py"), "none.elf", str(self.place)],

@@ -97,6 +97,14 @@ TEST_GROUP(Simulation)
     }
 };
 
+TEST(Simulation, EndsWithAnErrorWhereTheControllerIsResetAtRest)
+{
+    options.script = {{100, '!'}, {900, 0x18}};
+    const host::SimulationResult result = run("G21G90\nG1X50F1000\nX0\n");
+    CHECK_FALSE(result.good());
+    STRCMP_EQUAL("the controller was reset", result.errors.at(0).text.c_str());
+}
+
 TEST(Simulation, RunsThePlainProgramsWithinEveryLimit)
 {
     for (const char* name : {"line", "diag", "square", "rsq", "circle"}) {
