@@ -3,7 +3,7 @@ import json
 import math
 import random
 
-FLOORS = ("flat", "slope", "wavy", "steep", "valley", "rational", "crossing planes")
+FLOORS = ("flat", "slope", "wavy", "steep", "valley", "slots", "dome", "rational", "crossing planes")
 
 
 class RandomPocket:
@@ -135,6 +135,15 @@ class RandomPocket:
             deep = pick.uniform(4, 9)
             return [self.surface((14, 4), (3, 3), lambda u, v: depth
                                  - (deep if abs(u - 0.5) < 0.06 else 0) + pick.uniform(-0.5, 0.5))]
+        if self.floor_kind == "slots":
+            deep, places = pick.uniform(2, 8), [pick.uniform(0.2, 0.8) for _ in range(3)]
+            return [self.surface((24, 5), (3, 3), lambda u, v: depth + pick.uniform(-0.3, 0.3)
+                                 - (deep if min(abs(u - at) for at in places) < 0.03 else 0))]
+        if self.floor_kind == "dome":
+            high, narrow = pick.uniform(3, 12), pick.uniform(9, 18)
+            return [self.surface((2, 2), (1, 1), lambda u, v: depth),
+                    self.surface((9, 9), (3, 3), lambda u, v: depth - 3 + high
+                                 * math.exp(-narrow * ((u - 0.5) ** 2 + (v - 0.4) ** 2)))]
         if self.floor_kind == "crossing planes":
             slope = pick.uniform(0.1, 0.5) * self.size
             return [self.surface((2, 2), (1, 1), lambda u, v: depth - slope / 2 + slope * u),
@@ -162,7 +171,7 @@ class RandomPocket:
         if shape == "bull":
             lines.append(f"corner_radius = {length(self.radius * pick.uniform(0.2, 0.6))}")
         if rough_tool:
-            lines += ["[[tool]]", "number = 2", 'shape = "flat"',
+            lines += ["[[tool]]", "number = 2", f'shape = "{pick.choice(["flat", "ball"])}"',
                       f"diameter = {length(2 * self.radius * pick.uniform(1.1, 1.8))}"]
         names = [f"island{k}.json" for k in range(islands)]
         lines += ["[cutting]", f"feed = {length(1200)}", "[stock]", f"top = {length(top)}",
