@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "firmware/segmenter/arc_fitter.hpp"
+#include "host_tools/adaptive_isocurve/fitted_edges.hpp"
 #include "host_tools/adaptive_isocurve/level_slice.hpp"
 #include "host_tools/clearing/clearing.hpp"
 #include "host_tools/clearing/level_moves.hpp"
@@ -30,7 +30,6 @@ constexpr double kTaper = 1e-3;
 constexpr double kChord = 1e-3;  // mm: where arcs are written as lines
 constexpr double kMostLevels = 1e4;
 constexpr double kProofStep = 1e-3;  // mm: how far below the truth a proved clearance may be
-constexpr std::size_t kMostVertices = 2000;  // that one move replaces
 
 struct StepOver {
     double across;  // mm between passes
@@ -136,64 +135,6 @@ std::vector<double> level_heights(const Job& job,
     for (double k = 1; k <= count; ++k) {
         out.push_back(stock.top - deep * k / count);
     }
-    return out;
-}
-
-// The same arc with its centre as far from both ends to the last digit, as offsets need it.
-Edge exact_arc(Vec2d start, Vec2d end, Vec2d centre, int turn)
-{
-    const Vec2d chord = end - start;
-    const Vec2d middle = (start + end) * 0.5;
-    return arc_edge(start, end, centre - chord * (dot(centre - middle, chord) / dot(chord, chord)),
-                    turn);
-}
-
-// The edges as few lines and arcs, within the tolerance; ends stay.
-std::vector<Edge> fitted(const std::vector<Edge>& edges, double tolerance, bool arcs)
-{
-    constexpr double kSample = 1e-4;
-    std::vector<Vec3d> vertices{{edges.front().start.x, edges.front().start.y, 0.0}};
-    for (const Edge& edge : edges) {
-        const double turn = edge.turn == 0 ? 0.0 : 2.0 * std::sqrt(2.0 * kSample / edge.radius);
-        const int parts = edge.turn == 0 ? 1 : 1 + static_cast<int>(sweep(edge) / turn);
-        for (int k = 1; k <= parts; ++k) {
-            const Vec2d p = k == parts ? edge.end : point_on(edge, static_cast<double>(k) / parts);
-            if (norm(p - Vec2d{vertices.back().x, vertices.back().y}) > 1e-6) {
-                vertices.push_back({p.x, p.y, 0.0});
-            }
-        }
-    }
-    if (vertices.size() < 2) {
-        return {};
-    }
-    segmenter::FitSettings settings;
-    settings.left = settings.right = tolerance;
-    settings.arcs = arcs;
-    settings.greatest_sweep = 3.0;
-    settings.centre_step = 0;
-    settings.greatest_radius = 1000;
-    std::vector<Vec3d> room(std::clamp<std::size_t>(vertices.size(), 4, kMostVertices));
-    segmenter::ArcFitter fitter{settings, {room.data(), room.size()}};
-    fitter.start(vertices.front());
-    std::vector<Edge> out;
-    Vec2d at = edges.front().start;
-    const auto take = [&] {
-        for (segmenter::FittedMove move{}; fitter.next(move);) {
-            const Vec2d end{move.end.x, move.end.y};
-            const Vec2d centre = at + Vec2d{move.first_offset, move.second_offset};
-            out.push_back(move.is_arc ? exact_arc(at, end, centre, move.clockwise ? -1 : 1)
-                                      : line_edge(at, end));
-            at = end;
-        }
-    };
-    for (std::size_t k = 1; k < vertices.size(); ++k) {
-        if (!fitter.has_room()) {
-            take();
-        }
-        fitter.push(vertices[k]);
-    }
-    fitter.finish();
-    take();
     return out;
 }
 
@@ -308,7 +249,7 @@ private:
     {
         Region2d out;
         for (const Contour& contour : slice.contours) {
-            Contour edges = fitted(contour, fit, true);
+            Contour edges = fitted_edges(contour, fit, true);
             if (edges.size() >= 2 && std::abs(area(edges)) > fit * length(edges)) {
                 out.contours.push_back(std::move(edges));
             }
@@ -386,7 +327,7 @@ private:
             }
             // The outermost passes stay as they are: the levels below count on them.
             const std::vector<Edge> edges =
-                arcs || pass.level == 0 ? pass.path : fitted(pass.path, inner_fit_, false);
+                arcs || pass.level == 0 ? pass.path : fitted_edges(pass.path, inner_fit_, false);
             ++loops_;
             if (linked && pass.start == PassStart::kLink && way_inside(region, pass.link)) {
                 std::vector<Edge>& run = out.back().edges;

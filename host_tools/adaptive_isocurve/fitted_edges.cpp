@@ -1,0 +1,73 @@
+// Edges become vertices, and those what the core's segmenter makes of them.
+#include "host_tools/adaptive_isocurve/fitted_edges.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/segmenter/arc_fitter.hpp"
+
+namespace cusp::host {
+namespace {
+
+constexpr std::size_t kMostVertices = 2000;  // that one move replaces
+
+// The same arc with its centre as far from both ends to the last digit, as offsets need it.
+Edge exact_arc(Vec2d start, Vec2d end, Vec2d centre, int turn)
+{
+    const Vec2d chord = end - start;
+    const Vec2d middle = (start + end) * 0.5;
+    return arc_edge(start, end, centre - chord * (dot(centre - middle, chord) / dot(chord, chord)),
+                    turn);
+}
+
+}  // namespace
+
+std::vector<Edge> fitted_edges(const std::vector<Edge>& edges, double tolerance, bool arcs)
+{
+    constexpr double kSample = 1e-4;
+    std::vector<Vec3d> vertices{{edges.front().start.x, edges.front().start.y, 0.0}};
+    for (const Edge& edge : edges) {
+        const double turn = edge.turn == 0 ? 0.0 : 2.0 * std::sqrt(2.0 * kSample / edge.radius);
+        const int parts = edge.turn == 0 ? 1 : 1 + static_cast<int>(sweep(edge) / turn);
+        for (int k = 1; k <= parts; ++k) {
+            const Vec2d p = k == parts ? edge.end : point_on(edge, static_cast<double>(k) / parts);
+            if (norm(p - Vec2d{vertices.back().x, vertices.back().y}) > 1e-6) {
+                vertices.push_back({p.x, p.y, 0.0});
+            }
+        }
+    }
+    if (vertices.size() < 2) {
+        return {};
+    }
+    segmenter::FitSettings settings;
+    settings.left = settings.right = tolerance;
+    settings.arcs = arcs;
+    settings.greatest_sweep = 3.0;
+    settings.centre_step = 0;
+    settings.greatest_radius = 1000;
+    std::vector<Vec3d> room(std::clamp<std::size_t>(vertices.size(), 4, kMostVertices));
+    segmenter::ArcFitter fitter{settings, {room.data(), room.size()}};
+    fitter.start(vertices.front());
+    std::vector<Edge> out;
+    Vec2d at = edges.front().start;
+    const auto take = [&] {
+        for (segmenter::FittedMove move{}; fitter.next(move);) {
+            const Vec2d end{move.end.x, move.end.y};
+            const Vec2d centre = at + Vec2d{move.first_offset, move.second_offset};
+            out.push_back(move.is_arc ? exact_arc(at, end, centre, move.clockwise ? -1 : 1)
+                                      : line_edge(at, end));
+            at = end;
+        }
+    };
+    for (std::size_t k = 1; k < vertices.size(); ++k) {
+        if (!fitter.has_room()) {
+            take();
+        }
+        fitter.push(vertices[k]);
+    }
+    fitter.finish();
+    take();
+    return out;
+}
+
+}  // namespace cusp::host
