@@ -22,7 +22,7 @@ namespace {
 int cases()
 {
     const char* const text = std::getenv("CUSP_PROPERTY_CASES");
-    return text != nullptr ? std::atoi(text) : 6;
+    return text != nullptr ? std::atoi(text) : 3;
 }
 
 Job random_model(Random& random)
