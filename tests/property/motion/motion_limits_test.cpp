@@ -53,19 +53,21 @@ TEST(MotionLimits, HoldThroughHoldsOverridesAndStarvation)
     }
 }
 
+// Programs of a second each: 55 moves of all kinds within 0.01 mm, and 25 on the exact path.
 TEST(MotionLimits, HoldWhateverHappensAtAnyTickOfAProgram)
 {
-    const auto moves = RandomMoves{kSeed + 7}.program();
-    MotionRig first;
-    first.start_at({});
-    const std::size_t ticks = first.run(moves).size();
-    const std::size_t step = 1 + ticks / 1000;
-    using Event = MotionRig::Event;
-    for (const Event event : {Event::kHold, Event::kSlower, Event::kFaster, Event::kStarve}) {
-        for (std::size_t tick = 0; tick < ticks; tick += step) {
-            MotionRig rig;
-            rig.start_at({});
-            test::check_motion(rig.run_struck(moves, tick, event), moves.back().end, {}, tick);
+    for (const std::uint64_t seed : {20347U, 20288U}) {
+        const auto moves = RandomMoves{seed}.program();
+        MotionRig first;
+        first.start_at({});
+        const std::size_t ticks = first.run(moves).size();
+        using Event = MotionRig::Event;
+        for (const Event event : {Event::kHold, Event::kSlower, Event::kFaster, Event::kStarve}) {
+            for (std::size_t tick = 0; tick < ticks; ++tick) {
+                MotionRig rig;
+                rig.start_at({});
+                test::check_motion(rig.run_struck(moves, tick, event), moves.back().end, {}, tick);
+            }
         }
     }
 }
