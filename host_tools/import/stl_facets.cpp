@@ -199,6 +199,19 @@ bool is_ascii(const std::string& bytes)
            bytes.find('\0') == std::string::npos;
 }
 
+double width_along(double Vec3d::*axis, const Facets& facets)
+{
+    double low = facets.triangles.front()[0].*axis;
+    double high = low;
+    for (const auto& t : facets.triangles) {
+        for (const Vec3d& p : t) {
+            low = std::min(low, p.*axis);
+            high = std::max(high, p.*axis);
+        }
+    }
+    return high - low;
+}
+
 }  // namespace
 
 Facets read_stl(const std::string& file, double millimetres)
@@ -215,6 +228,13 @@ Facets read_stl(const std::string& file, double millimetres)
     if (facets.triangles.empty()) {
         throw InputError(
             fmt::format("{}: holds no facet with an area ({} without)", file, facets.degenerate));
+    }
+    const double in_x = width_along(&Vec3d::x, facets);
+    const double in_y = width_along(&Vec3d::y, facets);
+    if (!(in_x > 0 && in_y > 0)) {
+        throw InputError(
+            fmt::format("{}: is {:g} mm wide in x and {:g} mm in y: a floor must be wider than 0",
+                        file, in_x, in_y));
     }
     return facets;
 }

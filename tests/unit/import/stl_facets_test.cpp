@@ -133,6 +133,8 @@ TEST(StlFacets, AreRefusedWhereTheFileIsCutShort)
                     refused(text.substr(0, text.find("   vertex 0 10"))).c_str());
     STRCMP_CONTAINS("no STL", refused("solder").c_str());
     STRCMP_CONTAINS("no facet with an area", refused("solid x\nendsolid x\n").c_str());
+    STRCMP_CONTAINS("4 mm wide in x and 0 mm in y",
+                    refused(binary({{Vec3d{0, 2, 0}, Vec3d{4, 2, 0}, Vec3d{0, 2, 3}}}, 1)).c_str());
 }
 
 TEST(StlFacets, AreRefusedWithACoordinateThatIsNoNumber)
