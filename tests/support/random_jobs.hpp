@@ -16,6 +16,14 @@ inline int whole(Random& random, int low, int high)
     return std::uniform_int_distribution<int>{low, high}(random);
 }
 
+// A box whose low corner is up to (along_x, along_y) from zero, with sides of `least` to `most`.
+inline Box2d random_box(Random& random, Vec2d along, double least, double most)
+{
+    const double x = uniform(random, 0.0, along.x);
+    const double y = uniform(random, 0.0, along.y);
+    return {x, y, x + uniform(random, least, most), y + uniform(random, least, most)};
+}
+
 inline std::vector<double> even_knots(int points, int degree)
 {
     std::vector<double> knots;

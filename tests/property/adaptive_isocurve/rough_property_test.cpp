@@ -10,6 +10,7 @@
 #include "host_tools/surface_offset/surface_model.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
 #include "tests/property/grid_pocket/random_pockets.hpp"
+#include "tests/support/property_cases.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"
@@ -19,20 +20,8 @@
 namespace cusp::host {
 namespace {
 
-int cases()
-{
-    const char* const text = std::getenv("CUSP_PROPERTY_CASES");
-    return text != nullptr ? std::atoi(text) : 3;
-}
-
 Job random_model(Random& random)
 {
-    Job job;
-    job.file = "random.toml";
-    job.feed = 1200;
-    job.plunge_feed = 300;
-    job.spindle = 10000;
-    job.clearance = 5;
     Operation operation;
     operation.strategy = "adaptive_isocurve";
     operation.roughing = true;
@@ -40,16 +29,14 @@ Job random_model(Random& random)
     operation.tools = {operation.tool};
     double top = -1e300;
     for (int i = whole(random, 1, 4); i > 0; --i) {
-        const double x = uniform(random, 0.0, 20.0);
-        const double y = uniform(random, 0.0, 15.0);
-        const Box2d box{x, y, x + uniform(random, 15.0, 30.0), y + uniform(random, 15.0, 30.0)};
+        const Box2d box = random_box(random, {20, 15}, 15, 30);
         operation.floor.push_back(
             random_floor(random, box, uniform(random, -8.0, 0.0), uniform(random, 1.0, 8.0)));
         for (const Vec3d& p : operation.floor.back().points) {
             top = std::max(top, p.z);
         }
     }
-    job.stock_top = top + uniform(random, 0.0, 3.0);
+    const double stock_top = top + uniform(random, 0.0, 3.0);
     operation.max_depth = uniform(random, 1.0, 4.0);
     operation.allowance = whole(random, 0, 1) == 0 ? 0.0 : uniform(random, 0.1, 0.6);
     operation.plan_tolerance = 0.02;
@@ -59,8 +46,8 @@ Job random_model(Random& random)
     operation.entry = entry == 0   ? EntryKind::kAuto
                       : entry == 1 ? EntryKind::kHelix
                                    : EntryKind::kRamp;
-    job.tools = {operation.tool};
-    job.operations = {operation};
+    Job job = job_of(operation);
+    job.stock_top = stock_top;
     return job;
 }
 
@@ -185,7 +172,7 @@ TEST(RoughLevelsProperty, RandomModelsKeepTheirAllowanceAndNoCutIsDeeperThanALev
 {
     const char* const first = std::getenv("CUSP_PROPERTY_FIRST");
     const int begin = first != nullptr ? std::atoi(first) : 1;
-    for (int i = 0; i < cases(); ++i) {
+    for (int i = 0; i < property_cases(3); ++i) {
         check_model(static_cast<unsigned>(begin + i));
     }
 }

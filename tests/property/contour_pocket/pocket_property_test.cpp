@@ -1,23 +1,17 @@
 // Random pockets with islands on random floors: no gouge, nothing left above the scallop.
 #include <cstdio>
-#include <cstdlib>
 
 #include "host_tools/contour_pocket/contour_pocket.hpp"
 #include "host_tools/offset/region_check.hpp"
 #include "tests/property/contour_pocket/pocket_judge.hpp"
 #include "tests/property/offset/random_regions.hpp"
+#include "tests/support/property_cases.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"
 
 namespace cusp::host {
 namespace {
-
-int cases()
-{
-    const char* const text = std::getenv("CUSP_PROPERTY_CASES");
-    return text != nullptr ? std::atoi(text) : 3;
-}
 
 Curve line_curve(Vec2d a, Vec2d b)
 {
@@ -116,7 +110,7 @@ TEST(RandomPocket, HasNoGougeAndNothingLeftOverTheScallop)
 {
     constexpr unsigned kSeed = 1990;
     Random random{kSeed};
-    for (int i = 0; i < cases(); ++i) {
+    for (int i = 0; i < property_cases(3); ++i) {
         const Operation operation = random_operation(random);
         Job job;
         job.file = "job";

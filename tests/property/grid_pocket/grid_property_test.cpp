@@ -1,13 +1,13 @@
 // Random pockets cut in memory: no gouge, no metal under rapid moves, nothing left over the
 // computed roughness.
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 
 #include "host_tools/grid_pocket/grid_pocket.hpp"
 #include "host_tools/toolpath/gcode_writer.hpp"
 #include "host_tools/verify/verify.hpp"
 #include "tests/property/grid_pocket/random_pockets.hpp"
+#include "tests/support/property_cases.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
@@ -15,12 +15,6 @@
 
 namespace cusp::host {
 namespace {
-
-int cases()
-{
-    const char* const text = std::getenv("CUSP_PROPERTY_CASES");
-    return text != nullptr ? std::atoi(text) : 8;
-}
 
 VerifyFigures cut_in_memory(const Job& job, const std::vector<PlannedOperation>& plan)
 {
@@ -70,7 +64,7 @@ TEST_GROUP(GridProperty){};
 
 TEST(GridProperty, RandomPocketsAreCutToTheComputedRoughnessWithoutGouge)
 {
-    for (int i = 0; i < cases(); ++i) {
+    for (int i = 0; i < property_cases(8); ++i) {
         check_pocket(static_cast<unsigned>(i) + 1);
     }
 }

@@ -1,12 +1,12 @@
 // Random models of one to nine surfaces, roughed by one or two tools and cut in memory: no overcut,
 // no metal under rapid moves, no layer left uncleared.
 #include <cstdio>
-#include <cstdlib>
 #include <fstream>
 
 #include "host_tools/hull_rough/hull_rough.hpp"
 #include "host_tools/toolpath/gcode_writer.hpp"
 #include "host_tools/verify/verify.hpp"
+#include "tests/support/property_cases.hpp"
 #include "tests/support/random_jobs.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -16,12 +16,6 @@
 namespace cusp::host {
 namespace {
 
-int cases()
-{
-    const char* const text = std::getenv("CUSP_PROPERTY_CASES");
-    return text != nullptr ? std::atoi(text) : 8;
-}
-
 // Sheets anywhere; steps that meet edge to edge, flat or nearly; small islands over a floor.
 std::vector<Surface> random_surfaces(Random& random)
 {
@@ -29,10 +23,7 @@ std::vector<Surface> random_surfaces(Random& random)
     switch (whole(random, 0, 2)) {
         case 0:
             for (int i = whole(random, 1, 4); i > 0; --i) {
-                const double x = uniform(random, 0.0, 30.0);
-                const double y = uniform(random, 0.0, 20.0);
-                const Box2d box{x, y, x + uniform(random, 20.0, 40.0),
-                                y + uniform(random, 20.0, 40.0)};
+                const Box2d box = random_box(random, {30, 20}, 20, 40);
                 out.push_back(random_floor(random, box, uniform(random, -5.0, 5.0),
                                            uniform(random, 1.0, 8.0)));
             }
@@ -48,10 +39,7 @@ std::vector<Surface> random_surfaces(Random& random)
         default:
             out.push_back(random_floor(random, {0, 0, 50, 40}, -8, 0.5));
             for (int i = whole(random, 1, 5); i > 0; --i) {
-                const double x = uniform(random, 0.0, 42.0);
-                const double y = uniform(random, 0.0, 32.0);
-                const Box2d box{x, y, x + uniform(random, 2.0, 10.0),
-                                y + uniform(random, 2.0, 10.0)};
+                const Box2d box = random_box(random, {42, 32}, 2, 10);
                 out.push_back(random_floor(random, box, uniform(random, -6.0, 3.0),
                                            uniform(random, 0.5, 4.0)));
             }
@@ -148,7 +136,7 @@ TEST_GROUP(HullProperty){};
 
 TEST(HullProperty, RandomModelsAreNeverCutInto)
 {
-    for (int i = 0; i < cases(); ++i) {
+    for (int i = 0; i < property_cases(8); ++i) {
         check_model(static_cast<unsigned>(i) + 1);
     }
 }

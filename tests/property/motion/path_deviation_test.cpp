@@ -6,7 +6,7 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "tests/support/motion_rig.hpp"
+#include "tests/support/motion_limits.hpp"
 #include "tests/support/random_moves.hpp"
 
 using namespace cusp;
@@ -132,26 +132,20 @@ void check_program(std::uint64_t seed, double tolerance)
     }
 }
 
-std::uint64_t program_count()
-{
-    const char* text = std::getenv("CUSP_MOTION_PROGRAMS");
-    return text != nullptr ? std::strtoull(text, nullptr, 10) : 25;
-}
-
 }  // namespace
 
 TEST_GROUP(PathDeviation){};
 
 TEST(PathDeviation, StaysWithinTheTolerance)
 {
-    for (std::uint64_t i = 0; i < program_count(); ++i) {
+    for (std::uint64_t i = 0; i < test::motion_program_count(25); ++i) {
         check_program(kSeed + i, 0.002 * static_cast<double>(1 + i % 25));
     }
 }
 
 TEST(PathDeviation, StaysOnTheExactPath)
 {
-    for (std::uint64_t i = 0; i < program_count(); ++i) {
+    for (std::uint64_t i = 0; i < test::motion_program_count(25); ++i) {
         check_program(kSeed + i, 0.0);
     }
 }

@@ -7,6 +7,7 @@
 #include "host_tools/offset/offset.hpp"
 #include "host_tools/offset/region_check.hpp"
 #include "tests/property/offset/random_regions.hpp"
+#include "tests/support/property_cases.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"
@@ -14,12 +15,7 @@
 namespace cusp::host {
 namespace {
 
-// Source profiles tried: CUSP_PROPERTY_CASES, or ten thousand.
-int cases()
-{
-    const char* const text = std::getenv("CUSP_PROPERTY_CASES");
-    return text != nullptr ? std::atoi(text) : 10000;
-}
+constexpr int kRegions = 10000;  // source profiles tried
 
 Region2d random_region(Random& random)
 {
@@ -87,7 +83,7 @@ TEST(RandomOffset, KeepsItsDistanceAndMissesNothing)
     constexpr unsigned kSeed = 20260;
     Random random{kSeed};
     int offsets = 0;
-    for (int i = 0; i < cases(); ++i) {
+    for (int i = 0; i < property_cases(kRegions); ++i) {
         const Region2d source = random_region(random);
         const RegionOffset kernel{source};
         for (int k = 0; k < 4; ++k) {
@@ -106,7 +102,7 @@ TEST(RandomOffset, KeepsItsDistanceAndMissesNothing)
             ++offsets;
         }
     }
-    LONGS_EQUAL(4 * cases(), offsets);
+    LONGS_EQUAL(4 * property_cases(kRegions), offsets);
 }
 
 // A circle of many short lines and arcs: at a distance of many of their lengths each raw piece
@@ -136,7 +132,7 @@ TEST(RandomOffset, OfManySmallCurvesMissesNothing)
 {
     constexpr unsigned kSeed = 808;
     Random random{kSeed};
-    for (int i = 0; i < cases() / 500; ++i) {
+    for (int i = 0; i < property_cases(kRegions) / 500; ++i) {
         Region2d source = rough_circle(random, static_cast<int>(uniform(random, 150.0, 600.0)));
         if (i % 2 == 0) {
             source.contours.push_back(reversed(random_star(random, {5.0, 3.0}, 12.0, 5, 0.0)));
@@ -188,7 +184,7 @@ TEST(RandomOffset, EnclosesTheAreaThatClipperFinds)
 {
     constexpr unsigned kSeed = 4711;
     Random random{kSeed};
-    for (int i = 0; i < cases() / 20; ++i) {
+    for (int i = 0; i < property_cases(kRegions) / 20; ++i) {
         const Region2d source = random_region(random);
         const RegionOffset kernel{source};
         const double distance = uniform(random, 0.5, 10.0);
@@ -208,7 +204,7 @@ TEST(RandomOffset, TakenInStepsEqualsOneOffset)
 {
     constexpr unsigned kSeed = 99;
     Random random{kSeed};
-    for (int i = 0; i < cases() / 20; ++i) {
+    for (int i = 0; i < property_cases(kRegions) / 20; ++i) {
         const Region2d source = random_region(random);
         const RegionOffset kernel{source};
         const double distance = uniform(random, 1.0, 8.0);
