@@ -366,17 +366,15 @@ std::vector<Surface> surfaces_of(const std::string& file)
 }
 
 }  // namespace
+}  // namespace cusp::host
 
-std::string missing_for_cad_files() { return ""; }
-
-std::vector<Surface> read_cad_surfaces(const std::string& file)
+extern "C" void cusp_read_cad_surfaces(const std::string& file,
+                                       std::vector<cusp::host::Surface>& surfaces)
 {
     try {
-        return surfaces_of(file);
+        surfaces = cusp::host::surfaces_of(file);
     } catch (const Standard_Failure& failure) {
-        throw InputError(
+        throw cusp::host::InputError(
             fmt::format("{}: Open CASCADE gave up: {}", file, failure.GetMessageString()));
     }
 }
-
-}  // namespace cusp::host
