@@ -1,0 +1,29 @@
+// Loads libcusp_cad.so when a STEP or IGES file is read.
+#include "host_tools/import/cad_surfaces.hpp"
+
+#include <dlfcn.h>
+
+#include "host_tools/input_error/input_error.hpp"
+
+#include "fmt/format.h"
+
+namespace cusp::host {
+
+std::vector<Surface> read_cad_surfaces(const std::string& file)
+{
+    // Looked for where the program's RUNPATH says. It stays loaded: Open CASCADE keeps state that
+    // outlives a call.
+    void* const module = dlopen("libcusp_cad.so", RTLD_NOW | RTLD_LOCAL);
+    void* const door = module == nullptr ? nullptr : dlsym(module, "cusp_read_cad_surfaces");
+    if (door == nullptr) {
+        throw InputError(
+            fmt::format("{}: STEP and IGES can't be read: {}; it is built where Open CASCADE "
+                        "(libocct-data-exchange-dev) is installed",
+                        file, dlerror()));
+    }
+    std::vector<Surface> surfaces;
+    reinterpret_cast<decltype(&cusp_read_cad_surfaces)>(door)(file, surfaces);
+    return surfaces;
+}
+
+}  // namespace cusp::host
