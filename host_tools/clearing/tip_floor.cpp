@@ -18,7 +18,7 @@ TipFloor::TipFloor(const std::vector<Surface>& surfaces, const Tool& tool, doubl
     constexpr std::size_t kManyPieces = 20000;  // moving fewer of them costs more than the room
     pieces_.reserve(kManyPieces);
     nets_.reserve(8 * kManyPieces);
-    pieces_.push_back({});  // child 0 means none
+    std::vector<Piece> whole;  // patches
     if (std::any_of(surfaces_.begin(), surfaces_.end(),
                     [](const Surface& s) { return !s.trims.empty(); })) {
         for (const Surface& surface : surfaces_) {
@@ -43,12 +43,47 @@ TipFloor::TipFloor(const std::vector<Surface>& surfaces, const Tool& tool, doubl
             measure(piece);
             piece.cut = !trims_.empty() && trims_[s].trimmed();
             trim(piece);
-            roots_.push_back(static_cast<std::uint32_t>(pieces_.size()));
-            pieces_.push_back(piece);
+            whole.push_back(piece);
             lowest_ = std::min(lowest_, piece.z0);
             highest_ = std::max(highest_, piece.z1);
         }
     }
+    pieces_.resize(kRoot + 1);  // child 0 means none
+    gather(kRoot, whole.data(), whole.data() + whole.size());
+}
+
+// Makes pieces_[place] of the patches [first, last): halves beside each other, by the places of
+// their middles.
+void TipFloor::gather(std::uint32_t place, Piece* first, Piece* last)
+{
+    if (last - first == 1) {
+        pieces_[place] = *first;
+        return;
+    }
+    Piece group{};
+    group.patch = kGroup;
+    group.x0 = group.y0 = group.z0 = 1e300;
+    group.x1 = group.y1 = group.z1 = -1e300;
+    for (const Piece* piece = first; piece != last; ++piece) {
+        group.x0 = std::min(group.x0, piece->x0);
+        group.y0 = std::min(group.y0, piece->y0);
+        group.z0 = std::min(group.z0, piece->z0);
+        group.x1 = std::max(group.x1, piece->x1);
+        group.y1 = std::max(group.y1, piece->y1);
+        group.z1 = std::max(group.z1, piece->z1);
+    }
+    if (first != last) {
+        const bool by_x = group.x1 - group.x0 > group.y1 - group.y0;
+        Piece* const middle = first + (last - first) / 2;
+        std::nth_element(first, middle, last, [by_x](const Piece& a, const Piece& b) {
+            return by_x ? a.x0 + a.x1 < b.x0 + b.x1 : a.y0 + a.y1 < b.y0 + b.y1;
+        });
+        group.child = static_cast<std::uint32_t>(pieces_.size());
+        pieces_.resize(pieces_.size() + 2);
+        gather(group.child, first, middle);
+        gather(group.child + 1, middle, last);
+    }
+    pieces_[place] = group;
 }
 
 void TipFloor::measure(Piece& piece) const

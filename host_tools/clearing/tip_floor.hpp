@@ -94,12 +94,16 @@ private:
         std::array<float, 2> u;  // its part of the patch, as shares
         std::array<float, 2> v;
     };
+    // Patches are gathered by pairs up to one root: a group is a box with two children.
+    static constexpr std::uint32_t kRoot = 1;
+    static constexpr std::uint32_t kGroup = 0xFFFFFFFF;  // as `patch`
     struct Patch {
         std::uint32_t surface;
         std::uint32_t rows, columns;  // of control points
         double u0, u1, v0, v1;
     };
 
+    void gather(std::uint32_t place, Piece* first, Piece* last);
     void measure(Piece& piece) const;
     void trim(Piece& piece) const;
     static double extent(const Piece& piece)
@@ -129,7 +133,6 @@ private:
     mutable std::vector<Homogeneous> nets_;
     mutable std::vector<Vec3d> corners_;  // control points of the piece being measured
     mutable std::uint32_t last_{0};       // where the tool rested last: a good first guess
-    std::vector<std::uint32_t> roots_;
     double lowest_{1e300};
     double highest_{-1e300};
 };

@@ -117,7 +117,8 @@ double TipFloor::bound(const Piece& piece, const Query& query, double best, bool
         return kNothing;
     }
     if (!piece.graph) {
-        tight = whole && std::max(piece.x1 - piece.x0, piece.y1 - piece.y0) < 5.0 * accuracy_;
+        tight = whole && piece.patch != kGroup &&
+                std::max(piece.x1 - piece.x0, piece.y1 - piece.y0) < 5.0 * accuracy_;
         return by_box;
     }
     tight = whole && piece.thickness <= query.thin;
@@ -147,24 +148,22 @@ TipFloor::Rest TipFloor::drop(Vec2d at, double slack) const
         consider(last_);
         depth = 0;  // where it is not tight it is met again on the way down
     }
-    for (const std::uint32_t root : roots_) {
-        consider(root);
-        while (depth > 0) {
-            const Entry top = stack[--depth];
-            if (top.height <= best.height) {
-                continue;
-            }
-            if (pieces_[top.piece].child == 0) {
-                halve(top.piece);
-            }
-            const std::uint32_t child = pieces_[top.piece].child;
-            const std::size_t before = depth;
-            consider(child);
-            consider(child + 1);
-            // The more promising half is looked at first.
-            if (depth == before + 2 && stack[before].height > stack[before + 1].height) {
-                std::swap(stack[before], stack[before + 1]);
-            }
+    consider(kRoot);
+    while (depth > 0) {
+        const Entry top = stack[--depth];
+        if (top.height <= best.height) {
+            continue;
+        }
+        if (pieces_[top.piece].child == 0) {
+            halve(top.piece);
+        }
+        const std::uint32_t child = pieces_[top.piece].child;
+        const std::size_t before = depth;
+        consider(child);
+        consider(child + 1);
+        // The more promising half is looked at first.
+        if (depth == before + 2 && stack[before].height > stack[before + 1].height) {
+            std::swap(stack[before], stack[before + 1]);
         }
     }
     last_ = best.piece;

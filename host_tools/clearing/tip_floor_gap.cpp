@@ -85,56 +85,52 @@ double TipFloor::gap(Vec3d a, Vec3d b, double margin) const
     const Vec3d up{0.0, 0.0, ball ? tool_.radius : 0.0};
     double least = 0.0;
     std::array<Entry, kStack> stack;
-    for (const std::uint32_t root : roots_) {
-        std::size_t depth = 0;
-        stack[depth++] = {root, a + up, b + up};
-        while (depth > 0) {
-            const Entry top = stack[--depth];
-            const Piece& piece = pieces_[top.piece];
-            const double here = ball ? ball_gap(piece, top.a, top.b) - margin
-                                     : axial_gap(piece, top.a, top.b, margin);
-            if (here >= least) {
-                continue;
-            }
-            const Vec3d move = top.b - top.a;
-            const double size = std::max(piece.x1 - piece.x0, piece.y1 - piece.y0);
-            const double thin = piece.graph ? piece.thickness / piece.secant : size;
-            const double tilt = move.z - dot(piece.gradient, Vec2d{move.x, move.y});
-            const double turned = piece.graph ? std::abs(tilt) / piece.secant : norm(move);
-            const bool small = norm(move) < accuracy_ && size < accuracy_;
-            // Beyond the piece's rectangle its plane tells of metal that is not there: only a
-            // ball's turned box knows of the rectangle, for other tools the pieces must be small.
-            // A long move passes beside a piece in a corner of the box that it spans, where the
-            // piece's plane is not the floor: what cuts is looked at in short moves.
-            const bool clear = here >= -accuracy_ || norm(move) + size < 0.1 * tool_.radius;
-            const bool flat = thin < accuracy_ && turned < accuracy_;
-            const bool settled =
-                ball ? flat && clear
-                     : thin < 0.5 * accuracy_ && size * piece.secant < 0.05 && norm(move) < 0.05;
-            const bool whole = !piece.cut || extent(piece) < accuracy_;
-            // How deep a deep cut is need not be known better than to a tenth.
-            const bool deep =
-                here < -accuracy_ && std::max(extent(piece), norm(move)) < kDeepShare * -here;
-            if ((settled && whole) || deep || small || depth + 2 > kStack) {
-                least = std::min(least, here);
-                continue;
-            }
-            const bool halve_move = settled         ? false
-                                    : ball && !flat ? turned > thin
-                                                    : norm(move) > size;
-            if (halve_move) {
-                const Vec3d middle = (top.a + top.b) * 0.5;
-                stack[depth++] = {top.piece, top.a, middle};
-                stack[depth++] = {top.piece, middle, top.b};
-                continue;
-            }
-            if (piece.child == 0) {
-                halve(top.piece);
-            }
-            const std::uint32_t child = pieces_[top.piece].child;
-            stack[depth++] = {child, top.a, top.b};
-            stack[depth++] = {child + 1, top.a, top.b};
+    std::size_t depth = 0;
+    stack[depth++] = {kRoot, a + up, b + up};
+    while (depth > 0) {
+        const Entry top = stack[--depth];
+        const Piece& piece = pieces_[top.piece];
+        const double here =
+            ball ? ball_gap(piece, top.a, top.b) - margin : axial_gap(piece, top.a, top.b, margin);
+        if (here >= least) {
+            continue;
         }
+        const Vec3d move = top.b - top.a;
+        const double size = std::max(piece.x1 - piece.x0, piece.y1 - piece.y0);
+        const double thin = piece.graph ? piece.thickness / piece.secant : size;
+        const double tilt = move.z - dot(piece.gradient, Vec2d{move.x, move.y});
+        const double turned = piece.graph ? std::abs(tilt) / piece.secant : norm(move);
+        const bool small = norm(move) < accuracy_ && size < accuracy_;
+        // Beyond the piece's rectangle its plane tells of metal that is not there: only a
+        // ball's turned box knows of the rectangle, for other tools the pieces must be small.
+        // A long move passes beside a piece in a corner of the box that it spans, where the
+        // piece's plane is not the floor: what cuts is looked at in short moves.
+        const bool clear = here >= -accuracy_ || norm(move) + size < 0.1 * tool_.radius;
+        const bool flat = thin < accuracy_ && turned < accuracy_;
+        const bool settled =
+            ball ? flat && clear
+                 : thin < 0.5 * accuracy_ && size * piece.secant < 0.05 && norm(move) < 0.05;
+        const bool whole = !piece.cut || extent(piece) < accuracy_;
+        // How deep a deep cut is need not be known better than to a tenth.
+        const bool deep =
+            here < -accuracy_ && std::max(extent(piece), norm(move)) < kDeepShare * -here;
+        if ((settled && whole) || deep || small || depth + 2 > kStack) {
+            least = std::min(least, here);
+            continue;
+        }
+        const bool halve_move = settled ? false : ball && !flat ? turned > thin : norm(move) > size;
+        if (halve_move) {
+            const Vec3d middle = (top.a + top.b) * 0.5;
+            stack[depth++] = {top.piece, top.a, middle};
+            stack[depth++] = {top.piece, middle, top.b};
+            continue;
+        }
+        if (piece.child == 0) {
+            halve(top.piece);
+        }
+        const std::uint32_t child = pieces_[top.piece].child;
+        stack[depth++] = {child, top.a, top.b};
+        stack[depth++] = {child + 1, top.a, top.b};
     }
     return least;
 }

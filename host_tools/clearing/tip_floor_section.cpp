@@ -16,7 +16,7 @@ double excess(double low, double high, double x) { return std::max({low - x, 0.0
 
 bool TipFloor::covers(Vec2d at) const
 {
-    std::vector<std::uint32_t> stack(roots_);
+    std::vector<std::uint32_t> stack{kRoot};
     while (!stack.empty()) {
         const std::uint32_t index = stack.back();
         stack.pop_back();

@@ -116,14 +116,39 @@ void offset_curve_by_biarcs(benchmark::State& state)
 }
 BENCHMARK(offset_curve_by_biarcs)->Unit(benchmark::kMicrosecond);
 
-void plan_replica(benchmark::State& state)
+// A wavy bicubic floor under the replica, of spans x spans patches.
+Surface wavy_floor(int spans)
+{
+    Surface floor;
+    floor.degree_u = floor.degree_v = 3;
+    floor.size_u = floor.size_v = spans + 3;
+    for (int i = -3; i <= spans + 3; ++i) {
+        floor.knots_u.push_back(std::clamp(i, 0, spans));
+    }
+    floor.knots_v = floor.knots_u;
+    std::vector<double> places;  // of the control points, as the knots' averages
+    for (std::size_t i = 0; i + 4 < floor.knots_u.size(); ++i) {
+        const double middle =
+            (floor.knots_u[i + 1] + floor.knots_u[i + 2] + floor.knots_u[i + 3]) / 3.0;
+        places.push_back(-10.0 + 220.0 * middle / spans);
+    }
+    for (const double x : places) {
+        for (const double y : places) {
+            floor.points.push_back({x, y, -22.0 + 4.0 * std::sin(x / 30.0) * std::cos(y / 25.0)});
+        }
+    }
+    floor.weights.assign(floor.points.size(), 1.0);
+    return floor;
+}
+
+void plan_replica(benchmark::State& state, std::vector<Surface> floor)
 {
     Job job;
     job.file = "suh-lee.toml";
     job.clearance = 5.0;
     Operation operation;
     operation.strategy = "contour_pocket";
-    operation.floor = read_surfaces(part("floor"));
+    operation.floor = std::move(floor);
     operation.boundary = read_loop(part("boundary"));
     operation.islands = {read_loop(part("island"))};
     operation.tool = {1, ToolShape::kBall, 6.0, 6.0};
@@ -133,7 +158,15 @@ void plan_replica(benchmark::State& state)
         benchmark::DoNotOptimize(plan_contour_pocket(job, operation));
     }
 }
+
+void plan_replica(benchmark::State& state) { plan_replica(state, read_surfaces(part("floor"))); }
 BENCHMARK(plan_replica)->Unit(benchmark::kMillisecond);
+
+void plan_by_spans_of_the_floor(benchmark::State& state)
+{
+    plan_replica(state, {wavy_floor(static_cast<int>(state.range(0)))});
+}
+BENCHMARK(plan_by_spans_of_the_floor)->Arg(1)->Arg(10)->Arg(100)->Unit(benchmark::kMillisecond);
 
 // A pocket of 200 mm with a level floor, bounded by n lines, planned end to end.
 void plan_by_number_of_curves(benchmark::State& state)
