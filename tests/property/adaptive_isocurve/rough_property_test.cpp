@@ -30,8 +30,9 @@ Job random_model(Random& random)
     double top = -1e300;
     for (int i = whole(random, 1, 4); i > 0; --i) {
         const Box2d box = random_box(random, {20, 15}, 15, 30);
-        operation.floor.push_back(
-            random_floor(random, box, uniform(random, -8.0, 0.0), uniform(random, 1.0, 8.0)));
+        const double rough = uniform(random, 1.0, 8.0);
+        const double middle = uniform(random, -8.0, 0.0);
+        operation.floor.push_back(random_floor(random, box, middle, rough));
         for (const Vec3d& p : operation.floor.back().points) {
             top = std::max(top, p.z);
         }

@@ -24,24 +24,27 @@ std::vector<Surface> random_surfaces(Random& random)
         case 0:
             for (int i = whole(random, 1, 4); i > 0; --i) {
                 const Box2d box = random_box(random, {30, 20}, 20, 40);
-                out.push_back(random_floor(random, box, uniform(random, -5.0, 5.0),
-                                           uniform(random, 1.0, 8.0)));
+                const double rough = uniform(random, 1.0, 8.0);
+                const double middle = uniform(random, -5.0, 5.0);
+                out.push_back(random_floor(random, box, middle, rough));
             }
             return out;
         case 1:
             for (int i = 0; i < 9; ++i) {
                 const double x = 10.0 * (i / 3);
                 const double y = 10.0 * (i % 3);
-                out.push_back(random_floor(random, {x, y, x + 10, y + 10},
-                                           -2.5 * whole(random, 0, 3), 0.5 * whole(random, 0, 2)));
+                const double rough = 0.5 * whole(random, 0, 2);
+                const double middle = -2.5 * whole(random, 0, 3);
+                out.push_back(random_floor(random, {x, y, x + 10, y + 10}, middle, rough));
             }
             return out;
         default:
             out.push_back(random_floor(random, {0, 0, 50, 40}, -8, 0.5));
             for (int i = whole(random, 1, 5); i > 0; --i) {
                 const Box2d box = random_box(random, {42, 32}, 2, 10);
-                out.push_back(random_floor(random, box, uniform(random, -6.0, 3.0),
-                                           uniform(random, 0.5, 4.0)));
+                const double rough = uniform(random, 0.5, 4.0);
+                const double middle = uniform(random, -6.0, 3.0);
+                out.push_back(random_floor(random, box, middle, rough));
             }
             return out;
     }
