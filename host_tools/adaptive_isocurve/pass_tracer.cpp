@@ -13,6 +13,7 @@ namespace {
 constexpr double kLookSpacing = 1.0;  // mm between places where freedom is looked at
 constexpr int kLeastLooks = 4;
 constexpr int kEdgeHalvings = 22;
+constexpr int kEdgeDeepest = 6;
 constexpr double kShortestPiece = 1e-3;  // mm
 constexpr std::size_t kMostGrid = 500;
 
@@ -226,20 +227,15 @@ std::vector<Points> PassTracer::free_region_edges(int surface, double spacing) c
     };
     std::vector<Points> out;
     for (const std::vector<GridSide>& chain : GridEdges{free, us.size(), vs.size()}.chains()) {
-        Points points;
+        std::vector<EdgeSide> sides;
         for (const auto& [node, along_u] : chain) {
             const std::size_t other = node + (along_u ? vs.size() : 1);
-            const Vec2d inside = place(free[node] ? node : other);
-            const Vec2d outside = place(free[node] ? other : node);
-            const double t = edge_between(surface, inside, outside);
-            const Vec2d at = inside + (outside - inside) * t;
-            points.push_back(tip(surface, at.x, at.y));
+            sides.push_back({place(free[node] ? node : other), place(free[node] ? other : node)});
         }
-        Points dense{points.front()};
-        for (std::size_t k = 1; k < points.size(); ++k) {
-            const Points piece = certified_.sample_dropped(points[k - 1], points[k]);
-            dense.insert(dense.end(), piece.begin() + 1, piece.end() - 1);
-            dense.push_back(points[k]);
+        Points dense{edge_tip(surface, sides.front())};
+        for (std::size_t k = 1; k < sides.size(); ++k) {
+            const Points piece = edge_points(surface, sides[k - 1], sides[k]);
+            dense.insert(dense.end(), piece.begin() + 1, piece.end());
         }
         if (length_of(dense) > kShortestPiece) {
             out.push_back(std::move(dense));
@@ -248,16 +244,42 @@ std::vector<Points> PassTracer::free_region_edges(int surface, double spacing) c
     return out;
 }
 
-double PassTracer::edge_between(int surface, Vec2d free, Vec2d blocked) const
+// The last free tip on the way out.
+Vec3d PassTracer::edge_tip(int surface, const EdgeSide& side) const
 {
     double inside = 0;
     double outside = 1;
+    const auto place = [&](double share) {
+        return side.free + (side.blocked - side.free) * share;
+    };
     for (int turn = 0; turn < kEdgeHalvings; ++turn) {
         const double middle = 0.5 * (inside + outside);
-        const Vec2d at = free + (blocked - free) * middle;
+        const Vec2d at = place(middle);
         (free_at(surface, at.x, at.y) ? inside : outside) = middle;
     }
-    return inside;
+    const Vec2d at = place(inside);
+    return tip(surface, at.x, at.y);
+}
+
+// Between two places the edge is looked for on ways between theirs. Drops would stand on the brink
+// where the edge is one of an overhang.
+Points PassTracer::edge_points(int surface, const EdgeSide& from, const EdgeSide& to) const
+{
+    const Vec3d a = edge_tip(surface, from);
+    const Vec3d b = edge_tip(surface, to);
+    const auto middle_is_free = [&] {
+        const Vec2d at = (from.free + to.free) * 0.5;
+        return free_at(surface, at.x, at.y);
+    };
+    if (!middle_is_free()) {
+        return certified_.sample_dropped(a, b);
+    }
+    return certified_.sample(
+        [&](double t) {
+            return edge_tip(surface, {from.free * (1 - t) + to.free * t,
+                                      from.blocked * (1 - t) + to.blocked * t});
+        },
+        {0, 1}, kEdgeDeepest);
 }
 
 }  // namespace cusp::host

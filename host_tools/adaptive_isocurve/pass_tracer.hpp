@@ -44,7 +44,13 @@ public:
     std::vector<Points> free_region_edges(int surface, double spacing) const;
 
 private:
-    double edge_between(int surface, Vec2d free, Vec2d blocked) const;
+    // A way in the domain from a free place to one that is not.
+    struct EdgeSide {
+        Vec2d free;
+        Vec2d blocked;
+    };
+    Vec3d edge_tip(int surface, const EdgeSide& side) const;
+    Points edge_points(int surface, const EdgeSide& from, const EdgeSide& to) const;
     Points along(const DomainCurve& curve, double from, double to) const;
 
     const std::vector<Surface>& surfaces_;

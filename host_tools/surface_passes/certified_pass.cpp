@@ -8,6 +8,7 @@ namespace cusp::host {
 namespace {
 
 constexpr int kDeepestHalving = 12;
+constexpr int kDropHalvings = 7;        // of 1 mm, over places where the tool may fall off
 constexpr double kSampleShare = 0.08;   // of the band, for what lies between samples
 constexpr double kShortestLine = 0.01;  // mm
 constexpr double kContactSlack = 5e-6;  // mm: nearer than this is the contact itself
@@ -185,7 +186,8 @@ std::optional<Vec3d> CertifiedPasses::dropped(double x, double y) const
 }
 
 Points CertifiedPasses::sample(const std::function<Vec3d(double)>& at,
-                               const std::vector<double>& breaks) const
+                               const std::vector<double>& breaks,
+                               int deepest) const
 {
     // The middle is kept, too: what lies between is off by a quarter of this.
     const double sag = std::max(1e-5, 3 * kSampleShare * band_.band);
@@ -194,7 +196,7 @@ Points CertifiedPasses::sample(const std::function<Vec3d(double)>& at,
         [&](double from, Vec3d a, double to, Vec3d b, int depth) {
             const double middle = 0.5 * (from + to);
             const Vec3d m = at(middle);
-            if (depth < kDeepestHalving && norm(m - (a + b) * 0.5) > sag) {
+            if (depth < deepest && norm(m - (a + b) * 0.5) > sag) {
                 halve(from, a, middle, m, depth + 1);
                 halve(middle, m, to, b, depth + 1);
                 return;
@@ -221,7 +223,7 @@ Points CertifiedPasses::sample_dropped(Vec3d a, Vec3d b) const
     for (int k = 0; k <= pieces; ++k) {
         breaks.push_back(static_cast<double>(k) / pieces);
     }
-    return sample(tip, breaks);
+    return sample(tip, breaks, kDropHalvings);
 }
 
 bool CertifiedPasses::line_is_free(Vec3d a, Vec3d b)

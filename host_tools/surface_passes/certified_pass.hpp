@@ -43,7 +43,11 @@ public:
     // at      tip at a parameter
     // breaks  parameters in order, first and last included; nothing finer than a quarter of their
     //         distance may hide between them
-    Points sample(const std::function<Vec3d(double)>& at, const std::vector<double>& breaks) const;
+    // deepest halvings between two breaks: fewer where the function jumps, since a jump, and a line
+    //         along a cliff, is followed down to the last one
+    Points sample(const std::function<Vec3d(double)>& at,
+                  const std::vector<double>& breaks,
+                  int deepest = 12) const;
 
     // Tips over the straight line from a to b in plan, on the model where there is one, else at
     // the lower height of the ends.
