@@ -38,7 +38,8 @@ NextLevel next_level(const RegionOffset& offset, double distance, double step, b
     const double reach = kShare * step;
     const Region2d rest = offset.at(distance + reach);
     const auto at_share = [&](double share) {
-        return with_corner_spurs(offset.at(distance + share * step), rest, reach, offset, distance);
+        return with_corner_spurs(offset.at(distance + share * step), rest, offset,
+                                 {distance, reach, share * step - reach});
     };
     constexpr double kWhole = 2.0 * kShare;
     auto best = rest.contours.empty() ? Region2d{} : at_share(kWhole);

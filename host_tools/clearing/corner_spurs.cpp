@@ -11,6 +11,7 @@ namespace {
 
 // The border of the rest may lie at just this reach from all of a level.
 constexpr double kRounding = 1.000001;
+constexpr double kNotKnown = 1e300;
 
 struct FarPoint {
     Vec2d at;
@@ -23,34 +24,136 @@ struct Spur {
     Vec2d end;
 };
 
-std::vector<FarPoint> border_points(const Contour& border, const EdgeTree& tree, double reach)
-{
-    std::vector<FarPoint> points;
-    for (const Edge& edge : border) {
-        const int n = 1 + static_cast<int>(4.0 * length(edge) / reach);
-        for (int i = 0; i < n; ++i) {
-            const Vec2d p = point_on(edge, static_cast<double>(i) / n);
-            const bool near = tree.any_nearer(p, reach * kRounding);
-            points.push_back({p, near ? 0.0 : tree.nearest(p, 1e300)});
-        }
-    }
-    return points;
-}
+struct Way {
+    FarPoint border;
+    FarPoint inner;  // the ridge, or, where it is easily covered, a place beyond
+    Vec2d inward;
+    bool meets;  // another way before the level
+};
 
-// The points start at one within reach, or all lie beyond it.
-std::vector<std::vector<FarPoint>> far_stretches(std::vector<FarPoint> points, double reach)
-{
-    const auto within = [&](const FarPoint& p) {
-        return p.apart <= reach;
-    };
-    const auto first = std::find_if(points.begin(), points.end(), within);
-    if (first != points.end()) {
-        std::rotate(points.begin(), first, points.end());
+// What a level and spurs must cover: the rest between its border and the level. Every place of it
+// lies on a straight way inward from the border that ends on the level or, where it meets another
+// such way first, on the ridge of the distance from the walls. A way to the level is no longer than
+// the rest is deep; others are looked at by both of their ends: what covers these of neighbouring
+// ways and is convex, as a spur's reach is, covers all between.
+class Rest {
+public:
+    Rest(const RegionOffset& source, const EdgeTree& level, const SpurSpace& space)
+        : source_{source}, level_{level}, space_{space}
+    {
     }
-    std::vector<std::vector<FarPoint>> stretches;
+
+    // In the order of the contour; near ends of stretches that lead beyond reach they stand close.
+    std::vector<Way> ways_from(const Contour& border) const
+    {
+        std::vector<Way> ways;
+        const Way first = way_from(border.front(), 0.0);
+        Way last = first;
+        for (std::size_t e = 0; e < border.size(); ++e) {
+            const Edge& edge = border[e];
+            const double whole = length(edge);
+            const int n = 1 + static_cast<int>(4.0 * whole / space_.reach);
+            for (int i = 1; i <= n; ++i) {
+                const Way next = i < n ? way_from(edge, static_cast<double>(i) / n)
+                                 : e + 1 < border.size() ? way_from(border[e + 1], 0.0)
+                                                         : first;
+                ways.push_back(last);
+                refine(ways, {edge, static_cast<double>(i - 1) / n, static_cast<double>(i) / n},
+                       last, next);
+                last = next;
+            }
+        }
+        return ways;
+    }
+
+    bool is_far(const Way& way) const { return is_far(way.border) || is_far(way.inner); }
+
+    // Inward the distance from the walls grows as fast as the way, as far as the ridge.
+    FarPoint ridge_of(const Way& way) const
+    {
+        constexpr int kHalvings = 6;
+        constexpr double kSlack = 1e-6;
+        const double border = space_.room + space_.reach;
+        double good = 0.0;
+        double bad = space_.depth;
+        for (int i = 0; i < kHalvings; ++i) {
+            const double middle = 0.5 * (good + bad);
+            const Vec2d p = way.border.at + way.inward * middle;
+            (source_.any_nearer(p, border + middle - kSlack) ? bad : good) = middle;
+        }
+        return far_point(way.border.at + way.inward * bad);
+    }
+
+private:
+    struct Part {
+        const Edge& edge;
+        double from;
+        double to;
+    };
+
+    Way way_from(const Edge& edge, double share) const
+    {
+        const Vec2d p = point_on(edge, share);
+        if (level_.any_nearer(p, space_.depth * kRounding)) {
+            return {{p, space_.depth}, {p, space_.depth}, {}, false};
+        }
+        const Vec2d inward = left_normal(tangent_on(edge, share));
+        Way way{far_point(p), {p + inward * space_.depth, kNotKnown}, inward, true};
+        if (!is_far(way.border)) {
+            way.inner = far_point(way.inner.at);
+            way.inner = is_far(way.inner) ? ridge_of(way) : way.inner;
+        }
+        return way;
+    }
+
+    FarPoint far_point(Vec2d p) const { return {p, level_.nearest(p, kNotKnown)}; }
+
+    bool is_far(const FarPoint& p) const { return p.apart > space_.reach * kRounding; }
+
+    void refine(std::vector<Way>& ways, const Part& part, const Way& a, const Way& b) const
+    {
+        constexpr double kClosest = 0.05;  // of the reach
+        const double apart = (part.to - part.from) * length(part.edge);
+        if (apart < kClosest * space_.reach || !hides(a, b)) {
+            return;
+        }
+        const double middle = 0.5 * (part.from + part.to);
+        const Way between = way_from(part.edge, middle);
+        refine(ways, {part.edge, part.from, middle}, a, between);
+        ways.push_back(between);
+        refine(ways, {part.edge, middle, part.to}, between, b);
+    }
+
+    // Whether a way between the two may lead beyond reach where they don't, or the other way round.
+    bool hides(const Way& a, const Way& b) const
+    {
+        if (is_far(a) || is_far(b)) {
+            return is_far(a) != is_far(b);
+        }
+        const auto most = [](const FarPoint& p, const FarPoint& q) {
+            return 0.5 * (p.apart + q.apart + distance(p.at, q.at));
+        };
+        return (a.meets || b.meets) &&
+               std::max(most(a.border, b.border), most(a.inner, b.inner)) > space_.reach;
+    }
+
+    const RegionOffset& source_;
+    const EdgeTree& level_;
+    const SpurSpace& space_;
+};
+
+// The ways start at one within reach, or all lead beyond it.
+std::vector<std::vector<Way>> far_stretches(std::vector<Way> ways, const Rest& rest)
+{
+    const auto first =
+        std::find_if(ways.begin(), ways.end(), [&](const Way& way) { return !rest.is_far(way); });
+    if (first != ways.end()) {
+        std::rotate(ways.begin(), first, ways.end());
+    }
+    std::vector<std::vector<Way>> stretches;
     bool open = false;
-    for (const FarPoint& p : points) {
-        if (within(p)) {
+    for (const Way& way : ways) {
+        if (!rest.is_far(way)) {
             open = false;
             continue;
         }
@@ -58,7 +161,7 @@ std::vector<std::vector<FarPoint>> far_stretches(std::vector<FarPoint> points, d
             stretches.emplace_back();
             open = true;
         }
-        stretches.back().push_back(p);
+        stretches.back().push_back(way);
     }
     return stretches;
 }
@@ -77,24 +180,48 @@ bool keeps_room(const RegionOffset& source, Vec2d a, Vec2d b, double room)
                                                        keeps_room(source, middle, b, room)));
 }
 
-std::optional<Spur> spur_for(const std::vector<FarPoint>& stretch,
-                             const EdgeTree& tree,
+// From the level towards a place as far as leaves `reach` to go.
+Spur spur_towards(const FarPoint& far, const EdgeTree& level, double reach)
+{
+    const EdgeTree::Nearest foot = level.nearest_edge(far.at);
+    return {foot.edge, foot.point, far.at + (foot.point - far.at) * (reach / far.apart)};
+}
+
+const FarPoint& farther(const FarPoint& a, const FarPoint& b) { return a.apart < b.apart ? b : a; }
+
+// Towards the farthest place of the border; where that does not cover the ways, towards the
+// farthest of all.
+std::optional<Spur> spur_for(std::vector<Way> stretch,
+                             const EdgeTree& level,
+                             const Rest& rest,
                              double reach)
 {
-    const FarPoint farthest =
-        *std::max_element(stretch.begin(), stretch.end(),
-                          [](const FarPoint& a, const FarPoint& b) { return a.apart < b.apart; });
-    const EdgeTree::Nearest foot = tree.nearest_edge(farthest.at);
-    const Vec2d back = foot.point - farthest.at;
-    const Vec2d end = farthest.at + back * (reach / farthest.apart);
-    const Edge line = line_edge(foot.point, end);
-    const bool covered = std::all_of(stretch.begin(), stretch.end(), [&](const FarPoint& p) {
-        return distance_to(line, p.at) <= reach * kRounding;
-    });
-    if (!covered) {
-        return std::nullopt;
+    const auto covers = [&](const Spur& spur, const FarPoint& p) {
+        return p.apart <= reach ||
+               distance_to(line_edge(spur.foot, spur.end), p.at) <= reach * kRounding;
+    };
+    const auto covers_all = [&](const Spur& spur) {
+        return std::all_of(stretch.begin(), stretch.end(), [&](Way& way) {
+            if (covers(spur, way.border) && !covers(spur, way.inner)) {
+                way.inner = rest.ridge_of(way);
+            }
+            return covers(spur, way.border) && covers(spur, way.inner);
+        });
+    };
+    FarPoint farthest = stretch.front().border;
+    for (const Way& way : stretch) {
+        farthest = farther(farthest, way.border);
     }
-    return Spur{foot.edge, foot.point, end};
+    const Spur by_border = spur_towards(farthest, level, reach);
+    if (farthest.apart > reach && covers_all(by_border)) {
+        return by_border;
+    }
+    for (Way& way : stretch) {
+        way.inner = rest.ridge_of(way);
+        farthest = farther(farthest, way.inner);
+    }
+    const Spur by_all = spur_towards(farthest, level, reach);
+    return covers_all(by_all) ? std::optional{by_all} : std::nullopt;
 }
 
 // Where along its edge the spur leaves; ordered as the path goes.
@@ -137,20 +264,21 @@ Region2d with_spurs(const Region2d& level, std::vector<Spur> spurs)
 }  // namespace
 
 std::optional<Region2d> with_corner_spurs(const Region2d& level,
-                                          const Region2d& rest,
-                                          double reach,
+                                          const Region2d& border,
                                           const RegionOffset& source,
-                                          double room)
+                                          const SpurSpace& space)
 {
     if (level.contours.empty()) {
-        return rest.contours.empty() ? std::optional<Region2d>{level} : std::nullopt;
+        return border.contours.empty() ? std::optional<Region2d>{level} : std::nullopt;
     }
+    const double reach = space.reach;
     const EdgeTree tree{edges_of(level)};
+    const Rest rest{source, tree, space};
     std::vector<Spur> spurs;
-    for (const Contour& border : rest.contours) {
-        for (const auto& stretch : far_stretches(border_points(border, tree, reach), reach)) {
-            const auto spur = spur_for(stretch, tree, reach);
-            if (!spur || !keeps_room(source, spur->foot, spur->end, room)) {
+    for (const Contour& contour : border.contours) {
+        for (const auto& stretch : far_stretches(rest.ways_from(contour), rest)) {
+            const auto spur = spur_for(stretch, tree, rest, reach);
+            if (!spur || !keeps_room(source, spur->foot, spur->end, space.room)) {
                 return std::nullopt;
             }
             spurs.push_back(*spur);

@@ -7,15 +7,20 @@
 
 namespace cusp::host {
 
-// The level with a spur (out and back on a straight line) wherever some of `rest` lies farther than
-// `reach` from it, so that afterwards none does. `rest` is what the level outside has left: its
-// border is looked at every quarter of `reach` and at its corners, where the farthest points are.
-// A spur keeps `room` (mm) from the contours of `source`.
+// Distances of a level and of what the level outside it has left, mm.
+struct SpurSpace {
+    double room;   // of the level outside from the walls: spurs keep it, too
+    double reach;  // what a pass cuts on either side
+    double depth;  // from the border of the rest, at room + reach, to the level
+};
+
+// The level with a spur (out and back on a straight line) wherever some of the rest between it and
+// `border` lies farther than `reach` from it, so that afterwards none does. The border is looked at
+// every quarter of `reach` and at its corners; so is where ways inward from there meet each other.
 // Returns no value where straight spurs do not suffice: the level must come nearer.
 std::optional<Region2d> with_corner_spurs(const Region2d& level,
-                                          const Region2d& rest,
-                                          double reach,
+                                          const Region2d& border,
                                           const RegionOffset& source,
-                                          double room);
+                                          const SpurSpace& space);
 
 }  // namespace cusp::host

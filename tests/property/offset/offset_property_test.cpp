@@ -5,7 +5,6 @@
 #include <cstdlib>
 
 #include "host_tools/offset/offset.hpp"
-#include "host_tools/offset/region_check.hpp"
 #include "tests/property/offset/random_regions.hpp"
 #include "tests/support/property_cases.hpp"
 
@@ -16,31 +15,6 @@ namespace cusp::host {
 namespace {
 
 constexpr int kRegions = 10000;  // source profiles tried
-
-Region2d random_region(Random& random)
-{
-    const double grid = uniform(random, 0.0, 1.0) < 0.3 ? 5.0 : 0.0;
-    while (true) {
-        Region2d region;
-        const int corners = static_cast<int>(uniform(random, 3.0, 12.0));
-        region.contours.push_back(random_star(random, {0.0, 0.0}, 60.0, corners, grid));
-        const int islands = static_cast<int>(uniform(random, 0.0, 4.0));
-        for (int i = 0; i < islands; ++i) {
-            const Vec2d centre{uniform(random, -35.0, 35.0), uniform(random, -35.0, 35.0)};
-            const int sides = static_cast<int>(uniform(random, 3.0, 7.0));
-            region.contours.push_back(
-                reversed(random_star(random, centre, uniform(random, 4.0, 14.0), sides, grid)));
-        }
-        const bool turned = std::any_of(
-            region.contours.begin(), region.contours.end(), [&](const Contour& contour) {
-                const bool outer = &contour == &region.contours.front();
-                return (area(contour) > 1.0) != outer || std::abs(area(contour)) < 1.0;
-            });
-        if (!turned && !find_fault(region)) {
-            return region;
-        }
-    }
-}
 
 // Largest departure of the result's points from the distance asked for; wrong side counts as 1.
 double worst_distance(const Region2d& source, const Region2d& result, double distance)

@@ -1,9 +1,11 @@
 // Random regions of lines and arcs with islands, from a seed.
 #pragma once
 
+#include <algorithm>
 #include <random>
 
 #include "host_tools/offset/contour.hpp"
+#include "host_tools/offset/region_check.hpp"
 
 namespace cusp::host {
 
@@ -48,6 +50,32 @@ inline Contour random_star(Random& random, Vec2d centre, double radius, int corn
         contour.push_back(bulged(a, b, bulge));
     }
     return contour;
+}
+
+// A star with up to three islands, none of which cross.
+inline Region2d random_region(Random& random)
+{
+    const double grid = uniform(random, 0.0, 1.0) < 0.3 ? 5.0 : 0.0;
+    while (true) {
+        Region2d region;
+        const int corners = static_cast<int>(uniform(random, 3.0, 12.0));
+        region.contours.push_back(random_star(random, {0.0, 0.0}, 60.0, corners, grid));
+        const int islands = static_cast<int>(uniform(random, 0.0, 4.0));
+        for (int i = 0; i < islands; ++i) {
+            const Vec2d centre{uniform(random, -35.0, 35.0), uniform(random, -35.0, 35.0)};
+            const int sides = static_cast<int>(uniform(random, 3.0, 7.0));
+            region.contours.push_back(
+                reversed(random_star(random, centre, uniform(random, 4.0, 14.0), sides, grid)));
+        }
+        const bool turned = std::any_of(
+            region.contours.begin(), region.contours.end(), [&](const Contour& contour) {
+                const bool outer = &contour == &region.contours.front();
+                return (area(contour) > 1.0) != outer || std::abs(area(contour)) < 1.0;
+            });
+        if (!turned && !find_fault(region)) {
+            return region;
+        }
+    }
 }
 
 inline std::vector<Vec2d> samples(const Contour& contour, int each)
