@@ -154,7 +154,7 @@ void LevelMoves::enter(const LevelRun& run, const LayerSpace& layer)
     const Vec2d start = run.edges.front().start;
     const bool open = run.starts_in_cut_metal || layer.beside_stock(start);
     const double metal = open ? layer.bottom : layer.top;
-    const double down = std::min(metal + kAboveMetal, settings_.clearance_z);
+    const double down = std::min(metal + layer.ridge + kAboveMetal, settings_.clearance_z);
     if (at_.z > down) {
         line(MoveKind::kRapid, {start.x, start.y, down});
     }

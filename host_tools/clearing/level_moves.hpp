@@ -26,6 +26,8 @@ struct LayerSpace {
     std::function<bool(Vec2d from, Vec2d to)> cleared_above;
     // Whether the cutter stands beside the stock there.
     std::function<bool(Vec2d place)> beside_stock;
+    // mm that ridges may stand over what counts as cleared, at `top` and at `bottom`.
+    double ridge{};
 };
 
 // Writes runs to a tool path. Rapid moves happen at the clearance height or straight down to 1 mm

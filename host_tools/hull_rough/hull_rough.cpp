@@ -24,6 +24,9 @@ constexpr int kMostSubdivisions = 8;
 // by at least this share of the diameter.
 constexpr double kLeastOverlap = 0.01;
 
+// Of the height of ridges, with several cutters: what one may leave where another has been.
+constexpr double kRestShare = 0.25;
+
 // Chords on rounded corners keep this much, so that G-code rounded to a micrometre still does.
 constexpr double kLeastTolerance = 2e-3;
 
@@ -194,13 +197,27 @@ struct Roughing {
         return std::min(thickness(layer) / 4, std::max(most_depth - next, most_depth / 10));
     }
 
+    bool round() const
+    {
+        return std::any_of(tools.begin(), tools.end(),
+                           [](const Tool& t) { return t.corner_radius > 0; });
+    }
+
+    // How much of a ridge one cutter may leave that another counts as cleared; the rest of the
+    // ridge is what each leaves between its own lines.
+    double rest_ridge(std::size_t layer) const
+    {
+        return tools.size() > 1 ? kRestShare * ridge(layer) : 0.0;
+    }
+
+    // What may stand over the bottom of a layer where it is cleared.
+    double left_over(std::size_t layer) const { return round() ? ridge(layer) : 0.0; }
+
     double deepest_cut() const
     {
         double deepest = thickness(0);
-        const bool round = std::any_of(tools.begin(), tools.end(),
-                                       [](const Tool& t) { return t.corner_radius > 0; });
         for (std::size_t layer = 1; layer < layers(); ++layer) {
-            deepest = std::max(deepest, thickness(layer) + (round ? ridge(layer - 1) : 0.0));
+            deepest = std::max(deepest, thickness(layer) + left_over(layer - 1));
         }
         return deepest;
     }
@@ -220,9 +237,11 @@ void clear_layers(Roughing& work)
         work.clearings.emplace_back();
         for (const Tool& tool : work.tools) {
             LayerSettings settings;
-            const double overlap = std::max(operation.overlap, 2 * tool.radius * kLeastOverlap);
-            settings.clears = cleared_width(tool, work.ridge(layer)) / 2;
-            settings.step = std::max(2 * settings.clears - overlap, tool.radius / 50);
+            // The overlap is that of the cutter; what it clears to the ridge is narrower already.
+            settings.clears = cleared_width(tool, work.ridge(layer) - work.rest_ridge(layer)) / 2;
+            settings.step =
+                std::min(std::max(2 * tool.radius - operation.overlap, tool.radius / 50),
+                         2 * settings.clears * (1 - kLeastOverlap));
             settings.tolerance = std::max(operation.plan_tolerance, kLeastTolerance);
             settings.side_allowance = operation.allowance;
             settings.one_way = operation.traversal == Traversal::kOneWay;
@@ -239,7 +258,11 @@ void clear_layers(Roughing& work)
     work.choice = choose_tools(offers, kChangeSeconds);
 }
 
-// Writes the layers `first` to `last` of one cutter, after what larger cutters left above.
+// The cutters that have cleared each layer so far, in order. What the first leaves is known to the
+// height of its ridges; what the others leave, to that of `rest_ridge` too.
+using Cutters = std::vector<std::vector<std::size_t>>;
+
+// Writes layers of one cutter, after what other cutters have cleared.
 class GroupWriter {
 public:
     GroupWriter(const Roughing& work, std::size_t tool)
@@ -251,18 +274,26 @@ public:
         path_.spindle = work.job.spindle;
     }
 
-    void clear(std::size_t layer, std::size_t zone_tool_above)
-    {
-        add(work_.clearings[layer][tool_].runs, layer, zone_tool_above);
-    }
+    void clear(std::size_t layer) { add(work_.clearings[layer][tool_].runs, layer); }
 
-    void clear_rest(std::size_t layer, std::size_t large, std::size_t zone_tool_above)
+    // What the cutters before left of a layer, so that this one can work below it. Returns false
+    // where they left nothing.
+    bool clear_rest(std::size_t layer, const std::vector<std::size_t>& before)
     {
         const Tool& tool = work_.tools[tool_];
-        const double nested = nested_reach(work_.tools[large], tool, work_.ridge(layer));
-        add(rest_runs(work_.clearings[layer][tool_], tool.radius, work_.clearings[layer][large],
-                      nested),
-            layer, zone_tool_above);
+        std::vector<ClearedBy> cleared;
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            const Tool& other = work_.tools[before[i]];
+            const double ridge = i == 0 ? work_.rest_ridge(layer) : 0.0;
+            if (before[i] == tool_ || leaves_nothing_for(other, tool, ridge)) {
+                return false;
+            }
+            if (const auto nested = nested_reach(other, tool, ridge)) {
+                cleared.push_back({&work_.clearings[layer][before[i]], *nested});
+            }
+        }
+        add(rest_runs(work_.clearings[layer][tool_], tool.radius, cleared), layer);
+        return true;
     }
 
     PlannedOperation finish()
@@ -294,7 +325,7 @@ private:
                 std::max(work.operation.plan_tolerance, kLeastTolerance) / 2};
     }
 
-    void add(const std::vector<LevelRun>& runs, std::size_t layer, std::size_t zone_tool_above)
+    void add(const std::vector<LevelRun>& runs, std::size_t layer)
     {
         const ClearZone& zone = *work_.clearings[layer][tool_].zone;
         LayerSpace space{work_.top(layer), work_.bottom(layer), zone.radius(), {}, {}, {}};
@@ -306,9 +337,10 @@ private:
         };
         if (layer > 0) {
             space.cleared_above = [&](Vec2d from, Vec2d to) {
-                return work_.clearings[layer - 1][zone_tool_above].zone->clear(from, to);
+                return work_.clearings[layer - 1][tool_].zone->clear(from, to);
             };
         }
+        space.ridge = std::max(work_.left_over(layer), layer > 0 ? work_.left_over(layer - 1) : 0);
         for (const LevelRun& run : runs) {
             moves_.add(run, space);
             ++passes_;
@@ -320,23 +352,19 @@ std::vector<PlannedOperation> write_groups(const Roughing& work)
 {
     std::vector<PlannedOperation> out;
     const auto& of_layer = work.choice.of_layer;
-    // The smallest cutter (largest index) that has cleared each layer so far.
-    std::vector<std::size_t> finest = of_layer;
+    Cutters cutters(work.layers());
     for (std::size_t first = 0; first < work.layers();) {
         const std::size_t tool = of_layer[first];
         GroupWriter writer{work, tool};
-        const auto above = [&](std::size_t layer) {
-            return layer == 0 ? tool : finest[layer - 1];
-        };
         for (std::size_t layer = 0; layer < first; ++layer) {
-            if (finest[layer] < tool) {
-                writer.clear_rest(layer, finest[layer], above(layer));
-                finest[layer] = tool;
+            if (writer.clear_rest(layer, cutters[layer])) {
+                cutters[layer].push_back(tool);
             }
         }
         std::size_t last = first;
         for (; last < work.layers() && of_layer[last] == tool; ++last) {
-            writer.clear(last, above(last));
+            writer.clear(last);
+            cutters[last].push_back(tool);
         }
         out.push_back(writer.finish());
         out.back().stats.levels = static_cast<int>(last - first);

@@ -321,46 +321,64 @@ LayerClearing clear_layer(const std::vector<Rectangle>& boxes,
     return out;
 }
 
-double nested_reach(const Tool& large, const Tool& small, double ridge)
+namespace {
+
+// Whether `after`, with its axis `apart` outside the places of `before`, meets no more than the
+// ridge: what stands at some distance from those places is the underside of `before` there.
+bool nests(const Tool& before, const Tool& after, double apart, double ridge)
 {
-    constexpr int kPlaces = 64;
-    const auto fits = [&](double apart) {
-        for (int i = 0; i <= kPlaces; ++i) {
-            const double at = small.radius * i / kPlaces;
-            const double from_large = std::min(large.radius, at + apart);
-            if (profile_height(large, from_large) > profile_height(small, at) + ridge) {
-                return false;
-            }
+    constexpr int kPlaces = 256;
+    constexpr double kRounding = 1e-9;
+    for (int i = 0; i <= kPlaces; ++i) {
+        const double at = after.radius * i / kPlaces;
+        const double from_before = std::max(0.0, at + apart);
+        if (from_before > before.radius + kRounding ||
+            profile_height(before, std::min(from_before, before.radius)) >
+                profile_height(after, at) + ridge + kRounding) {
+            return false;
         }
-        return true;
-    };
-    if (small.radius > large.radius || !fits(0)) {
-        return -1;
     }
-    double held = 0;
-    double open = large.radius - small.radius;
-    if (fits(open)) {
+    return true;
+}
+
+}  // namespace
+
+std::optional<double> nested_reach(const Tool& before, const Tool& after, double ridge)
+{
+    double held = -after.radius;
+    double open = before.radius - after.radius;
+    if (nests(before, after, open, ridge)) {
         return open;
+    }
+    if (!nests(before, after, held, ridge)) {
+        return std::nullopt;
     }
     for (int i = 0; i < 30; ++i) {
         const double middle = (held + open) / 2;
-        (fits(middle) ? held : open) = middle;
+        (nests(before, after, middle, ridge) ? held : open) = middle;
     }
     return held;
 }
 
+bool leaves_nothing_for(const Tool& before, const Tool& after, double ridge)
+{
+    // Where a cutter fits, a smaller one fits up to the difference of the radii around it.
+    return before.radius <= after.radius &&
+           nests(before, after, before.radius - after.radius, ridge);
+}
+
 std::vector<LevelRun> rest_runs(const LayerClearing& clearing,
                                 double radius,
-                                const LayerClearing& large,
-                                double nested)
+                                const std::vector<ClearedBy>& before)
 {
-    if (nested < 0) {
-        return clearing.runs;
-    }
-    // A point is done where one of the large cutter's places is so near. Between looked-at points
-    // the distance changes by no more than the way between them.
-    const double step = radius / 8;
-    const double reach = nested - step;
+    // A point is done where the places of a cutter before are so near. Between looked-at points the
+    // distance changes by no more than the way between them.
+    const double step = radius / 16;
+    const auto done_by = [&](const ClearedBy& by, Vec2d from, Vec2d to) {
+        const double least = step / 2 - by.nested;
+        return by.clearing->centres->clearance(from) >= least &&
+               by.clearing->centres->clearance(to) >= least;
+    };
     std::vector<LevelRun> out;
     for (const LevelRun& run : clearing.runs) {
         LevelRun part;
@@ -370,8 +388,9 @@ std::vector<LevelRun> rest_runs(const LayerClearing& clearing,
             Vec2d from = edge.start;
             for (int i = 1; i <= pieces; ++i) {
                 const Vec2d to = point_on(edge, static_cast<double>(i) / pieces);
-                const bool done = large.centres->clearance(from) >= -reach &&
-                                  large.centres->clearance(to) >= -reach;
+                const bool done =
+                    std::any_of(before.begin(), before.end(),
+                                [&](const ClearedBy& by) { return done_by(by, from, to); });
                 if (!done && part.edges.empty()) {
                     part.starts_in_cut_metal = done_before;
                 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "host_tools/clearing/level_moves.hpp"
@@ -43,16 +44,25 @@ LayerClearing clear_layer(const std::vector<Rectangle>& boxes,
                           double radius,
                           const LayerSettings& settings);
 
-// How far from an axis of the large cutter that of the small one may stand on the same level and
-// meet nothing higher than `ridge` (mm, >= 0) that the large one left; below 0 where it meets more
-// everywhere, as a flat end does under a ball.
-double nested_reach(const Tool& large, const Tool& small, double ridge);
+// How far outside the places where the axis of `before` may stand (negative: how deep among them)
+// that of `after` may stand on the same level and meet nothing that stands more than `ridge` (mm,
+// >= 0) over its own underside. Holds for all pairs of cutters, whichever is the larger.
+// Returns no value where it meets more everywhere, as a flat end does under a ball.
+std::optional<double> nested_reach(const Tool& before, const Tool& after, double ridge);
 
-// The parts of the runs where the cutter takes metal that a larger one left when it cleared
-// `large`. `nested`: of the two, from nested_reach().
+// True where `after` meets nothing more than that in any of the places where it fits itself.
+bool leaves_nothing_for(const Tool& before, const Tool& after, double ridge);
+
+// A cutter that has cleared a layer, and how far others may stand from its places: nested_reach().
+struct ClearedBy {
+    const LayerClearing* clearing{};
+    double nested{};
+};
+
+// The parts of the runs where the cutter takes metal that none of the cutters before has taken.
+// radius: of the cutter, mm.
 std::vector<LevelRun> rest_runs(const LayerClearing& clearing,
                                 double radius,
-                                const LayerClearing& large,
-                                double nested);
+                                const std::vector<ClearedBy>& before);
 
 }  // namespace cusp::host

@@ -1,8 +1,9 @@
-// Random models of one to nine surfaces, roughed by one or two tools and cut in memory: no overcut,
-// no metal under rapid moves, no layer left uncleared.
+// Random models of one to nine surfaces, roughed by one to three tools and cut in memory: no
+// overcut, no metal under rapid moves, no layer left uncleared, no cut deeper than reported.
 #include <cstdio>
 #include <fstream>
 
+#include "host_tools/hull_rough/hull_patch.hpp"
 #include "host_tools/hull_rough/hull_rough.hpp"
 #include "host_tools/toolpath/gcode_writer.hpp"
 #include "host_tools/verify/verify.hpp"
@@ -50,6 +51,36 @@ std::vector<Surface> random_surfaces(Random& random)
     }
 }
 
+// Top of the stock: of the hull box, or of the job where that is higher.
+double stock_top(const Job& job)
+{
+    double top = job.stock_top;
+    std::vector<Surface> whole_surfaces = job.operations.front().floor;
+    for (Surface& surface : whole_surfaces) {
+        surface.trims.clear();
+    }
+    for (const HullPatch& patch : hull_patches(whole_surfaces)) {
+        top = std::max(top, patch.top);
+    }
+    return top;
+}
+
+// One to three cutters of any shapes, in any order.
+std::vector<Tool> random_tools(Random& random)
+{
+    std::vector<Tool> out;
+    for (int i = whole(random, 1, 3); i > 0; --i) {
+        Tool tool = random_tool(random);
+        if (whole(random, 0, 2) == 0) {
+            tool.shape = ToolShape::kBull;
+            tool.corner_radius = tool.radius * uniform(random, 0.2, 0.8);
+        }
+        tool.number = i;
+        out.push_back(tool);
+    }
+    return out;
+}
+
 Job random_model(Random& random)
 {
     Operation operation;
@@ -60,14 +91,8 @@ Job random_model(Random& random)
             trim(random, surface);
         }
     }
-    operation.tool = random_tool(random);
-    if (whole(random, 0, 1) == 0) {
-        Tool small = operation.tool;
-        small.number = 2;
-        small.radius *= 0.5;
-        small.corner_radius *= 0.5;
-        operation.tools = {operation.tool, small};
-    }
+    operation.tools = random_tools(random);
+    operation.tool = operation.tools.front();
     operation.max_depth = uniform(random, 1.5, 4.0);
     operation.min_depth = *operation.max_depth * 0.4;
     operation.extra_subdivision = whole(random, 0, 3);
@@ -76,19 +101,16 @@ Job random_model(Random& random)
     operation.plan_tolerance = 0.02;
     operation.floor_tolerance = 0.02;
     operation.output = whole(random, 0, 1) == 0 ? OutputForm::kLines : OutputForm::kArcs;
-    return job_of(operation);
-}
-
-// Top of the stock: of the hull box, or of the job where that is higher.
-double stock_top(const Job& job)
-{
-    double top = job.stock_top;
-    for (const Surface& surface : job.operations.front().floor) {
-        for (const Vec3d& p : surface.points) {
-            top = std::max(top, p.z);
-        }
-    }
-    return top;
+    operation.overlap = whole(random, 0, 2) == 0 ? 0.3 : 0.0;
+    operation.traversal = whole(random, 0, 3) == 0 ? Traversal::kOneWay : Traversal::kZigzag;
+    constexpr EntryKind kEntries[]{EntryKind::kAuto, EntryKind::kHelix, EntryKind::kRamp,
+                                   EntryKind::kPlunge};
+    operation.entry = kEntries[whole(random, 0, 3)];
+    Job job = job_of(operation);
+    // The slower the cut, the more changes of cutter pay.
+    job.feed = whole(random, 0, 1) == 0 ? 1200 : 100;
+    job.stock_top = whole(random, 0, 2) == 0 ? stock_top(job) + uniform(random, 0.0, 4.0) : 0.0;
+    return job;
 }
 
 VerifyFigures cut_in_memory(const Job& job, const std::vector<PlannedOperation>& plan)
