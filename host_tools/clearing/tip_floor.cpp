@@ -49,19 +49,21 @@ TipFloor::TipFloor(const std::vector<Surface>& surfaces, const Tool& tool, doubl
         }
     }
     pieces_.resize(kRoot + 1);  // child 0 means none
-    gather(kRoot, whole.data(), whole.data() + whole.size());
+    gather(kRoot, kRoot, whole.data(), whole.data() + whole.size());
 }
 
-// Makes pieces_[place] of the patches [first, last): halves beside each other, by the places of
-// their middles.
-void TipFloor::gather(std::uint32_t place, Piece* first, Piece* last)
+// Makes pieces_[place], a child of `parent`, of the patches [first, last): halves beside each
+// other, by the places of their middles.
+void TipFloor::gather(std::uint32_t place, std::uint32_t parent, Piece* first, Piece* last)
 {
     if (last - first == 1) {
         pieces_[place] = *first;
+        pieces_[place].parent = parent;
         return;
     }
     Piece group{};
     group.patch = kGroup;
+    group.parent = parent;
     group.x0 = group.y0 = group.z0 = 1e300;
     group.x1 = group.y1 = group.z1 = -1e300;
     for (const Piece* piece = first; piece != last; ++piece) {
@@ -80,8 +82,8 @@ void TipFloor::gather(std::uint32_t place, Piece* first, Piece* last)
         });
         group.child = static_cast<std::uint32_t>(pieces_.size());
         pieces_.resize(pieces_.size() + 2);
-        gather(group.child, first, middle);
-        gather(group.child + 1, middle, last);
+        gather(group.child, place, first, middle);
+        gather(group.child + 1, place, middle, last);
     }
     pieces_[place] = group;
 }
@@ -89,13 +91,13 @@ void TipFloor::gather(std::uint32_t place, Piece* first, Piece* last)
 void TipFloor::measure(Piece& piece) const
 {
     const Patch& patch = patches_[piece.patch];
-    corners_.clear();
+    corners_.resize(std::size_t{patch.rows} * patch.columns);
     piece.x0 = piece.y0 = piece.z0 = 1e300;
     piece.x1 = piece.y1 = piece.z1 = -1e300;
-    for (std::size_t i = 0; i < patch.rows * patch.columns; ++i) {
-        const Homogeneous& q = nets_[piece.net + i];
-        const Vec3d p = q.w == 1.0 ? Vec3d{q.x, q.y, q.z} : Vec3d{q.x, q.y, q.z} / q.w;
-        corners_.push_back(p);
+    const Homogeneous* q = &nets_[piece.net];
+    for (Vec3d& p : corners_) {
+        p = q->w == 1.0 ? Vec3d{q->x, q->y, q->z} : Vec3d{q->x, q->y, q->z} / q->w;
+        ++q;
         piece.x0 = std::min(piece.x0, p.x);
         piece.y0 = std::min(piece.y0, p.y);
         piece.z0 = std::min(piece.z0, p.z);
@@ -209,7 +211,8 @@ void TipFloor::halve(std::uint32_t index) const
         low[start + (count - 1) * stride] = high[start];
     }
     Piece first = piece;
-    Piece second = piece;
+    first.parent = index;
+    Piece second = first;
     second.net = static_cast<std::uint32_t>(base);
     (by_u ? first.u : first.v)[1] = (by_u ? second.u : second.v)[0] =
         by_u ? 0.5F * (piece.u[0] + piece.u[1]) : 0.5F * (piece.v[0] + piece.v[1]);

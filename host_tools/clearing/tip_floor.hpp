@@ -91,6 +91,7 @@ private:
         double secant;      // of the plane's slope
         std::uint32_t net;  // first of its control points, v fastest; the first child takes it over
         std::uint32_t patch;
+        std::uint32_t parent;
         std::array<float, 2> u;  // its part of the patch, as shares
         std::array<float, 2> v;
     };
@@ -103,7 +104,11 @@ private:
         double u0, u1, v0, v1;
     };
 
-    void gather(std::uint32_t place, Piece* first, Piece* last);
+    void gather(std::uint32_t place, std::uint32_t parent, Piece* first, Piece* last);
+    std::uint32_t sibling(std::uint32_t piece) const
+    {
+        return 2 * pieces_[pieces_[piece].parent].child + 1 - piece;
+    }
     void measure(Piece& piece) const;
     void trim(Piece& piece) const;
     static double extent(const Piece& piece)
@@ -132,7 +137,7 @@ private:
     mutable std::vector<Piece> pieces_;
     mutable std::vector<Homogeneous> nets_;
     mutable std::vector<Vec3d> corners_;  // control points of the piece being measured
-    mutable std::uint32_t last_{0};       // where the tool rested last: a good first guess
+    mutable std::uint32_t last_{kRoot};   // where the tool rested last: a good first guess
     double lowest_{1e300};
     double highest_{-1e300};
 };

@@ -41,8 +41,11 @@ double TipFloor::on_edge(double slope, double away, double low, double high) con
         return std::max(value(low), value(high));
     }
     if (c == r) {
-        const double best = slope * reach / std::sqrt(1.0 + slope * slope);
-        return value(std::clamp(best, low, high));
+        const double secant = std::sqrt(1.0 + slope * slope);
+        const double top = slope * reach / secant;
+        const double y = std::clamp(top, low, high);
+        return y == top ? reach * secant - c
+                        : slope * y - c + std::sqrt(std::max(room - y * y, 0.0));
     }
     const auto rising = [&](double y) {
         const double d = std::sqrt(away * away + y * y);
@@ -144,30 +147,34 @@ TipFloor::Rest TipFloor::drop(Vec2d at, double slack) const
             stack[depth++] = {height, index};
         }
     };
-    if (last_ != 0 && pieces_[last_].child == 0) {
-        consider(last_);
-        depth = 0;  // where it is not tight it is met again on the way down
+    const auto look_into = [&](std::uint32_t piece) {
+        consider(piece);
+        while (depth > 0) {
+            const Entry top = stack[--depth];
+            if (top.height <= best.height) {
+                continue;
+            }
+            if (pieces_[top.piece].child == 0) {
+                halve(top.piece);
+            }
+            const std::uint32_t child = pieces_[top.piece].child;
+            const std::size_t before = depth;
+            consider(child);
+            consider(child + 1);
+            // The more promising half is looked at first.
+            if (depth == before + 2 && stack[before].height > stack[before + 1].height) {
+                std::swap(stack[before], stack[before + 1]);
+            }
+        }
+    };
+    // From where the tool rested last upwards: what contains that place need not be looked at
+    // itself, only what lies beside it.
+    look_into(last_);
+    for (std::uint32_t piece = last_; piece != kRoot; piece = pieces_[piece].parent) {
+        look_into(sibling(piece));
     }
-    consider(kRoot);
-    while (depth > 0) {
-        const Entry top = stack[--depth];
-        if (top.height <= best.height) {
-            continue;
-        }
-        if (pieces_[top.piece].child == 0) {
-            halve(top.piece);
-        }
-        const std::uint32_t child = pieces_[top.piece].child;
-        const std::size_t before = depth;
-        consider(child);
-        consider(child + 1);
-        // The more promising half is looked at first.
-        if (depth == before + 2 && stack[before].height > stack[before + 1].height) {
-            std::swap(stack[before], stack[before + 1]);
-        }
-    }
-    last_ = best.piece;
     if (best.height != kNothing) {
+        last_ = best.piece;
         best.gradient = slope_of(pieces_[best.piece], at);
     }
     return best;
