@@ -20,6 +20,9 @@ constexpr double kShortest = 0.02;
 // How far arcs may be from the chords that stand for them in proofs, over their tolerance.
 constexpr double kArcSagitta = 0.025;
 
+// Of a two-sided tolerance: the rest is for what lies between vertices.
+constexpr double kTwoSided = 0.99;
+
 // Below this a height is a rounding of the G-code.
 constexpr double kRounding = 2e-4;
 
@@ -34,6 +37,12 @@ Tool grown_tool(Tool tool, double by)
 Vec2d plan(Vec3d p) { return {p.x, p.y}; }
 
 }  // namespace
+
+double band_height(const FollowSettings& settings)
+{
+    return settings.arcs ? std::max(settings.arc_tolerance, settings.tolerance)
+                         : settings.tolerance;
+}
 
 double bend_radius(const Tool& tool) { return std::max(tool.corner_radius, tool.radius / 2); }
 
@@ -92,6 +101,12 @@ double FloorFollower::start_height(Vec2d at) const
     return settings_.both_sides || on_level ? exact : exact + settings_.tolerance / 2;
 }
 
+double FloorFollower::lowest_height(Vec2d at) const
+{
+    const double exact = path_height(at);
+    return settings_.both_sides ? std::max(level_, exact - band_height(settings_)) : exact;
+}
+
 double FloorFollower::clearance(Vec3d a, Vec3d b, double enough) const
 {
     const Vec3d down{0, 0, -allowance_};
@@ -133,17 +148,32 @@ std::vector<BandPoint> FloorFollower::band(Vec2d a, Vec2d b, double tolerance) c
     return out;
 }
 
+// Lower bound, at most 0, of the room under a straight move above `needed` mm.
+double FloorFollower::room(Vec3d a, Vec3d b, double needed) const
+{
+    if (!has_flat_end()) {
+        return clearance(a, b, needed) - needed;
+    }
+    // A flat end's room is that along the axis, and bounds nothing of a move that cuts in: such a
+    // move is looked at from as much higher as it may cut.
+    const double way = norm(plan(b) - plan(a));
+    const double steep = way > 0 ? norm(b - a) / way : 1.0;
+    const Vec3d down{0, 0, -needed * steep};
+    const double clear = clearance(a + down, b + down, 0);
+    if (clear >= kProven || allowed_gouge() == 0) {
+        return clear;
+    }
+    const Vec3d up = down + Vec3d{0, 0, allowed_gouge()};
+    return clearance(a + up, b + up, 0) - allowed_gouge();
+}
+
 void FloorFollower::chord(TipMoves& moves, Vec3d end, MoveKind kind, int depth)
 {
     const Vec3d from = moves.at();
-    if (settings_.both_sides) {
-        const double bound = -clearance(from, end, -kProven);
-        gouge_bound_ = std::max(gouge_bound_, bound);
-        moves.line(kind, end);
-        return;
-    }
-    const double kept = clearance(from, end, 0);
-    if (kept >= kProven) {
+    const double proven = kProven - allowed_gouge();
+    const double kept = room(from, end, 0);
+    if (kept >= proven) {
+        gouge_bound_ = std::max(gouge_bound_, settings_.both_sides ? -kept : 0.0);
         moves.line(kind, end);
         return;
     }
@@ -158,15 +188,15 @@ void FloorFollower::chord(TipMoves& moves, Vec3d end, MoveKind kind, int depth)
     }
     // On slopes a lift along the axis gains less than its length: it is doubled until it does.
     constexpr int kMostLifts = 10;
-    Vec3d lift{0, 0, -kept * 1.5};
-    double room = clearance(from + lift, end + lift, 0);
-    for (int i = 0; i < kMostLifts && room < kProven; ++i) {
+    Vec3d lift{0, 0, (proven - kept) * 1.5};
+    double left = room(from + lift, end + lift, 0);
+    for (int i = 0; i < kMostLifts && left < proven; ++i) {
         lift.z *= 2;
-        room = clearance(from + lift, end + lift, 0);
+        left = room(from + lift, end + lift, 0);
     }
     moves.line(kind, from + lift);
     moves.line(kind, end + lift);
-    gouge_bound_ = std::max(gouge_bound_, -room);
+    gouge_bound_ = std::max(gouge_bound_, -left);
 }
 
 void FloorFollower::follow_segment(TipMoves& moves, Vec2d a, Vec2d b, MoveKind kind)
@@ -197,7 +227,9 @@ void FloorFollower::follow(TipMoves& moves, const std::vector<Vec2d>& corners, M
     }
 }
 
-bool FloorFollower::arc_is_clear(Vec3d from, const ArcTo& arc, double curvature) const
+// Lower bound of the room along the arc, at most 0; once that is too little the rest is not looked
+// at.
+double FloorFollower::arc_room(Vec3d from, const ArcTo& arc, double curvature) const
 {
     // Chords of the arc, moved by the sagitta to the side that the arc bulges to when that is down.
     const double radius = 1 / std::abs(curvature);
@@ -217,6 +249,7 @@ bool FloorFollower::arc_is_clear(Vec3d from, const ArcTo& arc, double curvature)
     double sweep = std::atan2(end_spoke.z, along_x ? end_spoke.x : end_spoke.y) - start;
     sweep += sweep > kPi ? -2 * kPi : sweep < -kPi ? 2 * kPi : 0;
     Vec3d before = from;
+    double least = 0;
     for (int i = 1; i <= pieces; ++i) {
         const double a = start + sweep * i / pieces;
         Vec3d p = arc.end;
@@ -224,12 +257,13 @@ bool FloorFollower::arc_is_clear(Vec3d from, const ArcTo& arc, double curvature)
             (along_x ? p.x : p.y) = (along_x ? arc.centre.x : arc.centre.y) + radius * std::cos(a);
             p.z = arc.centre.z + radius * std::sin(a);
         }
-        if (clearance(before, p, needed) < needed + kProven) {
-            return false;
+        least = std::min(least, room(before, p, needed));
+        if (least < kProven - allowed_gouge()) {
+            break;
         }
         before = p;
     }
-    return true;
+    return least;
 }
 
 std::vector<Vec3d> FloorFollower::arc_vertices(Vec2d a, Vec2d b) const
@@ -261,11 +295,11 @@ bool FloorFollower::follow_with_arcs(TipMoves& moves, Vec2d a, Vec2d b, MoveKind
     }
     std::vector<Vec3d> vertices = arc_vertices(a, b);
     vertices.front() = moves.at();
-    const double room =
-        settings_.both_sides ? settings_.arc_tolerance : settings_.arc_tolerance / 2;
+    const double aside =
+        settings_.both_sides ? kTwoSided * settings_.arc_tolerance : settings_.arc_tolerance / 2;
     segmenter::FitSettings fit;
-    fit.left = room;
-    fit.right = room;
+    fit.left = aside;
+    fit.right = aside;
     fit.greatest_radius = settings_.max_arc_radius;
     std::vector<Vec3d> buffer(std::max<std::size_t>(vertices.size(), 4));
     segmenter::ArcFitter fitter{fit, {buffer.data(), buffer.size()}};
@@ -285,7 +319,9 @@ bool FloorFollower::follow_with_arcs(TipMoves& moves, Vec2d a, Vec2d b, MoveKind
                         piece.clockwise};
         const double radius = norm(centre - from);
         const double curvature = (centre.z > (from.z + piece.end.z) / 2 ? 1 : -1) / radius;
-        if (settings_.both_sides || arc_is_clear(from, arc, curvature)) {
+        const double kept = arc_room(from, arc, curvature);
+        if (kept >= kProven - allowed_gouge()) {
+            gouge_bound_ = std::max(gouge_bound_, settings_.both_sides ? -kept : 0.0);
             moves.arc(kind, arc);
         } else {
             follow_segment(moves, plan(from), plan(piece.end), kind);

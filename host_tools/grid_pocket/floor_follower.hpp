@@ -1,6 +1,7 @@
 // Moves of the tip over the floor: heights by exact drop, few moves, each proven not to cut in.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -18,6 +19,9 @@ struct FollowSettings {
     double max_arc_radius{};  // mm: flatter arcs become lines
     double sample{};          // mm, > 0: between looked-at places
 };
+
+// How far a move may be from the exact height, mm.
+double band_height(const FollowSettings& settings);
 
 // The height of a tip over a smooth floor is taken to bend no tighter than with this radius, mm:
 // for a ball that is proven, for a flat end, whose rim follows the floor itself, the proof of each
@@ -58,6 +62,15 @@ public:
     // Height at which moves pass the point: the exact one, or the middle of the band.
     double start_height(Vec2d at) const;
 
+    // The lowest that moves over the point may be.
+    double lowest_height(Vec2d at) const;
+
+    // No move is lower than this.
+    double bottom() const
+    {
+        return std::max(level_, contact_.lowest() + allowance_ - allowed_gouge());
+    }
+
     // Cuts along the corners, straight in plan between them, from where the tip stands at the
     // first.
     void follow(TipMoves& moves, const std::vector<Vec2d>& corners, MoveKind kind);
@@ -73,6 +86,9 @@ public:
     // Largest depth that any move so far may cut into the floor; 0 where all are proven clear.
     double gouge_bound() const { return gouge_bound_; }
 
+    // Lets that depth count here, too: of moves over this floor as another follower saw it.
+    void add_bound(double depth) { gouge_bound_ = std::max(gouge_bound_, depth); }
+
 private:
     FloorContact contact_;  // of the tool grown by the allowance
     double allowance_;
@@ -80,11 +96,14 @@ private:
     double level_{-1e300};
     double gouge_bound_{0};
 
+    // How deep a move may cut: nothing, or the band where it reaches below the floor.
+    double allowed_gouge() const { return settings_.both_sides ? band_height(settings_) : 0.0; }
     double path_height(Vec2d at) const;
 
     std::vector<BandPoint> band(Vec2d a, Vec2d b, double tolerance) const;
     void follow_segment(TipMoves& moves, Vec2d a, Vec2d b, MoveKind kind);
-    bool arc_is_clear(Vec3d from, const ArcTo& arc, double curvature) const;
+    double room(Vec3d a, Vec3d b, double needed) const;
+    double arc_room(Vec3d from, const ArcTo& arc, double curvature) const;
     std::vector<Vec3d> arc_vertices(Vec2d a, Vec2d b) const;
     bool follow_with_arcs(TipMoves& moves, Vec2d a, Vec2d b, MoveKind kind);
     void chord(TipMoves& moves, Vec3d end, MoveKind kind, int depth);

@@ -54,6 +54,21 @@ void GridMoves::enter(const FloorFollower& floor,
             tip_.line(MoveKind::kRapid, {start.x, start.y, over + kAboveMetal});
         }
     }
+    go_down(way, metal, circle);
+}
+
+void GridMoves::descend(const FloorFollower& floor,
+                        const std::vector<Vec2d>& corners,
+                        double metal,
+                        const CircleFloor& circle)
+{
+    go_down(floor.chords(corners, ramp_length()), metal, circle);
+}
+
+void GridMoves::go_down(const std::vector<Vec3d>& way, double metal, const CircleFloor& circle)
+{
+    const Vec3d start = way.front();
+    const double over = std::max(metal, start.z);
     const bool deep = metal - start.z > kShallow;
     double from = over;
     if (deep && entry_ == EntryKind::kHelix) {
@@ -97,8 +112,8 @@ bool GridMoves::helix(Vec3d start, double from, const CircleFloor& circle)
     }
     // Half turns, then a level turn that clears what the last slope left.
     const double depth = from - end;
-    const int halves =
-        2 * std::max(1, static_cast<int>(std::ceil(depth / (2 * kPi * radius * kEntrySlope))));
+    const double drop = std::min(2 * kPi * radius * kEntrySlope, most_drop_);
+    const int halves = 2 * std::max(1, static_cast<int>(std::ceil(depth / drop)));
     const Vec2d opposite = centre * 2.0 - Vec2d{start.x, start.y};
     for (int i = 1; i <= halves + 2; ++i) {
         const Vec2d p = i % 2 == 0 ? Vec2d{start.x, start.y} : opposite;
@@ -113,7 +128,8 @@ void GridMoves::ramp(const std::vector<Vec3d>& way, double from)
 {
     const double depth = from - way.front().z;
     const double length = plan_length(way);
-    const int trips = std::max(1, static_cast<int>(std::ceil(depth / (2 * length * kEntrySlope))));
+    const double drop = std::min(2 * length * kEntrySlope, most_drop_);
+    const int trips = std::max(1, static_cast<int>(std::ceil(depth / drop)));
     const double whole = 2 * trips * length;
     double gone = 0;
     const auto go = [&](Vec3d p) {

@@ -12,8 +12,13 @@ namespace cusp::host {
 // Rapids happen at the clearance height or straight down to 1 mm above metal.
 class GridMoves {
 public:
-    GridMoves(Toolpath& path, double clearance_z, EntryKind entry, double radius)
-        : tip_{path}, clearance_z_{clearance_z}, entry_{entry}, radius_{radius}
+    // most_drop  mm: of a ramp's trip out and back, or of a helix's turn
+    GridMoves(Toolpath& path, double clearance_z, EntryKind entry, double radius, double most_drop)
+        : tip_{path},
+          clearance_z_{clearance_z},
+          entry_{entry},
+          radius_{radius},
+          most_drop_{most_drop}
     {
     }
 
@@ -29,6 +34,12 @@ public:
                double metal,
                bool link,
                const CircleFloor& circle);
+
+    // The same from where the tip stands at the start of the run, over `metal` or higher.
+    void descend(const FloorFollower& floor,
+                 const std::vector<Vec2d>& corners,
+                 double metal,
+                 const CircleFloor& circle);
 
     void retract();
 
@@ -47,11 +58,13 @@ private:
     double clearance_z_;
     EntryKind entry_;
     double radius_;
+    double most_drop_;
     int retracts_{0};
     int plunges_{0};
     int helices_{0};
     int narrow_entries_{0};
 
+    void go_down(const std::vector<Vec3d>& way, double metal, const CircleFloor& circle);
     bool helix(Vec3d start, double from, const CircleFloor& circle);
     void ramp(const std::vector<Vec3d>& way, double from);
 };

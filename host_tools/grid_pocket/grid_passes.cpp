@@ -38,9 +38,46 @@ GridPasses::GridPasses(PocketSpace& pocket, Toolpath& path)
     : pocket_{pocket},
       path_{path},
       moves_{path, pocket.job.stock_top + pocket.job.clearance, pocket.operation.entry,
-             pocket.operation.tool.radius},
+             pocket.operation.tool.radius, pocket.operation.max_depth.value_or(1e300)},
       metal_(pocket.grid.size(), static_cast<float>(pocket.job.stock_top))
 {
+    const Operation& operation = pocket.operation;
+    if (operation.max_depth || !operation.layers.empty()) {
+        const Box2d box = box_of(pocket.centres);
+        const double radius = operation.tool.radius;
+        depth_.emplace(moves_, path,
+                       Box2d{box.x0 - radius, box.y0 - radius, box.x1 + radius, box.y1 + radius},
+                       pocket.job.stock_top, operation.max_depth);
+    }
+}
+
+void GridPasses::finish()
+{
+    moves_.retract();
+    if (depth_) {
+        depth_->feel_moves();
+    }
+}
+
+void GridPasses::follow(FloorFollower& floor, const std::vector<Vec2d>& corners)
+{
+    if (depth_) {
+        depth_->follow(floor, corners, circle_over(floor));
+    } else {
+        floor.follow(moves_.tip(), corners, MoveKind::kCut);
+    }
+}
+
+void GridPasses::enter(FloorFollower& floor,
+                       const std::vector<Vec2d>& corners,
+                       double metal,
+                       bool link)
+{
+    if (depth_) {
+        depth_->enter(floor, corners, metal, link, circle_over(floor));
+    } else {
+        moves_.enter(floor, corners, metal, link, circle_over(floor));
+    }
 }
 
 void GridPasses::layer(double plane)
@@ -62,6 +99,7 @@ void GridPasses::layer(double plane)
         metal_[cell] = static_cast<float>(std::max(plane, pocket_.rough_heights[cell]));
     }
     wall_level(above, floor);
+    pocket_.finish.add_bound(floor.gouge_bound() - pocket_.operation.allowance);
     last_plane_ = plane;
 }
 
@@ -89,7 +127,7 @@ std::size_t GridPasses::follow_navigation(const Navigation& navigation, FloorFol
         }
         begin_run(corners, metal_at(navigation.steps[i].cell), floor);
         const std::size_t before = path_.moves.size();
-        floor.follow(moves_.tip(), corners, MoveKind::kCut);
+        follow(floor, corners);
         cut += path_.moves.size() - before;
         i = end;
     }
@@ -99,7 +137,7 @@ std::size_t GridPasses::follow_navigation(const Navigation& navigation, FloorFol
 void GridPasses::begin_run(const std::vector<Vec2d>& corners, double metal, FloorFollower& floor)
 {
     const double over = std::max(metal, metal_under(corners.front()));
-    moves_.enter(floor, corners, over, can_link(corners.front()), circle_over(floor));
+    enter(floor, corners, over, can_link(corners.front()));
 }
 
 void GridPasses::wall()
@@ -107,7 +145,7 @@ void GridPasses::wall()
     for (const Contour& contour : pocket_.centres.contours) {
         const std::vector<Vec2d> corners = wall_corners(contour);
         approach(corners);
-        pocket_.finish.follow(moves_.tip(), corners, MoveKind::kCut);
+        follow(pocket_.finish, corners);
         ++passes_;
     }
 }
@@ -121,7 +159,7 @@ void GridPasses::zigzag(char axis, Tracks& tracks)
         const std::vector<Vec2d> corners{pocket_.grid.centre(run.first),
                                          pocket_.grid.centre(run.last)};
         approach(corners);
-        pocket_.finish.follow(moves_.tip(), corners, MoveKind::kCut);
+        follow(pocket_.finish, corners);
         ++passes_;
     }
 }
@@ -267,7 +305,7 @@ void GridPasses::approach(const std::vector<Vec2d>& corners)
     const double longest = std::max(8 * pocket_.operation.tool.radius, 2 * pocket_.job.clearance);
     if (moves_.tip().started() && !moves_.lifted() && norm(start - here()) < longest &&
         pocket_.clear(here(), start)) {
-        pocket_.finish.follow(moves_.tip(), {here(), start}, MoveKind::kCut);
+        follow(pocket_.finish, {here(), start});
         return;
     }
     const Cell middle = pocket_.grid.nearest(start);
@@ -285,13 +323,11 @@ void GridPasses::approach(const std::vector<Vec2d>& corners)
         }
     }
     if (least < 1e300) {
-        moves_.enter(pocket_.finish, {cut, start}, pocket_.finish.start_height(cut), false,
-                     circle_over(pocket_.finish));
-        pocket_.finish.follow(moves_.tip(), {cut, start}, MoveKind::kCut);
+        enter(pocket_.finish, {cut, start}, pocket_.finish.start_height(cut), false);
+        follow(pocket_.finish, {cut, start});
         return;
     }
-    moves_.enter(pocket_.finish, corners, pocket_.job.stock_top, false,
-                 circle_over(pocket_.finish));
+    enter(pocket_.finish, corners, pocket_.job.stock_top, false);
 }
 
 void GridPasses::wall_level(double above, FloorFollower& floor)
@@ -334,11 +370,11 @@ void GridPasses::cut_level(std::vector<Vec2d>& run, double above, FloorFollower&
             std::max(8 * pocket_.operation.tool.radius, 2 * pocket_.job.clearance);
         if (moves_.tip().started() && !moves_.lifted() && norm(run.front() - here()) < longest &&
             pocket_.clear(here(), run.front())) {
-            floor.follow(moves_.tip(), {here(), run.front()}, MoveKind::kCut);
+            follow(floor, {here(), run.front()});
         } else {
             begin_run(run, above, floor);
         }
-        floor.follow(moves_.tip(), run, MoveKind::kCut);
+        follow(floor, run);
         ++passes_;
     }
     run.clear();

@@ -1,8 +1,10 @@
 // The passes of the pocket and the moves between them: layers, main path, wall, zigzags.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "host_tools/grid_pocket/depth_limit.hpp"
 #include "host_tools/grid_pocket/grid_moves.hpp"
 #include "host_tools/grid_pocket/pocket_space.hpp"
 
@@ -25,7 +27,7 @@ public:
     // N: over the steps along 'x' or 'y' that are no track yet; adds them to the tracks.
     void zigzag(char axis, Tracks& tracks);
 
-    void finish() { moves_.retract(); }
+    void finish();
     std::size_t main_moves() const { return main_moves_; }
     int backtracks() const { return backtracks_; }
     int dead_ends() const { return dead_ends_; }
@@ -34,12 +36,20 @@ public:
     int steps() const { return steps_; }
     int retracts() const { return moves_.retracts(); }
     const GridMoves& moves() const { return moves_; }
+    // mm: none where everything is cut in one layer.
+    std::optional<double> deepest_cut() const
+    {
+        return depth_ ? std::optional<double>{depth_->deepest()} : std::nullopt;
+    }
+    // Passes that keep runs from cutting deeper than max_depth.
+    int depth_passes() const { return depth_ ? depth_->added() : 0; }
 
 private:
     PocketSpace& pocket_;
     Toolpath& path_;
     GridMoves moves_;
-    std::vector<float> metal_;  // top of what stands over each cell
+    std::optional<DepthLimit> depth_;  // for pockets in layers
+    std::vector<float> metal_;         // top of what stands over each cell
     double last_plane_{1e300};
     std::size_t main_moves_{0};
     int backtracks_{0};
@@ -56,6 +66,8 @@ private:
     static bool straight(const Navigation& navigation, std::size_t i);
     // Returns the number of moves that cut.
     std::size_t follow_navigation(const Navigation& navigation, FloorFollower& floor);
+    void follow(FloorFollower& floor, const std::vector<Vec2d>& corners);
+    void enter(FloorFollower& floor, const std::vector<Vec2d>& corners, double metal, bool link);
     void begin_run(const std::vector<Vec2d>& corners, double metal, FloorFollower& floor);
     // Whether a straight move at the height of the layer above leads there: what the floor leaves
     // free at that height has been cut, but for ridges between tracks.

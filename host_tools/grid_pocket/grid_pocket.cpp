@@ -12,6 +12,8 @@
 namespace cusp::host {
 namespace {
 
+constexpr double kDepthRounding = 1e-3;  // mm
+
 // A grid of the same shape that keeps max_roughness, tried out; the height between tracks goes with
 // the square of their distance.
 std::string grid_that_would_do(const PocketSpace& pocket,
@@ -36,6 +38,28 @@ std::string grid_that_would_do(const PocketSpace& pocket,
     }
     return "grid " + length_text(pocket.job, finer.grid_x) + " x " +
            length_text(pocket.job, finer.grid_y) + " would be needed at least";
+}
+
+void warn_of_layers(const Job& job, const LayerPlanes& planes, OperationStats& stats)
+{
+    if (planes.left_out > 0) {
+        stats.warnings.push_back(
+            "layers: " + std::to_string(planes.left_out) + " lie below " +
+            length_text(job, job.stock_top - planes.lowest) +
+            " under stock.top, the deepest that the tool gets on this floor, and are left out");
+    }
+}
+
+void warn_of_depth(const Job& job,
+                   const Operation& operation,
+                   const GridPasses& planner,
+                   OperationStats& stats)
+{
+    const double deepest = planner.deepest_cut().value_or(0);
+    if (operation.max_depth && deepest > *operation.max_depth + kDepthRounding) {
+        stats.warnings.push_back("a cut is " + length_text(job, deepest) +
+                                 " deep, over max_depth " + length_text(job, *operation.max_depth));
+    }
 }
 
 void warn_of_entries(const GridMoves& moves, const Operation& operation, OperationStats& stats)
@@ -81,15 +105,15 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
     out.path.plunge_feed = job.plunge_feed;
     out.path.spindle = job.spindle;
     GridPasses planner{pocket, out.path};
-    std::vector<double> planes;
+    LayerPlanes planes{};
     if (!operation.layers.empty() || operation.max_depth) {
         pocket.rough_heights =
             operation.allowance > 0 ? heights_over(pocket, pocket.rough) : pocket.heights;
         planes = layer_planes(pocket);
-        for (std::size_t i = 0; i < planes.size(); ++i) {
-            planner.layer(planes[i]);
+        for (std::size_t i = 0; i < planes.z.size(); ++i) {
+            planner.layer(planes.z[i]);
             job.report_progress(0.3 + 0.2 * static_cast<double>(i + 1) /
-                                          static_cast<double>(planes.size()));
+                                          static_cast<double>(planes.z.size()));
         }
     }
     job.report_progress(0.5);
@@ -106,7 +130,7 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
     OperationStats& stats = out.stats;
     stats.strategy = "grid_pocket";
     stats.passes = planner.passes();
-    stats.levels = static_cast<int>(planes.size()) + 1;
+    stats.levels = static_cast<int>(planes.z.size()) + 1;
     stats.cl_points = static_cast<int>(out.path.moves.size());
     stats.retracts = planner.retracts();
     stats.gouge_bound_mm = pocket.finish.gouge_bound();
@@ -119,12 +143,18 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
                     {"backtracks", planner.backtracks()},
                     {"dead_end_lifts", planner.lifts()},
                     {"main_path_moves", static_cast<double>(main_moves)},
-                    {"layers", static_cast<double>(planes.size())},
+                    {"layers", static_cast<double>(planes.z.size())},
                     {"roughness_mm", roughness},
                     {"helices", planner.moves().helices()}};
+    if (const auto deepest = planner.deepest_cut()) {
+        stats.counts.emplace_back("deepest_cut_mm", *deepest);
+        stats.counts.emplace_back("depth_passes", planner.depth_passes());
+    }
+    warn_of_depth(job, operation, planner, stats);
     out.path.comments = {"grid_pocket: " + std::to_string(cells) + " cells, roughness " +
                          length_text(job, roughness) + ", gouge at most " +
                          length_text(job, stats.gouge_bound_mm)};
+    warn_of_layers(job, planes, stats);
     warn_of_entries(planner.moves(), operation, stats);
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     stats.planning_s = spent.count();

@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace cusp::host {
 namespace {
 
 constexpr double kHeightsShare = 0.15;  // of the time of a plan
+// Of max_depth: where that is too much, extra passes take it.
+constexpr double kLeastStep = 0.85;
 constexpr double kNoHeight = std::numeric_limits<double>::quiet_NaN();
 
 // Where links turn around an arc of the pass along the walls: where its tangents meet, one place
@@ -37,6 +40,19 @@ void add_corner(const Edge& arc, std::vector<Vec2d>& out)
     }
 }
 
+// How much higher metal stands beside a new track between cells than beside one that repeats: the
+// tool stood over the cells only.
+double ridge_over_tracks(const Operation& operation)
+{
+    const double corner = operation.tool.corner_radius;
+    const auto rise = [&](double along, double across) {
+        const double beside = std::max(0.0, corner * corner - across * across / 4);
+        return std::sqrt(beside) - std::sqrt(std::max(0.0, beside - along * along / 4));
+    };
+    return std::max(rise(operation.grid_x, operation.grid_y),
+                    rise(operation.grid_y, operation.grid_x));
+}
+
 // Steps between neighbours that only the zigzags along `axis` cut.
 void add_zigzag(const PocketSpace& pocket, char axis, Tracks& tracks)
 {
@@ -61,8 +77,7 @@ FollowSettings follow_settings(const Operation& operation)
     s.max_arc_radius = operation.max_arc_radius > 0 ? operation.max_arc_radius : 1e3;
     // Between places this far apart the tip's height rises over a chord by about an eighth of the
     // band.
-    const double band = s.arcs ? std::max(s.arc_tolerance, s.tolerance) : s.tolerance;
-    const double bend = std::sqrt(0.5 * bend_radius(operation.tool) * band);
+    const double bend = std::sqrt(0.5 * bend_radius(operation.tool) * band_height(s));
     s.sample = std::min(std::max(operation.grid_x, operation.grid_y), bend);
     return s;
 }
@@ -175,7 +190,7 @@ double roughness_of(const PocketSpace& pocket, const Navigation& navigation)
     return grid_roughness(pocket.grid, surface, tracks, pocket.operation.tool);
 }
 
-std::vector<double> layer_planes(const PocketSpace& pocket)
+LayerPlanes layer_planes(const PocketSpace& pocket)
 {
     double lowest = 1e300;
     for (const double z : pocket.rough_heights) {
@@ -193,13 +208,13 @@ std::vector<double> layer_planes(const PocketSpace& pocket)
             planes.push_back(pocket.job.stock_top - depth);
         }
     } else if (operation.max_depth) {
-        // A layer leaves ridges between its tracks, and the finish meets the allowance: both add to
-        // the next depth of cut.
-        const double corner = operation.tool.corner_radius;
-        const double half = std::min(corner, std::hypot(operation.grid_x, operation.grid_y) / 2);
-        const double ridge = corner - std::sqrt(corner * corner - half * half);
-        const double step =
-            std::max(*operation.max_depth - ridge - operation.allowance, *operation.max_depth / 4);
+        // A layer leaves ridges between its tracks and stays over the floor by its tolerance, and
+        // the finish meets the allowance: all add to the next depth of cut.
+        const double ridge = ridge_over_tracks(operation);
+        const FollowSettings follow = follow_settings(operation);
+        const double over = band_height(follow) * (follow.both_sides ? 2 : 1);
+        const double step = std::max(*operation.max_depth - ridge - over - operation.allowance,
+                                     *operation.max_depth * kLeastStep);
         if ((pocket.job.stock_top - lowest) / step > 1e4) {
             refuse_grid_pocket(pocket.job, "max_depth " +
                                                length_text(pocket.job, *operation.max_depth) +
@@ -209,10 +224,11 @@ std::vector<double> layer_planes(const PocketSpace& pocket)
             planes.push_back(pocket.job.stock_top - i * step);
         }
     }
-    planes.erase(
-        std::remove_if(planes.begin(), planes.end(), [&](double z) { return z <= lowest; }),
-        planes.end());
-    return planes;
+    const auto below =
+        std::remove_if(planes.begin(), planes.end(), [&](double z) { return z <= lowest; });
+    const auto left_out = static_cast<int>(planes.end() - below);
+    planes.erase(below, planes.end());
+    return {std::move(planes), left_out, lowest};
 }
 
 }  // namespace cusp::host

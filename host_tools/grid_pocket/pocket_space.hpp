@@ -57,8 +57,14 @@ Tracks tracks_of(const CellGrid& grid, const Navigation& navigation);
 // Of the main path with the operation's zigzags and the wall's pass, mm.
 double roughness_of(const PocketSpace& pocket, const Navigation& navigation);
 
-// z of the layers, descending, without those that no cell reaches. Layers stand so much closer than
-// max_depth that ridges and the allowance stay within it.
-std::vector<double> layer_planes(const PocketSpace& pocket);
+struct LayerPlanes {
+    std::vector<double> z;  // descending
+    int left_out;           // of the job's layers, those that no cell reaches
+    double lowest;          // z that the tip reaches
+};
+
+// Layers stand so much closer than max_depth that ridges, tolerance and the allowance stay within
+// it.
+LayerPlanes layer_planes(const PocketSpace& pocket);
 
 }  // namespace cusp::host

@@ -52,6 +52,9 @@ void check_pocket(unsigned seed)
     CHECK(figures.wall_gouge_max.value_or(0) <= 1e-3);
     CHECK(figures.rapid_cut_max <= 0.01);
     DOUBLES_EQUAL(0, figures.uncut_share, 0);
+    if (job.operations.front().max_depth) {
+        CHECK(figures.cut_depth_max <= *job.operations.front().max_depth + 0.01);
+    }
     // The map of heights in memory is itself only so fine.
     CHECK(figures.scallop_max <= stats.scallop_bound_mm + 0.01);
     std::printf("  %d passes, left %.4f of %.4f mm, deepest cut %.3f mm\n", stats.passes,

@@ -159,6 +159,17 @@ TEST(GridPlan, LayersAndZigzagsNeverCutInEither)
     CHECK(least_clearance(plan[0], operation) >= -2e-6);
 }
 
+TEST(GridPlan, ReportsHowDeepATwoSidedToleranceCutsIn)
+{
+    for (const OutputForm form : {OutputForm::kLines, OutputForm::kArcs}) {
+        Operation operation = operation_of(6, form);
+        operation.tolerance_side = ToleranceSide::kBoth;
+        const auto plan = plan_grid_pocket(job_of(), operation);
+        CHECK(plan[0].stats.gouge_bound_mm <= 0.02 + 2e-6);
+        CHECK(least_clearance(plan[0], operation) >= -plan[0].stats.gouge_bound_mm - 2e-6);
+    }
+}
+
 TEST(GridPlan, LayersVisitOnlyCellsThatTheFloorLeaves)
 {
     Operation operation = operation_of(9, OutputForm::kLines);

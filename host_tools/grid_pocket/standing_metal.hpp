@@ -1,0 +1,54 @@
+// The metal that still stands in the pocket, as heights on a fine grid: how deep a move would cut.
+#pragma once
+
+#include <vector>
+
+#include "host_tools/offset/contour.hpp"
+#include "host_tools/toolpath/toolpath.hpp"
+
+namespace cusp::host {
+
+// Heights of metal at places a twelfth of the tool's radius apart (more in pockets of over four
+// million places). What is thinner than that may be missed.
+class StandingMetal {
+public:
+    // box  all places that the tool may touch
+    // top  of the uncut stock
+    StandingMetal(const Box2d& box, const Tool& tool, double top);
+
+    // The height at which a tip that comes down over `at` first touches metal; -1e300 where none
+    // stands.
+    double touch(Vec2d at) const;
+
+    // Takes what the tool sweeps on a straight move. Returns the deepest that it cuts, mm.
+    double cut(Vec3d from, Vec3d to);
+
+private:
+    // The tool's lower side: a flat of radius `flat`, a corner around it.
+    struct Profile {
+        double flat;
+        double corner;
+        double reach;  // squared radius of the whole tool
+        double at(double squared) const;
+    };
+    struct Range {
+        std::size_t begin;
+        std::size_t end;
+    };
+
+    double spacing_;
+    double sliver_;  // mm: what stands between two looked-at places of a move is no metal
+    Profile tool_;
+    Profile feeler_;  // the tool, smaller by the slivers
+    Vec2d origin_;
+    double pitch_;
+    std::size_t columns_;
+    std::size_t rows_;
+    double top_;
+    std::vector<float> heights_;
+
+    static Range range(double low, double high, double origin, double pitch, std::size_t count);
+    double cut_at(Vec3d tip);
+};
+
+}  // namespace cusp::host
