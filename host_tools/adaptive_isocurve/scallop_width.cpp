@@ -5,6 +5,20 @@
 #include <cmath>
 
 namespace cusp::host {
+namespace {
+
+constexpr double kPole = 1e-7;  // of |S_uv|: at a pole S_u is rounding, and so is all that follows
+
+// Near a pole S_u is S_uv times the way from it: that gives the normal.
+CrossSection cross_section_at_pole(const SurfacePoint& p)
+{
+    SurfacePoint beside = p;
+    beside.du = p.duv;
+    const double square = dot(p.dv, p.dv);
+    return {square > 0 ? dot(upward_normal(beside), p.dvv) / square : 0, std::sqrt(square)};
+}
+
+}  // namespace
 
 double scallop_width(double radius, double scallop, double curvature)
 {
@@ -26,9 +40,12 @@ double scallop_width(double radius, double scallop, double curvature)
 CrossSection cross_section_at(const SurfacePoint& p)
 {
     const double e = dot(p.du, p.du);
+    if (e <= kPole * kPole * dot(p.duv, p.duv)) {
+        return cross_section_at_pole(p);
+    }
     const Vec3d normal = upward_normal(p);
-    if (e == 0 || dot(normal, normal) == 0) {
-        return {0, e == 0 ? norm(p.dv) : 0};
+    if (dot(normal, normal) == 0) {
+        return {0, 0};
     }
     const double a = -dot(p.du, p.dv) / e;
     const Vec3d across = p.dv + p.du * a;

@@ -3,6 +3,7 @@
 
 #include <dlfcn.h>
 
+#include "host_tools/import/turning_knots.hpp"
 #include "host_tools/input_error/input_error.hpp"
 
 #include "fmt/format.h"
@@ -23,6 +24,9 @@ std::vector<Surface> read_cad_surfaces(const std::string& file)
     }
     std::vector<Surface> surfaces;
     reinterpret_cast<decltype(&cusp_read_cad_surfaces)>(door)(file, surfaces);
+    for (Surface& surface : surfaces) {
+        surface = with_turning_knots(surface);
+    }
     return surfaces;
 }
 

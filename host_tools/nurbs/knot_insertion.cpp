@@ -43,6 +43,30 @@ void insert_once(ControlRows& rows, double u)
     rows.knots.insert(above, u);
 }
 
+void set_rows_along_u(const ControlRows& rows, Surface& surface)
+{
+    const Curve net = to_curve(rows);
+    surface.knots_u = rows.knots;
+    surface.size_u = static_cast<int>(rows.rows());
+    surface.points = net.points;
+    surface.weights = net.weights;
+}
+
+void set_rows_along_v(const ControlRows& rows, Surface& surface)
+{
+    surface.knots_v = rows.knots;
+    surface.size_v = static_cast<int>(rows.rows());
+    surface.points.clear();
+    surface.weights.clear();
+    for (std::size_t i = 0; i < rows.width; ++i) {
+        for (std::size_t j = 0; j < rows.rows(); ++j) {
+            const HomogeneousPoint& h = rows.points[j * rows.width + i];
+            surface.points.push_back({h.x / h.w, h.y / h.w, h.z / h.w});
+            surface.weights.push_back(h.w);
+        }
+    }
+}
+
 }  // namespace
 
 ControlRows control_rows(const Curve& curve)
@@ -163,27 +187,31 @@ Surface clamped(const Surface& surface)
     if (!ends_are_clamped(out.knots_u, out.degree_u)) {
         ControlRows rows = control_rows_along_u(out);
         clamp_ends(rows);
-        const Curve net = to_curve(rows);
-        out.knots_u = rows.knots;
-        out.size_u = static_cast<int>(rows.rows());
-        out.points = net.points;
-        out.weights = net.weights;
+        set_rows_along_u(rows, out);
     }
     if (!ends_are_clamped(out.knots_v, out.degree_v)) {
         ControlRows rows = control_rows_along_v(out);
         clamp_ends(rows);
-        out.knots_v = rows.knots;
-        out.size_v = static_cast<int>(rows.rows());
-        out.points.clear();
-        out.weights.clear();
-        for (std::size_t i = 0; i < rows.width; ++i) {
-            for (std::size_t j = 0; j < rows.rows(); ++j) {
-                const HomogeneousPoint& h = rows.points[j * rows.width + i];
-                out.points.push_back({h.x / h.w, h.y / h.w, h.z / h.w});
-                out.weights.push_back(h.w);
-            }
-        }
+        set_rows_along_v(rows, out);
     }
+    return out;
+}
+
+Surface with_knots(const Surface& surface,
+                   const std::vector<double>& more_u,
+                   const std::vector<double>& more_v)
+{
+    Surface out = surface;
+    ControlRows rows = control_rows_along_u(out);
+    for (const double u : more_u) {
+        insert_once(rows, u);
+    }
+    set_rows_along_u(rows, out);
+    rows = control_rows_along_v(out);
+    for (const double v : more_v) {
+        insert_once(rows, v);
+    }
+    set_rows_along_v(rows, out);
     return out;
 }
 

@@ -33,6 +33,12 @@ Curve to_curve(const ControlRows& rows);
 Surface clamped(const Surface& surface);
 Curve clamped(const Curve& curve);
 
+// The same shape with more knots, each once more than it is listed in the surface.
+// Precondition: they lie inside the domain, and none gets over the degree.
+Surface with_knots(const Surface& surface,
+                   const std::vector<double>& more_u,
+                   const std::vector<double>& more_v);
+
 // Multiplicity of u among the knots.
 std::size_t multiplicity(const std::vector<double>& knots, double u);
 

@@ -40,3 +40,19 @@ TEST(ScallopWidth, StaysFiniteWhereTheBallDoesNotFit)
     CHECK(scallop_width(6, 0.4, 10) <= 1.8 * 6);
     CHECK(scallop_width(6, 0.4, 10) > 0);
 }
+
+// S_u is rounding at the pole of a ball: a curvature from that asked for endless numbers of passes.
+TEST(ScallopWidth, OfABallIsTheSameAtItsPole)
+{
+    constexpr double kRadius = 12;
+    SurfacePoint pole;
+    pole.point = {0, 0, kRadius};
+    pole.du = {3e-16, -7e-16, 1e-16};
+    pole.dv = {kRadius, 0, 0};
+    pole.duu = {-7e-16, -3e-16, 0};
+    pole.duv = {0, kRadius, 0};
+    pole.dvv = {0, 0, -kRadius};
+    const CrossSection section = cross_section_at(pole);
+    DOUBLES_EQUAL(-1 / kRadius, section.curvature, 1e-12);
+    DOUBLES_EQUAL(kRadius, section.speed, 1e-12);
+}
