@@ -21,7 +21,7 @@ constexpr double kShortest = 0.02;
 constexpr double kArcSagitta = 0.025;
 
 // Of a two-sided tolerance: the rest is for what lies between vertices.
-constexpr double kTwoSided = 0.99;
+constexpr double kTwoSided = 0.95;
 
 // Below this a height is a rounding of the G-code.
 constexpr double kRounding = 2e-4;
