@@ -34,6 +34,19 @@ double unswept_area(const Region2d& region, double radius)
                                     : area_of(region) - area_of(grown(centres, radius));
 }
 
+// How much higher than the tip of `tool` metal stands that it left, at most, over a place within
+// `other` at the same axis, less the other's profile, mm.
+double highest_over(const Tool& tool, const Tool& other)
+{
+    constexpr int kPlaces = 16;
+    double most = 0.0;
+    for (int i = 1; i <= kPlaces; ++i) {
+        const double out = std::min(tool.radius, other.radius) * i / kPlaces;
+        most = std::max(most, profile_height(tool, out) - profile_height(other, out));
+    }
+    return most;
+}
+
 class FinishPlanner {
 public:
     FinishPlanner(const Job& job,
@@ -64,7 +77,7 @@ public:
             const bool stands = operation_.allowance > 0.0 ||
                                 rough->operation.path.tool.number != operation_.tool.number;
             if (stands) {
-                cut_walls(cutter, cleared, settings.repeated, rough->heights);
+                cut_walls(cutter, cleared, settings.repeated, depths_beside(cleared, *rough));
             }
         }
         cutter.cut(cleared, settings);
@@ -96,19 +109,29 @@ private:
         return cleared;
     }
 
-    // Which passes meet metal that roughing did not reach: the allowance beside the walls, corners
-    // and necks that its tool does not fit into.
+    // Which passes meet metal that roughing did not reach: the allowance beside the walls, corners,
+    // necks and valleys of the floor that its tool does not fit into.
     std::vector<bool> beside_roughing(const ClearedRegion& cleared, const RoughResult& rough) const
     {
         const double radius = operation_.tool.radius;
-        const double larger = rough.operation.path.tool.radius - radius;
+        const Tool& tool = rough.operation.path.tool;
+        const double larger = tool.radius - radius;
         const RegionOffset walls{region_};
         const EdgeTree centres{edges_of(walls.at(rough.first))};
-        const auto roughed = [&](Vec2d p) {
+        const TipFloor roughed_floor{operation_.floor, tool, budget_.accuracy};
+        const double depth = layer_depth(operation_);
+        const double higher = rough.left + highest_over(tool, operation_.tool);
+        const double slack = 0.02 * radius;
+        const auto fits = [&](Vec2d p) {
             if (walls.clearance(p) >= rough.first - std::min(larger, 0.0)) {
                 return true;
             }
             return larger > 0.0 && centres.any_nearer(p, larger);
+        };
+        const double bottom = rough.heights.empty() ? job_.stock_top : rough.heights.back();
+        const auto roughed = [&](Vec2d p) {
+            const double left = std::max(roughed_floor.drop(p, slack).height, bottom) + higher;
+            return fits(p) && left < floor_.drop(p, slack).height + depth;
         };
         std::vector<bool> beside;
         for (const ClearingPass& pass : cleared.passes) {
@@ -121,6 +144,23 @@ private:
             }
         }
         return beside;
+    }
+
+    // Depths for passes beside what roughing left: its own, and as many more as the finishing tool
+    // goes deeper.
+    std::vector<double> depths_beside(const ClearedRegion& cleared, const RoughResult& rough) const
+    {
+        std::vector<double> heights = rough.heights;
+        const double depth = layer_depth(operation_);
+        const double bottom = lowest_tip(cleared, floor_);
+        double above = heights.empty() ? job_.stock_top : heights.back();
+        const int n = static_cast<int>(std::ceil((above - bottom) / depth - 1e-9));
+        const double step = (above - bottom) / std::max(n, 1);
+        for (int i = 1; i < n; ++i) {
+            above -= step;
+            heights.push_back(above);
+        }
+        return heights;
     }
 
     void flatten(ClearedRegion& cleared, const CutSettings& settings) const
@@ -264,7 +304,7 @@ std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operatio
     check_coverage(operation, region, finish.floor());
     std::vector<PlannedOperation> result;
     const std::optional<RoughResult> rough = plan_rough_layers(job, operation, region, budget);
-    if (rough) {
+    if (rough && !rough->operation.path.moves.empty()) {
         result.push_back(rough->operation);
     }
     result.push_back(finish.plan(rough ? &*rough : nullptr));

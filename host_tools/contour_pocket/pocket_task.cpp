@@ -15,6 +15,9 @@ namespace cusp::host {
 
 namespace {
 
+// Of the radius of the finishing tool: with more, "within tolerance" says nothing about a pocket.
+constexpr double kMostTolerance = 0.25;
+
 std::string place_text(Vec2d p) { return "(" + number_text(p.x) + ", " + number_text(p.y) + ")"; }
 
 void check_range(const Job& job, const char* key, double value, double limit)
@@ -73,9 +76,12 @@ Budget make_budget(const Job& job, const Operation& operation)
                          ": contour_pocket: output \"nurbs\" needs a build with Eigen "
                          "(libeigen3-dev, CUSP_EIGEN), which this is not");
     }
-    check_range(job, "plan_tolerance", operation.plan_tolerance, radius);
-    check_range(job, "floor_tolerance", operation.floor_tolerance, radius);
+    check_range(job, "plan_tolerance", operation.plan_tolerance, kMostTolerance * radius);
+    check_range(job, "floor_tolerance", operation.floor_tolerance, kMostTolerance * radius);
     check_range(job, "scallop", *operation.scallop, 0.9 * radius);
+    if (operation.allowance != 0.0) {
+        check_range(job, "allowance", operation.allowance, radius);
+    }
     Budget budget;
     budget.outside = operation.tolerance_side == ToleranceSide::kOutside;
     budget.fit = 0.1 * operation.plan_tolerance;

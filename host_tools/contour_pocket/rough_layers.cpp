@@ -47,6 +47,22 @@ std::vector<double> layer_heights(const Job& job,
     return heights;
 }
 
+}  // namespace
+
+double layer_depth(const Operation& operation)
+{
+    if (operation.max_depth) {
+        return *operation.max_depth;
+    }
+    double above = 0.0;
+    double deepest = 0.0;
+    for (const double below : operation.layers) {
+        deepest = std::max(deepest, below - above);
+        above = below;
+    }
+    return deepest;
+}
+
 double lowest_tip(const ClearedRegion& cleared, const TipFloor& floor)
 {
     double lowest = 1e300;
@@ -61,8 +77,6 @@ double lowest_tip(const ClearedRegion& cleared, const TipFloor& floor)
     }
     return lowest;
 }
-
-}  // namespace
 
 std::optional<RoughResult> plan_rough_layers(const Job& job,
                                              const Operation& operation,
@@ -83,8 +97,12 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     clearing.step = step.across;
     clearing.direction = operation.direction_of_cut;
     ClearedRegion cleared = clear_region(region, clearing);
+    RoughResult result;
+    result.first = clearing.first;
+    result.left = operation.allowance + step.cusp;
+    result.operation.path.tool = rough.tool;
     if (cleared.passes.empty()) {
-        return std::nullopt;
+        return result;
     }
     CutSettings settings;
     settings.entry = operation.entry;
@@ -104,7 +122,6 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     FloorCutter cutter{rough, floor, moves};
     const double bottom = lowest_tip(cleared, floor) + operation.allowance;
     double above = job.stock_top;
-    RoughResult result;
     for (const double level :
          layer_heights(job, operation, bottom, std::max(0.1 * depth, depth - step.cusp))) {
         settings.laying.level = level;
@@ -118,9 +135,6 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
         result.heights.push_back(level);
     }
     const std::size_t layers = result.heights.size();
-    result.first = clearing.first;
-    result.left = operation.allowance + step.cusp;
-    result.operation.path.tool = rough.tool;
     result.operation.path.feed = job.feed;
     result.operation.path.plunge_feed = job.plunge_feed;
     result.operation.path.spindle = job.spindle;

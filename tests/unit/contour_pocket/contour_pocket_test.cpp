@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"
@@ -122,6 +123,55 @@ TEST(ContourPocket, RoughsInLayersNoDeeperThanAskedFor)
     CHECK(lowest_tip(planned.front().path) >= -8.0 + 0.2);
 }
 
+// How far cutting moves go down below all that came before at their place at most, looked at along
+// the moves.
+double deepest_first_cut(const std::vector<PlannedOperation>& planned, double top)
+{
+    std::map<std::pair<int, int>, double> metal;
+    double deepest = 0.0;
+    for (const PlannedOperation& operation : planned) {
+        Vec3d at{};
+        for (const ToolMove& move : operation.path.moves) {
+            const Vec3d to = std::get<LineTo>(move.shape).end;
+            const int n = 1 + static_cast<int>(norm(to - at) / 0.2);
+            for (int i = 1; i <= n && move.kind == MoveKind::kCut; ++i) {
+                const Vec3d p = at + (to - at) * (static_cast<double>(i) / n);
+                const std::pair cell{static_cast<int>(p.x), static_cast<int>(p.y)};
+                double& height = metal.emplace(cell, top).first->second;
+                deepest = std::max(deepest, height - p.z);
+                height = std::min(height, p.z);
+            }
+            at = to;
+        }
+    }
+    return deepest;
+}
+
+TEST(ContourPocket, CutsInLayersWhereTheRoughingToolDoesNotFit)
+{
+    Operation operation = pocket();
+    operation.max_depth = 2.0;
+    operation.tools = {{2, ToolShape::kFlat, 30.0, 0.0}, operation.tool};
+    const std::vector<PlannedOperation> planned = plan_contour_pocket(job(), operation);
+    LONGS_EQUAL(1, planned.size());
+    CHECK(deepest_first_cut(planned, 0.0) <= 2.0 + 0.05);
+}
+
+TEST(ContourPocket, CutsValleysThatRoughingDoesNotReachInLayers)
+{
+    Operation operation = pocket();
+    Surface left = plane(60.0, -4.0);
+    Surface right = left;
+    left.points = {{0.0, 0.0, -4.0}, {0.0, 60.0, -4.0}, {30.0, 0.0, -16.0}, {30.0, 60.0, -16.0}};
+    right.points = {{30.0, 0.0, -16.0}, {30.0, 60.0, -16.0}, {60.0, 0.0, -4.0}, {60.0, 60.0, -4.0}};
+    operation.floor = {left, right};
+    operation.max_depth = 2.0;
+    operation.allowance = 0.2;
+    operation.tool = {1, ToolShape::kBall, 1.5, 1.5};
+    operation.tools = {{2, ToolShape::kFlat, 10.0, 0.0}, operation.tool};
+    CHECK(deepest_first_cut(plan_contour_pocket(job(), operation), 0.0) <= 2.0 + 0.4);
+}
+
 double count_of(const PlannedOperation& planned, const std::string& name)
 {
     for (const auto& [key, count] : planned.stats.counts) {
@@ -172,6 +222,12 @@ TEST(ContourPocket, RefusesTolerancesOutOfRange)
     CHECK(says(refusal([](Operation& o) { o.plan_tolerance = 0.0; }), "plan_tolerance 0 mm"));
     CHECK(says(refusal([](Operation& o) { o.floor_tolerance = -1.0; }), "floor_tolerance -1 mm"));
     CHECK(says(refusal([](Operation& o) { o.scallop = 5.0; }), "scallop 5 mm"));
+    CHECK(says(
+        refusal([](Operation& o) { o.plan_tolerance = 1.5; }),
+        "job.toml: contour_pocket: plan_tolerance 1.5 mm is not in the range above 0 to 1 mm"));
+    CHECK(says(refusal([](Operation& o) { o.floor_tolerance = 3.0; }),
+               "floor_tolerance 3 mm is not in the range above 0 to 1 mm"));
+    CHECK(says(refusal([](Operation& o) { o.allowance = 4.5; }), "allowance 4.5 mm"));
     CHECK(says(refusal([](Operation& o) { o.scallop = 0.02; }), "not above floor_tolerance"));
 }
 
