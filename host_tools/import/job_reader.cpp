@@ -269,7 +269,7 @@ void JobReader::read_common(JobTable& table, Operation& operation)
 void JobReader::read_depths(JobTable& table, Operation& operation)
 {
     operation.max_depth = length(table, "max_depth", kPositive);
-    operation.min_depth = length(table, "min_depth", kPositive);
+    operation.min_depth = length(table, "min_depth", kNotNegative);
     if (operation.max_depth && operation.min_depth && *operation.min_depth > *operation.max_depth) {
         table.refuse("min_depth", fmt::format("is {:g} mm, above the max_depth of {:g} mm",
                                               *operation.min_depth, *operation.max_depth));

@@ -155,9 +155,54 @@ void check_model(unsigned seed)
           1.1 * *job.operations.front().max_depth + 1e-5);
 }
 
+Surface level_patch(double x0, double y0, double x1, double y1, double z)
+{
+    Surface s;
+    s.degree_u = s.degree_v = 1;
+    s.size_u = s.size_v = 2;
+    s.knots_u = s.knots_v = {0, 0, 1, 1};
+    s.points = {{x0, y0, z}, {x0, y1, z}, {x1, y0, z}, {x1, y1, z}};
+    s.weights = {1, 1, 1, 1};
+    return s;
+}
+
+// Two halls with a neck between them where only a small cutter fits, and a shallow slit beside
+// them: small cutter above, large one below.
+std::vector<Surface> halls_and_slit()
+{
+    return {level_patch(0, 0, 10, 110, 0),     level_patch(10, 0, 100, 10, 0),
+            level_patch(10, 100, 100, 110, 0), level_patch(100, 0, 105, 110, 0),
+            level_patch(110, 0, 115, 110, 0),  level_patch(54, 10, 56, 52, 0),
+            level_patch(54, 58, 56, 100, 0),   level_patch(105, 0, 110, 110, -4),
+            level_patch(10, 10, 54, 100, -12), level_patch(54, 52, 56, 58, -12),
+            level_patch(56, 10, 100, 100, -12)};
+}
+
 }  // namespace
 
 TEST_GROUP(HullProperty){};
+
+TEST(HullProperty, ALargeFlatCutterMeetsWhatASmallBallLeftAtTheFootOfWalls)
+{
+    Operation operation;
+    operation.strategy = "hull_rough";
+    operation.floor = halls_and_slit();
+    operation.tools = {{1, ToolShape::kFlat, 5, 0}, {2, ToolShape::kBall, 2, 2}};
+    operation.tool = operation.tools.front();
+    operation.max_depth = 2;
+    operation.min_depth = 1;
+    operation.plan_tolerance = operation.floor_tolerance = 0.02;
+    Job job = job_of(operation);
+    job.feed = 100;
+    const auto plan = plan_hull_rough(job, operation);
+    LONGS_EQUAL(2, plan.size());
+    LONGS_EQUAL(2, plan.front().path.tool.number);
+    LONGS_EQUAL(1, plan.back().path.tool.number);
+    const VerifyFigures figures = cut_in_memory(job, plan);
+    CHECK(figures.gouge_max <= 1e-3);
+    CHECK(figures.rapid_cut_max <= 0.01);
+    CHECK(figures.cut_depth_max <= counted(plan.front(), "deepest_cut_mm") + 0.01);
+}
 
 TEST(HullProperty, RandomModelsAreNeverCutInto)
 {

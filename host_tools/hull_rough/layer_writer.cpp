@@ -1,0 +1,128 @@
+// Layers to moves: what each cutter clears, after what the cutters before it left.
+#include <algorithm>
+#include <utility>
+
+#include "host_tools/clearing/level_moves.hpp"
+#include "host_tools/hull_rough/roughing.hpp"
+
+namespace cusp::host {
+namespace {
+
+// The cutters that have cleared each layer so far, in order. What the first leaves is known to the
+// height of its ridges; what the others leave, to that of `rest_ridge` too.
+using Cutters = std::vector<std::vector<std::size_t>>;
+
+// Writes layers of one cutter, after what other cutters have cleared.
+class GroupWriter {
+public:
+    GroupWriter(const Roughing& work, std::size_t tool)
+        : work_{work}, tool_{tool}, moves_{path_, settings(work)}
+    {
+        path_.tool = work.tools[tool];
+        path_.feed = work.job.feed;
+        path_.plunge_feed = work.job.plunge_feed;
+        path_.spindle = work.job.spindle;
+    }
+
+    void clear(std::size_t layer) { add(work_.clearings[layer][tool_].runs, layer); }
+
+    // What the cutters before left of a layer, so that this one can work below it. Returns false
+    // where they left nothing.
+    bool clear_rest(std::size_t layer, const std::vector<std::size_t>& before)
+    {
+        const Tool& tool = work_.tools[tool_];
+        std::vector<ClearedBy> cleared;
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            const Tool& other = work_.tools[before[i]];
+            const double ridge = i == 0 ? work_.rest_ridge(layer) : 0.0;
+            if (before[i] == tool_ || leaves_nothing_for(other, tool, ridge)) {
+                return false;
+            }
+            if (const auto nested = nested_reach(other, tool, ridge)) {
+                cleared.push_back({&work_.clearings[layer][before[i]], *nested});
+            }
+        }
+        add(rest_runs(work_.clearings[layer][tool_], tool.radius, cleared), layer);
+        return true;
+    }
+
+    PlannedOperation finish()
+    {
+        moves_.retract();
+        PlannedOperation out;
+        out.path = std::move(path_);
+        out.stats.passes = passes_;
+        out.stats.retracts = moves_.retracts();
+        out.stats.cl_points = static_cast<int>(out.path.moves.size());
+        if (moves_.steep_plunges() > 0) {
+            out.stats.warnings.push_back(std::to_string(moves_.steep_plunges()) +
+                                         " entries had no room for a ramp and plunge");
+        }
+        return out;
+    }
+
+private:
+    const Roughing& work_;
+    std::size_t tool_;
+    Toolpath path_;
+    LevelMoves moves_;
+    int passes_{0};
+
+    static LevelMoves::Settings settings(const Roughing& work)
+    {
+        return {std::max(work.stock.top, work.job.stock_top) + work.job.clearance,
+                work.operation.entry, work.operation.output == OutputForm::kArcs,
+                std::max(work.operation.plan_tolerance, kLeastTolerance) / 2};
+    }
+
+    void add(const std::vector<LevelRun>& runs, std::size_t layer)
+    {
+        const ClearZone& zone = *work_.clearings[layer][tool_].zone;
+        LayerSpace space{work_.top(layer), work_.bottom(layer), zone.radius(), {}, {}, {}};
+        space.room = [&zone](Vec2d place, double extra) {
+            return zone.room(place, extra);
+        };
+        space.beside_stock = [&](Vec2d place) {
+            return distance(place, place, work_.stock.plan) >= zone.radius();
+        };
+        if (layer > 0) {
+            space.cleared_above = [&](Vec2d from, Vec2d to) {
+                return work_.clearings[layer - 1][tool_].zone->clear(from, to);
+            };
+        }
+        space.ridge = std::max(work_.left_over(layer), layer > 0 ? work_.left_over(layer - 1) : 0);
+        for (const LevelRun& run : runs) {
+            moves_.add(run, space);
+            ++passes_;
+        }
+    }
+};
+
+}  // namespace
+
+std::vector<PlannedOperation> write_layers(const Roughing& work)
+{
+    std::vector<PlannedOperation> out;
+    const auto& of_layer = work.choice.of_layer;
+    Cutters cutters(work.layers());
+    for (std::size_t first = 0; first < work.layers();) {
+        const std::size_t tool = of_layer[first];
+        GroupWriter writer{work, tool};
+        for (std::size_t layer = 0; layer < first; ++layer) {
+            if (writer.clear_rest(layer, cutters[layer])) {
+                cutters[layer].push_back(tool);
+            }
+        }
+        std::size_t last = first;
+        for (; last < work.layers() && of_layer[last] == tool; ++last) {
+            writer.clear(last);
+            cutters[last].push_back(tool);
+        }
+        out.push_back(writer.finish());
+        out.back().stats.levels = static_cast<int>(last - first);
+        first = last;
+    }
+    return out;
+}
+
+}  // namespace cusp::host

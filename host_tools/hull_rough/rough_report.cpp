@@ -1,0 +1,117 @@
+// What a plan tells: what the paper counts, what is bounded, what is left.
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/base/math.hpp"
+#include "host_tools/hull_rough/roughing.hpp"
+
+namespace cusp::host {
+namespace {
+
+// What the cutter meets at most: how deep, how wide, and on its way in.
+void add_engagement(const Roughing& work, PlannedOperation& operation)
+{
+    const Tool& tool = operation.path.tool;
+    double step = 0;
+    for (std::size_t layer = 0; layer < work.layers(); ++layer) {
+        step = std::max(step, layer_settings(work, layer, tool).step);
+    }
+    const double degrees = std::acos(std::max(-1.0, 1 - step / tool.radius)) * 180 / kPi;
+    OperationStats& stats = operation.stats;
+    stats.counts.emplace_back("engagement_deg", 180);
+    stats.counts.emplace_back("step_mm", step);
+    stats.counts.emplace_back("step_engagement_deg", degrees);
+    stats.counts.emplace_back("entry_deg", work.operation.entry == EntryKind::kPlunge ? 90 : 3);
+    stats.warnings.push_back(
+        "cuts are at most " + plain_number(work.deepest_cut()) +
+        " mm deep; the first pass of a place, necks and corners are cut at "
+        "the full width of " +
+        plain_number(2 * tool.radius) + " mm (180 degrees), straight passes beside " +
+        "another at " + plain_number(step) + " mm (" + plain_number(std::round(degrees)) +
+        " degrees); " +
+        (work.operation.entry == EntryKind::kPlunge ? "entries plunge"
+                                                    : "entries sink at 3 degrees at most"));
+}
+
+}  // namespace
+
+std::string plain_number(double value)
+{
+    std::string out = std::to_string(value);
+    out.erase(out.find_last_not_of('0') + 1);
+    return out.back() == '.' ? out + '0' : out;
+}
+
+void add_report(const Roughing& work, std::vector<PlannedOperation>& out, double seconds)
+{
+    double thinnest = 1e300;
+    double thickest = 0;
+    int islands = 0;
+    int zigzags = 0;
+    double closed = 0;
+    double left = 0;
+    std::string left_place;
+    for (std::size_t layer = 0; layer < work.layers(); ++layer) {
+        thinnest = std::min(thinnest, work.thickness(layer));
+        thickest = std::max(thickest, work.thickness(layer));
+        const LayerClearing& clearing = work.clearings[layer][work.choice.of_layer[layer]];
+        islands += clearing.islands;
+        zigzags += clearing.by_contours ? 0 : 1;
+        closed += clearing.closed_area;
+        if (left <= 0 && clearing.left.area > 0) {
+            const Rectangle& spot = clearing.left.squares.front();
+            left_place = "x " + plain_number((spot.x_min + spot.x_max) / 2) + ", y " +
+                         plain_number((spot.y_min + spot.y_max) / 2) + ", z " +
+                         plain_number(work.bottom(layer)) + " mm";
+        }
+        left += clearing.left.area;
+    }
+    const Rectangle& plan = work.stock.plan;
+    const double volume = (plan.x_max - plan.x_min) * (plan.y_max - plan.y_min) *
+                          (work.stock.top - work.plan.planes.back());
+    // Where no cutter clears every layer alone there is nothing to compare with.
+    const double saved = std::isfinite(work.choice.seconds_with_one)
+                             ? work.choice.seconds_with_one - work.choice.seconds
+                             : 0.0;
+    for (PlannedOperation& operation : out) {
+        OperationStats& stats = operation.stats;
+        stats.strategy = "hull_rough";
+        stats.roughing = true;
+        stats.gouge_bound_mm = 0;
+        // Hulls bound what is cut, not what is left: only the height of the stock does.
+        stats.scallop_bound_mm = work.stock.top - work.plan.planes.back();
+        stats.planning_s = seconds / static_cast<double>(out.size());
+        stats.counts = {{"layers", static_cast<double>(work.layers())},
+                        {"raw_layers", work.plan.raw_layers},
+                        {"split_layers", work.plan.split_layers},
+                        {"thinnest_layer_mm", thinnest},
+                        {"thickest_layer_mm", thickest},
+                        {"patches", static_cast<double>(work.plan.patches.size())},
+                        {"boxes", static_cast<double>(work.boxes)},
+                        {"islands", islands},
+                        {"zigzag_layers", zigzags},
+                        {"stock_mm3", volume},
+                        {"left_under_boxes_mm3", work.left_under_boxes},
+                        {"tool_changes", work.choice.changes},
+                        {"seconds_saved_by_tools", saved},
+                        {"deepest_cut_mm", work.deepest_cut()},
+                        {"closed_mm2", closed},
+                        {"left_mm2", left}};
+        add_engagement(work, operation);
+        if (work.operation.contour_clearing && zigzags > 0) {
+            stats.warnings.push_back(std::to_string(zigzags) +
+                                     " layers are cleared by zigzag: loops parallel to their "
+                                     "islands would come too near to them");
+        }
+        if (left > 0) {
+            stats.warnings.push_back(plain_number(left) +
+                                     " mm2 of layers are left uncleared, first at " + left_place);
+        }
+        operation.path.comments = {"hull_rough: " + std::to_string(work.layers()) + " layers of " +
+                                   plain_number(thinnest) + " to " + plain_number(thickest) +
+                                   " mm, no overcut by the hull of " +
+                                   std::to_string(work.plan.patches.size()) + " patches"};
+    }
+}
+
+}  // namespace cusp::host
