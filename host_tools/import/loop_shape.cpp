@@ -59,8 +59,16 @@ void add_chords(const Curve& piece,
 
 struct Segment {
     Vec2d a, b;
-    std::size_t index;
+    std::size_t loop;
+    std::size_t index;  // in its loop
+    std::size_t count;  // of the loop's segments
 };
+
+bool are_neighbours(const Segment& s, const Segment& t)
+{
+    const std::size_t apart = s.index > t.index ? s.index - t.index : t.index - s.index;
+    return s.loop == t.loop && (apart <= 1 || apart + 1 >= s.count);
+}
 
 bool cross_properly(const Segment& s, const Segment& t)
 {
@@ -71,7 +79,7 @@ bool cross_properly(const Segment& s, const Segment& t)
     return side_a * side_b < 0 && side_c * side_d < 0;
 }
 
-// The first crossing of two segments of the closed polyline that are not neighbours.
+// The first crossing of two segments of closed polylines that are not neighbours.
 const Segment* find_crossing(std::vector<Segment>& segments)
 {
     const auto left = [](const Segment& s) {
@@ -89,8 +97,7 @@ const Segment* find_crossing(std::vector<Segment>& segments)
         };
         open.erase(std::remove_if(open.begin(), open.end(), passed), open.end());
         for (const Segment* t : open) {
-            const std::size_t apart = s.index > t->index ? s.index - t->index : t->index - s.index;
-            if (apart > 1 && apart + 1 < segments.size() && cross_properly(s, *t)) {
+            if (!are_neighbours(s, *t) && cross_properly(s, *t)) {
                 return &s;
             }
         }
@@ -112,12 +119,11 @@ void check_simple(const std::vector<Vec2d>& closed, const std::string& place)
 std::optional<Vec2d> crossing_of(const std::vector<std::vector<Vec2d>>& closed)
 {
     std::vector<Segment> segments;
-    std::size_t index = 0;
-    for (const std::vector<Vec2d>& polyline : closed) {
+    for (std::size_t loop = 0; loop < closed.size(); ++loop) {
+        const std::vector<Vec2d>& polyline = closed[loop];
         for (std::size_t i = 0; i + 1 < polyline.size(); ++i) {
-            segments.push_back({polyline[i], polyline[i + 1], index++});
+            segments.push_back({polyline[i], polyline[i + 1], loop, i, polyline.size() - 1});
         }
-        index += 2;  // the next polyline's first segment is no neighbour of this one's last
     }
     const Segment* at = find_crossing(segments);
     return at == nullptr ? std::nullopt : std::optional{at->a};
@@ -230,13 +236,13 @@ Loop closed_loop(const Loop& loop, const std::string& place)
 {
     const Loop chain = chained(loop, kAllowedGap, place);
     const std::vector<Vec2d> closed = loop_polyline(chain, kChordTolerance);
+    check_simple(closed, place);
     const double area = signed_area(closed);
     constexpr double kLeastArea = 1e-6;
     if (!(std::abs(area) > kLeastArea)) {
         throw InputError(
             fmt::format("{}: the loop encloses {:.3g} mm^2, that is no area", place, area));
     }
-    check_simple(closed, place);
     return area < 0 ? reversed(chain) : chain;
 }
 

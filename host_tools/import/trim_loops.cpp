@@ -27,6 +27,24 @@ Curve parameter_line(Vec2d a, Vec2d b)
     return {1, {0, 0, 1, 1}, {{a.x, a.y, 0}, {b.x, b.y, 0}}, {1, 1}};
 }
 
+// A loop narrower than rounding on the average encloses nothing.
+void check_area(const std::vector<Vec2d>& closed,
+                std::size_t number,
+                double allowed,
+                const std::string& place)
+{
+    double length = 0;
+    for (std::size_t i = 1; i < closed.size(); ++i) {
+        length += norm(closed[i] - closed[i - 1]);
+    }
+    const double area = signed_area(closed);
+    if (!(std::abs(area) > allowed * length)) {
+        throw InputError(
+            fmt::format("{}: trim loop {} encloses {:.3g} of the domain's (u, v), that is no area",
+                        place, number, area));
+    }
+}
+
 Loop edge_of(const Domain& d)
 {
     const Vec2d a{d.u_begin, d.v_begin};
@@ -70,7 +88,19 @@ std::vector<Loop> grouped(const std::vector<Curve>& curves,
     return loops;
 }
 
-void check_nesting(const std::vector<std::vector<Vec2d>>& polylines, const std::string& place)
+// Point by point, in either direction.
+bool same_loop(const std::vector<Vec2d>& a, const std::vector<Vec2d>& b)
+{
+    const auto same = [](Vec2d p, Vec2d q) {
+        return p.x == q.x && p.y == q.y;
+    };
+    return a.size() == b.size() && (std::equal(a.begin(), a.end(), b.begin(), same) ||
+                                    std::equal(a.begin(), a.end(), b.rbegin(), same));
+}
+
+void check_nesting(const std::vector<std::vector<Vec2d>>& polylines,
+                   double allowed,
+                   const std::string& place)
 {
     if (const auto at = crossing_of(polylines)) {
         throw InputError(
@@ -79,9 +109,14 @@ void check_nesting(const std::vector<std::vector<Vec2d>>& polylines, const std::
                         place, at->x, at->y));
     }
     for (std::size_t i = 0; i < polylines.size(); ++i) {
+        check_area(polylines[i], i + 1, allowed, place);
         const Vec2d inside = 0.5 * (polylines[i][0] + polylines[i][1]);
         std::size_t depth = 0;
         for (std::size_t j = 0; j < polylines.size(); ++j) {
+            if (j != i && same_loop(polylines[i], polylines[j])) {
+                throw InputError(
+                    fmt::format("{}: trim loops {} and {} are the same", place, i + 1, j + 1));
+            }
             depth += j != i && encloses(polylines[j], inside) ? 1U : 0U;
         }
         const bool outer = signed_area(polylines[i]) > 0;
@@ -122,7 +157,7 @@ std::vector<std::vector<Curve>> trim_loops(const std::vector<Curve>& curves,
     for (const Loop& loop : loops) {
         polylines.push_back(loop_polyline(loop, allowed));
     }
-    check_nesting(polylines, place);
+    check_nesting(polylines, allowed, place);
     std::stable_partition(loops.begin(), loops.end(), [&](const Loop& loop) {
         return signed_area(loop_polyline(loop, allowed)) > 0;
     });

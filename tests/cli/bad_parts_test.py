@@ -1,0 +1,279 @@
+#!/usr/bin/env python3
+"""Parts that are no parts: cusp plan ends with status 2 and says which file, what and how much; never a crash or a hang.
+
+usage: bad_parts_test.py CUSP [--without-cad]
+"""
+import copy
+import json
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+CUSP = str(pathlib.Path(sys.argv[1]).resolve())
+CAD = "--without-cad" not in sys.argv
+SECONDS = 240  # on a busy machine under a sanitizer; none takes one second
+
+JOB = """
+units = "mm"
+[tool]
+shape = "ball"
+diameter = 4
+[cutting]
+feed = 1000
+[stock]
+top = 20
+[[operation]]
+strategy = "adaptive_isocurve"
+floor = "FLOOR"
+scallop = 0.2
+"""
+POCKET = """
+units = "mm"
+[tool]
+shape = "ball"
+diameter = 4
+[cutting]
+feed = 1000
+[[operation]]
+strategy = "contour_pocket"
+floor = "floor.json"
+boundary = "edge.dxf"
+scallop = 0.2
+"""
+FLOOR = {"degree_u": 2, "degree_v": 1, "size_u": 4, "size_v": 2,
+         "knotvector_u": [0, 0, 0, 0.5, 1, 1, 1], "knotvector_v": [0, 0, 1, 1],
+         "control_points": {"points": [[0, 0, 0], [0, 20, 0], [10, 0, 4], [10, 20, 4],
+                                       [20, 0, 4], [20, 20, 4], [30, 0, 0], [30, 20, 0]],
+                            "weights": [1] * 8}}
+
+
+def loop(*corners, closed=True):
+    corners = [list(c) for c in corners + (corners[:1] if closed else ())]
+    return {"type": "spline", "reversed": 0, "degree": 1,
+            "knotvector": [0, *range(len(corners)), len(corners) - 1],
+            "control_points": {"points": corners}}
+
+
+def trims(*loops):
+    return {"trims": {"count": len(loops), "data": list(loops)}}
+
+
+def surface(change):
+    shape = copy.deepcopy(FLOOR)
+    for key, value in change.items():
+        target = shape["control_points"] if key in ("points", "weights") else shape
+        target[key] = value
+    return json.dumps({"shape": {"type": "surface", "count": 1, "data": [shape]}})
+
+
+def with_point(value):
+    points = copy.deepcopy(FLOOR["control_points"]["points"])
+    points[3] = value
+    return {"points": points}
+
+
+def with_weight(value):
+    return {"weights": [1, 1, 1, value, 1, 1, 1, 1]}
+
+
+OUTER = loop((.1, .1), (.9, .1), (.9, .9), (.1, .9))
+HOLE = loop((.3, .3), (.3, .6), (.6, .6), (.6, .3))
+# what changes in the floor, words of the message
+SURFACES = (
+    ({"knotvector_u": [0, 0, 0, 0.5, 0.4, 1, 1]}, "knotvector_u[4] is 0.4, below the 0.5"),
+    ({"knotvector_u": [0, 0, 0, 1, 1, 1]}, "knotvector_u holds 6 numbers"),
+    ({"knotvector_u": [0, 0, 0, 0.5, 1, 1, 1, 1]}, "knotvector_u holds 8 numbers"),
+    ({"knotvector_u": [0, 0, 0, 0, 0, 0, 0]}, "knotvector_u leaves no domain"),
+    ({"knotvector_u": []}, "knotvector_u holds 0 numbers"),
+    ({"degree_u": 1, "size_u": 4, "knotvector_u": [0, 0, 0.5, 0.5, 1, 1]}, "holds 0.5 2 times"),
+    ({"knotvector_v": [0, 0, float("nan"), 1]}, "not JSON"),
+    ({"degree_u": 0}, "degree_u is 0"),
+    ({"degree_u": 4}, "needs at least 5"),
+    ({"degree_u": 99}, "degree_u is 99"),
+    ({"degree_u": 2.5}, "degree_u is 2.5"),
+    ({"size_u": 3}, "8 control points, size_u x size_v = 3 x 2"),
+    ({"size_u": -4, "size_v": -2}, "size_u is -4"),
+    ({"size_u": 1e30}, "size_u is 1e+30"),
+    (with_weight(0), "weight 3 is 0, it must be above 0"),
+    (with_weight(-1), "weight 3 is -1, it must be above 0"),
+    ({"weights": [1, 1]}, "2 weights for 8 control points"),
+    (with_weight("one"), "is not a number"),
+    (with_point([1e300, 0, 0]), "control point 3 has x = 1e+300 mm, the limit is"),
+    (with_point([0, float("inf"), 0]), "not JSON"),
+    (with_point([0, 0, None]), "is not a number"),
+    (with_point([0]), "control point 3 has not 2 or 3 coordinates"),
+    (with_point([]), "control point 3 has not 2 or 3 coordinates"),
+    ({"points": []}, "0 control points"),
+    ({"points": [[5, 5, 5]] * 8}, "no area"),
+    ({"points": [[k, k, 0] for k in range(8)]}, "no area"),
+    (trims(loop((.1, .1), (.9, .1), (.9, .9), (.1, .9), closed=False)), "open"),
+    (trims(loop((.1, .1), (.9, .9), (.9, .1), (.1, .9))), "cross"),
+    (trims(loop((.1, .1), (1.9, .1), (.9, .9))), "leaves the domain at u 1.9"),
+    (trims(OUTER, loop((.3, .3), (.6, .3), (.6, .6), (.3, .6))), "a hole runs clockwise"),
+    (trims(OUTER, loop((.95, .3), (.95, .6), (.99, .6))), "outside every outer loop"),
+    (trims(OUTER, HOLE, loop((.4, .4), (.4, .5), (.5, .5))), "a hole inside a hole"),
+    (trims(OUTER, loop((.8, .3), (.8, .6), (.95, .6))), "cross"),
+    (trims(OUTER, OUTER), "trim loops 1 and 2 are the same"),
+    (trims(loop((.5, .5), (.5, .5), (.5, .5))), "no length"),
+    (trims(loop((.1, .1), (.9, .1))), "that is no area"),
+    ({"trims": {"count": 2, "data": [OUTER]}}, "count is 2, data holds 1"),
+    ({"trims": {"count": 1, "data": [{"type": "circle"}]}}, "circle"),
+    ({"trims": {"count": 1, "data": "none"}}, "not a list"))
+
+FACET = ("facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 30 0 0\nvertex 0 20 0\n"
+         "endloop\nendfacet\n")
+
+
+def binary_stl(facets, count=None, cut=0):
+    body = b"".join(struct.pack("<12fH", 0, 0, 1, *(c for p in f for c in p), 0) for f in facets)
+    data = b"\0" * 80 + struct.pack("<I", len(facets) if count is None else count) + body
+    return data[:len(data) - cut]
+
+
+TRIANGLE = ((0, 0, 0), (30, 0, 0), (0, 20, 0))
+# name, content, words of the message
+MESHES = (
+    ("empty.stl", b"", "no STL"),
+    ("named.stl", b"solid empty\nendsolid empty\n", "holds no facet"),
+    ("none.stl", binary_stl([]), "holds no facet"),
+    ("short.stl", binary_stl([TRIANGLE], cut=7), "cut short: 1 facets"),
+    ("liar.stl", binary_stl([TRIANGLE], count=4000000000), "cut short: 4000000000 facets"),
+    ("head.stl", b"\0" * 50, "no STL"),
+    ("nan.stl", binary_stl([((0, 0, float("nan")), (30, 0, 0), (0, 20, 0))]), "z = nan"),
+    ("far.stl", binary_stl([((0, 0, 1e30), (30, 0, 0), (0, 20, 0))]), "the limit is"),
+    ("flat.stl", binary_stl([((0, 0, 0), (30, 0, 0), (60, 0, 0))]), "holds no facet"),
+    ("wall.stl", binary_stl([((0, 0, 0), (30, 0, 0), (0, 0, 20))]), "0 mm in y"),
+    ("cut.stl", ("solid s\n" + FACET[:60]).encode(), "cut.stl:"),
+    ("word.stl", ("solid s\n" + FACET.replace("vertex 30", "vertex thirty") + "endsolid\n").encode(),
+     "thirty"))
+
+CAD_FILES = (
+    ("empty.step", b"", "empty.step: "),
+    ("noise.step", bytes(range(256)) * 20, "noise.step: "),
+    ("head.step", b"ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n",
+     "head.step: "),
+    ("point.step", b"ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\n"
+     b"#1=CARTESIAN_POINT('',(0.,0.,0.));\nENDSEC;\nEND-ISO-10303-21;\n", "point.step: "),
+    ("cut.step", b"ISO-10303-21;\nHEADER;\nENDSEC;\nDATA;\n#1=PLANE('',#2", "cut.step: "),
+    ("empty.igs", b"", "empty.igs: "),
+    ("noise.igs", bytes(range(256)) * 20, "noise.igs: "),
+    ("start.igs", b"nothing" + b" " * 65 + b"S      1\n", "start.igs: "))
+
+
+def dxf(*entities):
+    pairs = ["0", "SECTION", "2", "ENTITIES"]
+    for entity in entities:
+        pairs += [str(word) for word in entity]
+    return "\n".join(pairs + ["0", "ENDSEC", "0", "EOF", ""])
+
+
+def line(x0, y0, x1, y1):
+    return (0, "LINE", 8, 0, 10, x0, 20, y0, 11, x1, 21, y1)
+
+
+SQUARE = (line(2, 2, 28, 2), line(28, 2, 28, 18), line(28, 18, 2, 18), line(2, 18, 2, 2))
+DRAWINGS = (
+    (dxf(*SQUARE[:3]), "the loop is open"),
+    (dxf(SQUARE[0], SQUARE[2]), "the loop is open"),
+    (dxf(), "edge.dxf"),
+    ("", "edge.dxf"),
+    ("no drawing at all\n", "edge.dxf"),
+    (dxf(*SQUARE[:3], (0, "3DFACE", 8, 0)), "3DFACE"),
+    (dxf((0, "CIRCLE", 8, 0, 10, 15, 20, 10, 40, -3)), "edge.dxf"),
+    (dxf((0, "CIRCLE", 8, 0, 10, 15, 20, 10, 40, "nan")), "edge.dxf"),
+    (dxf((0, "CIRCLE", 8, 0, 10, 1e300, 20, 10, 40, 3)), "edge.dxf"),
+    (dxf((0, "LINE", 8, 0, 10, 1, 20)), "edge.dxf"),
+    (dxf(line(2, 2, 28, 18), line(28, 18, 28, 2), line(28, 2, 2, 18), line(2, 18, 2, 2)),
+     "crosses itself"),
+    (dxf((0, "SPLINE", 8, 0, 71, 3, 72, 2, 73, 1, 40, 0, 40, 1, 10, 1, 20, 1)), "edge.dxf"))
+
+
+class BadParts(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.scratch.name)
+
+    def tearDown(self):
+        self.scratch.cleanup()
+
+    def plan(self, job, *options):
+        (self.folder / "job.toml").write_text(job)
+        return subprocess.run([CUSP, "plan", "job.toml", "-o", "p.ngc", *options], cwd=self.folder,
+                              text=True, timeout=SECONDS, errors="replace",
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+
+    def refused(self, job, words):
+        (self.folder / "p.ngc").unlink(missing_ok=True)
+        result = self.plan(job)
+        with self.subTest(words=words):
+            self.assertEqual(2, result.returncode, result.stdout)
+            self.assertIn(words, result.stdout)
+            self.assertFalse((self.folder / "p.ngc").exists())
+
+    def refused_file(self, name, content, words):
+        (self.folder / name).write_bytes(content)
+        job = JOB.replace("FLOOR", name)
+        result = self.plan(job)
+        with self.subTest(name=name):
+            self.assertEqual(2, result.returncode, result.stdout)
+            self.assertIn(name, result.stdout)
+            self.assertIn(words, result.stdout)
+
+    def test_the_floor_itself_is_planned(self):
+        (self.folder / "floor.json").write_text(surface({}))
+        self.assertEqual(0, self.plan(JOB.replace("FLOOR", "floor.json")).returncode)
+
+    def test_surfaces_and_trims(self):
+        for change, words in SURFACES:
+            (self.folder / "floor.json").write_text(surface(change))
+            self.refused(JOB.replace("FLOOR", "floor.json"), words)
+
+    def test_meshes(self):
+        for name, content, words in MESHES:
+            self.refused_file(name, content, words)
+
+    @unittest.skipUnless(CAD, "built without Open CASCADE")
+    def test_cad_files(self):
+        for name, content, words in CAD_FILES:
+            self.refused_file(name, content, words)
+
+    def test_drawings(self):
+        (self.folder / "floor.json").write_text(surface({}))
+        for text, words in DRAWINGS:
+            (self.folder / "edge.dxf").write_text(text)
+            self.refused(POCKET, words)
+
+    def test_missing_files(self):
+        for name in ("gone.json", "gone.stl", "gone.step", "gone.igs", "gone.obj", "."):
+            self.refused(JOB.replace("FLOOR", name), name if CAD or name[-4:] not in
+                         ("step", ".igs") else "Open CASCADE")
+        (self.folder / "floor.json").write_text(surface({}))
+        self.refused(POCKET, "edge.dxf")
+
+    def planned(self, change, job, words):
+        (self.folder / "floor.json").write_text(surface(change))
+        result = self.plan(job.replace("FLOOR", "floor.json"), "--stats", "stats.json")
+        self.assertEqual(0, result.returncode, result.stdout)
+        self.assertIn(words, result.stdout)
+        self.assertEqual(0, json.loads((self.folder / "stats.json").read_text())["gouge_bound_mm"])
+
+    def test_an_undercut_is_left_standing(self):
+        # it comes back below itself
+        points = [[x, y, z] for x, z in ((0, 0), (24, 2), (24, 8), (8, 10)) for y in (0, 20)]
+        self.planned({"points": points}, JOB, "metal is left standing")
+
+    def test_a_valley_narrower_than_the_tool_is_left_standing(self):
+        points = [[x, y, z] for x, z in ((0, 10), (14, -10), (16, -10), (30, 10)) for y in (0, 20)]
+        self.planned({"points": points}, JOB.replace("diameter = 4", "diameter = 12"),
+                     "metal is left standing")
+
+    def test_an_edge_that_is_one_point_is_a_pole(self):
+        points = [[0, 10, 0], [0, 10, 0]] + FLOOR["control_points"]["points"][2:]
+        self.planned({"points": points}, JOB, "wrote")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=1)
