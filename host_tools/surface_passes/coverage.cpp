@@ -46,9 +46,17 @@ Coverage::Coverage(const std::vector<Surface>& surfaces,
       path_off_{path_off},
       step_{std::sqrt(8 * certified.tool().radius * scallop)},
       swept_{radius_, 0.6 * step_},
-      tops_{surfaces, certified.model(), kBlockedCell * step_},
       reach_{certified, std::max(kBlockedCell * step_, kReachPitch * radius_)}
 {
+}
+
+void Coverage::add(const Points& tips)
+{
+    if (tops_) {
+        swept_.add(tips);
+    } else {
+        waiting_.push_back(tips);
+    }
 }
 
 Coverage::Corner Coverage::corner(int surface, double u, double v) const
@@ -172,7 +180,7 @@ bool Coverage::hidden(const Corner& at) const
 {
     const Vec3d p = at.point.point;
     return !certified_.model().inside_trims(at.surface, at.u, at.v) ||
-           tops_.least_around(p.x, p.y) > p.z + kHidden + 2 * tops_.pitch();
+           tops_->least_around(p.x, p.y) > p.z + kHidden + 2 * tops_->pitch();
 }
 
 void Coverage::look_into(const Cell& cell, int depth)
@@ -200,6 +208,13 @@ void Coverage::look_into(const Cell& cell, int depth)
 
 void Coverage::look_over(int surface)
 {
+    if (!tops_) {
+        tops_.emplace(surfaces_, certified_.model(), kBlockedCell * step_);
+        for (const Points& tips : waiting_) {
+            swept_.add(tips);
+        }
+        waiting_.clear();
+    }
     for (const BezierPatch& patch : bezier_patches(surfaces_[static_cast<std::size_t>(surface)])) {
         look_into({surface, patch.u_begin, patch.u_end, patch.v_begin, patch.v_end}, kDeepest);
     }

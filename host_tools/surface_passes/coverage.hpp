@@ -35,7 +35,7 @@ public:
              double path_off);
 
     // A pass that will be cut, by its tips.
-    void add(const Points& tips) { swept_.add(tips); }
+    void add(const Points& tips);
 
     // Looks over one surface; what is not covered is kept for `close_gaps`.
     void look_over(int surface);
@@ -88,8 +88,9 @@ private:
     double scallop_;
     double path_off_;
     double step_;  // mm, between passes on flat ground
+    std::vector<Points> waiting_;  // passes given before the first look
     SweptBalls swept_;
-    TopMap tops_;
+    std::optional<TopMap> tops_;  // from the first look on: many parts need none
     mutable LowestReach reach_;
     std::vector<Cell> gaps_;
     double most_left_{};
