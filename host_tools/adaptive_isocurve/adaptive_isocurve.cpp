@@ -185,9 +185,11 @@ public:
     }
 
 private:
-    void add_pass(const Points& dense, const std::optional<Curve>& exact = std::nullopt)
+    void add_pass(const Points& dense,
+                  const std::optional<Curve>& exact = std::nullopt,
+                  const Feet& feet = {})
     {
-        const Points points = work_.add_pass(dense, exact);
+        const Points points = work_.add_pass(dense, exact, feet);
         if (coverage_) {
             coverage_->add(points);
         }
@@ -283,7 +285,7 @@ private:
                 const std::optional<Curve> exact =
                     offset ? tip_isocurve(*offset, curve, piece) : std::nullopt;
                 exact_curves_ += exact ? 1 : 0;
-                add_pass(piece.points, exact);
+                add_pass(piece.points, exact, piece.feet);
             }
         }
         whole_ = whole_ && !trimmed;

@@ -14,6 +14,7 @@ constexpr double kLookSpacing = 1.0;  // mm between places where freedom is look
 constexpr int kLeastLooks = 4;
 constexpr int kEdgeHalvings = 22;
 constexpr int kEdgeDeepest = 6;
+constexpr int kDeepest = 12;             // halvings along a curve
 constexpr double kShortestPiece = 1e-3;  // mm
 constexpr std::size_t kMostGrid = 500;
 
@@ -120,27 +121,32 @@ private:
 
 Vec3d PassTracer::tip(int surface, double u, double v) const
 {
-    const SurfacePoint p = certified_.model().evaluate(surface, u, v);
-    const double radius = certified_.tool().radius;
-    Vec3d tip = p.point + upward_normal(p) * (radius + certified_.band().lift);
-    tip.z -= radius;
-    return tip;
+    return certified_.tip_at(surface, u, v);
 }
 
 bool PassTracer::free_at(int surface, double u, double v) const
 {
     return certified_.model().inside_trims(surface, u, v) &&
-           certified_.stands_free(tip(surface, u, v));
+           certified_.touches_freely(surface, u, v);
 }
 
-Points PassTracer::along(const DomainCurve& curve, double from, double to) const
+TracedPiece PassTracer::along(const DomainCurve& curve, double from, double to) const
 {
     const double length = length_along(certified_.model(), curve.surface, {from, curve.v_at(from)},
                                        {to, curve.v_at(to)});
     const std::size_t parts =
         std::max<std::size_t>(2, static_cast<std::size_t>(length / (1.5 * kLookSpacing)));
-    return certified_.sample([&](double u) { return tip(curve.surface, u, curve.v_at(u)); },
-                             even(from, to, parts));
+    std::vector<double> parameters;
+    TracedPiece piece{
+        certified_.sample([&](double u) { return tip(curve.surface, u, curve.v_at(u)); },
+                          even(from, to, parts), kDeepest, &parameters),
+        {curve.surface, {}},
+        from,
+        to};
+    for (const double u : parameters) {
+        piece.feet.places.push_back({u, curve.v_at(u)});
+    }
+    return piece;
 }
 
 TracedCurve PassTracer::trace(const DomainCurve& curve) const
@@ -167,9 +173,9 @@ TracedCurve PassTracer::trace(const DomainCurve& curve) const
     }
     const auto close = [&](double end) {
         if (end > begin) {
-            Points piece = along(curve, begin, end);
-            if (length_of(piece) > kShortestPiece) {
-                out.pieces.push_back({std::move(piece), begin, end});
+            TracedPiece piece = along(curve, begin, end);
+            if (length_of(piece.points) > kShortestPiece) {
+                out.pieces.push_back(std::move(piece));
             }
         }
     };

@@ -11,6 +11,7 @@ namespace cusp::host {
 // A part of a curve where the tool is free, as dense tips.
 struct TracedPiece {
     Points points;
+    Feet feet;
     double u_begin;
     double u_end;
 };
@@ -51,7 +52,7 @@ private:
     };
     Vec3d edge_tip(int surface, const EdgeSide& side) const;
     Points edge_points(int surface, const EdgeSide& from, const EdgeSide& to) const;
-    Points along(const DomainCurve& curve, double from, double to) const;
+    TracedPiece along(const DomainCurve& curve, double from, double to) const;
 
     const std::vector<Surface>& surfaces_;
     const CertifiedPasses& certified_;

@@ -126,7 +126,9 @@ double SurfaceOperation::outward() const
 
 double SurfaceOperation::ridge_allowed() const { return operation_.scallop.value_or(0); }
 
-Points SurfaceOperation::add_pass(const Points& dense, const std::optional<Curve>& exact)
+Points SurfaceOperation::add_pass(const Points& dense,
+                                  const std::optional<Curve>& exact,
+                                  const Feet& feet)
 {
     SurfacePass pass;
     if (operation_.output == OutputForm::kNurbs) {
@@ -146,7 +148,7 @@ Points SurfaceOperation::add_pass(const Points& dense, const std::optional<Curve
         pass.points.front() = pass.curve->points.front();
         pass.points.back() = pass.curve->points.back();
     } else {
-        pass.points = certified_->fit_lines(dense);
+        pass.points = certified_->fit_lines(dense, feet);
     }
     if (pass.points.size() < 2) {
         return {};

@@ -33,7 +33,10 @@ public:
     //
     // exact  where the job asks for NURBS: the same pass as a cubic within the band, taken as it is
     //        where it is proved to be free
-    Points add_pass(const Points& dense, const std::optional<Curve>& exact = std::nullopt);
+    // feet   where the tool touches at the dense points, if known: makes the proof of lines quick
+    Points add_pass(const Points& dense,
+                    const std::optional<Curve>& exact = std::nullopt,
+                    const Feet& feet = {});
     double path_off() const;
     std::size_t pass_count() const { return passes_.size(); }
 

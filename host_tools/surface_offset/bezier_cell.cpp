@@ -81,30 +81,47 @@ FixedBasis<4> fixed_basis(std::integral_constant<std::size_t, 4>, double s)
             {6 * r, 6 * (s - 2 * r), 6 * (r - 2 * s), 6 * s}};
 }
 
+// Sum over j of the vectors in `row`, times the factors.
+template <std::size_t Count>
+Vec3d weighted(const std::array<double, 3 * Count>& row, const std::array<double, Count>& factor)
+{
+    Vec3d sum;
+    for (std::size_t j = 0; j < Count; ++j) {
+        sum.x += row[3 * j] * factor[j];
+        sum.y += row[3 * j + 1] * factor[j];
+        sum.z += row[3 * j + 2] * factor[j];
+    }
+    return sum;
+}
+
+// Rows are summed as plain numbers, so that the compiler takes several at once.
 template <std::size_t CountS, std::size_t CountT>
 SurfacePoint polynomial_at(const Vec3d* points, double s, double t)
 {
+    static_assert(sizeof(Vec3d) == 3 * sizeof(double));
     const auto bs = fixed_basis(std::integral_constant<std::size_t, CountS>{}, s);
     const auto bt = fixed_basis(std::integral_constant<std::size_t, CountT>{}, t);
-    SurfacePoint out;
-    for (std::size_t i = 0; i < CountS; ++i) {
-        Vec3d p;
-        Vec3d pt;
-        Vec3d ptt;
-        for (std::size_t j = 0; j < CountT; ++j) {
-            const Vec3d& control = points[i * CountT + j];
-            p = p + control * bt.value[j];
-            pt = pt + control * bt.first[j];
-            ptt = ptt + control * bt.second[j];
+    std::array<double, 3 * CountT> value;
+    std::array<double, 3 * CountT> first;
+    std::array<double, 3 * CountT> second;
+    const double* control = &points->x;
+    for (std::size_t k = 0; k < 3 * CountT; ++k) {
+        double sum = 0;
+        double sum_first = 0;
+        double sum_second = 0;
+        for (std::size_t i = 0; i < CountS; ++i) {
+            const double c = control[i * 3 * CountT + k];
+            sum += c * bs.value[i];
+            sum_first += c * bs.first[i];
+            sum_second += c * bs.second[i];
         }
-        out.point = out.point + p * bs.value[i];
-        out.du = out.du + p * bs.first[i];
-        out.duu = out.duu + p * bs.second[i];
-        out.dv = out.dv + pt * bs.value[i];
-        out.duv = out.duv + pt * bs.first[i];
-        out.dvv = out.dvv + ptt * bs.value[i];
+        value[k] = sum;
+        first[k] = sum_first;
+        second[k] = sum_second;
     }
-    return out;
+    return {weighted<CountT>(value, bt.value), weighted<CountT>(first, bt.value),
+            weighted<CountT>(value, bt.first), weighted<CountT>(second, bt.value),
+            weighted<CountT>(first, bt.first), weighted<CountT>(value, bt.second)};
 }
 
 struct Interval {
@@ -197,15 +214,6 @@ struct Net {
         return out;
     }
 };
-
-double farthest(const Net<Vec3d>& net, Vec3d from)
-{
-    double most = 0;
-    for (const Vec3d& value : net.values) {
-        most = std::max(most, dot(value - from, value - from));
-    }
-    return std::sqrt(most);
-}
 
 Interval range(const Net<double>& net)
 {
@@ -335,17 +343,43 @@ SurfacePoint BezierCell::at_any_degree(double s, double t) const
     return out;
 }
 
+// Control points of the derivatives are differences of the patch's; none is kept.
 BezierCell::Spread BezierCell::polynomial_spread() const
 {
-    const Net<Vec3d> net{count_s_, count_t_, points_};
-    const Net<Vec3d> s = net.along_s();
-    const Net<Vec3d> t = net.along_t();
-    return {farthest(net, middle_.point),
-            farthest(s, middle_.du),
-            farthest(t, middle_.dv),
-            farthest(s.along_s(), middle_.duu),
-            farthest(s.along_t(), middle_.duv),
-            farthest(t.along_t(), middle_.dvv)};
+    const auto square = [](Vec3d a) {
+        return dot(a, a);
+    };
+    const double p = static_cast<double>(count_s_ - 1);
+    const double q = static_cast<double>(count_t_ - 1);
+    Spread e{0, 0, 0, 0, 0, 0};
+    for (std::size_t i = 0; i < count_s_; ++i) {
+        for (std::size_t j = 0; j < count_t_; ++j) {
+            const Vec3d* c = &points_[i * count_t_ + j];
+            const bool next_s = i + 1 < count_s_;
+            const bool next_t = j + 1 < count_t_;
+            e.point = std::max(e.point, square(c[0] - middle_.point));
+            if (next_s) {
+                e.ds = std::max(e.ds, square((c[count_t_] - c[0]) * p - middle_.du));
+            }
+            if (next_t) {
+                e.dt = std::max(e.dt, square((c[1] - c[0]) * q - middle_.dv));
+            }
+            if (next_s && next_t) {
+                const Vec3d twist = c[count_t_ + 1] - c[count_t_] - (c[1] - c[0]);
+                e.dst = std::max(e.dst, square(twist * (p * q) - middle_.duv));
+            }
+            if (i + 2 < count_s_) {
+                const Vec3d bend = c[2 * count_t_] - c[count_t_] - (c[count_t_] - c[0]);
+                e.dss = std::max(e.dss, square(bend * (p * (p - 1)) - middle_.duu));
+            }
+            if (j + 2 < count_t_) {
+                const Vec3d bend = c[2] - c[1] - (c[1] - c[0]);
+                e.dtt = std::max(e.dtt, square(bend * (q * (q - 1)) - middle_.dvv));
+            }
+        }
+    }
+    return {std::sqrt(e.point), std::sqrt(e.ds),  std::sqrt(e.dt),
+            std::sqrt(e.dss),   std::sqrt(e.dst), std::sqrt(e.dtt)};
 }
 
 // With the middle as origin the quotient rule of the derivatives, in interval arithmetic.

@@ -54,6 +54,20 @@ public:
     // Made from a patch, not a half of another.
     bool root() const { return root_; }
 
+    // The surface in and round the cell, for `RollingBall`; kept here once it is known.
+    struct Surroundings {
+        double u_begin, u_end, v_begin, v_end;
+        // For the contact at any place x of the cell, n its upward normal, and any y of the
+        // surroundings: 2 n . (y - x) <= bend (y - x)^2. Infinite where nothing is proved.
+        double bend;
+        double top;  // nothing of the surroundings is higher
+    };
+    const Surroundings* surroundings() const { return surroundings_.get(); }
+    void set_surroundings(const Surroundings& found) const
+    {
+        surroundings_ = std::make_unique<const Surroundings>(found);
+    }
+
     enum class Trim : std::uint8_t { kUnknown, kInside, kOutside, kCut };
     Trim trim() const { return trim_; }
     void set_trim(Trim trim) const { trim_ = trim; }
@@ -84,6 +98,7 @@ private:
     std::array<double, 3> box_low_{};
     std::array<double, 3> box_high_{};
     mutable std::array<std::unique_ptr<const BezierCell>, 2> halves_;
+    mutable std::unique_ptr<const Surroundings> surroundings_;
     mutable Trim trim_{Trim::kUnknown};
 };
 

@@ -89,26 +89,6 @@ double least_curvature(const ToolCore& core, const BezierCell& cell)
     return least_eigenvalue(middle) - std::max(ss, tt) - st;
 }
 
-// A lower bound from the box along the tangent plane.
-double oriented_distance(const ToolCore& core, const BezierCell& cell)
-{
-    const Vec3d from = core.end - cell.middle().point;
-    const Vec3d normal = cell.axes()[0];
-    const double tilt = core.radius * std::hypot(normal.x, normal.y);
-    const double above = dot(from, normal) - tilt - cell.box_high(0);
-    if (core.radius > 0 || cell.high().z > core.end.z) {
-        return std::max(0.0, above);
-    }
-    const double gap = std::max({above, cell.box_low(0) - dot(from, normal), 0.0});
-    double square = gap * gap;
-    for (std::size_t k = 1; k < 3; ++k) {
-        const double along = dot(from, cell.axes()[k]);
-        const double off = std::max({along - cell.box_high(k), cell.box_low(k) - along, 0.0});
-        square += off * off;
-    }
-    return std::sqrt(square);
-}
-
 // Newton's method on the unit square for half the squared distance.
 struct CellMinimum {
     double s{0.5};
@@ -300,27 +280,12 @@ private:
         take(distance, {point, 0, 0, state_.edge_surface[edge]});
     }
 
-    bool outside_trims(const BezierCell& cell) const
-    {
-        const TrimRegion& region = state_.regions[static_cast<std::size_t>(cell.surface())];
-        if (!region.trimmed()) {
-            return false;
-        }
-        if (cell.trim() == BezierCell::Trim::kUnknown) {
-            const TrimRegion::Part part =
-                region.part(cell.u_begin(), cell.u_end(), cell.v_begin(), cell.v_end());
-            cell.set_trim(part == TrimRegion::Part::kInside    ? BezierCell::Trim::kInside
-                          : part == TrimRegion::Part::kOutside ? BezierCell::Trim::kOutside
-                                                               : BezierCell::Trim::kCut);
-        }
-        return cell.trim() == BezierCell::Trim::kOutside;
-    }
-
     // Depth first; depth is bounded by kLeastCell (each halving shrinks the cell).
     void look_at_cell(const BezierCell& cell, double s, double t)
     {
         if (oriented_distance(core_, cell) >= found_ ||
-            core_.distance_to_box(cell.low(), cell.high()) >= found_ || outside_trims(cell)) {
+            core_.distance_to_box(cell.low(), cell.high()) >= found_ ||
+            state_.outside_trims(cell)) {
             return;
         }
         const CellMinimum least = minimize(core_, cell, s, t);
@@ -406,6 +371,52 @@ int build(BoxTree& tree,
 }
 
 }  // namespace
+
+// From the box along the tangent plane.
+double oriented_distance(const ToolCore& core, const BezierCell& cell)
+{
+    const Vec3d from = core.end - cell.middle().point;
+    const Vec3d normal = cell.axes()[0];
+    const double tilt = core.radius * std::hypot(normal.x, normal.y);
+    const double above = dot(from, normal) - tilt - cell.box_high(0);
+    if (core.radius > 0 || cell.high().z > core.end.z) {
+        return std::max(0.0, above);
+    }
+    const double gap = std::max({above, cell.box_low(0) - dot(from, normal), 0.0});
+    double square = gap * gap;
+    for (std::size_t k = 1; k < 3; ++k) {
+        const double along = dot(from, cell.axes()[k]);
+        const double off = std::max({along - cell.box_high(k), cell.box_low(k) - along, 0.0});
+        square += off * off;
+    }
+    return std::sqrt(square);
+}
+
+bool SurfaceModel::State::outside_trims(const BezierCell& cell) const
+{
+    const TrimRegion& region = regions[static_cast<std::size_t>(cell.surface())];
+    if (!region.trimmed()) {
+        return false;
+    }
+    if (cell.trim() == BezierCell::Trim::kUnknown) {
+        const TrimRegion::Part part =
+            region.part(cell.u_begin(), cell.u_end(), cell.v_begin(), cell.v_end());
+        cell.set_trim(part == TrimRegion::Part::kInside    ? BezierCell::Trim::kInside
+                      : part == TrimRegion::Part::kOutside ? BezierCell::Trim::kOutside
+                                                           : BezierCell::Trim::kCut);
+    }
+    return cell.trim() == BezierCell::Trim::kOutside;
+}
+
+const BezierCell& SurfaceModel::State::cell_at(int surface, double u, double v) const
+{
+    const Grid& grid = grids[static_cast<std::size_t>(surface)];
+    const auto span = [](const std::vector<double>& breaks, double at) {
+        const auto next = std::upper_bound(breaks.begin() + 1, breaks.end(), at);
+        return static_cast<std::size_t>(next - breaks.begin()) - 1;
+    };
+    return *cells[grid.first + span(grid.u, u) * grid.v.size() + span(grid.v, v)];
+}
 
 ToolCore core_of(const Tool& tool, Vec3d tip)
 {

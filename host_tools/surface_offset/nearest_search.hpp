@@ -52,13 +52,21 @@ struct SurfaceModel::State {
         std::vector<double> u;
         std::vector<double> v;
         std::size_t first;
+        // Knots where the tangent may jump, and the ends of the domain.
+        std::vector<double> creases_u;
+        std::vector<double> creases_v;
     };
     std::vector<Grid> grids;
+    const BezierCell& cell_at(int surface, double u, double v) const;
+    bool outside_trims(const BezierCell& cell) const;
     // The cell of the last answer: the next question is mostly beside it.
     mutable const BezierCell* last_cell{nullptr};
     mutable double last_s{};
     mutable double last_t{};
 };
+
+// A lower bound of the distance from the core to a cell.
+double oriented_distance(const ToolCore& core, const BezierCell& cell);
 
 // The lower bound of the distance from the core to the model, cut off at `limit`, and its place.
 struct NearestResult {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "host_tools/surface_offset/nearest_search.hpp"
+#include "host_tools/surface_offset/rolling_ball.hpp"
 
 namespace cusp::host {
 namespace {
@@ -15,6 +16,20 @@ constexpr int kMostClimbs = 6;
 constexpr double kTouching = 1e-9;   // mm
 constexpr double kDropSlack = 5e-7;  // mm above the least height
 constexpr double kDiscDropSlack = 2e-5;
+
+// Knots where the tangent may jump, and the ends.
+std::vector<double> creases(const std::vector<double>& knots, int degree, double begin, double end)
+{
+    std::vector<double> out{begin};
+    const std::size_t p = static_cast<std::size_t>(degree);
+    for (std::size_t k = 0; k + p <= knots.size(); ++k) {
+        if (knots[k] > out.back() && knots[k] < end && knots[k + p - 1] == knots[k]) {
+            out.push_back(knots[k]);
+        }
+    }
+    out.push_back(end);
+    return out;
+}
 
 void add_cells(const Surface& surface, int number, SurfaceModel::State& state)
 {
@@ -29,6 +44,8 @@ void add_cells(const Surface& surface, int number, SurfaceModel::State& state)
             grid.v.push_back(patch.v_begin);
         }
     }
+    grid.creases_u = creases(surface.knots_u, surface.degree_u, surface.u_begin(), surface.u_end());
+    grid.creases_v = creases(surface.knots_v, surface.degree_v, surface.v_begin(), surface.v_end());
     state.grids.push_back(std::move(grid));
 }
 
@@ -151,13 +168,7 @@ double SurfaceModel::edge_error() const { return state_->edges.empty() ? 0 : sta
 
 SurfacePoint SurfaceModel::evaluate(int surface, double u, double v) const
 {
-    const State::Grid& grid = state_->grids[static_cast<std::size_t>(surface)];
-    const auto span = [](const std::vector<double>& breaks, double at) {
-        const auto next = std::upper_bound(breaks.begin() + 1, breaks.end(), at);
-        return static_cast<std::size_t>(next - breaks.begin()) - 1;
-    };
-    const BezierCell& cell =
-        *state_->cells[grid.first + span(grid.u, u) * grid.v.size() + span(grid.v, v)];
+    const BezierCell& cell = state_->cell_at(surface, u, v);
     const double width_u = cell.u_end() - cell.u_begin();
     const double width_v = cell.v_end() - cell.v_begin();
     SurfacePoint p = cell.at(std::clamp((u - cell.u_begin()) / width_u, 0.0, 1.0),
@@ -185,6 +196,20 @@ double SurfaceModel::clearance_along(
     const double at_a = chord.clearance(a, reach);
     const double at_b = chord.clearance(b, reach);
     return std::min(enough, chord.between(a, at_a, b, at_b));
+}
+
+Contact SurfaceModel::contact(int surface, double u, double v, double distance) const
+{
+    const SurfacePoint p = evaluate(surface, u, v);
+    return {surface, u, v, p.point, upward_normal(p), distance, -1};
+}
+
+std::optional<double> SurfaceModel::clearance_between(const Contact& a,
+                                                      const Contact& b,
+                                                      double radius,
+                                                      double enough) const
+{
+    return RollingBall{*this, *state_, radius}.clearance(a, b, enough);
 }
 
 std::optional<double> SurfaceModel::drop(const Tool& tool,

@@ -26,6 +26,20 @@ struct Clearance {
     NearestPlace nearest;
 };
 
+// A ball whose centre is straight over a place of a surface, along the upward normal.
+struct Contact {
+    int surface;
+    double u;
+    double v;
+    Vec3d point;
+    Vec3d normal;
+    double distance;  // mm from the point to the centre
+    // How much farther than that all but its surroundings is known to be; negative: not known.
+    mutable double margin{-1};
+
+    Vec3d centre() const { return point + normal * distance; }
+};
+
 // The tool is the whole rotating body: its end as `Tool` describes it and a cylindrical shank
 // above, so a surface that overhangs the tool is seen, too. Model and tool meet from any side: a
 // tool below a surface is in contact with it.
@@ -60,6 +74,17 @@ public:
     // concave along the line, so two exact distances bound all between them.
     double clearance_along(
         const Tool& tool, Vec3d a, Vec3d b, double enough, double resolution) const;
+
+    Contact contact(int surface, double u, double v, double distance) const;
+
+    // A lower bound of the clearance of a ball along the straight way of its centre between two
+    // contacts, without a search for the nearest place; none where that proves less than `enough`:
+    // near creases, in valleys hardly wider than the ball, beside other surfaces.
+    // Proof: see `RollingBall`.
+    std::optional<double> clearance_between(const Contact& a,
+                                            const Contact& b,
+                                            double radius,
+                                            double enough) const;
 
     // Least height of the tip at (x, y) from which the tool can be lifted out: exact drop of the
     // tool on the model, shank included. None where it meets nothing.

@@ -176,6 +176,27 @@ bool CertifiedPasses::stands_free(Vec3d tip) const
     return model_.clearance(tool_, tip, enough).distance >= enough - 1e-9;
 }
 
+Contact CertifiedPasses::contact(int surface, Vec2d place) const
+{
+    return model_.contact(surface, place.x, place.y, tool_.radius + band_.lift);
+}
+
+Vec3d CertifiedPasses::tip_at(int surface, double u, double v) const
+{
+    Vec3d tip = contact(surface, {u, v}).centre();
+    tip.z -= tool_.radius;
+    return tip;
+}
+
+bool CertifiedPasses::touches_freely(int surface, double u, double v) const
+{
+    const Contact at = contact(surface, {u, v});
+    if (model_.clearance_between(at, at, tool_.radius, band_.lift - kContactSlack)) {
+        return true;
+    }
+    return stands_free(at.centre() - Vec3d{0, 0, tool_.radius});
+}
+
 std::optional<Vec3d> CertifiedPasses::dropped(double x, double y) const
 {
     const std::optional<double> z = model_.drop(lifted_, x, y);
@@ -187,11 +208,21 @@ std::optional<Vec3d> CertifiedPasses::dropped(double x, double y) const
 
 Points CertifiedPasses::sample(const std::function<Vec3d(double)>& at,
                                const std::vector<double>& breaks,
-                               int deepest) const
+                               int deepest,
+                               std::vector<double>* parameters) const
 {
     // The middle is kept, too: what lies between is off by a quarter of this.
     const double sag = std::max(1e-5, 3 * kSampleShare * band_.band);
     Points out{at(breaks.front())};
+    const auto add = [&](double parameter, Vec3d tip) {
+        out.push_back(tip);
+        if (parameters != nullptr) {
+            parameters->push_back(parameter);
+        }
+    };
+    if (parameters != nullptr) {
+        parameters->push_back(breaks.front());
+    }
     const std::function<void(double, Vec3d, double, Vec3d, int)> halve =
         [&](double from, Vec3d a, double to, Vec3d b, int depth) {
             const double middle = 0.5 * (from + to);
@@ -201,8 +232,8 @@ Points CertifiedPasses::sample(const std::function<Vec3d(double)>& at,
                 halve(middle, m, to, b, depth + 1);
                 return;
             }
-            out.push_back(m);
-            out.push_back(b);
+            add(middle, m);
+            add(to, b);
         };
     for (std::size_t k = 1; k < breaks.size(); ++k) {
         halve(breaks[k - 1], out.back(), breaks[k], at(breaks[k]), 0);
@@ -235,6 +266,16 @@ bool CertifiedPasses::line_is_free(Vec3d a, Vec3d b)
     }
     least_clearance_ = std::min(least_clearance_, bound);
     return true;
+}
+
+bool CertifiedPasses::rolls_freely(const Contact& a, const Contact& b)
+{
+    const std::optional<double> bound =
+        model_.clearance_between(a, b, tool_.radius, -band_.deepest);
+    if (bound) {
+        least_clearance_ = std::min(least_clearance_, *bound);
+    }
+    return bound.has_value();
 }
 
 void CertifiedPasses::append_free_line(Vec3d a, Vec3d b, int depth, Points& out)
@@ -275,10 +316,15 @@ Vec3d CertifiedPasses::lifted_free(Vec3d tip) const
     return on_model ? Vec3d{tip.x, tip.y, std::max(tip.z, on_model->z)} : tip;
 }
 
-Points CertifiedPasses::fit_lines(const Points& dense)
+Points CertifiedPasses::fit_lines(const Points& dense, const Feet& feet)
 {
     Points out{lifted_free(dense.front())};
     const double allowed = band_.band * (1 - kSampleShare);
+    const bool known = feet.places.size() == dense.size();
+    std::optional<Contact> last;
+    if (known && out.back() == dense.front()) {
+        last = contact(feet.surface, feet.places.front());
+    }
     std::size_t from = 0;
     std::size_t guess = 4;
     while (from + 1 < dense.size()) {
@@ -286,7 +332,16 @@ Points CertifiedPasses::fit_lines(const Points& dense)
             return chord_fits(dense, from, k, allowed);
         });
         guess = (to - from) / 2;
-        append_free_line(out.back(), dense[to], 0, out);
+        std::optional<Contact> next;
+        if (known) {
+            next = contact(feet.surface, feet.places[to]);
+        }
+        if (last && rolls_freely(*last, *next)) {
+            out.push_back(dense[to]);
+        } else {
+            append_free_line(out.back(), dense[to], 0, out);
+        }
+        last = out.back() == dense[to] ? next : std::nullopt;
         from = to;
     }
     return out;

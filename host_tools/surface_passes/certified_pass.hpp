@@ -23,6 +23,12 @@ PassBand make_pass_band(double tolerance, bool one_sided);
 
 using Points = std::vector<Vec3d>;
 
+// Places of a surface that the tool touches, one a dense point: it stands `lift` off them, square.
+struct Feet {
+    int surface{};
+    std::vector<Vec2d> places;  // (u, v); empty: not known
+};
+
 class CertifiedPasses {
 public:
     CertifiedPasses(const SurfaceModel& model, const Tool& tool, const PassBand& band);
@@ -33,6 +39,12 @@ public:
 
     // Whether a tool that stands `lift` off some surface is no nearer to any other.
     bool stands_free(Vec3d tip) const;
+
+    // The same for the tool that touches the surface at (u, v).
+    bool touches_freely(int surface, double u, double v) const;
+
+    // The tip of the tool that stands `lift` off the surface at (u, v), square to it.
+    Vec3d tip_at(int surface, double u, double v) const;
 
     // Tip at (x, y), `lift` off the model; none where the tool misses the model.
     std::optional<Vec3d> dropped(double x, double y) const;
@@ -45,17 +57,20 @@ public:
     //         distance may hide between them
     // deepest halvings between two breaks: fewer where the function jumps, since a jump, and a line
     //         along a cliff, is followed down to the last one
+    // parameters  of the points, added to what is there, where wanted
     Points sample(const std::function<Vec3d(double)>& at,
                   const std::vector<double>& breaks,
-                  int deepest = 12) const;
+                  int deepest = 12,
+                  std::vector<double>* parameters = nullptr) const;
 
     // Tips over the straight line from a to b in plan, on the model where there is one, else at
     // the lower height of the ends.
     Points sample_dropped(Vec3d a, Vec3d b) const;
 
     // Few points of a polyline within the band of the dense one, proved: where a line would cut
-    // deeper than allowed, the tip is lifted on the drop.
-    Points fit_lines(const Points& dense);
+    // deeper than allowed, the tip is lifted on the drop. With feet the proof is mostly a matter of
+    // the surface's bend there, without a search.
+    Points fit_lines(const Points& dense, const Feet& feet = {});
 
     // The tip itself where the tool stands free there, else on the model over it.
     Vec3d lifted_free(Vec3d tip) const;
@@ -81,6 +96,8 @@ public:
 
 private:
     bool arc_is_free(Vec3d start, const ToolMove& arc);
+    bool rolls_freely(const Contact& a, const Contact& b);
+    Contact contact(int surface, Vec2d place) const;
     void append_free_line(Vec3d a, Vec3d b, int depth, Points& out);
     bool curve_is_free(const std::array<Vec3d, 4>& bezier, int depth, double& least) const;
 

@@ -87,7 +87,7 @@ private:
     double radius_;
     double scallop_;
     double path_off_;
-    double step_;  // mm, between passes on flat ground
+    double step_;                  // mm, between passes on flat ground
     std::vector<Points> waiting_;  // passes given before the first look
     SweptBalls swept_;
     std::optional<TopMap> tops_;  // from the first look on: many parts need none

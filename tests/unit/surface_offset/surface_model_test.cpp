@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <random>
 
 #include "CppUTest/TestHarness.h"
@@ -150,6 +151,60 @@ TEST(SurfaceModelDistance, AlongAMoveIsBoundedFromBelow)
     CHECK(bound <= -1 + 1e-9);
     CHECK(bound >= -1 - 1e-3);
     DOUBLES_EQUAL(0, model.clearance_along(kBall, {5, 5, 0.01}, {9, 5, 0.01}, 0, 1e-4), 1e-12);
+}
+
+TEST(SurfaceModelDistance, OfARollingBallIsBoundedFromBelowOnRandomSurfaces)
+{
+    constexpr unsigned kSeed = 19;
+    std::printf("seed %u ", kSeed);
+    std::mt19937 random{kSeed};
+    std::uniform_real_distribution<double> place{0.05, 2.95};
+    std::uniform_real_distribution<double> step{-0.15, 0.15};
+    int proved = 0;
+    for (int round = 0; round < 2; ++round) {
+        const SurfaceModel model{{random_surface(random)}};
+        for (const double radius : {1.0, 3.0}) {
+            const Tool ball{1, ToolShape::kBall, radius, radius};
+            for (int k = 0; k < 40; ++k) {
+                const double u = place(random);
+                const double v = place(random);
+                const Contact a = model.contact(0, u, v, radius + 0.003);
+                const Contact b =
+                    model.contact(0, std::clamp(u + step(random), 0.0, 3.0),
+                                  std::clamp(v + step(random), 0.0, 3.0), radius + 0.003);
+                const std::optional<double> bound = model.clearance_between(a, b, radius, -0.05);
+                if (!bound) {
+                    continue;
+                }
+                ++proved;
+                CHECK(*bound >= -0.05);
+                for (int at = 0; at <= 16; ++at) {
+                    Vec3d tip = a.centre() + (b.centre() - a.centre()) * (at / 16.0);
+                    tip.z -= radius;
+                    CHECK(model.clearance(ball, tip, 1).distance >= *bound - 1e-6);
+                }
+            }
+        }
+    }
+    std::printf("%d proved ", proved);
+    CHECK(proved > 60);
+}
+
+TEST(SurfaceModelDistance, OfARollingBallIsNotProvedWhereItCutsAnotherPlace)
+{
+    // A slot whose walls are nearer than the ball is wide: two planes that meet in a valley.
+    Surface left = plane(-1);
+    Surface right = plane(1);
+    for (Vec3d& p : right.points) {
+        p.x += 20;
+        p.z -= 20;
+    }
+    const SurfaceModel model{{left, right}};
+    const Contact deep = model.contact(0, 0.95, 0.5, 3);
+    const Contact high = model.contact(0, 0.3, 0.5, 3);
+    CHECK(!model.clearance_between(deep, deep, 3, 0));
+    CHECK(!model.clearance_between(high, deep, 3, 0));
+    CHECK(model.clearance_between(high, high, 3, -1e-9).has_value());
 }
 
 TEST_GROUP(SurfaceModelDrop){};

@@ -1,0 +1,340 @@
+// The bend of a piece of surface from its control points; boxes for what is not near.
+#include "host_tools/surface_offset/rolling_ball.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace cusp::host {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kCellSize = 0.4;       // radii
+constexpr int kDeepest = 4;             // halvings of a way
+constexpr int kFootSteps = 4;           // of Newton's method
+constexpr double kFootSlack = 1e-7;     // mm off the normal
+constexpr double kLeastBox = 1 / 12.0;  // radii: boxes that small prove nothing if they are near
+constexpr double kMostSkew = 0.9;       // cosine between du and dv
+constexpr double kUsualMargin = 0.01;   // radii
+
+// Derivatives by u and v, as those of the cell are by its own parameters.
+SurfacePoint scaled_middle(const BezierCell& cell)
+{
+    const double width_u = cell.u_end() - cell.u_begin();
+    const double width_v = cell.v_end() - cell.v_begin();
+    SurfacePoint p = cell.middle();
+    p.du = p.du / width_u;
+    p.dv = p.dv / width_v;
+    p.duu = p.duu / (width_u * width_u);
+    p.duv = p.duv / (width_u * width_v);
+    p.dvv = p.dvv / (width_v * width_v);
+    return p;
+}
+
+BezierCell::Spread scaled_spread(const BezierCell& cell)
+{
+    const double width_u = cell.u_end() - cell.u_begin();
+    const double width_v = cell.v_end() - cell.v_begin();
+    BezierCell::Spread e = cell.spread();
+    e.ds /= width_u;
+    e.dt /= width_v;
+    e.dss /= width_u * width_u;
+    e.dst /= width_u * width_v;
+    e.dtt /= width_v * width_v;
+    return e;
+}
+
+// How far derivatives in the surroundings are from those at the middle of the cell.
+class BendBound {
+public:
+    explicit BendBound(const BezierCell& cell)
+        : middle_{scaled_middle(cell)}, own_{scaled_spread(cell)}, normal_{upward_normal(middle_)}
+    {
+    }
+
+    void add(const BezierCell& cell)
+    {
+        const SurfacePoint p = scaled_middle(cell);
+        const BezierCell::Spread e = scaled_spread(cell);
+        across_u_ = std::max(across_u_, in_plane(p.du - middle_.du) + e.ds);
+        across_v_ = std::max(across_v_, in_plane(p.dv - middle_.dv) + e.dt);
+        off_u_ = std::max(off_u_, norm(p.du - middle_.du) + e.ds);
+        off_v_ = std::max(off_v_, norm(p.dv - middle_.dv) + e.dt);
+        const auto bend = [&](Vec3d d, Vec3d from, double spread) {
+            return std::abs(dot(d - from, normal_)) + spread;
+        };
+        bend_uu_ = std::max(bend_uu_, bend(p.duu, middle_.duu, e.dss));
+        bend_uv_ = std::max(bend_uv_, bend(p.duv, middle_.duv, e.dst));
+        bend_vv_ = std::max(bend_vv_, bend(p.dvv, middle_.dvv, e.dtt));
+        most_uu_ = std::max(most_uu_, norm(p.duu) + e.dss);
+        most_uv_ = std::max(most_uv_, norm(p.duv) + e.dst);
+        most_vv_ = std::max(most_vv_, norm(p.dvv) + e.dtt);
+        top = std::max(top, cell.high().z);
+    }
+
+    double bound() const
+    {
+        const double e = dot(middle_.du, middle_.du);
+        const double f = dot(middle_.du, middle_.dv);
+        const double g = dot(middle_.dv, middle_.dv);
+        const double det = e * g - f * f;
+        const double skew = std::abs(f) / std::sqrt(e * g);
+        if (!(det > 0) || !(skew < kMostSkew)) {
+            return kInfinite;
+        }
+        const double long_u = std::sqrt(e);
+        const double long_v = std::sqrt(g);
+        // The tangent plane of the cell tilts by no more than this (a tangent).
+        const double lean = own_.ds * std::sqrt(g / det) + own_.dt * std::sqrt(e / det);
+        const double tilt = lean / (1 - lean);
+        if (!(lean < 0.5) || !(normal_.z > tilt)) {
+            return kInfinite;
+        }
+        const double straight = 1 - skew;
+        const double uu = (bend_uu_ + tilt * most_uu_) / e;
+        const double uv = (bend_uv_ + tilt * most_uv_) / (long_u * long_v);
+        const double vv = (bend_vv_ + tilt * most_vv_) / g;
+        const double more = (std::max(uu, vv) + uv) / straight;
+        const double l = dot(normal_, middle_.duu);
+        const double m = dot(normal_, middle_.duv);
+        const double n = dot(normal_, middle_.dvv);
+        const double mean = (e * n - 2 * f * m + g * l) / (2 * det);
+        const double gauss = (l * n - m * m) / det;
+        const double bend = mean + std::sqrt(std::max(0.0, mean * mean - gauss)) + more;
+        const double shorter =
+            std::hypot(across_u_ / long_u, across_v_ / long_v) / std::sqrt(straight);
+        const double longer = std::hypot(off_u_ / long_u, off_v_ / long_v) / std::sqrt(straight);
+        if (bend < 0) {
+            return bend / ((1 + longer) * (1 + longer));
+        }
+        return shorter < 0.9 ? bend / ((1 - shorter) * (1 - shorter)) : kInfinite;
+    }
+
+    double top{-kInfinite};
+
+private:
+    double in_plane(Vec3d d) const { return norm(d - normal_ * dot(d, normal_)); }
+
+    SurfacePoint middle_;
+    BezierCell::Spread own_;
+    Vec3d normal_;
+    double across_u_{};
+    double across_v_{};
+    double off_u_{};
+    double off_v_{};
+    double bend_uu_{};
+    double bend_uv_{};
+    double bend_vv_{};
+    double most_uu_{};
+    double most_uv_{};
+    double most_vv_{};
+};
+
+bool overlaps(const BezierCell& cell, const BezierCell::Surroundings& box)
+{
+    return cell.u_begin() < box.u_end && cell.u_end() > box.u_begin && cell.v_begin() < box.v_end &&
+           cell.v_end() > box.v_begin;
+}
+
+bool lies_in(const BezierCell& cell, const BezierCell::Surroundings& box)
+{
+    return cell.u_begin() >= box.u_begin && cell.u_end() <= box.u_end &&
+           cell.v_begin() >= box.v_begin && cell.v_end() <= box.v_end;
+}
+
+void add_part(const BezierCell& cell,
+              const BezierCell::Surroundings& box,
+              double width_u,
+              double width_v,
+              BendBound& bound)
+{
+    if (!overlaps(cell, box)) {
+        return;
+    }
+    const bool small = cell.u_end() - cell.u_begin() <= 1.5 * width_u &&
+                       cell.v_end() - cell.v_begin() <= 1.5 * width_v;
+    if (small || lies_in(cell, box)) {
+        bound.add(cell);
+        return;
+    }
+    for (const BezierCell* half : cell.halves()) {
+        add_part(*half, box, width_u, width_v, bound);
+    }
+}
+
+// A width more on either side, up to the next crease.
+std::array<double, 2> widened(const std::vector<double>& creases, double begin, double end)
+{
+    const double width = 1.001 * (end - begin);
+    const auto above = std::lower_bound(creases.begin() + 1, creases.end() - 1, end);
+    const auto below = std::upper_bound(creases.begin() + 1, creases.end() - 1, begin) - 1;
+    return {std::max(*below, begin - width), std::min(*above, end + width)};
+}
+
+BezierCell::Surroundings find_surroundings(const SurfaceModel::State& state, const BezierCell& cell)
+{
+    const SurfaceModel::State::Grid& grid = state.grids[static_cast<std::size_t>(cell.surface())];
+    const auto [u_begin, u_end] = widened(grid.creases_u, cell.u_begin(), cell.u_end());
+    const auto [v_begin, v_end] = widened(grid.creases_v, cell.v_begin(), cell.v_end());
+    BezierCell::Surroundings box{u_begin, u_end, v_begin, v_end, kInfinite, 0};
+    const auto first = [](const std::vector<double>& breaks, double at) {
+        return static_cast<std::size_t>(std::upper_bound(breaks.begin() + 1, breaks.end(), at) -
+                                        breaks.begin()) -
+               1;
+    };
+    BendBound bound{cell};
+    for (std::size_t i = first(grid.u, u_begin); i < grid.u.size() && grid.u[i] < u_end; ++i) {
+        for (std::size_t j = first(grid.v, v_begin); j < grid.v.size() && grid.v[j] < v_end; ++j) {
+            add_part(*state.cells[grid.first + i * grid.v.size() + j], box,
+                     cell.u_end() - cell.u_begin(), cell.v_end() - cell.v_begin(), bound);
+        }
+    }
+    box.bend = bound.bound();
+    box.top = bound.top;
+    return box;
+}
+
+}  // namespace
+
+const BezierCell::Surroundings& RollingBall::surroundings(const Contact& at) const
+{
+    const BezierCell* cell = &state_.cell_at(at.surface, at.u, at.v);
+    const double most = kCellSize * radius_;
+    while (norm(cell->middle().du) > most || norm(cell->middle().dv) > most) {
+        const auto [low, high] = cell->halves();
+        const bool above = low->u_end() < cell->u_end() ? at.u > low->u_end() : at.v > low->v_end();
+        cell = above ? high : low;
+    }
+    if (cell->surroundings() == nullptr) {
+        cell->set_surroundings(find_surroundings(state_, *cell));
+    }
+    return *cell->surroundings();
+}
+
+std::optional<double> RollingBall::between(const Contact& a,
+                                           const Contact& b,
+                                           double enough,
+                                           int depth) const
+{
+    const BezierCell::Surroundings& near_a = surroundings(a);
+    const BezierCell::Surroundings& near_b = surroundings(b);
+    const double nearer = std::min(a.distance, b.distance);
+    const double farther = std::max(a.distance, b.distance);
+    const double bend = std::max(near_a.bend, near_b.bend);
+    const double kept = 1 - bend * (bend > 0 ? farther : nearer);
+    const Vec3d from = a.centre();
+    const Vec3d to = b.centre();
+    if (!(kept >= 0) || std::max(near_a.top, near_b.top) > std::min(from.z, to.z)) {
+        return std::nullopt;
+    }
+    const double way = dot(to - from, to - from);
+    const double lost =
+        0.25 * std::max(0.0, way - kept * dot(b.point - a.point, b.point - a.point));
+    const double least = std::sqrt(std::max(0.0, nearer * nearer - lost)) - radius_;
+    const double margin = std::max(kUsualMargin * radius_, way / (2 * nearer));
+    if (least >= enough && rest_is_far(a, near_a, margin) &&
+        (way == 0 || rest_is_far(b, near_b, margin))) {
+        return least;
+    }
+    return way == 0 || depth == kDeepest ? std::nullopt : halved(a, b, enough, depth);
+}
+
+std::optional<double> RollingBall::halved(const Contact& a,
+                                          const Contact& b,
+                                          double enough,
+                                          int depth) const
+{
+    const Vec3d middle = (a.centre() + b.centre()) * 0.5;
+    Contact foot{a.surface, 0.5 * (a.u + b.u), 0.5 * (a.v + b.v), {}, {}, 0, -1};
+    double off = kInfinite;
+    for (int step = 0; step < kFootSteps; ++step) {
+        const SurfacePoint p = model_.evaluate(a.surface, foot.u, foot.v);
+        const Vec3d r = middle - p.point;
+        foot.point = p.point;
+        foot.normal = upward_normal(p);
+        foot.distance = dot(r, foot.normal);
+        off = norm(r - foot.normal * foot.distance);
+        if (off < kFootSlack) {
+            break;
+        }
+        const double uu = dot(p.du, p.du) - dot(r, p.duu);
+        const double uv = dot(p.du, p.dv) - dot(r, p.duv);
+        const double vv = dot(p.dv, p.dv) - dot(r, p.dvv);
+        const double det = uu * vv - uv * uv;
+        if (!(det > 0)) {
+            return std::nullopt;
+        }
+        const double gu = dot(r, p.du);
+        const double gv = dot(r, p.dv);
+        foot.u += (gu * vv - gv * uv) / det;
+        foot.v += (gv * uu - gu * uv) / det;
+    }
+    const SurfaceModel::State::Grid& grid = state_.grids[static_cast<std::size_t>(a.surface)];
+    const bool inside = foot.u >= grid.creases_u.front() && foot.u <= grid.creases_u.back() &&
+                        foot.v >= grid.creases_v.front() && foot.v <= grid.creases_v.back();
+    if (!(off < kFootSlack) || !inside || !(foot.distance > 0)) {
+        return std::nullopt;
+    }
+    const std::optional<double> first = between(a, foot, enough + off, depth + 1);
+    if (!first) {
+        return std::nullopt;
+    }
+    const std::optional<double> second = between(foot, b, enough + off, depth + 1);
+    return second ? std::optional{std::min(*first, *second) - off} : std::nullopt;
+}
+
+// Whether all but the surroundings is farther than the contact, by `margin`, from the centre and
+// from all that is straight above it.
+bool RollingBall::rest_is_far(const Contact& from,
+                              const BezierCell::Surroundings& near,
+                              double margin) const
+{
+    if (from.margin >= margin) {
+        return true;
+    }
+    const ToolCore ball{0, from.centre()};
+    const double limit = from.distance + margin;
+    std::array<int, 128> stack{0};
+    std::size_t count = 1;
+    while (count > 0) {
+        const BoxTree::Node& node = state_.tree.nodes[static_cast<std::size_t>(stack[--count])];
+        if (ball.distance_to_box(node.low, node.high) >= limit) {
+            continue;
+        }
+        if (node.child[0] >= 0) {
+            stack[count++] = node.child[0];
+            stack[count++] = node.child[1];
+            continue;
+        }
+        const std::size_t item = static_cast<std::size_t>(-node.child[0] - 1);
+        if (item < state_.cells.size() &&
+            !cell_is_far(*state_.cells[item], ball, from, near, limit)) {
+            return false;
+        }
+    }
+    from.margin = margin;
+    return true;
+}
+
+bool RollingBall::cell_is_far(const BezierCell& cell,
+                              const ToolCore& ball,
+                              const Contact& from,
+                              const BezierCell::Surroundings& near,
+                              double limit) const
+{
+    if (cell.surface() == from.surface && lies_in(cell, near)) {
+        return true;
+    }
+    if (ball.distance_to_box(cell.low(), cell.high()) >= limit ||
+        oriented_distance(ball, cell) >= limit || state_.outside_trims(cell)) {
+        return true;
+    }
+    if (cell.spread().point < kLeastBox * radius_) {
+        return false;
+    }
+    const auto [a, b] = cell.halves();
+    return cell_is_far(*a, ball, from, near, limit) && cell_is_far(*b, ball, from, near, limit);
+}
+
+}  // namespace cusp::host
