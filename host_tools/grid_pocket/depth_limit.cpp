@@ -139,6 +139,18 @@ void DepthLimit::follow(FloorFollower& floor,
     }
 }
 
+bool DepthLimit::too_deep(const FloorFollower& floor, const std::vector<Vec2d>& corners)
+{
+    feel_moves();
+    for (std::size_t i = 1; most_ && i < corners.size(); ++i) {
+        if (norm(corners[i] - corners[i - 1]) >= kNoWay &&
+            !deep_stretches(floor, corners[i - 1], corners[i]).empty()) {
+            return true;
+        }
+    }
+    return false;
+}
+
 void DepthLimit::follow_segment(FloorFollower& floor,
                                 Vec2d a,
                                 Vec2d b,

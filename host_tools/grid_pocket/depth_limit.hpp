@@ -32,6 +32,9 @@ public:
                 const std::vector<Vec2d>& corners,
                 const GridMoves::CircleFloor& circle);
 
+    // Whether following the corners would cut too deep anywhere.
+    bool too_deep(const FloorFollower& floor, const std::vector<Vec2d>& corners);
+
     // Brings the metal up to date with all moves so far.
     void feel_moves();
 

@@ -330,6 +330,50 @@ bool FloorFollower::follow_with_arcs(TipMoves& moves, Vec2d a, Vec2d b, MoveKind
     return true;
 }
 
+bool FloorFollower::in_band(Vec2d at, double z) const
+{
+    const double exact = path_height(at);
+    if (exact == level_) {
+        return z == level_;
+    }
+    const double lowest = settings_.both_sides ? exact - settings_.tolerance
+                                               : exact + kRounding + contact_.accuracy();
+    return z >= std::max(level_, lowest) && z <= exact + settings_.tolerance;
+}
+
+bool FloorFollower::follow_level_arc(TipMoves& moves, const Edge& arc, MoveKind kind)
+{
+    constexpr double kShortestArc = 0.05;  // mm
+    const double turned = sweep(arc);
+    if (!settings_.arcs || arc.turn == 0 || arc.radius > settings_.max_arc_radius ||
+        length(arc) < kShortestArc) {
+        return false;
+    }
+    const double z = moves.at().z;
+    const double sagitta = kArcSagitta * settings_.tolerance;
+    const double step = 2 * std::sqrt(2 * std::min(sagitta / arc.radius, 0.5));
+    const int pieces =
+        1 + static_cast<int>(std::max(turned / step, length(arc) / settings_.sample));
+    // On slopes a flat end that stands aside by the sagitta stands higher by more.
+    const double needed = has_flat_end() ? 4 * sagitta : sagitta;
+    const double proven = kProven - allowed_gouge();
+    Vec3d before = moves.at();
+    double least = 0;
+    for (int i = 1; i <= pieces; ++i) {
+        const Vec2d at = i < pieces ? point_on(arc, static_cast<double>(i) / pieces) : arc.end;
+        const Vec3d next{at.x, at.y, z};
+        least = std::min(least, in_band(at, z) ? room(before, next, needed) : 2 * proven - 1);
+        if (least < proven) {
+            return false;
+        }
+        before = next;
+    }
+    gouge_bound_ = std::max(gouge_bound_, settings_.both_sides ? -least : 0.0);
+    const Vec3d centre{arc.centre.x, arc.centre.y, z};
+    moves.arc(kind, {{arc.end.x, arc.end.y, z}, centre, ArcPlane::kXY, arc.turn < 0});
+    return true;
+}
+
 std::vector<Vec3d> FloorFollower::chords(const std::vector<Vec2d>& corners, double length) const
 {
     std::vector<Vec3d> out{{corners[0].x, corners[0].y, start_height(corners[0])}};

@@ -8,6 +8,7 @@
 #include "host_tools/grid_pocket/floor_contact.hpp"
 #include "host_tools/grid_pocket/profile_fit.hpp"
 #include "host_tools/import/job.hpp"
+#include "host_tools/offset/contour.hpp"
 
 namespace cusp::host {
 
@@ -75,7 +76,11 @@ public:
     // first.
     void follow(TipMoves& moves, const std::vector<Vec2d>& corners, MoveKind kind);
 
-    // The same as chords from `start`, along at most `length` mm.
+    // Cuts along an arc in plan from where the tip stands at its start, where the floor is level
+    // along it and the arc is proven clear. Returns whether it did.
+    bool follow_level_arc(TipMoves& moves, const Edge& arc, MoveKind kind);
+
+    // follow() as chords from `start`, along at most `length` mm.
     std::vector<Vec3d> chords(const std::vector<Vec2d>& corners, double length) const;
 
     // Lower bound of the distance that a straight move keeps from the floor, cut off at `enough`.
@@ -103,6 +108,7 @@ private:
     std::vector<BandPoint> band(Vec2d a, Vec2d b, double tolerance) const;
     void follow_segment(TipMoves& moves, Vec2d a, Vec2d b, MoveKind kind);
     double room(Vec3d a, Vec3d b, double needed) const;
+    bool in_band(Vec2d at, double z) const;
     double arc_room(Vec3d from, const ArcTo& arc, double curvature) const;
     std::vector<Vec3d> arc_vertices(Vec2d a, Vec2d b) const;
     bool follow_with_arcs(TipMoves& moves, Vec2d a, Vec2d b, MoveKind kind);

@@ -12,7 +12,7 @@ namespace {
 
 // Points along the edge after its start. Chords of an arc stay on the pocket's side of it: inside
 // an arc about a centre in the pocket, tangents around a corner of the wall.
-void append_points(const Edge& edge,
+void append_chords(const Edge& edge,
                    double tolerance,
                    bool around_corner,
                    std::vector<Vec2d>& corners)
@@ -143,8 +143,20 @@ void GridPasses::begin_run(const std::vector<Vec2d>& corners, double metal, Floo
 void GridPasses::wall()
 {
     for (const Contour& contour : pocket_.centres.contours) {
-        const std::vector<Vec2d> corners = wall_corners(contour);
-        approach(corners);
+        const Contour loop = wall_loop(contour);
+        approach(wall_corners(loop));
+        std::vector<Vec2d> corners{loop.front().start};
+        for (const Edge& edge : loop) {
+            if (edge.turn != 0) {
+                follow(pocket_.finish, corners);
+                corners = {edge.start};
+                if (follow_arc(pocket_.finish, edge)) {
+                    corners = {edge.end};
+                    continue;
+                }
+            }
+            append_points(edge, corners);
+        }
         follow(pocket_.finish, corners);
         ++passes_;
     }
@@ -236,24 +248,48 @@ bool GridPasses::cut_along(Vec3d from, Vec3d to) const
     return true;
 }
 
-std::vector<Vec2d> GridPasses::wall_corners(const Contour& contour) const
+Contour GridPasses::wall_loop(const Contour& contour) const
 {
     // Boundary loops have the pocket on their left: counter-clockwise, as in the paper, which
     // with a spindle that turns clockwise leaves the wall on the right and climbs.
     const bool climb = pocket_.operation.direction_of_cut == CutDirection::kClimb;
-    const Contour loop = climb ? contour : reversed(contour);
-    std::vector<Vec2d> corners{loop.front().start};
-    const double tolerance = std::max(pocket_.operation.plan_tolerance / 4, kWallRounding / 2);
-    for (const Edge& edge : loop) {
-        append_points(edge, tolerance, (edge.turn < 0) == climb, corners);
-    }
+    Contour loop = climb ? contour : reversed(contour);
     const auto nearest =
-        std::min_element(corners.begin(), corners.end() - 1,
-                         [&](Vec2d a, Vec2d b) { return norm(a - here()) < norm(b - here()); });
-    corners.pop_back();
-    std::rotate(corners.begin(), corners.begin() + (nearest - corners.begin()), corners.end());
-    corners.push_back(corners.front());
+        std::min_element(loop.begin(), loop.end(), [&](const Edge& a, const Edge& b) {
+            return distance_to(a, here()) < distance_to(b, here());
+        });
+    std::rotate(loop.begin(), nearest, loop.end());
+    const Edge whole = loop.front();
+    const Vec2d at = nearest_on(whole, here());
+    if (std::min(norm(at - whole.start), norm(at - whole.end)) > pocket_.grid.gx() / 4) {
+        loop.front() = between(whole, at, whole.end);
+        loop.push_back(between(whole, whole.start, at));
+    }
+    return loop;
+}
+
+void GridPasses::append_points(const Edge& edge, std::vector<Vec2d>& corners) const
+{
+    const bool climb = pocket_.operation.direction_of_cut == CutDirection::kClimb;
+    const double tolerance = std::max(pocket_.operation.plan_tolerance / 4, kWallRounding / 2);
+    append_chords(edge, tolerance, (edge.turn < 0) == climb, corners);
+}
+
+std::vector<Vec2d> GridPasses::wall_corners(const Contour& loop) const
+{
+    std::vector<Vec2d> corners{loop.front().start};
+    for (const Edge& edge : loop) {
+        append_points(edge, corners);
+    }
     return corners;
+}
+
+bool GridPasses::follow_arc(FloorFollower& floor, const Edge& arc)
+{
+    std::vector<Vec2d> corners{arc.start};
+    append_points(arc, corners);
+    return !(depth_ && depth_->too_deep(floor, corners)) &&
+           floor.follow_level_arc(moves_.tip(), arc, MoveKind::kCut);
 }
 
 Vec2d GridPasses::here() const
@@ -334,7 +370,7 @@ void GridPasses::wall_level(double above, FloorFollower& floor)
 {
     for (const Contour& contour : pocket_.centres.contours) {
         std::vector<Vec2d> run;
-        const std::vector<Vec2d> corners = wall_corners(contour);
+        const std::vector<Vec2d> corners = wall_corners(wall_loop(contour));
         for (std::size_t i = 1; i < corners.size(); ++i) {
             const Vec2d way = corners[i] - corners[i - 1];
             const int pieces = std::max(1, static_cast<int>(norm(way) / pocket_.grid.gx()));

@@ -74,7 +74,12 @@ private:
     bool can_link(Vec2d to) const;
     // Whether the layer above has visited every cell under the move.
     bool cut_along(Vec3d from, Vec3d to) const;
-    std::vector<Vec2d> wall_corners(const Contour& contour) const;
+    // The pass along the wall, from the place that is nearest.
+    Contour wall_loop(const Contour& contour) const;
+    // Points along an edge of such a loop, after its start.
+    void append_points(const Edge& edge, std::vector<Vec2d>& corners) const;
+    std::vector<Vec2d> wall_corners(const Contour& loop) const;
+    bool follow_arc(FloorFollower& floor, const Edge& arc);
     Vec2d here() const;
     // For helices over what `floor` leaves.
     GridMoves::CircleFloor circle_over(const FloorFollower& floor) const;

@@ -25,7 +25,8 @@ VerifyFigures cut_in_memory(const Job& job, const std::vector<PlannedOperation>&
         write_program(out, {"random pocket", false, job.stock_top + job.clearance, {}}, plan);
     }
     VerifySettings settings;
-    settings.pitch = 0.23;
+    settings.pitch = 0.27;
+    settings.spacing = 0.2;
     return verify(job, file, settings, [](double) {}).figures;
 }
 

@@ -15,6 +15,7 @@
 #include "host_tools/grid_pocket/grid_pocket.hpp"
 #include "host_tools/offset/offset.hpp"
 #include "host_tools/surface_offset/surface_model.hpp"
+#include "host_tools/toolpath/toolpath_measure.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/tap.hpp"
 
@@ -67,33 +68,20 @@ Operation operation_of(unsigned seed, OutputForm output)
     return operation;
 }
 
-Vec3d end_of(const ToolMove& move)
-{
-    if (const auto* arc = std::get_if<ArcTo>(&move.shape)) {
-        return arc->end;
-    }
-    return std::get<LineTo>(move.shape).end;
-}
+// Quick to try finer grids on.
+const Loop kSmall = loop_of({{14, 11}, {24, 11}, {24, 20}, {14, 20}});
 
 // Points along a move, its end included.
 std::vector<Vec3d> along(const ToolMove& move, Vec3d from)
 {
     std::vector<Vec3d> out;
-    const Vec3d end = end_of(move);
-    const auto* arc = std::get_if<ArcTo>(&move.shape);
-    for (int i = 1; i <= 20; ++i) {
-        const double t = i / 20.0;
-        Vec3d p = from + (end - from) * t;
-        if (arc != nullptr) {
-            const double radius = norm(from - arc->centre);
-            const bool above = arc->plane == ArcPlane::kZX ? arc->clockwise == (end.x < from.x)
-                                                           : arc->clockwise == (end.y > from.y);
-            const double across =
-                arc->plane == ArcPlane::kZX ? p.x - arc->centre.x : p.y - arc->centre.y;
-            const double rise = std::sqrt(std::max(0.0, radius * radius - across * across));
-            p.z = arc->centre.z + (above ? rise : -rise);
+    const std::vector<Vec3d> corners = points_of(move, from, 1e-6);
+    const int pieces = 1 + 20 / static_cast<int>(corners.size());
+    for (const Vec3d& corner : corners) {
+        for (int i = 1; i <= pieces; ++i) {
+            out.push_back(from + (corner - from) * (static_cast<double>(i) / pieces));
         }
-        out.push_back(p);
+        from = corner;
     }
     return out;
 }
@@ -159,6 +147,26 @@ TEST(GridPlan, LayersAndZigzagsNeverCutInEither)
     CHECK(least_clearance(plan[0], operation) >= -2e-6);
 }
 
+TEST(GridPlan, TurnsAroundWallsInArcsWhereTheFloorIsLevel)
+{
+    Operation operation = operation_of(1, OutputForm::kArcs);
+    for (Vec3d& point : operation.floor.front().points) {
+        point.z = -4;
+    }
+    for (const Tool& tool : {Tool{1, ToolShape::kBall, 3, 3}, Tool{1, ToolShape::kFlat, 3, 0}}) {
+        operation.tool = tool;
+        const auto plan = plan_grid_pocket(job_of(), operation);
+        int turns = 0;
+        for (const ToolMove& move : plan[0].path.moves) {
+            const auto* arc = std::get_if<ArcTo>(&move.shape);
+            turns += arc != nullptr && arc->plane == ArcPlane::kXY ? 1 : 0;
+        }
+        // The corners at (36, 15), (20, 24) and (5, 14).
+        LONGS_EQUAL(3, turns);
+        DOUBLES_EQUAL(0, plan[0].stats.gouge_bound_mm, 1e-6);
+    }
+}
+
 TEST(GridPlan, ReportsHowDeepATwoSidedToleranceCutsIn)
 {
     for (const OutputForm form : {OutputForm::kLines, OutputForm::kArcs}) {
@@ -202,6 +210,7 @@ TEST(GridPlan, KeepsTheRadiusFromTheWalls)
 TEST(GridPlan, NamesAGridThatKeepsTheRoughness)
 {
     Operation operation = operation_of(3, OutputForm::kLines);
+    operation.boundary = kSmall;
     operation.max_roughness = 0.02;
     const std::string text = refusal(operation);
     CHECK(text.find("would do") != std::string::npos);
@@ -240,7 +249,10 @@ TEST(GridPlan, RefusesInputThatCannotBeUsedWithItsValueAndLimit)
         o.layers = {3, 2};
     });
     says("max_roughness 0.00000 mm must be above 0", [](Operation& o) { o.max_roughness = 0.0; });
-    says("over max_roughness 0.01000 mm; grid", [](Operation& o) { o.max_roughness = 0.01; });
+    says("over max_roughness 0.01000 mm; grid", [](Operation& o) {
+        o.boundary = kSmall;
+        o.max_roughness = 0.01;
+    });
     says("tolerance or radius nan", [&](Operation& o) { o.floor_tolerance = nothing; });
     says("tolerance or radius -0.10000 mm", [](Operation& o) { o.allowance = -0.1; });
     says("crosses itself at x 15.00000 mm, y 15.00000 mm", [](Operation& o) {
