@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kOverStock = 1.0;   // mm over uncut metal where rapids end
 constexpr double kLeastSize = 1e-6;  // mm
+constexpr double kChordShare = 0.2;  // of the band, between arcs or curves and their chords
 
 std::string file_of(const Operation& operation)
 {
@@ -153,14 +154,31 @@ Points SurfaceOperation::add_pass(const Points& dense,
     if (pass.points.size() < 2) {
         return {};
     }
-    Points points = pass.points;
+    Points points = path_of(pass);
     passes_.push_back(std::move(pass));
     return points;
 }
 
+Points SurfaceOperation::path_of(const SurfacePass& pass) const
+{
+    if (!pass.curve && pass.moves.empty()) {
+        return pass.points;
+    }
+    std::vector<ToolMove> moves = pass.moves;
+    if (pass.curve) {
+        moves = {{MoveKind::kCut, NurbsTo{*pass.curve}}};
+    }
+    Points out{pass.points.front()};
+    for (const ToolMove& move : moves) {
+        const Points next = points_of(move, out.back(), path_off());
+        out.insert(out.end(), next.begin(), next.end());
+    }
+    return out;
+}
+
 double SurfaceOperation::path_off() const
 {
-    return operation_.output == OutputForm::kLines ? 0 : certified_->band().band;
+    return operation_.output == OutputForm::kLines ? 0 : kChordShare * certified_->band().band;
 }
 
 PlannedOperation SurfaceOperation::finish(double spacing, double scallop_bound)

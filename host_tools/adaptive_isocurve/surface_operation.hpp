@@ -28,8 +28,8 @@ public:
     // What the scallop leaves for the ridges between passes, mm.
     double ridge_allowed() const;
 
-    // Fits the pass in the form the job asks for. Returns points that the path stays within
-    // `path_off()` of.
+    // Fits the pass in the form the job asks for. Returns points of the path that will be cut,
+    // which stays within `path_off()` of the lines through them.
     //
     // exact  where the job asks for NURBS: the same pass as a cubic within the band, taken as it is
     //        where it is proved to be free
@@ -47,6 +47,7 @@ private:
     void check_tool() const;
     void check_form() const;
     void check_surfaces() const;
+    Points path_of(const SurfacePass& pass) const;
 
     const Job& job_;
     const Operation& operation_;

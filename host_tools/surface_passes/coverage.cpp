@@ -15,6 +15,8 @@ constexpr double kBlockedCell = 0.25;   // the same, where the tool can't touch
 constexpr double kSlopeShare = 0.02;    // of the scallop, for the slope in a smallest cell
 constexpr double kReachPitch = 0.125;   // radii, at least
 constexpr double kTraceStep = 0.125;    // in steps between passes
+constexpr double kTraceApart = 0.3;     // the same, of tips that one line may join
+constexpr double kFarApart = 0.5;       // radii, of tips that one pass may join
 constexpr int kMostTraced = 4000;       // places of one pass
 constexpr int kRounds = 5;
 constexpr int kDeepest = 40;
@@ -292,6 +294,31 @@ Points Coverage::trace(int surface, Place place, bool along_u) const
     return out;
 }
 
+// The best tips of neighbouring places may lie apart (two sides of a ridge): between those that do
+// the tool follows the model, or it is lifted.
+std::vector<Points> Coverage::runs_of(const Points& tips) const
+{
+    std::vector<Points> out{{tips.front()}};
+    for (std::size_t k = 1; k < tips.size(); ++k) {
+        const double apart = norm(tips[k] - out.back().back());
+        if (apart > kFarApart * radius_) {
+            out.push_back({tips[k]});
+            continue;
+        }
+        if (apart > kTraceApart * step_) {
+            const Points between = certified_.sample_dropped(out.back().back(), tips[k]);
+            out.back().insert(out.back().end(), between.begin() + 1, between.end() - 1);
+        }
+        out.back().push_back(tips[k]);
+    }
+    for (Points& run : out) {
+        if (run.size() == 1) {
+            run.push_back(run.front() + Vec3d{kShortest, 0, 0});
+        }
+    }
+    return out;
+}
+
 // A place of the cell that lacks a pass.
 std::optional<Coverage::Place> Coverage::bare_place(const Cell& cell) const
 {
@@ -323,10 +350,9 @@ void Coverage::close_gaps(const std::function<void(const Points&)>& cut)
             if (length_of(other) > length_of(one)) {
                 std::swap(one, other);
             }
-            if (one.size() == 1) {
-                one.push_back(one.front() + Vec3d{kShortest, 0, 0});
+            for (const Points& run : runs_of(one)) {
+                cut(run);
             }
-            cut(one);
         }
         for (const Cell& cell : changed) {
             look_into(cell, kDeepest / 4);

@@ -81,6 +81,7 @@ private:
     std::optional<Vec3d> better_tip(const Corner& at) const;
     double left_over(const Cell& cell) const;
     Points trace(int surface, Place place, bool along_u) const;
+    std::vector<Points> runs_of(const Points& tips) const;
 
     const std::vector<Surface>& surfaces_;
     const CertifiedPasses& certified_;
