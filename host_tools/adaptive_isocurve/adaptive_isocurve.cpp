@@ -164,6 +164,12 @@ public:
             bare = coverage_->uncovered();
             ridge_ = std::max(*operation_.scallop, coverage_->most_left());
         }
+        if (!coverage_ && !(plain_ && whole_ && std::isfinite(ridge_))) {
+            ridge_ = most_left_anywhere();
+        }
+        for (std::size_t k = 0; coverage_ && k < work_.surfaces().size(); ++k) {
+            coverage_->close_rims(static_cast<int>(k), [&](const Points& pass) { add_pass(pass); });
+        }
         PlannedOperation planned = work_.finish(spacing_, ridge_);
         if (bare > 0) {
             planned.stats.warnings.push_back(
@@ -192,7 +198,27 @@ private:
         const Points points = work_.add_pass(dense, exact, feet);
         if (coverage_) {
             coverage_->add(points);
+        } else {
+            cut_.push_back(points);
         }
+    }
+
+    // Ridges between neighbours say nothing of edges, poles and places where passes end: there what
+    // the passes of a given distance leave is measured.
+    double most_left_anywhere()
+    {
+        const double radius = operation_.tool.radius;
+        const double half = 0.5 * std::min(spacing_, radius);
+        const double flat = work_.outward() + radius - std::sqrt(radius * radius - half * half);
+        const double ridge = std::isfinite(ridge_) ? std::max(flat, ridge_) : flat;
+        Coverage seen{work_.surfaces(), work_.certified(), ridge, work_.path_off()};
+        for (const Points& pass : cut_) {
+            seen.add(pass);
+        }
+        for (std::size_t k = 0; k < work_.surfaces().size(); ++k) {
+            seen.look_over(static_cast<int>(k));
+        }
+        return std::max(ridge, seen.measured_left());
     }
 
     SurfaceFunction surface_function(int surface) const
@@ -400,6 +426,7 @@ private:
     PassTracer tracer_;
     RidgeTool tool_;
     std::optional<Coverage> coverage_;
+    std::vector<Points> cut_;          // where there is no coverage
     std::optional<SweptBalls> edges_;  // of free parts, as thin balls
     bool whole_{true};                 // all passes run from end to end
     // One smooth surface: where all its passes are whole, the ridges between them are all there is.

@@ -21,6 +21,7 @@ constexpr int kMostTraced = 4000;       // places of one pass
 constexpr int kRounds = 5;
 constexpr int kDeepest = 40;
 constexpr std::size_t kMostGaps = 200000;
+constexpr std::size_t kMostMeasured = 600;
 constexpr double kUpright = 0.05;   // z of the normal
 constexpr double kSteep = 0.2;      // the same
 constexpr double kHidden = 1e-3;    // mm
@@ -374,7 +375,11 @@ double Coverage::left_over(const Cell& cell) const
     if (!place) {
         return 0;
     }
-    const Corner at = corner(cell.surface, place->u, place->v);
+    return left_at(corner(cell.surface, place->u, place->v));
+}
+
+double Coverage::left_at(const Corner& at) const
+{
     const Vec3d p = at.point.point;
     const SweptBalls::Lowest now = swept_.lowest(p.x, p.y);
     if (!std::isfinite(now.height)) {
@@ -384,6 +389,42 @@ double Coverage::left_over(const Cell& cell) const
         reach_.over(p, std::numeric_limits<double>::infinity());
     const double from = best ? std::max(p.z, best->height) : p.z;
     return std::min(radius_, std::max(0.0, (now.height - from) * at.normal.z));
+}
+
+// Of the middle and the corners.
+Coverage::Corner Coverage::highest_left(const Cell& cell) const
+{
+    Corner out = corner(cell.surface, 0.5 * (cell.u0 + cell.u1), 0.5 * (cell.v0 + cell.v1));
+    const auto left = [&](const Corner& at) {
+        const Vec3d p = at.point.point;
+        return (swept_.lowest(p.x, p.y).height - p.z) * at.normal.z;
+    };
+    double most = left(out);
+    for (const double u : {cell.u0, cell.u1}) {
+        for (const double v : {cell.v0, cell.v1}) {
+            const Corner at = corner(cell.surface, u, v);
+            const double here = left(at);
+            if (here > most) {
+                most = here;
+                out = at;
+            }
+        }
+    }
+    return out;
+}
+
+double Coverage::measured_left() const
+{
+    double most = 0;
+    const std::size_t stride = gaps_.size() / kMostMeasured + 1;
+    for (std::size_t k = 0; k < gaps_.size(); k += stride) {
+        const Cell& cell = gaps_[k];
+        const Corner at = highest_left(cell);
+        if (at.normal.z >= kUpright && !hidden(at)) {
+            most = std::max(most, left_at(at));
+        }
+    }
+    return most;
 }
 
 }  // namespace cusp::host

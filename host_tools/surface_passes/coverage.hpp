@@ -43,6 +43,14 @@ public:
     // Passes for what is not covered, each handed to `cut`, which must `add` what it makes of it.
     void close_gaps(const std::function<void(const Points&)>& cut);
 
+    // Passes over the borders of one surface where it stands upright and open: what the path keeps
+    // off such a wall is a sliver that no pass beside it can take down. Trimmed edges have none.
+    void close_rims(int surface, const std::function<void(const Points&)>& cut);
+
+    // The most left in cells not covered, mm, where no pass may be added: measured at their
+    // middles, of not more than some hundred cells spread over all, so no bound.
+    double measured_left() const;
+
     // Cells that stay uncovered, after `close_gaps`.
     std::size_t uncovered() const { return gaps_.size(); }
 
@@ -80,6 +88,13 @@ private:
     std::optional<Vec3d> missing_tip(int surface, double u, double v, bool where_blocked) const;
     std::optional<Vec3d> better_tip(const Corner& at) const;
     double left_over(const Cell& cell) const;
+    double left_at(const Corner& at) const;
+    Corner highest_left(const Cell& cell) const;
+    std::optional<Vec3d> tip_over_rim(int surface, Vec2d place) const;
+    void go_over_rim(int surface,
+                     Vec2d from,
+                     Vec2d to,
+                     const std::function<void(const Points&)>& cut);
     Points trace(int surface, Place place, bool along_u) const;
     std::vector<Points> runs_of(const Points& tips) const;
 

@@ -11,6 +11,7 @@
 #include "host_tools/adaptive_isocurve/parallel_planes.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/surface_offset/surface_model.hpp"
+#include "host_tools/surface_passes/swept_balls.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
 
 using namespace cusp;
@@ -43,6 +44,38 @@ Surface wall(double x, double z)
     s.points = {{x, 0, -2}, {x + 1, 0, z}, {x, 20, -2}, {x + 1, 20, z}};
     s.weights = {1, 1, 1, 1};
     return s;
+}
+
+// A floor that bends up into a wall, upright at its open rim: x from 0 to 5, z from -5 to 0.
+Surface upright_rim()
+{
+    Surface s;
+    s.degree_u = 1;
+    s.degree_v = 2;
+    s.knots_u = {0, 0, 1, 1};
+    s.knots_v = {0, 0, 0, 1, 1, 1};
+    s.size_u = 2;
+    s.size_v = 3;
+    s.points = {{0, 0, -5}, {5, 0, -5}, {5, 0, 0}, {0, 6, -5}, {5, 6, -5}, {5, 6, 0}};
+    s.weights.assign(6, 1.0);
+    return s;
+}
+
+// How low the path cuts straight above (x, y).
+double lowest_cut(const Toolpath& path, double x, double y)
+{
+    SweptBalls swept{path.tool.radius, path.tool.radius};
+    std::vector<Vec3d> tips;
+    for (const ToolMove& move : path.moves) {
+        if (!tips.empty()) {
+            const std::vector<Vec3d> next = points_of(move, tips.back(), 1e-4);
+            tips.insert(tips.end(), next.begin(), next.end());
+        } else {
+            tips.push_back(end_of(move));
+        }
+    }
+    swept.add(tips);
+    return swept.lowest(x, y).height;
 }
 
 Job job_for(std::vector<Surface> floor, const std::string& strategy)
@@ -131,6 +164,30 @@ TEST(AdaptiveIsocurve, NeverEntersAModelOfSeveralSurfaces)
     DOUBLES_EQUAL(0, planned.stats.gouge_bound_mm, 1e-9);
     CHECK(deepest_cut(planned.path, floor) <= 1e-6);
     CHECK(planned.stats.scallop_bound_mm <= 0.2);
+}
+
+TEST(AdaptiveIsocurve, LeavesNoSliverOverTheOpenRimOfAnUprightWall)
+{
+    // What a one-sided tolerance keeps off the wall would stand up to the stock's top otherwise.
+    const Job made = job_for({upright_rim()}, "adaptive_isocurve");
+    const auto planned = plan_adaptive_isocurve(made, made.operations.front());
+    for (const double y : {0.1, 2.0, 5.9}) {
+        for (const double in : {1e-4, 0.002, 0.01, 0.019}) {
+            CHECK(lowest_cut(planned.front().path, 5 - in, y) < 0.025);
+        }
+    }
+    DOUBLES_EQUAL(0, deepest_cut(planned.front().path, made.operations.front().floor), 1e-6);
+}
+
+TEST(AdaptiveIsocurve, BoundsWhatPassesOfAGivenDistanceLeaveBesideEdges)
+{
+    // Two walls that meet in an edge under which no isocurve of either ends.
+    Job made = job_for({wall(0, -1), wall(1.05, 3)}, "adaptive_isocurve");
+    made.operations.front().scallop.reset();
+    made.operations.front().iso_distance = 0.5;
+    const auto planned = plan_adaptive_isocurve(made, made.operations.front());
+    CHECK(std::isfinite(planned.front().stats.scallop_bound_mm));
+    CHECK(planned.front().stats.scallop_bound_mm < 2);
 }
 
 TEST(AdaptiveIsocurve, NeverEntersRandomSurfaces)
