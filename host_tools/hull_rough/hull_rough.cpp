@@ -168,6 +168,7 @@ void clear_layers(Roughing& work)
 {
     const Operation& operation = work.operation;
     std::vector<std::vector<ToolOffer>> offers;
+    double cleared = 0;
     for (std::size_t layer = 0; layer < work.layers(); ++layer) {
         const double thickness = work.thickness(layer);
         const auto boxes = boxes_above(work.plan.patches, work.bottom(layer) - operation.allowance,
@@ -183,7 +184,14 @@ void clear_layers(Roughing& work)
                                                         layer_settings(work, layer, tool)));
             const LayerClearing& made = work.clearings.back().back();
             offers.back().push_back({made.length / work.job.feed * 60, made.cleared_area});
+            cleared += made.cleared_area;
         }
+    }
+    constexpr double kNothing = 1e-6;  // mm^2
+    if (cleared < kNothing) {
+        refuse(work.job, "no cutter reaches into the stock in any layer; the smallest has radius " +
+                             plain_number(work.tools.back().radius) + " mm, with an allowance of " +
+                             plain_number(operation.allowance) + " mm");
     }
     work.choice = choose_tools(offers, kChangeSeconds);
 }

@@ -1,6 +1,8 @@
 // What a plan tells: what the paper counts, what is bounded, what is left.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "firmware/base/math.hpp"
 #include "host_tools/hull_rough/roughing.hpp"
@@ -37,6 +39,12 @@ void add_engagement(const Roughing& work, PlannedOperation& operation)
 
 std::string plain_number(double value)
 {
+    constexpr double kLeast = 1e-3;
+    if (value != 0 && std::abs(value) < kLeast) {
+        std::array<char, 32> digits{};
+        std::snprintf(digits.data(), digits.size(), "%g", value);
+        return digits.data();
+    }
     std::string out = std::to_string(value);
     out.erase(out.find_last_not_of('0') + 1);
     return out.back() == '.' ? out + '0' : out;
@@ -107,10 +115,12 @@ void add_report(const Roughing& work, std::vector<PlannedOperation>& out, double
             stats.warnings.push_back(plain_number(left) +
                                      " mm2 of layers are left uncleared, first at " + left_place);
         }
-        operation.path.comments = {"hull_rough: " + std::to_string(work.layers()) + " layers of " +
-                                   plain_number(thinnest) + " to " + plain_number(thickest) +
-                                   " mm, no overcut by the hull of " +
-                                   std::to_string(work.plan.patches.size()) + " patches"};
+        // Each fits in one line of G-code.
+        operation.path.comments = {
+            "hull_rough: " + std::to_string(work.layers()) + " layers of " +
+                plain_number(thinnest) + " to " + plain_number(thickest) + " mm",
+            "no overcut by the hulls of " + std::to_string(work.plan.patches.size()) + " patches",
+            "cuts at most " + plain_number(work.deepest_cut()) + " mm deep"};
     }
 }
 

@@ -1,5 +1,6 @@
 // Reads the TOML job: every key with its range, inches to millimetres, the parts it names.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <string_view>
@@ -221,8 +222,20 @@ void JobReader::read_tool_choice(JobTable& table, Operation& operation)
         operation.tool = tool_numbered(table, "tool", *number);
     }
     if (const auto numbers = table.numbers("tools", kToolNumber)) {
+        if (numbers->empty()) {
+            table.refuse("tools", "names no tool");
+        }
         for (const double number : *numbers) {
-            operation.tools.push_back(tool_numbered(table, "tools", static_cast<int>(number)));
+            if (number != std::floor(number)) {
+                table.refuse("tools", fmt::format("holds {:g}, whole numbers are needed", number));
+            }
+            const Tool tool = tool_numbered(table, "tools", static_cast<int>(number));
+            for (const Tool& other : operation.tools) {
+                if (other.number == tool.number) {
+                    table.refuse("tools", fmt::format("holds tool {} twice", tool.number));
+                }
+            }
+            operation.tools.push_back(tool);
         }
     }
     if (operation.tools.empty()) {

@@ -1,6 +1,7 @@
 // Whole plans, judged by a height map that is cut move by move.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -239,6 +240,22 @@ TEST(HullPlan, RefusesInputThatCannotBeUsedWithItsValueAndLimit)
     });
     says("bottom at z 0.0 mm", [](Operation& o) { o.layers = {2, 100}; });
     says("tool 1 has radius 0.0 mm", [](Operation& o) { o.tool.radius = 0; });
+    says("max_depth 1e-05 mm makes more", [](Operation& o) {
+        o.max_depth = 1e-5;
+        o.min_depth = 0.0;
+    });
+    says("the smallest has radius 6.0 mm, with an allowance of 100.0 mm",
+         [](Operation& o) { o.allowance = 100; });
+    says("the part is flat: its hull is 0.0 mm high", [](Operation& o) {
+        for (Vec3d& p : o.floor.front().points) {
+            p.z = 0;
+        }
+    });
+    says("boundary and islands are not used", [](Operation& o) {
+        o.boundary = loop_of({{0, 0}, {9, 0}, {9, 9}});
+    });
+    says("max_depth inf mm must be above 0",
+         [](Operation& o) { o.max_depth = std::numeric_limits<double>::infinity(); });
     says("leave nothing of it", [](Operation& o) {
         o.floor.front().trims = {loop_of({{2, 2}, {3, 2}, {3, 3}, {2, 3}})};
     });

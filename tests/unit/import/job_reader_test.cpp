@@ -123,6 +123,19 @@ TEST(JobReader, ReadsTheChoiceOfTools)
     DOUBLES_EQUAL(0, operation.tool.corner_radius, 0);
 }
 
+TEST(JobReader, RefusesAChoiceOfToolsThatIsEmptyBrokenOrDouble)
+{
+    const auto choice = [&](const std::string& tools) {
+        return refused(kHead + "[[operation]]\nstrategy = \"hull_rough\"\nfloor = [\"" + kParts +
+                       "chuang-pan-tap.json\"]\nmax_depth = 2\ntools = " + tools + "\n");
+    };
+    STRCMP_CONTAINS("tools: names no tool", choice("[]").c_str());
+    STRCMP_CONTAINS("tools: holds 1.5, whole numbers are needed", choice("[1.5]").c_str());
+    STRCMP_CONTAINS("tools: holds tool 3 twice", choice("[3, 3]").c_str());
+    STRCMP_CONTAINS("tools: is 7, no [[tool]] has that number", choice("[3, 7]").c_str());
+    STRCMP_CONTAINS("tools: a list of numbers is needed", choice("\"1\"").c_str());
+}
+
 TEST(JobReader, RefusesAnUnknownKeyAndNamesTheNearest)
 {
     const std::string text = refused(kHead + pocket("scalop = 0.4\nscallop = 0.4\n"));
