@@ -325,9 +325,14 @@ std::optional<Coverage::Place> Coverage::bare_place(const Cell& cell) const
 {
     const double u = 0.5 * (cell.u0 + cell.u1);
     const double v = 0.5 * (cell.v0 + cell.v1);
+    const Surface& s = surfaces_[static_cast<std::size_t>(cell.surface)];
+    // Beyond a border no other cell says what is left.
+    const auto on_border = [&](const Place& at) {
+        return at.u == s.u_begin() || at.u == s.u_end() || at.v == s.v_begin() || at.v == s.v_end();
+    };
     for (const Place& place : {Place{u, v}, Place{cell.u0, cell.v0}, Place{cell.u1, cell.v0},
                                Place{cell.u0, cell.v1}, Place{cell.u1, cell.v1}}) {
-        if (missing_tip(cell.surface, place.u, place.v, place.u == u)) {
+        if (missing_tip(cell.surface, place.u, place.v, place.u == u || on_border(place))) {
             return place;
         }
     }
