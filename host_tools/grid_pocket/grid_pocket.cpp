@@ -50,6 +50,17 @@ void warn_of_layers(const Job& job, const LayerPlanes& planes, OperationStats& s
     }
 }
 
+void warn_of_cliffs(const PocketSpace& pocket, OperationStats& stats)
+{
+    if (const auto cliff = highest_cliff(pocket)) {
+        const Job& job = pocket.job;
+        stats.warnings.push_back("the floor steps by " + length_text(job, cliff->height) +
+                                 " at x " + length_text(job, cliff->at.x) + ", y " +
+                                 length_text(job, cliff->at.y) +
+                                 ": beside such cliffs more stays than the roughness says");
+    }
+}
+
 void warn_of_depth(const Job& job,
                    const Operation& operation,
                    const GridPasses& planner,
@@ -155,6 +166,7 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
                          length_text(job, roughness) + ", gouge at most " +
                          length_text(job, stats.gouge_bound_mm)};
     warn_of_layers(job, planes, stats);
+    warn_of_cliffs(pocket, stats);
     warn_of_entries(planner.moves(), operation, stats);
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     stats.planning_s = spent.count();

@@ -53,6 +53,26 @@ double ridge_over_tracks(const Operation& operation)
                     rise(operation.grid_y, operation.grid_x));
 }
 
+// The half with the larger step is halved until it is too short to be a slope.
+Cliff steepest_between(const FloorFollower& floor, Vec2d a, Vec2d b)
+{
+    constexpr double kNoSlope = 0.01;  // mm
+    double za = floor.start_height(a);
+    double zb = floor.start_height(b);
+    while (norm(b - a) > kNoSlope) {
+        const Vec2d middle = (a + b) * 0.5;
+        const double z = floor.start_height(middle);
+        if (std::abs(z - za) > std::abs(zb - z)) {
+            b = middle;
+            zb = z;
+        } else {
+            a = middle;
+            za = z;
+        }
+    }
+    return {a, std::abs(zb - za)};
+}
+
 // Steps between neighbours that only the zigzags along `axis` cut.
 void add_zigzag(const PocketSpace& pocket, char axis, Tracks& tracks)
 {
@@ -188,6 +208,31 @@ double roughness_of(const PocketSpace& pocket, const Navigation& navigation)
                                  return pocket.on_wall_pass(p);
                              }};
     return grid_roughness(pocket.grid, surface, tracks, pocket.operation.tool);
+}
+
+std::optional<Cliff> highest_cliff(const PocketSpace& pocket)
+{
+    std::optional<Cliff> highest;
+    const CellGrid& grid = pocket.grid;
+    const auto look = [&](Cell a, Cell b) {
+        if (!grid.inside(a) || !grid.inside(b)) {
+            return;
+        }
+        const double step = std::abs(pocket.heights[grid.index(a)] - pocket.heights[grid.index(b)]);
+        if (step > std::max(pocket.operation.tool.radius, highest ? highest->height : 0.0)) {
+            const Cliff found = steepest_between(pocket.finish, grid.centre(a), grid.centre(b));
+            if (found.height >
+                std::max(pocket.operation.tool.radius, highest ? highest->height : 0.0)) {
+                highest = found;
+            }
+        }
+    };
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+        const Cell c = grid.cell(i);
+        look(c, {c.column + 1, c.row});
+        look(c, {c.column, c.row + 1});
+    }
+    return highest;
 }
 
 LayerPlanes layer_planes(const PocketSpace& pocket)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "host_tools/grid_pocket/floor_follower.hpp"
@@ -56,6 +57,16 @@ Tracks tracks_of(const CellGrid& grid, const Navigation& navigation);
 
 // Of the main path with the operation's zigzags and the wall's pass, mm.
 double roughness_of(const PocketSpace& pocket, const Navigation& navigation);
+
+// A place where the height of the tip changes at once.
+struct Cliff {
+    Vec2d at;
+    double height;  // mm
+};
+
+// The highest cliff between neighbouring cells, if any is higher than the tool's radius: beside it
+// metal stays that the roughness does not count.
+std::optional<Cliff> highest_cliff(const PocketSpace& pocket);
 
 struct LayerPlanes {
     std::vector<double> z;  // descending
