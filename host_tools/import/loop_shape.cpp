@@ -79,8 +79,16 @@ bool cross_properly(const Segment& s, const Segment& t)
     return side_a * side_b < 0 && side_c * side_d < 0;
 }
 
+// Precondition: they cross properly.
+Vec2d meeting_point(const Segment& s, const Segment& t)
+{
+    const double before = std::abs(cross(t.b - t.a, s.a - t.a));
+    const double after = std::abs(cross(t.b - t.a, s.b - t.a));
+    return s.a + (before / (before + after)) * (s.b - s.a);
+}
+
 // The first crossing of two segments of closed polylines that are not neighbours.
-const Segment* find_crossing(std::vector<Segment>& segments)
+std::optional<Vec2d> find_crossing(std::vector<Segment>& segments)
 {
     const auto left = [](const Segment& s) {
         return std::min(s.a.x, s.b.x);
@@ -98,12 +106,12 @@ const Segment* find_crossing(std::vector<Segment>& segments)
         open.erase(std::remove_if(open.begin(), open.end(), passed), open.end());
         for (const Segment* t : open) {
             if (!are_neighbours(s, *t) && cross_properly(s, *t)) {
-                return &s;
+                return meeting_point(s, *t);
             }
         }
         open.push_back(&s);
     }
-    return nullptr;
+    return std::nullopt;
 }
 
 void check_simple(const std::vector<Vec2d>& closed, const std::string& place)
@@ -125,8 +133,7 @@ std::optional<Vec2d> crossing_of(const std::vector<std::vector<Vec2d>>& closed)
             segments.push_back({polyline[i], polyline[i + 1], loop, i, polyline.size() - 1});
         }
     }
-    const Segment* at = find_crossing(segments);
-    return at == nullptr ? std::nullopt : std::optional{at->a};
+    return find_crossing(segments);
 }
 
 std::vector<Vec2d> loop_polyline(const Loop& loop, double tolerance)

@@ -186,6 +186,39 @@ class Cli(unittest.TestCase):
         self.write("boundary.json", json.dumps(broken))
         self.refused_plan("open")
 
+    def with_boundary(self, *corners):
+        loop = square(0, 0, 50, 40)
+        curve = loop["shape"]["data"][0]
+        curve["control_points"]["points"] = [list(corner) for corner in corners]
+        curve["knotvector"] = [0, *range(len(corners)), len(corners) - 1]
+        self.write("boundary.json", json.dumps(loop))
+
+    def test_boundaries_that_are_no_loops(self):
+        self.with_boundary((0, 0), (50, 40), (50, 0), (0, 20), (0, 0))
+        self.refused_plan("boundary.json: the loop crosses itself near x 16.667 y 13.333")
+        self.with_boundary((0, 0), (50, 0), (50, 0), (50, 0))
+        self.refused_plan("boundary.json")
+        self.with_boundary((5, 5), (5, 5))
+        self.refused_plan("boundary.json")
+
+    def test_points_that_stand_twice(self):
+        self.with_boundary((0, 0), (50, 0), (50, 0), (50, 40), (0, 40), (0, 0))
+        self.refused_plan("boundary.json: a curve has no length at (50, 0) mm")
+
+    def test_islands_that_cross(self):
+        islands = JOB + 'islands = ["one.json", "two.json"]\n'
+        self.write("one.json", json.dumps(square(20, 20, 30, 30)))
+        for corners, words in (((25, 25, 35, 35), "one.json: crosses"),
+                               ((45, 10, 60, 15), "boundary.json: crosses"),
+                               ((22, 22, 28, 28), "lies inside another"),
+                               ((20, 20, 30, 30), "one.json")):
+            self.write("two.json", json.dumps(square(*corners)))
+            self.refused_plan(words, islands)
+
+    def test_a_floor_that_does_not_reach_under_the_pocket(self):
+        self.write("boundary.json", json.dumps(square(0, 0, 50, 60)))
+        self.refused_plan("floor.json: the floor does not cover the pocket at")
+
     def test_an_island_outside_the_boundary(self):
         self.write("island.json", json.dumps(square(80, 80, 90, 90)))
         self.refused_plan("outside the boundary", JOB + 'islands = ["island.json"]\n')
@@ -197,6 +230,19 @@ class Cli(unittest.TestCase):
         self.refused_plan("nearest known one is scallop", JOB + "skallop = 1\n")
         self.refused_plan("feed: is -1000", JOB.replace("feed = 1000", "feed = -1000"))
         self.refused_plan("known are", JOB.replace("contour_pocket", "contur_pocket"))
+
+    def test_tolerances_out_of_range_of_the_tool(self):
+        limit = " is not in the range above 0 to 0.75 mm"
+        for key in ("plan_tolerance", "floor_tolerance"):
+            job = JOB.replace("scallop = 0.2", "scallop = 2.5") + f"{key} = 2\n"
+            self.refused_plan(f"job.toml: contour_pocket: {key} 2 mm" + limit, job)
+            self.refused_plan(f"{key}: is 0", JOB + f"{key} = 0\n")
+            self.refused_plan(key, JOB + f'{key} = "wide"\n')
+        self.refused_plan("scallop 2.8 mm is not", JOB.replace("scallop = 0.2", "scallop = 2.8"))
+        self.refused_plan("not above the floor_tolerance", JOB + "floor_tolerance = 0.2\n")
+        self.refused_plan("max_depth: is -1", JOB + "max_depth = -1\n")
+        self.refused_plan("layers", JOB + "layers = [3, 2]\n")
+        self.refused_plan("allowance 3.5 mm is not in", JOB + "max_depth = 1\nallowance = 3.5\n")
 
     def test_programs_that_cannot_be_run(self):
         for name, text, words in (
