@@ -84,9 +84,9 @@ double cleared_width(const Tool& tool, double ridge)
 
 // The box of all hulls, of what is trimmed away too, widened to the job's stock and raised to its
 // top where that is higher.
-Stock stock_of(const Job& job, std::vector<Surface> surfaces)
+StockBox stock_of(const Job& job, std::vector<Surface> surfaces)
 {
-    Stock stock{{1e300, 1e300, -1e300, -1e300}, -1e300, 1e300};
+    StockBox stock{{1e300, 1e300, -1e300, -1e300}, -1e300, 1e300};
     for (Surface& surface : surfaces) {
         surface.trims.clear();
     }
@@ -115,7 +115,7 @@ Stock stock_of(const Job& job, std::vector<Surface> surfaces)
 LayerPlan planned_layers(const Job& job,
                          const Operation& operation,
                          std::vector<HullPatch> patches,
-                         const Stock& stock,
+                         const StockBox& stock,
                          DepthLimits limits)
 {
     if (stock.top - stock.bottom < 1e-3) {
@@ -228,7 +228,7 @@ std::vector<PlannedOperation> plan_hull_rough(const Job& job, const Operation& o
     if (patches.empty()) {
         refuse(job, "the trims of the floor leave nothing of it");
     }
-    const Stock stock = stock_of(job, operation.floor);
+    const StockBox stock = stock_of(job, operation.floor);
     const DepthLimits limits = depth_limits(job, operation, tools.back());
     LayerPlan plan = planned_layers(job, operation, std::move(patches), stock, limits);
     round_up(plan, job.inch);

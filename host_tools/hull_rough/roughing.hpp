@@ -18,7 +18,7 @@ constexpr double kLeastTolerance = 2e-3;
 // Of the height of ridges, with several cutters: what one may leave where another has been.
 constexpr double kRestShare = 0.25;
 
-struct Stock {
+struct StockBox {
     Rectangle plan;
     double top;
     double bottom;
@@ -29,7 +29,7 @@ struct Roughing {
     const Job& job;
     const Operation& operation;
     std::vector<Tool> tools;  // largest first
-    Stock stock;
+    StockBox stock;
     LayerPlan plan;
     double most_depth;                                  // mm: of a layer
     std::vector<std::vector<LayerClearing>> clearings;  // layers x tools
