@@ -17,11 +17,13 @@
 #include "fmt/format.h"
 #include "opencascade/BRepBuilderAPI_NurbsConvert.hxx"
 #include "opencascade/BRepBuilderAPI_Sewing.hxx"
+#include "opencascade/BRepGProp.hxx"
 #include "opencascade/BRepLib.hxx"
 #include "opencascade/BRepTools.hxx"
 #include "opencascade/BRepTools_WireExplorer.hxx"
 #include "opencascade/BRep_Builder.hxx"
 #include "opencascade/BRep_Tool.hxx"
+#include "opencascade/GProp_GProps.hxx"
 #include "opencascade/Geom2dConvert.hxx"
 #include "opencascade/Geom2d_BSplineCurve.hxx"
 #include "opencascade/Geom2d_TrimmedCurve.hxx"
@@ -31,12 +33,18 @@
 #include "opencascade/Message.hxx"
 #include "opencascade/Message_Messenger.hxx"
 #include "opencascade/STEPControl_Reader.hxx"
+#include "opencascade/ShapeFix_Face.hxx"
+#include "opencascade/ShapeFix_Shape.hxx"
+#include "opencascade/ShapeFix_Solid.hxx"
+#include "opencascade/ShapeFix_Wire.hxx"
 #include "opencascade/Standard_Failure.hxx"
 #include "opencascade/TopExp_Explorer.hxx"
 #include "opencascade/TopoDS.hxx"
 #include "opencascade/TopoDS_Edge.hxx"
 #include "opencascade/TopoDS_Face.hxx"
 #include "opencascade/TopoDS_Solid.hxx"
+#include "opencascade/XSAlgo.hxx"
+#include "opencascade/XSAlgo_AlgoContainer.hxx"
 
 namespace cusp::host {
 namespace {
@@ -47,6 +55,8 @@ constexpr double kSameVertex = 2e-3;
 // Normals below this rise stand upright.
 constexpr double kLeastRise = 1e-6;
 constexpr double kSewing = 1e-3;  // mm
+// Converted curves along a seam stray by a tenth of a millimetre; the seam is the edge itself.
+constexpr double kNearPole = 0.1;  // mm
 
 Vec3d vec_of(const gp_Pnt& p) { return {p.X(), p.Y(), p.Z()}; }
 
@@ -55,7 +65,37 @@ std::vector<double> list_of(const TColStd_Array1OfReal& knots)
     return {knots.begin(), knots.end()};
 }
 
-TopoDS_Shape read_shape(const std::string& file)
+// Open CASCADE's repairs as they are by default, but for the orientation of wires: where a seam
+// ends in a pole on the edge of a face they cut the seam off, and keep the wrong part of a ball.
+class GentleRepairs : public XSAlgo_AlgoContainer {
+public:
+    TopoDS_Shape ProcessShape(const TopoDS_Shape& shape,
+                              double precision,
+                              double most,
+                              const char* resource,
+                              const char* sequence,
+                              Handle(Standard_Transient) & about,
+                              const Message_ProgressRange& progress,
+                              bool non_manifold) const override
+    {
+        if (shape.IsNull()) {
+            return XSAlgo_AlgoContainer::ProcessShape(shape, precision, most, resource, sequence,
+                                                      about, progress, non_manifold);
+        }
+        ShapeFix_Shape repair{shape};
+        repair.SetPrecision(precision);
+        repair.SetMaxTolerance(most);
+        repair.FixFaceTool()->FixOrientationMode() = 0;
+        repair.FixFaceTool()->FixWireTool()->FixSameParameterMode() = 0;
+        repair.FixSolidTool()->CreateOpenSolidMode() = false;
+        repair.Perform(progress);
+        return repair.Shape();
+    }
+};
+
+enum class Repairs { kGentle, kAll };
+
+TopoDS_Shape read_shape(const std::string& file, Repairs repairs)
 {
     Message::DefaultMessenger()->ChangePrinters().Clear();
     text_of_file(file);  // says why a file can't be read
@@ -69,6 +109,11 @@ TopoDS_Shape read_shape(const std::string& file)
     }
     if (reader->ReadFile(file.c_str()) != IFSelect_RetDone) {
         throw InputError(fmt::format("{}: this is no {} file", file, step ? "STEP" : "IGES"));
+    }
+    if (repairs == Repairs::kGentle) {
+        XSAlgo::SetAlgoContainer(new GentleRepairs);
+    } else {
+        XSAlgo::SetAlgoContainer(new XSAlgo_AlgoContainer);
     }
     reader->TransferRoots();
     const TopoDS_Shape shape = reader->OneShape();
@@ -235,19 +280,58 @@ void shift_into_domain(std::vector<Curve>& curves, const TopoDS_Face& face, cons
     }
 }
 
+bool lies_inside(Vec3d p, const Surface& s)
+{
+    return p.x >= s.u_begin() && p.x <= s.u_end() && p.y >= s.v_begin() && p.y <= s.v_end();
+}
+
+// Points just outside the domain, and those near a pole, where a parameter is worth next to
+// nothing.
+Vec3d pulled_inside(Vec3d p, const Surface& s)
+{
+    const Vec3d inside{std::clamp(p.x, s.u_begin(), s.u_end()),
+                       std::clamp(p.y, s.v_begin(), s.v_end()), 0};
+    const SurfacePoint at = derivatives_at(s, inside.x, inside.y);
+    const double off_u = std::abs(p.x - inside.x);
+    const double off_v = std::abs(p.y - inside.y);
+    const bool near = off_u <= kSameVertex * (s.u_end() - s.u_begin()) &&
+                      off_v <= kSameVertex * (s.v_end() - s.v_begin());
+    return near || off_u * norm(at.du) + off_v * norm(at.dv) <= kNearPole ? inside : p;
+}
+
+// Towards a pole the control points of a converted curve swing far out, the curve hardly: there it
+// becomes chords.
+void pull_inside(Curve& curve, const Surface& s)
+{
+    Curve pulled = curve;
+    for (Vec3d& p : pulled.points) {
+        p = pulled_inside(p, s);
+    }
+    if (std::all_of(pulled.points.begin(), pulled.points.end(),
+                    [&](Vec3d p) { return lies_inside(p, s); })) {
+        curve = pulled;
+        return;
+    }
+    constexpr int kChords = 256;
+    Curve chords{1, {0}, {}, {}};
+    for (int k = 0; k <= kChords; ++k) {
+        const double t = static_cast<double>(k) / kChords;
+        chords.points.push_back(pulled_inside(
+            point_at(curve, curve.domain_begin() * (1 - t) + curve.domain_end() * t), s));
+        chords.weights.push_back(1);
+        chords.knots.push_back(t);
+    }
+    chords.knots.push_back(1);
+    curve = chords;
+}
+
 // Rounding of the file put right: points just outside the domain, ends that nearly meet.
 void tidy(std::vector<Curve>& loop, const Surface& s)
 {
     const double width = s.u_end() - s.u_begin();
     const double height = s.v_end() - s.v_begin();
-    const auto pulled = [](double value, double low, double high) {
-        const double slack = kSameVertex * (high - low);
-        return value < low - slack || value > high + slack ? value : std::clamp(value, low, high);
-    };
     for (Curve& curve : loop) {
-        for (Vec3d& p : curve.points) {
-            p = {pulled(p.x, s.u_begin(), s.u_end()), pulled(p.y, s.v_begin(), s.v_end()), 0};
-        }
+        pull_inside(curve, s);
     }
     for (std::size_t i = 0; i < loop.size(); ++i) {
         Vec3d& end = loop[i].points.back();
@@ -259,20 +343,45 @@ void tidy(std::vector<Curve>& loop, const Surface& s)
     }
 }
 
-// The edges of a wire in order. Open CASCADE's walk ends early where a seam meets a pole: there
-// each curve is followed by the one that starts nearest to its end in (u, v).
+// Where a pole closes the loop the edge there has no length, and after the conversion no true
+// parameters either: a line along the pole's side of the domain takes its place.
+void bridge_poles(std::vector<Curve>& loop, const Surface& s)
+{
+    for (std::size_t i = loop.size(); i-- > 0;) {
+        const Vec3d end = loop[i].points.back();
+        const Vec3d next = loop[(i + 1) % loop.size()].points.front();
+        const bool along_side =
+            std::abs(end.x - next.x) <= kSameVertex * (s.u_end() - s.u_begin()) ||
+            std::abs(end.y - next.y) <= kSameVertex * (s.v_end() - s.v_begin());
+        const Vec3d middle = 0.5 * (end + next);
+        const Vec3d pole = point_at(s, end.x, end.y);
+        if (!(end == next) && along_side && norm(point_at(s, next.x, next.y) - pole) < kSewing &&
+            norm(point_at(s, middle.x, middle.y) - pole) < kSewing) {
+            loop.insert(loop.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                        Curve{1, {0, 0, 1, 1}, {end, next}, {1, 1}});
+        }
+    }
+}
+
+// The edges of a wire that have a length, in order. Open CASCADE's walk ends early where a seam
+// meets a pole: there each curve is followed by the one that starts nearest to its end in (u, v).
 std::vector<Curve> loop_of(const TopoDS_Wire& wire,
                            const TopoDS_Face& face,
                            const std::string& place)
 {
     std::vector<Curve> walked;
     for (BRepTools_WireExplorer at{wire, face}; at.More(); at.Next()) {
-        walked.push_back(trim_of(at.Current(), face, place));
+        if (!BRep_Tool::Degenerated(at.Current())) {
+            walked.push_back(trim_of(at.Current(), face, place));
+        }
     }
     std::vector<Curve> all;
     for (TopExp_Explorer edges{wire.Oriented(TopAbs_FORWARD), TopAbs_EDGE}; edges.More();
          edges.Next()) {
-        all.push_back(trim_of(TopoDS::Edge(edges.Current()), face, place));
+        const TopoDS_Edge& edge = TopoDS::Edge(edges.Current());
+        if (!BRep_Tool::Degenerated(edge)) {
+            all.push_back(trim_of(edge, face, place));
+        }
     }
     if (walked.size() >= all.size()) {
         return walked;
@@ -300,7 +409,11 @@ void add_trims(const TopoDS_Face& face, const std::string& place, Surface& surfa
     for (TopExp_Explorer wires{face, TopAbs_WIRE}; wires.More(); wires.Next()) {
         std::vector<Curve> loop = loop_of(TopoDS::Wire(wires.Current()), face, place);
         shift_into_domain(loop, face, surface);
+        if (loop.empty()) {
+            continue;
+        }
         tidy(loop, surface);
+        bridge_poles(loop, surface);
         curves.insert(curves.end(), loop.begin(), loop.end());
     }
     surface.trims = trim_loops(curves, surface, place);
@@ -331,9 +444,9 @@ bool looks_up(const Surface& s, double outwards)
     return false;
 }
 
-std::vector<Surface> surfaces_of(const std::string& file)
+std::vector<Surface> surfaces_of(const std::string& file, Repairs repairs)
 {
-    const TopoDS_Shape shape = read_shape(file);
+    const TopoDS_Shape shape = read_shape(file, repairs);
     std::vector<SolidFace> faces;
     for (TopExp_Explorer at{shape, TopAbs_SOLID}; at.More(); at.Next()) {
         add_faces(at.Current(), true, faces);
@@ -365,6 +478,29 @@ std::vector<Surface> surfaces_of(const std::string& file)
     return surfaces;
 }
 
+double area_of(const TopoDS_Shape& shape)
+{
+    GProp_GProps properties;
+    BRepGProp::SurfaceProperties(shape, properties);
+    return properties.Mass();
+}
+
+// A file whose wires do need turning is read again with all repairs, unless those lose some of it.
+std::vector<Surface> surfaces_with_fewest_repairs(const std::string& file)
+{
+    constexpr double kSamePart = 1e-3;
+    try {
+        return surfaces_of(file, Repairs::kGentle);
+    } catch (const InputError&) {
+        const double gentle = area_of(read_shape(file, Repairs::kGentle));
+        const double repaired = area_of(read_shape(file, Repairs::kAll));
+        if (repaired < (1 - kSamePart) * gentle) {
+            throw;
+        }
+    }
+    return surfaces_of(file, Repairs::kAll);
+}
+
 }  // namespace
 }  // namespace cusp::host
 
@@ -372,7 +508,7 @@ extern "C" void cusp_read_cad_surfaces(const std::string& file,
                                        std::vector<cusp::host::Surface>& surfaces)
 {
     try {
-        surfaces = cusp::host::surfaces_of(file);
+        surfaces = cusp::host::surfaces_with_fewest_repairs(file);
     } catch (const Standard_Failure& failure) {
         throw cusp::host::InputError(
             fmt::format("{}: Open CASCADE gave up: {}", file, failure.GetMessageString()));
