@@ -1,9 +1,12 @@
 // `cusp sim`: runs a program through the firmware's core, or serves a virtual controller.
+#include <cmath>
 #include <fmt/format.h>
 #include <memory>
 #include <string>
 #include <unistd.h>
 
+#include "firmware/base/machine_limits.hpp"
+#include "firmware/base/pulse_frame.hpp"
 #include "host_tools/cli/commands.hpp"
 #include "host_tools/cli/interruption.hpp"
 #include "host_tools/input_error/input_error.hpp"
@@ -47,7 +50,19 @@ void show_progress(const SimulationProgress& progress)
     std::fflush(stderr);
 }
 
-void print_result(const SimulationResult& result)
+// Greatest values of a derivative of the set points beside the limits of the settings. Set points
+// are whole nanometres: `rounding` (nm a tick to the power of the order) is what that may add.
+void print_limited(const char* name, int order, double rounding, Vec3d value, Vec3f limit)
+{
+    const double added = rounding / kNanometresPerMillimetre *
+                         std::pow(static_cast<double>(kServoTicksPerSecond), order);
+    fmt::print("{:<10} X {:.3f}  Y {:.3f}  Z {:.3f} mm/s{} at most", name, value.x, value.y,
+               value.z, order == 1 ? "" : fmt::format("^{}", order));
+    fmt::print(" (limits {:g}, {:g}, {:g}; up to {:g} is rounding to nanometres)\n", limit.x,
+               limit.y, limit.z, added);
+}
+
+void print_result(const SimulationResult& result, const MachineLimits& limits)
 {
     const ProgramMoveCounts& moves = result.moves;
     const Vec3d end = to_millimetres(result.end);
@@ -55,14 +70,10 @@ void print_result(const SimulationResult& result)
                moves.line, moves.arc, moves.nurbs);
     fmt::print("time       {:.3f} s in motion, {:.1f} mm, simulated in {:.3f} s\n",
                result.duration_s, result.length_mm, result.wall_s);
-    const auto print_axes = [](const char* name, Vec3d value, const char* unit) {
-        fmt::print("{:<10} X {:.3f}  Y {:.3f}  Z {:.3f} {}\n", name, value.x, value.y, value.z,
-                   unit);
-    };
-    print_axes("end", end, "mm");
-    print_axes("speed", result.max_velocity, "mm/s at most");
-    print_axes("accel", result.max_acceleration, "mm/s^2 at most");
-    print_axes("jerk", result.max_jerk, "mm/s^3 at most");
+    fmt::print("end        X {:.3f}  Y {:.3f}  Z {:.3f} mm\n", end.x, end.y, end.z);
+    print_limited("speed", 1, 1, result.max_velocity, limits.velocity);
+    print_limited("accel", 2, 2, result.max_acceleration, limits.acceleration);
+    print_limited("jerk", 3, 4, result.max_jerk, limits.jerk);
     fmt::print("deviation  {:.6f} mm at most, in line {}\n", result.max_deviation_mm,
                result.max_deviation_line);
     if (result.starved_ticks > 0) {
@@ -103,7 +114,7 @@ int run_program(const SimArguments& arguments)
         file.write(statistics_json(result));
         file.close();
     }
-    print_result(result);
+    print_result(result, options.settings.limits());
     std::fflush(stdout);
     for (const SimulationError& error : result.errors) {
         const std::string code = error.code == 0     ? ""
