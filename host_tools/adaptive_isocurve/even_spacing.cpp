@@ -12,11 +12,20 @@ namespace {
 constexpr std::size_t kLeastNodes = 160;
 constexpr std::size_t kNodesInSpan = 4;
 constexpr std::size_t kMostNodes = 800;
-constexpr int kJudgeRounds = 3;
-constexpr double kNearlyRight = 1 + 1e-9;
-constexpr double kMostGrowth = 1.05;     // in a round
-constexpr std::size_t kLooksAtNode = 3;  // of u, up to the next
-constexpr double kOverlap = 0.15;        // steps: how early a pass begins, for the same reason
+constexpr int kJudgeRounds = 8;
+constexpr std::size_t kLooksAtNode = 2;  // of u, up to the next
+constexpr double kJudged = 0.998;        // of what is allowed: the rest is for places between looks
+constexpr double kNearlyRight = 1.001;
+constexpr double kTighter = 1.0005;
+constexpr std::size_t kTightened = 6;  // spans beside one that is made denser
+constexpr double kGrown = 1.002;
+constexpr double kMostGrowth = 1.05;
+constexpr int kFitRounds = 2;
+constexpr double kLeastFitted = 0.4;  // steps: narrower strips say little of the density
+constexpr double kMostFitted = 1.2;   // times as dense, or as wide, in a round
+constexpr double kFitFailed = 1.05;
+constexpr double kOverlap =
+    0.05;  // steps: how early a pass begins, for the interpolation of its end
 constexpr double kLeastDensity = 1e-6;
 constexpr double kFullStep = 0.998;  // the rest is for the interpolation between nodes
 
@@ -116,6 +125,72 @@ public:
         return std::sqrt(std::max(0.0, g[0] * du * du + 2 * g[1] * du * dv + g[2] * dv * dv));
     }
 
+    // The density as the strips between the curves ask for it: where passes slant, steps may be
+    // wider than across isocurves, and where the bend changes between them, narrower.
+    void fit(const std::vector<DomainCurve>& curves, const StripJudge& judge)
+    {
+        std::vector<double> factor(density_.size(), 1.0);
+        for (std::size_t i = 0; i < u.size(); ++i) {
+            const std::vector<CurvePlace> across = places_at(curves, u[i]);
+            double* row = &factor[i * v.size()];
+            std::size_t j = 0;
+            double last_v = v.front();
+            double last = 0;
+            for (std::size_t k = 1; k < across.size(); ++k) {
+                const double width = steps(i, across[k].v) - steps(i, across[k - 1].v);
+                if (width < kLeastFitted) {
+                    continue;
+                }
+                const double asked = judge(u[i], across[k - 1], across[k]) / width;
+                const double here = std::clamp(asked, 1 / kMostFitted, kMostFitted);
+                const double here_v = 0.5 * (across[k - 1].v + across[k].v);
+                last = last == 0 ? here : last;
+                for (; j < v.size() && v[j] <= here_v; ++j) {
+                    row[j] =
+                        last + (here - last) * (v[j] - last_v) / std::max(1e-300, here_v - last_v);
+                }
+                last_v = here_v;
+                last = here;
+            }
+            if (last > 0) {
+                std::fill(row + j, row + v.size(), last);
+            }
+        }
+        smooth(factor, v.size(), 1, u.size(), v.size());
+        smooth(factor, 1, v.size(), v.size(), u.size());
+        for (std::size_t k = 0; k < density_.size(); ++k) {
+            density_[k] *= factor[k];
+        }
+        integrate();
+    }
+
+    // The factor asked for between nodes of u, at a place of v; kept for `tighten`.
+    void ask(std::size_t i, double at, double factor)
+    {
+        asked_.resize(density_.size(), 1.0);
+        const std::size_t j = cell(at);
+        for (const std::size_t k : {i * v.size() + j, (i + 1) * v.size() + j}) {
+            asked_[k] = std::max(asked_[k], factor);
+            asked_[k + 1] = std::max(asked_[k + 1], factor);
+        }
+    }
+
+    // Denser where it was asked for and round about.
+    void tighten()
+    {
+        for (int turn = 0; turn < 2; ++turn) {
+            raise(asked_, v.size(), 1, u.size(), v.size());
+            raise(asked_, 1, v.size(), v.size(), u.size());
+        }
+        smooth(asked_, v.size(), 1, u.size(), v.size());
+        smooth(asked_, 1, v.size(), v.size(), u.size());
+        for (std::size_t k = 0; k < density_.size(); ++k) {
+            density_[k] *= asked_[k];
+        }
+        asked_.clear();
+        integrate();
+    }
+
     // Everywhere alike: a place made denser alone would push all passes beyond it aside.
     void grow(double factor)
     {
@@ -140,6 +215,43 @@ public:
     std::vector<double> v;
 
 private:
+    // Mean of each value, doubled, and its neighbours, along lines of values `stride` apart.
+    static void smooth(std::vector<double>& values,
+                       std::size_t stride,
+                       std::size_t line_stride,
+                       std::size_t count,
+                       std::size_t lines)
+    {
+        for (std::size_t line = 0; line < lines; ++line) {
+            double* at = &values[line * line_stride];
+            double before = at[0];
+            for (std::size_t k = 0; k + 1 < count; ++k) {
+                const double here = at[k * stride];
+                at[k * stride] = 0.25 * (before + 2 * here + at[(k + 1) * stride]);
+                before = here;
+            }
+        }
+    }
+
+    // The largest of each value and its neighbours.
+    static void raise(std::vector<double>& values,
+                      std::size_t stride,
+                      std::size_t line_stride,
+                      std::size_t count,
+                      std::size_t lines)
+    {
+        for (std::size_t line = 0; line < lines; ++line) {
+            double* at = &values[line * line_stride];
+            double before = at[0];
+            for (std::size_t k = 0; k < count; ++k) {
+                const double here = at[k * stride];
+                const double after = k + 1 < count ? at[(k + 1) * stride] : here;
+                at[k * stride] = std::max({before, here, after});
+                before = here;
+            }
+        }
+    }
+
     std::size_t cell(double at) const
     {
         const auto next = std::upper_bound(v.begin() + 1, v.end() - 1, at);
@@ -155,6 +267,7 @@ private:
     }
 
     std::vector<double> density_;
+    std::vector<double> asked_;
     std::vector<double> sum_;
     std::vector<std::array<double, 3>> metric_;
 };
@@ -397,22 +510,35 @@ std::vector<DomainCurve> curves_of(const StepTable& table, const Plan& plan, int
 }
 
 // The largest factor asked for, at the nodes of u and between them.
+//
+// look  spans between nodes of u to look at; then those that `tighten` changes
 double judge_strips(StepTable& table,
                     const std::vector<DomainCurve>& curves,
-                    const StripJudge& judge)
+                    const StripJudge& judge,
+                    std::vector<bool>& look)
 {
     double worst = 0;
-    const std::size_t places = kLooksAtNode * (table.u.size() - 1);
-    for (std::size_t place = 0; place <= places; ++place) {
-        const std::size_t i = std::min(place / kLooksAtNode, table.u.size() - 2);
-        const double t =
-            static_cast<double>(place - i * kLooksAtNode) / static_cast<double>(kLooksAtNode);
-        const double u = table.u[i] * (1 - t) + table.u[i + 1] * t;
-        const std::vector<CurvePlace> across = places_at(curves, u);
-        for (std::size_t k = 1; k < across.size(); ++k) {
-            worst = std::max(worst, judge(u, across[k - 1], across[k]));
+    std::vector<bool> changed(look.size(), false);
+    for (std::size_t i = 0; i < look.size(); ++i) {
+        const std::size_t looks = i + 1 < look.size() ? kLooksAtNode : kLooksAtNode + 1;
+        for (std::size_t n = 0; look[i] && n < looks; ++n) {
+            const double t = static_cast<double>(n) / static_cast<double>(kLooksAtNode);
+            const double u = table.u[i] * (1 - t) + table.u[i + 1] * t;
+            const std::vector<CurvePlace> across = places_at(curves, u);
+            for (std::size_t k = 1; k < across.size(); ++k) {
+                const double asked = judge(u, across[k - 1], across[k]) / kJudged;
+                worst = std::max(worst, asked);
+                if (asked > 1) {
+                    table.ask(i, 0.5 * (across[k - 1].v + across[k].v), kTighter * asked);
+                    const std::size_t end = std::min(look.size(), i + kTightened + 1);
+                    for (std::size_t m = i < kTightened ? 0 : i - kTightened; m < end; ++m) {
+                        changed[m] = true;
+                    }
+                }
+            }
         }
     }
+    look = std::move(changed);
     return worst;
 }
 
@@ -425,14 +551,31 @@ EvenSpacing even_passes(const Surface& surface,
                         const StripJudge& judge)
 {
     StepTable table{surface, at, density};
-    const Plan plan = shortest_plan(table);
+    const Plan first = shortest_plan(table);
+    const StepTable unfitted = table;
+    Plan plan = first;
     EvenSpacing out{curves_of(table, plan, number), 0};
+    for (int round = 0; judge && round < kFitRounds; ++round) {
+        table.fit(out.curves, judge);
+        plan.sides = strip_sides(table, static_cast<int>(plan.anchors.size()));
+        out.curves = curves_of(table, plan, number);
+    }
+    std::vector<bool> look(table.u.size() - 1, true);
     for (int round = 0; judge && round < kJudgeRounds; ++round) {
-        out.worst = judge_strips(table, out.curves, judge);
+        out.worst = judge_strips(table, out.curves, judge, look);
         if (out.worst <= kNearlyRight) {
             break;
         }
-        table.grow(1.002 * std::min(kMostGrowth, out.worst));
+        if (round == 0 && out.worst > kFitFailed) {
+            // Passes that slant much slant more with every fit.
+            table = unfitted;
+            plan = first;
+            look.assign(look.size(), true);
+        } else if (round + 1 < kJudgeRounds) {
+            table.tighten();
+        } else {
+            table.grow(kGrown * std::min(kMostGrowth, out.worst));
+        }
         out.curves = curves_of(table, plan, number);
     }
     return out;

@@ -29,8 +29,10 @@ struct EvenSpacing {
 // strip's sides are isocurves, and complete. Neighbours are at most a step apart at every u, by the
 // integral of the density over v (exact to the accuracy of a quadrature over `nodes` places).
 //
-// The judge, where given, is asked at every node of u and between; all grows by what it asks for
-// most, up to three rounds. `worst` says what was left.
+// The judge, where given, is asked at every node of u first, and the density made what it asks for,
+// less as well as more: slanting passes may be farther apart than isocurves. Then it is asked
+// between the nodes, too; places where it asks for more get it, and in the last of eight rounds
+// all does. `worst` says what was asked for last.
 //
 // Why not isocurves alone: whatever their order, sets of isocurves that grow by insertion are
 // 1/ln 2 = 1.44 times as dense as needed on the average (de Bruijn & Erdos 1949), halving included.
