@@ -1,4 +1,4 @@
-// A table of the number of steps over (u, v); its level lines, strip by strip, are the passes.
+// Level lines of the number of steps over (u, v), strip by strip, are the passes.
 #include "host_tools/adaptive_isocurve/even_spacing.hpp"
 
 #include <algorithm>
@@ -6,271 +6,23 @@
 #include <cmath>
 #include <limits>
 
+#include "host_tools/adaptive_isocurve/step_table.hpp"
+
 namespace cusp::host {
 namespace {
 
-constexpr std::size_t kLeastNodes = 160;
-constexpr std::size_t kNodesInSpan = 4;
-constexpr std::size_t kMostNodes = 800;
 constexpr int kJudgeRounds = 8;
 constexpr std::size_t kLooksAtNode = 2;  // of u, up to the next
-constexpr double kJudged = 0.998;        // of what is allowed: the rest is for places between looks
+constexpr double kJudged = 0.996;        // of what is allowed: the rest is for places between looks
 constexpr double kNearlyRight = 1.001;
 constexpr double kTighter = 1.0005;
 constexpr std::size_t kTightened = 6;  // spans beside one that is made denser
 constexpr double kGrown = 1.002;
 constexpr double kMostGrowth = 1.05;
 constexpr int kFitRounds = 2;
-constexpr double kLeastFitted = 0.4;  // steps: narrower strips say little of the density
-constexpr double kMostFitted = 1.2;   // times as dense, or as wide, in a round
 constexpr double kFitFailed = 1.05;
 constexpr double kOverlap =
-    0.05;  // steps: how early a pass begins, for the interpolation of its end
-constexpr double kLeastDensity = 1e-6;
-constexpr double kFullStep = 0.998;  // the rest is for the interpolation between nodes
-
-// All distinct knots, and equal parts between them.
-std::vector<double> nodes_of(const std::vector<double>& knots, double begin, double end)
-{
-    std::vector<double> breaks{begin};
-    for (const double knot : knots) {
-        if (knot > breaks.back() && knot < end) {
-            breaks.push_back(knot);
-        }
-    }
-    breaks.push_back(end);
-    const std::size_t spans = breaks.size() - 1;
-    const std::size_t parts = std::clamp(kLeastNodes / spans + 1, kNodesInSpan,
-                                         std::max(kNodesInSpan, kMostNodes / spans));
-    std::vector<double> out;
-    for (std::size_t k = 0; k < spans; ++k) {
-        for (std::size_t part = 0; part < parts; ++part) {
-            const double t = static_cast<double>(part) / static_cast<double>(parts);
-            out.push_back(breaks[k] + t * (breaks[k + 1] - breaks[k]));
-        }
-    }
-    out.push_back(end);
-    return out;
-}
-
-// Steps and metric on the nodes.
-class StepTable {
-public:
-    StepTable(const Surface& surface, const SurfaceFunction& at, const StepDensity& density)
-        : u{nodes_of(surface.knots_u, surface.u_begin(), surface.u_end())},
-          v{nodes_of(surface.knots_v, surface.v_begin(), surface.v_end())}
-    {
-        for (const double here_u : u) {
-            for (const double here_v : v) {
-                const SurfacePoint p = at(here_u, here_v);
-                density_.push_back(density(p) / kFullStep);
-                metric_.push_back({dot(p.du, p.du), dot(p.du, p.dv), dot(p.dv, p.dv)});
-            }
-        }
-        integrate();
-    }
-
-    // Steps from the lower end of v.
-    double steps(std::size_t i, double at) const
-    {
-        const std::size_t j = cell(at);
-        const double h = v[j + 1] - v[j];
-        return cubic(i, j, (at - v[j]) / h);
-    }
-
-    // The v at which so many steps are passed; it may lie a little outside the surface.
-    double inverse(std::size_t i, double wanted) const
-    {
-        const auto row = sum_.begin() + static_cast<std::ptrdiff_t>(i * v.size());
-        const auto next =
-            std::upper_bound(row + 1, row + static_cast<std::ptrdiff_t>(v.size()) - 1, wanted);
-        const std::size_t j = static_cast<std::size_t>(next - row) - 1;
-        const std::size_t end = i * v.size() + v.size() - 1;
-        // Outside by the density at the side: passes that begin early begin there.
-        if (wanted < 0) {
-            return v.front() + wanted / std::max(kLeastDensity, density_[i * v.size()]);
-        }
-        if (wanted > sum_[end]) {
-            return v.back() + (wanted - sum_[end]) / std::max(kLeastDensity, density_[end]);
-        }
-        double low = 0;
-        double high = 1;
-        const double rise =
-            row[static_cast<std::ptrdiff_t>(j) + 1] - row[static_cast<std::ptrdiff_t>(j)];
-        double t = rise > 0
-                       ? std::clamp((wanted - row[static_cast<std::ptrdiff_t>(j)]) / rise, 0.0, 1.0)
-                       : 0;
-        const double h = v[j + 1] - v[j];
-        for (int turn = 0; turn < 30; ++turn) {
-            const double off = cubic(i, j, t) - wanted;
-            (off > 0 ? high : low) = t;
-            const double slope =
-                density_[i * v.size() + j] * (1 - t) * h + density_[i * v.size() + j + 1] * t * h;
-            double next_t = slope > 0 ? t - off / slope : t;
-            if (next_t < low || next_t > high) {
-                next_t = 0.5 * (low + high);
-            }
-            if (std::abs(next_t - t) < 1e-10) {
-                break;
-            }
-            t = next_t;
-        }
-        return v[j] + t * h;
-    }
-
-    // Length of a short move in the domain near the node.
-    double length(std::size_t i, double at, double du, double dv) const
-    {
-        const std::array<double, 3>& g = metric_[i * v.size() + cell(at)];
-        return std::sqrt(std::max(0.0, g[0] * du * du + 2 * g[1] * du * dv + g[2] * dv * dv));
-    }
-
-    // The density as the strips between the curves ask for it: where passes slant, steps may be
-    // wider than across isocurves, and where the bend changes between them, narrower.
-    void fit(const std::vector<DomainCurve>& curves, const StripJudge& judge)
-    {
-        std::vector<double> factor(density_.size(), 1.0);
-        for (std::size_t i = 0; i < u.size(); ++i) {
-            const std::vector<CurvePlace> across = places_at(curves, u[i]);
-            double* row = &factor[i * v.size()];
-            std::size_t j = 0;
-            double last_v = v.front();
-            double last = 0;
-            for (std::size_t k = 1; k < across.size(); ++k) {
-                const double width = steps(i, across[k].v) - steps(i, across[k - 1].v);
-                if (width < kLeastFitted) {
-                    continue;
-                }
-                const double asked = judge(u[i], across[k - 1], across[k]) / width;
-                const double here = std::clamp(asked, 1 / kMostFitted, kMostFitted);
-                const double here_v = 0.5 * (across[k - 1].v + across[k].v);
-                last = last == 0 ? here : last;
-                for (; j < v.size() && v[j] <= here_v; ++j) {
-                    row[j] =
-                        last + (here - last) * (v[j] - last_v) / std::max(1e-300, here_v - last_v);
-                }
-                last_v = here_v;
-                last = here;
-            }
-            if (last > 0) {
-                std::fill(row + j, row + v.size(), last);
-            }
-        }
-        smooth(factor, v.size(), 1, u.size(), v.size());
-        smooth(factor, 1, v.size(), v.size(), u.size());
-        for (std::size_t k = 0; k < density_.size(); ++k) {
-            density_[k] *= factor[k];
-        }
-        integrate();
-    }
-
-    // The factor asked for between nodes of u, at a place of v; kept for `tighten`.
-    void ask(std::size_t i, double at, double factor)
-    {
-        asked_.resize(density_.size(), 1.0);
-        const std::size_t j = cell(at);
-        for (const std::size_t k : {i * v.size() + j, (i + 1) * v.size() + j}) {
-            asked_[k] = std::max(asked_[k], factor);
-            asked_[k + 1] = std::max(asked_[k + 1], factor);
-        }
-    }
-
-    // Denser where it was asked for and round about.
-    void tighten()
-    {
-        for (int turn = 0; turn < 2; ++turn) {
-            raise(asked_, v.size(), 1, u.size(), v.size());
-            raise(asked_, 1, v.size(), v.size(), u.size());
-        }
-        smooth(asked_, v.size(), 1, u.size(), v.size());
-        smooth(asked_, 1, v.size(), v.size(), u.size());
-        for (std::size_t k = 0; k < density_.size(); ++k) {
-            density_[k] *= asked_[k];
-        }
-        asked_.clear();
-        integrate();
-    }
-
-    // Everywhere alike: a place made denser alone would push all passes beyond it aside.
-    void grow(double factor)
-    {
-        for (double& density : density_) {
-            density *= factor;
-        }
-        integrate();
-    }
-
-    void integrate()
-    {
-        sum_.assign(density_.size(), 0.0);
-        for (std::size_t i = 0; i < u.size(); ++i) {
-            for (std::size_t j = 1; j < v.size(); ++j) {
-                const std::size_t k = i * v.size() + j;
-                sum_[k] = sum_[k - 1] + 0.5 * (density_[k - 1] + density_[k]) * (v[j] - v[j - 1]);
-            }
-        }
-    }
-
-    std::vector<double> u;
-    std::vector<double> v;
-
-private:
-    // Mean of each value, doubled, and its neighbours, along lines of values `stride` apart.
-    static void smooth(std::vector<double>& values,
-                       std::size_t stride,
-                       std::size_t line_stride,
-                       std::size_t count,
-                       std::size_t lines)
-    {
-        for (std::size_t line = 0; line < lines; ++line) {
-            double* at = &values[line * line_stride];
-            double before = at[0];
-            for (std::size_t k = 0; k + 1 < count; ++k) {
-                const double here = at[k * stride];
-                at[k * stride] = 0.25 * (before + 2 * here + at[(k + 1) * stride]);
-                before = here;
-            }
-        }
-    }
-
-    // The largest of each value and its neighbours.
-    static void raise(std::vector<double>& values,
-                      std::size_t stride,
-                      std::size_t line_stride,
-                      std::size_t count,
-                      std::size_t lines)
-    {
-        for (std::size_t line = 0; line < lines; ++line) {
-            double* at = &values[line * line_stride];
-            double before = at[0];
-            for (std::size_t k = 0; k < count; ++k) {
-                const double here = at[k * stride];
-                const double after = k + 1 < count ? at[(k + 1) * stride] : here;
-                at[k * stride] = std::max({before, here, after});
-                before = here;
-            }
-        }
-    }
-
-    std::size_t cell(double at) const
-    {
-        const auto next = std::upper_bound(v.begin() + 1, v.end() - 1, at);
-        return static_cast<std::size_t>(next - v.begin()) - 1;
-    }
-
-    // The integral of the density, itself linear between nodes.
-    double cubic(std::size_t i, std::size_t j, double t) const
-    {
-        const std::size_t k = i * v.size() + j;
-        const double h = v[j + 1] - v[j];
-        return sum_[k] + h * t * (density_[k] + 0.5 * t * (density_[k + 1] - density_[k]));
-    }
-
-    std::vector<double> density_;
-    std::vector<double> asked_;
-    std::vector<double> sum_;
-    std::vector<std::array<double, 3>> metric_;
-};
+    0.08;  // steps: how early a pass begins, for the interpolation of its end
 
 // Isocurves that cut the surface into strips of equal numbers of steps, on the average over u.
 std::vector<double> strip_sides(const StepTable& table, int strips)
