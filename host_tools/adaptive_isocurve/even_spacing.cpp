@@ -22,7 +22,7 @@ constexpr double kMostGrowth = 1.05;
 constexpr int kFitRounds = 2;
 constexpr double kFitFailed = 1.05;
 constexpr double kOverlap =
-    0.08;  // steps: how early a pass begins, for the interpolation of its end
+    0.15;  // steps: how early a pass begins, for the interpolation of its end
 
 // Isocurves that cut the surface into strips of equal numbers of steps, on the average over u.
 std::vector<double> strip_sides(const StepTable& table, int strips)
