@@ -152,8 +152,10 @@ void add_part(const BezierCell& cell,
     if (!overlaps(cell, box)) {
         return;
     }
-    const bool small = cell.u_end() - cell.u_begin() <= 1.5 * width_u &&
-                       cell.v_end() - cell.v_begin() <= 1.5 * width_v;
+    // Beside a pole cells are only halved one way: what would be halved next decides.
+    const bool small = norm(cell.middle().du) >= norm(cell.middle().dv)
+                           ? cell.u_end() - cell.u_begin() <= 1.5 * width_u
+                           : cell.v_end() - cell.v_begin() <= 1.5 * width_v;
     if (small || lies_in(cell, box)) {
         bound.add(cell);
         return;
