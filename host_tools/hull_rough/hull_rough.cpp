@@ -149,14 +149,17 @@ LayerPlan planned_layers(const Job& job,
     return plan;
 }
 
-// Written to the digits of G-code a plane may not sink: planes lie on those digits, rounded up.
-void round_up(LayerPlan& plan, bool inch)
+// Written to the digits of G-code a plane may not sink: planes lie on those digits, rounded up, and
+// up once more where a layer would become thicker than most_depth (mm) by that.
+void round_up(LayerPlan& plan, double most_depth, bool inch)
 {
     const double digit = inch ? 25.4e-5 : 1e-4;
     constexpr double kSame = 1e-4;  // of a digit
     std::vector<double> planes{plan.planes.front()};
     for (std::size_t i = 1; i < plan.planes.size(); ++i) {
-        const double z = std::ceil(plan.planes[i] / digit - kSame) * digit;
+        const bool within = plan.planes[i - 1] - plan.planes[i] <= most_depth + kSame * digit;
+        const double least = within ? planes.back() - most_depth : plan.planes[i];
+        const double z = std::ceil(std::max(plan.planes[i], least) / digit - kSame) * digit;
         if (z < planes.back()) {
             planes.push_back(z);
         }
@@ -231,7 +234,7 @@ std::vector<PlannedOperation> plan_hull_rough(const Job& job, const Operation& o
     const StockBox stock = stock_of(job, operation.floor);
     const DepthLimits limits = depth_limits(job, operation, tools.back());
     LayerPlan plan = planned_layers(job, operation, std::move(patches), stock, limits);
-    round_up(plan, job.inch);
+    round_up(plan, limits.most, job.inch);
     Roughing work{job, operation, std::move(tools), stock, std::move(plan), limits.most, {}, {},
                   0,   0};
     clear_layers(work);
