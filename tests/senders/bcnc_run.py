@@ -65,10 +65,16 @@ def state():
     return CNC.vars["state"]
 
 
+# Waits are generous: a sender that shares two cores with other tests may stand still for seconds. So
+# the motions that are to be seen under way last longer than that, and are cut short.
+SOON = 30
+
+
 class Session:
     def __init__(self, mill):
         self.mill = mill
         self.sender = Headless()
+        self.slid = 0.0
         CNC.vars["_OvFeed"] = CNC.vars["_OvRapid"] = CNC.vars["_OvSpindle"] = 100
 
     def until(self, what, condition, seconds):
@@ -80,22 +86,22 @@ class Session:
                                    f"x {CNC.vars['mx']}, heard {self.mill.account.heard[-5:]}")
             time.sleep(0.02)
 
-    def idle(self, seconds=20):
+    def idle(self, seconds=60):
         self.until("Idle", lambda: state() == "Idle" and not self.sender.running, seconds)
 
     # After each job bCNC holds, resets and unlocks.
     def purged(self, resets):
-        self.until("purge", lambda: self.mill.account.resets > resets, 10)
+        self.until("purge", lambda: self.mill.account.resets > resets, SOON)
         time.sleep(2)
         self.idle()
 
     def open(self):
         self.sender.open(self.mill.port, 115200)
-        self.until("status", lambda: state() == "Idle", 10)
+        self.until("status", lambda: state() == "Idle", SOON)
         for show in (self.sender.viewSettings, self.sender.viewParameters, self.sender.viewBuild,
                      self.sender.viewStartup):
             show()
-        self.until("settings", lambda: "grbl_110" in CNC.vars, 5)
+        self.until("settings", lambda: "grbl_110" in CNC.vars, SOON)
 
     def program(self):
         lines = ["G21 G90", "(a comment)", "", "G0 Z1"]
@@ -108,47 +114,55 @@ class Session:
 
     def hold_and_resume(self):
         resets = self.mill.account.resets
-        self.sender.run_lines(["G90 G21", "G1 X40 F1200", "G1 X3 F6000"])
-        self.until("Run", lambda: state() == "Run", 10)
+        self.sender.run_lines(["G90 G21", "G1 X40 F300", "G1 X3 F6000"])
+        self.until("Run", lambda: state() == "Run", SOON)
         time.sleep(0.5)
         self.sender.feedHold()
-        self.until("Hold:0", lambda: state() == "Hold:0", 5)
+        self.until("Hold:0", lambda: state() == "Hold:0", SOON)
         stands = CNC.vars["mx"]
         time.sleep(0.5)
         assert CNC.vars["mx"] == stands
         self.sender.resume()
-        self.until("the end", lambda: not self.sender.running, 30)
+        self.until("the end", lambda: not self.sender.running, 90)
         self.purged(resets)
         assert CNC.vars["mx"] == 3.0
 
+    # bCNC counts its steps from the last report: where that was late it stops beside the value, and
+    # whoever moves the slider moves it again.
+    def moves_override(self, reported, wanted):
+        if CNC.vars[reported] != wanted and time.monotonic() > self.slid + 1:
+            self.slid = time.monotonic()
+            CNC.vars["_OvChanged"] = True
+        return CNC.vars[reported] == wanted
+
     def overrides(self):
         resets = self.mill.account.resets
-        self.sender.run_lines(["G90 G21", "G1 X43 F600", "G1 X3 F6000"])
-        self.until("Run", lambda: state() == "Run", 10)
+        self.sender.run_lines(["G90 G21", "G1 X43 F20", "G1 X3 F6000"])
+        self.until("Run", lambda: state() == "Run", SOON)
         # One after the other: bCNC stops at the first of them that is reached.
         for name, value in (("Feed", 112), ("Rapid", 25), ("Spindle", 89)):
             CNC.vars["_Ov" + name] = value
             CNC.vars["_OvChanged"] = True
             self.until(name, lambda reported="Ov" + name, wanted=value:
-                       CNC.vars[reported] == wanted, 5)
+                       self.moves_override(reported, wanted), SOON)
         CNC.vars["_OvFeed"] = CNC.vars["_OvRapid"] = CNC.vars["_OvSpindle"] = 100
         CNC.vars["_OvChanged"] = True
-        self.until("the end", lambda: not self.sender.running, 30)
+        self.sender.stopRun()
         self.purged(resets)
 
     def jog_and_cancel(self):
-        self.sender.mcontrol.jog("X40")
-        self.until("Jog", lambda: state() == "Jog", 5)
+        self.sender.sendGCode("$J=G91 X60 F200")
+        self.until("Jog", lambda: state() == "Jog", SOON)
         self.sender.serial_write(chr(0x85))
-        self.until("Idle", lambda: state() == "Idle", 5)
-        assert CNC.vars["mx"] < 40
+        self.until("Idle", lambda: state() == "Idle", SOON)
+        assert CNC.vars["mx"] < 60
         self.sender.goto(3.0)
-        self.until("back", lambda: CNC.vars["mx"] == 3.0 and state() == "Idle", 10)
+        self.until("back", lambda: CNC.vars["mx"] == 3.0 and state() == "Idle", SOON)
 
     def stop(self):
         resets = self.mill.account.resets
-        self.sender.run_lines(["G90 G21", "G1 X60 F2000", "G1 X3 F6000"])
-        self.until("Run", lambda: state() == "Run", 10)
+        self.sender.run_lines(["G90 G21", "G1 X60 F300", "G1 X3 F6000"])
+        self.until("Run", lambda: state() == "Run", SOON)
         self.sender.stopRun()
         self.purged(resets)
         assert not self.sender.running
@@ -157,21 +171,21 @@ class Session:
         resets = self.mill.account.resets
         self.sender.run_lines(["G90 G21", "G1 X4 F3000", "G1 X5 Q7", "G1 X6"])
         self.until("the error", lambda: any(line.startswith("error:")
-                                            for line in self.mill.account.heard), 10)
+                                            for line in self.mill.account.heard), SOON)
         time.sleep(1)
         self.sender.stopRun()
-        self.until("reset", lambda: self.mill.account.resets > resets, 10)
+        self.until("reset", lambda: self.mill.account.resets > resets, SOON)
         time.sleep(2)
         self.idle()
 
     def reset_in_motion(self):
-        self.sender.sendGCode("G90 G1 X60 F2000")
-        self.until("Run", lambda: state() == "Run", 5)
+        self.sender.sendGCode("G90 G1 X60 F300")
+        self.until("Run", lambda: state() == "Run", SOON)
         time.sleep(0.3)
         self.sender.softReset()
-        self.until("ALARM:3", lambda: "ALARM:3" in self.mill.account.heard, 5)
+        self.until("ALARM:3", lambda: "ALARM:3" in self.mill.account.heard, SOON)
         self.sender.unlock()
-        self.until("Idle", lambda: state() == "Idle", 5)
+        self.until("Idle", lambda: state() == "Idle", SOON)
 
     def homing(self):
         for setting in ("$22=1", "$25=6000", "$24=600"):
@@ -184,12 +198,12 @@ class Session:
     def check_mode(self):
         stands = CNC.vars["mx"]
         self.sender.checkGcode()
-        self.until("Check", lambda: state() == "Check", 5)
+        self.until("Check", lambda: state() == "Check", SOON)
         self.sender.sendGCode("G91 G1 X-5 F1000")
         self.sender.sendGCode("G1 X-5 Q3")
         time.sleep(1)
         self.sender.checkGcode()
-        self.until("out of Check", lambda: state() != "Check", 5)
+        self.until("out of Check", lambda: state() != "Check", SOON)
         assert CNC.vars["mx"] == stands
 
     def close(self):
