@@ -40,6 +40,16 @@ TipFloor::TipFloor(const std::vector<Surface>& surfaces, const Tool& tool, doubl
             patches_.push_back({s, static_cast<std::uint32_t>(bezier.degree_u + 1),
                                 static_cast<std::uint32_t>(bezier.degree_v + 1), patch.u_begin,
                                 patch.u_end, patch.v_begin, patch.v_end});
+            constexpr double kSame = 1e-12;
+            const Surface& whole_surface = surfaces_[s];
+            const auto at_edge = [](double a, double b, std::uint8_t bit) {
+                return std::abs(a - b) < kSame ? bit : std::uint8_t{0};
+            };
+            piece.border = static_cast<std::uint8_t>(
+                at_edge(patch.u_begin, whole_surface.u_begin(), kFirstRow) |
+                at_edge(patch.u_end, whole_surface.u_end(), kLastRow) |
+                at_edge(patch.v_begin, whole_surface.v_begin(), kFirstColumn) |
+                at_edge(patch.v_end, whole_surface.v_end(), kLastColumn));
             measure(piece);
             piece.cut = !trims_.empty() && trims_[s].trimmed();
             trim(piece);
@@ -106,6 +116,7 @@ void TipFloor::measure(Piece& piece) const
         piece.z1 = std::max(piece.z1, p.z);
     }
     measure_plane(piece, corners_);
+    measure_outline(piece, corners_);
 }
 
 // Of a piece that an edge may cut, whether it still does. One that is trimmed away becomes a box
@@ -216,6 +227,8 @@ void TipFloor::halve(std::uint32_t index) const
     second.net = static_cast<std::uint32_t>(base);
     (by_u ? first.u : first.v)[1] = (by_u ? second.u : second.v)[0] =
         by_u ? 0.5F * (piece.u[0] + piece.u[1]) : 0.5F * (piece.v[0] + piece.v[1]);
+    first.border &= static_cast<std::uint8_t>(by_u ? ~kLastRow : ~kLastColumn);
+    second.border &= static_cast<std::uint8_t>(by_u ? ~kFirstRow : ~kFirstColumn);
     measure(first);
     measure(second);
     trim(first);

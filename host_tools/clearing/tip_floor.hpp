@@ -85,6 +85,7 @@ private:
         std::uint32_t child;        // 0: not yet halved
         bool graph;                 // false where too steep for a plane z(x, y)
         bool cut;                   // by the edge of a trimmed surface
+        std::uint8_t border;        // which of its sides are edges of the surface, see Outline
         double x0, y0, x1, y1, z0;  // box, with z1
         // A box turned with the piece: ends along (1, 0, gx) and aside of it, made unit vectors.
         std::array<double, 4> lateral;
@@ -92,9 +93,26 @@ private:
         std::uint32_t net;  // first of its control points, v fastest; the first child takes it over
         std::uint32_t patch;
         std::uint32_t parent;
+        std::uint32_t outline;   // 0: the box ends where the surface does
         std::array<float, 2> u;  // its part of the patch, as shares
         std::array<float, 2> v;
     };
+    // Of a piece at the surface's edge, which its box would stand out of: a rectangle in plan along
+    // each such side, (across, along) are its axes.
+    struct Side {
+        Vec2d across;  // outward
+        double inner, outer, low, high;
+    };
+    struct Outline {
+        std::array<Side, 4> sides;
+        int count;
+        double bow;  // mm: of the sides, seen from above; at corners without end
+    };
+    // Bits of Piece::border.
+    static constexpr std::uint8_t kFirstRow = 1;
+    static constexpr std::uint8_t kLastRow = 2;
+    static constexpr std::uint8_t kFirstColumn = 4;
+    static constexpr std::uint8_t kLastColumn = 8;
     // Patches are gathered by pairs up to one root: a group is a box with two children.
     static constexpr std::uint32_t kRoot = 1;
     static constexpr std::uint32_t kGroup = 0xFFFFFFFF;  // as `patch`
@@ -110,6 +128,11 @@ private:
         return 2 * pieces_[pieces_[piece].parent].child + 1 - piece;
     }
     void measure(Piece& piece) const;
+    void measure_outline(Piece& piece, const std::vector<Vec3d>& points) const;
+    double beyond_outline(const Piece& piece, Vec2d at) const;
+    double least_on_outline(const Piece& piece, Vec2d at) const;
+    Vec2d on_piece(const Piece& piece, Vec2d contact) const;
+    double apart_from_outline(const Piece& piece, Vec3d a, Vec3d b) const;
     void trim(Piece& piece) const;
     static double extent(const Piece& piece)
     {
@@ -117,6 +140,13 @@ private:
     }
     void measure_plane(Piece& piece, const std::vector<Vec3d>& points) const;
     void halve(std::uint32_t piece) const;
+    // False where the piece, or its outline, may stand `thin` over what the surface is.
+    bool is_whole(const Piece& piece, double thin) const
+    {
+        const bool exact =
+            !piece.cut && (piece.outline == 0 || outlines_[piece.outline].bow <= thin);
+        return exact || extent(piece) < thin;
+    }
     struct Query {
         Vec2d at;
         double thin;  // mm: pieces this thin are not halved
@@ -125,7 +155,11 @@ private:
     double ball_gap(const Piece& piece, Vec3d a, Vec3d b) const;
     double axial_gap(const Piece& piece, Vec3d a, Vec3d b, double margin) const;
     Vec2d slope_of(const Piece& piece, Vec2d at) const;
+    struct Rectangle {
+        double x0, x1, y0, y1;
+    };
     double on_edges(const Piece& piece, Vec2d at) const;
+    double on_edges(const Rectangle& part, Vec2d slope, double here, double reach, Vec2d at) const;
     double on_edge(double slope, double away, double low, double high) const;
 
     Tool tool_;
@@ -136,8 +170,9 @@ private:
     // Halved when first needed; a const query only makes them finer.
     mutable std::vector<Piece> pieces_;
     mutable std::vector<Homogeneous> nets_;
-    mutable std::vector<Vec3d> corners_;  // control points of the piece being measured
-    mutable std::uint32_t last_{kRoot};   // where the tool rested last: a good first guess
+    mutable std::vector<Outline> outlines_{1};  // the first one stands for none
+    mutable std::vector<Vec3d> corners_;        // control points of the piece being measured
+    mutable std::uint32_t last_{kRoot};         // where the tool rested last: a good first guess
     double lowest_{1e300};
     double highest_{-1e300};
 };

@@ -69,24 +69,34 @@ double TipFloor::on_edge(double slope, double away, double low, double high) con
     return std::max({value(a), value(b), value(low), value(high)});
 }
 
-// The highest rest of the tool on the piece's plane above the piece's own rectangle. The tip's
-// height is concave over the rectangle: where its top lies outside, the best place inside is on an
-// edge that faces it.
-double TipFloor::on_edges(const Piece& piece, Vec2d at) const
+// The highest rest of the tool on a plane above a rectangle; kNothing where the place at which the
+// tool touches the plane, `reach` slopes from its axis, lies inside. The tip's height is concave
+// over the rectangle: where its top lies outside, the best place inside is on an edge that faces
+// it.
+//
+//   here  height of the plane at the tool's axis
+double TipFloor::on_edges(
+    const Rectangle& part, Vec2d slope, double here, double reach, Vec2d at) const
 {
-    const Vec2d g = piece.gradient;
-    const Vec2d contact = at + g * piece.contact;
-    const double here = piece.level + g.x * at.x + g.y * at.y;
+    const Vec2d contact = at + slope * reach;
     double best = kNothing;
-    if (contact.x < piece.x0 || contact.x > piece.x1) {
-        const double x = (contact.x < piece.x0 ? piece.x0 : piece.x1) - at.x;
-        best = here + g.x * x + on_edge(g.y, x, piece.y0 - at.y, piece.y1 - at.y);
+    if (contact.x < part.x0 || contact.x > part.x1) {
+        const double x = (contact.x < part.x0 ? part.x0 : part.x1) - at.x;
+        best = here + slope.x * x + on_edge(slope.y, x, part.y0 - at.y, part.y1 - at.y);
     }
-    if (contact.y < piece.y0 || contact.y > piece.y1) {
-        const double y = (contact.y < piece.y0 ? piece.y0 : piece.y1) - at.y;
-        best = std::max(best, here + g.y * y + on_edge(g.x, y, piece.x0 - at.x, piece.x1 - at.x));
+    if (contact.y < part.y0 || contact.y > part.y1) {
+        const double y = (contact.y < part.y0 ? part.y0 : part.y1) - at.y;
+        best = std::max(best,
+                        here + slope.y * y + on_edge(slope.x, y, part.x0 - at.x, part.x1 - at.x));
     }
     return best;
+}
+
+double TipFloor::on_edges(const Piece& piece, Vec2d at) const
+{
+    const double here = piece.level + dot(piece.gradient, at);
+    return on_edges({piece.x0, piece.x1, piece.y0, piece.y1}, piece.gradient, here, piece.contact,
+                    at);
 }
 
 // Upper bound of the tip's height that the piece asks for, as far as it is above `best`; tight
@@ -105,19 +115,28 @@ double TipFloor::bound(const Piece& piece, const Query& query, double best, bool
     const double c = tool_.corner_radius;
     const double dx = excess(piece.x0, piece.x1, at.x);
     const double dy = excess(piece.y0, piece.y1, at.y);
-    const double square = dx * dx + dy * dy;
+    double square = dx * dx + dy * dy;
     if (square >= r * r || piece.z1 <= best) {
         return kNothing;
     }
-    const bool whole = !piece.cut || extent(piece) < query.thin;
+    if (piece.outline != 0) {
+        const double beyond = beyond_outline(piece, at);
+        square = std::max(square, beyond > 0.0 ? beyond * beyond : 0.0);
+        if (square >= r * r) {
+            return kNothing;
+        }
+    }
     if (piece.graph) {
         const Vec2d contact = at + g * piece.contact;
         if (contact.x >= piece.x0 && contact.x <= piece.x1 && contact.y >= piece.y0 &&
-            contact.y <= piece.y1) {
+            contact.y <= piece.y1 &&
+            (piece.outline == 0 || beyond_outline(piece, contact) <= 0.0)) {
+            const bool whole = !piece.cut || extent(piece) < query.thin;
             tight = whole && piece.thickness <= query.thin;
             return std::min(by_plane, piece.z1);
         }
     }
+    const bool whole = is_whole(piece, query.thin);
     const double far = std::max(0.0, std::sqrt(square) - (r - c));
     const double by_box = piece.z1 - (c - std::sqrt(std::max(c * c - far * far, 0.0)));
     if (by_box <= best) {
@@ -129,7 +148,12 @@ double TipFloor::bound(const Piece& piece, const Query& query, double best, bool
         return by_box;
     }
     tight = whole && piece.thickness <= query.thin;
-    return std::min({by_plane, by_box, on_edges(piece, at)});
+    double least = std::min(by_plane, by_box);
+    if (piece.outline != 0) {
+        least = std::min(least, least_on_outline(piece, at));
+    }
+    const double by_edges = on_edges(piece, at);
+    return by_edges == kNothing && piece.outline != 0 ? least : std::min(least, by_edges);
 }
 
 TipFloor::Rest TipFloor::drop(Vec2d at, double slack) const
@@ -189,8 +213,7 @@ TipFloor::Rest TipFloor::drop(Vec2d at, double slack) const
 Vec2d TipFloor::slope_of(const Piece& piece, Vec2d at) const
 {
     const Vec2d contact = at + piece.gradient * piece.contact;
-    const Vec2d place{std::clamp(contact.x, piece.x0, piece.x1),
-                      std::clamp(contact.y, piece.y0, piece.y1)};
+    const Vec2d place = on_piece(piece, contact);
     const Vec2d arm = place - at;
     const double away = std::sqrt(dot(arm, arm));
     const double c = tool_.corner_radius;

@@ -42,6 +42,10 @@ double TipFloor::ball_gap(const Piece& piece, Vec3d a, Vec3d b) const
         const double tz = apart(-piece.thickness / piece.secant, 0.0, over(a), over(b));
         square = std::max(square, tx * tx + ty * ty + tz * tz);
     }
+    if (piece.outline != 0) {
+        const double aside = apart_from_outline(piece, a, b);
+        square = std::max(square, aside * aside);
+    }
     return std::sqrt(square) - tool_.radius;
 }
 
@@ -57,7 +61,13 @@ double TipFloor::axial_gap(const Piece& piece, Vec3d a, Vec3d b, double margin) 
     const double dy = apart(piece.y0, piece.y1, a.y, b.y);
     const double r = tool_.radius;
     const double c = tool_.corner_radius;
-    const double away = std::max(0.0, std::sqrt(dx * dx + dy * dy) - margin);
+    double apart_in_plan = std::sqrt(dx * dx + dy * dy);
+    if (piece.outline != 0) {
+        const double z = piece.z0;
+        apart_in_plan =
+            std::max(apart_in_plan, apart_from_outline(piece, {a.x, a.y, z}, {b.x, b.y, z}));
+    }
+    const double away = std::max(0.0, apart_in_plan - margin);
     if (away >= r) {
         return 1e300;
     }
@@ -110,10 +120,10 @@ double TipFloor::gap(Vec3d a, Vec3d b, double margin) const
         const bool settled =
             ball ? flat && clear
                  : thin < 0.5 * accuracy_ && size * piece.secant < 0.05 && norm(move) < 0.05;
-        const bool whole = !piece.cut || extent(piece) < accuracy_;
+        const bool whole = is_whole(piece, accuracy_);
         // How deep a deep cut is need not be known better than to a tenth.
         const bool deep =
-            here < -accuracy_ && std::max(extent(piece), norm(move)) < kDeepShare * -here;
+            whole && here < -accuracy_ && std::max(extent(piece), norm(move)) < kDeepShare * -here;
         if ((settled && whole) || deep || small || depth + 2 > kStack) {
             least = std::min(least, here);
             continue;

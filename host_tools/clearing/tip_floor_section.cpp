@@ -24,6 +24,9 @@ bool TipFloor::covers(Vec2d at) const
         if (excess(piece.x0, piece.x1, at.x) > 0.0 || excess(piece.y0, piece.y1, at.y) > 0.0) {
             continue;
         }
+        if (piece.outline != 0 && beyond_outline(piece, at) > 0.0) {
+            continue;
+        }
         if (std::max(piece.x1 - piece.x0, piece.y1 - piece.y0) < 0.1 * tool_.radius) {
             return true;
         }

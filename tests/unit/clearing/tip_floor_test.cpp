@@ -1,0 +1,99 @@
+// Where a patch that lies askew over a floor ends, and the tool comes down beside it.
+#include "host_tools/clearing/tip_floor.hpp"
+#include "host_tools/offset/contour.hpp"
+
+#include <cmath>
+
+// Last: CppUTest redefines new, which the standard headers can not bear.
+#include "CppUTest/TestHarness.h"
+
+namespace cusp::host {
+namespace {
+
+constexpr double kRadius = 3.0;
+constexpr double kHigh = -8.0;
+constexpr double kLow = -10.0;
+
+// A rectangle about the origin, level, turned by an angle.
+Surface level_patch(double along, double across, double angle, double z)
+{
+    Surface s;
+    s.degree_u = s.degree_v = 1;
+    s.size_u = s.size_v = 2;
+    s.knots_u = s.knots_v = {0.0, 0.0, 1.0, 1.0};
+    for (const double u : {-0.5, 0.5}) {
+        for (const double v : {-0.5, 0.5}) {
+            const double x = u * along;
+            const double y = v * across;
+            s.points.push_back({x * std::cos(angle) - y * std::sin(angle),
+                                x * std::sin(angle) + y * std::cos(angle), z});
+            s.weights.push_back(1.0);
+        }
+    }
+    return s;
+}
+
+struct Step {
+    Tool tool;
+    double reach;  // from the patch, seen from above, to the axis where the tool comes down
+};
+
+const Step kSteps[] = {
+    {{1, ToolShape::kFlat, kRadius, 0.0}, kRadius},
+    {{1, ToolShape::kBull, kRadius, 1.0}, kRadius},
+    {{1, ToolShape::kBall, kRadius, kRadius}, std::sqrt(kRadius* kRadius - 1.0)},
+};
+
+TEST_GROUP(TipFloor){};
+
+TEST(TipFloor, EndsWhereAPatchThatLiesAskewDoes)
+{
+    for (const Step& step : kSteps) {
+        for (const double angle : {0.0, 0.4, 0.8, 2.2}) {
+            const TipFloor floor{
+                {level_patch(60.0, 60.0, 0.0, kLow), level_patch(20.0, 14.0, angle, kHigh)},
+                step.tool,
+                2e-3};
+            const Vec2d out{std::cos(angle), std::sin(angle)};
+            for (int i = -10; i <= 10; ++i) {
+                const Vec2d rim = out * 10.0 + left_normal(out) * (0.6 * i);
+                CHECK(floor.drop(rim + out * (step.reach - 0.01)).height > kLow + 1e-3);
+                DOUBLES_EQUAL(kLow, floor.drop(rim + out * (step.reach + 0.01)).height, 2e-3);
+            }
+            // Past both sides of a corner.
+            const Vec2d corner = out * 10.0 + left_normal(out) * 7.0;
+            const Vec2d away = unit(out + left_normal(out));
+            CHECK(floor.drop(corner + away * (step.reach - 0.01)).height > kLow + 1e-3);
+            DOUBLES_EQUAL(kLow, floor.drop(corner + away * (step.reach + 0.01)).height, 2e-3);
+        }
+    }
+}
+
+TEST(TipFloor, GivesAWayBesideAPatchThatLiesAskewItsRoom)
+{
+    for (const Step& step : kSteps) {
+        const double angle = 0.7;
+        const TipFloor floor{
+            {level_patch(60.0, 60.0, 0.0, kLow), level_patch(20.0, 14.0, angle, kHigh)},
+            step.tool,
+            2e-3};
+        const Vec2d out{std::cos(angle), std::sin(angle)};
+        const auto tip = [&](double beside, double along) {
+            const Vec2d p = out * (10.0 + step.reach + beside) + left_normal(out) * along;
+            return Vec3d{p.x, p.y, kLow + 0.003};
+        };
+        DOUBLES_EQUAL(0.0, floor.gap(tip(0.01, -6.0), tip(0.01, 6.0)), 0.0);
+        CHECK(floor.gap(tip(-0.05, -6.0), tip(-0.05, 6.0)) < -1e-3);
+    }
+}
+
+TEST(TipFloor, CoversNothingBesideAPatchThatLiesAskew)
+{
+    const TipFloor floor{{level_patch(20.0, 14.0, 0.7, kHigh)}, kSteps[0].tool, 2e-3};
+    const Vec2d out{std::cos(0.7), std::sin(0.7)};
+    CHECK_TRUE(floor.covers(out * 9.9));
+    CHECK_FALSE(floor.covers(out * 10.1));
+}
+
+}  // namespace
+}  // namespace cusp::host
