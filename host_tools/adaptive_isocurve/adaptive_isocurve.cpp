@@ -446,7 +446,7 @@ std::vector<PlannedOperation> plan(const Job& job, const Operation& operation, b
     std::vector<PlannedOperation> out;
     IsocurvePlanner planner{job, operation};
     if (operation.roughing) {
-        out.push_back(plan_rough_levels(job, operation));
+        out = plan_rough_levels(job, operation);
     }
     const auto begin = std::chrono::steady_clock::now();
     out.push_back(planner.plan(complete));

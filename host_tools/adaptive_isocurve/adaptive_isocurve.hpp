@@ -21,7 +21,7 @@ namespace cusp::host {
 // surfaces: gouge_bound_mm is 0 unless tolerance_side = "both".
 // Source: Elber & Cohen 1993; docs/papers.md says where this departs from it.
 //
-// With roughing = true the layers of `plan_rough_levels` come first, as an operation of their own.
+// With roughing = true the layers of `plan_rough_levels` come first, an operation for each tool.
 //
 // Errors: InputError as `SurfaceOperation` and `plan_rough_levels`; neither iso_distance nor
 // scallop given; nothing of the surfaces in the tool's reach.

@@ -2,22 +2,29 @@
 // is cleared like a pocket.
 #pragma once
 
+#include <vector>
+
 #include "host_tools/import/job.hpp"
 #include "host_tools/toolpath/toolpath.hpp"
 
 namespace cusp::host {
 
-// Levels no deeper than operation.max_depth each (or at operation.layers) from the top of the stock
-// down to the lowest place of the model, for the tool operation.tools.front(), of any shape.
-// operation.allowance stays on the model, along its normal.
+// Levels of equal depth from the top of the stock down to the lowest place of the model
+// (`rough_depths`: max_depth, min_depth, layers), for the tools of operation.tools, of any shapes,
+// the largest first: one result for each that finds metal. operation.allowance stays on the model,
+// along its normal.
+//
+// A smaller tool cuts where it reaches deeper than a quarter of the ridges below what the larger
+// ones left. Beside walls it keeps off by as much more as their slices may have kept, so that it
+// does not follow them for a sliver.
 //
 // No place of the tool's axis leaves the slices of `LevelSlices`, so no cut comes nearer to the
 // model than the allowance; each move is measured against the model once more, and
 // stats.gouge_bound_mm comes from that. A slice lies in the one above, so no cut is deeper than
-// max_depth, ridges between passes of a ball included.
+// max_depth, ridges between passes of a ball and what tools leave to each other included.
 //
 // Errors: InputError where depth, tool or tolerance can't be used, or nothing is to be roughed.
 // Source: Elber & Cohen 1993, section 4.
-PlannedOperation plan_rough_levels(const Job& job, const Operation& operation);
+std::vector<PlannedOperation> plan_rough_levels(const Job& job, const Operation& operation);
 
 }  // namespace cusp::host

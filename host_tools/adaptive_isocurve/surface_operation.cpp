@@ -65,13 +65,15 @@ void SurfaceOperation::check_form() const
                     [&](const Tool& tool) { return tool.number != operation_.tool.number; });
     if (!operation_.roughing && other_tools) {
         throw InputError(
-            fmt::format("{}: {}: tools names the tool that roughs: add roughing = "
+            fmt::format("{}: {}: tools names the tools that rough: add roughing = "
                         "true; `tool` is the one that finishes",
                         job_.file, operation_.strategy));
     }
-    if (!operation_.roughing && (operation_.max_depth || !operation_.layers.empty())) {
-        throw InputError(fmt::format("{}: {}: max_depth and layers are for roughing = true",
-                                     job_.file, operation_.strategy));
+    if (!operation_.roughing &&
+        (operation_.max_depth || operation_.min_depth || !operation_.layers.empty())) {
+        throw InputError(
+            fmt::format("{}: {}: max_depth, min_depth and layers are for roughing = true",
+                        job_.file, operation_.strategy));
     }
 }
 

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "host_tools/clearing/level_moves.hpp"
+#include "host_tools/clearing/nested_tools.hpp"
 #include "host_tools/hull_rough/roughing.hpp"
 
 namespace cusp::host {

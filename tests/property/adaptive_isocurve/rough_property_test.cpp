@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <set>
+#include <vector>
 
 #include "host_tools/adaptive_isocurve/rough_levels.hpp"
 #include "host_tools/surface_offset/surface_model.hpp"
@@ -20,13 +22,26 @@
 namespace cusp::host {
 namespace {
 
-Job random_model(Random& random)
+Job random_model(Random& random, unsigned seed)
 {
     Operation operation;
     operation.strategy = "adaptive_isocurve";
     operation.roughing = true;
     operation.tool = random_tool(random);
     operation.tools = {operation.tool};
+    if (seed % 2 == 0) {
+        for (int i = whole(random, 1, 2); i > 0; --i) {
+            Tool smaller = random_tool(random);
+            const double share = uniform(random, 0.3, 0.8);
+            smaller.number = 1 + static_cast<int>(operation.tools.size());
+            smaller.radius = share * operation.tools.back().radius;
+            smaller.corner_radius = smaller.shape == ToolShape::kFlat   ? 0.0
+                                    : smaller.shape == ToolShape::kBall ? smaller.radius
+                                                                        : 0.4 * smaller.radius;
+            operation.tools.push_back(smaller);
+        }
+        std::shuffle(operation.tools.begin(), operation.tools.end(), random);
+    }
     double top = -1e300;
     for (int i = whole(random, 1, 4); i > 0; --i) {
         const Box2d box = random_box(random, {20, 15}, 15, 30);
@@ -39,6 +54,9 @@ Job random_model(Random& random)
     }
     const double stock_top = top + uniform(random, 0.0, 3.0);
     operation.max_depth = uniform(random, 1.0, 4.0);
+    if (seed % 3 == 0) {
+        operation.min_depth = uniform(random, 0.2, 1.0) * *operation.max_depth;
+    }
     operation.allowance = whole(random, 0, 1) == 0 ? 0.0 : uniform(random, 0.1, 0.6);
     operation.plan_tolerance = 0.02;
     operation.floor_tolerance = 0.02;
@@ -98,6 +116,30 @@ public:
         return deepest;
     }
 
+    // The most that stands over a level where the tool would fit with room to spare.
+    double left(const SurfaceModel& model,
+                const Tool& tool,
+                const std::set<double>& levels,
+                double room) const
+    {
+        double most = 0;
+        for (std::size_t i = 0; i < nx_; i += 3) {
+            for (std::size_t j = 0; j < ny_; j += 3) {
+                const Vec3d at{low_.x + static_cast<double>(i) * kPitch,
+                               low_.y + static_cast<double>(j) * kPitch, 0};
+                for (const double z : levels) {
+                    if (height_[i * ny_ + j] - z <= most) {
+                        break;
+                    }
+                    if (model.clearance(tool, {at.x, at.y, z}, room).distance >= room) {
+                        most = height_[i * ny_ + j] - z;
+                    }
+                }
+            }
+        }
+        return most;
+    }
+
     static constexpr double kPitch = 0.31;
     static constexpr double kStep = 0.15;
 
@@ -112,13 +154,12 @@ struct Figures {
     double cut{};
     double rapid{};
     double clearance{1e300};
+    std::set<double> levels;
 };
 
-Figures figures_of(const PlannedOperation& plan, const SurfaceModel& model, double top)
+void cut(Block& block, const PlannedOperation& plan, const SurfaceModel& model, Figures& figures)
 {
-    Figures figures;
     const Tool& tool = plan.path.tool;
-    Block block{model, top};
     Vec3d at = end_of(plan.path.moves.front());
     for (std::size_t k = 1; k < plan.path.moves.size(); ++k) {
         const ToolMove& move = plan.path.moves[k];
@@ -133,27 +174,72 @@ Figures figures_of(const PlannedOperation& plan, const SurfaceModel& model, doub
             }
             at = to;
         }
+        if (move.kind == MoveKind::kCut) {
+            figures.levels.insert(at.z);
+        }
     }
-    return figures;
+}
+
+// The least distance of neighbours, the stock's top included.
+double thinnest_level(const std::set<double>& levels, double top)
+{
+    double least = 1e300;
+    double above = top;
+    for (auto level = levels.rbegin(); level != levels.rend(); ++level) {
+        least = std::min(least, above - *level);
+        above = *level;
+    }
+    return least;
+}
+
+const Tool& smallest(const Operation& operation)
+{
+    return *std::min_element(operation.tools.begin(), operation.tools.end(),
+                             [](const Tool& a, const Tool& b) { return a.radius < b.radius; });
 }
 
 void check_model(unsigned seed)
 {
     Random random{seed};
-    const Job job = random_model(random);
+    const Job job = random_model(random, seed);
     const Operation& operation = job.operations.front();
-    std::printf("random model seed %u: tool radius %.2f corner %.2f, depth %.2f, allowance %.2f\n",
-                seed, operation.tool.radius, operation.tool.corner_radius, *operation.max_depth,
-                operation.allowance);
-    const PlannedOperation plan = plan_rough_levels(job, operation);
+    std::printf("random model seed %u: depth %.2f, at least %.2f, allowance %.2f, tools", seed,
+                *operation.max_depth, operation.min_depth.value_or(0), operation.allowance);
+    for (const Tool& tool : operation.tools) {
+        std::printf(" R%.2f/%.2f", tool.radius, tool.corner_radius);
+    }
+    const std::vector<PlannedOperation> plans = plan_rough_levels(job, operation);
     const SurfaceModel model{operation.floor};
-    const Figures figures = figures_of(plan, model, job.stock_top);
-    std::printf("  cut %.4f rapid %.4f clearance %.5f, %zu moves, %.2f s\n", figures.cut,
-                figures.rapid, figures.clearance, plan.path.moves.size(), plan.stats.planning_s);
+    Block block{model, job.stock_top};
+    Figures figures;
+    std::size_t moves = 0;
+    double seconds = 0;
+    double gouge = 0;
+    std::size_t told = 0;
+    for (const PlannedOperation& plan : plans) {
+        cut(block, plan, model, figures);
+        moves += plan.path.moves.size();
+        seconds += plan.stats.planning_s;
+        gouge = std::max(gouge, plan.stats.gouge_bound_mm);
+        told += plan.stats.warnings.size();
+        std::printf("; tool %d %d loops %d retracts", plan.path.tool.number, plan.stats.passes,
+                    plan.stats.retracts);
+    }
+    const double left =
+        block.left(model, smallest(operation), figures.levels, operation.allowance + 0.3);
+    const double thinnest = thinnest_level(figures.levels, job.stock_top);
+    std::printf(
+        "\n  cut %.4f rapid %.4f clearance %.5f left %.4f, %zu levels from %.3f, %zu "
+        "moves, %.2f s\n",
+        figures.cut, figures.rapid, figures.clearance, left, figures.levels.size(), thinnest, moves,
+        seconds);
     CHECK(figures.cut <= *operation.max_depth + 1e-3);
     CHECK(figures.rapid <= 1e-3);
     CHECK(figures.clearance >= operation.allowance - 1e-6);
-    CHECK_EQUAL(0.0, plan.stats.gouge_bound_mm);
+    CHECK(left <= 0.3 * *operation.max_depth);
+    // An arrangement in fewer levels would be deeper than max_depth, or it is told.
+    CHECK(thinnest >= operation.min_depth.value_or(0) - 2e-3 || told > 0);
+    CHECK_EQUAL(0.0, gouge);
 }
 
 }  // namespace

@@ -242,13 +242,19 @@ TEST(AdaptiveIsocurve, RefusesKeysOfRoughingWithoutIt)
     refused(job, "max_depth");
     operation.max_depth.reset();
     operation.tools = {{2, ToolShape::kFlat, 3, 0}};
-    refused(job, "tools names the tool that roughs");
+    refused(job, "tools names the tools that rough");
     operation.roughing = true;
     operation.max_depth = 1e-4;
     refused(job, "max_depth is 0.0001 mm");
     operation.max_depth = 2.0;
     operation.allowance = 500;
     refused(job, "nothing is to be roughed");
+    operation.allowance = 0;
+    operation.layers = {4.0, 4.5};
+    refused(job, "deep, more than max_depth, 2 mm");
+    operation.max_depth = 20.0;
+    operation.min_depth = 1.0;
+    refused(job, "is 0.5 mm deep, less than min_depth, 1 mm");
 }
 
 TEST(AdaptiveIsocurve, WritesOneNurbsForAPassThatNeverEntersTheModel)

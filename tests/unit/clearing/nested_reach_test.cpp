@@ -6,7 +6,7 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/hull_rough/layer_clearing.hpp"
+#include "host_tools/clearing/nested_tools.hpp"
 
 using namespace cusp::host;
 

@@ -1,0 +1,141 @@
+// Equal levels between the stock's top and the lowest place; the rest of max_depth is for ridges.
+#include "host_tools/adaptive_isocurve/rough_depths.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host_tools/input_error/input_error.hpp"
+
+#include "fmt/format.h"
+
+namespace cusp::host {
+namespace {
+
+constexpr double kWritten = 2e-3;  // mm: what rounding of two levels in the program may take
+constexpr double kMostLevels = 1e4;
+constexpr double kSame = 1e-9;         // mm
+constexpr double kRidgeOfDepth = 0.2;  // ridges of round corners are kept to this share of a level
+constexpr double kLeastRidge = 0.02;   // the same where depths leave them no more
+constexpr double kRestOfRidge = 0.25;  // with several cutters
+
+[[noreturn]] void refuse(const Job& job, const std::string& what)
+{
+    throw InputError(fmt::format("{}: roughing: {}", job.file, what));
+}
+
+double roundest(const std::vector<Tool>& tools)
+{
+    double corner = 0;
+    for (const Tool& tool : tools) {
+        corner = std::max(corner, tool.corner_radius);
+    }
+    return corner;
+}
+
+double least_radius(const std::vector<Tool>& tools)
+{
+    return std::min_element(tools.begin(), tools.end(),
+                            [](const Tool& a, const Tool& b) { return a.radius < b.radius; })
+        ->radius;
+}
+
+std::vector<double> given_levels(const Job& job,
+                                 const Operation& operation,
+                                 double top,
+                                 double bottom)
+{
+    std::vector<double> out;
+    double above = top;
+    for (const double depth : operation.layers) {
+        const double z = job.stock_top - depth;
+        if (z < bottom - kSame) {
+            refuse(job, fmt::format("layers: depth {:g} mm is below the bottom at z = {:g} mm (the "
+                                    "lowest place of the part, or of the stock, and the allowance)",
+                                    depth, bottom));
+        }
+        if (operation.max_depth && above - z > *operation.max_depth + kSame) {
+            refuse(job, fmt::format("layers: the one at depth {:g} mm is {:g} mm deep, more than "
+                                    "max_depth, {:g} mm",
+                                    depth, above - z, *operation.max_depth));
+        }
+        if (operation.min_depth && above - z < *operation.min_depth - kSame) {
+            refuse(job, fmt::format("layers: the one at depth {:g} mm is {:g} mm deep, less than "
+                                    "min_depth, {:g} mm",
+                                    depth, above - z, *operation.min_depth));
+        }
+        out.push_back(z);
+        above = z;
+    }
+    return out;
+}
+
+}  // namespace
+
+StepOver step_over(const Tool& tool, double ridge)
+{
+    const double corner = tool.corner_radius;
+    const double low = std::min(ridge, 0.15 * corner);
+    const double round = 2.0 * std::sqrt(low * (2.0 * corner - low));
+    const double flat = 1.2 * (tool.radius - corner);
+    return flat > round ? StepOver{flat, 0.0} : StepOver{round, low};
+}
+
+RoughDepths rough_depths(const Job& job,
+                         const Operation& operation,
+                         const std::vector<Tool>& tools,
+                         double top,
+                         double bottom)
+{
+    const double depth = operation.max_depth.value_or(least_radius(tools));
+    if (depth <= kWritten) {
+        refuse(job, fmt::format("max_depth is {:g} mm, not above {:g} mm", depth, kWritten));
+    }
+    const double deep = top - bottom;
+    if (operation.layers.empty() && deep < kWritten / 2) {
+        refuse(job, fmt::format("with an allowance of {:g} mm the lowest level is at z = {:g} mm, "
+                                "the stock's top at {:g} mm: nothing is to be roughed",
+                                operation.allowance, bottom, top));
+    }
+    const double rests = tools.size() > 1 ? 1.0 + kRestOfRidge : 1.0;
+    const double wanted = rests * std::min(kRidgeOfDepth * depth, 0.15 * roundest(tools));
+    const double least = std::min(wanted, kLeastRidge * depth);
+    RoughDepths out;
+    out.heights = given_levels(job, operation, top, bottom);
+    double thickest = 0;
+    if (out.heights.empty()) {
+        const auto levels = [&](double ridges) {
+            const double step = std::max(0.5 * depth, depth - ridges - kWritten);
+            return std::max(1.0, std::ceil(deep / step - kSame));
+        };
+        double count = levels(wanted);
+        if (deep / count < operation.min_depth.value_or(0)) {
+            count = std::max(levels(least),
+                             std::min(count, std::floor(deep / *operation.min_depth + kSame)));
+        }
+        if (count > kMostLevels) {
+            refuse(job, fmt::format("max_depth makes {:.0f} levels of a stock {:g} mm high, more "
+                                    "than {:g}",
+                                    count, deep, kMostLevels));
+        }
+        for (double k = 1; k <= count; ++k) {
+            out.heights.push_back(top - deep * k / count);
+        }
+    }
+    out.thinnest = std::numeric_limits<double>::infinity();
+    double above = top;
+    for (const double z : out.heights) {
+        thickest = std::max(thickest, above - z);
+        out.thinnest = std::min(out.thinnest, above - z);
+        above = z;
+    }
+    // Only depths that the job names are limits for the ridges, too.
+    const double left =
+        operation.max_depth || operation.layers.empty() ? depth - kWritten - thickest : wanted;
+    const double ridges = std::max(least, std::min(wanted, left));
+    out.ridge = ridges / rests;
+    out.rest = ridges - out.ridge;
+    return out;
+}
+
+}  // namespace cusp::host
