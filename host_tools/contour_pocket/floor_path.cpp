@@ -100,18 +100,24 @@ Vec3d level_corner(Vec3d start, Vec3d end)
 }
 
 // Raises the ends of every move by what it lacks to keep off the floor, until none lacks anything.
-// Raising only ever adds room to the neighbours; a closed path's ends are raised together.
-void certify(FloorPath& path, const TipFloor& floor, const FloorPathSettings& settings, bool closed)
+// Raising only ever adds room to the neighbours; a closed path's ends are raised together. Returns
+// the most that a move is raised by (mm).
+double certify(FloorPath& path,
+               const TipFloor& floor,
+               const FloorPathSettings& settings,
+               bool closed)
 {
     constexpr int kRounds = 20;
     constexpr int kGentleRounds = 4;  // later ones raise by more and more
     path.least_gap = 0.0;
+    double most = 0.0;
     // An arc's chords leave half of the cushion to the slope.
     const double fine = std::max(0.5 * settings.cushion, kWrittenStep);
     for (std::size_t i = 0; i < path.moves.size(); ++i) {
         Vec3d& start = i == 0 ? path.start : path.moves[i - 1].end;
         Vec3d& end = path.moves[i].end;
         double gap = gap_of(start, path.moves[i], floor, fine);
+        const double end_before = end.z;
         if (settings.lift && gap < 0.0 && is_steep(start, path.moves[i])) {
             const FloorMove corner{level_corner(start, end)};
             path.moves.insert(path.moves.begin() + static_cast<std::ptrdiff_t>(i), corner);
@@ -126,17 +132,20 @@ void certify(FloorPath& path, const TipFloor& floor, const FloorPathSettings& se
             gap = gap_of(start, path.moves[i], floor, fine);
         }
         path.least_gap = std::min(path.least_gap, gap);
+        most = std::max(most, end.z - end_before);
     }
     if (closed && !path.moves.empty()) {
         const double top = std::max(path.start.z, path.moves.back().end.z);
         path.start.z = path.moves.back().end.z = top;
     }
+    return most;
 }
 
 // A path of curves is raised as a whole: its pieces share their ends.
-void certify_curves(FloorPath& path, const TipFloor& floor, const FloorPathSettings& settings)
+double certify_curves(FloorPath& path, const TipFloor& floor, const FloorPathSettings& settings)
 {
     constexpr int kRounds = 8;
+    const double before = path.start.z;
     const double fine = std::max(0.5 * settings.cushion, kWrittenStep);
     for (int round = 0; round < kRounds; ++round) {
         path.least_gap = 0.0;
@@ -146,7 +155,7 @@ void certify_curves(FloorPath& path, const TipFloor& floor, const FloorPathSetti
             start = move.end;
         }
         if (!settings.lift || path.least_gap >= 0.0) {
-            return;
+            break;
         }
         const Vec3d raise{0.0, 0.0, kWrittenStep + 1.5 * -path.least_gap};
         path.start = written(path.start + raise);
@@ -157,6 +166,7 @@ void certify_curves(FloorPath& path, const TipFloor& floor, const FloorPathSetti
             }
         }
     }
+    return path.start.z - before;
 }
 
 // The chain with a curve, or lines where none fits, from corner to corner.
@@ -200,7 +210,7 @@ double repeated_aside(double aside) { return std::min(1e-3, 0.2 * aside); }
 std::vector<Edge> flattened(const std::vector<Edge>& plan, double aside, double spacing, bool arcs)
 {
     const double room = aside - 3.0 * repeated_aside(aside);
-    const StationRow row = stations_along(plan, nullptr, {spacing, room, 1.0});
+    const StationRow row = stations_along(plan, nullptr, {spacing, room, 1.0, false});
     const bool closed = distance(row.stations.front().at, row.stations.back().at) < 1e-9;
     const Chain chain = chain_through(row.stations, kUsedAside * room, -1.0, 1.0, arcs, closed);
     std::vector<Edge> edges;
@@ -214,17 +224,21 @@ std::vector<Edge> flattened(const std::vector<Edge>& plan, double aside, double 
     return edges;
 }
 
-FloorPath lay_on_floor(const std::vector<Edge>& plan,
+namespace {
+
+// Returns how much a move had to be raised (mm) to keep off what its stations do not tell of.
+double lay_on_stations(const std::vector<Edge>& plan,
                        const TipFloor& floor,
-                       const FloorPathSettings& settings)
+                       const FloorPathSettings& settings,
+                       bool sparse,
+                       FloorPath& path)
 {
-    FloorPath path;
     StationRow row =
-        stations_along(plan, &floor, {settings.spacing, settings.aside, settings.above});
+        stations_along(plan, &floor, {settings.spacing, settings.aside, settings.above, sparse});
     if (row.missing) {
         path.over_floor = false;
         path.missing = *row.missing;
-        return path;
+        return 0.0;
     }
     for (Station& s : row.stations) {
         s.height += settings.raise;
@@ -253,9 +267,23 @@ FloorPath lay_on_floor(const std::vector<Edge>& plan,
         path.moves.back().end = path.start;
     }
     if (settings.nurbs) {
-        certify_curves(path, floor, settings);
-    } else {
-        certify(path, floor, settings, closed);
+        return certify_curves(path, floor, settings);
+    }
+    return certify(path, floor, settings, closed);
+}
+
+}  // namespace
+
+FloorPath lay_on_floor(const std::vector<Edge>& plan,
+                       const TipFloor& floor,
+                       const FloorPathSettings& settings)
+{
+    // A ridge between lookups far apart would be met by raising whole moves over it.
+    constexpr double kRaised = 0.25;
+    FloorPath path;
+    if (lay_on_stations(plan, floor, settings, true, path) > kRaised * settings.above) {
+        path = {};
+        lay_on_stations(plan, floor, settings, false, path);
     }
     return path;
 }

@@ -37,7 +37,6 @@ struct FloorPath {
     std::vector<FloorMove> moves;
     double least_gap{};   // mm: lower bound of the gap between floor and tool, over all moves; may
                           // be < 0
-    double most_above{};  // mm: highest of the tip over its lowest place, at the stations looked at
     bool over_floor{true};
     Vec2d missing;  // a place without floor, where not over_floor
 };

@@ -72,17 +72,22 @@ private:
         return {box_.x0 + cell_ * (i + 0.5), box_.y0 + cell_ * (j + 0.5)};
     }
 
-    // Inside or not changes only where a contour is near.
+    // Inside or not changes only where a contour is near, and how near changes by no more than the
+    // way between.
     void find_places()
     {
+        constexpr double kFarthest = 4.0;  // cells: further is not looked for
         places_.assign(rest_.size(), Place::kOutside);
         for (int i = 0; i < columns_; ++i) {
             bool inside = false;
-            for (int j = 0; j < rows_; ++j) {
+            double room = 0.0;  // at least, at the cell
+            for (int j = 0; j < rows_; ++j, room -= cell_) {
                 const Vec2d p = centre(i, j);
-                const bool beside = walls_.any_nearer(p, first_);
-                if (j == 0 || (beside && walls_.any_nearer(p, 1.01 * cell_)) ||
-                    1.01 * cell_ > first_) {
+                if (room < first_) {
+                    room = walls_.nearest(p, first_ + kFarthest * cell_);
+                }
+                const bool beside = room < first_;
+                if (j == 0 || (beside && room < 1.01 * cell_) || 1.01 * cell_ > first_) {
                     inside = walls_.contains(p);
                 }
                 if (inside) {

@@ -8,8 +8,10 @@ namespace cusp::host {
 
 namespace {
 
-constexpr double kClosest = 2e-3;  // mm between stations: they are not halved further
-constexpr double kSmooth = 0.999;  // cosine of 2.6 degrees
+constexpr double kClosest = 2e-3;    // mm between stations: they are not halved further
+constexpr double kSmooth = 0.999;    // cosine of 2.6 degrees
+constexpr std::size_t kStretch = 6;  // stations that two lookups may tell
+constexpr double kTold = 0.06;       // of the height allowed: how well they must
 
 // Both visits are to meet at one point: a corner micrometres beside the path's other visit would be
 // no place that anyone could tell from it.
@@ -18,6 +20,18 @@ bool is_spur(const std::vector<Edge>& plan, std::size_t e)
     return e + 1 < plan.size() && plan[e].turn == 0 && plan[e + 1].turn == 0 &&
            distance(plan[e].start, plan[e + 1].end) < 1e-9;
 }
+
+// A place to be, and the part of an edge that leads to it.
+struct Stop {
+    const Edge* edge;
+    double from, to;  // shares of the edge
+    double bend;
+    double along;  // mm from the start of the plan
+    bool kink;     // the way turns here
+    bool exact;
+
+    Vec2d at() const { return to == 1.0 ? edge->end : point_on(*edge, to); }
+};
 
 class RowBuilder {
 public:
@@ -28,22 +42,59 @@ public:
 
     StationRow run(const std::vector<Edge>& plan)
     {
-        add(plan.front().start, 0.0);
+        find_stops(plan);
+        row_.stations.push_back(look(plan.front().start, 0.0));
+        row_.stations.back().exact = starts_exact_;
         row_.corners.push_back(0);
-        for (std::size_t e = 0; e < plan.size() && !row_.missing; ++e) {
-            if (is_spur(plan, e) || (e > 1 && is_spur(plan, e - 2))) {
-                row_.stations.back().exact = true;
+        for (std::size_t i = 0; i < stops_.size() && !row_.missing;) {
+            const std::size_t last = end_of_stretch(i);
+            if (!interpolate(i, last)) {
+                for (; i <= last && !row_.missing; ++i) {
+                    step_to(i);
+                }
             }
-            along(plan[e]);
-            const bool last = e + 1 == plan.size();
-            if (last || dot(tangent_at_end(plan[e]), tangent_at_start(plan[e + 1])) < kSmooth) {
-                row_.corners.push_back(row_.stations.size() - 1);
-            }
+            i = last + 1;
         }
         return std::move(row_);
     }
 
 private:
+    void find_stops(const std::vector<Edge>& plan)
+    {
+        double along = 0.0;
+        for (std::size_t e = 0; e < plan.size(); ++e) {
+            const Edge& edge = plan[e];
+            if (is_spur(plan, e) || (e > 1 && is_spur(plan, e - 2))) {
+                (stops_.empty() ? starts_exact_ : stops_.back().exact) = true;
+            }
+            const double bend = edge.turn == 0 ? 0.0 : edge.turn / edge.radius;
+            const double step =
+                edge.turn == 0 ? spacing_.along
+                               : std::min(spacing_.along, std::sqrt(edge.radius * spacing_.aside));
+            const double whole = length(edge);
+            const int n = std::max(1, static_cast<int>(std::ceil(whole / step)));
+            for (int i = 1; i <= n; ++i) {
+                const double to = i == n ? 1.0 : static_cast<double>(i) / n;
+                stops_.push_back({&edge, static_cast<double>(i - 1) / n, to, bend,
+                                  along + to * whole, false, false});
+            }
+            along += whole;
+            stops_.back().kink = e + 1 == plan.size() ||
+                                 dot(tangent_at_end(edge), tangent_at_start(plan[e + 1])) < kSmooth;
+        }
+    }
+
+    // Of a stretch without kinks that starts with a stop.
+    std::size_t end_of_stretch(std::size_t first) const
+    {
+        std::size_t last = first;
+        while (last + 1 < stops_.size() && last + 1 < first + kStretch && !stops_[last].kink &&
+               !stops_[last].exact) {
+            ++last;
+        }
+        return last;
+    }
+
     Station look(Vec2d at, double bend)
     {
         if (floor_ == nullptr) {
@@ -56,40 +107,104 @@ private:
         return {at, rest.height, rest.gradient, bend};
     }
 
-    void add(Vec2d at, double bend) { row_.stations.push_back(look(at, bend)); }
-
-    void along(const Edge& edge)
+    // The end and the middle of the stretch are looked up, and what lies between them follows by
+    // cubics, where the one from end to end tells the middle. False where it does not.
+    bool interpolate(std::size_t first, std::size_t last)
     {
-        const double bend = edge.turn == 0 ? 0.0 : edge.turn / edge.radius;
-        const double step = edge.turn == 0
-                                ? spacing_.along
-                                : std::min(spacing_.along, std::sqrt(edge.radius * spacing_.aside));
-        const double whole = length(edge);
-        const int n = std::max(1, static_cast<int>(std::ceil(whole / step)));
-        for (int i = 1; i <= n && !row_.missing; ++i) {
-            const double from = static_cast<double>(i - 1) / n;
-            const double to = static_cast<double>(i) / n;
-            Station next = look(i == n ? edge.end : point_on(edge, to), bend);
-            halve(edge, whole, from, to, next);
-            row_.stations.push_back(next);
+        if (floor_ == nullptr || !spacing_.sparse || last < first + 2) {
+            return false;
         }
+        const std::size_t half = first + (last - first) / 2;
+        const Place start{row_.stations.back(), first == 0 ? 0.0 : stops_[first - 1].along,
+                          tangent_on(*stops_[first].edge, stops_[first].from)};
+        const Place middle = place_of(half);
+        const Place end = place_of(last);
+        if (row_.missing) {
+            return true;
+        }
+        const double told = between(start, end, stops_[half]).height;
+        if (std::abs(told - middle.station.height) > kTold * spacing_.height) {
+            return false;
+        }
+        const std::size_t before = row_.stations.size();
+        for (std::size_t i = first; i <= last; ++i) {
+            Station next = i == half   ? middle.station
+                           : i == last ? end.station
+                                       : between(i < half ? start : middle, i < half ? middle : end,
+                                                 stops_[i]);
+            if (!is_even(row_.stations.back(), next)) {
+                row_.stations.resize(before);
+                return false;
+            }
+            add(next, stops_[i]);
+        }
+        return true;
+    }
+
+    // A station with its place and direction along the plan.
+    struct Place {
+        Station station;
+        double along;
+        Vec2d way;
+    };
+
+    Place place_of(std::size_t i)
+    {
+        const Stop& stop = stops_[i];
+        return {look(stop.at(), stop.bend), stop.along, tangent_on(*stop.edge, stop.to)};
+    }
+
+    // On the cubic with the heights and slopes at two places.
+    static Station between(const Place& a, const Place& b, const Stop& stop)
+    {
+        const double whole = b.along - a.along;
+        const double t = (stop.along - a.along) / whole;
+        const double rise = b.station.height - a.station.height;
+        const double leaving = whole * dot(a.station.gradient, a.way) - rise;
+        const double arriving = rise - whole * dot(b.station.gradient, b.way);
+        const double bow = t * (1.0 - t) * ((1.0 - t) * leaving + t * arriving);
+        return {stop.at(), a.station.height + t * rise + bow,
+                a.station.gradient * (1.0 - t) + b.station.gradient * t, stop.bend};
+    }
+
+    void add(Station station, const Stop& stop)
+    {
+        station.exact = station.exact || stop.exact;
+        row_.stations.push_back(station);
+        if (stop.kink) {
+            row_.corners.push_back(row_.stations.size() - 1);
+        }
+    }
+
+    void step_to(std::size_t i)
+    {
+        const Stop& stop = stops_[i];
+        Station next = look(stop.at(), stop.bend);
+        halve(*stop.edge, length(*stop.edge), stop.from, stop.to, next);
+        add(next, stop);
+    }
+
+    static double jump(const Station& a, const Station& b)
+    {
+        return std::abs(b.height - a.height - 0.5 * dot(b.gradient + a.gradient, b.at - a.at));
+    }
+
+    bool is_even(const Station& a, const Station& b) const
+    {
+        const double hidden = 0.125 * std::abs(dot(b.gradient - a.gradient, b.at - a.at));
+        return hidden < 0.05 * spacing_.height && jump(a, b) < 0.5 * spacing_.height;
     }
 
     // Stations between the last one and `next`, shares `from` and `to` of the edge.
     void halve(const Edge& edge, double whole, double from, double to, Station& next)
     {
         const Station& last = row_.stations.back();
-        const Vec2d step = next.at - last.at;
-        const double hidden = 0.125 * std::abs(dot(next.gradient - last.gradient, step));
-        const double by_slopes = 0.5 * dot(next.gradient + last.gradient, step);
-        const double jump = std::abs(next.height - last.height - by_slopes);
-        const bool even = hidden < 0.05 * spacing_.height && jump < 0.5 * spacing_.height;
-        if (row_.missing || even) {
+        if (row_.missing || is_even(last, next)) {
             return;
         }
         if ((to - from) * whole < kClosest) {
             // A cliff: no move may start to climb before it.
-            const bool cliff = jump >= 0.5 * spacing_.height;
+            const bool cliff = jump(last, next) >= 0.5 * spacing_.height;
             row_.stations.back().exact = row_.stations.back().exact || cliff;
             next.exact = next.exact || cliff;
             return;
@@ -103,6 +218,8 @@ private:
 
     const TipFloor* floor_;
     const StationSpacing& spacing_;
+    std::vector<Stop> stops_;  // after the first station
+    bool starts_exact_{};
     StationRow row_;
 };
 

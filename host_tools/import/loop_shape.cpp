@@ -29,32 +29,33 @@ double polygon_length(const Curve& curve)
     return length;
 }
 
-// Halves the piece until chords are flat; the depth bounds the work on wild parameters.
-void add_chords(const Curve& piece,
-                double begin,
-                double end,
-                double tolerance,
-                int depth,
-                std::vector<Vec2d>& out)
+// A stretch of a piece: its ends and its middle.
+struct Stretch {
+    double begin, end;  // parameters
+    Vec2d a, middle, b;
+};
+
+// Halves the stretch until chords are flat; the depth bounds the work on wild parameters.
+void add_chords(
+    const Curve& piece, const Stretch& s, double tolerance, int depth, std::vector<Vec2d>& out)
 {
-    const Vec2d a = from_above(point_at(piece, begin));
-    const Vec2d b = from_above(point_at(piece, end));
+    const double middle = (s.begin + s.end) / 2;
+    const Vec2d first = from_above(point_at(piece, (s.begin + middle) / 2));
+    const Vec2d last = from_above(point_at(piece, (middle + s.end) / 2));
+    const Vec2d along = s.b - s.a;
+    const double length = norm(along);
     double worst = 0;
-    for (const double share : {0.25, 0.5, 0.75}) {
-        const Vec2d p = from_above(point_at(piece, begin + share * (end - begin)));
-        const Vec2d along = b - a;
-        const double length = norm(along);
+    for (const Vec2d p : {first, s.middle, last}) {
         const double foot =
-            length > 0 ? std::clamp(dot(p - a, along) / (length * length), 0.0, 1.0) : 0;
-        worst = std::max(worst, norm(p - (a + foot * along)));
+            length > 0 ? std::clamp(dot(p - s.a, along) / (length * length), 0.0, 1.0) : 0;
+        worst = std::max(worst, norm(p - (s.a + foot * along)));
     }
     if (depth > 0 && worst > 0.75 * tolerance) {
-        const double middle = (begin + end) / 2;
-        add_chords(piece, begin, middle, tolerance, depth - 1, out);
-        add_chords(piece, middle, end, tolerance, depth - 1, out);
+        add_chords(piece, {s.begin, middle, s.a, first, s.middle}, tolerance, depth - 1, out);
+        add_chords(piece, {middle, s.end, s.middle, last, s.b}, tolerance, depth - 1, out);
         return;
     }
-    out.push_back(b);
+    out.push_back(s.b);
 }
 
 struct Segment {
@@ -154,9 +155,13 @@ std::vector<Vec2d> loop_polyline(const Loop& loop, double tolerance)
             // a piece may begin and end in an inflection that three samples miss
             constexpr int kParts = 4;
             for (int i = 0; i < kParts; ++i) {
-                const double step = (end - begin) / kParts;
-                add_chords(piece, begin + i * step, i + 1 == kParts ? end : begin + (i + 1) * step,
-                           tolerance, kDepth, out);
+                const double from = begin + i * (end - begin) / kParts;
+                const double to = i + 1 == kParts ? end : begin + (i + 1) * (end - begin) / kParts;
+                const auto at = [&piece](double u) {
+                    return from_above(point_at(piece, u));
+                };
+                add_chords(piece, {from, to, at(from), at((from + to) / 2), at(to)}, tolerance,
+                           kDepth, out);
             }
         }
     }

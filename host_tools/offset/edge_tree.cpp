@@ -82,15 +82,18 @@ bool EdgeTree::any_nearer(Vec2d point, double reach) const
     const double square = reach * reach;
     std::uint32_t stack[64];
     int depth = 0;
-    stack[depth++] = 0;
-    while (depth > 0 && !nodes_.empty()) {
+    const auto consider = [&](std::uint32_t node) {
+        stack[depth] = node;
+        depth += square_distance(nodes_[node].box, point) < square ? 1 : 0;
+    };
+    if (!nodes_.empty()) {
+        consider(0);
+    }
+    while (depth > 0) {
         const Node& node = nodes_[stack[--depth]];
-        if (square_distance(node.box, point) >= square) {
-            continue;
-        }
         if (node.count == 0) {
-            stack[depth++] = node.first;
-            stack[depth++] = node.first + 1;
+            consider(node.first);
+            consider(node.first + 1);
             continue;
         }
         for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {

@@ -31,6 +31,9 @@ public:
     // True where the distance from the nearest contour is below `reach`.
     bool any_nearer(Vec2d point, double reach) const { return tree_.any_nearer(point, reach); }
 
+    // Distance from the nearest contour on either side, or `limit` where that is less.
+    double nearest(Vec2d point, double limit) const { return tree_.nearest(point, limit); }
+
     const Region2d& source() const { return source_; }
 
 private:

@@ -77,7 +77,8 @@ public:
           form_{form},
           unit_{form.inch ? kMillimetresPerInch : 1.0},
           decimals_{form.inch ? kDecimalsInInches : kDecimalsInMillimetres},
-          grain_{unit_ / std::pow(10.0, decimals_)}
+          scale_{std::llround(std::pow(10.0, decimals_))},
+          grain_{unit_ / static_cast<double>(scale_)}
     {
     }
 
@@ -92,7 +93,10 @@ private:
     }
     std::string coordinate(std::int64_t value) const
     {
-        return fixed_point(static_cast<double>(value) * std::pow(10.0, -decimals_), decimals_);
+        // The leading one keeps the zeros of what is below one.
+        std::string text = std::to_string(scale_ + std::abs(value) % scale_);
+        text[0] = '.';
+        return trimmed((value < 0 ? "-" : "") + std::to_string(std::abs(value) / scale_) + text);
     }
     std::string changed_axes(const Place& to) const;
     std::string feed_word(double feed);
@@ -106,7 +110,8 @@ private:
     const ProgramForm& form_;
     double unit_;  // mm
     int decimals_;
-    double grain_;  // mm of the last decimal
+    std::int64_t scale_;  // of the last decimal in a unit
+    double grain_;        // mm of the last decimal
     std::optional<Place> at_;
     ArcPlane plane_{ArcPlane::kXY};
     double feed_{};

@@ -1,0 +1,110 @@
+#include "host_tools/contour_pocket/floor_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host_tools/contour_pocket/station_row.hpp"
+
+// Last: CppUTest redefines new, which the standard headers can not bear.
+#include "CppUTest/TestHarness.h"
+
+namespace cusp::host {
+namespace {
+
+constexpr double kAccuracy = 0.002;
+const Tool kBall{1, ToolShape::kBall, 6.0, 6.0};
+
+// A bicubic patch over [0, size] x [0, size] with these heights of its control points.
+Surface hill(double size, double rise)
+{
+    Surface s;
+    s.degree_u = s.degree_v = 3;
+    s.size_u = s.size_v = 4;
+    s.knots_u = s.knots_v = {0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0};
+    for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < 4; ++j) {
+            const bool inside = i % 3 != 0 && j % 3 != 0;
+            s.points.push_back({size * i / 3.0, size * j / 3.0, inside ? rise : 0.0});
+            s.weights.push_back(1.0);
+        }
+    }
+    return s;
+}
+
+// A triangle's profile along y: from x - half up to `top` at x and down again.
+std::vector<Surface> bead(double x, double half, double top, double size)
+{
+    std::vector<Surface> sides;
+    for (const double foot : {x - half, x + half}) {
+        Surface s;
+        s.degree_u = s.degree_v = 1;
+        s.size_u = s.size_v = 2;
+        s.knots_u = s.knots_v = {0.0, 0.0, 1.0, 1.0};
+        s.points = {{foot, 0.0, 0.0}, {foot, size, 0.0}, {x, 0.0, top}, {x, size, top}};
+        s.weights = {1.0, 1.0, 1.0, 1.0};
+        sides.push_back(s);
+    }
+    return sides;
+}
+
+FloorPathSettings settings()
+{
+    FloorPathSettings s;
+    s.aside = 0.02;
+    s.above = 0.016;
+    s.cushion = kAccuracy;
+    s.spacing = 0.54;
+    return s;
+}
+
+// How high the path's tip stands over its lowest place, densely sampled.
+double most_over(const FloorPath& path, const TipFloor& floor)
+{
+    double most = 0.0;
+    Vec3d from = path.start;
+    for (const FloorMove& move : path.moves) {
+        constexpr int kPlaces = 60;
+        for (int i = 0; i <= kPlaces; ++i) {
+            const Vec3d tip = from + (move.end - from) * (static_cast<double>(i) / kPlaces);
+            most = std::max(most, tip.z - floor.drop({tip.x, tip.y}).height);
+        }
+        from = move.end;
+    }
+    return most;
+}
+
+}  // namespace
+
+TEST_GROUP(FloorPath){};
+
+TEST(FloorPath, StationsBetweenLookupsAreAsHighAsTheFloorSays)
+{
+    const TipFloor floor{{hill(60.0, 4.0)}, kBall, kAccuracy};
+    const std::vector<Edge> plan{line_edge({10.0, 11.0}, {45.0, 25.0}),
+                                 line_edge({45.0, 25.0}, {20.0, 50.0})};
+    const StationRow dense = stations_along(plan, &floor, {0.54, 0.02, 0.016, false});
+    const StationRow sparse = stations_along(plan, &floor, {0.54, 0.02, 0.016, true});
+    CHECK_EQUAL(dense.corners.size(), sparse.corners.size());
+    int told = 0;
+    for (const Station& s : sparse.stations) {
+        const double height = floor.drop(s.at).height;
+        DOUBLES_EQUAL(height, s.height, 0.06 * 0.016 + kAccuracy);
+        told += height != s.height ? 1 : 0;
+    }
+    CHECK(told > static_cast<int>(sparse.stations.size() / 2));
+}
+
+TEST(FloorPath, ARidgeBetweenLookupsIsFollowed)
+{
+    for (int i = 0; i < 40; ++i) {
+        std::vector<Surface> surfaces = bead(30.0 + 0.05 * i, 0.5, 0.06, 60.0);
+        surfaces.push_back(hill(60.0, 0.0));
+        const TipFloor floor{surfaces, kBall, kAccuracy};
+        const FloorPath path =
+            lay_on_floor({line_edge({5.0, 20.0}, {55.0, 21.0})}, floor, settings());
+        CHECK(path.least_gap >= 0.0);
+        CHECK(most_over(path, floor) < settings().above + kAccuracy);
+    }
+}
+
+}  // namespace cusp::host
