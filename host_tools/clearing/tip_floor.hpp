@@ -152,7 +152,8 @@ private:
         double thin;  // mm: pieces this thin are not halved
     };
     double bound(const Piece& piece, const Query& query, double best, bool& tight) const;
-    double ball_gap(const Piece& piece, Vec3d a, Vec3d b) const;
+    double beside_line(const Piece& piece, Vec3d a, Vec3d b) const;
+    double ball_gap(const Piece& piece, Vec3d a, Vec3d b, double margin) const;
     double axial_gap(const Piece& piece, Vec3d a, Vec3d b, double margin) const;
     Vec2d slope_of(const Piece& piece, Vec2d at) const;
     struct Rectangle {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "host_tools/clearing/tip_floor.hpp"
+#include "host_tools/offset/contour.hpp"
 
 namespace cusp::host {
 
@@ -12,17 +13,37 @@ constexpr double kDeepShare = 0.1;
 
 }  // namespace
 
-// Distance from the ball's centre line to the piece's upright box, or component by component to its
-// turned box, whichever says more.
-double TipFloor::ball_gap(const Piece& piece, Vec3d a, Vec3d b) const
+// How far the piece's box lies beside the line through a and b, in plan, mm: the box of a long move
+// across its own would say less.
+double TipFloor::beside_line(const Piece& piece, Vec3d a, Vec3d b) const
+{
+    const Vec2d move{b.x - a.x, b.y - a.y};
+    const double along = std::sqrt(dot(move, move));
+    if (along == 0.0) {
+        return 0.0;
+    }
+    const Vec2d side = left_normal(move) * (1.0 / along);
+    const Vec2d middle{0.5 * (piece.x0 + piece.x1) - a.x, 0.5 * (piece.y0 + piece.y1) - a.y};
+    const double half =
+        0.5 * (std::abs(side.x) * (piece.x1 - piece.x0) + std::abs(side.y) * (piece.y1 - piece.y0));
+    return std::max(0.0, std::abs(dot(side, middle)) - half);
+}
+
+// Distance from the ball's centre line to the piece's upright box, or component by component to one
+// of its turned boxes, whichever says more; some value of 0 or more where that is clear.
+double TipFloor::ball_gap(const Piece& piece, Vec3d a, Vec3d b, double margin) const
 {
     const auto apart = [](double low, double high, double p, double q) {
         return std::max({low - std::max(p, q), 0.0, std::min(p, q) - high});
     };
+    const double reach = tool_.radius + margin;
     const double ux = apart(piece.x0, piece.x1, a.x, b.x);
     const double uy = apart(piece.y0, piece.y1, a.y, b.y);
     const double uz = apart(piece.z0, piece.z1, a.z, b.z);
     double square = ux * ux + uy * uy + uz * uz;
+    if (square >= reach * reach) {
+        return 0.0;
+    }
     if (piece.graph) {
         const Vec2d g = piece.gradient;
         const double run = 1.0 + g.x * g.x;
@@ -42,11 +63,15 @@ double TipFloor::ball_gap(const Piece& piece, Vec3d a, Vec3d b) const
         const double tz = apart(-piece.thickness / piece.secant, 0.0, over(a), over(b));
         square = std::max(square, tx * tx + ty * ty + tz * tz);
     }
-    if (piece.outline != 0) {
+    if (square < reach * reach) {
+        const double beside = beside_line(piece, a, b);
+        square = std::max(square, beside * beside + uz * uz);
+    }
+    if (piece.outline != 0 && square < reach * reach) {
         const double aside = apart_from_outline(piece, a, b);
         square = std::max(square, aside * aside);
     }
-    return std::sqrt(square) - tool_.radius;
+    return std::sqrt(square) - reach;
 }
 
 // Along the axis: how far the tip stays above what the piece asks for while the tool moves from a
@@ -61,8 +86,12 @@ double TipFloor::axial_gap(const Piece& piece, Vec3d a, Vec3d b, double margin) 
     const double dy = apart(piece.y0, piece.y1, a.y, b.y);
     const double r = tool_.radius;
     const double c = tool_.corner_radius;
+    const double reach = tool_.radius + margin;
     double apart_in_plan = std::sqrt(dx * dx + dy * dy);
-    if (piece.outline != 0) {
+    if (apart_in_plan < reach) {
+        apart_in_plan = std::max(apart_in_plan, beside_line(piece, a, b));
+    }
+    if (apart_in_plan < reach && piece.outline != 0) {
         const double z = piece.z0;
         apart_in_plan =
             std::max(apart_in_plan, apart_from_outline(piece, {a.x, a.y, z}, {b.x, b.y, z}));
@@ -90,21 +119,38 @@ double TipFloor::gap(Vec3d a, Vec3d b, double margin) const
     struct Entry {
         std::uint32_t piece;
         Vec3d a, b;
+        double here;
     };
     const bool ball = tool_.corner_radius == tool_.radius;
     const Vec3d up{0.0, 0.0, ball ? tool_.radius : 0.0};
     double least = 0.0;
     std::array<Entry, kStack> stack;
     std::size_t depth = 0;
-    stack[depth++] = {kRoot, a + up, b + up};
+    // How deep a deep cut is need not be known better than to a tenth.
+    const auto matters = [&](double here) {
+        return here < (least < -accuracy_ ? (1.0 + kDeepShare) * least : least);
+    };
+    const auto consider = [&](std::uint32_t piece, Vec3d from, Vec3d to) {
+        const double here = ball ? ball_gap(pieces_[piece], from, to, margin)
+                                 : axial_gap(pieces_[piece], from, to, margin);
+        if (matters(here)) {
+            stack[depth++] = {piece, from, to, here};
+        }
+    };
+    // The deeper half is looked at first.
+    const auto order = [&](std::size_t before) {
+        if (depth == before + 2 && stack[before].here < stack[before + 1].here) {
+            std::swap(stack[before], stack[before + 1]);
+        }
+    };
+    consider(kRoot, a + up, b + up);
     while (depth > 0) {
         const Entry top = stack[--depth];
-        const Piece& piece = pieces_[top.piece];
-        const double here =
-            ball ? ball_gap(piece, top.a, top.b) - margin : axial_gap(piece, top.a, top.b, margin);
-        if (here >= least) {
+        const double here = top.here;
+        if (!matters(here)) {
             continue;
         }
+        const Piece& piece = pieces_[top.piece];
         const Vec3d move = top.b - top.a;
         const double size = std::max(piece.x1 - piece.x0, piece.y1 - piece.y0);
         const double thin = piece.graph ? piece.thickness / piece.secant : size;
@@ -121,7 +167,6 @@ double TipFloor::gap(Vec3d a, Vec3d b, double margin) const
             ball ? flat && clear
                  : thin < 0.5 * accuracy_ && size * piece.secant < 0.05 && norm(move) < 0.05;
         const bool whole = is_whole(piece, accuracy_);
-        // How deep a deep cut is need not be known better than to a tenth.
         const bool deep =
             whole && here < -accuracy_ && std::max(extent(piece), norm(move)) < kDeepShare * -here;
         if ((settled && whole) || deep || small || depth + 2 > kStack) {
@@ -131,18 +176,22 @@ double TipFloor::gap(Vec3d a, Vec3d b, double margin) const
         const bool halve_move = settled ? false : ball && !flat ? turned > thin : norm(move) > size;
         if (halve_move) {
             const Vec3d middle = (top.a + top.b) * 0.5;
-            stack[depth++] = {top.piece, top.a, middle};
-            stack[depth++] = {top.piece, middle, top.b};
+            const std::size_t before = depth;
+            consider(top.piece, top.a, middle);
+            consider(top.piece, middle, top.b);
+            order(before);
             continue;
         }
         if (piece.child == 0) {
             halve(top.piece);
         }
         const std::uint32_t child = pieces_[top.piece].child;
-        stack[depth++] = {child, top.a, top.b};
-        stack[depth++] = {child + 1, top.a, top.b};
+        const std::size_t before = depth;
+        consider(child, top.a, top.b);
+        consider(child + 1, top.a, top.b);
+        order(before);
     }
-    return least;
+    return least < -accuracy_ ? (1.0 + kDeepShare) * least : least;
 }
 
 }  // namespace cusp::host

@@ -8,6 +8,7 @@
 
 #include "host_tools/clearing/clearing.hpp"
 #include "host_tools/clearing/tip_floor.hpp"
+#include "host_tools/contour_pocket/cliff_passes.hpp"
 #include "host_tools/contour_pocket/floor_cutter.hpp"
 #include "host_tools/contour_pocket/level_interval.hpp"
 #include "host_tools/contour_pocket/pocket_task.hpp"
@@ -68,18 +69,25 @@ public:
     PlannedOperation plan(const RoughResult* rough)
     {
         ClearedRegion cleared = passes();
+        const std::size_t loops = cleared.passes.size();
+        add_cliff_passes(cleared);
         FloorCutter cutter{operation_, floor_, moves_};
         CutSettings settings =
             cutting(rough != nullptr ? std::optional{rough->left} : std::nullopt);
         if (rough != nullptr) {
             settings.repeated = beside_roughing(cleared, *rough);
-            flatten(cleared, settings);
+            // Loops of the roughing tool leave metal there, too.
+            std::fill(settings.repeated.begin() + static_cast<std::ptrdiff_t>(loops),
+                      settings.repeated.end(), true);
+            flatten(cleared, loops, settings);
             const bool stands = operation_.allowance > 0.0 ||
                                 rough->operation.path.tool.number != operation_.tool.number;
             if (stands) {
                 cut_walls(cutter, cleared, settings.repeated, depths_beside(cleared, *rough));
             }
         }
+        settings.repeated.resize(loops, false);
+        settings.repeated.resize(cleared.passes.size(), true);
         cutter.cut(cleared, settings);
         PlannedOperation result;
         fill(result.stats, cleared, cutter.least_gap());
@@ -107,6 +115,25 @@ private:
                              " mm fits nowhere into the pocket");
         }
         return cleared;
+    }
+
+    // One smooth surface has no cliffs.
+    void add_cliff_passes(ClearedRegion& cleared)
+    {
+        const std::vector<Surface>& floor = operation_.floor;
+        if (floor.size() == 1 && floor.front().trims.empty()) {
+            return;
+        }
+        CliffSettings settings;
+        settings.first = budget_.first;
+        settings.most = budget_.cusp;
+        settings.laying = cutting(std::nullopt).laying;
+        settings.laying.aside = repeated_aside(budget_.aside);
+        settings.off = settings.laying.aside + budget_.accuracy;
+        for (ClearingPass& pass : cliff_passes(region_, floor_, cleared, settings)) {
+            cleared.passes.push_back(std::move(pass));
+            ++cliff_passes_;
+        }
     }
 
     // Which passes meet metal that roughing did not reach: the allowance beside the walls, corners,
@@ -163,9 +190,10 @@ private:
         return heights;
     }
 
-    void flatten(ClearedRegion& cleared, const CutSettings& settings) const
+    // Passes along cliffs keep nearer to theirs as it is.
+    void flatten(ClearedRegion& cleared, std::size_t loops, const CutSettings& settings) const
     {
-        for (std::size_t i = 0; i < cleared.passes.size(); ++i) {
+        for (std::size_t i = 0; i < loops; ++i) {
             if (settings.repeated[i]) {
                 Contour& path = cleared.passes[i].path;
                 path = flattened(path, settings.laying.aside, settings.laying.spacing,
@@ -229,15 +257,19 @@ private:
     void fill(OperationStats& stats, const ClearedRegion& cleared, double gap) const
     {
         stats.strategy = operation_.strategy;
+        const int loops = static_cast<int>(cleared.passes.size()) - cliff_passes_;
         stats.passes = static_cast<int>(cleared.passes.size());
         stats.levels = cleared.levels;
         stats.cl_points = moves_.points();
         stats.retracts = moves_.retracts();
         stats.gouge_bound_mm = std::max(0.0, -gap);
         stats.scallop_bound_mm = budget_.cusp + operation_.floor_tolerance;
-        stats.counts = {{"loops", static_cast<double>(cleared.passes.size())},
+        stats.counts = {{"loops", static_cast<double>(loops)},
                         {"leaves", static_cast<double>(cleared.leaves)},
                         {"islands", static_cast<double>(cleared.islands)}};
+        if (cliff_passes_ > 0) {
+            stats.counts.emplace_back("cliff_passes", static_cast<double>(cliff_passes_));
+        }
         report_rest(stats);
     }
 
@@ -291,6 +323,7 @@ private:
     const Budget& budget_;
     TipFloor floor_;
     PocketMoves moves_;
+    int cliff_passes_{0};
 };
 
 }  // namespace

@@ -51,7 +51,9 @@ void FloorCutter::enter(const ClearingPass& pass,
             [&](Vec3d a, Vec3d b) { return floor_.gap(a, b); });
         return;
     }
-    moves_.enter_along(path, heights, settings.entry == EntryKind::kPlunge);
+    // Open passes lie in metal that closed ones have cut.
+    const bool open = distance(pass.path.front().start, pass.path.back().end) > 1e-9;
+    moves_.enter_along(path, heights, open || settings.entry == EntryKind::kPlunge);
 }
 
 void FloorCutter::cut(const ClearedRegion& cleared, const CutSettings& settings)
@@ -85,7 +87,7 @@ void FloorCutter::cut(const ClearedRegion& cleared, const CutSettings& settings)
         }
         moves_.cut(path);
         cut_before = true;
-        last = pass.path.front().start;
+        last = pass.path.back().end;
     }
     moves_.retract();
 }

@@ -83,6 +83,14 @@ double gap_of(Vec3d start, const FloorMove& move, const TipFloor& floor, double 
     return least;
 }
 
+constexpr double kDeep = 10.0;  // bands above the floor: what lacks more grazes a cliff
+
+// How deep moves may cut, mm, <= 0.
+double allowed_gap(const FloorPathSettings& settings)
+{
+    return settings.lift ? 0.0 : -(settings.above + 2.0 * settings.cushion);
+}
+
 // Beside a cliff a move must not begin to climb before its end, nor sink before it is there:
 // raising it helps nothing.
 bool is_steep(Vec3d start, const FloorMove& move)
@@ -99,6 +107,23 @@ Vec3d level_corner(Vec3d start, Vec3d end)
     return start.z > end.z ? Vec3d{end.x, end.y, start.z} : Vec3d{start.x, start.y, end.z};
 }
 
+// The first half of a move, in plan and in height.
+FloorMove first_half(Vec3d start, const FloorMove& move)
+{
+    FloorMove half = move;
+    half.end = written((start + move.end) * 0.5);
+    if (move.turn != 0) {
+        const Vec2d a = Vec2d{start.x, start.y} - move.centre;
+        const Vec2d b = Vec2d{move.end.x, move.end.y} - move.centre;
+        const double radius = std::sqrt(dot(a, a));
+        const double turn = 0.5 * std::atan2(cross(a, b), dot(a, b));
+        const Vec2d p =
+            move.centre + unit(a * std::cos(turn) + left_normal(a) * std::sin(turn)) * radius;
+        half.end = written({p.x, p.y, half.end.z});
+    }
+    return half;
+}
+
 // Raises the ends of every move by what it lacks to keep off the floor, until none lacks anything.
 // Raising only ever adds room to the neighbours; a closed path's ends are raised together. Returns
 // the most that a move is raised by (mm).
@@ -109,6 +134,8 @@ double certify(FloorPath& path,
 {
     constexpr int kRounds = 20;
     constexpr int kGentleRounds = 4;  // later ones raise by more and more
+    const double allowed = allowed_gap(settings);
+    const double shortest = 0.02 * floor.tool().radius;
     path.least_gap = 0.0;
     double most = 0.0;
     // An arc's chords leave half of the cushion to the slope.
@@ -118,15 +145,24 @@ double certify(FloorPath& path,
         Vec3d& end = path.moves[i].end;
         double gap = gap_of(start, path.moves[i], floor, fine);
         const double end_before = end.z;
-        if (settings.lift && gap < 0.0 && is_steep(start, path.moves[i])) {
+        if (gap < allowed && is_steep(start, path.moves[i])) {
             const FloorMove corner{level_corner(start, end)};
             path.moves.insert(path.moves.begin() + static_cast<std::ptrdiff_t>(i), corner);
             --i;
             continue;
         }
-        for (int round = 0; settings.lift && gap < 0.0 && round < kRounds; ++round) {
+        // A move that grazes a cliff is raised by all of its height: only where it does.
+        const bool grazes =
+            gap < allowed - kDeep * settings.above && path.moves[i].curve.points.empty();
+        if (grazes && std::hypot(end.x - start.x, end.y - start.y) > shortest) {
+            const FloorMove half = first_half(start, path.moves[i]);
+            path.moves.insert(path.moves.begin() + static_cast<std::ptrdiff_t>(i), half);
+            --i;
+            continue;
+        }
+        for (int round = 0; gap < allowed && round < kRounds; ++round) {
             const double more = std::exp2(std::max(0, round - kGentleRounds));
-            const Vec3d raise{0.0, 0.0, more * (kWrittenStep - 1.5 * gap)};
+            const Vec3d raise{0.0, 0.0, more * (kWrittenStep + 1.5 * (allowed - gap))};
             start = written(start + raise);
             end = written(end + raise);
             gap = gap_of(start, path.moves[i], floor, fine);
@@ -141,10 +177,12 @@ double certify(FloorPath& path,
     return most;
 }
 
-// A path of curves is raised as a whole: its pieces share their ends.
+// A path of curves is raised as a whole: its pieces share their ends. Where that would be by more
+// than its band, beside a cliff, it is not. Returns what it is raised by, or lacks, mm.
 double certify_curves(FloorPath& path, const TipFloor& floor, const FloorPathSettings& settings)
 {
     constexpr int kRounds = 8;
+    const double allowed = allowed_gap(settings);
     const double before = path.start.z;
     const double fine = std::max(0.5 * settings.cushion, kWrittenStep);
     for (int round = 0; round < kRounds; ++round) {
@@ -154,10 +192,14 @@ double certify_curves(FloorPath& path, const TipFloor& floor, const FloorPathSet
             path.least_gap = std::min(path.least_gap, gap_of(start, move, floor, fine));
             start = move.end;
         }
-        if (!settings.lift || path.least_gap >= 0.0) {
+        const double lacking = allowed - path.least_gap;
+        if (lacking <= 0.0) {
             break;
         }
-        const Vec3d raise{0.0, 0.0, kWrittenStep + 1.5 * -path.least_gap};
+        if (lacking > settings.above) {
+            return lacking;
+        }
+        const Vec3d raise{0.0, 0.0, kWrittenStep + 1.5 * lacking};
         path.start = written(path.start + raise);
         for (FloorMove& move : path.moves) {
             move.end = written(move.end + raise);
@@ -283,7 +325,12 @@ FloorPath lay_on_floor(const std::vector<Edge>& plan,
     FloorPath path;
     if (lay_on_stations(plan, floor, settings, true, path) > kRaised * settings.above) {
         path = {};
-        lay_on_stations(plan, floor, settings, false, path);
+        const double raised = lay_on_stations(plan, floor, settings, false, path);
+        if (settings.nurbs && raised > settings.above) {
+            FloorPathSettings lines = settings;
+            lines.nurbs = false;
+            return lay_on_floor(plan, floor, lines);
+        }
     }
     return path;
 }

@@ -35,8 +35,8 @@ struct FloorMove {
 struct FloorPath {
     Vec3d start;
     std::vector<FloorMove> moves;
-    double least_gap{};   // mm: lower bound of the gap between floor and tool, over all moves; may
-                          // be < 0
+    double least_gap{};  // mm: lower bound of the gap between floor and tool, over all moves; may
+                         // be < 0
     bool over_floor{true};
     Vec2d missing;  // a place without floor, where not over_floor
 };

@@ -1,8 +1,9 @@
 // Where a patch that lies askew over a floor ends, and the tool comes down beside it.
 #include "host_tools/clearing/tip_floor.hpp"
-#include "host_tools/offset/contour.hpp"
 
 #include <cmath>
+
+#include "host_tools/offset/contour.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"

@@ -1,0 +1,192 @@
+// Follows the lines that crease_lines() finds as far as they are worth it.
+#include "host_tools/contour_pocket/cliff_passes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host_tools/contour_pocket/crease_lines.hpp"
+#include "host_tools/contour_pocket/pass_leavings.hpp"
+
+namespace cusp::host {
+
+namespace {
+
+constexpr double kAlong = 0.1;      // of the radius: between places that are looked at
+constexpr double kWorthOn = 3.0;    // radii: over shorter gaps a pass goes on
+constexpr double kFarthest = 4.0;   // of `off`
+constexpr double kLifted = 0.02;    // of the radius: length of a pass that may lie high
+constexpr double kShortest = 1e-4;  // mm
+
+class CliffFollower {
+public:
+    CliffFollower(const Region2d& region,
+                  const TipFloor& floor,
+                  const ClearedRegion& cleared,
+                  const CliffSettings& settings)
+        : walls_{region}, floor_{floor}, leavings_{cleared, floor}, settings_{settings}
+    {
+    }
+
+    std::vector<ClearingPass> run()
+    {
+        CreaseSearch search;
+        search.box = box_of(walls_.source());
+        search.inside = [this](Vec2d p) {
+            return inside(p);
+        };
+        search.jump = std::max(0.25 * settings_.most, 2e-3);
+        search.fine = 0.3 * settings_.laying.aside;
+        for (const CreaseLine& line : crease_lines(floor_, search)) {
+            for (double off = settings_.off; off <= kFarthest * settings_.off; off *= 2.0) {
+                std::vector<ClearingPass> found = along(line, off);
+                const bool low = std::all_of(found.begin(), found.end(),
+                                             [&](const ClearingPass& p) { return lies_low(p); });
+                if (low || off == kFarthest * settings_.off) {
+                    passes_.insert(passes_.end(), found.begin(), found.end());
+                    break;
+                }
+            }
+        }
+        return std::move(passes_);
+    }
+
+private:
+    bool inside(Vec2d p) const
+    {
+        return !walls_.any_nearer(p, settings_.first) && walls_.contains(p);
+    }
+
+    // Whether the pass, as it is certified, stays down, but for climbs where it meets other cliffs.
+    bool lies_low(const ClearingPass& pass) const
+    {
+        FloorPathSettings laying = settings_.laying;
+        laying.arcs = laying.nurbs = false;
+        const FloorPath path = lay_on_floor(pass.path, floor_, laying);
+        const double most = 1.5 * settings_.laying.above + 2.0 * settings_.laying.cushion;
+        double length = 0.0;
+        Vec3d from = path.start;
+        for (const FloorMove& move : path.moves) {
+            const Vec3d middle = (from + move.end) * 0.5;
+            const bool lifted = middle.z > floor_.drop({middle.x, middle.y}).height + most;
+            length += lifted ? distance(Vec2d{from.x, from.y}, {move.end.x, move.end.y}) : 0.0;
+            from = move.end;
+        }
+        return length < kLifted * floor_.tool().radius;
+    }
+
+    // The line's places that passes may stand on, and which of them are worth it.
+    std::vector<ClearingPass> along(const CreaseLine& line, double off)
+    {
+        std::vector<Vec2d> path;
+        std::vector<bool> worth;
+        double since = 1e300;
+        const double apart = kAlong * floor_.tool().radius;
+        for (const CreasePoint& point : line.points) {
+            const Vec2d p = point.at + point.away * off;
+            const double step = path.empty() ? 0.0 : distance(path.back(), p);
+            if (!inside(p) || (!path.empty() && step < kShortest)) {
+                continue;
+            }
+            since += step;
+            const bool again = since >= apart;
+            worth.push_back(point.jump || (again ? is_worth(p) : worth.back()));
+            since = again ? 0.0 : since;
+            path.push_back(p);
+        }
+        if (line.closed && path.size() > 2) {
+            path.push_back(path.front());
+            worth.push_back(worth.front());
+        }
+        fill_gaps(path, worth);
+        return passes_on(path, worth);
+    }
+
+    // Whether the tool there takes off more than may stay.
+    bool is_worth(Vec2d q)
+    {
+        constexpr double kRings[] = {0.0, 0.3, 0.55, 0.75, 0.9, 0.985};
+        constexpr int kSpokes = 16;
+        const Tool& tool = floor_.tool();
+        const TipFloor::Rest rest = floor_.drop(q);
+        const double level = 1.0 / std::sqrt(1.0 + dot(rest.gradient, rest.gradient));
+        for (const double ring : kRings) {
+            const double out = ring * tool.radius;
+            const double cut = rest.height + profile_height(tool, out);
+            for (int spoke = 0; spoke < (ring > 0.0 ? kSpokes : 1); ++spoke) {
+                const double angle = 6.28318530717958648 * spoke / kSpokes;
+                const Vec2d p = q + Vec2d{std::cos(angle), std::sin(angle)} * out;
+                if ((leavings_.height(p) - cut) * level > settings_.most) {
+                    return true;
+                }
+            }
+        }
+        return false;
+    }
+
+    // Rather on along the line than up and down again.
+    void fill_gaps(const std::vector<Vec2d>& path, std::vector<bool>& worth) const
+    {
+        const double longest = kWorthOn * floor_.tool().radius;
+        std::size_t last = path.size();
+        double since = 0.0;
+        for (std::size_t i = 0; i < path.size(); ++i) {
+            since += i > 0 ? distance(path[i - 1], path[i]) : 0.0;
+            if (!worth[i]) {
+                continue;
+            }
+            if (last < path.size() && since < longest) {
+                std::fill(worth.begin() + static_cast<std::ptrdiff_t>(last),
+                          worth.begin() + static_cast<std::ptrdiff_t>(i), true);
+            }
+            last = i;
+            since = 0.0;
+        }
+    }
+
+    // A pass for each stretch of the path, from the place before it to the one behind it.
+    std::vector<ClearingPass> passes_on(const std::vector<Vec2d>& path,
+                                        const std::vector<bool>& worth) const
+    {
+        std::vector<ClearingPass> passes;
+        ClearingPass pass;
+        const auto close = [&] {
+            if (!pass.path.empty()) {
+                pass.start = PassStart::kDrop;
+                pass.room = settings_.first;
+                passes.push_back(pass);
+                pass.path.clear();
+            }
+        };
+        const double longest = 0.25 * floor_.tool().radius;
+        for (std::size_t i = 1; i < path.size(); ++i) {
+            const bool on = worth[i - 1] || worth[i];
+            const bool whole =
+                distance(path[i - 1], path[i]) < longest && inside((path[i - 1] + path[i]) * 0.5);
+            if (on && whole) {
+                pass.path.push_back(line_edge(path[i - 1], path[i]));
+            } else {
+                close();
+            }
+        }
+        close();
+        return passes;
+    }
+
+    RegionOffset walls_;
+    const TipFloor& floor_;
+    PassLeavings leavings_;
+    const CliffSettings& settings_;
+    std::vector<ClearingPass> passes_;
+};
+
+}  // namespace
+
+std::vector<ClearingPass> cliff_passes(const Region2d& region,
+                                       const TipFloor& floor,
+                                       const ClearedRegion& cleared,
+                                       const CliffSettings& settings)
+{
+    return CliffFollower{region, floor, cleared, settings}.run();
+}
+
+}  // namespace cusp::host

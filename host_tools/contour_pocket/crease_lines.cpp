@@ -1,0 +1,326 @@
+// Halving finds a line between two places; from there it is followed step by step both ways. At
+// sharp corners a circle of places finds where it goes on.
+#include "host_tools/contour_pocket/crease_lines.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace cusp::host {
+
+namespace {
+
+constexpr double kGrid = 0.125;         // of the tool's radius
+constexpr double kMostCells = 600.0;    // a side
+constexpr double kTurn = 0.15;          // of the slope
+constexpr double kLongestStep = 0.1;    // of the radius
+constexpr double kShortestStep = 2e-3;  // of the radius
+constexpr double kBeside = 0.35;        // of a step: how far beside its end the line is looked for
+constexpr double kSame = 0.04;          // of the radius: lines nearer to each other are one
+
+class LineTracer {
+public:
+    LineTracer(const TipFloor& floor, const CreaseSearch& search)
+        : floor_{floor},
+          search_{search},
+          radius_{floor.tool().radius},
+          nearest_{0.1 * search.fine},
+          traced_cell_{kSame * floor.tool().radius}
+    {
+    }
+
+    std::vector<CreaseLine> run()
+    {
+        const Box2d& box = search_.box;
+        const double longest = std::max(box.x1 - box.x0, box.y1 - box.y0);
+        const double grid = std::max(kGrid * radius_, longest / kMostCells);
+        const int columns = static_cast<int>((box.x1 - box.x0) / grid) + 2;
+        const int rows = static_cast<int>((box.y1 - box.y0) / grid) + 2;
+        std::vector<std::optional<Look>> before;
+        for (int i = 0; i < columns; ++i) {
+            std::vector<std::optional<Look>> column;
+            for (int j = 0; j < rows; ++j) {
+                column.push_back(look({box.x0 + grid * i, box.y0 + grid * j}));
+                const auto here = static_cast<std::size_t>(j);
+                if (j > 0) {
+                    start_between(column[here - 1], column[here]);
+                }
+                if (i > 0) {
+                    start_between(before[here], column[here]);
+                }
+            }
+            before = std::move(column);
+        }
+        return std::move(lines_);
+    }
+
+private:
+    struct Look {
+        Vec2d at;
+        TipFloor::Rest rest;
+    };
+
+    std::optional<Look> look(Vec2d at) const
+    {
+        if (!search_.inside(at)) {
+            return std::nullopt;
+        }
+        const TipFloor::Rest rest = floor_.drop(at);
+        return rest.height == TipFloor::kNothing ? std::nullopt : std::optional{Look{at, rest}};
+    }
+
+    struct Bend {
+        double jump;  // mm that the slopes at the ends do not explain
+        double turn;  // of the slope, upward
+    };
+
+    static Bend bend(const Look& a, const Look& b)
+    {
+        const Vec2d way = b.at - a.at;
+        const double apart = std::sqrt(dot(way, way));
+        const double by_slopes = 0.5 * dot(a.rest.gradient + b.rest.gradient, way);
+        return {std::abs(b.rest.height - a.rest.height - by_slopes),
+                dot(b.rest.gradient - a.rest.gradient, way) / apart};
+    }
+
+    // A smooth valley as tight as the tool turns no more over that way.
+    bool is_uneven(const Look& a, const Look& b) const
+    {
+        const Bend found = bend(a, b);
+        return found.jump > search_.jump || found.turn > kTurn + distance(a.at, b.at) / radius_;
+    }
+
+    // Where between a and b the line passes.
+    std::optional<CreasePoint> between(const std::optional<Look>& from,
+                                       const std::optional<Look>& to) const
+    {
+        if (!from || !to || !is_uneven(*from, *to)) {
+            return std::nullopt;
+        }
+        Look a = *from;
+        Look b = *to;
+        const auto weight = [](const Look& p, const Look& q) {
+            const Bend found = bend(p, q);
+            return found.jump + 0.5 * std::max(0.0, found.turn) * distance(p.at, q.at);
+        };
+        while (distance(a.at, b.at) > nearest_) {
+            const std::optional<Look> middle = look((a.at + b.at) * 0.5);
+            if (!middle) {
+                return std::nullopt;
+            }
+            (weight(a, *middle) > weight(*middle, b) ? b : a) = *middle;
+        }
+        const double rise = b.rest.height - a.rest.height;
+        const bool jump = std::abs(rise) > search_.jump;
+        if (!jump && bend(a, b).turn < kTurn) {
+            return std::nullopt;
+        }
+        const Vec2d way = unit(b.at - a.at);
+        const double climb = dot(a.rest.gradient + b.rest.gradient, way);
+        const bool low_first = jump ? rise > 0.0 : climb > 0.0;
+        return low_first ? CreasePoint{a.at, way * -1.0, jump} : CreasePoint{b.at, way, jump};
+    }
+
+    std::optional<CreasePoint> between(Vec2d a, Vec2d b) const { return between(look(a), look(b)); }
+
+    // Places of the lines found so far, by square cells of side kSame radii.
+    using Cell = std::array<int, 2>;
+    struct Traced {
+        Vec2d at;
+        std::size_t line;
+        std::size_t point;
+    };
+
+    Cell cell_of(Vec2d p) const
+    {
+        return {static_cast<int>(std::floor(p.x / traced_cell_)),
+                static_cast<int>(std::floor(p.y / traced_cell_))};
+    }
+
+    template <class Counts>
+    std::optional<Traced> traced_near(Vec2d p, double reach, Counts counts) const
+    {
+        const Cell cell = cell_of(p);
+        std::optional<Traced> nearest;
+        for (int i = -1; i <= 1; ++i) {
+            for (int j = -1; j <= 1; ++j) {
+                const auto found = traced_.find({cell[0] + i, cell[1] + j});
+                if (found == traced_.end()) {
+                    continue;
+                }
+                for (const Traced& place : found->second) {
+                    const double apart = distance(place.at, p);
+                    if (apart < reach && counts(place)) {
+                        reach = apart;
+                        nearest = place;
+                    }
+                }
+            }
+        }
+        return nearest;
+    }
+
+    void mark(Vec2d from, Vec2d to, std::size_t line, std::size_t point)
+    {
+        const int n = 1 + static_cast<int>(2.0 * distance(from, to) / traced_cell_);
+        for (int i = 1; i <= n; ++i) {
+            const Vec2d p = from + (to - from) * (static_cast<double>(i) / n);
+            traced_[cell_of(p)].push_back({p, line, point});
+        }
+    }
+
+    void start_between(const std::optional<Look>& a, const std::optional<Look>& b)
+    {
+        const std::optional<CreasePoint> found = between(a, b);
+        const auto any = [](const Traced&) {
+            return true;
+        };
+        if (!found || traced_near(found->at, traced_cell_, any)) {
+            return;
+        }
+        const std::optional<CreasePoint> start = squared(*found);
+        if (!start) {
+            return;
+        }
+        lines_.push_back({{*start}, false});
+        mark(start->at, start->at, lines_.size() - 1, 0);
+        follow(left_normal(start->away));
+        if (!lines_.back().closed) {
+            std::reverse(lines_.back().points.begin(), lines_.back().points.end());
+            first_of_way_back_ = lines_.back().points.size();
+            follow(left_normal(start->away) * -1.0);
+            first_of_way_back_ = 0;
+        }
+        if (lines_.back().points.size() < 2) {
+            lines_.pop_back();
+        }
+    }
+
+    // The same place of the line, met square to it: by two more places beside.
+    std::optional<CreasePoint> squared(const CreasePoint& start) const
+    {
+        const double step = 4.0 * kShortestStep * radius_;
+        const std::vector<CreasePoint> around = circle(start.at, step);
+        if (around.empty()) {
+            return std::nullopt;
+        }
+        const Vec2d along = unit(around.front().at - start.at);
+        const Vec2d side = left_normal(along) * step;
+        const auto found = between(start.at - side, start.at + side);
+        return found ? found : around.front();
+    }
+
+    // Where lines leave a circle about a place.
+    std::vector<CreasePoint> circle(Vec2d centre, double out) const
+    {
+        constexpr int kPlaces = 24;
+        std::vector<CreasePoint> found;
+        const auto place = [&](int i) {
+            const double angle = 6.28318530717958648 * (i + 0.37) / kPlaces;
+            return look(centre + Vec2d{std::cos(angle), std::sin(angle)} * out);
+        };
+        std::optional<Look> last = place(0);
+        for (int i = 1; i <= kPlaces; ++i) {
+            std::optional<Look> next = place(i);
+            if (const auto point = between(last, next)) {
+                found.push_back(*point);
+            }
+            last = std::move(next);
+        }
+        return found;
+    }
+
+    struct Step {
+        CreasePoint point;
+        Vec2d way;
+    };
+
+    // The next place of the line, as far on as its chord allows.
+    std::optional<Step> next(const CreasePoint& from, Vec2d way, double& step) const
+    {
+        const double shortest = kShortestStep * radius_;
+        while (step >= shortest) {
+            const Vec2d ahead = from.at + way * step;
+            const Vec2d side = left_normal(way) * (kBeside * step);
+            const auto found = between(ahead - side, ahead + side);
+            if (found) {
+                const Vec2d gone = found->at - from.at;
+                const double off = std::abs(dot(gone, left_normal(way)));
+                const double room = (found->jump ? 4.0 : 40.0) * search_.fine;
+                if (off <= room || step < 2.0 * shortest) {
+                    const Vec2d on = unit(gone);
+                    step *= off < 0.3 * room ? 1.5 : 1.0;
+                    step = std::min(step, kLongestStep * radius_);
+                    return Step{*found, on};
+                }
+            }
+            step *= 0.5;
+        }
+        step = shortest;
+        std::optional<Step> best;
+        double straightest = -0.5;  // cosine of the sharpest turn
+        for (const CreasePoint& point : circle(from.at, 4.0 * shortest)) {
+            const Vec2d on = unit(point.at - from.at);
+            if (dot(on, way) > straightest) {
+                straightest = dot(on, way);
+                best = Step{point, on};
+            }
+        }
+        return best;
+    }
+
+    // On from the last place of the last line.
+    void follow(Vec2d way)
+    {
+        constexpr int kMostPoints = 200000;
+        const std::size_t line = lines_.size() - 1;
+        std::vector<CreasePoint>& points = lines_.back().points;
+        double step = 0.25 * kLongestStep * radius_;
+        double gone = 0.0;
+        for (int i = 0; i < kMostPoints; ++i) {
+            const CreasePoint last = points.back();
+            const auto on = next(last, way, step);
+            if (!on) {
+                return;
+            }
+            const double apart = distance(last.at, on->point.at);
+            gone += apart;
+            const double reach = std::min(0.7 * apart, 0.7 * traced_cell_);
+            const auto far_back = [&](const Traced& place) {
+                return place.line != line || (place.point == 0 && gone > 4.0 * traced_cell_) ||
+                       (first_of_way_back_ > 0 && place.point < first_of_way_back_ &&
+                        gone > 4.0 * traced_cell_);
+            };
+            const auto met = traced_near(on->point.at, reach, far_back);
+            points.push_back(on->point);
+            if (met) {
+                lines_.back().closed =
+                    met->line == line &&
+                    distance(points.front().at, on->point.at) < 4.0 * traced_cell_;
+                return;
+            }
+            mark(last.at, on->point.at, line, points.size() - 1);
+            way = on->way;
+        }
+    }
+
+    const TipFloor& floor_;
+    const CreaseSearch& search_;
+    double radius_;
+    double nearest_;  // mm: halving ends
+    double traced_cell_;
+    std::vector<CreaseLine> lines_;
+    std::map<Cell, std::vector<Traced>> traced_;
+    std::size_t first_of_way_back_{0};
+};
+
+}  // namespace
+
+std::vector<CreaseLine> crease_lines(const TipFloor& floor, const CreaseSearch& search)
+{
+    return LineTracer{floor, search}.run();
+}
+
+}  // namespace cusp::host

@@ -1,0 +1,28 @@
+// How high metal stands that passes leave.
+#pragma once
+
+#include <vector>
+
+#include "host_tools/clearing/clearing.hpp"
+#include "host_tools/clearing/tip_floor.hpp"
+#include "host_tools/offset/edge_tree.hpp"
+
+namespace cusp::host {
+
+class PassLeavings {
+public:
+    // The passes are looked at every `share` of the tool's radius, at the tip's lowest height.
+    PassLeavings(const ClearedRegion& cleared, const TipFloor& floor, double share = 0.08);
+
+    // z; 1e300 where no pass comes within the tool's radius.
+    double height(Vec2d place);
+
+private:
+    const TipFloor& floor_;
+    double apart_;
+    std::vector<Edge> edges_;
+    EdgeTree tree_;
+    std::vector<std::vector<Vec3d>> tips_;  // along each edge; empty until they are asked for
+};
+
+}  // namespace cusp::host
