@@ -49,7 +49,7 @@ Coverage::Coverage(const std::vector<Surface>& surfaces,
       path_off_{path_off},
       step_{std::sqrt(8 * certified.tool().radius * scallop)},
       swept_{radius_, 0.6 * step_},
-      reach_{certified, std::max(kBlockedCell * step_, kReachPitch * radius_)}
+      reach_{surfaces, certified, std::max(kBlockedCell * step_, kReachPitch * radius_)}
 {
 }
 

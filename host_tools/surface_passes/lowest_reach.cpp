@@ -11,7 +11,8 @@ namespace {
 constexpr int kMostDrops = 10;          // from a start
 constexpr std::size_t kMostStarts = 3;  // apart from each other
 constexpr double kApart = 0.3;          // radii
-constexpr double kAgrees = 2e-4;        // mm
+constexpr double kAgrees = 3e-4;        // mm
+constexpr double kDropAccuracy = 1e-4;  // mm
 constexpr double kFinest = 1e-3;        // of the pitch
 constexpr int kDirections = 8;
 constexpr double kTurn = 0.41;  // radians, so that no valley lies between all directions
@@ -19,10 +20,20 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 double square(double a) { return a * a; }
 
+Tool grown(Tool tool, double by)
+{
+    tool.radius += by;
+    tool.corner_radius += by;
+    return tool;
+}
+
 }  // namespace
 
-LowestReach::LowestReach(const CertifiedPasses& certified, double pitch)
+LowestReach::LowestReach(const std::vector<Surface>& surfaces,
+                         const CertifiedPasses& certified,
+                         double pitch)
     : certified_{certified},
+      floor_{surfaces, grown(certified.tool(), certified.band().lift), kDropAccuracy},
       radius_{certified.tool().radius},
       contact_radius_{radius_ + certified.band().lift},
       pitch_{pitch}
@@ -31,12 +42,11 @@ LowestReach::LowestReach(const CertifiedPasses& certified, double pitch)
 
 LowestReach::Node LowestReach::dropped(double x, double y) const
 {
-    const std::optional<Vec3d> tip = certified_.dropped(x, y);
-    if (!tip) {
+    const TipFloor::Contact contact = floor_.contact({x, y}, 0.0);
+    if (contact.height == TipFloor::kNothing) {
         return {{x, y, kNever}, {}};
     }
-    const Clearance touch = certified_.model().clearance(certified_.tool(), *tip, kNever);
-    return {*tip + Vec3d{0, 0, radius_}, touch.nearest.point};
+    return {{x, y, contact.height + contact_radius_}, contact.surface.point};
 }
 
 const LowestReach::Node& LowestReach::node(std::int64_t i, std::int64_t j)
@@ -111,9 +121,27 @@ double LowestReach::height_over(Vec3d place, double x, double y) const
 }
 
 // A place where `height_over` is least, near the one given.
-std::array<double, 2> LowestReach::improved(Vec3d place, double x, double y) const
+std::array<double, 2> LowestReach::improved(Vec3d place, double x, double y)
 {
     double best = height_over(place, x, y);
+    // True where no contact keeps the ball as high as `best`. The one that does is looked at first
+    // the next time: mostly the same few are in the way.
+    const auto lower_at = [&](double to_x, double to_y) {
+        const double under = square(radius_) - square(to_x - place.x) - square(to_y - place.y);
+        if (under < 0) {
+            return false;
+        }
+        const double centre = best + std::sqrt(under);
+        for (std::size_t i = 0; i < contacts_.size(); ++i) {
+            const Vec3d c = contacts_[i];
+            const double up = square(contact_radius_) - square(to_x - c.x) - square(to_y - c.y);
+            if (up > 0 && (c.z >= centre || up >= square(centre - c.z))) {
+                std::swap(contacts_[i], contacts_[i / 2]);
+                return false;
+            }
+        }
+        return true;
+    };
     double turn = 0;
     for (double step = pitch_; step > kFinest * pitch_; turn += kTurn) {
         const double from = best;
@@ -121,9 +149,8 @@ std::array<double, 2> LowestReach::improved(Vec3d place, double x, double y) con
             const double angle = turn + k * 0.78539816339744831;
             const double to_x = x + step * std::cos(angle);
             const double to_y = y + step * std::sin(angle);
-            const double there = height_over(place, to_x, to_y);
-            if (there < best) {
-                best = there;
+            if (lower_at(to_x, to_y)) {
+                best = height_over(place, to_x, to_y);
                 x = to_x;
                 y = to_y;
                 break;
@@ -138,10 +165,14 @@ std::array<double, 2> LowestReach::improved(Vec3d place, double x, double y) con
 
 std::optional<LowestReach::Answer> LowestReach::over(Vec3d place, double worth)
 {
-    std::optional<Answer> best;
+    std::optional<Start> best;
+    const auto height_of = [&](Vec3d centre) {
+        return centre.z - std::sqrt(std::max(0.0, square(radius_) - square(centre.x - place.x) -
+                                                      square(centre.y - place.y)));
+    };
     const auto take = [&](Vec3d centre, double height) {
         if (!best || height < best->height) {
-            best = Answer{centre - Vec3d{0, 0, radius_}, height};
+            best = Start{height, centre};
         }
     };
     for (const Start& start : starts_over(place)) {
@@ -159,9 +190,7 @@ std::optional<LowestReach::Answer> LowestReach::over(Vec3d place, double worth)
             if (!std::isfinite(at.centre.z)) {
                 break;
             }
-            const double height =
-                at.centre.z - std::sqrt(std::max(0.0, square(radius_) - square(to_x - place.x) -
-                                                          square(to_y - place.y)));
+            const double height = height_of(at.centre);
             take(at.centre, height);
             contacts_.push_back(at.contact);
             if (height - hoped < kAgrees) {
@@ -171,7 +200,17 @@ std::optional<LowestReach::Answer> LowestReach::over(Vec3d place, double worth)
             y = to_y;
         }
     }
-    return best;
+    if (!best) {
+        return std::nullopt;
+    }
+    if (best->height > worth) {
+        return Answer{best->centre - Vec3d{0, 0, radius_}, best->height};
+    }
+    const std::optional<Vec3d> tip = certified_.dropped(best->centre.x, best->centre.y);
+    if (!tip) {
+        return std::nullopt;
+    }
+    return Answer{*tip, height_of(*tip + Vec3d{0, 0, radius_})};
 }
 
 }  // namespace cusp::host

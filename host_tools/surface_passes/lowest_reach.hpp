@@ -8,25 +8,31 @@
 #include <unordered_map>
 #include <vector>
 
+#include "host_tools/clearing/tip_floor.hpp"
 #include "host_tools/surface_passes/certified_pass.hpp"
 
 namespace cusp::host {
 
-// Exact drops of the tool on a grid, made where first asked for, say where to begin. From there the
+// Drops of the tool on a grid, made where first asked for, say where to begin. From there the
 // position is improved over all contacts found so far, which are the floor that the ball stands on,
-// dropped exactly, and so on until drop and contacts agree.
+// dropped, and so on until drop and contacts agree. These drops are bounds from above, micrometres
+// high; the answer's is exact.
 //
 // A search, not a proof: a better position may hide between the places of the grid.
 class LowestReach {
 public:
-    // pitch  mm, of the grid
-    LowestReach(const CertifiedPasses& certified, double pitch);
+    // surfaces  of the model that the passes are certified on
+    // pitch     mm, of the grid
+    LowestReach(const std::vector<Surface>& surfaces,
+                const CertifiedPasses& certified,
+                double pitch);
 
     struct Answer {
         Vec3d tip;
         double height;  // mm: what this tip leaves straight above or below the place
     };
-    // worth  mm: heights above this are not told apart; a low one saves most of the time
+    // worth  mm: heights above this are not told apart, nor are their tips exact; a low one saves
+    //        most of the time
     //
     // None where the tool can't stand over the place.
     std::optional<Answer> over(Vec3d place, double worth);
@@ -45,9 +51,10 @@ private:
     Node dropped(double x, double y) const;
     std::vector<Start> starts_over(Vec3d place);
     double height_over(Vec3d place, double x, double y) const;
-    std::array<double, 2> improved(Vec3d place, double x, double y) const;
+    std::array<double, 2> improved(Vec3d place, double x, double y);
 
     const CertifiedPasses& certified_;
+    TipFloor floor_;
     double radius_;
     double contact_radius_;  // mm: of a ball that touches what the tool stays `lift` off
     double pitch_;
