@@ -14,7 +14,7 @@ struct StationSpacing {
     double along;   // mm between stations at most
     double aside;   // mm: chords of arcs keep within an eighth of it
     double height;  // mm: chords of the floor keep within a twentieth of it
-    bool sparse;    // where the floor is smooth every other station is interpolated, to a tenth of it
+    bool sparse;  // where the floor is smooth every other station is interpolated, to a tenth of it
 };
 
 struct StationRow {
