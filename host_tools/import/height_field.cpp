@@ -76,16 +76,22 @@ void clip(std::vector<Vec3d>& polygon, double Vec3d::*axis, double at, double si
 
 class Field {
 public:
-    Field(const Facets& facets, const Box& box, int cells)
+    // goes_on: where no facet lies the heights around go on; else the mesh's lowest stands there
+    Field(const Facets& facets, const Box& box, int cells, bool goes_on)
         : facets_{facets},
           box_{box},
           step_{std::max(box.x1 - box.x0, box.y1 - box.y0) / cells},
           nx_{count_along(box.x1 - box.x0)},
           ny_{count_along(box.y1 - box.y0)},
           sx_{(box.x1 - box.x0) / nx_},
-          sy_{(box.y1 - box.y0) / ny_}
+          sy_{(box.y1 - box.y0) / ny_},
+          goes_on_{goes_on}
     {
         sample();
+        if (goes_on) {
+            go_on();
+        }
+        fill_open();
         fit();
     }
 
@@ -102,6 +108,9 @@ private:
         return std::max(4, static_cast<int>(std::ceil(side / step_ - 1e-9)));
     }
     void sample();
+    void go_on();
+    void fill_open();
+    double gone_on(int i, int j) const;
     void fit();
     // Control points -1 ... n + 1 along each side stand straight over the knots.
     double& control(int i, int j) { return controls_[place(i, j)]; }
@@ -111,13 +120,18 @@ private:
         return static_cast<std::size_t>((i + 1) * (ny_ + 3) + j + 1);
     }
     std::array<double, 16> bezier_of_cell(int i, int j) const;
-    std::vector<double> missing() const;
+    struct Missing {
+        std::vector<double> up;      // mm, of each cell
+        std::vector<double> square;  // the same along the facet's normal
+    };
+    Missing missing() const;
 
     const Facets& facets_;
     Box box_;
     double step_;
     int nx_, ny_;
     double sx_, sy_;
+    bool goes_on_;
     std::vector<double> samples_;
     std::vector<double> controls_;
     double most_lift_{};
@@ -153,13 +167,55 @@ void Field::sample()
             }
         }
     }
-    std::size_t open = 0;
-    for (double& z : samples_) {
-        open += z == kNone ? 1U : 0U;
-        z = z == kNone ? box_.z0 : z;
-    }
+    const auto open = std::count(samples_.begin(), samples_.end(), kNone);
     open_share_ = static_cast<double>(open) / static_cast<double>(samples_.size());
 }
+
+// From the known heights beside a knot: straight on where two in a row are known.
+double Field::gone_on(int i, int j) const
+{
+    const auto known = [&](int a, int b) {
+        return a < 0 || a > nx_ || b < 0 || b > ny_
+                   ? kNone
+                   : samples_[static_cast<std::size_t>(a * (ny_ + 1) + b)];
+    };
+    double straight = 0;
+    double beside = 0;
+    int straights = 0;
+    int besides = 0;
+    for (int di = -1; di <= 1; ++di) {
+        for (int dj = -1; dj <= 1; ++dj) {
+            const double near = known(i + di, j + dj);
+            const double far = known(i + 2 * di, j + 2 * dj);
+            if (near != kNone && far != kNone) {
+                straight += 2 * near - far;
+                ++straights;
+            } else if (near != kNone) {
+                beside += near;
+                ++besides;
+            }
+        }
+    }
+    return straights > 0 ? straight / straights : besides > 0 ? beside / besides : kNone;
+}
+
+// Over as many knots as reach into the cells with facets.
+void Field::go_on()
+{
+    constexpr int kRings = 4;
+    for (int ring = 0; ring < kRings; ++ring) {
+        std::vector<double> next = samples_;
+        for (int i = 0; i <= nx_; ++i) {
+            for (int j = 0; j <= ny_; ++j) {
+                double& z = next[static_cast<std::size_t>(i * (ny_ + 1) + j)];
+                z = z == kNone ? gone_on(i, j) : z;
+            }
+        }
+        samples_.swap(next);
+    }
+}
+
+void Field::fill_open() { std::replace(samples_.begin(), samples_.end(), kNone, box_.z0); }
 
 // Quasi-interpolation: exact for cubics, and no equations to solve.
 void Field::fit()
@@ -264,7 +320,7 @@ LowPlane plane_below(const std::array<double, 16>& cell, int p, int q, double sx
 }
 
 // How far facets rise over the planes below the surface, the most of each cell.
-std::vector<double> Field::missing() const
+Field::Missing Field::missing() const
 {
     const double px = sx_ / kParts;
     const double py = sy_ / kParts;
@@ -277,10 +333,13 @@ std::vector<double> Field::missing() const
             }
         }
     }
-    std::vector<double> most(static_cast<std::size_t>(nx_ * ny_), 0.0);
+    const auto count = static_cast<std::size_t>(nx_ * ny_);
+    Missing most{std::vector<double>(count, 0.0), std::vector<double>(count, 0.0)};
     std::vector<Vec3d> strip;
     std::vector<Vec3d> polygon;
     for (const Triangle& t : facets_.triangles) {
+        const Vec3d normal = cross(t[1] - t[0], t[2] - t[0]);
+        const double lean = std::abs(normal.z) / norm(normal);
         const Span in_x = span_of((lowest(&Vec3d::x, t) - box_.x0) / px - 1e-6,
                                   (highest(&Vec3d::x, t) - box_.x0) / px + 1e-6, nx_ * kParts);
         for (int i = in_x.begin; i < in_x.end; ++i) {
@@ -304,8 +363,10 @@ std::vector<double> Field::missing() const
                 const auto part = static_cast<std::size_t>((i % kParts) * kParts + j % kParts);
                 const LowPlane& plane = planes[cell * kParts * kParts + part];
                 for (const Vec3d& v : polygon) {
-                    most[cell] = std::max(most[cell], v.z - plane.level - plane.gx * (v.x - x) -
-                                                          plane.gy * (v.y - y));
+                    const double over =
+                        v.z - plane.level - plane.gx * (v.x - x) - plane.gy * (v.y - y);
+                    most.up[cell] = std::max(most.up[cell], over);
+                    most.square[cell] = std::max(most.square[cell], lean * over);
                 }
             }
         }
@@ -315,14 +376,16 @@ std::vector<double> Field::missing() const
 
 void Field::lift(double tolerance)
 {
-    const std::vector<double> most = missing();
+    const Missing most = missing();
+    const std::vector<double>& felt = goes_on_ ? most.square : most.up;
     std::vector<double> lifted = controls_;
     std::size_t loose = 0;
     for (int i = 0; i < nx_; ++i) {
         for (int j = 0; j < ny_; ++j) {
-            const double add = most[static_cast<std::size_t>(i * ny_ + j)];
-            most_lift_ = std::max(most_lift_, add);
-            loose += add > tolerance ? 1U : 0U;
+            const auto cell = static_cast<std::size_t>(i * ny_ + j);
+            const double add = most.up[cell];
+            most_lift_ = std::max(most_lift_, felt[cell]);
+            loose += felt[cell] > tolerance ? 1U : 0U;
             for (int k = i - 1; k <= i + 2; ++k) {
                 for (int m = j - 1; m <= j + 2; ++m) {
                     double& z = lifted[place(k, m)];
@@ -371,15 +434,22 @@ double overhang(const Facets& facets, double base)
     return any_up ? area : 0;
 }
 
-}  // namespace
+// Over sharp edges between facets what is missing shrinks with the cells, elsewhere faster.
+int next_cells(int cells, double too_much)
+{
+    constexpr double kSpare = 1.1;
+    const int wanted = static_cast<int>(cells * std::clamp(kSpare * too_much, 1.25, 2.0));
+    return cells < kMostCells ? std::min(wanted, kMostCells) : 2 * kMostCells;
+}
 
-HeightField height_field(const Facets& facets, double tolerance)
+HeightField finest(const Facets& facets, double tolerance, bool goes_on)
 {
     const Box box = box_of(facets);
     HeightField out;
     double before = std::numeric_limits<double>::infinity();
-    for (int cells = kFirstCells; cells <= kMostCells; cells *= 2) {
-        Field field{facets, box, cells};
+    int more = 0;
+    for (int cells = kFirstCells; cells <= kMostCells; cells = more) {
+        Field field{facets, box, cells, goes_on};
         field.lift(tolerance);
         out = {field.surface(),          field.step(),      field.most_lift(), field.loose_share(),
                overhang(facets, box.z0), field.open_share()};
@@ -389,8 +459,23 @@ HeightField height_field(const Facets& facets, double tolerance)
             break;
         }
         before = out.lift;
+        more = goes_on ? next_cells(cells, out.lift / tolerance) : 2 * cells;
     }
     return out;
 }
+
+}  // namespace
+
+HeightField height_field(const Facets& facets, double tolerance)
+{
+    return finest(facets, tolerance, false);
+}
+
+HeightField height_patch(const Facets& facets, double tolerance)
+{
+    return finest(facets, tolerance, true);
+}
+
+double overhang_area(const Facets& facets) { return overhang(facets, box_of(facets).z0); }
 
 }  // namespace cusp::host

@@ -28,4 +28,11 @@ struct HeightField {
 // missing is added to every control point that acts there, and B-splines add up to 1.
 HeightField height_field(const Facets& facets, double tolerance);
 
+// The same for facets that do not fill their box: beyond them the surface goes on as smoothly as it
+// can and is to be trimmed away; `lift` and `loose_share` count along the facets' normals.
+HeightField height_patch(const Facets& facets, double tolerance);
+
+// mm^2, seen from below: facets that look down over the mesh's base.
+double overhang_area(const Facets& facets);
+
 }  // namespace cusp::host

@@ -5,7 +5,9 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
+#include <utility>
 
 #include "host_tools/import/cad_surfaces.hpp"
 #include "host_tools/import/dxf_curves.hpp"
@@ -13,6 +15,7 @@
 #include "host_tools/import/height_field.hpp"
 #include "host_tools/import/job.hpp"
 #include "host_tools/import/loop_shape.hpp"
+#include "host_tools/import/mesh_patches.hpp"
 #include "host_tools/import/nurbs_validity.hpp"
 #include "host_tools/import/path_ending.hpp"
 #include "host_tools/import/stl_facets.hpp"
@@ -49,8 +52,7 @@ namespace {
 // What becomes of a mesh, in words, where it is more than smooth facets.
 void describe(const std::string& file,
               const Facets& facets,
-              const HeightField& field,
-              double tolerance,
+              double overhangs,
               std::vector<std::string>& notes)
 {
     constexpr double kShown = 1e-3;
@@ -58,12 +60,37 @@ void describe(const std::string& file,
         notes.push_back(
             fmt::format("{}: {} facets without area left out", file, facets.degenerate));
     }
-    if (field.overhang_area > kShown) {
+    if (overhangs > kShown) {
         notes.push_back(fmt::format(
             "{}: overhangs: {:.4g} mm2 of facets look down over the base; what is below them is "
             "out of reach from above and stays",
-            file, field.overhang_area));
+            file, overhangs));
     }
+}
+
+void describe_patches(const std::string& file,
+                      const MeshPatches& patches,
+                      double tolerance,
+                      std::vector<std::string>& notes)
+{
+    if (patches.loose_share > 0) {
+        notes.push_back(fmt::format(
+            "{}: on {:.1f} % of its curved parts the path keeps up to {:.3g} mm off the mesh "
+            "instead of {:.3g} mm: cells of {:.3g} mm follow no closer",
+            file, 100 * patches.loose_share, patches.lift, tolerance, patches.cell));
+    }
+}
+
+void describe_field(const std::string& file,
+                    const HeightField& field,
+                    double tolerance,
+                    std::vector<std::string>& notes)
+{
+    constexpr double kShown = 1e-3;
+    notes.push_back(fmt::format(
+        "{}: its facets make no surfaces with clean edges (sides that run against each other, "
+        "facets over each other, too many sharp edges): it is taken as one height field",
+        file));
     if (field.open_share > kShown) {
         notes.push_back(fmt::format(
             "{}: no facet over {:.1f} % of its box; there the height is the mesh's lowest", file,
@@ -75,6 +102,22 @@ void describe(const std::string& file,
             "it instead of {:.3g} mm: a height field of {:.3g} mm cells follows no closer",
             file, 100 * field.loose_share, field.lift, tolerance, field.cell));
     }
+}
+
+std::vector<Surface> mesh_surfaces(const std::string& file,
+                                   const Facets& facets,
+                                   double tolerance,
+                                   std::vector<std::string>& notes)
+{
+    if (std::optional<MeshPatches> patches = mesh_patches(facets, tolerance)) {
+        describe(file, facets, patches->overhang_area, notes);
+        describe_patches(file, *patches, tolerance, notes);
+        return std::move(patches->surfaces);
+    }
+    HeightField field = height_field(facets, tolerance);
+    describe(file, facets, field.overhang_area, notes);
+    describe_field(file, field, tolerance, notes);
+    return {std::move(field.surface)};
 }
 
 }  // namespace
@@ -89,13 +132,13 @@ std::vector<Surface> read_surfaces(const std::string& file,
         return read_json_surfaces(file, millimetres);
     }
     if (ending == ".stl") {
-        const Facets facets = read_stl(file, millimetres);
-        HeightField field = height_field(facets, mesh_tolerance);
-        if (notes != nullptr) {
-            describe(file, facets, field, mesh_tolerance, *notes);
+        std::vector<std::string> unread;
+        std::vector<Surface> surfaces = mesh_surfaces(
+            file, read_stl(file, millimetres), mesh_tolerance, notes != nullptr ? *notes : unread);
+        for (const Surface& surface : surfaces) {
+            check_surface(surface, file);
         }
-        check_surface(field.surface, file);
-        return {std::move(field.surface)};
+        return surfaces;
     }
     if (ending == ".step" || ending == ".stp" || ending == ".iges" || ending == ".igs") {
         return read_cad_surfaces(file);

@@ -182,9 +182,37 @@ CellMinimum minimize(const ToolCore& core, const BezierCell& cell, double s, dou
     return best;
 }
 
+// Nearest point of a straight edge to a ball's core, which is a point and all above it: below the
+// point the nearest in space counts, above it the nearest seen from above.
+double ball_edge_distance(const ToolCore& core, const std::array<Vec3d, 2>& edge, Vec3d& place)
+{
+    const Vec3d d = edge[1] - edge[0];
+    const Vec3d from = core.end - edge[0];
+    const double level = d.x * d.x + d.y * d.y;
+    const double along = from.x * d.x + from.y * d.y;
+    const double rise = d.z * d.z;
+    double t = 0;
+    if (level + rise > 0) {
+        const double in_space = std::clamp((along + from.z * d.z) / (level + rise), 0.0, 1.0);
+        t = in_space;
+        if (edge[0].z + t * d.z > core.end.z) {
+            // The squared distance is convex and smooth: where its lower part still falls at the
+            // core's height, the least is above.
+            const double seen = level > 0 ? std::clamp(along / level, 0.0, 1.0) : t;
+            const double height = edge[0].z + seen * d.z;
+            t = height >= core.end.z ? seen : from.z / d.z;
+        }
+    }
+    place = edge[0] + d * t;
+    return norm(core.reach(place));
+}
+
 // Nearest point of a straight edge: the distance to the core is convex along it.
 double edge_distance(const ToolCore& core, const std::array<Vec3d, 2>& edge, Vec3d& place)
 {
+    if (core.radius == 0) {
+        return ball_edge_distance(core, edge, place);
+    }
     const Vec3d d = edge[1] - edge[0];
     double from = 0;
     double to = 1;
@@ -202,10 +230,15 @@ double edge_distance(const ToolCore& core, const std::array<Vec3d, 2>& edge, Vec
 
 class Search {
 public:
-    Search(const SurfaceModel::State& state, const ToolCore& core, double limit)
+    // Ends where a place is found nearer than `near_enough`.
+    Search(const SurfaceModel::State& state,
+           const ToolCore& core,
+           double limit,
+           double near_enough = -1.0)
         : state_{state},
           core_{core},
           slack_{core.radius > 0 ? kDiscSlack : kDistanceSlack},
+          near_enough_{near_enough},
           found_{limit},
           bound_{limit}
     {
@@ -222,7 +255,7 @@ public:
         if (!state_.tree.nodes.empty()) {
             stack[count++] = {box_distance(0), 0};
         }
-        while (count > 0) {
+        while (count > 0 && found_ > near_enough_) {
             const Waiting next = stack[--count];
             if (next.distance >= found_) {
                 continue;
@@ -300,6 +333,10 @@ private:
         const double bend = std::max(0.0, -least_curvature(core_, cell));
         // The distance is at least this over the cell, a unit square.
         const double at_least = std::sqrt(2 * std::max(0.0, least.value - least.below - bend));
+        if (found_ <= near_enough_) {
+            bound_ = std::min(bound_, found_);
+            return;
+        }
         if (distance - at_least <= slack_) {
             if (counts) {
                 bound_ = std::min(bound_, at_least);
@@ -328,6 +365,7 @@ private:
     const SurfaceModel::State& state_;
     const ToolCore& core_;
     double slack_;
+    double near_enough_;
     double found_;
     double bound_;
     NearestPlace place_;
@@ -461,6 +499,11 @@ BoxTree make_box_tree(const std::vector<std::array<Vec3d, 2>>& boxes)
 NearestResult nearest(const SurfaceModel::State& state, const ToolCore& core, double limit)
 {
     return Search{state, core, limit}.run();
+}
+
+bool keeps_away(const SurfaceModel::State& state, const ToolCore& core, double least)
+{
+    return Search{state, core, least, std::nextafter(least, 0.0)}.run().distance >= least;
 }
 
 }  // namespace cusp::host

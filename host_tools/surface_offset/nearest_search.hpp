@@ -75,4 +75,7 @@ struct NearestResult {
 };
 NearestResult nearest(const SurfaceModel::State& state, const ToolCore& core, double limit);
 
+// Whether all of the model is at least so far from the core: ends at the first place that is not.
+bool keeps_away(const SurfaceModel::State& state, const ToolCore& core, double least);
+
 }  // namespace cusp::host

@@ -188,6 +188,12 @@ Clearance SurfaceModel::clearance(const Tool& tool, Vec3d tip, double limit) con
     return {found.distance - tool.corner_radius, found.place};
 }
 
+bool SurfaceModel::keeps_clear(const Tool& tool, Vec3d tip, double least) const
+{
+    return least + tool.corner_radius <= 0 ||
+           keeps_away(*state_, core_of(tool, tip), least + tool.corner_radius);
+}
+
 double SurfaceModel::clearance_along(
     const Tool& tool, Vec3d a, Vec3d b, double enough, double resolution) const
 {

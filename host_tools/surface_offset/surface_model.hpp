@@ -66,6 +66,9 @@ public:
     // `edge_error` near trims (`SurfaceModelDistance` tests).
     Clearance clearance(const Tool& tool, Vec3d tip, double limit) const;
 
+    // Whether the clearance is at least so much, mm; quicker than asking for it where it is not.
+    bool keeps_clear(const Tool& tool, Vec3d tip, double least) const;
+
     // A lower bound of the clearance all along the straight move from `a` to `b`, never above
     // `enough`, which ends the search early. `resolution` (mm) is how far below the truth the
     // bound may be: smaller takes longer.

@@ -173,7 +173,7 @@ bool CertifiedPasses::stands_free(Vec3d tip) const
     // A surface's own trimmed edge is no other place, but the polyline for it is not quite the
     // edge.
     const double enough = band_.lift - std::max(kContactSlack, 2 * model_.edge_error());
-    return model_.clearance(tool_, tip, enough).distance >= enough - 1e-9;
+    return model_.keeps_clear(tool_, tip, enough - 1e-9);
 }
 
 Contact CertifiedPasses::contact(int surface, Vec2d place) const

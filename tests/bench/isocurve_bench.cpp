@@ -1,11 +1,16 @@
-// Planning of sine-hills with the proof of every move, and one certified distance. A good number:
-// under a second for the plan, about a microsecond for a distance.
+// Planning of sine-hills with the proof of every move, and one certified distance; roughing and the
+// approximated offset against the number of patches. Good: under a second for the plan, about a
+// microsecond for a distance; time over patches within a factor of 3 from 100 patches on.
+#include <cmath>
 #include <string>
 
 #include "benchmark/benchmark.h"
 
 #include "host_tools/adaptive_isocurve/adaptive_isocurve.hpp"
+#include "host_tools/adaptive_isocurve/rough_levels.hpp"
+#include "host_tools/surface_offset/offset_surface.hpp"
 #include "host_tools/surface_offset/surface_model.hpp"
+#include "tests/support/tap.hpp"
 
 using namespace cusp;
 using namespace cusp::host;
@@ -53,5 +58,76 @@ void certified_distance(benchmark::State& state)
     }
 }
 BENCHMARK(certified_distance);
+
+// Hills of one size over a square of about `patches` patches of 10 x 10 mm.
+Surface hills(std::int64_t patches)
+{
+    const int side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(patches)))) + 3;
+    std::vector<Vec3d> net;
+    for (int i = 0; i < side; ++i) {
+        for (int j = 0; j < side; ++j) {
+            net.push_back({10.0 * i, 10.0 * j, 8 * std::sin(i * 0.7) * std::cos(j * 0.6)});
+        }
+    }
+    return bicubic(side, side, std::move(net));
+}
+
+void count_patches(benchmark::State& state)
+{
+    state.counters["us_per_patch"] = benchmark::Counter(
+        static_cast<double>(state.range(0)) * 1e-6,
+        benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+void offset_within_two_micrometres(benchmark::State& state)
+{
+    const Surface surface = hills(state.range(0));
+    for (auto _ : state) {
+        const OffsetSurface offset{surface, {3.0, 0.0018}};
+        state.counters["bound_mm"] = offset.error_bound();
+        state.counters["control_points"] = offset.control_points();
+    }
+    count_patches(state);
+}
+BENCHMARK(offset_within_two_micrometres)
+    ->RangeMultiplier(10)
+    ->Range(10, 1000)
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
+
+// range(1): of one cutter, or of a smaller one after it, too.
+void rough_levels(benchmark::State& state)
+{
+    Job job;
+    job.file = "bench";
+    job.feed = 1000;
+    job.plunge_feed = 200;
+    job.stock_top = 9;
+    job.clearance = 5;
+    Operation operation;
+    operation.strategy = "adaptive_isocurve";
+    operation.roughing = true;
+    operation.floor = {hills(state.range(0))};
+    operation.tools = {{1, ToolShape::kFlat, 4, 0}};
+    if (state.range(1) > 1) {
+        operation.tools.push_back({2, ToolShape::kBall, 2, 2});
+    }
+    operation.plan_tolerance = operation.floor_tolerance = 0.02;
+    operation.allowance = 0.3;
+    operation.max_depth = 3;
+    for (auto _ : state) {
+        double moves = 0;
+        for (const PlannedOperation& planned : plan_rough_levels(job, operation)) {
+            moves += static_cast<double>(planned.path.moves.size());
+            state.counters["gouge_bound_mm"] = planned.stats.gouge_bound_mm;
+        }
+        state.counters["moves"] = moves;
+    }
+    count_patches(state);
+}
+BENCHMARK(rough_levels)
+    ->ArgsProduct({{10, 30, 100}, {1, 2}})
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace

@@ -8,8 +8,10 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "host_tools/import/facet_groups.hpp"
 #include "host_tools/import/height_field.hpp"
 #include "host_tools/import/job.hpp"
+#include "host_tools/import/mesh_patches.hpp"
 #include "tests/unit/import/scratch_folder.hpp"
 
 using namespace cusp;
@@ -63,6 +65,7 @@ std::vector<Triangle> sheet(int n, double (*height)(double, double))
 }
 
 double wave(double x, double y) { return 2 * std::sin(0.4 * x) * std::cos(0.3 * y); }
+double level(double /*x*/, double /*y*/) { return 1; }
 double step(double x, double /*y*/) { return x > 10.5 ? 3 : 0; }
 
 // Least of surface - mesh over points inside the triangles.
@@ -186,4 +189,96 @@ TEST(HeightFieldOfAMesh, IsAFloorLikeAnyOther)
         read_surfaces(folder.write("m.STL", binary(sheet(30, wave), 1800)), 1.0, 0.01, &notes);
     LONGS_EQUAL(1, surfaces.size());
     LONGS_EQUAL(0, notes.size());
+}
+
+namespace {
+
+void add_quad(std::vector<Triangle>& out, Vec3d a, Vec3d b, Vec3d c, Vec3d d)
+{
+    out.push_back({a, b, c});
+    out.push_back({a, c, d});
+}
+
+// A box without a bottom; its upper side is smaller by `draft` all round.
+void add_box(std::vector<Triangle>& out, Vec2d low, Vec2d high, double z0, double z1, double draft)
+{
+    const std::array<Vec3d, 4> foot{
+        {{low.x, low.y, z0}, {high.x, low.y, z0}, {high.x, high.y, z0}, {low.x, high.y, z0}}};
+    const std::array<Vec3d, 4> head{{{low.x + draft, low.y + draft, z1},
+                                     {high.x - draft, low.y + draft, z1},
+                                     {high.x - draft, high.y - draft, z1},
+                                     {low.x + draft, high.y - draft, z1}}};
+    add_quad(out, head[0], head[1], head[2], head[3]);
+    for (std::size_t k = 0; k < 4; ++k) {
+        const std::size_t next = (k + 1) % 4;
+        add_quad(out, foot[k], foot[next], head[next], head[k]);
+    }
+}
+
+}  // namespace
+
+TEST_GROUP(MeshPatchesOfAMesh){};
+
+TEST(MeshPatchesOfAMesh, AreThePlanesOfABoxOnAPlateAndNoWalls)
+{
+    std::vector<Triangle> triangles;
+    add_box(triangles, {0, 0}, {30, 20}, -5, 0, 0);
+    add_box(triangles, {8, 5}, {15, 12}, 0, 4, 0);
+    const auto patches = mesh_patches({triangles, 0}, 0.01);
+    CHECK(patches.has_value());
+    LONGS_EQUAL(2, patches->surfaces.size());
+    DOUBLES_EQUAL(0, patches->lift, 0);
+    const Surface& top = patches->surfaces[1];
+    CHECK(top.trims.empty());  // the domain is the rectangle
+    DOUBLES_EQUAL(4, point_at(top, top.u_begin(), top.v_end()).z, 1e-9);
+    DOUBLES_EQUAL(8, point_at(top, top.u_begin(), top.v_end()).x, 1e-9);
+}
+
+TEST(MeshPatchesOfAMesh, KeepDraftedWallsAsPlanesInTheirOwnDomain)
+{
+    std::vector<Triangle> triangles;
+    add_box(triangles, {0, 0}, {10, 10}, 0, 8, 0.4);
+    const auto patches = mesh_patches({triangles, 0}, 0.01);
+    LONGS_EQUAL(5, patches->surfaces.size());
+    for (std::size_t k = 1; k < 5; ++k) {
+        const Surface& wall = patches->surfaces[k];
+        const double long_way = std::hypot(8, 0.4);
+        DOUBLES_EQUAL(10, wall.u_end() - wall.u_begin(), 1e-9);
+        DOUBLES_EQUAL(long_way, wall.v_end() - wall.v_begin(), 1e-9);
+        LONGS_EQUAL(1, wall.trims.size());
+        CHECK(upward_normal(derivatives_at(wall, wall.u_begin(), wall.v_begin())).z > 0.04);
+    }
+}
+
+TEST(MeshPatchesOfAMesh, LieNowhereBelowACurvedLidAndEndWhereItEnds)
+{
+    std::vector<Triangle> triangles = sheet(40, wave);
+    // A triangle of the sheet is left out: a hole.
+    triangles.erase(triangles.begin() + 1000);
+    const auto patches = mesh_patches({triangles, 0}, 0.01);
+    LONGS_EQUAL(1, patches->surfaces.size());
+    const Surface& lid = patches->surfaces.front();
+    LONGS_EQUAL(2, lid.trims.size());
+    CHECK(patches->lift <= 0.01);
+    for (const Triangle& t : triangles) {
+        const Vec3d middle = (t[0] + t[1] + t[2]) / 3.0;
+        const double over =
+            point_at(lid, lid.u_begin() + middle.x, lid.v_begin() + middle.y).z - middle.z;
+        CHECK(over >= -1e-9);
+        CHECK(over <= 0.05);
+    }
+}
+
+TEST(MeshPatchesOfAMesh, AreNoneWhereFacetsRunAgainstEachOther)
+{
+    std::vector<Triangle> triangles = sheet(4, level);
+    std::swap(triangles[10][0], triangles[10][1]);
+    // That one looks down: it is left out, and a hole is left.
+    const auto groups = facet_groups({triangles, 0});
+    CHECK(groups.has_value());
+    LONGS_EQUAL(2, groups->front().loops.size());
+    // Two facets on the same side of an edge do run against each other.
+    std::vector<Triangle> doubled = sheet(2, level);
+    doubled.push_back({doubled[0][0], doubled[0][1], doubled[0][2] + Vec3d{0, -0.5, 0.1}});
+    CHECK(!facet_groups({doubled, 0}).has_value());
 }

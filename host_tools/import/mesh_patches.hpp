@@ -1,0 +1,29 @@
+// A mesh seen from above as trimmed surfaces that never lie below it: walls stay walls.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "host_tools/import/stl_facets.hpp"
+#include "host_tools/nurbs/nurbs.hpp"
+
+namespace cusp::host {
+
+struct MeshPatches {
+    std::vector<Surface> surfaces;
+    double cell{};         // mm between knots of the coarsest curved one; 0: all are plane
+    double lift{};         // mm: bound of what was added along the normal
+    double loose_share{};  // of the cells of curved ones, where that is more than the tolerance
+    double overhang_area{};
+};
+
+// One surface for each of facet_groups(): a plane exactly, anything else as height_patch(), both
+// trimmed along the group's edge, to kSamePlace. Upright walls have no surface. The edge over them
+// keeps a tool off: its shank is straight.
+//
+// tolerance  mm, > 0: how far surfaces may lie over the mesh where it is smooth
+//
+// None where facet_groups() finds none: height_field() takes any mesh.
+std::optional<MeshPatches> mesh_patches(const Facets& facets, double tolerance);
+
+}  // namespace cusp::host
