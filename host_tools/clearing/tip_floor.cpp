@@ -134,6 +134,11 @@ void TipFloor::trim(Piece& piece) const
         share(patch.u0, patch.u1, piece.u[0]), share(patch.u0, patch.u1, piece.u[1]),
         share(patch.v0, patch.v1, piece.v[0]), share(patch.v0, patch.v1, piece.v[1]));
     piece.cut = part == TrimRegion::Part::kCut;
+    if (part == TrimRegion::Part::kInside) {
+        // What lies beside it may be trimmed away.
+        piece.border = kAllSides;
+        measure_outline(piece, corners_);
+    }
     if (part == TrimRegion::Part::kOutside) {
         piece.graph = false;
         piece.x0 = piece.y0 = piece.z0 = 1e300;
@@ -230,8 +235,8 @@ void TipFloor::halve(std::uint32_t index) const
     first.border &= static_cast<std::uint8_t>(by_u ? ~kLastRow : ~kLastColumn);
     second.border &= static_cast<std::uint8_t>(by_u ? ~kFirstRow : ~kFirstColumn);
     measure(first);
-    measure(second);
     trim(first);
+    measure(second);
     trim(second);
     pieces_[index].child = static_cast<std::uint32_t>(pieces_.size());
     pieces_.push_back(first);

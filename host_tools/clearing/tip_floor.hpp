@@ -97,22 +97,23 @@ private:
         std::array<float, 2> u;  // its part of the patch, as shares
         std::array<float, 2> v;
     };
-    // Of a piece at the surface's edge, which its box would stand out of: a rectangle in plan along
-    // each such side, (across, along) are its axes.
+    // Of a piece at the surface's edge, or a trimmed one's, which its box would stand out of: a
+    // rectangle in plan along each side, (across, along) are its axes.
     struct Side {
         Vec2d across;  // outward
         double inner, outer, low, high;
+        double begin, end;  // of the outer line, between those of the next sides
     };
     struct Outline {
         std::array<Side, 4> sides;
-        int count;
-        double bow;  // mm: of the sides, seen from above; at corners without end
+        double bow;  // mm: of the sides, seen from above
     };
     // Bits of Piece::border.
     static constexpr std::uint8_t kFirstRow = 1;
     static constexpr std::uint8_t kLastRow = 2;
     static constexpr std::uint8_t kFirstColumn = 4;
     static constexpr std::uint8_t kLastColumn = 8;
+    static constexpr std::uint8_t kAllSides = 15;
     // Patches are gathered by pairs up to one root: a group is a box with two children.
     static constexpr std::uint32_t kRoot = 1;
     static constexpr std::uint32_t kGroup = 0xFFFFFFFF;  // as `patch`
@@ -130,7 +131,9 @@ private:
     void measure(Piece& piece) const;
     void measure_outline(Piece& piece, const std::vector<Vec3d>& points) const;
     double beyond_outline(const Piece& piece, Vec2d at) const;
-    double least_on_outline(const Piece& piece, Vec2d at) const;
+    static void end_sides(Outline& outline);
+    static Vec2d corner_of(const Side& a, const Side& b);
+    double on_outline(const Piece& piece, Vec2d at) const;
     Vec2d on_piece(const Piece& piece, Vec2d contact) const;
     double apart_from_outline(const Piece& piece, Vec3d a, Vec3d b) const;
     void trim(Piece& piece) const;

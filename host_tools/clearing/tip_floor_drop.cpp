@@ -149,11 +149,15 @@ double TipFloor::bound(const Piece& piece, const Query& query, double best, bool
     }
     tight = whole && piece.thickness <= query.thin;
     double least = std::min(by_plane, by_box);
-    if (piece.outline != 0) {
-        least = std::min(least, least_on_outline(piece, at));
+    const Vec2d contact = at + g * piece.contact;
+    if (contact.x < piece.x0 || contact.x > piece.x1 || contact.y < piece.y0 ||
+        contact.y > piece.y1) {
+        least = std::min(least, on_edges(piece, at));
     }
-    const double by_edges = on_edges(piece, at);
-    return by_edges == kNothing && piece.outline != 0 ? least : std::min(least, by_edges);
+    if (piece.outline != 0 && beyond_outline(piece, contact) > 0.0) {
+        least = std::min(least, on_outline(piece, at));
+    }
+    return least;
 }
 
 TipFloor::Rest TipFloor::drop(Vec2d at, double slack) const

@@ -173,7 +173,11 @@ double TipFloor::gap(Vec3d a, Vec3d b, double margin) const
             least = std::min(least, here);
             continue;
         }
-        const bool halve_move = settled ? false : ball && !flat ? turned > thin : norm(move) > size;
+        // Of a piece that an edge cuts the size tells how much is not there.
+        const bool halve_move = !whole          ? norm(move) > extent(piece)
+                                : settled       ? false
+                                : ball && !flat ? turned > thin
+                                                : norm(move) > size;
         if (halve_move) {
             const Vec3d middle = (top.a + top.b) * 0.5;
             const std::size_t before = depth;

@@ -1,0 +1,220 @@
+// Patches over level floors: what stays at the foot of their cliffs, by brute force.
+#include <cstdio>
+
+#include "host_tools/contour_pocket/contour_pocket.hpp"
+#include "tests/property/contour_pocket/pocket_judge.hpp"
+#include "tests/property/offset/random_regions.hpp"
+#include "tests/support/property_cases.hpp"
+
+// Last: CppUTest redefines new, which the standard headers can not bear.
+#include "CppUTest/TestHarness.h"
+
+namespace cusp::host {
+namespace {
+
+constexpr double kLow = -8.0;
+constexpr double kFarFromCliff = 0.03;  // mm: nearer the tolerances may leave a skin
+constexpr double kPitch = 0.03;         // mm between tips
+
+// A turned rectangle, or a circle, over the floor.
+struct Patch {
+    Vec2d centre;
+    Vec2d along;  // unit vector
+    double length, width;
+    double radius;  // of a circle; 0: a rectangle
+    double top;
+
+    Vec2d inward(Vec2d p) const
+    {
+        const Vec2d arm = p - centre;
+        return {dot(arm, along), dot(arm, left_normal(along))};
+    }
+
+    // From the patch, 0 inside.
+    double distance(Vec2d p) const
+    {
+        const Vec2d q = inward(p);
+        if (radius > 0.0) {
+            return std::max(0.0, std::sqrt(dot(q, q)) - radius);
+        }
+        const double x = std::max(0.0, std::abs(q.x) - 0.5 * length);
+        const double y = std::max(0.0, std::abs(q.y) - 0.5 * width);
+        return std::hypot(x, y);
+    }
+
+    // Share of the way round, `out` mm from the edge.
+    Vec2d around(double share, double out) const
+    {
+        const double angle = 6.283185307179586 * share;
+        const Vec2d ray{std::cos(angle), std::sin(angle)};
+        const Vec2d way = along * ray.x + left_normal(along) * ray.y;
+        double low = 0.0;
+        double high = length + width + 2.0 * radius + out;
+        for (int i = 0; i < 60; ++i) {
+            const double middle = 0.5 * (low + high);
+            (distance(centre + way * middle) > out ? high : low) = middle;
+        }
+        return centre + way * high;
+    }
+};
+
+Surface level_surface(Vec2d centre, Vec2d along, double length, double width, double z)
+{
+    Surface s;
+    s.degree_u = s.degree_v = 1;
+    s.size_u = s.size_v = 2;
+    s.knots_u = s.knots_v = {0.0, 0.0, 1.0, 1.0};
+    for (const double u : {-0.5, 0.5}) {
+        for (const double v : {-0.5, 0.5}) {
+            const Vec2d p = centre + along * (u * length) + left_normal(along) * (v * width);
+            s.points.push_back({p.x, p.y, z});
+            s.weights.push_back(1.0);
+        }
+    }
+    return s;
+}
+
+// In the parameters, which run from 0 to 1 over twice the radius and some more.
+Curve trim_circle(double radius)
+{
+    const double w = std::sqrt(0.5);
+    Curve circle{2, {0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0, 4.0}, {}, {}};
+    const double corners[][2] = {{1, 0},   {1, 1},  {0, 1},  {-1, 1}, {-1, 0},
+                                 {-1, -1}, {0, -1}, {1, -1}, {1, 0}};
+    for (int i = 0; i < 9; ++i) {
+        circle.points.push_back({0.5 + radius * corners[i][0], 0.5 + radius * corners[i][1], 0.0});
+        circle.weights.push_back(i % 2 == 0 ? 1.0 : w);
+    }
+    return circle;
+}
+
+Surface surface_of(const Patch& patch)
+{
+    if (patch.radius == 0.0) {
+        return level_surface(patch.centre, patch.along, patch.length, patch.width, patch.top);
+    }
+    const double side = 3.0 * patch.radius;
+    Surface s = level_surface(patch.centre, patch.along, side, side, patch.top);
+    s.trims = {{trim_circle(1.0 / 3.0)}};
+    return s;
+}
+
+// How low the tip may stand over a place so far from the patch.
+double tip_at(const Tool& tool, const Patch& patch, double apart)
+{
+    return apart < tool.radius ? std::max(kLow, patch.top - profile_height(tool, apart)) : kLow;
+}
+
+// The lowest that the tool cuts, so far from the patch: best along the way straight off it.
+double best_at(const Tool& tool, const Patch& patch, double apart)
+{
+    if (apart == 0.0) {
+        return patch.top;
+    }
+    constexpr int kPlaces = 4000;
+    double best = 1e300;
+    for (int i = 0; i < kPlaces; ++i) {
+        const double out = 0.999999 * tool.radius * (2.0 * i / kPlaces - 1.0);
+        const double tip = tip_at(tool, patch, std::max(0.0, apart + out));
+        best = std::min(best, tip + profile_height(tool, std::abs(out)));
+    }
+    return best;
+}
+
+// Of the steepness of what the tool leaves at best: what it does not reach stands on a slope.
+double cosine_at(const Tool& tool, const Patch& patch, double apart)
+{
+    constexpr double kStep = 0.005;
+    const double rise = best_at(tool, patch, apart + kStep) - best_at(tool, patch, apart - kStep);
+    return 1.0 / std::hypot(1.0, rise / (2.0 * kStep));
+}
+
+double cut_at(const Tool& tool, const std::vector<Vec3d>& tips, Vec2d p)
+{
+    double least = 1e300;
+    for (const Vec3d tip : tips) {
+        const double x = tip.x - p.x;
+        const double y = tip.y - p.y;
+        const double square = x * x + y * y;
+        if (square < tool.radius * tool.radius) {
+            least = std::min(least, tip.z + profile_height(tool, std::sqrt(square)));
+        }
+    }
+    return least;
+}
+
+Loop square_loop(double half)
+{
+    const Vec2d corners[] = {{-half, -half}, {half, -half}, {half, half}, {-half, half}};
+    Loop loop;
+    for (int i = 0; i < 4; ++i) {
+        const Vec2d a = corners[i];
+        const Vec2d b = corners[(i + 1) % 4];
+        loop.push_back({1, {0.0, 0.0, 1.0, 1.0}, {{a.x, a.y, 0.0}, {b.x, b.y, 0.0}}, {1.0, 1.0}});
+    }
+    return loop;
+}
+
+TEST_GROUP(RandomCliff){};
+
+TEST(RandomCliff, LeavesNoMoreAtItsFootThanTheScallop)
+{
+    constexpr unsigned kSeed = 2026;
+    Random random{kSeed};
+    for (int i = 0; i < property_cases(9); ++i) {
+        const double angle = uniform(random, 0.0, 3.0);
+        const double radius = uniform(random, 1.5, 3.0);
+        const double round = i % 2 == 0 ? 0.0 : uniform(random, 3.0, 6.0);
+        const Patch patch{{uniform(random, -4.0, 4.0), uniform(random, -4.0, 4.0)},
+                          {std::cos(angle), std::sin(angle)},
+                          round > 0.0 ? 0.0 : uniform(random, 5.0, 14.0),
+                          round > 0.0 ? 0.0 : uniform(random, 4.0, 10.0),
+                          round,
+                          kLow + uniform(random, 0.2, 5.0)};
+        Operation operation;
+        operation.strategy = "contour_pocket";
+        operation.floor = {level_surface({0.0, 0.0}, {1.0, 0.0}, 60.0, 60.0, kLow),
+                           surface_of(patch)};
+        operation.floor_files = {"floor"};
+        operation.boundary = square_loop(20.0);
+        operation.boundary_file = "boundary";
+        const ToolShape shapes[] = {ToolShape::kFlat, ToolShape::kBall, ToolShape::kBull};
+        const ToolShape shape = shapes[i % 3];
+        operation.tool = {1, shape, radius,
+                          shape == ToolShape::kFlat   ? 0.0
+                          : shape == ToolShape::kBall ? radius
+                                                      : uniform(random, 0.2, 0.7) * radius};
+        operation.plan_tolerance = operation.floor_tolerance = 0.02;
+        operation.scallop = uniform(random, 0.05, 0.2);
+        Job job;
+        job.file = "job";
+        job.stock_top = 1.0;
+        job.clearance = 5.0;
+        const std::vector<PlannedOperation> planned = plan_contour_pocket(job, operation);
+        const std::vector<Vec3d> tips = tips_of(planned.back().path, 0.0, kPitch);
+        double most = 0.0;
+        double gouge = 0.0;
+        for (const double out : {0.0, kFarFromCliff, 0.1, 0.2 * radius, 0.5 * radius, radius}) {
+            for (double share = 0.0; share < 1.0; share += 0.004) {
+                const Vec2d p = patch.around(share, out);
+                const double apart = patch.distance(p);
+                const double cut = cut_at(operation.tool, tips, p);
+                const double part = apart > 1e-9 ? kLow : patch.top;
+                gouge = std::max(gouge, part - cut);
+                if (out > 0.0) {
+                    const double left = cut - best_at(operation.tool, patch, apart);
+                    most = std::max(most, left * cosine_at(operation.tool, patch, apart));
+                }
+            }
+        }
+        std::printf("seed %u cliff %d: height %.2f, tool %.2f/%.2f, left %.4f of %.4f\n", kSeed, i,
+                    patch.top - kLow, radius, operation.tool.corner_radius, most,
+                    *operation.scallop);
+        CHECK(gouge <= 1e-6);
+        CHECK(most <= *operation.scallop + 2e-3);
+        DOUBLES_EQUAL(0.0, planned.back().stats.gouge_bound_mm, 1e-9);
+    }
+}
+
+}  // namespace
+}  // namespace cusp::host
