@@ -33,6 +33,10 @@ constexpr int kCurvatureLooks = 60;
 // Of the band, for how far an approximated offset is from the exact one.
 constexpr double kOffsetShare = 0.9;
 constexpr int kHandLooks = 8;
+// Cells that passes of a given distance leave bare.
+constexpr std::size_t kMostMeasured = 4000;
+constexpr double kBetweenPlaces = 1.25;  // what may stand between places measured in them
+constexpr double kMoreExpected = 2;
 constexpr double kSameEdge = 0.1;  // in steps: edges nearer than this are one
 
 void swap_loops(Surface& surface)
@@ -210,15 +214,23 @@ private:
         const double radius = operation_.tool.radius;
         const double half = 0.5 * std::min(spacing_, radius);
         const double flat = work_.outward() + radius - std::sqrt(radius * radius - half * half);
-        const double ridge = std::isfinite(ridge_) ? std::max(flat, ridge_) : flat;
-        Coverage seen{work_.surfaces(), work_.certified(), ridge, work_.path_off()};
-        for (const Points& pass : cut_) {
-            seen.add(pass);
+        for (double expected = std::isfinite(ridge_) ? std::max(flat, ridge_) : flat;
+             expected < radius;) {
+            Coverage seen{work_.surfaces(), work_.certified(), expected, work_.path_off(),
+                          kMostMeasured};
+            for (const Points& pass : cut_) {
+                seen.add(pass);
+            }
+            for (std::size_t k = 0; k < work_.surfaces().size(); ++k) {
+                seen.look_over(static_cast<int>(k));
+            }
+            if (!seen.overflowed()) {
+                return std::min(radius, std::max(expected, kBetweenPlaces * seen.measured_left()));
+            }
+            // Far more is left than was expected: what is under the new bound needs no measuring.
+            expected *= kMoreExpected;
         }
-        for (std::size_t k = 0; k < work_.surfaces().size(); ++k) {
-            seen.look_over(static_cast<int>(k));
-        }
-        return std::max(ridge, seen.measured_left());
+        return radius;
     }
 
     SurfaceFunction surface_function(int surface) const

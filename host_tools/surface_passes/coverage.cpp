@@ -20,8 +20,6 @@ constexpr double kFarApart = 0.5;       // radii, of tips that one pass may join
 constexpr int kMostTraced = 4000;       // places of one pass
 constexpr int kRounds = 5;
 constexpr int kDeepest = 40;
-constexpr std::size_t kMostGaps = 200000;
-constexpr std::size_t kMostMeasured = 200;
 constexpr double kUpright = 0.05;   // z of the normal
 constexpr double kSteep = 0.2;      // the same
 constexpr double kHidden = 1e-3;    // mm
@@ -41,13 +39,15 @@ double largest(const std::array<double, 4>& of) { return *std::max_element(of.be
 Coverage::Coverage(const std::vector<Surface>& surfaces,
                    const CertifiedPasses& certified,
                    double scallop,
-                   double path_off)
+                   double path_off,
+                   std::size_t most_gaps)
     : surfaces_{surfaces},
       certified_{certified},
       radius_{certified.tool().radius},
       scallop_{scallop},
       path_off_{path_off},
       step_{std::sqrt(8 * certified.tool().radius * scallop)},
+      most_gaps_{most_gaps},
       swept_{radius_, 0.6 * step_},
       reach_{surfaces, certified, std::max(kBlockedCell * step_, kReachPitch * radius_)}
 {
@@ -188,13 +188,18 @@ bool Coverage::hidden(const Corner& at) const
 
 void Coverage::look_into(const Cell& cell, int depth)
 {
+    if (overflowed_) {
+        return;
+    }
     const Verdict verdict = judge(cell);
     if (verdict == Verdict::kCovered) {
         return;
     }
     if (verdict == Verdict::kUncovered || depth == 0) {
-        if (gaps_.size() < kMostGaps) {
+        if (gaps_.size() < most_gaps_) {
             gaps_.push_back(cell);
+        } else {
+            overflowed_ = true;
         }
         return;
     }
@@ -380,54 +385,53 @@ double Coverage::left_over(const Cell& cell) const
     if (!place) {
         return 0;
     }
-    return left_at(corner(cell.surface, place->u, place->v));
+    return left_at(corner(cell.surface, place->u, place->v), 0);
 }
 
-double Coverage::left_at(const Corner& at) const
+// Not told apart below `worth`, which saves most of the search.
+double Coverage::left_at(const Corner& at, double worth) const
 {
     const Vec3d p = at.point.point;
     const SweptBalls::Lowest now = swept_.lowest(p.x, p.y);
     if (!std::isfinite(now.height)) {
         return radius_;
     }
-    const std::optional<LowestReach::Answer> best =
-        reach_.over(p, std::numeric_limits<double>::infinity());
+    if ((now.height - p.z) * at.normal.z <= worth) {
+        return 0;
+    }
+    const std::optional<LowestReach::Answer> best = reach_.over(p, now.height - worth / at.normal.z);
     const double from = best ? std::max(p.z, best->height) : p.z;
     return std::min(radius_, std::max(0.0, (now.height - from) * at.normal.z));
 }
 
-// Of the middle and the corners.
-Coverage::Corner Coverage::highest_left(const Cell& cell) const
+// Highest places first: most of the others are told to be lower without a search.
+double Coverage::measured_left() const
 {
-    Corner out = corner(cell.surface, 0.5 * (cell.u0 + cell.u1), 0.5 * (cell.v0 + cell.v1));
-    const auto left = [&](const Corner& at) {
-        const Vec3d p = at.point.point;
-        return (swept_.lowest(p.x, p.y).height - p.z) * at.normal.z;
+    struct High {
+        Corner at;
+        double over;  // mm, over the surface
     };
-    double most = left(out);
-    for (const double u : {cell.u0, cell.u1}) {
-        for (const double v : {cell.v0, cell.v1}) {
-            const Corner at = corner(cell.surface, u, v);
-            const double here = left(at);
-            if (here > most) {
-                most = here;
-                out = at;
+    std::vector<High> all;
+    for (const Cell& cell : gaps_) {
+        const Place middle{0.5 * (cell.u0 + cell.u1), 0.5 * (cell.v0 + cell.v1)};
+        for (const Place& place : {middle, Place{cell.u0, cell.v0}, Place{cell.u1, cell.v0},
+                                   Place{cell.u0, cell.v1}, Place{cell.u1, cell.v1}}) {
+            const Corner at = corner(cell.surface, place.u, place.v);
+            const Vec3d p = at.point.point;
+            const double over = (swept_.lowest(p.x, p.y).height - p.z) * at.normal.z;
+            if (over > scallop_ && at.normal.z >= kUpright && !hidden(at)) {
+                all.push_back({at, over});
             }
         }
     }
-    return out;
-}
-
-double Coverage::measured_left() const
-{
+    std::sort(all.begin(), all.end(),
+              [](const High& a, const High& b) { return a.over > b.over; });
     double most = 0;
-    const std::size_t stride = gaps_.size() / kMostMeasured + 1;
-    for (std::size_t k = 0; k < gaps_.size(); k += stride) {
-        const Cell& cell = gaps_[k];
-        const Corner at = highest_left(cell);
-        if (at.normal.z >= kUpright && !hidden(at)) {
-            most = std::max(most, left_at(at));
+    for (const High& high : all) {
+        if (high.over <= most) {
+            break;
         }
+        most = std::max(most, left_at(high.at, std::max(scallop_, most)));
     }
     return most;
 }

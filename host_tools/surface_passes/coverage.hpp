@@ -29,16 +29,21 @@ class Coverage {
 public:
     // scallop   mm: what may be left
     // path_off  mm: how far the path that is cut may be from the points given to `add`
+    // most_gaps cells not covered that are kept
     Coverage(const std::vector<Surface>& surfaces,
              const CertifiedPasses& certified,
              double scallop,
-             double path_off);
+             double path_off,
+             std::size_t most_gaps = 200000);
 
     // A pass that will be cut, by its tips.
     void add(const Points& tips);
 
     // Looks over one surface; what is not covered is kept for `close_gaps`.
     void look_over(int surface);
+
+    // Whether a look ended early because more cells are bare than are kept.
+    bool overflowed() const { return overflowed_; }
 
     // Passes for what is not covered, each handed to `cut`, which must `add` what it makes of it.
     void close_gaps(const std::function<void(const Points&)>& cut);
@@ -48,7 +53,7 @@ public:
     void close_rims(int surface, const std::function<void(const Points&)>& cut);
 
     // The most left in cells not covered, mm, where no pass may be added: measured at their
-    // middles, of not more than some hundred cells spread over all, so no bound.
+    // middles and corners. What lies between can be higher.
     double measured_left() const;
 
     // Cells that stay uncovered, after `close_gaps`.
@@ -88,8 +93,7 @@ private:
     std::optional<Vec3d> missing_tip(int surface, double u, double v, bool where_blocked) const;
     std::optional<Vec3d> better_tip(const Corner& at) const;
     double left_over(const Cell& cell) const;
-    double left_at(const Corner& at) const;
-    Corner highest_left(const Cell& cell) const;
+    double left_at(const Corner& at, double worth) const;
     std::optional<Vec3d> tip_over_rim(int surface, Vec2d place) const;
     void go_over_rim(int surface,
                      Vec2d from,
@@ -104,12 +108,14 @@ private:
     double scallop_;
     double path_off_;
     double step_;                  // mm, between passes on flat ground
+    std::size_t most_gaps_;
     std::vector<Points> waiting_;  // passes given before the first look
     SweptBalls swept_;
     std::optional<TopMap> tops_;  // from the first look on: many parts need none
     mutable LowestReach reach_;
     std::vector<Cell> gaps_;
     double most_left_{};
+    bool overflowed_{};
     mutable std::vector<std::uint32_t> near_;
 };
 

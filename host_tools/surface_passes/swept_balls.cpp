@@ -8,7 +8,7 @@
 namespace cusp::host {
 namespace {
 
-constexpr int kShareTurns = 40;
+constexpr double kUprightWay = 1e-9;  // mm, seen from above
 
 double square_to_move(Vec3d p, const SweptBalls::Move& move)
 {
@@ -85,6 +85,31 @@ bool SweptBalls::removes(std::uint32_t move, Vec3d point, double less) const
     return radius > 0 && square_to_move(point, moves_[move]) <= radius * radius;
 }
 
+// The lower side of a ball swept along a line is a tilted cylinder's, cut off at the ends. Seen in
+// the upright plane through the way: z0 + m s - sqrt(r^2 - (s - s0)^2), least where that is level.
+std::optional<double> SweptBalls::lowest_share(const Move& move, double x, double y) const
+{
+    const Vec3d way = move.to - move.from;
+    const double length = std::hypot(way.x, way.y);
+    const double off_x = x - move.from.x;
+    const double off_y = y - move.from.y;
+    const double away = off_x * off_x + off_y * off_y;
+    if (length <= kUprightWay) {
+        return away <= radius_ * radius_ ? std::optional{way.z < 0 ? 1.0 : 0.0} : std::nullopt;
+    }
+    const double beside = (way.x * off_y - way.y * off_x) / length;
+    const double square = radius_ * radius_ - beside * beside;
+    if (square < 0) {
+        return std::nullopt;
+    }
+    const double along = (way.x * off_x + way.y * off_y) / length;
+    const double reach = std::sqrt(square);
+    const double slope = way.z / length;
+    const double at =
+        std::clamp(along - slope * reach / std::sqrt(1 + slope * slope), 0.0, length);
+    return std::abs(at - along) <= reach ? std::optional{at / length} : std::nullopt;
+}
+
 SweptBalls::Lowest SweptBalls::lowest(double x, double y) const
 {
     Lowest best{std::numeric_limits<double>::infinity(), {}};
@@ -92,25 +117,13 @@ SweptBalls::Lowest SweptBalls::lowest(double x, double y) const
         if (std::min(move.from.z, move.to.z) - radius_ >= best.height) {
             return;
         }
-        const auto height = [&](double t) {
-            const Vec3d c = move.from + (move.to - move.from) * t;
-            const double away = (c.x - x) * (c.x - x) + (c.y - y) * (c.y - y);
-            const double square = radius_ * radius_ - away;
-            return square >= 0 ? c.z - std::sqrt(square)
-                               : 1e6 + away;  // convex on, so that the search finds its way in
-        };
-        double low = 0;
-        double high = 1;
-        for (int turn = 0; turn < kShareTurns && high - low > 1e-4; ++turn) {
-            const double a = low + 0.382 * (high - low);
-            const double b = low + 0.618 * (high - low);
-            (height(a) < height(b) ? high : low) = height(a) < height(b) ? b : a;
-        }
-        const double t = 0.5 * (low + high);
-        for (const double share : {0.0, t, 1.0}) {
-            const double there = height(share);
-            if (there < best.height && there < 1e6) {
-                best = {there, move.from + (move.to - move.from) * share};
+        if (const std::optional<double> share = lowest_share(move, x, y)) {
+            const Vec3d c = move.from + (move.to - move.from) * *share;
+            const double square =
+                radius_ * radius_ - (c.x - x) * (c.x - x) - (c.y - y) * (c.y - y);
+            const double height = c.z - std::sqrt(std::max(0.0, square));
+            if (height < best.height) {
+                best = {height, c};
             }
         }
     };

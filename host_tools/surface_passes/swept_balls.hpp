@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -41,6 +42,8 @@ public:
 
 private:
     using Key = std::uint64_t;
+    // Share of the move where the ball is lowest straight over (x, y); none where it misses.
+    std::optional<double> lowest_share(const Move& move, double x, double y) const;
     Key key(std::int64_t i, std::int64_t j) const;
     std::int64_t cell(double at) const;
 
