@@ -159,6 +159,7 @@ public:
         for (std::size_t k = 0; k < work_.surfaces().size(); ++k) {
             curves += add_surface(static_cast<int>(k), complete);
         }
+        whole_ = whole_ && !work_.moved_off_edges();
         std::size_t bare = 0;
         if (coverage_ && !(plain_ && whole_ && ridge_ <= *operation_.scallop)) {
             for (std::size_t k = 0; k < work_.surfaces().size(); ++k) {

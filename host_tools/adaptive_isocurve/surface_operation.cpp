@@ -43,6 +43,7 @@ SurfaceOperation::SurfaceOperation(const Job& job,
         *model_, operation.tool,
         make_pass_band(operation.floor_tolerance,
                        operation.tolerance_side == ToleranceSide::kOutside));
+    certified_->guard_edges(surfaces_);
 }
 
 // Keys without effect are refused, never left out silently.
@@ -129,14 +130,18 @@ double SurfaceOperation::outward() const
 
 double SurfaceOperation::ridge_allowed() const { return operation_.scallop.value_or(0); }
 
-Points SurfaceOperation::add_pass(const Points& dense,
+Points SurfaceOperation::add_pass(const Points& wanted,
                                   const std::optional<Curve>& exact,
                                   const Feet& feet)
 {
+    const Points dense = certified_->kept_off_edges(wanted);
+    const bool moved = dense != wanted;
+    moved_off_edges_ = moved_off_edges_ || moved;
     SurfacePass pass;
     if (operation_.output == OutputForm::kNurbs) {
-        pass.curve =
-            exact && certified_->nurbs_is_free(*exact) ? exact : certified_->fit_nurbs(dense);
+        pass.curve = !moved && exact && certified_->nurbs_is_free(*exact)
+                         ? exact
+                         : certified_->fit_nurbs(dense);
     }
     if (operation_.output == OutputForm::kArcs) {
         pass.points = dense;
@@ -151,7 +156,7 @@ Points SurfaceOperation::add_pass(const Points& dense,
         pass.points.front() = pass.curve->points.front();
         pass.points.back() = pass.curve->points.back();
     } else {
-        pass.points = certified_->fit_lines(dense, feet);
+        pass.points = certified_->fit_lines(dense, moved ? Feet{} : feet);
     }
     if (pass.points.size() < 2) {
         return {};

@@ -34,10 +34,12 @@ public:
     // exact  where the job asks for NURBS: the same pass as a cubic within the band, taken as it is
     //        where it is proved to be free
     // feet   where the tool touches at the dense points, if known: makes the proof of lines quick
-    Points add_pass(const Points& dense,
+    Points add_pass(const Points& wanted,
                     const std::optional<Curve>& exact = std::nullopt,
                     const Feet& feet = {});
     double path_off() const;
+    // Whether some pass stands off a rim or crease by more than its place on the surface asks for.
+    bool moved_off_edges() const { return moved_off_edges_; }
     std::size_t pass_count() const { return passes_.size(); }
 
     // Links all passes; `spacing` (mm) is about the distance of neighbours.
@@ -55,6 +57,7 @@ private:
     std::unique_ptr<SurfaceModel> model_;
     std::unique_ptr<CertifiedPasses> certified_;
     std::vector<SurfacePass> passes_;
+    bool moved_off_edges_{};
 };
 
 }  // namespace cusp::host

@@ -10,6 +10,7 @@ namespace {
 constexpr int kDeepestHalving = 12;
 constexpr int kDropHalvings = 7;        // of 1 mm, over places where the tool may fall off
 constexpr double kSampleShare = 0.08;   // of the band, for what lies between samples
+constexpr double kEdgeMargin = 1.05;    // of the band
 constexpr double kShortestLine = 0.01;  // mm
 constexpr double kContactSlack = 5e-6;  // mm: nearer than this is the contact itself
 
@@ -166,6 +167,29 @@ CertifiedPasses::CertifiedPasses(const SurfaceModel& model, const Tool& tool, co
 {
     lifted_.radius += band.lift;
     lifted_.corner_radius += band.lift;
+}
+
+void CertifiedPasses::guard_edges(const std::vector<Surface>& surfaces)
+{
+    if (band_.deepest > 0) {
+        edges_.emplace(surfaces, tool_.radius, band_.deepest);
+    }
+}
+
+Points CertifiedPasses::kept_off_edges(const Points& dense) const
+{
+    Points out = dense;
+    if (edges_) {
+        for (Vec3d& tip : out) {
+            tip = edges_->kept_off(tip, kEdgeMargin * band_.band);
+        }
+    }
+    return out;
+}
+
+bool CertifiedPasses::spares_edges(Vec3d a, Vec3d b) const
+{
+    return !edges_ || edges_->spares(a, b);
 }
 
 bool CertifiedPasses::stands_free(Vec3d tip) const

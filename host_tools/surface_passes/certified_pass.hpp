@@ -3,9 +3,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "host_tools/surface_offset/surface_model.hpp"
+#include "host_tools/surface_passes/edge_guard.hpp"
 
 namespace cusp::host {
 
@@ -32,6 +34,17 @@ struct Feet {
 class CertifiedPasses {
 public:
     CertifiedPasses(const SurfaceModel& model, const Tool& tool, const PassBand& band);
+
+    // Keeps moves from cutting into rims and creases of the surfaces from beside, where a two-sided
+    // tolerance lets them cut into faces; see `EdgeGuard`.
+    void guard_edges(const std::vector<Surface>& surfaces);
+
+    // The points, moved off guarded edges that the tool would meet from beside, so that nothing
+    // within the band of them cuts into those.
+    Points kept_off_edges(const Points& dense) const;
+
+    // Whether a straight move cuts into no guarded edge from beside.
+    bool spares_edges(Vec3d a, Vec3d b) const;
 
     const PassBand& band() const { return band_; }
     const Tool& tool() const { return tool_; }
@@ -105,6 +118,7 @@ private:
     Tool tool_;
     Tool lifted_;
     PassBand band_;
+    std::optional<EdgeGuard> edges_;
     double least_clearance_{};
 };
 

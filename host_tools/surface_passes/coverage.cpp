@@ -260,8 +260,18 @@ std::optional<Vec3d> Coverage::better_tip(const Corner& at) const
         return std::nullopt;
     }
     const std::optional<LowestReach::Answer> best = reach_.over(p, now.height - scallop_ / cosine);
-    return best && (now.height - best->height) * cosine > scallop_ ? std::optional{best->tip}
-                                                                   : std::nullopt;
+    if (!best || (now.height - best->height) * cosine <= scallop_) {
+        return std::nullopt;
+    }
+    // A pass there is kept off edges, and so no better than this.
+    const Vec3d kept = certified_.kept_off_edges({best->tip}).front() + Vec3d{0, 0, radius_};
+    const double square =
+        radius_ * radius_ - (kept.x - p.x) * (kept.x - p.x) - (kept.y - p.y) * (kept.y - p.y);
+    if ((now.height - kept.z + std::sqrt(std::max(0.0, square))) * cosine <= scallop_) {
+        kept_off_ = true;
+        return std::nullopt;
+    }
+    return best->tip;
 }
 
 Points Coverage::trace(int surface, Place place, bool along_u) const
@@ -346,13 +356,18 @@ std::optional<Coverage::Place> Coverage::bare_place(const Cell& cell) const
 
 void Coverage::close_gaps(const std::function<void(const Points&)>& cut)
 {
+    std::vector<Cell> beside_edges;
     for (int round = 0; round < kRounds && !gaps_.empty(); ++round) {
         const std::vector<Cell> open = std::move(gaps_);
         gaps_.clear();
         std::vector<Cell> changed;
         for (const Cell& cell : open) {
+            kept_off_ = false;
             const std::optional<Place> place = bare_place(cell);
             if (!place) {
+                if (kept_off_) {
+                    beside_edges.push_back(cell);
+                }
                 continue;
             }
             changed.push_back(cell);
@@ -375,6 +390,11 @@ void Coverage::close_gaps(const std::function<void(const Points&)>& cut)
     gaps_.erase(std::remove_if(gaps_.begin(), gaps_.end(), met), gaps_.end());
     for (const Cell& cell : gaps_) {
         most_left_ = std::max(most_left_, left_over(cell));
+    }
+    for (const Cell& cell : beside_edges) {
+        const Corner at =
+            corner(cell.surface, 0.5 * (cell.u0 + cell.u1), 0.5 * (cell.v0 + cell.v1));
+        most_left_ = std::max(most_left_, left_at(at, std::max(scallop_, most_left_)));
     }
 }
 
@@ -399,7 +419,8 @@ double Coverage::left_at(const Corner& at, double worth) const
     if ((now.height - p.z) * at.normal.z <= worth) {
         return 0;
     }
-    const std::optional<LowestReach::Answer> best = reach_.over(p, now.height - worth / at.normal.z);
+    const std::optional<LowestReach::Answer> best =
+        reach_.over(p, now.height - worth / at.normal.z);
     const double from = best ? std::max(p.z, best->height) : p.z;
     return std::min(radius_, std::max(0.0, (now.height - from) * at.normal.z));
 }
@@ -424,8 +445,7 @@ double Coverage::measured_left() const
             }
         }
     }
-    std::sort(all.begin(), all.end(),
-              [](const High& a, const High& b) { return a.over > b.over; });
+    std::sort(all.begin(), all.end(), [](const High& a, const High& b) { return a.over > b.over; });
     double most = 0;
     for (const High& high : all) {
         if (high.over <= most) {

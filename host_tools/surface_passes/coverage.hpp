@@ -107,7 +107,7 @@ private:
     double radius_;
     double scallop_;
     double path_off_;
-    double step_;                  // mm, between passes on flat ground
+    double step_;  // mm, between passes on flat ground
     std::size_t most_gaps_;
     std::vector<Points> waiting_;  // passes given before the first look
     SweptBalls swept_;
@@ -116,6 +116,7 @@ private:
     std::vector<Cell> gaps_;
     double most_left_{};
     bool overflowed_{};
+    mutable bool kept_off_{};  // some better tip was none, since passes keep off edges
     mutable std::vector<std::uint32_t> near_;
 };
 

@@ -104,7 +104,7 @@ private:
             return false;
         }
         Points way{at_, start};
-        if (!certified_.line_is_free(at_, start)) {
+        if (!certified_.spares_edges(at_, start) || !certified_.line_is_free(at_, start)) {
             way = {at_};
             const Points over = certified_.sample_dropped(at_, start);
             way.insert(way.end(), over.begin(), over.end());
@@ -113,7 +113,7 @@ private:
             if (length > std::max(kLongestDetour * direct, rules_.stay_down)) {
                 return false;
             }
-            way = certified_.fit_lines(way);
+            way = certified_.fit_lines(certified_.kept_off_edges(way));
         }
         for (std::size_t k = 1; k < way.size(); ++k) {
             out_.link_length += norm(way[k] - at_);

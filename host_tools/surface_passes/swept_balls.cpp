@@ -105,8 +105,7 @@ std::optional<double> SweptBalls::lowest_share(const Move& move, double x, doubl
     const double along = (way.x * off_x + way.y * off_y) / length;
     const double reach = std::sqrt(square);
     const double slope = way.z / length;
-    const double at =
-        std::clamp(along - slope * reach / std::sqrt(1 + slope * slope), 0.0, length);
+    const double at = std::clamp(along - slope * reach / std::sqrt(1 + slope * slope), 0.0, length);
     return std::abs(at - along) <= reach ? std::optional{at / length} : std::nullopt;
 }
 
@@ -119,8 +118,7 @@ SweptBalls::Lowest SweptBalls::lowest(double x, double y) const
         }
         if (const std::optional<double> share = lowest_share(move, x, y)) {
             const Vec3d c = move.from + (move.to - move.from) * *share;
-            const double square =
-                radius_ * radius_ - (c.x - x) * (c.x - x) - (c.y - y) * (c.y - y);
+            const double square = radius_ * radius_ - (c.x - x) * (c.x - x) - (c.y - y) * (c.y - y);
             const double height = c.z - std::sqrt(std::max(0.0, square));
             if (height < best.height) {
                 best = {height, c};

@@ -1,0 +1,189 @@
+// Pieces of edges are kept in squares seen from above.
+#include "host_tools/surface_passes/edge_guard.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cusp::host {
+namespace {
+
+constexpr double kPiece = 0.02;     // radii
+constexpr double kSquare = 0.25;    // radii
+constexpr int kLeastPieces = 8;     // between knots
+constexpr int kMostPieces = 4000;   // the same
+constexpr double kAside = 1e-6;     // of the domain: which side of a crease is meant
+constexpr double kLeastUp = 1e-3;   // z of the way to the centre
+constexpr double kStepShare = 0.2;  // of the depth, for what lies between places of a move
+constexpr int kMostPlaces = 2000;   // of a move
+constexpr int kMostPushes = 3;      // off edges that meet
+
+std::vector<double> breaks_of(const std::vector<double>& knots, int degree, int multiplicity)
+{
+    const std::size_t p = static_cast<std::size_t>(degree);
+    std::vector<double> out;
+    for (std::size_t k = p + 1; k + p + 1 < knots.size(); ++k) {
+        const std::size_t last = k + static_cast<std::size_t>(multiplicity) - 1;
+        if (knots[k] > knots[p] && knots[k] < knots[knots.size() - 1 - p] && last < knots.size() &&
+            knots[last] == knots[k] && (out.empty() || out.back() < knots[k])) {
+            out.push_back(knots[k]);
+        }
+    }
+    return out;
+}
+
+std::vector<double> with_ends(double begin, std::vector<double> inner, double end)
+{
+    inner.insert(inner.begin(), begin);
+    inner.push_back(end);
+    return inner;
+}
+
+Vec3d nearest_on(Vec3d p, Vec3d a, Vec3d b)
+{
+    const Vec3d d = b - a;
+    const double square = dot(d, d);
+    return a + d * (square > 0 ? std::clamp(dot(p - a, d) / square, 0.0, 1.0) : 0.0);
+}
+
+}  // namespace
+
+EdgeGuard::EdgeGuard(const std::vector<Surface>& surfaces, double radius, double deepest)
+    : radius_{radius}, deepest_{deepest}
+{
+    for (const Surface& s : surfaces) {
+        const double aside_u = kAside * (s.u_end() - s.u_begin());
+        const double aside_v = kAside * (s.v_end() - s.v_begin());
+        const std::vector<double> us =
+            with_ends(s.u_begin(), breaks_of(s.knots_u, s.degree_u, 1), s.u_end());
+        const std::vector<double> vs =
+            with_ends(s.v_begin(), breaks_of(s.knots_v, s.degree_v, 1), s.v_end());
+        const auto along_v = [&](double u, double aside) {
+            for (std::size_t k = 1; k < vs.size(); ++k) {
+                add_border(s, {u, vs[k - 1]}, {u, vs[k]}, {aside, 0});
+            }
+        };
+        const auto along_u = [&](double v, double aside) {
+            for (std::size_t k = 1; k < us.size(); ++k) {
+                add_border(s, {us[k - 1], v}, {us[k], v}, {0, aside});
+            }
+        };
+        along_v(s.u_begin(), aside_u);
+        along_v(s.u_end(), -aside_u);
+        along_u(s.v_begin(), aside_v);
+        along_u(s.v_end(), -aside_v);
+        for (const double u : breaks_of(s.knots_u, s.degree_u, s.degree_u)) {
+            along_v(u, aside_u);
+            along_v(u, -aside_u);
+        }
+        for (const double v : breaks_of(s.knots_v, s.degree_v, s.degree_v)) {
+            along_u(v, aside_v);
+            along_u(v, -aside_v);
+        }
+    }
+}
+
+void EdgeGuard::add_border(const Surface& surface, Vec2d from, Vec2d to, Vec2d aside)
+{
+    double length = 0;
+    Vec3d last = point_at(surface, from.x, from.y);
+    for (int k = 1; k <= kLeastPieces; ++k) {
+        const Vec2d at = from + (to - from) * (static_cast<double>(k) / kLeastPieces);
+        const Vec3d next = point_at(surface, at.x, at.y);
+        length += norm(next - last);
+        last = next;
+    }
+    const int parts =
+        std::clamp(static_cast<int>(length / (kPiece * radius_)), kLeastPieces, kMostPieces);
+    Vec3d at = point_at(surface, from.x, from.y);
+    double upright = 0;
+    for (int k = 0; k <= parts; ++k) {
+        const Vec2d place = from + (to - from) * (static_cast<double>(k) / parts);
+        const Vec3d next = point_at(surface, place.x, place.y);
+        const Vec2d inside = place + aside;
+        const double up = upward_normal(derivatives_at(surface, inside.x, inside.y)).z;
+        if (k > 0 && norm(next - at) > 0) {
+            add({at, next, std::max(upright, up)});
+        }
+        upright = up;
+        at = next;
+    }
+}
+
+void EdgeGuard::add(const Piece& piece)
+{
+    const std::uint32_t number = static_cast<std::uint32_t>(pieces_.size());
+    pieces_.push_back(piece);
+    const Vec3d middle = (piece.from + piece.to) * 0.5;
+    cells_[key(cell(middle.x), cell(middle.y))].push_back(number);
+}
+
+std::int64_t EdgeGuard::cell(double at) const
+{
+    return static_cast<std::int64_t>(std::floor(at / (kSquare * radius_)));
+}
+
+std::uint64_t EdgeGuard::key(std::int64_t i, std::int64_t j) const
+{
+    return (static_cast<std::uint64_t>(i) << 32) ^ (static_cast<std::uint64_t>(j) & 0xffffffffU);
+}
+
+// The way off the edge where most is missing; nothing where none lacks `margin`.
+Vec3d EdgeGuard::missing(Vec3d centre, double margin) const
+{
+    double most = 0;
+    Vec3d out;
+    const double limit = radius_ + margin;
+    const double around = limit + kSquare * radius_;
+    const std::int64_t j_end = cell(centre.y + around);
+    for (std::int64_t i = cell(centre.x - around); i <= cell(centre.x + around); ++i) {
+        for (std::int64_t j = cell(centre.y - around); j <= j_end; ++j) {
+            const auto found = cells_.find(key(i, j));
+            if (found == cells_.end()) {
+                continue;
+            }
+            for (const std::uint32_t number : found->second) {
+                const Piece& piece = pieces_[number];
+                const Vec3d way = centre - nearest_on(centre, piece.from, piece.to);
+                const double distance = norm(way);
+                if (distance >= limit || distance <= 0) {
+                    continue;
+                }
+                const double up = std::max(kLeastUp, way.z / distance);
+                const double depth = deepest_ * up / std::max(kLeastUp, piece.upright);
+                if (limit - depth - distance > most) {
+                    most = limit - depth - distance;
+                    out = way * (most / distance);
+                }
+            }
+        }
+    }
+    return out;
+}
+
+Vec3d EdgeGuard::kept_off(Vec3d tip, double band) const
+{
+    for (int k = 0; k < kMostPushes; ++k) {
+        const Vec3d off = missing(tip + Vec3d{0, 0, radius_}, band);
+        if (off == Vec3d{}) {
+            break;
+        }
+        tip = tip + off;
+    }
+    return tip;
+}
+
+bool EdgeGuard::spares(Vec3d from, Vec3d to) const
+{
+    const double step = std::sqrt(8 * radius_ * kStepShare * deepest_);
+    const int places =
+        std::clamp(static_cast<int>(std::ceil(norm(to - from) / step)), 1, kMostPlaces);
+    for (int k = 0; k <= places; ++k) {
+        const Vec3d tip = from + (to - from) * (static_cast<double>(k) / places);
+        if (!(missing(tip + Vec3d{0, 0, radius_}, 0) == Vec3d{})) {
+            return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace cusp::host

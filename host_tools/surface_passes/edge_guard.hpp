@@ -1,0 +1,50 @@
+// Rims and creases of a model, and the tool kept off them where a two-sided tolerance would let it
+// cut in.
+#pragma once
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "host_tools/nurbs/nurbs.hpp"
+
+namespace cusp::host {
+
+// A ball that cuts into a face square to it takes off its depth. One that cuts as deep into the
+// face's edge, coming from beside it, takes off more, square to the face: the depth times the
+// ratio of the normals' heights, without limit for one that passes an upright edge.
+//
+// Edges are the borders of the surfaces' domains and lines of knots where the tangent plane may
+// jump; trimmed edges are not looked at. They are polylines, as fine as a 50th of the radius.
+class EdgeGuard {
+public:
+    // radius   mm, of the ball
+    // deepest  mm: what it may take off a face, square to the face; positive
+    EdgeGuard(const std::vector<Surface>& surfaces, double radius, double deepest);
+
+    // The tip, moved off edges so far that no place within `band` (mm) of it takes off more;
+    // unchanged where that is so already.
+    Vec3d kept_off(Vec3d tip, double band) const;
+
+    // Whether a straight move of the tip takes nowhere more off a face at its edge.
+    bool spares(Vec3d from, Vec3d to) const;
+
+private:
+    struct Piece {
+        Vec3d from;
+        Vec3d to;
+        double upright;  // z of the face's normal, the larger of its ends
+    };
+    void add_border(const Surface& surface, Vec2d from, Vec2d to, Vec2d aside);
+    void add(const Piece& piece);
+    Vec3d missing(Vec3d centre, double margin) const;
+    std::uint64_t key(std::int64_t i, std::int64_t j) const;
+    std::int64_t cell(double at) const;
+
+    double radius_;
+    double deepest_;
+    std::vector<Piece> pieces_;
+    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+};
+
+}  // namespace cusp::host
