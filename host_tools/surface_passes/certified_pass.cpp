@@ -178,13 +178,7 @@ void CertifiedPasses::guard_edges(const std::vector<Surface>& surfaces)
 
 Points CertifiedPasses::kept_off_edges(const Points& dense) const
 {
-    Points out = dense;
-    if (edges_) {
-        for (Vec3d& tip : out) {
-            tip = edges_->kept_off(tip, kEdgeMargin * band_.band);
-        }
-    }
-    return out;
+    return edges_ ? edges_->kept_off(dense, kEdgeMargin * band_.band) : dense;
 }
 
 bool CertifiedPasses::spares_edges(Vec3d a, Vec3d b) const

@@ -48,7 +48,7 @@ Vec3d nearest_on(Vec3d p, Vec3d a, Vec3d b)
 }  // namespace
 
 EdgeGuard::EdgeGuard(const std::vector<Surface>& surfaces, double radius, double deepest)
-    : radius_{radius}, deepest_{deepest}
+    : radius_{radius}, deepest_{deepest}, step_{std::sqrt(8 * radius * kStepShare * deepest)}
 {
     for (const Surface& s : surfaces) {
         const double aside_u = kAside * (s.u_end() - s.u_begin());
@@ -160,7 +160,7 @@ Vec3d EdgeGuard::missing(Vec3d centre, double margin) const
     return out;
 }
 
-Vec3d EdgeGuard::kept_off(Vec3d tip, double band) const
+Vec3d EdgeGuard::moved_off(Vec3d tip, double band) const
 {
     for (int k = 0; k < kMostPushes; ++k) {
         const Vec3d off = missing(tip + Vec3d{0, 0, radius_}, band);
@@ -172,11 +172,36 @@ Vec3d EdgeGuard::kept_off(Vec3d tip, double band) const
     return tip;
 }
 
+// Places between, as long as some of them may have to move: none is farther from the middle than
+// half the way.
+bool EdgeGuard::append_moved(Vec3d from, Vec3d to, double band, std::vector<Vec3d>& out) const
+{
+    const double length = norm(to - from);
+    const Vec3d middle = (from + to) * 0.5;
+    if (length > step_ &&
+        !(missing(middle + Vec3d{0, 0, radius_}, band + 0.5 * length) == Vec3d{})) {
+        const bool first = append_moved(from, middle, band, out);
+        const bool second = append_moved(middle, to, band, out);
+        return first || second;
+    }
+    out.push_back(moved_off(to, band));
+    return !(out.back() == to);
+}
+
+std::vector<Vec3d> EdgeGuard::kept_off(const std::vector<Vec3d>& tips, double band) const
+{
+    std::vector<Vec3d> out{moved_off(tips.front(), band)};
+    bool moved = !(out.front() == tips.front());
+    for (std::size_t k = 1; k < tips.size(); ++k) {
+        moved = append_moved(tips[k - 1], tips[k], band, out) || moved;
+    }
+    return moved ? out : tips;
+}
+
 bool EdgeGuard::spares(Vec3d from, Vec3d to) const
 {
-    const double step = std::sqrt(8 * radius_ * kStepShare * deepest_);
     const int places =
-        std::clamp(static_cast<int>(std::ceil(norm(to - from) / step)), 1, kMostPlaces);
+        std::clamp(static_cast<int>(std::ceil(norm(to - from) / step_)), 1, kMostPlaces);
     for (int k = 0; k <= places; ++k) {
         const Vec3d tip = from + (to - from) * (static_cast<double>(k) / places);
         if (!(missing(tip + Vec3d{0, 0, radius_}, 0) == Vec3d{})) {

@@ -22,9 +22,9 @@ public:
     // deepest  mm: what it may take off a face, square to the face; positive
     EdgeGuard(const std::vector<Surface>& surfaces, double radius, double deepest);
 
-    // The tip, moved off edges so far that no place within `band` (mm) of it takes off more;
-    // unchanged where that is so already.
-    Vec3d kept_off(Vec3d tip, double band) const;
+    // The polyline of tips, moved off edges so far that no place within `band` (mm) of it takes off
+    // more, with places between where it has to bend; unchanged where nothing has to move.
+    std::vector<Vec3d> kept_off(const std::vector<Vec3d>& tips, double band) const;
 
     // Whether a straight move of the tip takes nowhere more off a face at its edge.
     bool spares(Vec3d from, Vec3d to) const;
@@ -35,6 +35,9 @@ private:
         Vec3d to;
         double upright;  // z of the face's normal, the larger of its ends
     };
+    Vec3d moved_off(Vec3d tip, double band) const;
+    // Returns whether some place had to move.
+    bool append_moved(Vec3d from, Vec3d to, double band, std::vector<Vec3d>& out) const;
     void add_border(const Surface& surface, Vec2d from, Vec2d to, Vec2d aside);
     void add(const Piece& piece);
     Vec3d missing(Vec3d centre, double margin) const;
@@ -43,6 +46,7 @@ private:
 
     double radius_;
     double deepest_;
+    double step_;  // mm: between places of a move looked at
     std::vector<Piece> pieces_;
     std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
 };

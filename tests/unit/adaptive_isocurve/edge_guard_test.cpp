@@ -1,0 +1,73 @@
+// Moves of a ball past the rim of a level plate, against what they take off it seen from above.
+#include "host_tools/surface_passes/edge_guard.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "CppUTest/TestHarness.h"
+
+using namespace cusp;
+using namespace cusp::host;
+
+namespace {
+
+constexpr double kRadius = 2;
+constexpr double kDeepest = 0.005;
+constexpr double kBand = 0.0045;
+
+// 10 by 10 mm, its upper side at z = 0.
+Surface plate()
+{
+    Surface s;
+    s.degree_u = s.degree_v = 1;
+    s.size_u = s.size_v = 2;
+    s.knots_u = s.knots_v = {0, 0, 1, 1};
+    s.points = {{0, 0, 0}, {0, 10, 0}, {10, 0, 0}, {10, 10, 0}};
+    s.weights.assign(4, 1.0);
+    return s;
+}
+
+// How far a ball whose tip is at `tip` reaches below the rim x = 0.
+double below_rim(Vec3d tip)
+{
+    const double square = kRadius * kRadius - tip.x * tip.x;
+    return square > 0 ? std::sqrt(square) - kRadius - tip.z : -1;
+}
+
+}  // namespace
+
+TEST_GROUP(EdgeGuard){};
+
+TEST(EdgeGuard, MovesTheBallThatPassesTheRimFromBeside)
+{
+    const EdgeGuard guard{{plate()}, kRadius, kDeepest};
+    for (const double beside : {0.3, 1.0, 1.7, 1.95}) {
+        // Half the tolerance in, square to the ball: far more off the plate.
+        const double centre = std::sqrt(std::pow(kRadius - kDeepest, 2) - beside * beside);
+        const Vec3d from{-beside, 1, centre - kRadius};
+        const Vec3d to{-beside, 9, centre - kRadius};
+        CHECK(!guard.spares(from, to));
+        for (const Vec3d& tip : guard.kept_off({from, to}, kBand)) {
+            CHECK(below_rim(tip - Vec3d{0, 0, kBand}) <= kDeepest + 1e-6);
+        }
+    }
+}
+
+TEST(EdgeGuard, LeavesTheBallThatMeetsTheFaceSquare)
+{
+    const EdgeGuard guard{{plate()}, kRadius, kDeepest};
+    const std::vector<Vec3d> over{{0, 1, 0}, {0, 9, 0}, {5, 9, 0}};
+    CHECK(guard.kept_off(over, kBand) == over);
+    CHECK(guard.spares({0, 1, -kBand}, {0, 9, -kBand}));
+}
+
+TEST(EdgeGuard, FindsTheRimBetweenTwoFarPlaces)
+{
+    const EdgeGuard guard{{plate()}, kRadius, kDeepest};
+    const std::vector<Vec3d> way{{-4, 5, -1.2}, {-1, 5, -0.3}};
+    const std::vector<Vec3d> kept = guard.kept_off(way, kBand);
+    CHECK(kept.size() > way.size());
+    for (const Vec3d& tip : kept) {
+        CHECK(below_rim(tip) <= kDeepest);
+    }
+}
