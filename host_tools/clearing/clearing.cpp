@@ -62,6 +62,46 @@ NextLevel next_level(const RegionOffset& offset, double distance, double step, b
     return {distance + good * step, std::move(*best)};
 }
 
+// Draws the inner level nearer until little enough stays between, or farther off, where much less
+// stays than may.
+void draw_to_suit(NextLevel& inner,
+                  const NextLevel& level,
+                  const RegionOffset& offset,
+                  const ClearingSettings& settings)
+{
+    constexpr int kRounds = 14;
+    constexpr double kMost = 0.999;  // of the step before
+    constexpr double kMostAgain = 0.98;
+    constexpr double kLeast = 0.5;
+    constexpr double kLittle = 0.7;  // of what may stay
+    constexpr double kWider = 0.95;
+    const double widest = 0.5 * settings.step;
+    std::optional<NextLevel> good;
+    double bad = 1e300;
+    for (int round = 0; settings.left_between && round < kRounds; ++round) {
+        const double step = inner.distance - level.distance;
+        const double left = settings.left_between(
+            {level.loops, inner.loops, level.distance, inner.distance, offset});
+        const double most = round == 0 ? kMost : kMostAgain;
+        double share = std::clamp(kMost / std::sqrt(left), kLeast, most);
+        if (left <= 1.0) {
+            good = std::move(inner);
+            share = std::min(kWider / std::sqrt(left), 2.0);
+            if (left > kLittle || bad < 1e300 || step * share > widest) {
+                break;
+            }
+        } else if (good) {
+            break;
+        } else {
+            bad = step;
+        }
+        inner = next_level(offset, level.distance, share * step, settings.cover_corners);
+    }
+    if (good) {
+        inner = std::move(*good);
+    }
+}
+
 std::vector<Loop2d> make_levels(const RegionOffset& offset, const ClearingSettings& settings)
 {
     std::vector<Loop2d> loops;
@@ -90,13 +130,17 @@ std::vector<Loop2d> make_levels(const RegionOffset& offset, const ClearingSettin
                 break;
             }
         }
+        draw_to_suit(inner, level, offset, settings);
         for (Contour& contour : level.loops.contours) {
             const bool outer = area(contour) > 0.0;
             loops.push_back(
                 {std::move(contour), k, level.distance, inner.distance - level.distance, outer});
         }
+        // What made this step small seldom ends with it.
+        constexpr double kGrowth = 1.5;
+        const double most = kGrowth * (inner.distance - level.distance);
         level = std::move(inner);
-        step = inner_step;
+        step = settings.left_between ? std::min(inner_step, most) : inner_step;
     }
     return loops;
 }

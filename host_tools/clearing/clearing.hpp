@@ -16,12 +16,24 @@
 
 namespace cusp::host {
 
+// What lies between two neighbouring levels of loops.
+struct LevelStrip {
+    const Region2d& outer;
+    const Region2d& inner;  // empty where the outer one is the last
+    double from;            // mm: distance of the outer one from the contours
+    double to;              // mm: of the inner one
+    const RegionOffset& walls;
+};
+
 struct ClearingSettings {
     double
         first{};    // mm: distance of the outermost pass from the contours (tool radius, allowance)
     double step{};  // mm: largest distance between passes
     // Where given, the largest distance inward from a level of loops; `step` bounds it.
     std::function<double(const Region2d& level)> step_from;
+    // Where given, what stands between two levels as a share of what may: they are drawn nearer
+    // together until it is at most 1, or apart, up to half of `step`, where it is much less.
+    std::function<double(const LevelStrip& strip)> left_between;
     CutDirection direction{CutDirection::kClimb};
     // Draws loops nearer together where corners, necks or the middle would else lie farther than
     // half a step from every pass.

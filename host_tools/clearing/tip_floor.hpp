@@ -36,6 +36,9 @@ public:
     // surfaces; or `slack` (mm), where that is more.
     Rest drop(Vec2d at, double slack = 0.0) const;
 
+    // Where in plan the tool over `at` touches what it rests on, as drop() found it.
+    Vec2d touched(Vec2d at, const Rest& rest) const;
+
     // Lower bound of the gap between the tool, moved straight from tip a to tip b, and the
     // surfaces: 0 where it keeps clear of them, negative (mm) by how much it may cut; along the
     // normal for a ball, along the axis for other tools.
@@ -62,6 +65,9 @@ public:
         bool found;
     };
     Contact contact(Vec2d at, double slack) const;
+    // As contact(), which is good to the thin piece that the tool rests on; here the place on it is
+    // the one that the tool touches.
+    Contact touching(Vec2d at, double slack) const;
     static Section section(const Contact& contact, Vec2d along);
 
     const Tool& tool() const { return tool_; }
@@ -123,6 +129,7 @@ private:
         double u0, u1, v0, v1;
     };
 
+    Contact contact_on(const Piece& piece, double height, double u, double v) const;
     void gather(std::uint32_t place, std::uint32_t parent, Piece* first, Piece* last);
     std::uint32_t sibling(std::uint32_t piece) const
     {

@@ -212,6 +212,12 @@ TipFloor::Rest TipFloor::drop(Vec2d at, double slack) const
     return best;
 }
 
+Vec2d TipFloor::touched(Vec2d at, const Rest& rest) const
+{
+    const Piece& piece = pieces_[rest.piece];
+    return on_piece(piece, at + piece.gradient * piece.contact);
+}
+
 // The slope of the tip's height: of the piece's plane, or where the tool touches beyond the piece,
 // on an edge, of the tool's side there.
 Vec2d TipFloor::slope_of(const Piece& piece, Vec2d at) const

@@ -10,6 +10,8 @@ namespace cusp::host {
 
 namespace {
 
+double middle_of(std::array<float, 2> ends) { return 0.5 * static_cast<double>(ends[0] + ends[1]); }
+
 double excess(double low, double high, double x) { return std::max({low - x, 0.0, x - high}); }
 
 }  // namespace
@@ -39,6 +41,18 @@ bool TipFloor::covers(Vec2d at) const
     return false;
 }
 
+// u, v: shares of the piece's patch.
+TipFloor::Contact TipFloor::contact_on(const Piece& piece, double height, double u, double v) const
+{
+    const Patch& patch = patches_[piece.patch];
+    const SurfacePoint s =
+        derivatives_at(surfaces_[patch.surface], patch.u0 + (patch.u1 - patch.u0) * u,
+                       patch.v0 + (patch.v1 - patch.v0) * v);
+    const Vec3d n = upward_normal(s);
+    const double bend = s.du.x * s.dv.y - s.du.y * s.dv.x;
+    return {height, s, n, std::abs(bend) >= 1e-12 && n.z >= 1e-3};
+}
+
 TipFloor::Contact TipFloor::contact(Vec2d at, double slack) const
 {
     const Rest rest = drop(at, slack);
@@ -46,16 +60,37 @@ TipFloor::Contact TipFloor::contact(Vec2d at, double slack) const
         return {kNothing, {}, {}, false};
     }
     const Piece& piece = pieces_[rest.piece];
+    return contact_on(piece, rest.height, middle_of(piece.u), middle_of(piece.v));
+}
+
+// Two steps towards where a floor with the slope at hand would be touched, in the piece's plane.
+TipFloor::Contact TipFloor::touching(Vec2d at, double slack) const
+{
+    const Rest rest = drop(at, slack);
+    if (rest.height == kNothing) {
+        return {kNothing, {}, {}, false};
+    }
+    constexpr int kSteps = 2;
+    const Piece& piece = pieces_[rest.piece];
     const Patch& patch = patches_[piece.patch];
-    const auto middle = [](std::array<float, 2> ends) {
-        return 0.5 * static_cast<double>(ends[0] + ends[1]);
-    };
-    const SurfacePoint s =
-        derivatives_at(surfaces_[patch.surface], patch.u0 + (patch.u1 - patch.u0) * middle(piece.u),
-                       patch.v0 + (patch.v1 - patch.v0) * middle(piece.v));
-    const Vec3d n = upward_normal(s);
-    const double bend = s.du.x * s.dv.y - s.du.y * s.dv.x;
-    return {rest.height, s, n, std::abs(bend) >= 1e-12 && n.z >= 1e-3};
+    const double corner = tool_.corner_radius;
+    double u = middle_of(piece.u);
+    double v = middle_of(piece.v);
+    Contact contact = contact_on(piece, rest.height, u, v);
+    for (int i = 0; i < kSteps && contact.found; ++i) {
+        const SurfacePoint& s = contact.surface;
+        const Vec3d n = contact.normal;
+        const double steep = std::hypot(n.x, n.y);
+        const double out = steep > 0.0 ? (tool_.radius - corner) / steep + corner : corner;
+        const Vec2d aside = at - Vec2d{n.x, n.y} * out - Vec2d{s.point.x, s.point.y};
+        const double bend = s.du.x * s.dv.y - s.du.y * s.dv.x;
+        u += (aside.x * s.dv.y - aside.y * s.dv.x) / (bend * (patch.u1 - patch.u0));
+        v += (s.du.x * aside.y - s.du.y * aside.x) / (bend * (patch.v1 - patch.v0));
+        u = std::clamp(u, static_cast<double>(piece.u[0]), static_cast<double>(piece.u[1]));
+        v = std::clamp(v, static_cast<double>(piece.v[0]), static_cast<double>(piece.v[1]));
+        contact = contact_on(piece, rest.height, u, v);
+    }
+    return contact;
 }
 
 TipFloor::Section TipFloor::section(const Contact& contact, Vec2d along)

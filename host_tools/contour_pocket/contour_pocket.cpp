@@ -14,6 +14,7 @@
 #include "host_tools/contour_pocket/pocket_task.hpp"
 #include "host_tools/contour_pocket/rest_material.hpp"
 #include "host_tools/contour_pocket/rough_layers.hpp"
+#include "host_tools/contour_pocket/strip_ridge.hpp"
 #include "host_tools/offset/offset.hpp"
 
 namespace cusp::host {
@@ -104,10 +105,19 @@ private:
         settings.step = 2.0 * operation_.tool.radius;
         settings.direction = operation_.direction_of_cut;
         settings.cover_corners = *operation_.scallop > operation_.floor_tolerance;
-        LevelInterval interval{floor_, budget_, settings.cover_corners};
+        const bool corners = settings.cover_corners;
+        const std::vector<Surface>& floor = operation_.floor;
+        const bool whole = floor.size() == 1 && floor.front().trims.empty();
+        LevelInterval interval{floor_, budget_, corners && !whole, !corners || !whole};
         settings.step_from = [&](const Region2d& level) {
             return interval.from(level);
         };
+        StripRidge ridge{floor_, operation_.floor, budget_};
+        if (corners && whole) {
+            settings.left_between = [&](const LevelStrip& strip) {
+                return ridge.share(strip);
+            };
+        }
         ClearedRegion cleared = clear_region(region_, settings);
         if (cleared.passes.empty()) {
             throw InputError(operation_.boundary_file + ": the tool of radius " +

@@ -25,13 +25,14 @@ Vec3d written(Vec3d p)
 struct Chords {
     std::vector<Vec3d> points;
     double sagitta;
+    std::vector<std::size_t> spans{};  // of a curve: the knot before the chord to each point
 };
 
 // The second derivative of a cubic changes evenly between knots, so its largest value stands at
 // one.
 Chords chords_of(const Curve& curve, double fine)
 {
-    Chords chords{{point_at(curve, curve.domain_begin())}, fine};
+    Chords chords{{point_at(curve, curve.domain_begin())}, fine, {0}};
     for (std::size_t k = 3; k < curve.points.size(); ++k) {
         const double u = curve.knots[k];
         const double width = curve.knots[k + 1] - u;
@@ -44,6 +45,7 @@ Chords chords_of(const Curve& curve, double fine)
         const int n = 1 + static_cast<int>(width * std::sqrt(bend / (8.0 * fine)));
         for (int i = 1; i <= n; ++i) {
             chords.points.push_back(point_at(curve, u + width * i / n));
+            chords.spans.push_back(k);
         }
     }
     return chords;
@@ -177,38 +179,88 @@ double certify(FloorPath& path,
     return most;
 }
 
-// A path of curves is raised as a whole: its pieces share their ends. Where that would be by more
-// than its band, beside a cliff, it is not. Returns what it is raised by, or lacks, mm.
-double certify_curves(FloorPath& path, const TipFloor& floor, const FloorPathSettings& settings)
+// What the control points of a move lack to keep it off the floor; of a straight one, its ends.
+// allowed: their gap, mm; least: the least gap found.
+std::vector<double> lacking(Vec3d start,
+                            const FloorMove& move,
+                            const TipFloor& floor,
+                            double fine,
+                            double allowed,
+                            double& least)
 {
-    constexpr int kRounds = 8;
-    const double allowed = allowed_gap(settings);
-    const double before = path.start.z;
-    const double fine = std::max(0.5 * settings.cushion, kWrittenStep);
-    for (int round = 0; round < kRounds; ++round) {
-        path.least_gap = 0.0;
-        Vec3d start = path.start;
-        for (const FloorMove& move : path.moves) {
-            path.least_gap = std::min(path.least_gap, gap_of(start, move, floor, fine));
-            start = move.end;
-        }
-        const double lacking = allowed - path.least_gap;
-        if (lacking <= 0.0) {
-            break;
-        }
-        if (lacking > settings.above) {
-            return lacking;
-        }
-        const Vec3d raise{0.0, 0.0, kWrittenStep + 1.5 * lacking};
-        path.start = written(path.start + raise);
-        for (FloorMove& move : path.moves) {
-            move.end = written(move.end + raise);
-            for (Vec3d& p : move.curve.points) {
-                p = written(p + raise);
-            }
+    const auto raise = [&](double gap) {
+        least = std::min(least, gap);
+        return gap < allowed ? kWrittenStep + 1.5 * (allowed - gap) : 0.0;
+    };
+    if (move.curve.points.empty()) {
+        return std::vector<double>(2, raise(gap_of(start, move, floor, fine)));
+    }
+    std::vector<double> raises(move.curve.points.size(), 0.0);
+    const Chords chords = chords_of(move.curve, fine);
+    for (std::size_t i = 1; i < chords.points.size(); ++i) {
+        const double more =
+            raise(floor.gap(chords.points[i - 1], chords.points[i], chords.sagitta));
+        // The four points of the chord's span carry all of it.
+        for (std::size_t k = chords.spans[i] - 3; k <= chords.spans[i]; ++k) {
+            raises[k] = std::max(raises[k], more);
         }
     }
-    return path.start.z - before;
+    return raises;
+}
+
+Vec3d raised(Vec3d p, double more) { return more > 0.0 ? written(p + Vec3d{0.0, 0.0, more}) : p; }
+
+// Moves share their ends, and so what these are raised by.
+void raise_moves(FloorPath& path, std::vector<std::vector<double>>& raises, bool closed)
+{
+    const std::size_t n = path.moves.size();
+    for (std::size_t i = 0; i < n; ++i) {
+        if (i + 1 < n || closed) {
+            std::vector<double>& next = raises[(i + 1) % n];
+            raises[i].back() = next.front() = std::max(raises[i].back(), next.front());
+        }
+    }
+    path.start = raised(path.start, raises.front().front());
+    for (std::size_t i = 0; i < n; ++i) {
+        path.moves[i].end = raised(path.moves[i].end, raises[i].back());
+        std::vector<Vec3d>& points = path.moves[i].curve.points;
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            points[k] = raised(points[k], raises[i][k]);
+        }
+    }
+}
+
+// Raising a control point lowers nothing: where the curve is clear it stays so. Where more than the
+// band is lacking, beside a cliff, nothing is raised. Returns the most that a place is raised by,
+// or lacks, mm.
+double certify_curves(FloorPath& path,
+                      const TipFloor& floor,
+                      const FloorPathSettings& settings,
+                      bool closed)
+{
+    constexpr int kRounds = 20;
+    const double allowed = allowed_gap(settings);
+    const double fine = std::max(0.5 * settings.cushion, kWrittenStep);
+    double most = 0.0;
+    for (int round = 0; round < kRounds && !path.moves.empty(); ++round) {
+        path.least_gap = 0.0;
+        std::vector<std::vector<double>> raises;
+        Vec3d start = path.start;
+        for (const FloorMove& move : path.moves) {
+            raises.push_back(lacking(start, move, floor, fine, allowed, path.least_gap));
+            start = move.end;
+        }
+        const double lacks = allowed - path.least_gap;
+        if (lacks <= 0.0) {
+            break;
+        }
+        if (lacks > settings.above) {
+            return lacks;
+        }
+        raise_moves(path, raises, closed);
+        most += kWrittenStep + 1.5 * lacks;
+    }
+    return most;
 }
 
 // The chain with a curve, or lines where none fits, from corner to corner.
@@ -309,7 +361,7 @@ double lay_on_stations(const std::vector<Edge>& plan,
         path.moves.back().end = path.start;
     }
     if (settings.nurbs) {
-        return certify_curves(path, floor, settings);
+        return certify_curves(path, floor, settings, closed);
     }
     return certify(path, floor, settings, closed);
 }

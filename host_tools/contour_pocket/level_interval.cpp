@@ -11,7 +11,7 @@ namespace cusp::host {
 namespace {
 
 constexpr double kClosest = 0.3;      // of the tool's radius: samples along a loop are no closer
-constexpr double kLeastShare = 0.02;  // of the tool's radius: no interval is less
+constexpr double kLeastShare = 0.02;  // of the tool's radius: no interval by a ridge is less
 
 // Curvature of the tip's height over a floor of that curvature and slope, for a ball.
 double bend_of_tip(const Tool& tool, const TipFloor::Section& section)
@@ -52,6 +52,8 @@ double ridge_between(const Tool& tool, const std::vector<double>& heights, doubl
     return most;
 }
 
+double least_interval(const Budget& budget) { return 0.5 * budget.cusp; }
+
 double LevelInterval::from(const Region2d& level)
 {
     least_ = 1e300;
@@ -73,7 +75,7 @@ double LevelInterval::from(const Region2d& level)
     }
     // Neighbouring moves may stray from their paths, each its own way.
     const double stray = budget_.outside ? 2.0 * budget_.aside : 0.0;
-    return std::max(least_ - stray, kLeastShare * floor_.tool().radius);
+    return std::max(least_ - stray, least_interval(budget_));
 }
 
 // To a fiftieth of the cusp.
@@ -96,7 +98,7 @@ void LevelInterval::across(Vec2d at, const TipFloor::Contact& here, Vec2d direct
     const TipFloor::Contact half = contact(at + direction * (0.5 * first));
     const double interval = std::min({least_, first, allowed(half, direction)});
     least_ = interval;
-    if (!here.found || !half.found) {
+    if (!ridges_ || !here.found || !half.found) {
         return;
     }
     const TipFloor::Contact there = contact(at + direction * first);
@@ -150,7 +152,7 @@ double LevelInterval::by_ridge(Vec2d at, Vec2d direction, double most) const
     if (low_enough(most)) {
         return most;
     }
-    double good = kLeastShare * floor_.tool().radius;
+    double good = std::min(most, kLeastShare * floor_.tool().radius);
     double bad = most;
     for (int i = 0; i < kHalvings; ++i) {
         const double middle = 0.5 * (good + bad);
@@ -194,7 +196,7 @@ void LevelInterval::refine(const Edge& edge, double whole, const Sample& a, cons
 {
     const double apart = (b.share - a.share) * whole;
     const bool known = a.contact.found && b.contact.found;
-    if (apart < kClosest * floor_.tool().radius ||
+    if (!ridges_ || apart < kClosest * floor_.tool().radius ||
         (known && as_expected(a.contact, b.contact, unit(a.way + b.way), apart))) {
         return;
     }

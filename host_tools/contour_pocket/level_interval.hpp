@@ -13,17 +13,23 @@ namespace cusp::host {
 //   apart    mm from the first place to the last
 double ridge_between(const Tool& tool, const std::vector<double>& heights, double apart);
 
+// No interval is less, mm: on the steepest floor that a flat end mill cuts in steps of half the
+// cusp's width they are half as high.
+double least_interval(const Budget& budget);
+
 class LevelInterval {
 public:
     // corners: metal between loops is reached from askew there, so that every direction counts.
-    LevelInterval(const TipFloor& floor, const Budget& budget, bool corners)
-        : floor_{floor}, budget_{budget}, corners_{corners}
+    // ridges: where the floor between two passes is not what its curvature at one of them says (a
+    // valley tighter than the tool, an edge), the ridge itself is looked at; else that is left to
+    // StripRidge.
+    LevelInterval(const TipFloor& floor, const Budget& budget, bool corners, bool ridges)
+        : floor_{floor}, budget_{budget}, corners_{corners}, ridges_{ridges}
     {
     }
 
     // The least distance inward from the level, mm, at which no cusp between is higher than
-    // allowed: by path_interval(); where the floor between two passes is not what its curvature at
-    // one of them says (a valley tighter than the tool, an edge), by the ridge itself.
+    // allowed, by path_interval() and the ridge.
     double from(const Region2d& level);
 
 private:
@@ -48,6 +54,7 @@ private:
     const TipFloor& floor_;
     const Budget& budget_;
     bool corners_;
+    bool ridges_;
     double least_{};
     double since_{};  // mm along the loop from the last sample
 };

@@ -1,0 +1,433 @@
+// Ways inward from the outer loops, compared with what both levels' paths cut.
+#include "host_tools/contour_pocket/strip_ridge.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "host_tools/contour_pocket/level_interval.hpp"
+#include "host_tools/contour_pocket/station_row.hpp"
+
+namespace cusp::host {
+
+namespace {
+
+constexpr double kNowhere = 1e300;
+constexpr double kAlong = 1.0 / 6.0;     // of the tool's radius: ways are no farther apart
+constexpr double kClosest = 1.0 / 48.0;  // of it: where what stands changes
+constexpr int kPlaces = 8;               // on a way
+constexpr double kEnough = 4.0;          // more need not be known
+
+struct Range {
+    double low, high;
+};
+
+// Where on a straight piece of length `whole` the tool's axis is within `reach` of a place, its
+// foot at `along`.
+Range within(double along, double reach, double whole)
+{
+    return {std::max(0.0, along - reach), std::min(whole, along + reach)};
+}
+
+// A convex function's least value over the range.
+template <class Function>
+double least_of(const Function& f, Range range)
+{
+    constexpr int kRounds = 24;
+    constexpr double kGolden = 0.6180339887498949;
+    double a = range.low;
+    double b = range.high;
+    double c = b - kGolden * (b - a);
+    double d = a + kGolden * (b - a);
+    double fc = f(c);
+    double fd = f(d);
+    for (int i = 0; i < kRounds; ++i) {
+        if (fc < fd) {
+            b = d;
+            d = c;
+            fd = fc;
+            c = b - kGolden * (b - a);
+            fc = f(c);
+        } else {
+            a = c;
+            c = d;
+            fc = fd;
+            d = a + kGolden * (b - a);
+            fd = f(d);
+        }
+    }
+    return std::min({f(a), f(b), fc, fd});
+}
+
+// Beside the rim of a flat foot what stands is low enough over a sickle only: as deep as the cusp
+// on a steep floor, and as long as the chord there.
+double ways_apart(const Tool& tool, double cusp)
+{
+    constexpr double kShare = 0.3;
+    const double chord = kShare * std::sqrt(2.0 * cusp * tool.radius);
+    return std::min(kAlong * tool.radius, std::max(chord, kAlong * tool.corner_radius));
+}
+
+bool turns(const Edge& before, const Edge& after)
+{
+    constexpr double kCorner = 0.995;  // cosine of some 6 degrees
+    return dot(tangent_at_end(before), tangent_at_start(after)) < kCorner;
+}
+
+// The second visit of a spur goes back over the first.
+bool is_spur(const Contour& contour, std::size_t e)
+{
+    return e + 1 < contour.size() && contour[e].turn == 0 && contour[e + 1].turn == 0 &&
+           distance(contour[e].start, contour[e + 1].end) < 1e-9;
+}
+
+}  // namespace
+
+double cut_over(const Tool& tool, const TipSegment& segment, Vec2d at)
+{
+    const Vec2d a{segment.start.x, segment.start.y};
+    const Vec2d move = Vec2d{segment.end.x, segment.end.y} - a;
+    const double whole = std::sqrt(dot(move, move));
+    if (whole < 1e-9) {
+        return std::min(segment.start.z, segment.end.z) + profile_height(tool, distance(a, at));
+    }
+    const Vec2d way = move * (1.0 / whole);
+    const double slope = (segment.end.z - segment.start.z) / whole;
+    const double along = dot(at - a, way);
+    const double away = std::abs(cross(way, at - a));
+    const double square = tool.radius * tool.radius - away * away;
+    const Range range = within(along, std::sqrt(std::max(square, 0.0)), whole);
+    if (square <= 0.0 || range.low > range.high) {
+        return kNowhere;
+    }
+    const auto height = [&](double s) {
+        const double apart = std::sqrt(away * away + (s - along) * (s - along));
+        return segment.start.z + slope * s + profile_height(tool, std::min(apart, tool.radius));
+    };
+    if (tool.corner_radius == 0.0) {
+        return segment.start.z + slope * (slope > 0.0 ? range.low : range.high);
+    }
+    if (tool.corner_radius >= tool.radius) {
+        const double lowest = along - slope * std::sqrt(square / (1.0 + slope * slope));
+        return height(std::clamp(lowest, range.low, range.high));
+    }
+    return least_of(height, range);
+}
+
+StripRidge::StripRidge(const TipFloor& floor,
+                       const std::vector<Surface>& surfaces,
+                       const Budget& budget)
+    : floor_{floor},
+      budget_{budget},
+      ball_{floor.tool().corner_radius >= floor.tool().radius},
+      apart_{ways_apart(floor.tool(), budget.cusp)},
+      bounds_{ball_ ? surfaces : std::vector<Surface>{}, floor.tool().radius}
+{
+}
+
+// How far from a pass nothing too high stands, mm.
+double StripRidge::proven(const BendBounds& bounds) const
+{
+    if (!ball_ || !std::isfinite(bounds.slope)) {
+        return 0.0;
+    }
+    const double secant = std::sqrt(1.0 + bounds.slope * bounds.slope);
+    return proven_reach(floor_.tool().radius, allowed(secant), bounds) - budget_.aside;
+}
+
+double StripRidge::share(const LevelStrip& strip)
+{
+    constexpr double kWorthIt = 0.95;
+    const double step = strip.to - strip.from;
+    const Box2d box = box_of(strip.outer);
+    const Box2d around{box.x0 - step, box.y0 - step, box.x1 + step, box.y1 + step};
+    const double reach = proven(bounds_.near(around));
+    if (2.0 * reach > kWorthIt * step) {
+        const double share = 0.5 * step / reach;
+        return share * share;
+    }
+    if (step <= least_interval(budget_)) {
+        return 0.0;
+    }
+    segments_.clear();
+    lay(strip.outer, step);
+    lay(strip.inner, step);
+    sort_segments(step);
+    // Neighbouring moves may stray from their paths, each its own way; a ridge grows as the square
+    // of their distance.
+    const double strayed = step / (step + 2.0 * budget_.aside);
+    strayed_ = strayed * strayed;
+    double most = 0.0;
+    for (const Contour& contour : strip.outer.contours) {
+        Contour loop;
+        for (std::size_t e = 0; e < contour.size(); ++e) {
+            if (!is_spur(contour, e) && !(e > 0 && is_spur(contour, e - 1))) {
+                loop.push_back(contour[e]);
+            }
+        }
+        for (std::size_t e = 0; e < loop.size() && most < kEnough; ++e) {
+            const Edge& before = loop[(e + loop.size() - 1) % loop.size()];
+            const Edge& after = loop[(e + 1) % loop.size()];
+            const Corners corners{turns(before, loop[e]), turns(loop[e], after)};
+            most = std::max(most, ways_along(loop[e], corners, strip));
+        }
+    }
+    // Under a flat foot a ridge that was missed is as narrow as others are: little found there is
+    // no reason for wider steps.
+    constexpr double kNoLess = 0.75;
+    return ball_ ? most : std::max(most, kNoLess);
+}
+
+// Places without floor are refused when the path is laid.
+void StripRidge::lay(const Region2d& level, double step)
+{
+    const double height = 0.2 * budget_.cusp;
+    const StationSpacing spacing{0.5 * step, 0.02 * step, height, false};
+    for (const Contour& contour : level.contours) {
+        const StationRow row = stations_along(contour, &floor_, spacing);
+        for (std::size_t i = 1; i < row.stations.size(); ++i) {
+            const Station& a = row.stations[i - 1];
+            const Station& b = row.stations[i];
+            segments_.push_back({{a.at.x, a.at.y, a.height}, {b.at.x, b.at.y, b.height}});
+        }
+    }
+}
+
+void StripRidge::sort_segments(double cell)
+{
+    field_ = {};
+    for (const TipSegment& s : segments_) {
+        field_ = {
+            std::min({field_.x0, s.start.x, s.end.x}), std::min({field_.y0, s.start.y, s.end.y}),
+            std::max({field_.x1, s.start.x, s.end.x}), std::max({field_.y1, s.start.y, s.end.y})};
+    }
+    constexpr double kMostCells = 250.0;  // a side
+    const double longest = std::max(field_.x1 - field_.x0, field_.y1 - field_.y0);
+    cell_ = std::max(cell, longest / kMostCells);
+    columns_ = 1 + static_cast<int>((field_.x1 - field_.x0) / cell_);
+    rows_ = 1 + static_cast<int>((field_.y1 - field_.y0) / cell_);
+    cells_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), {});
+    for (std::size_t k = 0; k < segments_.size(); ++k) {
+        const TipSegment& s = segments_[k];
+        const auto column = [&](double x) {
+            return static_cast<int>((x - field_.x0) / cell_);
+        };
+        const auto row = [&](double y) {
+            return static_cast<int>((y - field_.y0) / cell_);
+        };
+        for (int i = column(std::min(s.start.x, s.end.x));
+             i <= column(std::max(s.start.x, s.end.x)); ++i) {
+            for (int j = row(std::min(s.start.y, s.end.y)); j <= row(std::max(s.start.y, s.end.y));
+                 ++j) {
+                cells_[static_cast<std::size_t>(j * columns_ + i)].push_back(
+                    static_cast<std::uint32_t>(k));
+            }
+        }
+    }
+}
+
+// A ball's lower side lies along the floor beside the place that it touches; under the rim of a
+// flat foot the floor falls away, and the place must be known itself.
+StripRidge::Probe StripRidge::probe(Vec2d at) const
+{
+    const Tool& tool = floor_.tool();
+    const double slack = 0.02 * budget_.cusp;
+    if (!ball_) {
+        const TipFloor::Contact contact = floor_.touching(at, slack);
+        const Vec3d p = contact.surface.point;
+        const Vec3d n = contact.normal;
+        const Vec2d touched{p.x, p.y};
+        const double side =
+            contact.height + profile_height(tool, std::min(distance(at, touched), tool.radius));
+        if (contact.found && std::abs(side - p.z) * n.z < 0.1 * budget_.cusp) {
+            return {at, contact.height, touched, p.z, {-n.x / n.z, -n.y / n.z}, 1.0 / n.z};
+        }
+    }
+    const TipFloor::Rest rest = floor_.drop(at, slack);
+    if (rest.height == TipFloor::kNothing) {
+        return {at, rest.height, at, rest.height, {}, 1.0};
+    }
+    // A place on the very rim is touched from nowhere else, not even from a hair's breadth aside.
+    constexpr double kInside = 0.9999;
+    const Vec2d arm = floor_.touched(at, rest) - at;
+    const double out = std::sqrt(dot(arm, arm));
+    const double share = out > kInside * tool.radius ? kInside * tool.radius / out : 1.0;
+    return {at,
+            rest.height,
+            at + arm * share,
+            rest.height + profile_height(tool, share * out),
+            rest.gradient,
+            std::sqrt(1.0 + dot(rest.gradient, rest.gradient))};
+}
+
+// What the paths beside `near` leave at `at`: z.
+double StripRidge::left_at(Vec2d at, Vec2d near) const
+{
+    const int i = static_cast<int>(std::floor((near.x - field_.x0) / cell_));
+    const int j = static_cast<int>(std::floor((near.y - field_.y0) / cell_));
+    double least = kNowhere;
+    for (int row = std::max(0, j - 1); row <= std::min(rows_ - 1, j + 1); ++row) {
+        for (int column = std::max(0, i - 1); column <= std::min(columns_ - 1, i + 1); ++column) {
+            for (const std::uint32_t k :
+                 cells_[static_cast<std::size_t>(row * columns_ + column)]) {
+                const TipSegment& s = segments_[k];
+                if (std::min(s.start.z, s.end.z) < least) {
+                    least = std::min(least, cut_over(floor_.tool(), s, at));
+                }
+            }
+        }
+    }
+    return least;
+}
+
+// On a slope a move beside its path stands higher over the floor, and is raised where it would cut:
+// by no more than half again what it strays, square to the floor.
+double StripRidge::allowed(double secant) const
+{
+    constexpr double kRaised = 1.5;
+    constexpr double kLeast = 0.3;  // of what may stand on a level floor
+    const double cosine = 1.0 / secant;
+    const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+    const double on_slope = budget_.above * (1.0 - cosine) - kRaised * budget_.aside * sine;
+    return std::max(budget_.cusp + on_slope, kLeast * budget_.cusp);
+}
+
+// Square to the floor, where the tool touches it; as a share of what may stand.
+double StripRidge::left(const Probe& probe) const
+{
+    if (probe.floor == TipFloor::kNothing) {
+        return 0.0;
+    }
+    return std::max(0.0, left_at(probe.touched, probe.at) - probe.floor) /
+           (probe.secant * strayed_ * allowed(probe.secant));
+}
+
+// Where a ball does not reach the floor, between the places that it touches from two neighbouring
+// ones: over what it leaves at best. (A flat foot bridges most of what is hollow.)
+double StripRidge::left_under(const Probe& a, const Probe& b) const
+{
+    constexpr int kPieces = 4;
+    constexpr double kFar = 0.1;  // of the tool's radius: nearer ones hide nothing
+    const Tool& tool = floor_.tool();
+    const double apart = distance(a.touched, b.touched);
+    const bool known = a.floor != TipFloor::kNothing && b.floor != TipFloor::kNothing;
+    if (!known || apart < std::max(kFar * tool.radius, 3.0 * distance(a.at, b.at))) {
+        return 0.0;
+    }
+    double most = 0.0;
+    for (int i = 1; i < kPieces; ++i) {
+        const Vec2d p = a.touched + (b.touched - a.touched) * (static_cast<double>(i) / kPieces);
+        const double best = std::min(a.tip + profile_height(tool, distance(a.at, p)),
+                                     b.tip + profile_height(tool, distance(b.at, p)));
+        const double secant = std::max(a.secant, b.secant);
+        most = std::max(most, (left_at(p, a.at) - best) / (secant * strayed_ * allowed(secant)));
+    }
+    return most;
+}
+
+StripRidge::Way StripRidge::way(const Edge& edge, double along, const LevelStrip& strip) const
+{
+    constexpr double kSlack = 1e-6;
+    const double step = strip.to - strip.from;
+    const Vec2d foot = point_on(edge, along);
+    const Vec2d tangent = tangent_on(edge, along);
+    const Vec2d inward = left_normal(tangent);
+    const auto place = [&](double t) {
+        return foot + inward * t;
+    };
+    const Vec2d last = place(step);
+    const Box2d around{std::min(foot.x, last.x) - step, std::min(foot.y, last.y) - step,
+                       std::max(foot.x, last.x) + step, std::max(foot.y, last.y) + step};
+    if (ball_ && 2.0 * proven(bounds_.near(around)) >= step) {
+        return {along, 0.0, 0.0};
+    }
+    const auto nearest_here = [&](double t) {
+        return !strip.walls.any_nearer(place(t), strip.from + t - kSlack);
+    };
+    double end = step;
+    if (!nearest_here(step)) {
+        double good = 0.0;
+        for (int i = 0; i < 8; ++i) {
+            const double middle = 0.5 * (good + end);
+            (nearest_here(middle) ? good : end) = middle;
+        }
+        end = good;
+    }
+    std::array<double, kPlaces + 1> found{};
+    double most = 0.0;
+    double climb = 0.0;
+    Probe last_probe{};
+    const int n = std::max(1, static_cast<int>(std::ceil(kPlaces * end / step)));
+    for (int i = 0; i <= n && most < kEnough; ++i) {
+        const Probe here = probe(place(end * i / n));
+        if (i > 0 && ball_) {
+            most = std::max(most, left_under(last_probe, here));
+        }
+        last_probe = here;
+        climb = i == 0 ? dot(here.gradient, tangent) : climb;
+        const double standing = left(here);
+        found[static_cast<std::size_t>(i)] = standing;
+        most = std::max(most, standing);
+    }
+    // Between two places what one pass leaves rises and what the other leaves falls: the ridge is
+    // no higher than where their continuations meet, but for their bend.
+    for (std::size_t i = 2; i + 1 < static_cast<std::size_t>(n); ++i) {
+        const double rise = found[i] - found[i - 1];
+        const double fall = found[i + 1] - found[i + 2];
+        const double meeting = (found[i + 1] - found[i] + fall) / (rise + fall);
+        if (rise > 0.0 && fall > 0.0 && meeting >= 0.0 && meeting <= 1.0) {
+            most = std::max(most, found[i] + rise * meeting);
+        }
+    }
+    return {along, most, climb};
+}
+
+// Beside a corner ways end early, where they meet those from its other side.
+double StripRidge::ways_along(const Edge& edge, Corners corners, const LevelStrip& strip) const
+{
+    const double whole = length(edge);
+    const int n = 1 + static_cast<int>(whole / apart_);
+    std::vector<double> places{1.0};
+    for (int i = 0; i < n; ++i) {
+        places.push_back(static_cast<double>(i) / n);
+    }
+    for (const double steps : {0.1, 0.2, 0.35, 0.5, 0.75, 1.0, 1.5}) {
+        const double along = steps * (strip.to - strip.from) / whole;
+        if (corners.before && along < 1.0) {
+            places.push_back(along);
+        }
+        if (corners.after && along < 1.0) {
+            places.push_back(1.0 - along);
+        }
+    }
+    std::sort(places.begin(), places.end());
+    Way last = way(edge, 0.0, strip);
+    double most = last.share;
+    for (std::size_t i = 1; i < places.size() && most < kEnough; ++i) {
+        const Way next = way(edge, places[i], strip);
+        most = std::max({most, next.share, between(edge, last, next, strip)});
+        last = next;
+    }
+    return most;
+}
+
+double StripRidge::between(const Edge& edge,
+                           const Way& a,
+                           const Way& b,
+                           const LevelStrip& strip) const
+{
+    constexpr double kNear = 0.6;
+    constexpr double kEven = 0.1;
+    const double apart = (b.along - a.along) * length(edge);
+    const double most = std::max(a.share, b.share);
+    const bool uneven = most > kNear && std::abs(a.share - b.share) > kEven;
+    const bool turns_level = !ball_ && a.climb * b.climb < 0.0;
+    if (apart < kClosest * floor_.tool().radius || most > kEnough || (!uneven && !turns_level)) {
+        return 0.0;
+    }
+    const Way middle = way(edge, 0.5 * (a.along + b.along), strip);
+    return std::max(
+        {middle.share, between(edge, a, middle, strip), between(edge, middle, b, strip)});
+}
+
+}  // namespace cusp::host

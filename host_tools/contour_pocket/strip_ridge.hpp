@@ -1,0 +1,88 @@
+// The highest ridge that two neighbouring levels of loops leave in the strip between them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "host_tools/clearing/clearing.hpp"
+#include "host_tools/clearing/tip_floor.hpp"
+#include "host_tools/contour_pocket/floor_bounds.hpp"
+#include "host_tools/contour_pocket/pocket_task.hpp"
+
+namespace cusp::host {
+
+// A straight piece of a path of the tip.
+struct TipSegment {
+    Vec3d start;
+    Vec3d end;
+};
+
+// How low the tool, moved along the segment, cuts over the plan position: z, mm; infinite where it
+// does not get there.
+double cut_over(const Tool& tool, const TipSegment& segment, Vec2d at);
+
+class StripRidge {
+public:
+    StripRidge(const TipFloor& floor, const std::vector<Surface>& surfaces, const Budget& budget);
+
+    // What stands in the strip, square to the floor, over what the tool would leave if it passed
+    // everywhere; as a share of the height allowed between passes.
+    //
+    // Where bounds of the floor's slope and bend prove that nothing too high stands within half the
+    // strip's width of a pass (FloorBounds, balls only), nothing is looked at: every place lies so
+    // near to one (clear_region()).
+    //
+    // Every place of the strip lies on a way straight inward from the outer level. On such ways, a
+    // sixth of the tool's radius apart (less under a flat foot) and closer where what stands
+    // changes (or, for tools with a flat foot, where the passes turn level: there they leave
+    // steps), the floor is looked up where the tool would touch it from evenly spaced places, and
+    // compared with what both levels' paths cut there. Ends of ways where they meet others are
+    // looked at too.
+    double share(const LevelStrip& strip);
+
+private:
+    // A way inward from a place of an edge.
+    struct Way {
+        double along;  // share of the edge
+        double share;  // of what may stand, the most on it
+        double climb;  // slope of the tip's height along the edge
+    };
+    struct Probe {
+        Vec2d at;
+        double tip;  // z
+        Vec2d touched;
+        double floor;  // z of what is touched
+        Vec2d gradient;
+        double secant;
+    };
+    void lay(const Region2d& level, double step);
+    void sort_segments(double cell);
+    Way way(const Edge& edge, double along, const LevelStrip& strip) const;
+    struct Corners {
+        bool before, after;
+    };
+    double ways_along(const Edge& edge, Corners corners, const LevelStrip& strip) const;
+    double between(const Edge& edge, const Way& a, const Way& b, const LevelStrip& strip) const;
+    Probe probe(Vec2d at) const;
+    double allowed(double secant) const;
+    double left(const Probe& probe) const;
+    double left_under(const Probe& a, const Probe& b) const;
+    double left_at(Vec2d at, Vec2d near) const;
+
+    double proven(const BendBounds& bounds) const;
+
+    const TipFloor& floor_;
+    const Budget& budget_;
+    bool ball_;
+    double apart_;  // mm between ways, at most
+    FloorBounds bounds_;
+    std::vector<TipSegment> segments_;
+    Box2d field_{};
+    double cell_{};
+    int columns_{};
+    int rows_{};
+    std::vector<std::vector<std::uint32_t>> cells_;
+    double strayed_{};  // what of a ridge's height moves beside their paths leave allowed
+};
+
+}  // namespace cusp::host
