@@ -52,7 +52,10 @@ double ridge_between(const Tool& tool, const std::vector<double>& heights, doubl
     return most;
 }
 
-double least_interval(const Budget& budget) { return 0.5 * budget.cusp; }
+double least_interval(const Tool& tool, const Budget& budget)
+{
+    return std::max(0.5 * budget.cusp, 0.01 * tool.radius);
+}
 
 double LevelInterval::from(const Region2d& level)
 {
@@ -75,7 +78,7 @@ double LevelInterval::from(const Region2d& level)
     }
     // Neighbouring moves may stray from their paths, each its own way.
     const double stray = budget_.outside ? 2.0 * budget_.aside : 0.0;
-    return std::max(least_ - stray, least_interval(budget_));
+    return std::max(least_ - stray, least_interval(floor_.tool(), budget_));
 }
 
 // To a fiftieth of the cusp.

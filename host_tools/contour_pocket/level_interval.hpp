@@ -14,8 +14,8 @@ namespace cusp::host {
 double ridge_between(const Tool& tool, const std::vector<double>& heights, double apart);
 
 // No interval is less, mm: on the steepest floor that a flat end mill cuts in steps of half the
-// cusp's width they are half as high.
-double least_interval(const Budget& budget);
+// cusp's width they are half as high. A hundredth of the tool's radius bounds the work.
+double least_interval(const Tool& tool, const Budget& budget);
 
 class LevelInterval {
 public:

@@ -15,7 +15,8 @@ namespace {
 constexpr double kNowhere = 1e300;
 constexpr double kAlong = 1.0 / 6.0;     // of the tool's radius: ways are no farther apart
 constexpr double kClosest = 1.0 / 48.0;  // of it: where what stands changes
-constexpr int kPlaces = 8;               // on a way
+constexpr int kPlaces = 8;               // on a way, at most
+constexpr double kFine = 0.02;           // of the tool's radius: places on a way are no closer
 constexpr double kEnough = 4.0;          // more need not be known
 
 struct Range {
@@ -146,7 +147,7 @@ double StripRidge::share(const LevelStrip& strip)
         const double share = 0.5 * step / reach;
         return share * share;
     }
-    if (step <= least_interval(budget_)) {
+    if (step <= least_interval(floor_.tool(), budget_)) {
         return 0.0;
     }
     segments_.clear();
@@ -226,6 +227,15 @@ void StripRidge::sort_segments(double cell)
     }
 }
 
+// A place on the very rim is touched from nowhere else, not even from a hair's breadth aside.
+Vec2d StripRidge::inside_rim(Vec2d at, Vec2d touched) const
+{
+    constexpr double kInside = 0.9999;
+    const double most = kInside * floor_.tool().radius;
+    const double out = distance(at, touched);
+    return out > most ? at + (touched - at) * (most / out) : touched;
+}
+
 // A ball's lower side lies along the floor beside the place that it touches; under the rim of a
 // flat foot the floor falls away, and the place must be known itself.
 StripRidge::Probe StripRidge::probe(Vec2d at) const
@@ -236,9 +246,8 @@ StripRidge::Probe StripRidge::probe(Vec2d at) const
         const TipFloor::Contact contact = floor_.touching(at, slack);
         const Vec3d p = contact.surface.point;
         const Vec3d n = contact.normal;
-        const Vec2d touched{p.x, p.y};
-        const double side =
-            contact.height + profile_height(tool, std::min(distance(at, touched), tool.radius));
+        const Vec2d touched = inside_rim(at, {p.x, p.y});
+        const double side = contact.height + profile_height(tool, distance(at, touched));
         if (contact.found && std::abs(side - p.z) * n.z < 0.1 * budget_.cusp) {
             return {at, contact.height, touched, p.z, {-n.x / n.z, -n.y / n.z}, 1.0 / n.z};
         }
@@ -247,17 +256,10 @@ StripRidge::Probe StripRidge::probe(Vec2d at) const
     if (rest.height == TipFloor::kNothing) {
         return {at, rest.height, at, rest.height, {}, 1.0};
     }
-    // A place on the very rim is touched from nowhere else, not even from a hair's breadth aside.
-    constexpr double kInside = 0.9999;
-    const Vec2d arm = floor_.touched(at, rest) - at;
-    const double out = std::sqrt(dot(arm, arm));
-    const double share = out > kInside * tool.radius ? kInside * tool.radius / out : 1.0;
-    return {at,
-            rest.height,
-            at + arm * share,
-            rest.height + profile_height(tool, share * out),
-            rest.gradient,
-            std::sqrt(1.0 + dot(rest.gradient, rest.gradient))};
+    const Vec2d touched = inside_rim(at, floor_.touched(at, rest));
+    const double side = rest.height + profile_height(tool, distance(at, touched));
+    const double secant = std::sqrt(1.0 + dot(rest.gradient, rest.gradient));
+    return {at, rest.height, touched, side, rest.gradient, secant};
 }
 
 // What the paths beside `near` leave at `at`: z.
@@ -357,7 +359,9 @@ StripRidge::Way StripRidge::way(const Edge& edge, double along, const LevelStrip
     double most = 0.0;
     double climb = 0.0;
     Probe last_probe{};
-    const int n = std::max(1, static_cast<int>(std::ceil(kPlaces * end / step)));
+    const int places =
+        std::clamp(static_cast<int>(step / (kFine * floor_.tool().radius)), 3, kPlaces);
+    const int n = std::max(1, static_cast<int>(std::ceil(places * end / step)));
     for (int i = 0; i <= n && most < kEnough; ++i) {
         const Probe here = probe(place(end * i / n));
         if (i > 0 && ball_) {
@@ -378,6 +382,12 @@ StripRidge::Way StripRidge::way(const Edge& edge, double along, const LevelStrip
         if (rise > 0.0 && fall > 0.0 && meeting >= 0.0 && meeting <= 1.0) {
             most = std::max(most, found[i] + rise * meeting);
         }
+    }
+    // The steps of a flat foot rise as far as the next pass and end there.
+    for (std::size_t i = 1; !ball_ && i < static_cast<std::size_t>(n); ++i) {
+        const double rise = found[i] - found[i - 1];
+        const double fall = found[i] - found[i + 1];
+        most = std::max(most, found[i] + std::min(std::max(0.0, rise), std::max(0.0, fall)));
     }
     return {along, most, climb};
 }

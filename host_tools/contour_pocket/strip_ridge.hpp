@@ -63,6 +63,7 @@ private:
     };
     double ways_along(const Edge& edge, Corners corners, const LevelStrip& strip) const;
     double between(const Edge& edge, const Way& a, const Way& b, const LevelStrip& strip) const;
+    Vec2d inside_rim(Vec2d at, Vec2d touched) const;
     Probe probe(Vec2d at) const;
     double allowed(double secant) const;
     double left(const Probe& probe) const;
