@@ -4,7 +4,7 @@
 host_packages="g++ cmake ninja-build pkg-config python3 cpputest libeigen3-dev libcli11-dev libfmt-dev
     libtomlplusplus-dev nlohmann-json3-dev libserialport-dev"
 # Also builds the images and runs all tests.
-test_packages="$host_packages clang-format-14 libpolyclipping-dev libbenchmark-dev
+test_packages="$host_packages python3-numpy clang-format-14 libpolyclipping-dev libbenchmark-dev
     libocct-data-exchange-dev
     gcc-arm-none-eabi libnewlib-dev libstdc++-arm-none-eabi-dev qemu-system-arm
     g++-riscv64-linux-gnu qemu-user clang libclang-rt-14-dev"
