@@ -51,7 +51,7 @@ run_tests dev
 if [ "$all" = yes ]; then
     echo "building (sanitize)"
     quietly build/configure-sanitize.log cmake --preset sanitize -DCUSP_TARGET_TESTS=OFF
-    quietly build/build-sanitize.log cmake --build --preset sanitize -j "$jobs"
+    quietly build/build-sanitize.log cmake --build --preset sanitize -j "$jobs" --target unit_tests cusp
     run_tests sanitize -L unit
     echo "building the fuzz targets"
     quietly build/configure-fuzz.log cmake --preset fuzz -DCUSP_FUZZ_SECONDS=10 \

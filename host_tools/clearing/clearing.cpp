@@ -28,6 +28,7 @@ struct Loop2d {
 struct NextLevel {
     double distance;
     Region2d loops;
+    bool by_corners{};  // a farther one would leave something in corners
 };
 
 NextLevel next_level(const RegionOffset& offset, double distance, double step, bool cover)
@@ -59,7 +60,7 @@ NextLevel next_level(const RegionOffset& offset, double distance, double step, b
             bad = middle;
         }
     }
-    return {distance + good * step, std::move(*best)};
+    return {distance + good * step, std::move(*best), true};
 }
 
 // Draws the inner level nearer until little enough stays between, or farther off, where much less
@@ -87,7 +88,8 @@ void draw_to_suit(NextLevel& inner,
         if (left <= 1.0) {
             good = std::move(inner);
             share = std::min(kWider / std::sqrt(left), 2.0);
-            if (left > kLittle || bad < 1e300 || step * share > widest) {
+            const bool free = !good->by_corners && bad == 1e300;
+            if (left > kLittle || !free || step * share > widest) {
                 break;
             }
         } else if (good) {
