@@ -89,10 +89,18 @@ class Session:
     def idle(self, seconds=60):
         self.until("Idle", lambda: state() == "Idle" and not self.sender.running, seconds)
 
-    # After each job bCNC holds, resets and unlocks.
+    # After each job bCNC holds, resets and unlocks, and after a stop twice: what is sent before the
+    # last of it is thrown away.
     def purged(self, resets):
         self.until("purge", lambda: self.mill.account.resets > resets, SOON)
-        time.sleep(2)
+        seen, since = 0, 0.0
+
+        def quiet():
+            nonlocal seen, since
+            if seen != self.mill.account.resets or state() != "Idle":
+                seen, since = self.mill.account.resets, time.monotonic()
+            return time.monotonic() > since + 3
+        self.until("quiet", quiet, 2 * SOON)
         self.idle()
 
     def open(self):
@@ -174,9 +182,7 @@ class Session:
                                             for line in self.mill.account.heard), SOON)
         time.sleep(1)
         self.sender.stopRun()
-        self.until("reset", lambda: self.mill.account.resets > resets, SOON)
-        time.sleep(2)
-        self.idle()
+        self.purged(resets)
 
     def reset_in_motion(self):
         self.sender.sendGCode("G90 G1 X60 F300")
