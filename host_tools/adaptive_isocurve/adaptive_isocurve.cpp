@@ -161,6 +161,7 @@ public:
         }
         whole_ = whole_ && !work_.moved_off_edges();
         std::size_t bare = 0;
+        bool unseen = false;
         if (coverage_ && !(plain_ && whole_ && ridge_ <= *operation_.scallop)) {
             for (std::size_t k = 0; k < work_.surfaces().size(); ++k) {
                 coverage_->look_over(static_cast<int>(k));
@@ -168,6 +169,8 @@ public:
             coverage_->close_gaps([&](const Points& pass) { add_pass(pass); });
             bare = coverage_->uncovered();
             ridge_ = std::max(*operation_.scallop, coverage_->most_left());
+            unseen = coverage_->overflowed();
+            ridge_ = unseen ? operation_.tool.radius : ridge_;
         }
         if (!coverage_ && !(plain_ && whole_ && std::isfinite(ridge_))) {
             ridge_ = most_left_anywhere();
@@ -179,6 +182,11 @@ public:
         if (bare > 0) {
             planned.stats.warnings.push_back(
                 fmt::format("{} places of the surface may keep more than the scallop", bare));
+        }
+        if (unseen) {
+            planned.stats.warnings.push_back(
+                "too many places keep more than the scallop to look at them all: nothing is proved "
+                "of what is left");
         }
         planned.stats.counts.emplace_back("isocurves", static_cast<double>(curves));
         if (operation_.output == OutputForm::kNurbs) {

@@ -106,8 +106,7 @@ private:
         settings.direction = operation_.direction_of_cut;
         settings.cover_corners = *operation_.scallop > operation_.floor_tolerance;
         const bool corners = settings.cover_corners;
-        const std::vector<Surface>& floor = operation_.floor;
-        const bool whole = floor.size() == 1 && floor.front().trims.empty();
+        const bool whole = is_one_whole_surface();
         LevelInterval interval{floor_, budget_, corners && !whole, !corners || !whole};
         settings.step_from = [&](const Region2d& level) {
             return interval.from(level);
@@ -127,11 +126,15 @@ private:
         return cleared;
     }
 
-    // One smooth surface has no cliffs.
+    // Such a floor has no cliffs.
+    bool is_one_whole_surface() const
+    {
+        return operation_.floor.size() == 1 && operation_.floor.front().trims.empty();
+    }
+
     void add_cliff_passes(ClearedRegion& cleared)
     {
-        const std::vector<Surface>& floor = operation_.floor;
-        if (floor.size() == 1 && floor.front().trims.empty()) {
+        if (is_one_whole_surface()) {
             return;
         }
         CliffSettings settings;

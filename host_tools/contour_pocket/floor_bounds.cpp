@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "host_tools/nurbs/knot_insertion.hpp"
 #include "host_tools/surface_offset/bezier_cell.hpp"
+#include "host_tools/surface_offset/enclosure.hpp"
 
 namespace cusp::host {
 
@@ -15,39 +17,22 @@ namespace {
 constexpr double kNoBound = std::numeric_limits<double>::infinity();
 constexpr BendBounds kUnknown{kNoBound, kNoBound, kNoBound};
 
-struct Interval {
-    double low, high;
+struct EnclosureVector {
+    Enclosure x, y, z;
 };
 
-Interval operator+(Interval a, Interval b) { return {a.low + b.low, a.high + b.high}; }
-Interval operator-(Interval a, Interval b) { return {a.low - b.high, a.high - b.low}; }
-Interval operator*(Interval a, Interval b)
-{
-    const auto [low, high] =
-        std::minmax({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
-    return {low, high};
-}
-Interval operator*(double k, Interval a) { return Interval{k, k} * a; }
-// Of intervals without 0.
-Interval inverse(Interval a) { return {1.0 / a.high, 1.0 / a.low}; }
-double magnitude(Interval a) { return std::max(-a.low, a.high); }
-
-struct IntervalVector {
-    Interval x, y, z;
-};
-
-IntervalVector around(Vec3d p, double spread)
+EnclosureVector around(Vec3d p, double spread)
 {
     return {
         {p.x - spread, p.x + spread}, {p.y - spread, p.y + spread}, {p.z - spread, p.z + spread}};
 }
 
-IntervalVector cross(const IntervalVector& a, const IntervalVector& b)
+EnclosureVector cross(const EnclosureVector& a, const EnclosureVector& b)
 {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-Interval dot(const IntervalVector& a, const IntervalVector& b)
+Enclosure dot(const EnclosureVector& a, const EnclosureVector& b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -58,24 +43,24 @@ Interval dot(const IntervalVector& a, const IntervalVector& b)
 BendBounds bounds_of(const BezierCell& cell, const BezierCell::Spread& e)
 {
     const SurfacePoint& m = cell.middle();
-    const IntervalVector p = around(m.du, e.ds);
-    const IntervalVector q = around(m.dv, e.dt);
-    const IntervalVector n = cross(p, q);
+    const EnclosureVector p = around(m.du, e.ds);
+    const EnclosureVector q = around(m.dv, e.dt);
+    const EnclosureVector n = cross(p, q);
     if (n.z.low <= 0.0 && n.z.high >= 0.0) {
         return kUnknown;
     }
-    const Interval level = inverse(n.z);
-    const IntervalVector unit{n.x * level, n.y * level, {1.0, 1.0}};
-    const Interval ss = dot(unit, around(m.duu, e.dss));
-    const Interval st = dot(unit, around(m.duv, e.dst));
-    const Interval tt = dot(unit, around(m.dvv, e.dtt));
-    const Interval px = p.x * level;
-    const Interval py = p.y * level;
-    const Interval qx = q.x * level;
-    const Interval qy = q.y * level;
-    const Interval xx = ss * (qy * qy) - 2.0 * (st * (qy * py)) + tt * (py * py);
-    const Interval xy = st * (qy * px + qx * py) - ss * (qx * qy) - tt * (px * py);
-    const Interval yy = ss * (qx * qx) - 2.0 * (st * (qx * px)) + tt * (px * px);
+    const Enclosure level = inverse(n.z);
+    const EnclosureVector unit{n.x * level, n.y * level, {1.0, 1.0}};
+    const Enclosure ss = dot(unit, around(m.duu, e.dss));
+    const Enclosure st = dot(unit, around(m.duv, e.dst));
+    const Enclosure tt = dot(unit, around(m.dvv, e.dtt));
+    const Enclosure px = p.x * level;
+    const Enclosure py = p.y * level;
+    const Enclosure qx = q.x * level;
+    const Enclosure qy = q.y * level;
+    const Enclosure xx = ss * (qy * qy) - 2.0 * (st * (qy * py)) + tt * (py * py);
+    const Enclosure xy = st * (qy * px + qx * py) - ss * (qx * qy) - tt * (px * py);
+    const Enclosure yy = ss * (qx * qx) - 2.0 * (st * (qx * px)) + tt * (px * px);
     const auto largest = [&](double a, double b) {
         return 0.5 * (a + b) + std::hypot(0.5 * (a - b), magnitude(xy));
     };
@@ -94,20 +79,9 @@ Box2d plan_box(const BezierCell& cell)
     return {cell.low().x, cell.low().y, cell.high().x, cell.high().y};
 }
 
-// A surface may have an edge along a knot whose multiplicity reaches the degree.
-bool folds(const std::vector<double>& knots, int degree)
+bool folds(const std::vector<double>& knots, int degree, int size)
 {
-    const auto inside = [&](double k) {
-        return k > knots.front() && k < knots.back();
-    };
-    int same = 0;
-    for (std::size_t i = 1; i < knots.size(); ++i) {
-        same = knots[i] == knots[i - 1] ? same + 1 : 1;
-        if (inside(knots[i]) && same >= degree) {
-            return true;
-        }
-    }
-    return false;
+    return crease_knots(knots, degree, static_cast<std::size_t>(size)).size() > 2;
 }
 
 }  // namespace
@@ -147,8 +121,8 @@ FloorBounds::FloorBounds(const std::vector<Surface>& floor, double reach)
         return;
     }
     const Surface& surface = floor.front();
-    if (!surface.trims.empty() || folds(surface.knots_u, surface.degree_u) ||
-        folds(surface.knots_v, surface.degree_v)) {
+    if (!surface.trims.empty() || folds(surface.knots_u, surface.degree_u, surface.size_u) ||
+        folds(surface.knots_v, surface.degree_v, surface.size_v)) {
         return;
     }
     std::vector<Cell> found;

@@ -18,7 +18,7 @@ struct MeshPatches {
 };
 
 // One surface for each of facet_groups(): a plane exactly, anything else as height_patch(), both
-// trimmed along the group's edge, to kSamePlace. Upright walls have no surface. The edge over them
+// trimmed along the group's edge, to 1e-5 mm. Upright walls have no surface. The edge over them
 // keeps a tool off: its shank is straight.
 //
 // tolerance  mm, > 0: how far surfaces may lie over the mesh where it is smooth

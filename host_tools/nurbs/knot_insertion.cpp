@@ -134,6 +134,18 @@ std::vector<double> distinct_knots(const std::vector<double>& knots, int degree,
     return distinct;
 }
 
+std::vector<double> crease_knots(const std::vector<double>& knots, int degree, std::size_t count)
+{
+    std::vector<double> out;
+    for (const double u : distinct_knots(knots, degree, count)) {
+        const bool end = out.empty() || u == knots[count];
+        if (end || multiplicity(knots, u) >= static_cast<std::size_t>(degree)) {
+            out.push_back(u);
+        }
+    }
+    return out;
+}
+
 void insert_all_to_degree(ControlRows& rows)
 {
     for (const double u : distinct_knots(rows.knots, rows.degree, rows.rows())) {

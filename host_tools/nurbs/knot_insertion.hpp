@@ -49,6 +49,9 @@ void insert_to_degree(ControlRows& rows, double u);
 // The distinct knots of the domain, its ends included.
 std::vector<double> distinct_knots(const std::vector<double>& knots, int degree, std::size_t count);
 
+// Of those the ends, and the knots where the tangent may jump: of multiplicity degree or more.
+std::vector<double> crease_knots(const std::vector<double>& knots, int degree, std::size_t count);
+
 // Inserts every knot of the domain to the degree. Span [knots[s], knots[s + 1]] then is a Bezier
 // piece of rows s - degree to s.
 void insert_all_to_degree(ControlRows& rows);

@@ -6,6 +6,8 @@
 #include <limits>
 #include <type_traits>
 
+#include "host_tools/surface_offset/enclosure.hpp"
+
 namespace cusp::host {
 namespace {
 
@@ -124,32 +126,12 @@ SurfacePoint polynomial_at(const Vec3d* points, double s, double t)
             weighted<CountT>(first, bt.first), weighted<CountT>(value, bt.second)};
 }
 
-struct Interval {
-    double low;
-    double high;
-};
-
 // A box of vectors, with the little arithmetic that quotients need.
 struct Box {
-    std::array<Interval, 3> side{{{0, 0}, {0, 0}, {0, 0}}};
+    std::array<Enclosure, 3> side{{{0, 0}, {0, 0}, {0, 0}}};
 };
 
-Interval operator-(Interval a, Interval b) { return {a.low - b.high, a.high - b.low}; }
-
-Interval operator*(Interval a, Interval b)
-{
-    const auto [low, high] =
-        std::minmax({a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high});
-    return {low, high};
-}
-
-// Precondition: b > 0.
-Interval operator/(Interval a, Interval b)
-{
-    return {std::min(a.low / b.low, a.low / b.high), std::max(a.high / b.low, a.high / b.high)};
-}
-
-Box minus_product(const Box& a, const Box& b, Interval k)
+Box minus_product(const Box& a, const Box& b, Enclosure k)
 {
     Box out;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -158,7 +140,7 @@ Box minus_product(const Box& a, const Box& b, Interval k)
     return out;
 }
 
-Box quotient(const Box& a, Interval k)
+Box quotient(const Box& a, Enclosure k)
 {
     Box out;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -215,7 +197,7 @@ struct Net {
     }
 };
 
-Interval range(const Net<double>& net)
+Enclosure range(const Net<double>& net)
 {
     const auto [low, high] = std::minmax_element(net.values.begin(), net.values.end());
     return {*low, *high};
@@ -225,8 +207,8 @@ Box range(const Net<Vec3d>& net)
 {
     Box box;
     for (unsigned axis = 0; axis < 3; ++axis) {
-        Interval side{std::numeric_limits<double>::infinity(),
-                      -std::numeric_limits<double>::infinity()};
+        Enclosure side{std::numeric_limits<double>::infinity(),
+                       -std::numeric_limits<double>::infinity()};
         for (const Vec3d& value : net.values) {
             side = {std::min(side.low, value[axis]), std::max(side.high, value[axis])};
         }
@@ -394,10 +376,10 @@ BezierCell::Spread BezierCell::rational_spread() const
     const Net<Vec3d> t = net.along_t();
     const Net<double> weight_s = weight.along_s();
     const Net<double> weight_t = weight.along_t();
-    const Interval w = range(weight);
-    const Interval ws = range(weight_s);
-    const Interval wt = range(weight_t);
-    const Interval two{2, 2};
+    const Enclosure w = range(weight);
+    const Enclosure ws = range(weight_s);
+    const Enclosure wt = range(weight_t);
+    const Enclosure two{2, 2};
     const Box p = quotient(range(net), w);
     const Box ps = quotient(minus_product(range(s), p, ws), w);
     const Box pt = quotient(minus_product(range(t), p, wt), w);

@@ -7,23 +7,10 @@
 
 #include "host_tools/surface_offset/bezier_cell.hpp"
 #include "host_tools/surface_offset/surface_model.hpp"
+#include "host_tools/surface_offset/tool_core.hpp"
 #include "host_tools/surface_offset/trim_region.hpp"
 
 namespace cusp::host {
-
-// What is left of a tool when its corner radius is taken off all round: a disc of radius `radius`
-// at `end` (a point for a ball) and everything straight above it. It is convex, so the square of
-// the distance to it is convex and smooth.
-struct ToolCore {
-    double radius;
-    Vec3d end;
-
-    // From the nearest point of the core to `p`.
-    Vec3d reach(Vec3d p) const;
-    double distance_to_box(Vec3d low, Vec3d high) const;
-};
-
-ToolCore core_of(const Tool& tool, Vec3d tip);
 
 struct BoxTree {
     struct Node {
@@ -64,9 +51,6 @@ struct SurfaceModel::State {
     mutable double last_s{};
     mutable double last_t{};
 };
-
-// A lower bound of the distance from the core to a cell.
-double oriented_distance(const ToolCore& core, const BezierCell& cell);
 
 // The lower bound of the distance from the core to the model, cut off at `limit`, and its place.
 struct NearestResult {

@@ -176,19 +176,6 @@ Surface between_knots(const Surface& s, std::array<double, 2> u, std::array<doub
     return out;
 }
 
-// Ends of the domain and creases between them.
-std::vector<double> creases(const std::vector<double>& knots, int degree, std::size_t count)
-{
-    std::vector<double> out;
-    for (const double u : distinct_knots(knots, degree, count)) {
-        const bool end = out.empty() || u == knots[count];
-        if (end || multiplicity(knots, u) >= static_cast<std::size_t>(degree)) {
-            out.push_back(u);
-        }
-    }
-    return out;
-}
-
 }  // namespace
 
 OffsetSurface::OffsetSurface(const Surface& surface, const OffsetRequest& request)
@@ -206,9 +193,9 @@ OffsetSurface::OffsetSurface(const Surface& surface, const OffsetRequest& reques
     }
     side_ = up < 0 ? -1 : 1;
     const std::vector<double> us =
-        creases(source_.knots_u, source_.degree_u, static_cast<std::size_t>(source_.size_u));
+        crease_knots(source_.knots_u, source_.degree_u, static_cast<std::size_t>(source_.size_u));
     const std::vector<double> vs =
-        creases(source_.knots_v, source_.degree_v, static_cast<std::size_t>(source_.size_v));
+        crease_knots(source_.knots_v, source_.degree_v, static_cast<std::size_t>(source_.size_v));
     for (std::size_t i = 1; i < us.size(); ++i) {
         for (std::size_t j = 1; j < vs.size(); ++j) {
             add_piece(between_knots(source_, {us[i - 1], us[i]}, {vs[j - 1], vs[j]}), request);

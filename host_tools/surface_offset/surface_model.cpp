@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "host_tools/nurbs/knot_insertion.hpp"
 #include "host_tools/surface_offset/nearest_search.hpp"
 #include "host_tools/surface_offset/rolling_ball.hpp"
 
@@ -16,20 +17,6 @@ constexpr int kMostClimbs = 6;
 constexpr double kTouching = 1e-9;   // mm
 constexpr double kDropSlack = 5e-7;  // mm above the least height
 constexpr double kDiscDropSlack = 2e-5;
-
-// Knots where the tangent may jump, and the ends.
-std::vector<double> creases(const std::vector<double>& knots, int degree, double begin, double end)
-{
-    std::vector<double> out{begin};
-    const std::size_t p = static_cast<std::size_t>(degree);
-    for (std::size_t k = 0; k + p <= knots.size(); ++k) {
-        if (knots[k] > out.back() && knots[k] < end && knots[k + p - 1] == knots[k]) {
-            out.push_back(knots[k]);
-        }
-    }
-    out.push_back(end);
-    return out;
-}
 
 void add_cells(const Surface& surface, int number, SurfaceModel::State& state)
 {
@@ -44,8 +31,10 @@ void add_cells(const Surface& surface, int number, SurfaceModel::State& state)
             grid.v.push_back(patch.v_begin);
         }
     }
-    grid.creases_u = creases(surface.knots_u, surface.degree_u, surface.u_begin(), surface.u_end());
-    grid.creases_v = creases(surface.knots_v, surface.degree_v, surface.v_begin(), surface.v_end());
+    grid.creases_u =
+        crease_knots(surface.knots_u, surface.degree_u, static_cast<std::size_t>(surface.size_u));
+    grid.creases_v =
+        crease_knots(surface.knots_v, surface.degree_v, static_cast<std::size_t>(surface.size_v));
     state.grids.push_back(std::move(grid));
 }
 

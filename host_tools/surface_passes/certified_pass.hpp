@@ -48,6 +48,8 @@ public:
 
     const PassBand& band() const { return band_; }
     const Tool& tool() const { return tool_; }
+    // The tool grown by what passes stay off the model.
+    const Tool& lifted_tool() const { return lifted_; }
     const SurfaceModel& model() const { return model_; }
 
     // Whether a tool that stands `lift` off some surface is no nearer to any other.

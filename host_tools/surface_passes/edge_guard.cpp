@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/nurbs/knot_insertion.hpp"
+
 namespace cusp::host {
 namespace {
 
@@ -16,27 +18,6 @@ constexpr double kLeastUp = 1e-3;   // z of the way to the centre
 constexpr double kStepShare = 0.2;  // of the depth, for what lies between places of a move
 constexpr int kMostPlaces = 2000;   // of a move
 constexpr int kMostPushes = 3;      // off edges that meet
-
-std::vector<double> breaks_of(const std::vector<double>& knots, int degree, int multiplicity)
-{
-    const std::size_t p = static_cast<std::size_t>(degree);
-    std::vector<double> out;
-    for (std::size_t k = p + 1; k + p + 1 < knots.size(); ++k) {
-        const std::size_t last = k + static_cast<std::size_t>(multiplicity) - 1;
-        if (knots[k] > knots[p] && knots[k] < knots[knots.size() - 1 - p] && last < knots.size() &&
-            knots[last] == knots[k] && (out.empty() || out.back() < knots[k])) {
-            out.push_back(knots[k]);
-        }
-    }
-    return out;
-}
-
-std::vector<double> with_ends(double begin, std::vector<double> inner, double end)
-{
-    inner.insert(inner.begin(), begin);
-    inner.push_back(end);
-    return inner;
-}
 
 Vec3d nearest_on(Vec3d p, Vec3d a, Vec3d b)
 {
@@ -53,10 +34,10 @@ EdgeGuard::EdgeGuard(const std::vector<Surface>& surfaces, double radius, double
     for (const Surface& s : surfaces) {
         const double aside_u = kAside * (s.u_end() - s.u_begin());
         const double aside_v = kAside * (s.v_end() - s.v_begin());
-        const std::vector<double> us =
-            with_ends(s.u_begin(), breaks_of(s.knots_u, s.degree_u, 1), s.u_end());
-        const std::vector<double> vs =
-            with_ends(s.v_begin(), breaks_of(s.knots_v, s.degree_v, 1), s.v_end());
+        const auto size_u = static_cast<std::size_t>(s.size_u);
+        const auto size_v = static_cast<std::size_t>(s.size_v);
+        const std::vector<double> us = distinct_knots(s.knots_u, s.degree_u, size_u);
+        const std::vector<double> vs = distinct_knots(s.knots_v, s.degree_v, size_v);
         const auto along_v = [&](double u, double aside) {
             for (std::size_t k = 1; k < vs.size(); ++k) {
                 add_border(s, {u, vs[k - 1]}, {u, vs[k]}, {aside, 0});
@@ -67,17 +48,22 @@ EdgeGuard::EdgeGuard(const std::vector<Surface>& surfaces, double radius, double
                 add_border(s, {us[k - 1], v}, {us[k], v}, {0, aside});
             }
         };
-        along_v(s.u_begin(), aside_u);
-        along_v(s.u_end(), -aside_u);
-        along_u(s.v_begin(), aside_v);
-        along_u(s.v_end(), -aside_v);
-        for (const double u : breaks_of(s.knots_u, s.degree_u, s.degree_u)) {
-            along_v(u, aside_u);
-            along_v(u, -aside_u);
+        // Both sides of a crease, the inner one of an end.
+        for (const double u : crease_knots(s.knots_u, s.degree_u, size_u)) {
+            if (u < s.u_end()) {
+                along_v(u, aside_u);
+            }
+            if (u > s.u_begin()) {
+                along_v(u, -aside_u);
+            }
         }
-        for (const double v : breaks_of(s.knots_v, s.degree_v, s.degree_v)) {
-            along_u(v, aside_v);
-            along_u(v, -aside_v);
+        for (const double v : crease_knots(s.knots_v, s.degree_v, size_v)) {
+            if (v < s.v_end()) {
+                along_u(v, aside_v);
+            }
+            if (v > s.v_begin()) {
+                along_u(v, -aside_v);
+            }
         }
     }
 }

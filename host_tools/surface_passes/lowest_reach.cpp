@@ -20,29 +20,26 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 double square(double a) { return a * a; }
 
-Tool grown(Tool tool, double by)
-{
-    tool.radius += by;
-    tool.corner_radius += by;
-    return tool;
-}
-
 }  // namespace
 
 LowestReach::LowestReach(const std::vector<Surface>& surfaces,
                          const CertifiedPasses& certified,
                          double pitch)
-    : certified_{certified},
-      floor_{surfaces, grown(certified.tool(), certified.band().lift), kDropAccuracy},
+    : surfaces_{surfaces},
+      certified_{certified},
       radius_{certified.tool().radius},
       contact_radius_{radius_ + certified.band().lift},
       pitch_{pitch}
 {
 }
 
-LowestReach::Node LowestReach::dropped(double x, double y) const
+LowestReach::Node LowestReach::dropped(double x, double y)
 {
-    const TipFloor::Contact contact = floor_.contact({x, y}, 0.0);
+    // Most models never ask.
+    if (!floor_) {
+        floor_.emplace(surfaces_, certified_.lifted_tool(), kDropAccuracy);
+    }
+    const TipFloor::Contact contact = floor_->contact({x, y}, 0.0);
     if (contact.height == TipFloor::kNothing) {
         return {{x, y, kNever}, {}};
     }

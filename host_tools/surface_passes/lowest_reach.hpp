@@ -48,13 +48,14 @@ private:
     };
 
     const Node& node(std::int64_t i, std::int64_t j);
-    Node dropped(double x, double y) const;
+    Node dropped(double x, double y);
     std::vector<Start> starts_over(Vec3d place);
     double height_over(Vec3d place, double x, double y) const;
     std::array<double, 2> improved(Vec3d place, double x, double y);
 
+    const std::vector<Surface>& surfaces_;
     const CertifiedPasses& certified_;
-    TipFloor floor_;
+    std::optional<TipFloor> floor_;
     double radius_;
     double contact_radius_;  // mm: of a ball that touches what the tool stays `lift` off
     double pitch_;

@@ -4,6 +4,8 @@
 #include "host_tools/contour_pocket/contour_pocket.hpp"
 #include "tests/property/contour_pocket/pocket_judge.hpp"
 #include "tests/property/offset/random_regions.hpp"
+#include "tests/support/loops.hpp"
+#include "tests/support/plates.hpp"
 #include "tests/support/property_cases.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
@@ -58,22 +60,6 @@ struct Patch {
     }
 };
 
-Surface level_surface(Vec2d centre, Vec2d along, double length, double width, double z)
-{
-    Surface s;
-    s.degree_u = s.degree_v = 1;
-    s.size_u = s.size_v = 2;
-    s.knots_u = s.knots_v = {0.0, 0.0, 1.0, 1.0};
-    for (const double u : {-0.5, 0.5}) {
-        for (const double v : {-0.5, 0.5}) {
-            const Vec2d p = centre + along * (u * length) + left_normal(along) * (v * width);
-            s.points.push_back({p.x, p.y, z});
-            s.weights.push_back(1.0);
-        }
-    }
-    return s;
-}
-
 // In the parameters, which run from 0 to 1 over twice the radius and some more.
 Curve trim_circle(double radius)
 {
@@ -91,10 +77,10 @@ Curve trim_circle(double radius)
 Surface surface_of(const Patch& patch)
 {
     if (patch.radius == 0.0) {
-        return level_surface(patch.centre, patch.along, patch.length, patch.width, patch.top);
+        return turned_plate(patch.centre, patch.along, patch.length, patch.width, patch.top);
     }
     const double side = 3.0 * patch.radius;
-    Surface s = level_surface(patch.centre, patch.along, side, side, patch.top);
+    Surface s = turned_plate(patch.centre, patch.along, side, side, patch.top);
     s.trims = {{trim_circle(1.0 / 3.0)}};
     return s;
 }
@@ -145,14 +131,7 @@ double cut_at(const Tool& tool, const std::vector<Vec3d>& tips, Vec2d p)
 
 Loop square_loop(double half)
 {
-    const Vec2d corners[] = {{-half, -half}, {half, -half}, {half, half}, {-half, half}};
-    Loop loop;
-    for (int i = 0; i < 4; ++i) {
-        const Vec2d a = corners[i];
-        const Vec2d b = corners[(i + 1) % 4];
-        loop.push_back({1, {0.0, 0.0, 1.0, 1.0}, {{a.x, a.y, 0.0}, {b.x, b.y, 0.0}}, {1.0, 1.0}});
-    }
-    return loop;
+    return loop_of({{-half, -half}, {half, -half}, {half, half}, {-half, half}});
 }
 
 TEST_GROUP(RandomCliff){};
@@ -173,7 +152,7 @@ TEST(RandomCliff, LeavesNoMoreAtItsFootThanTheScallop)
                           kLow + uniform(random, 0.2, 5.0)};
         Operation operation;
         operation.strategy = "contour_pocket";
-        operation.floor = {level_surface({0.0, 0.0}, {1.0, 0.0}, 60.0, 60.0, kLow),
+        operation.floor = {turned_plate({0.0, 0.0}, {1.0, 0.0}, 60.0, 60.0, kLow),
                            surface_of(patch)};
         operation.floor_files = {"floor"};
         operation.boundary = square_loop(20.0);

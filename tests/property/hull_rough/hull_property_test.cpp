@@ -7,6 +7,7 @@
 #include "host_tools/hull_rough/hull_rough.hpp"
 #include "host_tools/toolpath/gcode_writer.hpp"
 #include "host_tools/verify/verify.hpp"
+#include "tests/support/plates.hpp"
 #include "tests/support/property_cases.hpp"
 #include "tests/support/random_jobs.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -155,27 +156,14 @@ void check_model(unsigned seed)
           1.1 * *job.operations.front().max_depth + 1e-5);
 }
 
-Surface level_patch(double x0, double y0, double x1, double y1, double z)
-{
-    Surface s;
-    s.degree_u = s.degree_v = 1;
-    s.size_u = s.size_v = 2;
-    s.knots_u = s.knots_v = {0, 0, 1, 1};
-    s.points = {{x0, y0, z}, {x0, y1, z}, {x1, y0, z}, {x1, y1, z}};
-    s.weights = {1, 1, 1, 1};
-    return s;
-}
-
 // Two halls with a neck between them where only a small cutter fits, and a shallow slit beside
 // them: small cutter above, large one below.
 std::vector<Surface> halls_and_slit()
 {
-    return {level_patch(0, 0, 10, 110, 0),     level_patch(10, 0, 100, 10, 0),
-            level_patch(10, 100, 100, 110, 0), level_patch(100, 0, 105, 110, 0),
-            level_patch(110, 0, 115, 110, 0),  level_patch(54, 10, 56, 52, 0),
-            level_patch(54, 58, 56, 100, 0),   level_patch(105, 0, 110, 110, -4),
-            level_patch(10, 10, 54, 100, -12), level_patch(54, 52, 56, 58, -12),
-            level_patch(56, 10, 100, 100, -12)};
+    return {plate(0, 0, 10, 110, 0),    plate(10, 0, 100, 10, 0),    plate(10, 100, 100, 110, 0),
+            plate(100, 0, 105, 110, 0), plate(110, 0, 115, 110, 0),  plate(54, 10, 56, 52, 0),
+            plate(54, 58, 56, 100, 0),  plate(105, 0, 110, 110, -4), plate(10, 10, 54, 100, -12),
+            plate(54, 52, 56, 58, -12), plate(56, 10, 100, 100, -12)};
 }
 
 }  // namespace

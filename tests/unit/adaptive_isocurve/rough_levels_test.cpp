@@ -10,6 +10,8 @@
 #include "host_tools/adaptive_isocurve/rough_depths.hpp"
 #include "host_tools/surface_offset/surface_model.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
+#include "tests/support/plates.hpp"
+#include "tests/support/random_jobs.hpp"
 
 using namespace cusp;
 using namespace cusp::host;
@@ -20,35 +22,17 @@ constexpr Tool kFlat10{1, ToolShape::kFlat, 5, 0};
 constexpr Tool kFlat3{2, ToolShape::kFlat, 1.5, 0};
 constexpr Tool kBall6{3, ToolShape::kBall, 3, 3};
 
-Surface plate(double x0, double x1, double y0, double y1, double z)
-{
-    Surface s;
-    s.degree_u = s.degree_v = 1;
-    s.knots_u = s.knots_v = {0, 0, 1, 1};
-    s.size_u = s.size_v = 2;
-    s.points = {{x0, y0, z}, {x0, y1, z}, {x1, y0, z}, {x1, y1, z}};
-    s.weights = {1, 1, 1, 1};
-    return s;
-}
-
 // A square channel 6 mm wide beside a field 25 mm wide, between plates 6 mm high.
 Job channel_job()
 {
-    Job job;
-    job.file = "job.toml";
-    job.feed = 1000;
-    job.plunge_feed = 250;
-    job.stock_top = 0;
-    job.clearance = 5;
     Operation operation;
     operation.strategy = "adaptive_isocurve";
     operation.roughing = true;
-    operation.floor = {plate(0, 41, 0, 30, -6), plate(25, 30, 0, 30, 0), plate(36, 41, 0, 30, 0)};
+    operation.floor = {plate(0, 0, 41, 30, -6), plate(25, 0, 30, 30, 0), plate(36, 0, 41, 30, 0)};
     operation.tools = {kFlat10};
     operation.max_depth = 2.5;
     operation.plan_tolerance = operation.floor_tolerance = 0.02;
-    job.operations = {operation};
-    return job;
+    return job_of(operation);
 }
 
 double cut_length(const PlannedOperation& planned)
@@ -85,7 +69,7 @@ TEST(RoughLevels, ACutterThatFindsNothingIsNamedAndLeftOut)
 {
     Job job = channel_job();
     Operation& operation = job.operations.front();
-    operation.floor = {plate(0, 40, 0, 30, -6)};
+    operation.floor = {plate(0, 0, 40, 30, -6)};
     operation.tools = {kFlat10, kFlat3};
     const auto planned = plan_rough_levels(job, operation);
     CHECK_EQUAL(1U, planned.size());
@@ -97,9 +81,9 @@ TEST(RoughLevels, ACutterThatFitsNowhereLeavesAllToTheSmallerOne)
     Job job = channel_job();
     Operation& operation = job.operations.front();
     job.stock_x = {{0, 41}};
-    operation.floor = {plate(-20, 60, -20, 20, -6), plate(-20, -2.5, -20, 20, 0),
-                       plate(2.5, 60, -20, 20, 0), plate(-3, 3, -20, -10, 0),
-                       plate(-3, 3, 10, 20, 0)};
+    operation.floor = {plate(-20, -20, 60, 20, -6), plate(-20, -20, -2.5, 20, 0),
+                       plate(2.5, -20, 60, 20, 0), plate(-3, -20, 3, -10, 0),
+                       plate(-3, 10, 3, 20, 0)};
     operation.tools = {{1, ToolShape::kFlat, 12, 0}, kFlat3};
     const auto planned = plan_rough_levels(job, operation);
     CHECK_EQUAL(2, planned.back().path.tool.number);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host_tools/offset/contour.hpp"
+#include "tests/support/plates.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"
@@ -15,23 +16,10 @@ constexpr double kRadius = 3.0;
 constexpr double kHigh = -8.0;
 constexpr double kLow = -10.0;
 
-// A rectangle about the origin, level, turned by an angle.
+// About the origin.
 Surface level_patch(double along, double across, double angle, double z)
 {
-    Surface s;
-    s.degree_u = s.degree_v = 1;
-    s.size_u = s.size_v = 2;
-    s.knots_u = s.knots_v = {0.0, 0.0, 1.0, 1.0};
-    for (const double u : {-0.5, 0.5}) {
-        for (const double v : {-0.5, 0.5}) {
-            const double x = u * along;
-            const double y = v * across;
-            s.points.push_back({x * std::cos(angle) - y * std::sin(angle),
-                                x * std::sin(angle) + y * std::cos(angle), z});
-            s.weights.push_back(1.0);
-        }
-    }
-    return s;
+    return turned_plate({0.0, 0.0}, {std::cos(angle), std::sin(angle)}, along, across, z);
 }
 
 struct Step {

@@ -1,0 +1,99 @@
+// Everything near enough is the same; near poles curves become chords.
+#include "host_tools/import/trim_repair.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cusp::host {
+namespace {
+
+// Ends of neighbouring edges this near in (u, v), as a share of the domain, are the same vertex:
+// model files keep vertices to 1e-3 mm at best.
+constexpr double kSameVertex = 2e-3;
+constexpr double kSamePole = 1e-3;  // mm
+// Converted curves along a seam stray by a tenth of a millimetre; the seam is the edge itself.
+constexpr double kNearPole = 0.1;  // mm
+
+bool lies_inside(Vec3d p, const Surface& s)
+{
+    return p.x >= s.u_begin() && p.x <= s.u_end() && p.y >= s.v_begin() && p.y <= s.v_end();
+}
+
+// Points just outside the domain, and those near a pole, where a parameter is worth next to
+// nothing.
+Vec3d pulled_inside(Vec3d p, const Surface& s)
+{
+    const Vec3d inside{std::clamp(p.x, s.u_begin(), s.u_end()),
+                       std::clamp(p.y, s.v_begin(), s.v_end()), 0};
+    const SurfacePoint at = derivatives_at(s, inside.x, inside.y);
+    const double off_u = std::abs(p.x - inside.x);
+    const double off_v = std::abs(p.y - inside.y);
+    const bool near = off_u <= kSameVertex * (s.u_end() - s.u_begin()) &&
+                      off_v <= kSameVertex * (s.v_end() - s.v_begin());
+    return near || off_u * norm(at.du) + off_v * norm(at.dv) <= kNearPole ? inside : p;
+}
+
+// Towards a pole the control points of a converted curve swing far out, the curve hardly: there it
+// becomes chords.
+void pull_inside(Curve& curve, const Surface& s)
+{
+    Curve pulled = curve;
+    for (Vec3d& p : pulled.points) {
+        p = pulled_inside(p, s);
+    }
+    if (std::all_of(pulled.points.begin(), pulled.points.end(),
+                    [&](Vec3d p) { return lies_inside(p, s); })) {
+        curve = pulled;
+        return;
+    }
+    constexpr int kChords = 256;
+    Curve chords{1, {0}, {}, {}};
+    for (int k = 0; k <= kChords; ++k) {
+        const double t = static_cast<double>(k) / kChords;
+        chords.points.push_back(pulled_inside(
+            point_at(curve, curve.domain_begin() * (1 - t) + curve.domain_end() * t), s));
+        chords.weights.push_back(1);
+        chords.knots.push_back(t);
+    }
+    chords.knots.push_back(1);
+    curve = chords;
+}
+
+}  // namespace
+
+void tidy(std::vector<Curve>& loop, const Surface& s)
+{
+    const double width = s.u_end() - s.u_begin();
+    const double height = s.v_end() - s.v_begin();
+    for (Curve& curve : loop) {
+        pull_inside(curve, s);
+    }
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+        Vec3d& end = loop[i].points.back();
+        Vec3d& next = loop[(i + 1) % loop.size()].points.front();
+        if (std::abs(end.x - next.x) <= kSameVertex * width &&
+            std::abs(end.y - next.y) <= kSameVertex * height) {
+            end = next = 0.5 * (end + next);
+        }
+    }
+}
+
+void bridge_poles(std::vector<Curve>& loop, const Surface& s)
+{
+    for (std::size_t i = loop.size(); i-- > 0;) {
+        const Vec3d end = loop[i].points.back();
+        const Vec3d next = loop[(i + 1) % loop.size()].points.front();
+        const bool along_side =
+            std::abs(end.x - next.x) <= kSameVertex * (s.u_end() - s.u_begin()) ||
+            std::abs(end.y - next.y) <= kSameVertex * (s.v_end() - s.v_begin());
+        const Vec3d middle = 0.5 * (end + next);
+        const Vec3d pole = point_at(s, end.x, end.y);
+        if (!(end == next) && along_side && norm(point_at(s, next.x, next.y) - pole) < kSamePole &&
+            norm(point_at(s, middle.x, middle.y) - pole) < kSamePole) {
+            loop.insert(loop.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                        Curve{1, {0, 0, 1, 1}, {end, next}, {1, 1}});
+        }
+    }
+}
+
+}  // namespace cusp::host
