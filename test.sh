@@ -59,7 +59,7 @@ if [ "$all" = yes ]; then
     quietly build/build-fuzz.log cmake --build --preset fuzz -j "$jobs"
     run_tests fuzz
     echo "building without Eigen and Open CASCADE"
-    quietly build/configure-no-eigen.log cmake --preset release -B build/no-eigen -DCUSP_EIGEN=OFF -DCUSP_OCCT=OFF \
+    quietly build/configure-no-eigen.log cmake --preset dev -B build/no-eigen -DCUSP_EIGEN=OFF -DCUSP_OCCT=OFF \
         -DCUSP_TARGET_TESTS=OFF
     quietly build/build-no-eigen.log cmake --build build/no-eigen -j "$jobs" --target cusp
 fi
