@@ -38,13 +38,16 @@ struct Way {
 // ways and is convex, as a spur's reach is, covers all between.
 class Rest {
 public:
-    Rest(const RegionOffset& source, const EdgeTree& level, const SpurSpace& space)
-        : source_{source}, level_{level}, space_{space}
+    Rest(const RegionOffset& source,
+         const std::vector<Edge>& edges,
+         const EdgeTree& level,
+         const SpurSpace& space)
+        : source_{source}, edges_{edges}, level_{level}, space_{space}
     {
     }
 
     // In the order of the contour; near ends of stretches that lead beyond reach they stand close.
-    std::vector<Way> ways_from(const Contour& border) const
+    std::vector<Way> ways_from(const Contour& border)
     {
         std::vector<Way> ways;
         const Way first = way_from(border.front(), 0.0);
@@ -53,11 +56,19 @@ public:
             const Edge& edge = border[e];
             const double whole = length(edge);
             const int n = 1 + static_cast<int>(4.0 * whole / space_.reach);
-            for (int i = 1; i <= n; ++i) {
+            for (int i = 0; i < n;) {
+                ways.push_back(last);
+                const int free = last.meets ? i : end_of_free(edge, i, n);
+                if (free > i) {
+                    last = free_way(free < n ? point_on(edge, static_cast<double>(free) / n)
+                                             : edge.end);
+                    i = free;
+                    continue;
+                }
+                ++i;
                 const Way next = i < n ? way_from(edge, static_cast<double>(i) / n)
                                  : e + 1 < border.size() ? way_from(border[e + 1], 0.0)
                                                          : first;
-                ways.push_back(last);
                 refine(ways, {edge, static_cast<double>(i - 1) / n, static_cast<double>(i) / n},
                        last, next);
                 last = next;
@@ -91,14 +102,21 @@ private:
         double to;
     };
 
-    Way way_from(const Edge& edge, double share) const
+    Way free_way(Vec2d p) const { return {{p, space_.depth}, {p, space_.depth}, {}, false}; }
+
+    Way way_from(const Edge& edge, double share)
     {
-        const Vec2d p = point_on(edge, share);
-        if (level_.any_nearer(p, space_.depth * kRounding)) {
-            return {{p, space_.depth}, {p, space_.depth}, {}, false};
+        const Vec2d p = share > 0.0 ? point_on(edge, share) : edge.start;
+        if (is_beside(p)) {
+            return free_way(p);
+        }
+        const EdgeTree::Nearest nearest = level_.nearest_edge(p);
+        beside_ = nearest.edge;
+        if (is_beside(p)) {
+            return free_way(p);
         }
         const Vec2d inward = left_normal(tangent_on(edge, share));
-        Way way{far_point(p), {p + inward * space_.depth, kNotKnown}, inward, true};
+        Way way{{p, nearest.distance}, {p + inward * space_.depth, kNotKnown}, inward, true};
         if (!is_far(way.border)) {
             way.inner = far_point(way.inner.at);
             way.inner = is_far(way.inner) ? ridge_of(way) : way.inner;
@@ -106,15 +124,61 @@ private:
         return way;
     }
 
+    bool lies_beside(Vec2d p, std::size_t edge) const
+    {
+        return distance_to(edges_[edge], p) < space_.depth * kRounding;
+    }
+
+    // No farther from the edge of the level that was the nearest to the place before, or from the
+    // next one, than the rest is deep.
+    bool is_beside(Vec2d p)
+    {
+        if (lies_beside(p, beside_)) {
+            return true;
+        }
+        if (beside_ + 1 < edges_.size() && lies_beside(p, beside_ + 1)) {
+            ++beside_;
+            return true;
+        }
+        return false;
+    }
+
+    // Place i of n on the edge is beside an edge of the level; the last place of which this follows
+    // for all between: along a straight line the distance from another has no maximum, nor along an
+    // arc that from one with the same centre.
+    int end_of_free(const Edge& edge, int i, int n) const
+    {
+        const Edge& level = edges_[beside_];
+        const bool straight = edge.turn == 0 && level.turn == 0;
+        const bool round = edge.turn != 0 && level.turn == edge.turn &&
+                           distance(edge.centre, level.centre) < 1e-9;
+        if (!straight && !round) {
+            return i;
+        }
+        if (lies_beside(edge.end, beside_)) {
+            return n;
+        }
+        int bad = n;
+        while (bad - i > 1) {
+            const int middle = i + (bad - i) / 2;
+            const bool free = lies_beside(point_on(edge, static_cast<double>(middle) / n), beside_);
+            (free ? i : bad) = middle;
+        }
+        return i;
+    }
+
     FarPoint far_point(Vec2d p) const { return {p, level_.nearest(p, kNotKnown)}; }
 
     bool is_far(const FarPoint& p) const { return p.apart > space_.reach * kRounding; }
 
-    void refine(std::vector<Way>& ways, const Part& part, const Way& a, const Way& b) const
+    void refine(std::vector<Way>& ways, const Part& part, const Way& a, const Way& b)
     {
         constexpr double kClosest = 0.05;  // of the reach
+        if (!hides(a, b)) {
+            return;
+        }
         const double apart = (part.to - part.from) * length(part.edge);
-        if (apart < kClosest * space_.reach || !hides(a, b)) {
+        if (apart < kClosest * space_.reach) {
             return;
         }
         const double middle = 0.5 * (part.from + part.to);
@@ -138,8 +202,10 @@ private:
     }
 
     const RegionOffset& source_;
+    const std::vector<Edge>& edges_;  // of the level
     const EdgeTree& level_;
     const SpurSpace& space_;
+    std::size_t beside_{};  // of them: the nearest to the place looked at last
 };
 
 // The ways start at one within reach, or all lead beyond it.
@@ -272,8 +338,9 @@ std::optional<Region2d> with_corner_spurs(const Region2d& level,
         return border.contours.empty() ? std::optional<Region2d>{level} : std::nullopt;
     }
     const double reach = space.reach;
-    const EdgeTree tree{edges_of(level)};
-    const Rest rest{source, tree, space};
+    const std::vector<Edge> edges = edges_of(level);
+    const EdgeTree tree{edges};
+    Rest rest{source, edges, tree, space};
     std::vector<Spur> spurs;
     for (const Contour& contour : border.contours) {
         for (const auto& stretch : far_stretches(rest.ways_from(contour), rest)) {

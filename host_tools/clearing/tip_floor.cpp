@@ -17,7 +17,7 @@ TipFloor::TipFloor(const std::vector<Surface>& surfaces, const Tool& tool, doubl
 {
     constexpr std::size_t kManyPieces = 20000;  // moving fewer of them costs more than the room
     pieces_.reserve(kManyPieces);
-    nets_.reserve(8 * kManyPieces);
+    nets_.reserve(24 * kManyPieces);
     std::vector<Piece> whole;  // patches
     if (std::any_of(surfaces_.begin(), surfaces_.end(),
                     [](const Surface& s) { return !s.trims.empty(); })) {
@@ -32,14 +32,19 @@ TipFloor::TipFloor(const std::vector<Surface>& surfaces, const Tool& tool, doubl
             piece.patch = static_cast<std::uint32_t>(patches_.size());
             piece.net = static_cast<std::uint32_t>(nets_.size());
             piece.u = piece.v = {0.0F, 1.0F};
+            const bool even = std::all_of(bezier.weights.begin(), bezier.weights.end(),
+                                          [](double w) { return w == 1.0; });
             for (std::size_t i = 0; i < bezier.points.size(); ++i) {
                 const double w = bezier.weights[i];
                 const Vec3d p = bezier.points[i];
-                nets_.push_back({p.x * w, p.y * w, p.z * w, w});
+                nets_.insert(nets_.end(), {p.x * w, p.y * w, p.z * w});
+                if (!even) {
+                    nets_.push_back(w);
+                }
             }
             patches_.push_back({s, static_cast<std::uint32_t>(bezier.degree_u + 1),
-                                static_cast<std::uint32_t>(bezier.degree_v + 1), patch.u_begin,
-                                patch.u_end, patch.v_begin, patch.v_end});
+                                static_cast<std::uint32_t>(bezier.degree_v + 1), even ? 3U : 4U,
+                                patch.u_begin, patch.u_end, patch.v_begin, patch.v_end});
             constexpr double kSame = 1e-12;
             const Surface& whole_surface = surfaces_[s];
             const auto at_edge = [](double a, double b, std::uint8_t bit) {
@@ -102,19 +107,23 @@ void TipFloor::measure(Piece& piece) const
 {
     const Patch& patch = patches_[piece.patch];
     corners_.resize(std::size_t{patch.rows} * patch.columns);
-    piece.x0 = piece.y0 = piece.z0 = 1e300;
-    piece.x1 = piece.y1 = piece.z1 = -1e300;
-    const Homogeneous* q = &nets_[piece.net];
-    for (Vec3d& p : corners_) {
-        p = q->w == 1.0 ? Vec3d{q->x, q->y, q->z} : Vec3d{q->x, q->y, q->z} / q->w;
-        ++q;
-        piece.x0 = std::min(piece.x0, p.x);
-        piece.y0 = std::min(piece.y0, p.y);
-        piece.z0 = std::min(piece.z0, p.z);
-        piece.x1 = std::max(piece.x1, p.x);
-        piece.y1 = std::max(piece.y1, p.y);
-        piece.z1 = std::max(piece.z1, p.z);
+    Vec3d low{1e300, 1e300, 1e300};
+    Vec3d high{-1e300, -1e300, -1e300};
+    const double* q = &nets_[piece.net];
+    for (Vec3d& corner : corners_) {
+        const Vec3d p = patch.numbers == 3 ? Vec3d{q[0], q[1], q[2]}
+                                           : Vec3d{q[0], q[1], q[2]} / q[3];
+        q += patch.numbers;
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+        corner = p;
     }
+    piece.x0 = low.x;
+    piece.y0 = low.y;
+    piece.z0 = low.z;
+    piece.x1 = high.x;
+    piece.y1 = high.y;
+    piece.z1 = high.z;
     measure_plane(piece, corners_);
     measure_outline(piece, corners_);
 }
@@ -168,22 +177,22 @@ void TipFloor::measure_plane(Piece& piece, const std::vector<Vec3d>& points) con
     const double flat = tool_.radius - c;
     piece.rise = slope * flat + c * (piece.secant - 1.0);
     piece.contact = (slope > 0.0 ? flat / slope : 0.0) + c / piece.secant;
-    const double along = 1.0 / std::sqrt(1.0 + g.x * g.x);
-    const double aside = 1.0 / (piece.secant * std::sqrt(1.0 + g.x * g.x));
+    const double run = 1.0 + g.x * g.x;
     double low = 1e300;
     double high = -1e300;
-    piece.lateral = {1e300, -1e300, 1e300, -1e300};
-    for (const Vec3d p : points) {
+    std::array<double, 4> ends{1e300, -1e300, 1e300, -1e300};
+    for (const Vec3d& p : points) {
         const double level = p.z - g.x * p.x - g.y * p.y;
         low = std::min(low, level);
         high = std::max(high, level);
-        const double first = along * (p.x + g.x * p.z);
-        const double second = aside * ((1.0 + g.x * g.x) * p.y + g.y * (p.z - g.x * p.x));
-        piece.lateral[0] = std::min(piece.lateral[0], first);
-        piece.lateral[1] = std::max(piece.lateral[1], first);
-        piece.lateral[2] = std::min(piece.lateral[2], second);
-        piece.lateral[3] = std::max(piece.lateral[3], second);
+        const double first = p.x + g.x * p.z;
+        const double second = run * p.y + g.y * (p.z - g.x * p.x);
+        ends = {std::min(ends[0], first), std::max(ends[1], first), std::min(ends[2], second),
+                std::max(ends[3], second)};
     }
+    const double along = 1.0 / std::sqrt(run);
+    const double aside = along / piece.secant;
+    piece.lateral = {along * ends[0], along * ends[1], aside * ends[2], aside * ends[3]};
     piece.level = high;
     piece.thickness = high - low;
 }
@@ -194,10 +203,11 @@ void TipFloor::halve(std::uint32_t index) const
     const Patch& patch = patches_[piece.patch];
     const std::size_t rows = patch.rows;
     const std::size_t columns = patch.columns;
+    const std::size_t numbers = patch.numbers;
     const std::size_t size = rows * columns;
     const auto place = [&](std::size_t i) {
-        const Homogeneous& q = nets_[piece.net + i];
-        return Vec3d{q.x, q.y, q.z} / q.w;
+        const double* q = &nets_[piece.net + i * numbers];
+        return numbers == 3 ? Vec3d{q[0], q[1], q[2]} : Vec3d{q[0], q[1], q[2]} / q[3];
     };
     // The longer way, by the corners and the middle rows.
     const double long_u =
@@ -205,26 +215,24 @@ void TipFloor::halve(std::uint32_t index) const
     const double long_v =
         norm(place(columns - 1) - place(0)) + norm(place(size - 1) - place((rows - 1) * columns));
     const bool by_u = columns == 1 || (rows > 1 && long_u > long_v);
-    const std::size_t lines = by_u ? columns : rows;
-    const std::size_t count = by_u ? rows : columns;
-    const std::size_t stride = by_u ? columns : 1;
-    const std::size_t base = nets_.size();
-    nets_.resize(base + size);
-    Homogeneous* const low = &nets_[piece.net];
-    Homogeneous* const high = &nets_[base];
-    std::copy(low, low + size, high);
     // De Casteljau at one half: the first points of each level make one half, the last the other.
+    // Along u whole rows are halved at once.
+    const std::size_t lines = by_u ? 1 : rows;
+    const std::size_t count = by_u ? rows : columns;
+    const std::size_t stride = by_u ? columns * numbers : numbers;
+    const std::size_t base = nets_.size();
+    nets_.resize(base + size * numbers);
+    std::copy_n(nets_.data() + piece.net, size * numbers, nets_.data() + base);
     for (std::size_t line = 0; line < lines; ++line) {
-        const std::size_t start = by_u ? line : line * columns;
+        double* const low = nets_.data() + piece.net + line * count * stride;
+        double* const high = nets_.data() + base + line * count * stride;
         for (std::size_t level = 1; level < count; ++level) {
-            low[start + (level - 1) * stride] = high[start];
-            for (std::size_t k = 0; k + level < count; ++k) {
-                Homogeneous& a = high[start + k * stride];
-                const Homogeneous& b = high[start + (k + 1) * stride];
-                a = {0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.z + b.z), 0.5 * (a.w + b.w)};
+            std::copy(high, high + stride, low + (level - 1) * stride);
+            for (std::size_t k = 0; k < (count - level) * stride; ++k) {
+                high[k] = 0.5 * (high[k] + high[k + stride]);
             }
         }
-        low[start + (count - 1) * stride] = high[start];
+        std::copy(high, high + stride, low + (count - 1) * stride);
     }
     Piece first = piece;
     first.parent = index;

@@ -76,9 +76,6 @@ public:
 
 private:
     static constexpr std::size_t kStack = 256;
-    struct Homogeneous {
-        double x, y, z, w;
-    };
     // What most queries read of a piece stands in its first cache line.
     struct alignas(64) Piece {
         // A plane above the piece, where it is a graph: z = level + gradient . (x, y).
@@ -92,6 +89,7 @@ private:
         bool graph;                 // false where too steep for a plane z(x, y)
         bool cut;                   // by the edge of a trimmed surface
         std::uint8_t border;        // which of its sides are edges of the surface, see Outline
+        bool outlined;              // it ends on all sides where its outline, or else its box, does
         double x0, y0, x1, y1, z0;  // box, with z1
         // A box turned with the piece: ends along (1, 0, gx) and aside of it, made unit vectors.
         std::array<double, 4> lateral;
@@ -126,6 +124,7 @@ private:
     struct Patch {
         std::uint32_t surface;
         std::uint32_t rows, columns;  // of control points
+        std::uint32_t numbers;        // of each: 4 where weights differ, else 3
         double u0, u1, v0, v1;
     };
 
@@ -180,7 +179,7 @@ private:
     std::vector<Patch> patches_;
     // Halved when first needed; a const query only makes them finer.
     mutable std::vector<Piece> pieces_;
-    mutable std::vector<Homogeneous> nets_;
+    mutable std::vector<double> nets_;  // x, y, z; where weights differ times w, and w
     mutable std::vector<Outline> outlines_{1};  // the first one stands for none
     mutable std::vector<Vec3d> corners_;        // control points of the piece being measured
     mutable std::uint32_t last_{kRoot};         // where the tool rested last: a good first guess

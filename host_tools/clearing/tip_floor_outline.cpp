@@ -54,6 +54,7 @@ void TipFloor::end_sides(Outline& outline)
 void TipFloor::measure_outline(Piece& piece, const std::vector<Vec3d>& points) const
 {
     piece.outline = 0;
+    piece.outlined = false;
     if (piece.border == 0) {
         return;
     }
@@ -100,6 +101,7 @@ void TipFloor::measure_outline(Piece& piece, const std::vector<Vec3d>& points) c
         outline.bow = std::max(outline.bow, bow);
         outline.sides[i] = side;
     }
+    piece.outlined = true;
     if (even) {
         return;
     }

@@ -16,8 +16,10 @@ double excess(double low, double high, double x) { return std::max({low - x, 0.0
 
 }  // namespace
 
+// Of a piece whose outline is not known nothing is known but the box, which must be small.
 bool TipFloor::covers(Vec2d at) const
 {
+    const double fine = 0.1 * tool_.radius;
     std::vector<std::uint32_t> stack{kRoot};
     while (!stack.empty()) {
         const std::uint32_t index = stack.back();
@@ -29,7 +31,8 @@ bool TipFloor::covers(Vec2d at) const
         if (piece.outline != 0 && beyond_outline(piece, at) > 0.0) {
             continue;
         }
-        if (std::max(piece.x1 - piece.x0, piece.y1 - piece.y0) < 0.1 * tool_.radius) {
+        if ((piece.outlined && is_whole(piece, fine)) ||
+            std::max(piece.x1 - piece.x0, piece.y1 - piece.y0) < fine) {
             return true;
         }
         if (piece.child == 0) {

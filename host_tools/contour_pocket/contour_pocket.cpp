@@ -108,10 +108,10 @@ private:
         const bool corners = settings.cover_corners;
         const bool whole = is_one_whole_surface();
         LevelInterval interval{floor_, budget_, corners && !whole, !corners || !whole};
-        settings.step_from = [&](const Region2d& level) {
-            return interval.from(level);
-        };
         StripRidge ridge{floor_, operation_.floor, budget_};
+        settings.step_from = [&](const Region2d& level) {
+            return interval.from(level, corners && whole ? ridge.proven_step(level) : 0.0);
+        };
         if (corners && whole) {
             settings.left_between = [&](const LevelStrip& strip) {
                 return ridge.share(strip);

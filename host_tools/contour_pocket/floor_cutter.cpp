@@ -33,6 +33,7 @@ FloorPath FloorCutter::laid(const std::vector<Edge>& plan, const FloorPathSettin
 }
 
 void FloorCutter::enter(const ClearingPass& pass,
+                        const FloorPath& cut,
                         const CutSettings& settings,
                         FloorPathSettings laying)
 {
@@ -41,8 +42,9 @@ void FloorCutter::enter(const ClearingPass& pass,
     const bool short_pass = length(pass.path) < 6.0 * tool;
     const bool helix =
         settings.entry == EntryKind::kHelix || (settings.entry == EntryKind::kAuto && short_pass);
+    const bool lines = !laying.arcs && !laying.nurbs;
     laying.arcs = laying.nurbs = false;
-    const FloorPath path = laid(pass.path, laying);
+    const FloorPath path = lines ? cut : laid(pass.path, laying);
     const EntryHeights heights = settings.entry_heights(path.start.z);
     if (helix && radius > 0.2 * tool) {
         moves_.enter_by_helix(
@@ -83,7 +85,7 @@ void FloorCutter::cut(const ClearedRegion& cleared, const CutSettings& settings)
             moves_.link(link);
         } else {
             moves_.retract();
-            enter(pass, settings, laying);
+            enter(pass, path, settings, laying);
         }
         moves_.cut(path);
         cut_before = true;

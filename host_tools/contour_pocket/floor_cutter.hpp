@@ -37,7 +37,11 @@ public:
 
 private:
     FloorPath laid(const std::vector<Edge>& plan, const FloorPathSettings& laying);
-    void enter(const ClearingPass& pass, const CutSettings& settings, FloorPathSettings laying);
+    // cut: the pass as it is to be cut.
+    void enter(const ClearingPass& pass,
+               const FloorPath& cut,
+               const CutSettings& settings,
+               FloorPathSettings laying);
 
     const Operation& operation_;
     const TipFloor& floor_;

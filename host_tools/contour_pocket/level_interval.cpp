@@ -57,8 +57,16 @@ double least_interval(const Tool& tool, const Budget& budget)
     return std::max(0.5 * budget.cusp, 0.01 * tool.radius);
 }
 
-double LevelInterval::from(const Region2d& level)
+// Neighbouring moves may stray from their paths, each its own way.
+double LevelInterval::found() const
 {
+    const double stray = budget_.outside ? 2.0 * budget_.aside : 0.0;
+    return std::max(least_ - stray, least_interval(floor_.tool(), budget_));
+}
+
+double LevelInterval::from(const Region2d& level, double proven)
+{
+    constexpr double kWorthIt = 0.95;
     least_ = 1e300;
     const double apart = kClosest * floor_.tool().radius;
     for (const Contour& contour : level.contours) {
@@ -67,6 +75,9 @@ double LevelInterval::from(const Region2d& level)
         since_ = 1e300;
         for (const Edge& edge : contour) {
             along(edge);
+            if (proven > kWorthIt * found()) {
+                return proven;
+            }
             constexpr double kCorner = 0.995;  // cosine of some 6 degrees
             const bool turns = dot(arriving, tangent_at_start(edge)) < kCorner;
             if (corners_ && turns && distance(corner, edge.start) > apart) {
@@ -76,9 +87,7 @@ double LevelInterval::from(const Region2d& level)
             arriving = tangent_at_end(edge);
         }
     }
-    // Neighbouring moves may stray from their paths, each its own way.
-    const double stray = budget_.outside ? 2.0 * budget_.aside : 0.0;
-    return std::max(least_ - stray, least_interval(floor_.tool(), budget_));
+    return found();
 }
 
 // To a fiftieth of the cusp.

@@ -30,7 +30,10 @@ public:
 
     // The least distance inward from the level, mm, at which no cusp between is higher than
     // allowed, by path_interval() and the ridge.
-    double from(const Region2d& level);
+    //
+    //   proven  mm: a distance at which nothing too high stands, see StripRidge. It is the answer as
+    //           soon as some place of the level allows hardly more: others could only allow less.
+    double from(const Region2d& level, double proven = 0.0);
 
 private:
     struct Sample {
@@ -48,6 +51,7 @@ private:
                      Vec2d direction,
                      double apart) const;
     double by_ridge(Vec2d at, Vec2d direction, double most) const;
+    double found() const;
     void along(const Edge& edge);
     void around(Vec2d at);
 

@@ -136,13 +136,28 @@ double StripRidge::proven(const BendBounds& bounds) const
     return proven_reach(floor_.tool().radius, allowed(secant), bounds) - budget_.aside;
 }
 
+// The same beside a level in that box, as far as the next one.
+double StripRidge::proven(const Box2d& level, double step) const
+{
+    return proven(
+        bounds_.near({level.x0 - step, level.y0 - step, level.x1 + step, level.y1 + step}));
+}
+
+double StripRidge::proven_step(const Region2d& level) const
+{
+    constexpr double kMargin = 0.9999;
+    const Box2d box = box_of(level);
+    const double radius = floor_.tool().radius;
+    const double flat = 2.0 * std::sqrt(budget_.cusp * (2.0 * radius - budget_.cusp));
+    const double step = 2.0 * kMargin * proven(box, flat);
+    return step > flat ? std::min(step, 2.0 * kMargin * proven(box, step)) : step;
+}
+
 double StripRidge::share(const LevelStrip& strip)
 {
     constexpr double kWorthIt = 0.95;
     const double step = strip.to - strip.from;
-    const Box2d box = box_of(strip.outer);
-    const Box2d around{box.x0 - step, box.y0 - step, box.x1 + step, box.y1 + step};
-    const double reach = proven(bounds_.near(around));
+    const double reach = proven(box_of(strip.outer), step);
     if (2.0 * reach > kWorthIt * step) {
         const double share = 0.5 * step / reach;
         return share * share;

@@ -40,6 +40,10 @@ public:
     // looked at too.
     double share(const LevelStrip& strip);
 
+    // How far inward from the level the next one may lie so that share() is 1 at most by those
+    // bounds alone, mm; 0 where they tell nothing.
+    double proven_step(const Region2d& level) const;
+
 private:
     // A way inward from a place of an edge.
     struct Way {
@@ -70,6 +74,7 @@ private:
     double left_under(const Probe& a, const Probe& b) const;
     double left_at(Vec2d at, Vec2d near) const;
 
+    double proven(const Box2d& level, double step) const;
     double proven(const BendBounds& bounds) const;
 
     const TipFloor& floor_;
