@@ -189,14 +189,15 @@ int run_plan(const PlanOptions& options)
     if (options.blend > 0) {
         form.blend_tolerance = options.blend * (job.inch ? 25.4 : 1.0);
     }
-    std::ostringstream program;
-    write_program(program, form, plan.operations);
-    write_text(options.output, program.str());
+    std::ostringstream lines;
+    write_program(lines, form, plan.operations);
+    const std::string program = lines.str();
+    write_text(options.output, program);
     if (!options.stats.empty()) {
         Json stats = totals(plan);
         stats["job"] = options.job;
         stats["units"] = job.inch ? "inch" : "mm";
-        stats["bytes"] = program.str().size();
+        stats["bytes"] = program.size();
         if (!job.notes.empty()) {
             stats["notes"] = job.notes;
         }

@@ -40,7 +40,6 @@ public:
         by_wall_.assign(rest_.size(), false);
         slopes_.assign(rest_.size(), std::nullopt);
         find_places();
-        heights_.assign(4 * rest_.size(), std::nullopt);
     }
 
     std::vector<RestPlace> run(double top, double least)
@@ -73,25 +72,37 @@ private:
     }
 
     // Inside or not changes only where a contour is near, and how near changes by no more than the
-    // way between.
+    // way between: most cells follow from those beside them.
     void find_places()
     {
-        constexpr double kFarthest = 4.0;  // cells: further is not looked for
+        constexpr double kFarthest = 16.0;  // cells: further is not looked for
+        struct Room {
+            double least{0.0};
+            double most{1e300};
+        };
+        const double near = 1.01 * cell_;
         places_.assign(rest_.size(), Place::kOutside);
+        std::vector<Room> rooms(static_cast<std::size_t>(rows_));  // of the column before
         for (int i = 0; i < columns_; ++i) {
             bool inside = false;
-            double room = 0.0;  // at least, at the cell
-            for (int j = 0; j < rows_; ++j, room -= cell_) {
+            Room room;
+            for (int j = 0; j < rows_; ++j) {
+                Room& beside = rooms[static_cast<std::size_t>(j)];
                 const Vec2d p = centre(i, j);
-                if (room < first_) {
-                    room = walls_.nearest(p, first_ + kFarthest * cell_);
+                room = {std::max(room.least, beside.least) - cell_,
+                        std::min(room.most, beside.most) + cell_};
+                if (room.least < first_ && room.most >= first_) {
+                    const double farthest = first_ + kFarthest * cell_;
+                    room.least = walls_.nearest(p, std::min(farthest, room.most));
+                    room.most = room.least < farthest ? room.least : 1e300;
                 }
-                const bool beside = room < first_;
-                if (j == 0 || (beside && room < 1.01 * cell_) || 1.01 * cell_ > first_) {
+                beside = room;
+                const bool at_wall = room.least < first_;
+                if (j == 0 || (at_wall && room.least < near) || near > first_) {
                     inside = walls_.contains(p);
                 }
                 if (inside) {
-                    places_[index(i, j)] = beside ? Place::kBeside : Place::kAllowed;
+                    places_[index(i, j)] = at_wall ? Place::kBeside : Place::kAllowed;
                 }
             }
         }
@@ -186,6 +197,9 @@ private:
 
     double tip_at(int k, int l, Vec2d at)
     {
+        if (heights_.empty()) {
+            heights_.resize(4 * rest_.size());
+        }
         auto& height = heights_[static_cast<std::size_t>(k) * 2 * static_cast<std::size_t>(rows_) +
                                 static_cast<std::size_t>(l)];
         if (!height) {

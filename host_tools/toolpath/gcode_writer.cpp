@@ -91,13 +91,7 @@ private:
     {
         return {std::llround(p.x / grain_), std::llround(p.y / grain_), std::llround(p.z / grain_)};
     }
-    std::string coordinate(std::int64_t value) const
-    {
-        // The leading one keeps the zeros of what is below one.
-        std::string text = std::to_string(scale_ + std::abs(value) % scale_);
-        text[0] = '.';
-        return trimmed((value < 0 ? "-" : "") + std::to_string(std::abs(value) / scale_) + text);
-    }
+    std::string coordinate(std::int64_t value) const;
     std::string changed_axes(const Place& to) const;
     std::string feed_word(double feed);
     void change_tool(const Toolpath& path);
@@ -115,8 +109,28 @@ private:
     std::optional<Place> at_;
     ArcPlane plane_{ArcPlane::kXY};
     double feed_{};
-    int tool_{};  // none yet
+    int tool_{};    // none yet
+    bool wrote_{};  // a line, by the move at hand
 };
+
+std::string ProgramWriter::coordinate(std::int64_t value) const
+{
+    const std::int64_t size = std::abs(value);
+    const fmt::format_int whole{size / scale_};
+    std::string text{value < 0 ? "-" : ""};
+    text.append(whole.data(), whole.size());
+    if (const std::int64_t below = size % scale_; below != 0) {
+        // The leading one keeps the zeros of what is below one.
+        const fmt::format_int digits{scale_ + below};
+        std::size_t count = digits.size();
+        while (digits.data()[count - 1] == '0') {
+            --count;
+        }
+        text += '.';
+        text.append(digits.data() + 1, count - 1);
+    }
+    return text;
+}
 
 void ProgramWriter::begin(const std::vector<PlannedOperation>& operations)
 {
@@ -150,7 +164,9 @@ std::string ProgramWriter::changed_axes(const Place& to) const
     std::string words;
     for (unsigned axis = 0; axis < 3; ++axis) {
         if (!at_ || (*at_)[axis] != to[axis]) {
-            words += fmt::format(" {}{}", "XYZ"[axis], coordinate(to[axis]));
+            words += ' ';
+            words += "XYZ"[axis];
+            words += coordinate(to[axis]);
         }
     }
     return words;
@@ -197,7 +213,11 @@ void ProgramWriter::line(const char* word, Vec3d end, const std::string& feed)
     if (axes.empty()) {
         return;
     }
-    out_ << word << axes << feed << '\n';
+    std::string text = word + axes;
+    text += feed;
+    text += '\n';
+    out_.write(text.data(), static_cast<std::streamsize>(text.size()));
+    wrote_ = true;
     at_ = to;
 }
 
@@ -264,12 +284,14 @@ void ProgramWriter::arc(const ArcTo& to, const std::string& feed)
         }
     }
     out_ << feed << '\n';
+    wrote_ = true;
     at_ = end;
 }
 
 void ProgramWriter::nurbs(const Curve& given, const std::string& feed)
 {
     const Curve curve = clamped(given);
+    wrote_ = true;
     const double begin = curve.domain_begin();
     const auto spans = static_cast<double>(curve.points.size()) - curve.degree;
     const double scale = spans / (curve.domain_end() - begin);
@@ -305,7 +327,7 @@ void ProgramWriter::move(const Toolpath& path, const ToolMove& move)
     const double before = feed_;
     const std::string feed =
         feed_word(move.kind == MoveKind::kPlunge ? path.plunge_feed : path.feed);
-    const auto position = out_.tellp();
+    wrote_ = false;
     if (const auto* to = std::get_if<LineTo>(&move.shape)) {
         line("G1", to->end, feed);
     } else if (const auto* round = std::get_if<ArcTo>(&move.shape)) {
@@ -313,7 +335,7 @@ void ProgramWriter::move(const Toolpath& path, const ToolMove& move)
     } else {
         nurbs(std::get<NurbsTo>(move.shape).curve, feed);
     }
-    if (out_.tellp() == position) {
+    if (!wrote_) {
         feed_ = before;
     }
 }
