@@ -46,21 +46,25 @@ double TipFloor::ball_gap(const Piece& piece, Vec3d a, Vec3d b, double margin) c
     }
     if (piece.graph) {
         const Vec2d g = piece.gradient;
+        const auto over = [&](Vec3d p) {
+            return p.z - g.x * p.x - g.y * p.y - piece.level;
+        };
+        const double level = 1.0 / piece.secant;
+        const double tz = apart(-piece.thickness, 0.0, over(a), over(b)) * level;
+        if (tz >= reach) {
+            return 0.0;
+        }
         const double run = 1.0 + g.x * g.x;
         const double along = 1.0 / std::sqrt(run);
-        const double aside = along / piece.secant;
+        const double aside = along * level;
         const auto first = [&](Vec3d p) {
             return along * (p.x + g.x * p.z);
         };
         const auto second = [&](Vec3d p) {
             return aside * (run * p.y + g.y * (p.z - g.x * p.x));
         };
-        const auto over = [&](Vec3d p) {
-            return (p.z - g.x * p.x - g.y * p.y - piece.level) / piece.secant;
-        };
         const double tx = apart(piece.lateral[0], piece.lateral[1], first(a), first(b));
         const double ty = apart(piece.lateral[2], piece.lateral[3], second(a), second(b));
-        const double tz = apart(-piece.thickness / piece.secant, 0.0, over(a), over(b));
         square = std::max(square, tx * tx + ty * ty + tz * tz);
     }
     if (square < reach * reach) {
@@ -71,7 +75,7 @@ double TipFloor::ball_gap(const Piece& piece, Vec3d a, Vec3d b, double margin) c
         const double aside = apart_from_outline(piece, a, b);
         square = std::max(square, aside * aside);
     }
-    return std::sqrt(square) - reach;
+    return square < reach * reach ? std::sqrt(square) - reach : 0.0;
 }
 
 // Along the axis: how far the tip stays above what the piece asks for while the tool moves from a
@@ -118,11 +122,13 @@ double TipFloor::gap(Vec3d a, Vec3d b, double margin) const
 {
     struct Entry {
         std::uint32_t piece;
-        Vec3d a, b;
+        double from, to;  // shares of the move
         double here;
     };
     const bool ball = tool_.corner_radius == tool_.radius;
-    const Vec3d up{0.0, 0.0, ball ? tool_.radius : 0.0};
+    const Vec3d start = a + Vec3d{0.0, 0.0, ball ? tool_.radius : 0.0};
+    const Vec3d way = b - a;
+    const double whole_length = norm(way);
     double least = 0.0;
     std::array<Entry, kStack> stack;
     std::size_t depth = 0;
@@ -130,11 +136,13 @@ double TipFloor::gap(Vec3d a, Vec3d b, double margin) const
     const auto matters = [&](double here) {
         return here < (least < -accuracy_ ? (1.0 + kDeepShare) * least : least);
     };
-    const auto consider = [&](std::uint32_t piece, Vec3d from, Vec3d to) {
-        const double here = ball ? ball_gap(pieces_[piece], from, to, margin)
-                                 : axial_gap(pieces_[piece], from, to, margin);
+    const auto consider = [&](std::uint32_t index, double from, double to) {
+        const Vec3d begin = start + way * from;
+        const Vec3d end = start + way * to;
+        const double here = ball ? ball_gap(pieces_[index], begin, end, margin)
+                                 : axial_gap(pieces_[index], begin, end, margin);
         if (matters(here)) {
-            stack[depth++] = {piece, from, to, here};
+            stack[depth++] = {index, from, to, here};
         }
     };
     // The deeper half is looked at first.
@@ -143,7 +151,7 @@ double TipFloor::gap(Vec3d a, Vec3d b, double margin) const
             std::swap(stack[before], stack[before + 1]);
         }
     };
-    consider(kRoot, a + up, b + up);
+    consider(kRoot, 0.0, 1.0);
     while (depth > 0) {
         const Entry top = stack[--depth];
         const double here = top.here;
@@ -151,38 +159,39 @@ double TipFloor::gap(Vec3d a, Vec3d b, double margin) const
             continue;
         }
         const Piece& piece = pieces_[top.piece];
-        const Vec3d move = top.b - top.a;
+        const double part = top.to - top.from;
+        const double length = part * whole_length;
         const double size = std::max(piece.x1 - piece.x0, piece.y1 - piece.y0);
         const double thin = piece.graph ? piece.thickness / piece.secant : size;
-        const double tilt = move.z - dot(piece.gradient, Vec2d{move.x, move.y});
-        const double turned = piece.graph ? std::abs(tilt) / piece.secant : norm(move);
-        const bool small = norm(move) < accuracy_ && size < accuracy_;
+        const double tilt = part * (way.z - dot(piece.gradient, Vec2d{way.x, way.y}));
+        const double turned = piece.graph ? std::abs(tilt) / piece.secant : length;
+        const bool small = length < accuracy_ && size < accuracy_;
         // Beyond the piece's rectangle its plane tells of metal that is not there: only a
         // ball's turned box knows of the rectangle, for other tools the pieces must be small.
         // A long move passes beside a piece in a corner of the box that it spans, where the
         // piece's plane is not the floor: what cuts is looked at in short moves.
-        const bool clear = here >= -accuracy_ || norm(move) + size < 0.1 * tool_.radius;
+        const bool clear = here >= -accuracy_ || length + size < 0.1 * tool_.radius;
         const bool flat = thin < accuracy_ && turned < accuracy_;
         const bool settled =
             ball ? flat && clear
-                 : thin < 0.5 * accuracy_ && size * piece.secant < 0.05 && norm(move) < 0.05;
+                 : thin < 0.5 * accuracy_ && size * piece.secant < 0.05 && length < 0.05;
         const bool whole = is_whole(piece, accuracy_);
         const bool deep =
-            whole && here < -accuracy_ && std::max(extent(piece), norm(move)) < kDeepShare * -here;
+            whole && here < -accuracy_ && std::max(extent(piece), length) < kDeepShare * -here;
         if ((settled && whole) || deep || small || depth + 2 > kStack) {
             least = std::min(least, here);
             continue;
         }
         // Of a piece that an edge cuts the size tells how much is not there.
-        const bool halve_move = !whole          ? norm(move) > extent(piece)
+        const bool halve_move = !whole          ? length > extent(piece)
                                 : settled       ? false
                                 : ball && !flat ? turned > thin
-                                                : norm(move) > size;
+                                                : length > size;
         if (halve_move) {
-            const Vec3d middle = (top.a + top.b) * 0.5;
+            const double middle = 0.5 * (top.from + top.to);
             const std::size_t before = depth;
-            consider(top.piece, top.a, middle);
-            consider(top.piece, middle, top.b);
+            consider(top.piece, top.from, middle);
+            consider(top.piece, middle, top.to);
             order(before);
             continue;
         }
@@ -191,8 +200,8 @@ double TipFloor::gap(Vec3d a, Vec3d b, double margin) const
         }
         const std::uint32_t child = pieces_[top.piece].child;
         const std::size_t before = depth;
-        consider(child, top.a, top.b);
-        consider(child + 1, top.a, top.b);
+        consider(child, top.from, top.to);
+        consider(child + 1, top.from, top.to);
         order(before);
     }
     return least < -accuracy_ ? (1.0 + kDeepShare) * least : least;
