@@ -21,16 +21,51 @@ bool is_spur(const std::vector<Edge>& plan, std::size_t e)
            distance(plan[e].start, plan[e + 1].end) < 1e-9;
 }
 
+// The unit tangent where an edge passes the point.
+Vec2d way_of(const Edge& edge, Vec2d at)
+{
+    return edge.turn == 0 ? unit(edge.end - edge.start)
+                          : left_normal(unit(at - edge.centre)) * edge.turn;
+}
+
+// Points of an edge, evenly apart: turned on from one to the next.
+class EvenPoints {
+public:
+    EvenPoints(const Edge& edge, double whole, int n) : edge_{edge}, arm_{edge.start - edge.centre}
+    {
+        step_ = (edge.end - edge.start) * (1.0 / n);
+        if (edge.turn != 0) {
+            const double angle = edge.turn * whole / (edge.radius * n);
+            step_ = {std::cos(angle), std::sin(angle)};
+        }
+    }
+
+    Vec2d next()
+    {
+        if (edge_.turn == 0) {
+            way_ = way_ + step_;
+            return edge_.start + way_;
+        }
+        arm_ = arm_ * step_.x + left_normal(arm_) * step_.y;
+        return edge_.centre + arm_;
+    }
+
+private:
+    const Edge& edge_;
+    Vec2d arm_;
+    Vec2d way_{};
+    Vec2d step_;
+};
+
 // A place to be, and the part of an edge that leads to it.
 struct Stop {
     const Edge* edge;
+    Vec2d at;
     double from, to;  // shares of the edge
     double bend;
     double along;  // mm from the start of the plan
     bool kink;     // the way turns here
     bool exact;
-
-    Vec2d at() const { return to == 1.0 ? edge->end : point_on(*edge, to); }
 };
 
 class RowBuilder {
@@ -73,10 +108,12 @@ private:
                                : std::min(spacing_.along, std::sqrt(edge.radius * spacing_.aside));
             const double whole = length(edge);
             const int n = std::max(1, static_cast<int>(std::ceil(whole / step)));
+            EvenPoints points{edge, whole, n};
             for (int i = 1; i <= n; ++i) {
                 const double to = i == n ? 1.0 : static_cast<double>(i) / n;
-                stops_.push_back({&edge, static_cast<double>(i - 1) / n, to, bend,
-                                  along + to * whole, false, false});
+                stops_.push_back({&edge, i == n ? edge.end : points.next(),
+                                  static_cast<double>(i - 1) / n, to, bend, along + to * whole,
+                                  false, false});
             }
             along += whole;
             stops_.back().kink = e + 1 == plan.size() ||
@@ -116,7 +153,7 @@ private:
         }
         const std::size_t half = first + (last - first) / 2;
         const Place start{row_.stations.back(), first == 0 ? 0.0 : stops_[first - 1].along,
-                          tangent_on(*stops_[first].edge, stops_[first].from)};
+                          way_of(*stops_[first].edge, row_.stations.back().at)};
         const Place middle = place_of(half);
         const Place end = place_of(last);
         if (row_.missing) {
@@ -151,7 +188,7 @@ private:
     Place place_of(std::size_t i)
     {
         const Stop& stop = stops_[i];
-        return {look(stop.at(), stop.bend), stop.along, tangent_on(*stop.edge, stop.to)};
+        return {look(stop.at, stop.bend), stop.along, way_of(*stop.edge, stop.at)};
     }
 
     // On the cubic with the heights and slopes at two places.
@@ -163,7 +200,7 @@ private:
         const double leaving = whole * dot(a.station.gradient, a.way) - rise;
         const double arriving = rise - whole * dot(b.station.gradient, b.way);
         const double bow = t * (1.0 - t) * ((1.0 - t) * leaving + t * arriving);
-        return {stop.at(), a.station.height + t * rise + bow,
+        return {stop.at, a.station.height + t * rise + bow,
                 a.station.gradient * (1.0 - t) + b.station.gradient * t, stop.bend};
     }
 
@@ -179,7 +216,7 @@ private:
     void step_to(std::size_t i)
     {
         const Stop& stop = stops_[i];
-        Station next = look(stop.at(), stop.bend);
+        Station next = look(stop.at, stop.bend);
         halve(*stop.edge, length(*stop.edge), stop.from, stop.to, next);
         add(next, stop);
     }

@@ -12,11 +12,25 @@ namespace {
 // What the path may stray between stations, to what it may at them.
 constexpr double kBetween = 1.15;
 
-constexpr double kPi = 3.14159265358979323846;
+// Directions between two unit vectors, less than half a turn counter-clockwise from low to high.
+struct Wedge {
+    Vec2d low;
+    Vec2d high;
 
-double wrapped(double angle)
+    Vec2d middle() const
+    {
+        return dot(low, high) > 0.0 ? unit(low + high) : unit(left_normal(low) - left_normal(high));
+    }
+};
+
+// From the origin to all that lies within `room` of the end of `arm`, which is `apart` > room long.
+Wedge wedge_about(Vec2d arm, double apart, double room)
 {
-    return angle > kPi ? angle - 2.0 * kPi : angle < -kPi ? angle + 2.0 * kPi : angle;
+    const Vec2d way = arm * (1.0 / apart);
+    const double sine = room / apart;
+    const Vec2d ahead = way * std::sqrt(1.0 - sine * sine);
+    const Vec2d aside = left_normal(way) * sine;
+    return {ahead - aside, ahead + aside};
 }
 
 // Slopes of z that a straight rise from a point may have, narrowed by bands farther along.
@@ -98,15 +112,13 @@ private:
 
     bool ends_home(std::size_t j) const { return fixed_end_ && j == last_; }
 
-    // The directions in which a line from here passes all stations up to the one it returns.
-    std::size_t widest_wedge(std::size_t i, double& from, double& to) const
+    // How far a line from here can pass all stations; `way` is the middle of its directions.
+    std::size_t widest_wedge(std::size_t i, Vec2d& way) const
     {
         std::size_t good = i + 1;
         bool set = false;
         double along = 0.0;
-        double base = 0.0;
-        double low = -0.6 * kPi;
-        double high = 0.6 * kPi;
+        Wedge wedge{};
         for (std::size_t k = i + 1; k <= last_; ++k) {
             const Vec2d target = ends_home(k) ? Vec2d{home_.x, home_.y} : stations_[k].at;
             const Vec2d arm = target - at_;
@@ -119,40 +131,38 @@ private:
                 good = k;
                 continue;
             }
-            const double angle = std::atan2(arm.y, arm.x);
-            if (!set) {
-                base = angle;
-                set = true;
+            Wedge next = wedge_about(arm, apart, room);
+            if (set) {
+                if (dot(arm, way) < 0.0) {
+                    break;
+                }
+                next.low = cross(wedge.low, next.low) > 0.0 ? next.low : wedge.low;
+                next.high = cross(next.high, wedge.high) > 0.0 ? next.high : wedge.high;
             }
-            const double turn = wrapped(angle - base);
-            const double half = std::asin(std::min(1.0, room / apart));
-            const double new_low = std::max(low, turn - half);
-            const double new_high = std::min(high, turn + half);
-            const double here = apart * std::cos(turn - 0.5 * (new_low + new_high));
-            if (new_low > new_high || here < along) {
+            const Vec2d middle = next.middle();
+            const double here = dot(arm, middle);
+            if (cross(next.low, next.high) < 0.0 || here < along) {
                 break;
             }
-            low = new_low;
-            high = new_high;
+            wedge = next;
+            set = true;
             along = here;
             good = k;
-            from = base + low;
-            to = base + high;
+            way = middle;
         }
         if (!set) {
             const Vec2d arm = stations_[good].at - at_;
-            from = to = std::atan2(arm.y, arm.x);
+            way = dot(arm, arm) > 0.0 ? unit(arm) : Vec2d{1.0, 0.0};
         }
         return good;
     }
 
     Reach farthest_line(std::size_t i) const
     {
-        double from = 0.0;
-        double to = 0.0;
-        std::size_t limit = widest_wedge(i, from, to);
+        Vec2d way{};
+        std::size_t limit = widest_wedge(i, way);
         for (int round = 0; round < 40; ++round) {
-            if (const auto reach = line_to(i, limit, 0.5 * (from + to))) {
+            if (const auto reach = line_to(i, limit, way)) {
                 if (reach->station >= limit || reach->station == i + 1) {
                     return *reach;
                 }
@@ -161,18 +171,18 @@ private:
             } else {
                 limit = i + 1;
             }
-            narrow_to(i, limit, from, to);
+            narrow_to(i, limit, way);
         }
         return plain(i, i + 1);
     }
 
-    // The directions for stations up to `limit` only.
-    void narrow_to(std::size_t i, std::size_t limit, double& from, double& to) const
+    // The direction for stations up to `limit` only.
+    void narrow_to(std::size_t i, std::size_t limit, Vec2d& way) const
     {
         ChainBuilder part = *this;
         part.fixed_end_ = ends_home(limit);
         part.last_ = limit;
-        part.widest_wedge(i, from, to);
+        part.widest_wedge(i, way);
     }
 
     Reach plain(std::size_t, std::size_t j) const
@@ -185,10 +195,9 @@ private:
 
     // The line in a direction up to station `limit` or as far as z allows. No value where not even
     // the first station is passed.
-    std::optional<Reach> line_to(std::size_t i, std::size_t limit, double angle) const
+    std::optional<Reach> line_to(std::size_t i, std::size_t limit, Vec2d way) const
     {
         const bool home = ends_home(limit);
-        Vec2d way{std::cos(angle), std::sin(angle)};
         if (home) {
             way = unit(Vec2d{home_.x, home_.y} - at_);
         }
