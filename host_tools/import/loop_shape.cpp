@@ -29,34 +29,89 @@ double polygon_length(const Curve& curve)
     return length;
 }
 
-// A stretch of a piece: its ends and its middle.
-struct Stretch {
-    double begin, end;  // parameters
-    Vec2d a, middle, b;
+// A point seen from above, times its weight.
+struct Weighted {
+    double x, y, weight;
+
+    Vec2d place() const { return {x / weight, y / weight}; }
 };
 
-// Halves the stretch until chords are flat; the depth bounds the work on wild parameters.
-void add_chords(
-    const Curve& piece, const Stretch& s, double tolerance, int depth, std::vector<Vec2d>& out)
+Weighted middle_of(const Weighted& a, const Weighted& b)
 {
-    const double middle = (s.begin + s.end) / 2;
-    const Vec2d first = from_above(point_at(piece, (s.begin + middle) / 2));
-    const Vec2d last = from_above(point_at(piece, (middle + s.end) / 2));
-    const Vec2d along = s.b - s.a;
-    const double length = norm(along);
-    double worst = 0;
-    for (const Vec2d p : {first, s.middle, last}) {
-        const double foot =
-            length > 0 ? std::clamp(dot(p - s.a, along) / (length * length), 0.0, 1.0) : 0;
-        worst = std::max(worst, norm(p - (s.a + foot * along)));
-    }
-    if (depth > 0 && worst > 0.75 * tolerance) {
-        add_chords(piece, {s.begin, middle, s.a, first, s.middle}, tolerance, depth - 1, out);
-        add_chords(piece, {middle, s.end, s.middle, last, s.b}, tolerance, depth - 1, out);
-        return;
-    }
-    out.push_back(s.b);
+    return {(a.x + b.x) / 2, (a.y + b.y) / 2, (a.weight + b.weight) / 2};
 }
+
+double distance_to_chord(Vec2d p, Vec2d a, Vec2d b)
+{
+    const Vec2d along = b - a;
+    const double square = dot(along, along);
+    const double foot = square > 0 ? std::clamp(dot(p - a, along) / square, 0.0, 1.0) : 0;
+    return norm(p - (a + foot * along));
+}
+
+// Chords of a Bezier piece, which is halved until its control points say that it is flat; the depth
+// bounds the work on wild ones.
+class PieceChords {
+public:
+    PieceChords(const Curve& piece, double tolerance, std::vector<Vec2d>& out)
+        : count_{piece.points.size()},
+          share_of_ends_{std::exp2(2.0 - static_cast<double>(count_))},
+          tolerance_{tolerance},
+          out_{out}
+    {
+        polygons_.resize((kDepth + 1) * count_);
+        for (std::size_t i = 0; i < count_; ++i) {
+            const double w = piece.weights[i];
+            polygons_[i] = {piece.points[i].x * w, piece.points[i].y * w, w};
+        }
+    }
+
+    void run() { add(polygons_.data(), 0); }
+
+private:
+    static constexpr std::size_t kDepth = 18;
+
+    // The curve is a mean of its control points, of which the ends have a share.
+    bool is_flat(const Weighted* polygon) const
+    {
+        const Vec2d a = polygon[0].place();
+        const Vec2d b = polygon[count_ - 1].place();
+        double farthest = 0;
+        double heaviest = 0;
+        for (std::size_t i = 1; i + 1 < count_; ++i) {
+            farthest = std::max(farthest, distance_to_chord(polygon[i].place(), a, b));
+            heaviest = std::max(heaviest, polygon[i].weight);
+        }
+        const double ends =
+            share_of_ends_ * std::min(polygon[0].weight, polygon[count_ - 1].weight);
+        const double inner = (1 - share_of_ends_) * heaviest;
+        return farthest * inner <= tolerance_ * (inner + ends);
+    }
+
+    // The room behind `polygon` is for its halves.
+    void add(Weighted* polygon, std::size_t depth)
+    {
+        if (depth == kDepth || is_flat(polygon)) {
+            out_.push_back(polygon[count_ - 1].place());
+            return;
+        }
+        Weighted* const first = polygon + count_;
+        for (std::size_t level = 0; level < count_; ++level) {
+            first[level] = polygon[0];
+            for (std::size_t k = 0; k + level + 1 < count_; ++k) {
+                polygon[k] = middle_of(polygon[k], polygon[k + 1]);
+            }
+        }
+        add(first, depth + 1);
+        add(polygon, depth + 1);
+    }
+
+    std::size_t count_;
+    double share_of_ends_;  // at least, where weights are equal
+    double tolerance_;
+    std::vector<Vec2d>& out_;
+    std::vector<Weighted> polygons_;
+};
 
 struct Segment {
     Vec2d a, b;
@@ -139,30 +194,17 @@ std::optional<Vec2d> crossing_of(const std::vector<std::vector<Vec2d>>& closed)
 
 std::vector<Vec2d> loop_polyline(const Loop& loop, double tolerance)
 {
-    constexpr int kDepth = 16;
     std::vector<Vec2d> out;
     for (const Curve& curve : loop) {
         if (out.empty()) {
             out.push_back(from_above(point_at(curve, curve.domain_begin())));
         }
         for (const Curve& piece : bezier_pieces(curve)) {
-            const double begin = piece.domain_begin();
-            const double end = piece.domain_end();
             if (curve.degree == 1) {
                 out.push_back(from_above(piece.points.back()));
                 continue;
             }
-            // a piece may begin and end in an inflection that three samples miss
-            constexpr int kParts = 4;
-            for (int i = 0; i < kParts; ++i) {
-                const double from = begin + i * (end - begin) / kParts;
-                const double to = i + 1 == kParts ? end : begin + (i + 1) * (end - begin) / kParts;
-                const auto at = [&piece](double u) {
-                    return from_above(point_at(piece, u));
-                };
-                add_chords(piece, {from, to, at(from), at((from + to) / 2), at(to)}, tolerance,
-                           kDepth, out);
-            }
+            PieceChords{piece, tolerance, out}.run();
         }
     }
     if (!out.empty()) {
