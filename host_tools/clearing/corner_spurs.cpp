@@ -150,8 +150,8 @@ private:
     {
         const Edge& level = edges_[beside_];
         const bool straight = edge.turn == 0 && level.turn == 0;
-        const bool round = edge.turn != 0 && level.turn == edge.turn &&
-                           distance(edge.centre, level.centre) < 1e-9;
+        const bool round =
+            edge.turn != 0 && level.turn == edge.turn && distance(edge.centre, level.centre) < 1e-9;
         if (!straight && !round) {
             return i;
         }

@@ -111,8 +111,8 @@ void TipFloor::measure(Piece& piece) const
     Vec3d high{-1e300, -1e300, -1e300};
     const double* q = &nets_[piece.net];
     for (Vec3d& corner : corners_) {
-        const Vec3d p = patch.numbers == 3 ? Vec3d{q[0], q[1], q[2]}
-                                           : Vec3d{q[0], q[1], q[2]} / q[3];
+        const Vec3d p =
+            patch.numbers == 3 ? Vec3d{q[0], q[1], q[2]} : Vec3d{q[0], q[1], q[2]} / q[3];
         q += patch.numbers;
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};

@@ -179,7 +179,7 @@ private:
     std::vector<Patch> patches_;
     // Halved when first needed; a const query only makes them finer.
     mutable std::vector<Piece> pieces_;
-    mutable std::vector<double> nets_;  // x, y, z; where weights differ times w, and w
+    mutable std::vector<double> nets_;          // x, y, z; where weights differ times w, and w
     mutable std::vector<Outline> outlines_{1};  // the first one stands for none
     mutable std::vector<Vec3d> corners_;        // control points of the piece being measured
     mutable std::uint32_t last_{kRoot};         // where the tool rested last: a good first guess
