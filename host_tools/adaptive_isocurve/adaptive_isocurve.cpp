@@ -208,7 +208,11 @@ private:
                   const std::optional<Curve>& exact = std::nullopt,
                   const Feet& feet = {})
     {
-        const Points points = work_.add_pass(dense, exact, feet);
+        remember(work_.add_pass(dense, exact, feet));
+    }
+
+    void remember(const Points& points)
+    {
         if (coverage_) {
             coverage_->add(points);
         } else {
@@ -298,8 +302,9 @@ private:
             return adaptive_isocurves(s, surface, *operation_.iso_distance);
         }
         const double scallop = *operation_.scallop;
+        Ridges ridges{work_.model(), surface, tool_};
         const StripJudge judge = [&](double u, CurvePlace low, CurvePlace high) {
-            const double ridge = ridge_between(at, tool_, u, low, high);
+            const double ridge = ridges.between(u, low, high);
             const double over = (ridge - tool_.outward) / (scallop - tool_.outward);
             return std::min(1.5, std::sqrt(std::max(0.0, over)));
         };
@@ -322,11 +327,16 @@ private:
             offset_points_ += offset->control_points();
         }
         bool trimmed = false;
+        bool hopeful = s.trims.empty() && operation_.output == OutputForm::kLines;
         for (const DomainCurve& curve : curves) {
+            if (hopeful && add_whole(curve)) {
+                continue;
+            }
             const TracedCurve traced = tracer_.trace(curve);
             const bool whole = traced.pieces.size() == 1 && !traced.blocked &&
                                reaches_ends(curve, traced.pieces.front().points);
             trimmed = trimmed || !whole;
+            hopeful = hopeful && whole;
             unreached_ += traced.blocked ? 1 : 0;
             for (const TracedPiece& piece : traced.pieces) {
                 const std::optional<Curve> exact =
@@ -342,9 +352,20 @@ private:
         if (trimmed) {
             add_edges(surface);
         }
-        ridge_ = std::max(ridge_, highest_ridge(surface_function(surface), tool_, curves,
-                                                s.u_begin(), s.u_end(), kRidgeLooks));
+        ridge_ = std::max(ridge_, Ridges{work_.model(), surface, tool_}.highest(
+                                      curves, s.u_begin(), s.u_end(), kRidgeLooks));
         return curves.size();
+    }
+
+    // Where the tool is free from end to end there is nothing to look for.
+    bool add_whole(const DomainCurve& curve)
+    {
+        const TracedPiece piece = tracer_.whole(curve);
+        const std::optional<Points> points = work_.add_free_pass(piece.points, piece.feet);
+        if (points) {
+            remember(*points);
+        }
+        return points.has_value();
     }
 
     // The piece on the approximated offset, where the curve is an isocurve.

@@ -29,36 +29,33 @@ double slope_at(const DomainCurve& c, std::size_t k)
 
 }  // namespace
 
-double DomainCurve::v_at(double at) const
+double DomainCurve::v_at(double at) const { return place_at(at).v; }
+
+CurvePlace DomainCurve::place_at(double at) const
 {
+    if (u.size() == 2) {
+        const double t = std::clamp((at - u[0]) / (u[1] - u[0]), 0.0, 1.0);
+        return {v[0] + t * (v[1] - v[0]), chord_slope(*this, 0)};
+    }
     const auto next = std::upper_bound(u.begin() + 1, u.end() - 1, at);
     const std::size_t k = static_cast<std::size_t>(next - u.begin()) - 1;
     const double h = u[k + 1] - u[k];
     const double t = std::clamp((at - u[k]) / h, 0.0, 1.0);
-    if (v[k] == v[k + 1] && u.size() == 2) {
-        return v[k];
-    }
     const double m0 = slope_at(*this, k) * h;
     const double m1 = slope_at(*this, k + 1) * h;
     const double rise = v[k + 1] - v[k];
-    return v[k] + t * (m0 + t * (3 * rise - 2 * m0 - m1 + t * (m0 + m1 - 2 * rise)));
+    const double bend = 3 * rise - 2 * m0 - m1;
+    const double turn = m0 + m1 - 2 * rise;
+    return {v[k] + t * (m0 + t * (bend + t * turn)), (m0 + t * (2 * bend + 3 * t * turn)) / h};
 }
 
 std::vector<CurvePlace> places_at(const std::vector<DomainCurve>& curves, double u)
 {
     std::vector<CurvePlace> out;
     for (const DomainCurve& curve : curves) {
-        if (curve.u.front() > u || u > curve.u.back()) {
-            continue;
+        if (curve.u.front() <= u && u <= curve.u.back()) {
+            out.push_back(curve.place_at(u));
         }
-        if (curve.u.size() == 2) {
-            out.push_back({curve.v_at(u), chord_slope(curve, 0)});
-            continue;
-        }
-        const double step = 1e-5 * (curve.u.back() - curve.u.front());
-        const double before = std::max(u - step, curve.u.front());
-        const double after = std::min(u + step, curve.u.back());
-        out.push_back({curve.v_at(u), (curve.v_at(after) - curve.v_at(before)) / (after - before)});
     }
     std::sort(out.begin(), out.end(),
               [](const CurvePlace& a, const CurvePlace& b) { return a.v < b.v; });

@@ -5,6 +5,12 @@
 
 namespace cusp::host {
 
+// A curve at some u: where it is and how it goes on.
+struct CurvePlace {
+    double v{};
+    double slope{};  // of v by u
+};
+
 // v over increasing u, at least two nodes; between nodes a cubic. Two nodes of equal v: an
 // isocurve.
 struct DomainCurve {
@@ -13,12 +19,8 @@ struct DomainCurve {
     std::vector<double> v;
 
     double v_at(double at) const;
-};
-
-// A curve at some u: where it is and how it goes on.
-struct CurvePlace {
-    double v{};
-    double slope{};  // of v by u
+    // v and its slope.
+    CurvePlace place_at(double at) const;
 };
 
 // All curves that pass u, in order of v.

@@ -101,27 +101,41 @@ public:
 
     double length() const
     {
+        const bool from_middle = anchor_ == Anchor::kMiddle;
+        const int side = from_middle ? 0 : 1;
+        const double widest = *std::max_element(width_.begin(), width_.end());
+        const std::size_t most = static_cast<std::size_t>(std::max(0.0, std::floor(0.5 * widest)));
+        // Of the passes below, above and in the middle, at the last node and at this one; a pass
+        // that was not there at the last node has no place.
+        std::vector<double> last(2 * most + 1, kNoPlace);
+        std::vector<double> here(last.size(), kNoPlace);
         double sum = 0;
-        for (std::size_t i = 0; i + 1 < table_.u.size(); ++i) {
-            const double du = table_.u[i + 1] - table_.u[i];
-            const int most = static_cast<int>(std::floor(0.5 * std::min(width_[i], width_[i + 1])));
-            const auto add = [&](int side, int steps) {
-                const double a = v_of(i, side, steps);
-                sum += table_.length(i, a, du, v_of(i + 1, side, steps) - a);
-            };
-            for (int k = 1; k <= most; ++k) {
-                add(anchor_ == Anchor::kMiddle ? 0 : -1, k);
-                add(anchor_ == Anchor::kMiddle ? 0 : 1, -k);
+        for (std::size_t i = 0; i < table_.u.size(); ++i) {
+            const int count = static_cast<int>(std::floor(0.5 * width_[i]));
+            here.front() = v_of(i, 0, 0);
+            for (std::size_t k = 1; k <= most; ++k) {
+                const int steps = static_cast<int>(k);
+                here[2 * k - 1] = steps <= count ? v_of(i, -side, steps) : kNoPlace;
+                here[2 * k] = steps <= count ? v_of(i, side, -steps) : kNoPlace;
             }
-            if (anchor_ == Anchor::kMiddle || width_[i] - 2 * most > 1) {
-                add(0, 0);
+            const double middle_width =
+                i > 0 ? width_[i - 1] - 2 * std::floor(0.5 * std::min(width_[i - 1], width_[i]))
+                      : 0;
+            const std::size_t first = from_middle || middle_width > 1 ? 0 : 1;
+            for (std::size_t k = first; i > 0 && k < here.size(); ++k) {
+                if (last[k] != kNoPlace && here[k] != kNoPlace) {
+                    sum += table_.length(i - 1, last[k], table_.u[i] - table_.u[i - 1],
+                                         here[k] - last[k]);
+                }
             }
+            last.swap(here);
         }
         return sum;
     }
 
 private:
     static constexpr double kEndless = std::numeric_limits<double>::infinity();
+    static constexpr double kNoPlace = std::numeric_limits<double>::infinity();
     struct Range {
         double above;
         double up_to;

@@ -38,6 +38,12 @@ public:
     // hides between free places is not trimmed here: the proof of the path lifts over it.
     TracedCurve trace(const DomainCurve& curve) const;
 
+    // All of the curve, free or not.
+    TracedPiece whole(const DomainCurve& curve) const
+    {
+        return along(curve, curve.u.front(), curve.u.back());
+    }
+
     // Lines along the edge of the free part of the surface, on the model: where offsets of two
     // surfaces meet, and trimmed edges. Empty where all is free.
     //

@@ -11,53 +11,52 @@ namespace {
 constexpr double kUnreached = std::numeric_limits<double>::infinity();
 constexpr int kTurns = 8;
 
-// A ball that moves straight.
-struct Sweep {
-    Vec3d centre;
-    Vec3d tangent;
-
-    Sweep(const SurfacePoint& p, double slope, const RidgeTool& tool)
-        : centre{p.point + upward_normal(p) * (tool.radius + tool.outward)},
-          tangent{p.du + p.dv * slope}
-    {
-        tangent = tangent / std::max(1e-300, norm(tangent));
-    }
-
-    // What it leaves over the point along its normal.
-    double left(const SurfacePoint& p, double radius) const
-    {
-        Vec3d q = p.point - centre;
-        q = q - tangent * dot(q, tangent);
-        Vec3d n = upward_normal(p);
-        n = n - tangent * dot(n, tangent);
-        const double a = dot(n, n);
-        const double b = dot(q, n);
-        const double square = b * b - a * (dot(q, q) - radius * radius);
-        if (square < 0 || a == 0) {
-            return kUnreached;
-        }
-        return (-b - std::sqrt(square)) / a;
-    }
-};
-
 }  // namespace
 
-double ridge_between(const SurfaceFunction& at,
-                     const RidgeTool& tool,
-                     double u,
-                     CurvePlace low_place,
-                     CurvePlace high_place)
+Ridges::Sweep Ridges::sweep_at(CurvePlace place)
 {
-    const Sweep low{at(u, low_place.v), low_place.slope, tool};
-    const Sweep high{at(u, high_place.v), high_place.slope, tool};
+    const SurfacePoint p = cut_->at(place.v);
+    const Vec3d along = p.du + p.dv * place.slope;
+    return {place, p.point + upward_normal(p) * (tool_.radius + tool_.outward),
+            along / std::max(1e-300, norm(along))};
+}
+
+// What it leaves over the point along its normal.
+double Ridges::Sweep::left(Vec3d p, Vec3d normal, double radius) const
+{
+    Vec3d q = p - centre;
+    q = q - tangent * dot(q, tangent);
+    const Vec3d n = normal - tangent * dot(normal, tangent);
+    const double a = dot(n, n);
+    const double b = dot(q, n);
+    const double square = b * b - a * (dot(q, q) - radius * radius);
+    if (square < 0 || a == 0) {
+        return kUnreached;
+    }
+    return (-b - std::sqrt(square)) / a;
+}
+
+double Ridges::between(double u, CurvePlace low_place, CurvePlace high_place)
+{
+    if (!cut_ || u != u_) {
+        cut_.emplace(model_.cut_at(surface_, u));
+        u_ = u;
+        last_.reset();
+    }
+    const bool known =
+        last_ && last_->place.v == low_place.v && last_->place.slope == low_place.slope;
+    const Sweep low = known ? *last_ : sweep_at(low_place);
+    const Sweep high = sweep_at(high_place);
+    last_ = high;
     double from = low_place.v;
     double to = high_place.v;
     double bound = kUnreached;
     double v = 0.5 * (from + to);
     for (int turn = 0; turn < kTurns; ++turn) {
-        const SurfacePoint p = at(u, v);
-        const double by_low = low.left(p, tool.radius);
-        const double by_high = high.left(p, tool.radius);
+        const SurfacePoint p = cut_->at(v);
+        const Vec3d normal = upward_normal(p);
+        const double by_low = low.left(p.point, normal, tool_.radius);
+        const double by_high = high.left(p.point, normal, tool_.radius);
         bound = std::min(bound, std::max(by_low, by_high));
         const double excess = by_low - by_high;
         if (excess == 0 || std::abs(excess) < 0.002 * bound) {
@@ -73,19 +72,17 @@ double ridge_between(const SurfaceFunction& at,
     return bound;
 }
 
-double highest_ridge(const SurfaceFunction& at,
-                     const RidgeTool& tool,
-                     const std::vector<DomainCurve>& curves,
-                     double u_begin,
-                     double u_end,
-                     int count)
+double Ridges::highest(const std::vector<DomainCurve>& curves,
+                       double u_begin,
+                       double u_end,
+                       int count)
 {
     double worst = 0;
     for (int k = 0; k <= count; ++k) {
         const double u = u_begin + (u_end - u_begin) * k / count;
         const std::vector<CurvePlace> across = places_at(curves, u);
         for (std::size_t j = 1; j < across.size(); ++j) {
-            worst = std::max(worst, ridge_between(at, tool, u, across[j - 1], across[j]));
+            worst = std::max(worst, between(u, across[j - 1], across[j]));
         }
     }
     return worst;

@@ -1,7 +1,11 @@
 // The ridge that a ball leaves between two neighbouring passes of one surface.
 #pragma once
 
-#include "host_tools/adaptive_isocurve/even_spacing.hpp"
+#include <optional>
+#include <vector>
+
+#include "host_tools/adaptive_isocurve/domain_curve.hpp"
+#include "host_tools/surface_offset/surface_cut.hpp"
 
 namespace cusp::host {
 
@@ -10,19 +14,41 @@ struct RidgeTool {
     double outward{};  // mm: farthest that the path lies off the surface
 };
 
-// Height of what is left at u between two passes, square to the surface; infinity
-// where the ball of neither pass reaches. Both passes count as straight along their tangents there.
-//
-// Returns a bound: never below the ridge where the way across is shorter than the ball is wide.
-double ridge_between(
-    const SurfaceFunction& at, const RidgeTool& tool, double u, CurvePlace low, CurvePlace high);
+// Ridges between neighbours of one surface; quick where questions at the same u, and between the
+// same passes, follow each other.
+class Ridges {
+public:
+    Ridges(const SurfaceModel& model, int surface, const RidgeTool& tool)
+        : model_{model}, surface_{surface}, tool_{tool}
+    {
+    }
 
-// The highest ridge over all neighbours at `count` places along u.
-double highest_ridge(const SurfaceFunction& at,
-                     const RidgeTool& tool,
-                     const std::vector<DomainCurve>& curves,
-                     double u_begin,
-                     double u_end,
-                     int count);
+    // Height of what is left at u between two passes, square to the surface; infinity where the
+    // ball of neither pass reaches. Both passes count as straight along their tangents there.
+    //
+    // Returns a bound: never below the ridge where the way across is shorter than the ball is wide.
+    double between(double u, CurvePlace low, CurvePlace high);
+
+    // The highest over all neighbours at `count` places along u.
+    double highest(const std::vector<DomainCurve>& curves, double u_begin, double u_end, int count);
+
+private:
+    // A ball that moves straight.
+    struct Sweep {
+        CurvePlace place;
+        Vec3d centre;
+        Vec3d tangent;
+
+        double left(Vec3d p, Vec3d normal, double radius) const;
+    };
+    Sweep sweep_at(CurvePlace place);
+
+    const SurfaceModel& model_;
+    int surface_;
+    RidgeTool tool_;
+    std::optional<SurfaceCut> cut_;
+    double u_{};
+    std::optional<Sweep> last_;  // the upper of the last two
+};
 
 }  // namespace cusp::host

@@ -166,6 +166,20 @@ Points SurfaceOperation::add_pass(const Points& wanted,
     return points;
 }
 
+std::optional<Points> SurfaceOperation::add_free_pass(const Points& dense, const Feet& feet)
+{
+    if (operation_.output != OutputForm::kLines || certified_->kept_off_edges(dense) != dense) {
+        return std::nullopt;
+    }
+    std::optional<Points> points = certified_->fit_free_lines(dense, feet);
+    if (points) {
+        SurfacePass pass;
+        pass.points = *points;
+        passes_.push_back(std::move(pass));
+    }
+    return points;
+}
+
 Points SurfaceOperation::path_of(const SurfacePass& pass) const
 {
     if (!pass.curve && pass.moves.empty()) {

@@ -37,6 +37,9 @@ public:
     Points add_pass(const Points& wanted,
                     const std::optional<Curve>& exact = std::nullopt,
                     const Feet& feet = {});
+    // The same where the job asks for lines and the tool is proved to be free all along; none, and
+    // no pass, where not.
+    std::optional<Points> add_free_pass(const Points& dense, const Feet& feet);
     double path_off() const;
     // Whether some pass stands off a rim or crease by more than its place on the surface asks for.
     bool moved_off_edges() const { return moved_off_edges_; }

@@ -126,6 +126,40 @@ SurfacePoint polynomial_at(const Vec3d* points, double s, double t)
             weighted<CountT>(first, bt.first), weighted<CountT>(value, bt.second)};
 }
 
+// At one s, as a curve of t: its control points, and those of its derivative by s.
+template <std::size_t CountS, std::size_t CountT>
+void reduce_to_curve(const Vec3d* points, double s, double* value, double* first)
+{
+    const auto bs = fixed_basis(std::integral_constant<std::size_t, CountS>{}, s);
+    const double* control = &points->x;
+    for (std::size_t k = 0; k < 3 * CountT; ++k) {
+        double sum = 0;
+        double sum_first = 0;
+        for (std::size_t i = 0; i < CountS; ++i) {
+            const double c = control[i * 3 * CountT + k];
+            sum += c * bs.value[i];
+            sum_first += c * bs.first[i];
+        }
+        value[k] = sum;
+        first[k] = sum_first;
+    }
+}
+
+template <std::size_t CountS, std::size_t CountT>
+SurfacePoint tangents(const Vec3d* points, double s, double t)
+{
+    const auto bt = fixed_basis(std::integral_constant<std::size_t, CountT>{}, t);
+    std::array<double, 3 * CountT> value;
+    std::array<double, 3 * CountT> first;
+    reduce_to_curve<CountS, CountT>(points, s, value.data(), first.data());
+    return {weighted<CountT>(value, bt.value),
+            weighted<CountT>(first, bt.value),
+            weighted<CountT>(value, bt.first),
+            {},
+            {},
+            {}};
+}
+
 // A box of vectors, with the little arithmetic that quotients need.
 struct Box {
     std::array<Enclosure, 3> side{{{0, 0}, {0, 0}, {0, 0}}};
@@ -237,7 +271,8 @@ void halve(const T* from, T* lower, T* upper, std::size_t count, std::size_t str
 }  // namespace
 
 BezierCell::BezierCell(const BezierPatch& patch, int surface)
-    : surface_{surface},
+    : root_{true},
+      surface_{surface},
       count_s_{static_cast<std::size_t>(patch.surface.size_u)},
       count_t_{static_cast<std::size_t>(patch.surface.size_v)},
       points_{patch.surface.points},
@@ -272,6 +307,34 @@ SurfacePoint BezierCell::at(double s, double t) const
         return polynomial_at<2, 2>(points_.data(), s, t);
     }
     return at_any_degree(s, t);
+}
+
+SurfacePoint BezierCell::tangents_at(double s, double t) const
+{
+    if (weights_.empty() && count_s_ == 4 && count_t_ == 4) {
+        return tangents<4, 4>(points_.data(), s, t);
+    }
+    return at(s, t);
+}
+
+bool BezierCell::cut_at(double s, Curve4& out) const
+{
+    if (!weights_.empty() || count_s_ != 4 || count_t_ != 4) {
+        return false;
+    }
+    reduce_to_curve<4, 4>(points_.data(), s, out.value.data(), out.along_s.data());
+    return true;
+}
+
+SurfacePoint BezierCell::on_cut(const Curve4& cut, double t)
+{
+    const auto bt = fixed_basis(std::integral_constant<std::size_t, 4>{}, t);
+    return {weighted<4>(cut.value, bt.value),
+            weighted<4>(cut.along_s, bt.value),
+            weighted<4>(cut.value, bt.first),
+            {},
+            {},
+            {}};
 }
 
 // Of the degree count_s - 1 by count_t - 1.

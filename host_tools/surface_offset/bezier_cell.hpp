@@ -10,6 +10,17 @@
 
 namespace cusp::host {
 
+// a u^2 + 2 b u v + c v^2.
+struct QuadraticForm {
+    double a{};
+    double b{};
+    double c{};
+
+    double operator()(double u, double v) const { return a * u * u + 2 * b * u * v + c * v * v; }
+    double determinant() const { return a * c - b * b; }
+    bool never_negative() const { return a >= 0 && c >= 0 && determinant() >= 0; }
+};
+
 class BezierCell {
 public:
     // A patch with one span each way, as `bezier_patches` makes them.
@@ -18,6 +29,19 @@ public:
     int surface() const { return surface_; }
     // Point and derivatives by the local parameters, each in [0, 1].
     SurfacePoint at(double s, double t) const;
+    // The same; second derivatives may be left out.
+    SurfacePoint tangents_at(double s, double t) const;
+
+    // A bicubic cell at one s, as control points of a curve of t and of its derivative by s.
+    struct Curve4 {
+        std::array<double, 12> value;
+        std::array<double, 12> along_s;
+    };
+    // False for cells of other degrees, and rational ones.
+    bool cut_at(double s, Curve4& out) const;
+    // Point and first derivatives.
+    static SurfacePoint on_cut(const Curve4& cut, double t);
+
     double u(double s) const { return u_begin_ + s * (u_end_ - u_begin_); }
     double v(double t) const { return v_begin_ + t * (v_end_ - v_begin_); }
     double u_begin() const { return u_begin_; }
@@ -58,8 +82,13 @@ public:
     struct Surroundings {
         double u_begin, u_end, v_begin, v_end;
         // For the contact at any place x of the cell, n its upward normal, and any y of the
-        // surroundings: 2 n . (y - x) <= bend (y - x)^2. Infinite where nothing is proved.
-        double bend;
+        // surroundings, w what lies between them in the domain:
+        //   (y - x)^2 >= nearness * metric(w),  2 n . (y - x) <= bend(w) + more * metric(w).
+        // `more` is infinite where nothing is proved.
+        QuadraticForm metric;
+        QuadraticForm bend;
+        double nearness;
+        double more;
         double top;  // nothing of the surroundings is higher
     };
     const Surroundings* surroundings() const { return surroundings_.get(); }

@@ -383,11 +383,16 @@ bool SurfaceModel::State::outside_trims(const BezierCell& cell) const
 const BezierCell& SurfaceModel::State::cell_at(int surface, double u, double v) const
 {
     const Grid& grid = grids[static_cast<std::size_t>(surface)];
-    const auto span = [](const std::vector<double>& breaks, double at) {
-        const auto next = std::upper_bound(breaks.begin() + 1, breaks.end(), at);
-        return static_cast<std::size_t>(next - breaks.begin()) - 1;
+    const auto span = [](const std::vector<double>& breaks, double at, std::size_t& last) {
+        const bool above = last == 0 || breaks[last] <= at;
+        if (!above || (last + 1 < breaks.size() && !(at < breaks[last + 1]))) {
+            const auto next = std::upper_bound(breaks.begin() + 1, breaks.end(), at);
+            last = static_cast<std::size_t>(next - breaks.begin()) - 1;
+        }
+        return last;
     };
-    return *cells[grid.first + span(grid.u, u) * grid.v.size() + span(grid.v, v)];
+    return *cells[grid.first + span(grid.u, u, grid.last_u) * grid.v.size() +
+                  span(grid.v, v, grid.last_v)];
 }
 
 BoxTree make_box_tree(const std::vector<std::array<Vec3d, 2>>& boxes)

@@ -42,6 +42,9 @@ struct SurfaceModel::State {
         // Knots where the tangent may jump, and the ends of the domain.
         std::vector<double> creases_u;
         std::vector<double> creases_v;
+        // The spans of the last answer: the next question is mostly in or beside them.
+        mutable std::size_t last_u{};
+        mutable std::size_t last_v{};
     };
     std::vector<Grid> grids;
     const BezierCell& cell_at(int surface, double u, double v) const;

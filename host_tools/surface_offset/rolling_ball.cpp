@@ -17,6 +17,7 @@ constexpr double kFootSlack = 1e-7;     // mm off the normal
 constexpr double kLeastBox = 1 / 12.0;  // radii: boxes that small prove nothing if they are near
 constexpr double kMostSkew = 0.9;       // cosine between du and dv
 constexpr double kUsualMargin = 0.01;   // radii
+constexpr double kMostShorter = 0.9;    // of a way in the tangent plane
 
 // Derivatives by u and v, as those of the cell are by its own parameters.
 SurfacePoint scaled_middle(const BezierCell& cell)
@@ -70,48 +71,42 @@ public:
         most_uu_ = std::max(most_uu_, norm(p.duu) + e.dss);
         most_uv_ = std::max(most_uv_, norm(p.duv) + e.dst);
         most_vv_ = std::max(most_vv_, norm(p.dvv) + e.dtt);
-        top = std::max(top, cell.high().z);
+        top_ = std::max(top_, cell.high().z);
     }
 
-    double bound() const
+    // Into the bounds of the surroundings; nothing is proved where that stays infinite.
+    void fill(BezierCell::Surroundings& box) const
     {
+        box.top = top_;
+        box.more = kInfinite;
         const double e = dot(middle_.du, middle_.du);
         const double f = dot(middle_.du, middle_.dv);
         const double g = dot(middle_.dv, middle_.dv);
         const double det = e * g - f * f;
         const double skew = std::abs(f) / std::sqrt(e * g);
         if (!(det > 0) || !(skew < kMostSkew)) {
-            return kInfinite;
+            return;
         }
         const double long_u = std::sqrt(e);
         const double long_v = std::sqrt(g);
         // The tangent plane of the cell tilts by no more than this (a tangent).
         const double lean = own_.ds * std::sqrt(g / det) + own_.dt * std::sqrt(e / det);
         const double tilt = lean / (1 - lean);
-        if (!(lean < 0.5) || !(normal_.z > tilt)) {
-            return kInfinite;
-        }
         const double straight = 1 - skew;
+        const double shorter =
+            std::hypot(across_u_ / long_u, across_v_ / long_v) / std::sqrt(straight);
+        if (!(lean < 0.5) || !(normal_.z > tilt) || !(shorter < kMostShorter)) {
+            return;
+        }
         const double uu = (bend_uu_ + tilt * most_uu_) / e;
         const double uv = (bend_uv_ + tilt * most_uv_) / (long_u * long_v);
         const double vv = (bend_vv_ + tilt * most_vv_) / g;
-        const double more = (std::max(uu, vv) + uv) / straight;
-        const double l = dot(normal_, middle_.duu);
-        const double m = dot(normal_, middle_.duv);
-        const double n = dot(normal_, middle_.dvv);
-        const double mean = (e * n - 2 * f * m + g * l) / (2 * det);
-        const double gauss = (l * n - m * m) / det;
-        const double bend = mean + std::sqrt(std::max(0.0, mean * mean - gauss)) + more;
-        const double shorter =
-            std::hypot(across_u_ / long_u, across_v_ / long_v) / std::sqrt(straight);
-        const double longer = std::hypot(off_u_ / long_u, off_v_ / long_v) / std::sqrt(straight);
-        if (bend < 0) {
-            return bend / ((1 + longer) * (1 + longer));
-        }
-        return shorter < 0.9 ? bend / ((1 - shorter) * (1 - shorter)) : kInfinite;
+        box.metric = {e, f, g};
+        box.bend = {dot(normal_, middle_.duu), dot(normal_, middle_.duv),
+                    dot(normal_, middle_.dvv)};
+        box.nearness = (1 - shorter) * (1 - shorter);
+        box.more = (std::max(uu, vv) + uv) / straight;
     }
-
-    double top{-kInfinite};
 
 private:
     double in_plane(Vec3d d) const { return norm(d - normal_ * dot(d, normal_)); }
@@ -129,6 +124,7 @@ private:
     double most_uu_{};
     double most_uv_{};
     double most_vv_{};
+    double top_{-kInfinite};
 };
 
 bool overlaps(const BezierCell& cell, const BezierCell::Surroundings& box)
@@ -179,7 +175,7 @@ BezierCell::Surroundings find_surroundings(const SurfaceModel::State& state, con
     const SurfaceModel::State::Grid& grid = state.grids[static_cast<std::size_t>(cell.surface())];
     const auto [u_begin, u_end] = widened(grid.creases_u, cell.u_begin(), cell.u_end());
     const auto [v_begin, v_end] = widened(grid.creases_v, cell.v_begin(), cell.v_end());
-    BezierCell::Surroundings box{u_begin, u_end, v_begin, v_end, kInfinite, 0};
+    BezierCell::Surroundings box{u_begin, u_end, v_begin, v_end, {}, {}, 0, kInfinite, 0};
     const auto first = [](const std::vector<double>& breaks, double at) {
         return static_cast<std::size_t>(std::upper_bound(breaks.begin() + 1, breaks.end(), at) -
                                         breaks.begin()) -
@@ -192,18 +188,43 @@ BezierCell::Surroundings find_surroundings(const SurfaceModel::State& state, con
                      cell.u_end() - cell.u_begin(), cell.v_end() - cell.v_begin(), bound);
         }
     }
-    box.bend = bound.bound();
-    box.top = bound.top;
+    bound.fill(box);
     return box;
+}
+
+double square(Vec3d a) { return dot(a, a); }
+
+// Below (y - c)^2 - d^2 for the centre c over a contact, d over it, by what lies between the
+// contact and y in the domain.
+QuadraticForm rise_of(const BezierCell::Surroundings& near, double distance)
+{
+    const double share = near.nearness - distance * near.more;
+    return {share * near.metric.a - distance * near.bend.a,
+            share * near.metric.b - distance * near.bend.b,
+            share * near.metric.c - distance * near.bend.c};
+}
+
+// A form that is nowhere above either: the first, less what it is over the second at most in terms
+// of the metric.
+QuadraticForm below_both(const QuadraticForm& p,
+                         const QuadraticForm& q,
+                         const QuadraticForm& metric)
+{
+    const QuadraticForm d{p.a - q.a, p.b - q.b, p.c - q.c};
+    const double det = metric.determinant();
+    const double mean = (metric.a * d.c - 2 * metric.b * d.b + metric.c * d.a) / (2 * det);
+    const double over =
+        std::max(0.0, mean + std::sqrt(std::max(0.0, mean * mean - d.determinant() / det)));
+    return {p.a - over * metric.a, p.b - over * metric.b, p.c - over * metric.c};
 }
 
 }  // namespace
 
-const BezierCell::Surroundings& RollingBall::surroundings(const Contact& at) const
+const BezierCell& RollingBall::cell_of(const Contact& at) const
 {
     const BezierCell* cell = &state_.cell_at(at.surface, at.u, at.v);
-    const double most = kCellSize * radius_;
-    while (norm(cell->middle().du) > most || norm(cell->middle().dv) > most) {
+    const double most = kCellSize * kCellSize * radius_ * radius_;
+    while (square(cell->middle().du) > most || square(cell->middle().dv) > most) {
         const auto [low, high] = cell->halves();
         const bool above = low->u_end() < cell->u_end() ? at.u > low->u_end() : at.v > low->v_end();
         cell = above ? high : low;
@@ -211,7 +232,7 @@ const BezierCell::Surroundings& RollingBall::surroundings(const Contact& at) con
     if (cell->surroundings() == nullptr) {
         cell->set_surroundings(find_surroundings(state_, *cell));
     }
-    return *cell->surroundings();
+    return *cell;
 }
 
 std::optional<double> RollingBall::between(const Contact& a,
@@ -219,45 +240,107 @@ std::optional<double> RollingBall::between(const Contact& a,
                                            double enough,
                                            int depth) const
 {
-    const BezierCell::Surroundings& near_a = surroundings(a);
-    const BezierCell::Surroundings& near_b = surroundings(b);
-    const double nearer = std::min(a.distance, b.distance);
-    const double farther = std::max(a.distance, b.distance);
-    const double bend = std::max(near_a.bend, near_b.bend);
-    const double kept = 1 - bend * (bend > 0 ? farther : nearer);
-    const Vec3d from = a.centre();
-    const Vec3d to = b.centre();
-    if (!(kept >= 0) || std::max(near_a.top, near_b.top) > std::min(from.z, to.z)) {
+    const Cells cells{cell_of(a), cell_of(b)};
+    if (!near_rise(a, cells.of_a, b, cells.of_b)) {
         return std::nullopt;
     }
-    const double way = dot(to - from, to - from);
-    const double lost =
-        0.25 * std::max(0.0, way - kept * dot(b.point - a.point, b.point - a.point));
-    const double least = std::sqrt(std::max(0.0, nearer * nearer - lost)) - radius_;
-    const double margin = std::max(kUsualMargin * radius_, way / (2 * nearer));
-    if (least >= enough && rest_is_far(a, near_a, margin) &&
-        (way == 0 || rest_is_far(b, near_b, margin))) {
-        return least;
+    const double way = square(b.centre() - a.centre());
+    // Far from both ends, or only from one.
+    const double share = &cells.of_a == &cells.of_b ? 8 : 2;
+    const double margin =
+        std::max(kUsualMargin * radius_, way / (share * std::min(a.distance, b.distance)));
+    if (rest_is_far(a, *cells.of_a.surroundings(), margin) &&
+        (way == 0 || rest_is_far(b, *cells.of_b.surroundings(), margin))) {
+        return near_between(a, b, cells, enough, depth);
     }
-    return way == 0 || depth == kDeepest ? std::nullopt : halved(a, b, enough, depth);
+    if (way == 0 || depth == kDeepest) {
+        return std::nullopt;
+    }
+    const std::optional<Foot> foot = foot_of_middle(a, b);
+    return foot ? parts_between(a, *foot, b, nullptr, enough, depth) : std::nullopt;
 }
 
-std::optional<double> RollingBall::halved(const Contact& a,
-                                          const Contact& b,
-                                          double enough,
-                                          int depth) const
+// Where all else is known to be far from the way between contacts in `cells`, of which this is a
+// part: of places near both ends only.
+std::optional<double> RollingBall::near_between(
+    const Contact& a, const Contact& b, const Cells& cells, double enough, int depth) const
+{
+    const std::optional<QuadraticForm> rise = near_rise(a, cell_of(a), b, cell_of(b));
+    if (!rise) {
+        return std::nullopt;
+    }
+    const double way = square(b.centre() - a.centre());
+    const double nearer = std::min(a.distance, b.distance);
+    const double lost = 0.25 * std::max(0.0, way - (*rise)(b.u - a.u, b.v - a.v));
+    const double least = std::sqrt(std::max(0.0, nearer * nearer - lost)) - radius_;
+    if (least >= enough) {
+        return least;
+    }
+    if (way == 0 || depth == kDeepest) {
+        return std::nullopt;
+    }
+    const std::optional<Foot> foot = foot_of_middle(a, b);
+    if (!foot) {
+        return std::nullopt;
+    }
+    const BezierCell& cell = cell_of(foot->contact);
+    const bool of_these = &cell == &cells.of_a || &cell == &cells.of_b;
+    return parts_between(a, *foot, b, of_these ? &cells : nullptr, enough, depth);
+}
+
+// cells  null: places far from the ends have to be looked at, too
+std::optional<double> RollingBall::parts_between(const Contact& a,
+                                                 const Foot& foot,
+                                                 const Contact& b,
+                                                 const Cells* cells,
+                                                 double enough,
+                                                 int depth) const
+{
+    const auto part = [&](const Contact& from, const Contact& to) {
+        return cells != nullptr ? near_between(from, to, *cells, enough + foot.off, depth + 1)
+                                : between(from, to, enough + foot.off, depth + 1);
+    };
+    const std::optional<double> first = part(a, foot.contact);
+    if (!first) {
+        return std::nullopt;
+    }
+    const std::optional<double> second = part(foot.contact, b);
+    return second ? std::optional{std::min(*first, *second) - foot.off} : std::nullopt;
+}
+
+std::optional<QuadraticForm> RollingBall::near_rise(const Contact& a,
+                                                    const BezierCell& cell_a,
+                                                    const Contact& b,
+                                                    const BezierCell& cell_b) const
+{
+    const BezierCell::Surroundings& near_a = *cell_a.surroundings();
+    const BezierCell::Surroundings& near_b = *cell_b.surroundings();
+    if (a.surface != b.surface || !std::isfinite(near_a.more) || !std::isfinite(near_b.more) ||
+        std::max(near_a.top, near_b.top) > std::min(a.centre().z, b.centre().z)) {
+        return std::nullopt;
+    }
+    QuadraticForm rise = rise_of(near_a, a.distance);
+    if (&near_a != &near_b || a.distance != b.distance) {
+        rise = below_both(rise, rise_of(near_b, b.distance), near_a.metric);
+    }
+    return rise.never_negative() ? std::optional{rise} : std::nullopt;
+}
+
+// The contact whose normal passes the middle between two centres.
+std::optional<RollingBall::Foot> RollingBall::foot_of_middle(const Contact& a,
+                                                             const Contact& b) const
 {
     const Vec3d middle = (a.centre() + b.centre()) * 0.5;
-    Contact foot{a.surface, 0.5 * (a.u + b.u), 0.5 * (a.v + b.v), {}, {}, 0, -1};
-    double off = kInfinite;
+    Foot foot{{a.surface, 0.5 * (a.u + b.u), 0.5 * (a.v + b.v), {}, {}, 0, -1}, kInfinite};
+    Contact& at = foot.contact;
     for (int step = 0; step < kFootSteps; ++step) {
-        const SurfacePoint p = model_.evaluate(a.surface, foot.u, foot.v);
+        const SurfacePoint p = model_.evaluate(at.surface, at.u, at.v);
         const Vec3d r = middle - p.point;
-        foot.point = p.point;
-        foot.normal = upward_normal(p);
-        foot.distance = dot(r, foot.normal);
-        off = norm(r - foot.normal * foot.distance);
-        if (off < kFootSlack) {
+        at.point = p.point;
+        at.normal = upward_normal(p);
+        at.distance = dot(r, at.normal);
+        foot.off = norm(r - at.normal * at.distance);
+        if (foot.off < kFootSlack) {
             break;
         }
         const double uu = dot(p.du, p.du) - dot(r, p.duu);
@@ -269,21 +352,13 @@ std::optional<double> RollingBall::halved(const Contact& a,
         }
         const double gu = dot(r, p.du);
         const double gv = dot(r, p.dv);
-        foot.u += (gu * vv - gv * uv) / det;
-        foot.v += (gv * uu - gu * uv) / det;
+        at.u += (gu * vv - gv * uv) / det;
+        at.v += (gv * uu - gu * uv) / det;
     }
-    const SurfaceModel::State::Grid& grid = state_.grids[static_cast<std::size_t>(a.surface)];
-    const bool inside = foot.u >= grid.creases_u.front() && foot.u <= grid.creases_u.back() &&
-                        foot.v >= grid.creases_v.front() && foot.v <= grid.creases_v.back();
-    if (!(off < kFootSlack) || !inside || !(foot.distance > 0)) {
-        return std::nullopt;
-    }
-    const std::optional<double> first = between(a, foot, enough + off, depth + 1);
-    if (!first) {
-        return std::nullopt;
-    }
-    const std::optional<double> second = between(foot, b, enough + off, depth + 1);
-    return second ? std::optional{std::min(*first, *second) - off} : std::nullopt;
+    const SurfaceModel::State::Grid& grid = state_.grids[static_cast<std::size_t>(at.surface)];
+    const bool inside = at.u >= grid.creases_u.front() && at.u <= grid.creases_u.back() &&
+                        at.v >= grid.creases_v.front() && at.v <= grid.creases_v.back();
+    return foot.off < kFootSlack && inside && at.distance > 0 ? std::optional{foot} : std::nullopt;
 }
 
 // Whether all but the surroundings is farther than the contact, by `margin`, from the centre and

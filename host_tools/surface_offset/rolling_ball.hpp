@@ -3,13 +3,17 @@
 //
 // Proof, with centres c = x + d n over contacts x, n their normals, and y any place of the model:
 // - Near (y in the surroundings of x): (y - c)^2 = d^2 + (y - x)^2 - 2 d n . (y - x), which is at
-//   least d^2 + (1 - d k) (y - x)^2, for k = `Surroundings::bend`. On the way from c to c', at the
-//   share t, the square of the distance is the mean of both ends' less t (1 - t) (c' - c)^2; and
-//   the mean of (y - x)^2 and (y - x')^2 is at least t (1 - t) (x' - x)^2, wherever y is. So no
-//   near place comes nearer than the root of d^2 - ((c' - c)^2 - (1 - d k) (x' - x)^2) / 4.
-// - All else is looked at in boxes: from both ends it is farther than d by (c' - c)^2 / (2 d),
-//   which is more than enough for what lies between.
-// Where this proves too little the way is halved at the contact under its middle.
+//   least d^2 + q(w), w what lies between x and y in the domain, q a quadratic form from the bounds
+//   in `Surroundings`; q is made one for both ends, and must be nowhere negative. On the way from c
+//   to c', at the share t, the square of the distance is the mean of both ends' less
+//   t (1 - t) (c' - c)^2; and the mean of q(w) and q(w') is at least t (1 - t) q(w' - w), wherever
+//   y is. So no near place comes nearer than the root of d^2 - ((c' - c)^2 - q(w' - w)) / 4.
+// - All else is looked at in boxes. What is far from both ends has to be farther than d by
+//   (c' - c)^2 / (8 d), for the least of the mean is at the middle. Where the ends have different
+//   surroundings, what is near one of them is at least d from that and has to be farther from the
+//   other by (c' - c)^2 / (2 d).
+// Where this proves too little the way is halved at the contact under its middle; all else stays
+// far from the whole way, and is looked at again only where the middle is in other surroundings.
 #pragma once
 
 #include <optional>
@@ -32,15 +36,35 @@ public:
     }
 
 private:
+    // The pieces of surface that the two ends of a way lie in.
+    struct Cells {
+        const BezierCell& of_a;
+        const BezierCell& of_b;
+    };
+    struct Foot {
+        Contact contact;
+        double off;  // mm, of its centre from the middle
+    };
+
     std::optional<double> between(const Contact& a,
                                   const Contact& b,
                                   double enough,
                                   int depth) const;
-    std::optional<double> halved(const Contact& a,
-                                 const Contact& b,
-                                 double enough,
-                                 int depth) const;
-    const BezierCell::Surroundings& surroundings(const Contact& at) const;
+    std::optional<double> near_between(
+        const Contact& a, const Contact& b, const Cells& cells, double enough, int depth) const;
+    std::optional<double> parts_between(const Contact& a,
+                                        const Foot& foot,
+                                        const Contact& b,
+                                        const Cells* cells,
+                                        double enough,
+                                        int depth) const;
+    std::optional<QuadraticForm> near_rise(const Contact& a,
+                                           const BezierCell& cell_a,
+                                           const Contact& b,
+                                           const BezierCell& cell_b) const;
+    std::optional<Foot> foot_of_middle(const Contact& a, const Contact& b) const;
+    // The piece of a size the bounds are good for, with its surroundings known.
+    const BezierCell& cell_of(const Contact& at) const;
     bool rest_is_far(const Contact& from,
                      const BezierCell::Surroundings& near,
                      double margin) const;

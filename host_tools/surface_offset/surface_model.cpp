@@ -8,6 +8,7 @@
 #include "host_tools/nurbs/knot_insertion.hpp"
 #include "host_tools/surface_offset/nearest_search.hpp"
 #include "host_tools/surface_offset/rolling_ball.hpp"
+#include "host_tools/surface_offset/surface_cut.hpp"
 
 namespace cusp::host {
 namespace {
@@ -170,6 +171,23 @@ SurfacePoint SurfaceModel::evaluate(int surface, double u, double v) const
     return p;
 }
 
+SurfacePoint SurfaceModel::tangents(int surface, double u, double v) const
+{
+    const BezierCell& cell = state_->cell_at(surface, u, v);
+    const double width_u = cell.u_end() - cell.u_begin();
+    const double width_v = cell.v_end() - cell.v_begin();
+    SurfacePoint p = cell.tangents_at(std::clamp((u - cell.u_begin()) / width_u, 0.0, 1.0),
+                                      std::clamp((v - cell.v_begin()) / width_v, 0.0, 1.0));
+    p.du = p.du / width_u;
+    p.dv = p.dv / width_v;
+    return p;
+}
+
+SurfaceCut SurfaceModel::cut_at(int surface, double u) const
+{
+    return {*this, *state_, surface, u};
+}
+
 Clearance SurfaceModel::clearance(const Tool& tool, Vec3d tip, double limit) const
 {
     const NearestResult found =
@@ -195,7 +213,7 @@ double SurfaceModel::clearance_along(
 
 Contact SurfaceModel::contact(int surface, double u, double v, double distance) const
 {
-    const SurfacePoint p = evaluate(surface, u, v);
+    const SurfacePoint p = tangents(surface, u, v);
     return {surface, u, v, p.point, upward_normal(p), distance, -1};
 }
 

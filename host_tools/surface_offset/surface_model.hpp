@@ -13,6 +13,8 @@
 
 namespace cusp::host {
 
+class SurfaceCut;
+
 // The place of the model that is nearest to a tool.
 struct NearestPlace {
     Vec3d point;
@@ -114,6 +116,11 @@ public:
 
     // Evaluation by the cells: as `derivatives_at`, several times faster.
     SurfacePoint evaluate(int surface, double u, double v) const;
+    // The same; second derivatives may be left out.
+    SurfacePoint tangents(int surface, double u, double v) const;
+
+    // The surface over one u, for many places of v.
+    SurfaceCut cut_at(int surface, double u) const;
 
     struct State;
 

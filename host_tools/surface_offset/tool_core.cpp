@@ -39,36 +39,12 @@ ToolCore core_of(const Tool& tool, Vec3d tip)
     return {tool.radius - tool.corner_radius, {tip.x, tip.y, tip.z + tool.corner_radius}};
 }
 
-Vec3d ToolCore::reach(Vec3d p) const
-{
-    Vec3d r{p.x - end.x, p.y - end.y, std::min(0.0, p.z - end.z)};
-    if (radius > 0) {
-        const double away = std::hypot(r.x, r.y);
-        const double left = away > radius ? (away - radius) / away : 0;
-        r.x *= left;
-        r.y *= left;
-    }
-    return r;
-}
-
-double ToolCore::distance_to_box(Vec3d low, Vec3d high) const
-{
-    const double x = std::max({low.x - end.x, end.x - high.x, 0.0});
-    const double y = std::max({low.y - end.y, end.y - high.y, 0.0});
-    const double down = std::max(0.0, end.z - high.z);
-    if (radius == 0) {
-        return std::sqrt(x * x + y * y + down * down);
-    }
-    const double out = std::max(0.0, std::sqrt(x * x + y * y) - radius);
-    return std::sqrt(out * out + down * down);
-}
-
 // From the box along the tangent plane.
 double oriented_distance(const ToolCore& core, const BezierCell& cell)
 {
     const Vec3d from = core.end - cell.middle().point;
     const Vec3d normal = cell.axes()[0];
-    const double tilt = core.radius * std::hypot(normal.x, normal.y);
+    const double tilt = core.radius > 0 ? core.radius * std::hypot(normal.x, normal.y) : 0;
     const double above = dot(from, normal) - tilt - cell.box_high(0);
     if (core.radius > 0 || cell.high().z > core.end.z) {
         return std::max(0.0, above);

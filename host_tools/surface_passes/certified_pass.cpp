@@ -208,7 +208,11 @@ Vec3d CertifiedPasses::tip_at(int surface, double u, double v) const
 
 bool CertifiedPasses::touches_freely(int surface, double u, double v) const
 {
-    const Contact at = contact(surface, {u, v});
+    return touches_freely(contact(surface, {u, v}));
+}
+
+bool CertifiedPasses::touches_freely(const Contact& at) const
+{
     if (model_.clearance_between(at, at, tool_.radius, band_.lift - kContactSlack)) {
         return true;
     }
@@ -334,10 +338,44 @@ Vec3d CertifiedPasses::lifted_free(Vec3d tip) const
     return on_model ? Vec3d{tip.x, tip.y, std::max(tip.z, on_model->z)} : tip;
 }
 
+std::size_t CertifiedPasses::chord_end(const Points& dense,
+                                       std::size_t from,
+                                       std::size_t guess) const
+{
+    const double allowed = band_.band * (1 - kSampleShare);
+    return farthest_fit(from, dense.size() - 1, guess,
+                        [&](std::size_t k) { return chord_fits(dense, from, k, allowed); });
+}
+
+std::optional<Points> CertifiedPasses::fit_free_lines(const Points& dense, const Feet& feet)
+{
+    const double least_before = least_clearance_;
+    Points out{dense.front()};
+    Contact last = contact(feet.surface, feet.places.front());
+    std::size_t from = 0;
+    std::size_t guess = 4;
+    while (from + 1 < dense.size()) {
+        const std::size_t to = chord_end(dense, from, guess);
+        guess = (to - from) / 2;
+        const Contact next = contact(feet.surface, feet.places[to]);
+        const std::size_t middle = (from + to) / 2;
+        if (!rolls_freely(last, next) &&
+            !(touches_freely(last) && touches_freely(next) &&
+              touches_freely(contact(feet.surface, feet.places[middle])) &&
+              line_is_free(out.back(), dense[to]))) {
+            least_clearance_ = least_before;
+            return std::nullopt;
+        }
+        out.push_back(dense[to]);
+        last = next;
+        from = to;
+    }
+    return out;
+}
+
 Points CertifiedPasses::fit_lines(const Points& dense, const Feet& feet)
 {
     Points out{lifted_free(dense.front())};
-    const double allowed = band_.band * (1 - kSampleShare);
     const bool known = feet.places.size() == dense.size();
     std::optional<Contact> last;
     if (known && out.back() == dense.front()) {
@@ -346,9 +384,7 @@ Points CertifiedPasses::fit_lines(const Points& dense, const Feet& feet)
     std::size_t from = 0;
     std::size_t guess = 4;
     while (from + 1 < dense.size()) {
-        const std::size_t to = farthest_fit(from, dense.size() - 1, guess, [&](std::size_t k) {
-            return chord_fits(dense, from, k, allowed);
-        });
+        const std::size_t to = chord_end(dense, from, guess);
         guess = (to - from) / 2;
         std::optional<Contact> next;
         if (known) {

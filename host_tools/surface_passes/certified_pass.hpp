@@ -87,6 +87,10 @@ public:
     // the surface's bend there, without a search.
     Points fit_lines(const Points& dense, const Feet& feet = {});
 
+    // The same where the tool is free at every point and between all of them; none where it is not
+    // or that is not proved.
+    std::optional<Points> fit_free_lines(const Points& dense, const Feet& feet);
+
     // The tip itself where the tool stands free there, else on the model over it.
     Vec3d lifted_free(Vec3d tip) const;
 
@@ -113,6 +117,9 @@ private:
     bool arc_is_free(Vec3d start, const ToolMove& arc);
     bool rolls_freely(const Contact& a, const Contact& b);
     Contact contact(int surface, Vec2d place) const;
+    bool touches_freely(const Contact& at) const;
+    // The last point that a straight line from another fits the points up to.
+    std::size_t chord_end(const Points& dense, std::size_t from, std::size_t guess) const;
     void append_free_line(Vec3d a, Vec3d b, int depth, Points& out);
     bool curve_is_free(const std::array<Vec3d, 4>& bezier, int depth, double& least) const;
 
