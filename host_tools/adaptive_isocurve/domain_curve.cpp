@@ -27,6 +27,21 @@ double slope_at(const DomainCurve& c, std::size_t k)
     return (before * h_after + after * h_before) / (h_before + h_after);
 }
 
+// Nodes are mostly even: from where the place would be if they were.
+std::size_t span_of(const std::vector<double>& u, double at)
+{
+    const double spans = static_cast<double>(u.size() - 1);
+    const double even = std::clamp((at - u.front()) / (u.back() - u.front()), 0.0, 1.0) * spans;
+    std::size_t k = std::min(static_cast<std::size_t>(even), u.size() - 2);
+    while (k > 0 && at < u[k]) {
+        --k;
+    }
+    while (k + 2 < u.size() && at >= u[k + 1]) {
+        ++k;
+    }
+    return k;
+}
+
 }  // namespace
 
 double DomainCurve::v_at(double at) const { return place_at(at).v; }
@@ -37,8 +52,7 @@ CurvePlace DomainCurve::place_at(double at) const
         const double t = std::clamp((at - u[0]) / (u[1] - u[0]), 0.0, 1.0);
         return {v[0] + t * (v[1] - v[0]), chord_slope(*this, 0)};
     }
-    const auto next = std::upper_bound(u.begin() + 1, u.end() - 1, at);
-    const std::size_t k = static_cast<std::size_t>(next - u.begin()) - 1;
+    const std::size_t k = span_of(u, at);
     const double h = u[k + 1] - u[k];
     const double t = std::clamp((at - u[k]) / h, 0.0, 1.0);
     const double m0 = slope_at(*this, k) * h;

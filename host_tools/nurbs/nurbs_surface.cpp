@@ -168,11 +168,11 @@ Vec3d upward_normal(const SurfacePoint& s)
     // Below this share of |du| |dv| the cross product is rounding.
     constexpr double kParallel = 1e-12;
     const Vec3d n = cross(s.du, s.dv);
-    const double length = norm(n);
-    if (!(length > kParallel * norm(s.du) * norm(s.dv))) {
+    const double square = dot(n, n);
+    if (!(square > kParallel * kParallel * dot(s.du, s.du) * dot(s.dv, s.dv))) {
         return {};
     }
-    const Vec3d unit = n / length;
+    const Vec3d unit = n / std::sqrt(square);
     if (std::abs(unit.z) > kParallel) {
         return unit.z < 0 ? -unit : unit;
     }

@@ -90,6 +90,11 @@ public:
         double nearness;
         double more;
         double top;  // nothing of the surroundings is higher
+        // Patches that are nearer than `range` to a ball's centre at `centre`, over the middle of
+        // the cell, or to anything straight above it.
+        mutable std::vector<const BezierCell*> patches;
+        mutable Vec3d centre;
+        mutable double range;
     };
     const Surroundings* surroundings() const { return surroundings_.get(); }
     void set_surroundings(const Surroundings& found) const

@@ -17,6 +17,7 @@ constexpr double kFootSlack = 1e-7;     // mm off the normal
 constexpr double kLeastBox = 1 / 12.0;  // radii: boxes that small prove nothing if they are near
 constexpr double kMostSkew = 0.9;       // cosine between du and dv
 constexpr double kUsualMargin = 0.01;   // radii
+constexpr double kRangeMore = 0.4;      // radii, for other contacts of the same cell
 constexpr double kMostShorter = 0.9;    // of a way in the tangent plane
 
 // Derivatives by u and v, as those of the cell are by its own parameters.
@@ -175,7 +176,8 @@ BezierCell::Surroundings find_surroundings(const SurfaceModel::State& state, con
     const SurfaceModel::State::Grid& grid = state.grids[static_cast<std::size_t>(cell.surface())];
     const auto [u_begin, u_end] = widened(grid.creases_u, cell.u_begin(), cell.u_end());
     const auto [v_begin, v_end] = widened(grid.creases_v, cell.v_begin(), cell.v_end());
-    BezierCell::Surroundings box{u_begin, u_end, v_begin, v_end, {}, {}, 0, kInfinite, 0};
+    BezierCell::Surroundings box{u_begin, u_end,     v_begin, v_end, {}, {},
+                                 0,       kInfinite, 0,       {},    {}, 0};
     const auto first = [](const std::vector<double>& breaks, double at) {
         return static_cast<std::size_t>(std::upper_bound(breaks.begin() + 1, breaks.end(), at) -
                                         breaks.begin()) -
@@ -249,8 +251,7 @@ std::optional<double> RollingBall::between(const Contact& a,
     const double share = &cells.of_a == &cells.of_b ? 8 : 2;
     const double margin =
         std::max(kUsualMargin * radius_, way / (share * std::min(a.distance, b.distance)));
-    if (rest_is_far(a, *cells.of_a.surroundings(), margin) &&
-        (way == 0 || rest_is_far(b, *cells.of_b.surroundings(), margin))) {
+    if (rest_is_far(a, cells.of_a, margin) && (way == 0 || rest_is_far(b, cells.of_b, margin))) {
         return near_between(a, b, cells, enough, depth);
     }
     if (way == 0 || depth == kDeepest) {
@@ -363,20 +364,39 @@ std::optional<RollingBall::Foot> RollingBall::foot_of_middle(const Contact& a,
 
 // Whether all but the surroundings is farther than the contact, by `margin`, from the centre and
 // from all that is straight above it.
-bool RollingBall::rest_is_far(const Contact& from,
-                              const BezierCell::Surroundings& near,
-                              double margin) const
+bool RollingBall::rest_is_far(const Contact& from, const BezierCell& cell, double margin) const
 {
     if (from.margin >= margin) {
         return true;
     }
+    const BezierCell::Surroundings& near = *cell.surroundings();
     const ToolCore ball{0, from.centre()};
     const double limit = from.distance + margin;
+    // Distances change by no more than the centre moves.
+    if (near.range < limit + norm(ball.end - near.centre)) {
+        find_patches(from, cell, limit);
+    }
+    const bool far = std::all_of(
+        near.patches.begin(), near.patches.end(),
+        [&](const BezierCell* patch) { return cell_is_far(*patch, ball, from, near, limit); });
+    if (far) {
+        from.margin = margin;
+    }
+    return far;
+}
+
+void RollingBall::find_patches(const Contact& from, const BezierCell& cell, double limit) const
+{
+    const BezierCell::Surroundings& near = *cell.surroundings();
+    near.centre = cell.middle().point + cell.axes()[0] * from.distance;
+    near.range = limit + std::max(kRangeMore * radius_, 1.1 * norm(from.centre() - near.centre));
+    near.patches.clear();
+    const ToolCore ball{0, near.centre};
     std::array<int, 128> stack{0};
     std::size_t count = 1;
     while (count > 0) {
         const BoxTree::Node& node = state_.tree.nodes[static_cast<std::size_t>(stack[--count])];
-        if (ball.distance_to_box(node.low, node.high) >= limit) {
+        if (ball.distance_to_box(node.low, node.high) >= near.range) {
             continue;
         }
         if (node.child[0] >= 0) {
@@ -385,13 +405,10 @@ bool RollingBall::rest_is_far(const Contact& from,
             continue;
         }
         const std::size_t item = static_cast<std::size_t>(-node.child[0] - 1);
-        if (item < state_.cells.size() &&
-            !cell_is_far(*state_.cells[item], ball, from, near, limit)) {
-            return false;
+        if (item < state_.cells.size()) {
+            near.patches.push_back(state_.cells[item].get());
         }
     }
-    from.margin = margin;
-    return true;
 }
 
 bool RollingBall::cell_is_far(const BezierCell& cell,

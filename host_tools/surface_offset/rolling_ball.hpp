@@ -65,9 +65,8 @@ private:
     std::optional<Foot> foot_of_middle(const Contact& a, const Contact& b) const;
     // The piece of a size the bounds are good for, with its surroundings known.
     const BezierCell& cell_of(const Contact& at) const;
-    bool rest_is_far(const Contact& from,
-                     const BezierCell::Surroundings& near,
-                     double margin) const;
+    bool rest_is_far(const Contact& from, const BezierCell& cell, double margin) const;
+    void find_patches(const Contact& from, const BezierCell& cell, double limit) const;
     bool cell_is_far(const BezierCell& cell,
                      const ToolCore& ball,
                      const Contact& from,
