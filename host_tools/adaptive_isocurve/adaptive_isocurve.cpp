@@ -10,6 +10,7 @@
 
 #include "host_tools/adaptive_isocurve/even_spacing.hpp"
 #include "host_tools/adaptive_isocurve/isocurve_extraction.hpp"
+#include "host_tools/adaptive_isocurve/mesh_isocurves.hpp"
 #include "host_tools/adaptive_isocurve/pass_tracer.hpp"
 #include "host_tools/adaptive_isocurve/ridge.hpp"
 #include "host_tools/adaptive_isocurve/rough_levels.hpp"
@@ -486,12 +487,16 @@ std::vector<PlannedOperation> plan(const Job& job, const Operation& operation, b
 {
     check_spacing(job, operation);
     std::vector<PlannedOperation> out;
-    IsocurvePlanner planner{job, operation};
+    const bool mesh = !complete && !operation.mesh.empty();
+    std::optional<IsocurvePlanner> planner;
+    if (!mesh) {
+        planner.emplace(job, operation);
+    }
     if (operation.roughing) {
         out = plan_rough_levels(job, operation);
     }
     const auto begin = std::chrono::steady_clock::now();
-    out.push_back(planner.plan(complete));
+    out.push_back(mesh ? plan_mesh_isocurves(job, operation) : planner->plan(complete));
     out.back().stats.planning_s =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return out;

@@ -88,7 +88,8 @@ std::vector<PlannedOperation> plan_rough_levels(const Job& job, const Operation&
 {
     const std::vector<Tool> tools = cutters_of(operation);
     check(job, operation, tools);
-    const SurfaceModel model{operation.floor};
+    const SurfaceModel model =
+        operation.mesh.empty() ? SurfaceModel{operation.floor} : SurfaceModel{operation.mesh};
     check_height(job, operation, model);
     const RoughStock stock = stock_of(job, model, operation.allowance);
     const double share = 1.0 / static_cast<double>(tools.size());

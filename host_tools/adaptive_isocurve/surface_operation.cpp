@@ -31,7 +31,8 @@ SurfaceOperation::SurfaceOperation(const Job& job,
     check_tool();
     check_form();
     check_surfaces();
-    model_ = std::make_unique<SurfaceModel>(surfaces_);
+    model_ = surfaces_.empty() ? std::make_unique<SurfaceModel>(operation.mesh)
+                               : std::make_unique<SurfaceModel>(surfaces_);
     const double top = job.stock_top + job.clearance;
     if (model_->box_high().z > top) {
         throw InputError(fmt::format(
@@ -42,7 +43,7 @@ SurfaceOperation::SurfaceOperation(const Job& job,
     certified_ = std::make_unique<CertifiedPasses>(
         *model_, operation.tool,
         make_pass_band(operation.floor_tolerance,
-                       operation.tolerance_side == ToleranceSide::kOutside));
+                       surfaces_.empty() || operation.tolerance_side == ToleranceSide::kOutside));
     certified_->guard_edges(surfaces_);
 }
 

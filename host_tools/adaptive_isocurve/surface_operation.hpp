@@ -15,6 +15,8 @@ namespace cusp::host {
 
 class SurfaceOperation {
 public:
+    // surfaces  none: the operation's mesh, on which a tolerance is one-sided always
+    //
     // Throws InputError for a job this cannot do: another tool than a ball, a boundary, a surface
     // without area, a part that rises over the clearance height.
     SurfaceOperation(const Job& job, const Operation& operation, std::vector<Surface> surfaces);

@@ -28,6 +28,9 @@ struct Operation {
     std::string strategy;
     std::vector<Surface> floor;
     std::vector<std::string> floor_files;
+    // adaptive_isocurve, where all of the floor is STL: its triangles; `floor` covers them
+    // smoothly.
+    std::vector<std::array<Vec3d, 3>> mesh;
     std::optional<Loop> boundary;
     std::string boundary_file;
     std::vector<Loop> islands;
@@ -104,6 +107,10 @@ std::vector<Surface> read_surfaces(const std::string& file,
                                    double millimetres = 1.0,
                                    double mesh_tolerance = 0.01,
                                    std::vector<std::string>* notes = nullptr);
+// The triangles of an STL file, in mm. `notes` gets what was left out and what overhangs.
+std::vector<std::array<Vec3d, 3>> read_mesh(const std::string& file,
+                                            double millimetres,
+                                            std::vector<std::string>* notes = nullptr);
 // Closed to 1e-3 mm, simple, oriented counter-clockwise. `name` of a drawing may end in #layer.
 Loop read_loop(const std::string& name, double millimetres = 1.0);
 

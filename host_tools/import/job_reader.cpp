@@ -8,6 +8,7 @@
 #include "host_tools/import/job.hpp"
 #include "host_tools/import/job_table.hpp"
 #include "host_tools/import/loop_shape.hpp"
+#include "host_tools/import/path_ending.hpp"
 #include "host_tools/import/text_of_file.hpp"
 
 #include "fmt/format.h"
@@ -81,6 +82,8 @@ private:
     void read_tool_choice(JobTable& table, Operation& operation);
     void read_strategy_keys(JobTable& table, Operation& operation);
     void read_grid(JobTable& table, Operation& operation);
+    bool takes_mesh(const Operation& operation, const std::vector<std::string>& floor) const;
+    void read_mesh_of(const std::vector<std::string>& floor, Operation& operation);
     void read_parts(JobTable& table, Operation& operation);
     void check_strategy(const JobTable& table, const Operation& operation) const;
     const Tool& tool_numbered(const JobTable& table, const char* key, int number) const;
@@ -102,6 +105,7 @@ private:
     Job job_;
     std::map<std::string, Loop> loops_;
     std::map<std::string, std::vector<Surface>> surfaces_;
+    std::map<std::string, std::vector<std::array<Vec3d, 3>>> meshes_;
 };
 
 std::string JobReader::path_of(const std::string& name) const
@@ -335,14 +339,36 @@ void JobReader::read_strategy_keys(JobTable& table, Operation& operation)
     operation.step_over = length(table, "step_over", kPositive);
 }
 
+// Isocurves run over a mesh itself; what its height field keeps off it is no matter then.
+bool JobReader::takes_mesh(const Operation& operation, const std::vector<std::string>& floor) const
+{
+    return operation.strategy == "adaptive_isocurve" &&
+           std::all_of(floor.begin(), floor.end(),
+                       [](const std::string& name) { return path_ending(name) == ".stl"; });
+}
+
+void JobReader::read_mesh_of(const std::vector<std::string>& floor, Operation& operation)
+{
+    for (const std::string& name : floor) {
+        const std::string path = path_of(name);
+        if (meshes_.count(path) == 0) {
+            meshes_[path] = read_mesh(path, unit_, &job_.notes);
+        }
+        operation.mesh.insert(operation.mesh.end(), meshes_[path].begin(), meshes_[path].end());
+    }
+}
+
 void JobReader::read_parts(JobTable& table, Operation& operation)
 {
-    for (const std::string& name : table.texts("floor").value_or(std::vector<std::string>{})) {
+    const std::vector<std::string> floor =
+        table.texts("floor").value_or(std::vector<std::string>{});
+    const bool mesh = takes_mesh(operation, floor);
+    for (const std::string& name : floor) {
         const std::string path = path_of(name);
         if (surfaces_.count(path) == 0) {
             // half of what the floor may be off goes to a mesh's height field
-            surfaces_[path] =
-                read_surfaces(path, unit_, operation.floor_tolerance / 2, &job_.notes);
+            surfaces_[path] = read_surfaces(path, unit_, operation.floor_tolerance / 2,
+                                            mesh ? nullptr : &job_.notes);
         }
         operation.floor_files.push_back(path);
         operation.floor.insert(operation.floor.end(), surfaces_[path].begin(),
@@ -350,6 +376,9 @@ void JobReader::read_parts(JobTable& table, Operation& operation)
     }
     if (operation.floor.empty()) {
         table.refuse("floor", "is missing: files with the surfaces to cut");
+    }
+    if (mesh) {
+        read_mesh_of(floor, operation);
     }
     const auto loop = [&](const std::string& path) {
         if (loops_.count(path) == 0) {

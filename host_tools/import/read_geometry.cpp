@@ -147,6 +147,17 @@ std::vector<Surface> read_surfaces(const std::string& file,
         "{}: surfaces are read from .json, .stl, .step and .iges, not from \"{}\"", file, ending));
 }
 
+std::vector<std::array<Vec3d, 3>> read_mesh(const std::string& file,
+                                            double millimetres,
+                                            std::vector<std::string>* notes)
+{
+    Facets facets = read_stl(file, millimetres);
+    if (notes != nullptr) {
+        describe(file, facets, overhang_area(facets), *notes);
+    }
+    return std::move(facets.triangles);
+}
+
 Loop read_loop(const std::string& name, double millimetres)
 {
     // "plate.dxf#outline" asks for one layer

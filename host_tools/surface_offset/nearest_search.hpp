@@ -3,9 +3,11 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "host_tools/surface_offset/bezier_cell.hpp"
+#include "host_tools/surface_offset/facet_distance.hpp"
 #include "host_tools/surface_offset/surface_model.hpp"
 #include "host_tools/surface_offset/tool_core.hpp"
 #include "host_tools/surface_offset/trim_region.hpp"
@@ -31,7 +33,8 @@ struct SurfaceModel::State {
     std::vector<std::array<Vec3d, 2>> edges;
     std::vector<int> edge_surface;
     double edge_error{};
-    BoxTree tree;  // cells first, then edges
+    std::vector<Facet> facets;
+    BoxTree tree;  // cells first, then edges, then facets
     Vec3d low;
     Vec3d high;
     // To find the cell of a parameter pair: breaks of u and v and the first cell, per surface.
@@ -53,6 +56,7 @@ struct SurfaceModel::State {
     mutable const BezierCell* last_cell{nullptr};
     mutable double last_s{};
     mutable double last_t{};
+    mutable std::size_t last_facet{};
 };
 
 // The lower bound of the distance from the core to the model, cut off at `limit`, and its place.
@@ -61,6 +65,24 @@ struct NearestResult {
     NearestPlace place;
 };
 NearestResult nearest(const SurfaceModel::State& state, const ToolCore& core, double limit);
+
+// A ball let down at (x, y) on the facets of a model; none where it passes beside all of them.
+// Where several are met at once, the one that faces the ball most.
+struct MeshContact {
+    FacetContact at;
+    std::size_t facet;
+};
+std::optional<MeshContact> rest_on_facets(const SurfaceModel::State& state,
+                                          double x,
+                                          double y,
+                                          double radius);
+
+// The highest facet at (x, y).
+struct FacetUnder {
+    std::size_t facet;
+    double height;
+};
+std::optional<FacetUnder> highest_facet(const SurfaceModel::State& state, double x, double y);
 
 // Whether all of the model is at least so far from the core: ends at the first place that is not.
 bool keeps_away(const SurfaceModel::State& state, const ToolCore& core, double least);

@@ -135,9 +135,44 @@ SurfaceModel::SurfaceModel(const std::vector<Surface>& surfaces, double edge_err
     }
 }
 
+SurfaceModel::SurfaceModel(const std::vector<std::array<Vec3d, 3>>& triangles)
+    : state_{std::make_unique<State>()}
+{
+    std::vector<std::array<Vec3d, 2>> boxes;
+    for (const auto& corners : triangles) {
+        state_->facets.emplace_back(corners);
+        boxes.push_back({state_->facets.back().low, state_->facets.back().high});
+    }
+    state_->tree = make_box_tree(boxes);
+    if (!state_->tree.nodes.empty()) {
+        state_->low = state_->tree.nodes.front().low;
+        state_->high = state_->tree.nodes.front().high;
+    }
+}
+
 SurfaceModel::~SurfaceModel() = default;
 SurfaceModel::SurfaceModel(SurfaceModel&&) noexcept = default;
 SurfaceModel& SurfaceModel::operator=(SurfaceModel&&) noexcept = default;
+
+std::optional<SurfaceModel::MeshRest> SurfaceModel::rest_on_mesh(double x,
+                                                                 double y,
+                                                                 double radius) const
+{
+    const std::optional<MeshContact> found = rest_on_facets(*state_, x, y, radius);
+    if (!found) {
+        return std::nullopt;
+    }
+    return MeshRest{{x, y, found->at.centre}, found->at.point, state_->facets[found->facet].normal};
+}
+
+std::optional<SurfaceModel::MeshTop> SurfaceModel::top_of_mesh(double x, double y) const
+{
+    const std::optional<FacetUnder> found = highest_facet(*state_, x, y);
+    if (!found) {
+        return std::nullopt;
+    }
+    return MeshTop{{x, y, found->height}, state_->facets[found->facet].normal};
+}
 
 Vec3d SurfaceModel::box_low() const { return state_->low; }
 Vec3d SurfaceModel::box_high() const { return state_->high; }
@@ -230,6 +265,10 @@ std::optional<double> SurfaceModel::drop(const Tool& tool,
                                          double y,
                                          std::optional<double> guess) const
 {
+    if (state_->cells.empty() && tool.corner_radius == tool.radius) {
+        const std::optional<MeshContact> found = rest_on_facets(*state_, x, y, tool.radius);
+        return found ? std::optional{found->at.centre - tool.radius} : std::nullopt;
+    }
     const double floor = state_->low.z - tool.radius - 1;
     const double nothing = -std::numeric_limits<double>::infinity();
     // `high` is free of the model; `low` would touch a known place, so the answer is not below it.

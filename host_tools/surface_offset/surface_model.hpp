@@ -3,6 +3,7 @@
 // by bounds from the control points.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
@@ -53,6 +54,9 @@ public:
     // edge_error  mm: how far the polylines that stand for trimmed edges may be from the edges;
     //             distances to trimmed surfaces are low by at most this
     explicit SurfaceModel(const std::vector<Surface>& surfaces, double edge_error = 1e-4);
+
+    // A mesh: its triangles as they are, whichever way they look. None may be without area.
+    explicit SurfaceModel(const std::vector<std::array<Vec3d, 3>>& triangles);
     ~SurfaceModel();
     SurfaceModel(SurfaceModel&&) noexcept;
     SurfaceModel& operator=(SurfaceModel&&) noexcept;
@@ -101,6 +105,21 @@ public:
                                double x,
                                double y,
                                std::optional<double> guess = std::nullopt) const;
+
+    // A ball let down at (x, y) on a mesh; none where it misses the mesh.
+    struct MeshRest {
+        Vec3d centre;
+        Vec3d point;   // that it rests on
+        Vec3d normal;  // of the facet there, never downward
+    };
+    std::optional<MeshRest> rest_on_mesh(double x, double y, double radius) const;
+
+    // The highest place of a mesh at (x, y). None beside the mesh; upright facets have no height.
+    struct MeshTop {
+        Vec3d point;
+        Vec3d normal;
+    };
+    std::optional<MeshTop> top_of_mesh(double x, double y) const;
 
     Vec3d box_low() const;
     Vec3d box_high() const;

@@ -35,6 +35,10 @@ LowestReach::LowestReach(const std::vector<Surface>& surfaces,
 
 LowestReach::Node LowestReach::dropped(double x, double y)
 {
+    if (surfaces_.empty()) {
+        const auto rest = certified_.model().rest_on_mesh(x, y, contact_radius_);
+        return rest ? Node{rest->centre, rest->point} : Node{{x, y, kNever}, {}};
+    }
     // Most models never ask.
     if (!floor_) {
         floor_.emplace(surfaces_, certified_.lifted_tool(), kDropAccuracy);

@@ -21,7 +21,7 @@ namespace cusp::host {
 // A search, not a proof: a better position may hide between the places of the grid.
 class LowestReach {
 public:
-    // surfaces  of the model that the passes are certified on
+    // surfaces  of the model that the passes are certified on; none: it is a mesh
     // pitch     mm, of the grid
     LowestReach(const std::vector<Surface>& surfaces,
                 const CertifiedPasses& certified,

@@ -115,7 +115,7 @@ Ideal ideal_heights(const FloorQuestion& q, const PartHeights& part)
 {
     HeightGrid level = q.grid;
     level.shifted = false;
-    const PartHeights flat = part_heights(q.surfaces, level);
+    const PartHeights flat = part_heights(q.surfaces, q.mesh, level);
     const std::vector<double> best = best_heights(q, level, flat.z);
     // the closing of a map of points is high by this much on a smooth floor
     const double slack = 0.002 + level.pitch * level.pitch / (4 * least_radius(q.tools));
@@ -172,7 +172,7 @@ void fill_figures(const Sums& sums, std::size_t cells, VerifyFigures& figures)
 
 std::vector<double> judge_floor(const FloorQuestion& q, VerifyFigures& figures)
 {
-    const PartHeights part = part_heights(q.surfaces, q.grid);
+    const PartHeights part = part_heights(q.surfaces, q.mesh, q.grid);
     const Ideal ideal = ideal_heights(q, part);
     const double radius = least_radius(q.tools);
     const double bound = q.scallop.value_or(kFar);

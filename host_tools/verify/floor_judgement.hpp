@@ -1,6 +1,7 @@
 // What stands after cutting, compared with the part: gouge, scallop, uncut floor.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace cusp::host {
 
 struct FloorQuestion {
     const std::vector<Surface>& surfaces;
+    const std::vector<std::array<Vec3d, 3>>& mesh;
     const std::vector<Tool>& tools;  // those that the program cuts with
     const std::vector<WallDistance>& walls;
     const HeightGrid& grid;

@@ -170,9 +170,41 @@ void fill(const Quad& quad,
     }
 }
 
+// The same below one triangle.
+void fill(const std::array<Vec3d, 3>& t, const HeightGrid& grid, PartHeights& heights)
+{
+    constexpr double kUpright = 1e-9;  // z of the normal
+    constexpr double kOnSide = 1e-12;  // of the triangle
+    const Vec3d across = cross(t[1] - t[0], t[2] - t[0]);
+    const double cosine = std::abs(across.z) / norm(across);
+    if (!(cosine > kUpright)) {
+        return;
+    }
+    const auto [x_low, x_high] = std::minmax({t[0].x, t[1].x, t[2].x});
+    const auto [y_low, y_high] = std::minmax({t[0].y, t[1].y, t[2].y});
+    for (std::size_t i = grid.first_column(x_low); i < grid.end_column(x_high); ++i) {
+        for (std::size_t j = grid.first_row(y_low); j < grid.end_row(y_high); ++j) {
+            const double ex = grid.x(i, j) - t[0].x;
+            const double ey = grid.y(i, j) - t[0].y;
+            const Vec3d b = t[1] - t[0];
+            const Vec3d c = t[2] - t[0];
+            const double s = (ex * c.y - ey * c.x) / across.z;
+            const double r = (b.x * ey - b.y * ex) / across.z;
+            const double z = t[0].z + s * b.z + r * c.z;
+            const std::size_t at = grid.index(i, j);
+            if (s >= -kOnSide && r >= -kOnSide && s + r <= 1 + kOnSide && z > heights.z[at]) {
+                heights.z[at] = z;
+                heights.cosine[at] = cosine;
+            }
+        }
+    }
+}
+
 }  // namespace
 
-PartHeights part_heights(const std::vector<Surface>& surfaces, const HeightGrid& grid)
+PartHeights part_heights(const std::vector<Surface>& surfaces,
+                         const std::vector<std::array<Vec3d, 3>>& triangles,
+                         const HeightGrid& grid)
 {
     PartHeights heights{std::vector<double>(grid.size(), -std::numeric_limits<double>::infinity()),
                         std::vector<double>(grid.size(), 1.0)};
@@ -187,28 +219,35 @@ PartHeights part_heights(const std::vector<Surface>& surfaces, const HeightGrid&
             }
         });
     }
+    for (const auto& triangle : triangles) {
+        fill(triangle, grid, heights);
+    }
     for (double& z : heights.z) {
         z = std::isfinite(z) ? z : std::numeric_limits<double>::quiet_NaN();
     }
     return heights;
 }
 
-PartBox part_box(const std::vector<Surface>& surfaces)
+PartBox part_box(const std::vector<Surface>& surfaces,
+                 const std::vector<std::array<Vec3d, 3>>& triangles)
 {
     constexpr double kFar = std::numeric_limits<double>::infinity();
     constexpr int kSamples = 24;
     PartBox box{kFar, -kFar, kFar, -kFar, kFar, -kFar};
+    const auto widen = [&box](Vec3d p) {
+        box = {std::min(box.x_low, p.x),  std::max(box.x_high, p.x), std::min(box.y_low, p.y),
+               std::max(box.y_high, p.y), std::min(box.z_low, p.z),  std::max(box.z_high, p.z)};
+    };
+    for (const auto& triangle : triangles) {
+        std::for_each(triangle.begin(), triangle.end(), widen);
+    }
     for (const Surface& surface : surfaces) {
         for (const BezierPatch& patch : bezier_patches(surface)) {
             for (int k = 0; k < (kSamples + 1) * (kSamples + 1); ++k) {
                 const double a = static_cast<double>(k % (kSamples + 1)) / kSamples;
                 const double b = static_cast<double>(k / (kSamples + 1)) / kSamples;
-                const Vec3d p =
-                    point_at(patch.surface, patch.u_begin + a * (patch.u_end - patch.u_begin),
-                             patch.v_begin + b * (patch.v_end - patch.v_begin));
-                box = {std::min(box.x_low, p.x), std::max(box.x_high, p.x),
-                       std::min(box.y_low, p.y), std::max(box.y_high, p.y),
-                       std::min(box.z_low, p.z), std::max(box.z_high, p.z)};
+                widen(point_at(patch.surface, patch.u_begin + a * (patch.u_end - patch.u_begin),
+                               patch.v_begin + b * (patch.v_end - patch.v_begin)));
             }
         }
     }

@@ -1,6 +1,7 @@
 // The part seen from above: the upper envelope of its surfaces over a grid.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "host_tools/nurbs/nurbs.hpp"
@@ -15,13 +16,17 @@ struct PartHeights {
 
 // Heights are roots of the surfaces' equations (Newton), not interpolated. Surfaces that stand
 // upright have no height. Trims are honoured.
-PartHeights part_heights(const std::vector<Surface>& surfaces, const HeightGrid& grid);
+// Triangles count as they are; upright ones have no height.
+PartHeights part_heights(const std::vector<Surface>& surfaces,
+                         const std::vector<std::array<Vec3d, 3>>& triangles,
+                         const HeightGrid& grid);
 
 struct PartBox {
     double x_low, x_high, y_low, y_high, z_low, z_high;
 };
 
-// Of the surfaces' points, sampled.
-PartBox part_box(const std::vector<Surface>& surfaces);
+// Of the surfaces' points, sampled, and of the triangles.
+PartBox part_box(const std::vector<Surface>& surfaces,
+                 const std::vector<std::array<Vec3d, 3>>& triangles = {});
 
 }  // namespace cusp::host

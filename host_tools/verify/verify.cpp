@@ -25,6 +25,7 @@ constexpr double kUncoveredAllowed = 0.01;
 // The parts and walls of all operations, each file once.
 struct Scene {
     std::vector<Surface> surfaces;
+    std::vector<std::array<Vec3d, 3>> mesh;
     std::vector<std::pair<Loop, bool>> loops;  // true: a boundary
     double floor_tolerance{};
     double plan_tolerance{};
@@ -35,9 +36,14 @@ Scene scene_of(const Job& job)
 {
     Scene scene;
     std::set<std::vector<std::string>> floors;
+    std::set<std::vector<std::string>> meshes;
     std::set<std::string> loops;
     for (const Operation& operation : job.operations) {
-        if (floors.insert(operation.floor_files).second) {
+        if (!operation.mesh.empty()) {
+            if (meshes.insert(operation.floor_files).second) {
+                scene.mesh.insert(scene.mesh.end(), operation.mesh.begin(), operation.mesh.end());
+            }
+        } else if (floors.insert(operation.floor_files).second) {
             scene.surfaces.insert(scene.surfaces.end(), operation.floor.begin(),
                                   operation.floor.end());
         }
@@ -123,7 +129,7 @@ HeightGrid make_grid(const Job& job,
                      double least_radius,
                      std::optional<double> pitch)
 {
-    PartBox box = part_box(scene.surfaces);
+    PartBox box = part_box(scene.surfaces, scene.mesh);
     if (job.stock_x) {
         box.x_low = std::min(box.x_low, (*job.stock_x)[0]);
         box.x_high = std::max(box.x_high, (*job.stock_x)[1]);
@@ -144,11 +150,12 @@ HeightGrid make_grid(const Job& job,
 }
 
 // How deep balls go into the part, by exact distances.
-std::optional<double> ball_gouge(const std::vector<Surface>& surfaces,
+std::optional<double> ball_gouge(const Scene& scene,
                                  const std::vector<ToolPositions>& runs,
                                  double top)
 {
-    const SurfaceModel model{surfaces};
+    const SurfaceModel model{scene.surfaces};
+    const SurfaceModel mesh{scene.mesh};
     std::optional<double> deepest;
     for (const ToolPositions& run : runs) {
         if (run.tool.shape != ToolShape::kBall) {
@@ -157,7 +164,8 @@ std::optional<double> ball_gouge(const std::vector<Surface>& surfaces,
         deepest = deepest.value_or(0.0);
         for (const Vec3d tip : run.tips) {
             if (tip.z < top) {
-                deepest = std::max(*deepest, -model.clearance(run.tool, tip, 0.0).distance);
+                deepest = std::max({*deepest, -model.clearance(run.tool, tip, 0.0).distance,
+                                    -mesh.clearance(run.tool, tip, 0.0).distance});
             }
         }
     }
@@ -253,10 +261,10 @@ Verification verify(const Job& job,
     if (!walls.empty()) {
         figures.wall_gouge_max = wall_gouge(walls, runs, job.stock_top);
     }
-    figures.ball_gouge_max = ball_gouge(scene.surfaces, runs, job.stock_top);
-    result.left = judge_floor(
-        {scene.surfaces, tools, walls, result.grid, stock.heights(), job.stock_top, scene.scallop},
-        figures);
+    figures.ball_gouge_max = ball_gouge(scene, runs, job.stock_top);
+    result.left = judge_floor({scene.surfaces, scene.mesh, tools, walls, result.grid,
+                               stock.heights(), job.stock_top, scene.scallop},
+                              figures);
     judge(scene, result);
     return result;
 }

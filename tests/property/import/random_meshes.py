@@ -3,7 +3,8 @@
 
 usage: random_meshes.py CUSP [--first SEED] [--count N] [--keep FOLDER]
 
-Boxes and steps on a plate, cylinders, domes on walls, drafted blocks, half pipes, wavy lids. Every place of the path is
+Boxes and steps on a plate, cylinders, domes and barrels on walls, drafted blocks, half pipes, wavy
+lids. Every place of the path is
 compared with all triangles near it: the ball with facets, sides and corners, the shank over it seen from above. What is
 left is compared with the lowest the ball can get over the part's own heights. Exit status 1 where a bound does not hold.
 """
@@ -135,6 +136,23 @@ def half_pipe(rng):
     return out
 
 
+def barrel(rng):
+    """A cylinder's upper side on upright walls, its facets long and narrow."""
+    r, n = rng.uniform(12, 25), rng.choice([16, 48])
+    a, b = rng.uniform(5, 9), rng.uniform(5, 9)
+    out = plate()
+    ys = [12 - b + 2 * b * k / n for k in range(n + 1)]
+    zs = [-4 - r + math.sqrt(r * r - (y - 12)**2) for y in ys]
+    for k in range(n):
+        low, high = (ys[k], zs[k]), (ys[k + 1], zs[k + 1])
+        out += quad((12 - a, *low), (12 + a, *low), (12 + a, *high), (12 - a, *high))
+        for x in (12 - a, 12 + a):
+            out += quad((x, ys[k], -10), (x, ys[k + 1], -10), (x, *high), (x, *low))
+    for y, z in ((ys[0], zs[0]), (ys[-1], zs[-1])):
+        out += quad((12 - a, y, -10), (12 + a, y, -10), (12 + a, y, z), (12 - a, y, z))
+    return out
+
+
 def wavy_lid(rng, n=24):
     a, f, g = rng.uniform(0.5, 1.5), rng.uniform(0.2, 0.45), rng.uniform(0.2, 0.45)
     x0, x1 = 4.0, 20.0
@@ -154,7 +172,7 @@ def wavy_lid(rng, n=24):
     return out
 
 
-KINDS = [terraces, boxes, cylinders, dome, drafted, half_pipe, wavy_lid]
+KINDS = [terraces, boxes, cylinders, dome, drafted, half_pipe, wavy_lid, barrel]
 
 
 def write_stl(path, triangles, binary):
@@ -235,7 +253,9 @@ def deepest(tips, radius, triangles):
 
 
 def heights(triangles, xs, ys):
+    """Heights of the part seen from above, and the cosine of the slope there."""
     z = numpy.full((len(xs), len(ys)), -numpy.inf)
+    cosine = numpy.ones((len(xs), len(ys)))
     for a, b, c in numpy.array(triangles):
         det = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])
         if abs(det) < 1e-12:
@@ -247,8 +267,11 @@ def heights(triangles, xs, ys):
         u = ((b[0] - a[0]) * (y - a[1]) - (x - a[0]) * (b[1] - a[1])) / det
         inside = (s >= -1e-9) & (u >= -1e-9) & (s + u <= 1 + 1e-9)
         h = a[2] + s * (b[2] - a[2]) + u * (c[2] - a[2])
-        z[i0:i1, j0:j1] = numpy.where(inside, numpy.maximum(z[i0:i1, j0:j1], h), z[i0:i1, j0:j1])
-    return z
+        n = numpy.cross(b - a, c - a)
+        higher = inside & (h > z[i0:i1, j0:j1])
+        cosine[i0:i1, j0:j1] = numpy.where(higher, abs(n[2]) / numpy.linalg.norm(n), cosine[i0:i1, j0:j1])
+        z[i0:i1, j0:j1] = numpy.where(higher, h, z[i0:i1, j0:j1])
+    return z, cosine
 
 
 def under_ball(z, radius, sign):
@@ -267,9 +290,9 @@ def under_ball(z, radius, sign):
 
 
 def left(tips, radius, triangles):
-    """Metal over what the ball can reach, mm upright, at places of a grid: 99 of 100, and the most on open ground."""
+    """Metal over what the ball can reach, square to the part, at places of a grid: 99 of 100, and the most on open ground."""
     xs = numpy.arange(GRID / 2, SIZE, GRID)
-    part = heights(triangles, xs, xs)
+    part, cosine = heights(triangles, xs, xs)
     reach = under_ball(under_ball(part, radius, 1), radius, -1)
     stock = numpy.zeros(part.shape)
     n = int(radius / GRID) + 1
@@ -282,7 +305,7 @@ def left(tips, radius, triangles):
         z = tip[2] + radius - numpy.sqrt(radius * radius - away[on]**2)
         index = (at[on, 0], at[on, 1])
         stock[index] = numpy.minimum(stock[index], z)
-    over = stock - numpy.maximum(reach, part)
+    over = (stock - numpy.maximum(reach, part)) * cosine
     # Beside walls the grid tells neither where they stand nor how far the ball gets.
     n = int(radius / GRID) + 2
     padded = numpy.pad(part, n, mode="edge")
@@ -341,7 +364,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("cusp")
     parser.add_argument("--first", type=int, default=0)
-    parser.add_argument("--count", type=int, default=7)
+    parser.add_argument("--count", type=int, default=8)
     parser.add_argument("--keep", type=pathlib.Path, help="folder for the cases, instead of a temporary one")
     options = parser.parse_args()
     good = True

@@ -30,7 +30,7 @@ TEST_GROUP(PartHeights){};
 TEST(PartHeights, OfATiltedPlaneAreExact)
 {
     const HeightGrid grid{0.25, 0.25, 0.5, 20, 20, true};
-    const PartHeights heights = part_heights({tilted_square(10, 5)}, grid);
+    const PartHeights heights = part_heights({tilted_square(10, 5)}, {}, grid);
     for (std::size_t i = 0; i < grid.nx; ++i) {
         for (std::size_t j = 0; j < grid.ny; ++j) {
             DOUBLES_EQUAL(grid.x(i, j) / 2, heights.z[grid.index(i, j)], 1e-7);
@@ -46,7 +46,7 @@ TEST(PartHeights, AreTheUpperEnvelopeOfSeveralSurfaces)
     for (Vec3d& p : level.points) {
         p.z = 2;
     }
-    const PartHeights heights = part_heights({tilted_square(10, 5), level}, grid);
+    const PartHeights heights = part_heights({tilted_square(10, 5), level}, {}, grid);
     DOUBLES_EQUAL(2, heights.z[grid.index(2, 5)], 1e-7);
     CHECK(heights.z[grid.index(15, 5)] > 3);
 }
@@ -63,7 +63,7 @@ TEST(PartHeights, AreMissingOutsideAndInTrimmedHoles)
         return std::vector<Curve>{hole ? reversed(curve) : curve};
     };
     holed.trims = {loop(0, 1, false), loop(0.4, 0.6, true)};
-    const PartHeights heights = part_heights({holed}, grid);
+    const PartHeights heights = part_heights({holed}, {}, grid);
     CHECK(std::isnan(heights.z[grid.index(23, 5)]));
     CHECK(std::isnan(heights.z[grid.index(10, 10)]));
     CHECK(std::isfinite(heights.z[grid.index(5, 10)]));

@@ -1,0 +1,247 @@
+// Sides of a grid that a crease crosses, halved down to it; cells chain them.
+#include "host_tools/adaptive_isocurve/mesh_creases.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace cusp::host {
+namespace {
+
+constexpr double kTurned = 0.94;    // cosine between normals on both sides
+constexpr double kApart = 0.05;     // radii between contacts
+constexpr double kFound = 1e-5;     // mm
+constexpr double kSag = 0.2;        // of the lift, between places of a crease
+constexpr int kDeepest = 6;         // halvings between two crossings
+constexpr double kShortest = 0.05;  // radii
+constexpr std::size_t kMostGrid = 700;
+
+using Rest = SurfaceModel::MeshRest;
+// A side of the grid: its lower node and whether it runs along x.
+using GridSide = std::pair<std::size_t, bool>;
+
+class CreaseFinder {
+public:
+    CreaseFinder(const CertifiedPasses& certified, double pitch)
+        : certified_{certified}, radius_{certified.lifted_tool().radius}
+    {
+        const Vec3d low = certified.model().box_low();
+        const Vec3d high = certified.model().box_high();
+        nx_ = count(high.x - low.x, pitch);
+        ny_ = count(high.y - low.y, pitch);
+        for (std::size_t i = 0; i < nx_; ++i) {
+            for (std::size_t j = 0; j < ny_; ++j) {
+                // Out of step with the part, so that its edges fall on no line of the grid.
+                const double x = (static_cast<double>(i) + 0.37) / static_cast<double>(nx_);
+                const double y = (static_cast<double>(j) + 0.41) / static_cast<double>(ny_);
+                places_.push_back({low.x + (high.x - low.x) * x, low.y + (high.y - low.y) * y});
+                rests_.push_back(rest(places_.back()));
+            }
+        }
+    }
+
+    std::vector<Points> creases()
+    {
+        for (std::size_t i = 0; i + 1 < nx_; ++i) {
+            for (std::size_t j = 0; j + 1 < ny_; ++j) {
+                cross_cell(i * ny_ + j);
+            }
+        }
+        std::vector<Points> out;
+        for (const bool open : {true, false}) {
+            for (const auto& [side, neighbours] : neighbours_) {
+                if (!used_[side] && (neighbours.size() == 1 || !open)) {
+                    Points tips = tips_along(walk(side));
+                    if (length_of(tips) > kShortest * radius_) {
+                        out.push_back(std::move(tips));
+                    }
+                }
+            }
+        }
+        return out;
+    }
+
+private:
+    struct Crossing {
+        Vec2d from;
+        Vec2d to;
+        Vec3d tip;
+    };
+
+    static std::size_t count(double length, double pitch)
+    {
+        return std::clamp<std::size_t>(static_cast<std::size_t>(length / pitch) + 2, 4, kMostGrid);
+    }
+
+    std::optional<Rest> rest(Vec2d at) const
+    {
+        return certified_.model().rest_on_mesh(at.x, at.y, radius_);
+    }
+
+    // How much farther apart two contacts are than the centres.
+    static double jump(const Rest& a, const Rest& b)
+    {
+        return norm(b.point - a.point) - norm(b.centre - a.centre);
+    }
+
+    bool turned(const Rest& a, const Rest& b) const
+    {
+        const double square = radius_ * radius_;
+        return dot(a.centre - a.point, b.centre - b.point) < kTurned * square &&
+               norm(b.point - a.point) > kApart * radius_ && jump(a, b) > 0;
+    }
+
+    std::optional<Crossing> crossing(Vec2d from, Vec2d to) const
+    {
+        const std::optional<Rest> at_from = rest(from);
+        const std::optional<Rest> at_to = rest(to);
+        if (!at_from || !at_to || !turned(*at_from, *at_to)) {
+            return std::nullopt;
+        }
+        Rest a = *at_from;
+        Rest b = *at_to;
+        Vec2d low = from;
+        Vec2d high = to;
+        while (std::hypot(high.x - low.x, high.y - low.y) > kFound) {
+            const Vec2d middle = (low + high) * 0.5;
+            const std::optional<Rest> m = rest(middle);
+            if (!m) {
+                return std::nullopt;
+            }
+            if (jump(a, *m) > jump(*m, b)) {
+                b = *m;
+                high = middle;
+            } else {
+                a = *m;
+                low = middle;
+            }
+        }
+        if (!turned(a, b)) {
+            return std::nullopt;
+        }
+        const Vec3d centre = a.centre.z < b.centre.z ? a.centre : b.centre;
+        return Crossing{from, to, centre - Vec3d{0, 0, certified_.tool().radius}};
+    }
+
+    bool crosses(std::size_t a, std::size_t b) const
+    {
+        return rests_[a] && rests_[b] && turned(*rests_[a], *rests_[b]);
+    }
+
+    void cross_cell(std::size_t k)
+    {
+        const std::array<std::pair<GridSide, bool>, 4> sides{
+            {{{k, true}, crosses(k, k + ny_)},
+             {{k + ny_, false}, crosses(k + ny_, k + ny_ + 1)},
+             {{k + 1, true}, crosses(k + 1, k + ny_ + 1)},
+             {{k, false}, crosses(k, k + 1)}}};
+        std::vector<GridSide> crossed;
+        for (const auto& [side, across] : sides) {
+            if (across && found(side)) {
+                crossed.push_back(side);
+            }
+        }
+        for (std::size_t n = 0; n + 1 < crossed.size(); n += 2) {
+            neighbours_[crossed[n]].push_back(crossed[n + 1]);
+            neighbours_[crossed[n + 1]].push_back(crossed[n]);
+        }
+    }
+
+    const std::optional<Crossing>& found(const GridSide& side)
+    {
+        const auto known = crossings_.find(side);
+        if (known != crossings_.end()) {
+            return known->second;
+        }
+        const auto [node, along_x] = side;
+        return crossings_[side] = crossing(places_[node], places_[node + (along_x ? ny_ : 1)]);
+    }
+
+    std::vector<GridSide> walk(GridSide from)
+    {
+        std::vector<GridSide> chain{from};
+        used_[from] = true;
+        for (bool more = true; more;) {
+            more = false;
+            for (const GridSide& next : neighbours_[chain.back()]) {
+                if (!used_[next]) {
+                    used_[next] = true;
+                    chain.push_back(next);
+                    more = true;
+                    break;
+                }
+            }
+        }
+        const auto& back = neighbours_[chain.back()];
+        if (chain.size() > 2 && std::find(back.begin(), back.end(), from) != back.end()) {
+            chain.push_back(from);
+        }
+        return chain;
+    }
+
+    Points tips_along(const std::vector<GridSide>& chain)
+    {
+        std::vector<Crossing> at;
+        for (const GridSide& side : chain) {
+            Crossing next = *crossings_[side];
+            // The same side of the crease first, so that ways between two lead across it.
+            if (!at.empty() && farther(at.back(), next)) {
+                std::swap(next.from, next.to);
+            }
+            at.push_back(next);
+        }
+        Points tips{at.front().tip};
+        for (std::size_t k = 1; k < at.size(); ++k) {
+            append(at[k - 1], at[k], 0, tips);
+        }
+        return tips;
+    }
+
+    static bool farther(const Crossing& a, const Crossing& b)
+    {
+        const auto square = [](Vec2d d) {
+            return d.x * d.x + d.y * d.y;
+        };
+        return square(b.from - a.from) + square(b.to - a.to) >
+               square(b.to - a.from) + square(b.from - a.to);
+    }
+
+    void append(const Crossing& a, const Crossing& b, int depth, Points& tips) const
+    {
+        const double allowed = std::max(1e-5, kSag * certified_.band().lift);
+        if (depth < kDeepest) {
+            const auto middle = crossing((a.from + b.from) * 0.5, (a.to + b.to) * 0.5);
+            if (middle && norm(middle->tip - (a.tip + b.tip) * 0.5) > allowed) {
+                append(a, *middle, depth + 1, tips);
+                append(*middle, b, depth + 1, tips);
+                return;
+            }
+            if (middle) {
+                tips.push_back(middle->tip);
+            }
+        }
+        tips.push_back(b.tip);
+    }
+
+    const CertifiedPasses& certified_;
+    double radius_;
+    std::size_t nx_{};
+    std::size_t ny_{};
+    std::vector<Vec2d> places_;
+    std::vector<std::optional<Rest>> rests_;
+    std::map<GridSide, std::optional<Crossing>> crossings_;
+    std::map<GridSide, std::vector<GridSide>> neighbours_;
+    std::map<GridSide, bool> used_;
+};
+
+}  // namespace
+
+std::vector<Points> mesh_creases(const CertifiedPasses& certified, double pitch)
+{
+    return CreaseFinder{certified, pitch}.creases();
+}
+
+}  // namespace cusp::host

@@ -1,0 +1,279 @@
+// Rows for level ground first; strips between two rows are halved where they have to be.
+#include "host_tools/adaptive_isocurve/mesh_isocurves.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "host_tools/adaptive_isocurve/mesh_creases.hpp"
+#include "host_tools/adaptive_isocurve/scallop_width.hpp"
+#include "host_tools/adaptive_isocurve/surface_operation.hpp"
+#include "host_tools/surface_passes/facet_coverage.hpp"
+
+#include "fmt/format.h"
+
+namespace cusp::host {
+namespace {
+
+constexpr double kRowShare = 0.9;        // of the distance that level ground allows
+constexpr double kLookShare = 0.5;       // of it, between places looked at along a row
+constexpr double kNarrowest = 1.0 / 64;  // of it, between neighbours
+// Of the scallop, in the middle between neighbours: beside it a little more stands.
+constexpr double kMiddleShare = 0.85;
+constexpr int kEdgeHalvings = 20;
+constexpr double kFacing = 0.985;   // cosine: beside the mesh the ball touches it squarely, or not
+constexpr double kShortest = 1e-3;  // mm
+constexpr double kRowsDone = 0.2;   // of the progress
+constexpr double kStripsDone = 0.7;
+
+struct Range {
+    double from;
+    double to;
+};
+
+// Between two neighbours, where a middle is looked for.
+struct Strip {
+    double low;
+    double high;
+    std::vector<Range> ranges;
+};
+
+// What passes at a distance leave between them on level ground, the tolerance included.
+double scallop_of(const Operation& operation, double outward)
+{
+    if (!operation.iso_distance) {
+        return *operation.scallop;
+    }
+    const double radius = operation.tool.radius;
+    const double half = std::min(0.5 * *operation.iso_distance, 0.95 * radius);
+    return outward + radius - std::sqrt(radius * radius - half * half);
+}
+
+class MeshPlanner {
+public:
+    MeshPlanner(const Job& job, const Operation& operation)
+        : job_{job},
+          operation_{operation},
+          work_{job, operation, {}},
+          radius_{work_.certified().lifted_tool().radius},
+          scallop_{scallop_of(operation, work_.outward())},
+          coverage_{operation.mesh, work_.certified(), scallop_, work_.path_off()}
+    {
+        const Vec3d low = work_.model().box_low();
+        const Vec3d high = work_.model().box_high();
+        if (operation.direction == 'v') {
+            along_ = {0, 1, 0};
+            across_ = {1, 0, 0};
+        }
+        origin_ = {low.x, low.y, 0};
+        length_ = dot(high - low, along_);
+        width_ = dot(high - low, across_);
+        row_ = kRowShare * scallop_width(operation.tool.radius, scallop_ - work_.outward(), 0);
+        if (operation.iso_distance) {
+            row_ = std::min(row_, 0.999 * *operation.iso_distance);
+        }
+        look_ = kLookShare * row_;
+    }
+
+    PlannedOperation plan()
+    {
+        add_rows();
+        add_creases();
+        coverage_.look_over();
+        coverage_.close_gaps([&](const Points& tips) { add_pass(tips); });
+        return finished();
+    }
+
+private:
+    using Rest = SurfaceModel::MeshRest;
+
+    Vec3d place(double s, double t) const { return origin_ + along_ * s + across_ * t; }
+
+    std::optional<Rest> rest(double s, double t) const
+    {
+        const Vec3d at = place(s, t);
+        std::optional<Rest> found = work_.model().rest_on_mesh(at.x, at.y, radius_);
+        // Beside the mesh, where it only rolls off its rim, nothing is to be cut.
+        if (found && dot(found->centre - found->point, found->normal) < kFacing * radius_ &&
+            !work_.model().top_of_mesh(at.x, at.y)) {
+            return std::nullopt;
+        }
+        return found;
+    }
+
+    void add_pass(const Points& tips) { coverage_.add(work_.add_pass(tips)); }
+
+    void add_rows()
+    {
+        const int rows = std::max(1, static_cast<int>(std::ceil(width_ / row_)));
+        std::vector<Strip> strips;
+        for (int k = 0; k <= rows; ++k) {
+            const double t = width_ * k / rows;
+            cut({0, length_}, t);
+            if (k > 0) {
+                strips.push_back({width_ * (k - 1) / rows, t, {{0, length_}}});
+            }
+            job_.report_progress(kRowsDone * k / rows);
+        }
+        while (!strips.empty()) {
+            std::vector<Strip> next;
+            for (const Strip& strip : strips) {
+                halve(strip, next);
+            }
+            strips = std::move(next);
+        }
+        job_.report_progress(kStripsDone);
+    }
+
+    void halve(const Strip& strip, std::vector<Strip>& out)
+    {
+        const double middle = 0.5 * (strip.low + strip.high);
+        if (strip.high - strip.low < kNarrowest * row_) {
+            return;
+        }
+        std::vector<Range> missing;
+        for (const Range& range : strip.ranges) {
+            look_along(range, strip, missing);
+        }
+        if (missing.empty()) {
+            return;
+        }
+        for (const Range& range : missing) {
+            cut(range, middle);
+        }
+        out.push_back({strip.low, middle, missing});
+        out.push_back({middle, strip.high, missing});
+    }
+
+    // The parts of a range where a pass is missing in the middle of the strip, and a step more.
+    void look_along(const Range& range, const Strip& strip, std::vector<Range>& missing) const
+    {
+        const int looks = std::max(1, static_cast<int>(std::ceil((range.to - range.from) / look_)));
+        for (int k = 0; k <= looks; ++k) {
+            const double s = range.from + (range.to - range.from) * k / looks;
+            if (!is_missing(s, strip)) {
+                continue;
+            }
+            const Range around{std::max(0.0, s - look_), std::min(length_, s + look_)};
+            if (!missing.empty() && around.from <= missing.back().to) {
+                missing.back().to = std::max(missing.back().to, around.to);
+            } else {
+                missing.push_back(around);
+            }
+        }
+    }
+
+    bool is_missing(double s, const Strip& strip) const
+    {
+        const std::optional<Rest> here = rest(s, 0.5 * (strip.low + strip.high));
+        if (!here) {
+            return false;
+        }
+        return !coverage_.covered(here->point, (here->centre - here->point) / radius_,
+                                  kMiddleShare) ||
+               (operation_.iso_distance && too_far_apart(s, strip));
+    }
+
+    // Where the height of the tip jumps, no distance is small enough.
+    bool too_far_apart(double s, const Strip& strip) const
+    {
+        const std::optional<Rest> low = rest(s, strip.low);
+        const std::optional<Rest> high = rest(s, strip.high);
+        const double delta = *operation_.iso_distance;
+        return low && high && norm(high->centre - low->centre) > delta &&
+               norm(high->centre - low->centre) < delta + 4 * (strip.high - strip.low);
+    }
+
+    // Passes along a row, as far as the tool is on the mesh.
+    void cut(const Range& range, double t)
+    {
+        const int looks = std::max(1, static_cast<int>(std::ceil((range.to - range.from) / look_)));
+        bool was_on = false;
+        double begin = range.from;
+        double last = range.from;
+        for (int k = 0; k <= looks; ++k) {
+            const double s = range.from + (range.to - range.from) * k / looks;
+            const bool on = rest(s, t).has_value();
+            if (on && !was_on) {
+                begin = k > 0 ? edge(last, s, t) : s;
+            } else if (!on && was_on) {
+                cut_run({begin, edge(s, last, t)}, t);
+            }
+            was_on = on;
+            last = s;
+        }
+        if (was_on) {
+            cut_run({begin, range.to}, t);
+        }
+    }
+
+    double edge(double off, double on, double t) const
+    {
+        for (int turn = 0; turn < kEdgeHalvings; ++turn) {
+            const double middle = 0.5 * (off + on);
+            (rest(middle, t) ? on : off) = middle;
+        }
+        return on;
+    }
+
+    void cut_run(const Range& run, double t)
+    {
+        if (run.to - run.from > kShortest) {
+            add_pass(work_.certified().sample_dropped(place(run.from, t), place(run.to, t)));
+            ++curves_;
+        }
+    }
+
+    void add_creases()
+    {
+        for (const Points& crease : mesh_creases(work_.certified(), look_)) {
+            add_pass(crease);
+        }
+    }
+
+    PlannedOperation finished()
+    {
+        const double radius = operation_.tool.radius;
+        const bool unseen = coverage_.overflowed();
+        PlannedOperation planned =
+            work_.finish(row_, unseen ? radius : std::max(scallop_, coverage_.most_left()));
+        std::vector<std::string>& told = planned.stats.warnings;
+        if (coverage_.uncovered() > 0) {
+            told.push_back(fmt::format("{} places of the mesh may keep more than the scallop",
+                                       coverage_.uncovered()));
+        }
+        if (unseen) {
+            told.push_back(
+                "too many places keep more than the scallop to look at them all: nothing is proved "
+                "of what is left");
+        }
+        planned.stats.counts.emplace_back("isocurves", curves_);
+        planned.stats.counts.emplace_back("triangles", static_cast<double>(operation_.mesh.size()));
+        return planned;
+    }
+
+    const Job& job_;
+    const Operation& operation_;
+    SurfaceOperation work_;
+    double radius_;
+    double scallop_;
+    FacetCoverage coverage_;
+    Vec3d along_{1, 0, 0};
+    Vec3d across_{0, 1, 0};
+    Vec3d origin_;
+    double length_{};
+    double width_{};
+    double row_{};   // mm between first rows
+    double look_{};  // mm
+    int curves_{};
+};
+
+}  // namespace
+
+PlannedOperation plan_mesh_isocurves(const Job& job, const Operation& operation)
+{
+    return MeshPlanner{job, operation}.plan();
+}
+
+}  // namespace cusp::host

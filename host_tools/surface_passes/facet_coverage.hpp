@@ -1,0 +1,94 @@
+// Whether passes of a ball leave no more than the scallop over a mesh, proved triangle by triangle;
+// and the passes that are missing where they do leave more.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "host_tools/surface_passes/certified_pass.hpp"
+#include "host_tools/surface_passes/lowest_reach.hpp"
+#include "host_tools/surface_passes/swept_balls.hpp"
+
+namespace cusp::host {
+
+// As `Coverage`, for facets: what one straight move removes is convex, so a move that removes all
+// three corners of a triangle, raised by the scallop, removes all of the triangle raised. Triangles
+// that no one move covers are halved. Facets that stand upright, and what lies under others, are
+// not looked at.
+class FacetCoverage {
+public:
+    // certified  passes over a mesh: the one of `triangles`
+    // scallop    mm: what may be left
+    // path_off   mm: how far the path that is cut may be from the points given to `add`
+    FacetCoverage(const std::vector<std::array<Vec3d, 3>>& triangles,
+                  const CertifiedPasses& certified,
+                  double scallop,
+                  double path_off);
+
+    // A pass that will be cut, by its tips.
+    void add(const Points& tips) { swept_.add(tips); }
+
+    // Whether what stands over a place of the mesh is taken off to a share of the scallop.
+    //
+    // normal  unit, upward
+    bool covered(Vec3d place, Vec3d normal, double share) const;
+
+    // mm: between passes on level ground that leave the scallop
+    double step() const { return step_; }
+
+    // Looks over all triangles; what is not covered is kept for `close_gaps`.
+    void look_over();
+
+    // Passes for what is not covered, each handed to `cut`, which must `add` what it makes of it.
+    void close_gaps(const std::function<void(const Points&)>& cut);
+
+    // Whether the look ended early because too many cells are bare.
+    bool overflowed() const { return overflowed_; }
+    // Cells that stay uncovered, after `close_gaps`.
+    std::size_t uncovered() const { return gaps_.size(); }
+    // The most that was found left there over what the tool can reach, mm.
+    double most_left() const { return most_left_; }
+
+private:
+    struct Place {
+        Vec3d point;
+        Vec3d normal;
+    };
+    struct Cell {
+        std::array<Vec3d, 3> corners;
+        Vec3d normal;
+
+        Vec3d middle() const { return (corners[0] + corners[1] + corners[2]) / 3.0; }
+    };
+    enum class Verdict : std::uint8_t { kCovered, kHalve, kUncovered };
+
+    void look_into(const Cell& cell, int depth);
+    Verdict judge(const Cell& cell) const;
+    bool hidden(Vec3d point) const;
+    bool low_enough(const Cell& cell) const;
+    Vec3d touching_tip(const Place& at) const;
+    std::optional<Place> bare_place(const Cell& cell) const;
+    std::optional<Vec3d> missing_tip(const Place& at, bool where_blocked) const;
+    std::optional<Vec3d> better_tip(const Place& at) const;
+    double left_at(const Place& at) const;
+    Points trace(const Place& from, Vec3d way) const;
+    std::vector<Points> runs_of(const Points& tips) const;
+
+    const std::vector<std::array<Vec3d, 3>>& triangles_;
+    const CertifiedPasses& certified_;
+    const std::vector<Surface> no_surfaces_;
+    double radius_;
+    double scallop_;
+    double path_off_;
+    double step_;
+    SweptBalls swept_;
+    mutable LowestReach reach_;
+    std::vector<Cell> gaps_;
+    double most_left_{};
+    bool overflowed_{};
+    mutable std::vector<std::uint32_t> near_;
+};
+
+}  // namespace cusp::host
