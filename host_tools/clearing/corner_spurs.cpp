@@ -145,13 +145,15 @@ private:
 
     // Place i of n on the edge is beside an edge of the level; the last place of which this follows
     // for all between: along a straight line the distance from another has no maximum, nor along an
-    // arc that from one with the same centre.
+    // arc that from one with the same centre, but opposite to its middle: where both bulge to one
+    // side they do not get there.
     int end_of_free(const Edge& edge, int i, int n) const
     {
         const Edge& level = edges_[beside_];
         const bool straight = edge.turn == 0 && level.turn == 0;
-        const bool round =
-            edge.turn != 0 && level.turn == edge.turn && distance(edge.centre, level.centre) < 1e-9;
+        const bool round = edge.turn != 0 && level.turn == edge.turn &&
+                           distance(edge.centre, level.centre) < 1e-9 &&
+                           dot(edge.end - edge.start, level.end - level.start) > 0.0;
         if (!straight && !round) {
             return i;
         }
