@@ -161,8 +161,8 @@ private:
         double thin;  // mm: pieces this thin are not halved
     };
     double bound(const Piece& piece, const Query& query, double best, bool& tight) const;
-    double beside_line(const Piece& piece, Vec3d a, Vec3d b) const;
-    double ball_gap(const Piece& piece, Vec3d a, Vec3d b, double margin) const;
+    double beside_line(const Piece& piece, const Vec3d& a, const Vec3d& b) const;
+    double ball_gap(const Piece& piece, const Vec3d& a, const Vec3d& b, double margin) const;
     double axial_gap(const Piece& piece, Vec3d a, Vec3d b, double margin) const;
     Vec2d slope_of(const Piece& piece, Vec2d at) const;
     struct Rectangle {
@@ -183,6 +183,7 @@ private:
     mutable std::vector<Outline> outlines_{1};  // the first one stands for none
     mutable std::vector<Vec3d> corners_;        // control points of the piece being measured
     mutable std::uint32_t last_{kRoot};         // where the tool rested last: a good first guess
+    mutable std::uint32_t beside_{kRoot};  // the smallest piece that the last move came near to
     double lowest_{1e300};
     double highest_{-1e300};
 };

@@ -15,7 +15,7 @@ constexpr double kDeepShare = 0.1;
 
 // How far the piece's box lies beside the line through a and b, in plan, mm: the box of a long move
 // across its own would say less.
-double TipFloor::beside_line(const Piece& piece, Vec3d a, Vec3d b) const
+double TipFloor::beside_line(const Piece& piece, const Vec3d& a, const Vec3d& b) const
 {
     const Vec2d move{b.x - a.x, b.y - a.y};
     const double along = std::sqrt(dot(move, move));
@@ -31,7 +31,7 @@ double TipFloor::beside_line(const Piece& piece, Vec3d a, Vec3d b) const
 
 // Distance from the ball's centre line to the piece's upright box, or component by component to one
 // of its turned boxes, whichever says more; some value of 0 or more where that is clear.
-double TipFloor::ball_gap(const Piece& piece, Vec3d a, Vec3d b, double margin) const
+double TipFloor::ball_gap(const Piece& piece, const Vec3d& a, const Vec3d& b, double margin) const
 {
     const auto apart = [](double low, double high, double p, double q) {
         return std::max({low - std::max(p, q), 0.0, std::min(p, q) - high});
@@ -46,7 +46,7 @@ double TipFloor::ball_gap(const Piece& piece, Vec3d a, Vec3d b, double margin) c
     }
     if (piece.graph) {
         const Vec2d g = piece.gradient;
-        const auto over = [&](Vec3d p) {
+        const auto over = [&](const Vec3d& p) {
             return p.z - g.x * p.x - g.y * p.y - piece.level;
         };
         const double level = 1.0 / piece.secant;
@@ -57,10 +57,10 @@ double TipFloor::ball_gap(const Piece& piece, Vec3d a, Vec3d b, double margin) c
         const double run = 1.0 + g.x * g.x;
         const double along = 1.0 / std::sqrt(run);
         const double aside = along * level;
-        const auto first = [&](Vec3d p) {
+        const auto first = [&](const Vec3d& p) {
             return along * (p.x + g.x * p.z);
         };
-        const auto second = [&](Vec3d p) {
+        const auto second = [&](const Vec3d& p) {
             return aside * (run * p.y + g.y * (p.z - g.x * p.x));
         };
         const double tx = apart(piece.lateral[0], piece.lateral[1], first(a), first(b));
@@ -151,58 +151,71 @@ double TipFloor::gap(Vec3d a, Vec3d b, double margin) const
             std::swap(stack[before], stack[before + 1]);
         }
     };
-    consider(kRoot, 0.0, 1.0);
-    while (depth > 0) {
-        const Entry top = stack[--depth];
-        const double here = top.here;
-        if (!matters(here)) {
-            continue;
-        }
-        const Piece& piece = pieces_[top.piece];
-        const double part = top.to - top.from;
-        const double length = part * whole_length;
-        const double size = std::max(piece.x1 - piece.x0, piece.y1 - piece.y0);
-        const double thin = piece.graph ? piece.thickness / piece.secant : size;
-        const double tilt = part * (way.z - dot(piece.gradient, Vec2d{way.x, way.y}));
-        const double turned = piece.graph ? std::abs(tilt) / piece.secant : length;
-        const bool small = length < accuracy_ && size < accuracy_;
-        // Beyond the piece's rectangle its plane tells of metal that is not there: only a
-        // ball's turned box knows of the rectangle, for other tools the pieces must be small.
-        // A long move passes beside a piece in a corner of the box that it spans, where the
-        // piece's plane is not the floor: what cuts is looked at in short moves.
-        const bool clear = here >= -accuracy_ || length + size < 0.1 * tool_.radius;
-        const bool flat = thin < accuracy_ && turned < accuracy_;
-        const bool settled =
-            ball ? flat && clear
-                 : thin < 0.5 * accuracy_ && size * piece.secant < 0.05 && length < 0.05;
-        const bool whole = is_whole(piece, accuracy_);
-        const bool deep =
-            whole && here < -accuracy_ && std::max(extent(piece), length) < kDeepShare * -here;
-        if ((settled && whole) || deep || small || depth + 2 > kStack) {
-            least = std::min(least, here);
-            continue;
-        }
-        // Of a piece that an edge cuts the size tells how much is not there.
-        const bool halve_move = !whole          ? length > extent(piece)
-                                : settled       ? false
-                                : ball && !flat ? turned > thin
-                                                : length > size;
-        if (halve_move) {
-            const double middle = 0.5 * (top.from + top.to);
+    double smallest = 1e300;
+    const auto look_into = [&](std::uint32_t index) {
+        consider(index, 0.0, 1.0);
+        while (depth > 0) {
+            const Entry top = stack[--depth];
+            const double here = top.here;
+            if (!matters(here)) {
+                continue;
+            }
+            const Piece& piece = pieces_[top.piece];
+            const double part = top.to - top.from;
+            const double length = part * whole_length;
+            const double size = std::max(piece.x1 - piece.x0, piece.y1 - piece.y0);
+            if (size < smallest) {
+                smallest = size;
+                beside_ = top.piece;
+            }
+            const double thin = piece.graph ? piece.thickness / piece.secant : size;
+            const double tilt = part * (way.z - dot(piece.gradient, Vec2d{way.x, way.y}));
+            const double turned = piece.graph ? std::abs(tilt) / piece.secant : length;
+            const bool small = length < accuracy_ && size < accuracy_;
+            // Beyond the piece's rectangle its plane tells of metal that is not there: only a
+            // ball's turned box knows of the rectangle, for other tools the pieces must be small.
+            // A long move passes beside a piece in a corner of the box that it spans, where the
+            // piece's plane is not the floor: what cuts is looked at in short moves.
+            const bool clear = here >= -accuracy_ || length + size < 0.1 * tool_.radius;
+            const bool flat = thin < accuracy_ && turned < accuracy_;
+            const bool settled =
+                ball ? flat && clear
+                     : thin < 0.5 * accuracy_ && size * piece.secant < 0.05 && length < 0.05;
+            const bool whole = is_whole(piece, accuracy_);
+            const bool deep =
+                whole && here < -accuracy_ && std::max(extent(piece), length) < kDeepShare * -here;
+            if ((settled && whole) || deep || small || depth + 2 > kStack) {
+                least = std::min(least, here);
+                continue;
+            }
+            // Of a piece that an edge cuts the size tells how much is not there.
+            const bool halve_move = !whole          ? length > extent(piece)
+                                    : settled       ? false
+                                    : ball && !flat ? turned > thin
+                                                    : length > size;
+            if (halve_move) {
+                const double middle = 0.5 * (top.from + top.to);
+                const std::size_t before = depth;
+                consider(top.piece, top.from, middle);
+                consider(top.piece, middle, top.to);
+                order(before);
+                continue;
+            }
+            if (piece.child == 0) {
+                halve(top.piece);
+            }
+            const std::uint32_t child = pieces_[top.piece].child;
             const std::size_t before = depth;
-            consider(top.piece, top.from, middle);
-            consider(top.piece, middle, top.to);
+            consider(child, top.from, top.to);
+            consider(child + 1, top.from, top.to);
             order(before);
-            continue;
         }
-        if (piece.child == 0) {
-            halve(top.piece);
-        }
-        const std::uint32_t child = pieces_[top.piece].child;
-        const std::size_t before = depth;
-        consider(child, top.from, top.to);
-        consider(child + 1, top.from, top.to);
-        order(before);
+    };
+    // From a piece that the move before came near to upwards, as in drop().
+    const std::uint32_t first = beside_;
+    look_into(first);
+    for (std::uint32_t piece = first; piece != kRoot; piece = pieces_[piece].parent) {
+        look_into(sibling(piece));
     }
     return least < -accuracy_ ? (1.0 + kDeepShare) * least : least;
 }
