@@ -206,15 +206,21 @@ void start_at_longest(Contour& path)
     start_near(path, point_on(*longest, 0.5));
 }
 
+// How near contours are changes by no more than the way between two places.
 bool free_path(const RegionOffset& offset, const std::vector<Edge>& path, double distance)
 {
+    constexpr double kSpacing = 0.1;
+    constexpr double kFar = 5.0;
     for (const Edge& edge : path) {
-        const int samples = 1 + static_cast<int>(length(edge) / 0.1);
-        for (int i = 0; i <= samples; ++i) {
+        const double whole = length(edge);
+        const int samples = 1 + static_cast<int>(whole / kSpacing);
+        for (int i = 0; i <= samples;) {
             const Vec2d p = point_on(edge, static_cast<double>(i) / samples);
-            if (offset.any_nearer(p, distance - 1e-5)) {
+            const double room = offset.nearest(p, distance + kFar) - (distance - 1e-5);
+            if (room < 0.0) {
                 return false;
             }
+            i += 1 + static_cast<int>(room * samples / std::max(whole, kSpacing));
         }
     }
     return true;

@@ -283,8 +283,22 @@ std::optional<Region2d> joined(std::vector<Run>& runs)
     return region;
 }
 
+// Segments of arcs are no larger than half discs over their chords: mostly the chords tell.
 bool encloses_nothing(const Contour& contour)
 {
+    constexpr double kHalfPi = 1.5707963267948966;
+    double twice = 0.0;
+    double segments = 0.0;
+    double chords = 0.0;
+    for (const Edge& edge : contour) {
+        const Vec2d chord = edge.end - edge.start;
+        twice += cross(edge.start - contour.front().start, chord);
+        segments += edge.turn == 0 ? 0.0 : 0.25 * kHalfPi * dot(chord, chord);
+        chords += norm(chord);
+    }
+    if (0.5 * std::abs(twice) - segments > 1e-6 * kHalfPi * chords) {
+        return false;
+    }
     return std::abs(area(contour)) <= 1e-6 * length(contour);
 }
 
