@@ -107,16 +107,23 @@ void TipFloor::measure(Piece& piece) const
 {
     const Patch& patch = patches_[piece.patch];
     corners_.resize(std::size_t{patch.rows} * patch.columns);
-    Vec3d low{1e300, 1e300, 1e300};
-    Vec3d high{-1e300, -1e300, -1e300};
     const double* q = &nets_[piece.net];
     for (Vec3d& corner : corners_) {
-        const Vec3d p =
-            patch.numbers == 3 ? Vec3d{q[0], q[1], q[2]} : Vec3d{q[0], q[1], q[2]} / q[3];
+        corner = {q[0], q[1], q[2]};
         q += patch.numbers;
+    }
+    if (patch.numbers == 4) {
+        q = &nets_[piece.net];
+        for (Vec3d& corner : corners_) {
+            corner = corner / q[3];
+            q += patch.numbers;
+        }
+    }
+    Vec3d low = corners_.front();
+    Vec3d high = low;
+    for (const Vec3d& p : corners_) {
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-        corner = p;
     }
     piece.x0 = low.x;
     piece.y0 = low.y;

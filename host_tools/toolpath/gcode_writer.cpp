@@ -91,8 +91,14 @@ private:
     {
         return {std::llround(p.x / grain_), std::llround(p.y / grain_), std::llround(p.z / grain_)};
     }
-    std::string coordinate(std::int64_t value) const;
-    std::string changed_axes(const Place& to) const;
+    void add_coordinate(std::string& text, std::int64_t value) const;
+    std::string coordinate(std::int64_t value) const
+    {
+        std::string text;
+        add_coordinate(text, value);
+        return text;
+    }
+    void add_changed_axes(std::string& text, const Place& to) const;
     std::string feed_word(double feed);
     void change_tool(const Toolpath& path);
     void line(const char* word, Vec3d end, const std::string& feed);
@@ -111,13 +117,16 @@ private:
     double feed_{};
     int tool_{};    // none yet
     bool wrote_{};  // a line, by the move at hand
+    std::string line_;
 };
 
-std::string ProgramWriter::coordinate(std::int64_t value) const
+void ProgramWriter::add_coordinate(std::string& text, std::int64_t value) const
 {
     const std::int64_t size = std::abs(value);
     const fmt::format_int whole{size / scale_};
-    std::string text{value < 0 ? "-" : ""};
+    if (value < 0) {
+        text += '-';
+    }
     text.append(whole.data(), whole.size());
     if (const std::int64_t below = size % scale_; below != 0) {
         // The leading one keeps the zeros of what is below one.
@@ -129,7 +138,6 @@ std::string ProgramWriter::coordinate(std::int64_t value) const
         text += '.';
         text.append(digits.data() + 1, count - 1);
     }
-    return text;
 }
 
 void ProgramWriter::begin(const std::vector<PlannedOperation>& operations)
@@ -159,17 +167,15 @@ void ProgramWriter::end()
     out_ << "M5\nM30\n";
 }
 
-std::string ProgramWriter::changed_axes(const Place& to) const
+void ProgramWriter::add_changed_axes(std::string& text, const Place& to) const
 {
-    std::string words;
     for (unsigned axis = 0; axis < 3; ++axis) {
         if (!at_ || (*at_)[axis] != to[axis]) {
-            words += ' ';
-            words += "XYZ"[axis];
-            words += coordinate(to[axis]);
+            text += ' ';
+            text += "XYZ"[axis];
+            add_coordinate(text, to[axis]);
         }
     }
-    return words;
 }
 
 std::string ProgramWriter::feed_word(double feed)
@@ -209,14 +215,15 @@ void ProgramWriter::change_tool(const Toolpath& path)
 void ProgramWriter::line(const char* word, Vec3d end, const std::string& feed)
 {
     const Place to = rounded(end);
-    const std::string axes = changed_axes(to);
-    if (axes.empty()) {
+    line_ = word;
+    const std::size_t size = line_.size();
+    add_changed_axes(line_, to);
+    if (line_.size() == size) {
         return;
     }
-    std::string text = word + axes;
-    text += feed;
-    text += '\n';
-    out_.write(text.data(), static_cast<std::streamsize>(text.size()));
+    line_ += feed;
+    line_ += '\n';
+    out_.write(line_.data(), static_cast<std::streamsize>(line_.size()));
     wrote_ = true;
     at_ = to;
 }
@@ -276,14 +283,17 @@ void ProgramWriter::arc(const ArcTo& to, const std::string& feed)
         plane_ = to.plane;
         out_ << (plane_ == ArcPlane::kXY ? "G17 " : plane_ == ArcPlane::kZX ? "G18 " : "G19 ");
     }
-    out_ << (to.clockwise ? "G2" : "G3") << changed_axes(end);
+    line_ = to.clockwise ? "G2" : "G3";
+    add_changed_axes(line_, end);
     for (unsigned k = 0; k < 2; ++k) {
         const std::int64_t offset = centre[k] - (*at_)[axes[k]];
         if (offset != 0) {
-            out_ << ' ' << "IJK"[axes[k]] << coordinate(offset);
+            line_ += ' ';
+            line_ += "IJK"[axes[k]];
+            add_coordinate(line_, offset);
         }
     }
-    out_ << feed << '\n';
+    out_ << line_ << feed << '\n';
     wrote_ = true;
     at_ = end;
 }
