@@ -271,8 +271,7 @@ void halve(const T* from, T* lower, T* upper, std::size_t count, std::size_t str
 }  // namespace
 
 BezierCell::BezierCell(const BezierPatch& patch, int surface)
-    : root_{true},
-      surface_{surface},
+    : surface_{surface},
       count_s_{static_cast<std::size_t>(patch.surface.size_u)},
       count_t_{static_cast<std::size_t>(patch.surface.size_v)},
       points_{patch.surface.points},

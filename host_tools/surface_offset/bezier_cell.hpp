@@ -75,9 +75,6 @@ public:
     // Two halves across the longer side, made when first asked for.
     std::array<const BezierCell*, 2> halves() const;
 
-    // Made from a patch, not a half of another.
-    bool root() const { return root_; }
-
     // The surface in and round the cell, for `RollingBall`; kept here once it is known.
     struct Surroundings {
         double u_begin, u_end, v_begin, v_end;
@@ -114,7 +111,6 @@ private:
     Spread rational_spread() const;
     Vec3d control(std::size_t i, std::size_t j) const;
 
-    bool root_{false};
     int surface_{};
     std::size_t count_s_{};
     std::size_t count_t_{};

@@ -183,6 +183,15 @@ CellMinimum minimize(const ToolCore& core, const BezierCell& cell, double s, dou
     return best;
 }
 
+// Without a step.
+CellMinimum at_middle(const ToolCore& core, const BezierCell& cell)
+{
+    const SurfacePoint& p = cell.middle();
+    const Vec3d r = core.reach(p.point);
+    const double below = 0.5 * (std::abs(dot(r, p.du)) + std::abs(dot(r, p.dv)));
+    return {0.5, 0.5, 0.5 * dot(r, r), below, p.point};
+}
+
 class Search {
 public:
     // Ends where a place is found nearer than `near_enough`.
@@ -293,26 +302,31 @@ private:
             state_.outside_trims(cell)) {
             return;
         }
-        const CellMinimum least = minimize(core_, cell, s, t);
+        const double bend = std::max(0.0, -least_curvature(core_, cell));
+        // Where that is too much nothing is settled here, but for what the middle tells.
+        const bool settles =
+            bend <= slack_ * norm(core_.reach(cell.middle().point)) || &cell == first_;
+        const CellMinimum least = settles ? minimize(core_, cell, s, t) : at_middle(core_, cell);
         const double distance = std::sqrt(2 * least.value);
+        // The distance is at least this over the cell, a unit square.
+        const double at_least = std::sqrt(2 * std::max(0.0, least.value - least.below - bend));
+        const bool settled = distance - at_least <= slack_;
         const double u = cell.u(least.s);
         const double v = cell.v(least.t);
-        const bool counts = cell.trim() != BezierCell::Trim::kCut ||
-                            state_.regions[static_cast<std::size_t>(cell.surface())].inside(u, v);
+        const bool counts = (settled || distance < found_) &&
+                            (cell.trim() != BezierCell::Trim::kCut ||
+                             state_.regions[static_cast<std::size_t>(cell.surface())].inside(u, v));
         if (counts) {
             take(distance, {least.point, u, v, cell.surface()});
         }
-        const double bend = std::max(0.0, -least_curvature(core_, cell));
-        // The distance is at least this over the cell, a unit square.
-        const double at_least = std::sqrt(2 * std::max(0.0, least.value - least.below - bend));
         if (found_ <= near_enough_) {
             bound_ = std::min(bound_, found_);
             return;
         }
-        if (distance - at_least <= slack_) {
+        if (settled) {
             if (counts) {
                 bound_ = std::min(bound_, at_least);
-                if (cell.root() && distance < found_ + kBeside) {
+                if (distance < found_ + kBeside) {
                     state_.last_cell = &cell;
                     state_.last_s = least.s;
                     state_.last_t = least.t;
