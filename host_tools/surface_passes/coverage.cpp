@@ -314,6 +314,11 @@ Points Coverage::trace(int surface, Place place, bool along_u) const
 // the tool follows the model, or it is lifted.
 std::vector<Points> Coverage::runs_of(const Points& tips) const
 {
+    // A place that is at the limit may have its tip when asked once and none the next time: drops
+    // are right to a micrometre only.
+    if (tips.empty()) {
+        return {};
+    }
     std::vector<Points> out{{tips.front()}};
     for (std::size_t k = 1; k < tips.size(); ++k) {
         const double apart = norm(tips[k] - out.back().back());
@@ -373,7 +378,7 @@ void Coverage::close_gaps(const std::function<void(const Points&)>& cut)
             changed.push_back(cell);
             Points one = trace(cell.surface, *place, true);
             Points other = trace(cell.surface, *place, false);
-            if (length_of(other) > length_of(one)) {
+            if (one.empty() || length_of(other) > length_of(one)) {
                 std::swap(one, other);
             }
             for (const Points& run : runs_of(one)) {
