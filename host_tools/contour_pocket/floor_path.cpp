@@ -85,7 +85,13 @@ double gap_of(Vec3d start, const FloorMove& move, const TipFloor& floor, double 
     return least;
 }
 
-constexpr double kDeep = 10.0;  // bands above the floor: what lacks more grazes a cliff
+// A move that lacks more bands than this grazes a cliff, and is halved down to that share of the
+// tool's radius, so that only what grazes is raised: the shorter, the more it would be raised by.
+struct Graze {
+    double bands;
+    double shortest;
+};
+constexpr Graze kGrazes[] = {{10.0, 0.02}, {1.0, 0.1}};
 
 // How deep moves may cut, mm, <= 0.
 double allowed_gap(const FloorPathSettings& settings)
@@ -126,6 +132,59 @@ FloorMove first_half(Vec3d start, const FloorMove& move)
     return half;
 }
 
+// Moves of no more than this length (mm) are raised as a whole by what they lack (mm).
+double shortest_halved(double radius, double lacks, const FloorPathSettings& settings)
+{
+    for (const Graze& graze : kGrazes) {
+        if (lacks > graze.bands * settings.above) {
+            return graze.shortest * radius;
+        }
+    }
+    return 1e300;
+}
+
+void halve_move(std::vector<FloorMove>& moves, std::size_t i, Vec3d start)
+{
+    const FloorMove half = first_half(start, moves[i]);
+    moves.insert(moves.begin() + static_cast<std::ptrdiff_t>(i), half);
+}
+
+// Heights of a move's ends (z) at which it keeps off the floor, and its gap there.
+struct Raised {
+    double start, end;
+    double gap;
+};
+
+Raised raised_off(Vec3d start,
+                  FloorMove move,
+                  double gap,
+                  const TipFloor& floor,
+                  double allowed,
+                  double fine)
+{
+    constexpr int kRounds = 20;
+    constexpr int kGentleRounds = 4;  // later ones raise by more and more
+    for (int round = 0; gap < allowed && round < kRounds; ++round) {
+        const double more = std::exp2(std::max(0, round - kGentleRounds));
+        const Vec3d raise{0.0, 0.0, more * (kWrittenStep + 1.5 * (allowed - gap))};
+        start = written(start + raise);
+        move.end = written(move.end + raise);
+        gap = gap_of(start, move, floor, fine);
+    }
+    return {start.z, move.end.z, gap};
+}
+
+// Upright moves lead up to the raised move i and down from it: those beside it stay where they are.
+void stand_upright(std::vector<FloorMove>& moves, std::size_t i, const Raised& raised)
+{
+    FloorMove up{moves[i - 1].end};
+    up.end.z = raised.start;
+    const FloorMove down{moves[i].end};
+    moves[i].end.z = raised.end;
+    const auto at = moves.begin() + static_cast<std::ptrdiff_t>(i);
+    moves.insert(moves.insert(at + 1, down) - 1, up);
+}
+
 // Raises the ends of every move by what it lacks to keep off the floor, until none lacks anything.
 // Raising only ever adds room to the neighbours; a closed path's ends are raised together. Returns
 // the most that a move is raised by (mm).
@@ -134,10 +193,7 @@ double certify(FloorPath& path,
                const FloorPathSettings& settings,
                bool closed)
 {
-    constexpr int kRounds = 20;
-    constexpr int kGentleRounds = 4;  // later ones raise by more and more
     const double allowed = allowed_gap(settings);
-    const double shortest = 0.02 * floor.tool().radius;
     path.least_gap = 0.0;
     double most = 0.0;
     // An arc's chords leave half of the cushion to the slope.
@@ -145,32 +201,37 @@ double certify(FloorPath& path,
     for (std::size_t i = 0; i < path.moves.size(); ++i) {
         Vec3d& start = i == 0 ? path.start : path.moves[i - 1].end;
         Vec3d& end = path.moves[i].end;
-        double gap = gap_of(start, path.moves[i], floor, fine);
-        const double end_before = end.z;
+        const double gap = gap_of(start, path.moves[i], floor, fine);
         if (gap < allowed && is_steep(start, path.moves[i])) {
             const FloorMove corner{level_corner(start, end)};
             path.moves.insert(path.moves.begin() + static_cast<std::ptrdiff_t>(i), corner);
             --i;
             continue;
         }
-        // A move that grazes a cliff is raised by all of its height: only where it does.
-        const bool grazes =
-            gap < allowed - kDeep * settings.above && path.moves[i].curve.points.empty();
-        if (grazes && std::hypot(end.x - start.x, end.y - start.y) > shortest) {
-            const FloorMove half = first_half(start, path.moves[i]);
-            path.moves.insert(path.moves.begin() + static_cast<std::ptrdiff_t>(i), half);
+        const double along = std::hypot(end.x - start.x, end.y - start.y);
+        const double radius = floor.tool().radius;
+        const bool divides = path.moves[i].curve.points.empty();
+        if (divides && along > shortest_halved(radius, allowed - gap, settings)) {
+            halve_move(path.moves, i, start);
             --i;
             continue;
         }
-        for (int round = 0; gap < allowed && round < kRounds; ++round) {
-            const double more = std::exp2(std::max(0, round - kGentleRounds));
-            const Vec3d raise{0.0, 0.0, more * (kWrittenStep + 1.5 * (allowed - gap))};
-            start = written(start + raise);
-            end = written(end + raise);
-            gap = gap_of(start, path.moves[i], floor, fine);
+        const Raised raised = raised_off(start, path.moves[i], gap, floor, allowed, fine);
+        if (divides && along > shortest_halved(radius, raised.end - end.z, settings)) {
+            halve_move(path.moves, i, start);
+            --i;
+            continue;
         }
-        path.least_gap = std::min(path.least_gap, gap);
-        most = std::max(most, end.z - end_before);
+        path.least_gap = std::min(path.least_gap, raised.gap);
+        const double lift = raised.end - end.z;
+        most = std::max(most, lift);
+        if (lift > settings.above && i > 0 && along > kWrittenStep) {
+            stand_upright(path.moves, i, raised);
+            ++i;
+        } else {
+            start.z = raised.start;
+            end.z = raised.end;
+        }
     }
     if (closed && !path.moves.empty()) {
         const double top = std::max(path.start.z, path.moves.back().end.z);
