@@ -54,13 +54,15 @@ public:
     FinishPlanner(const Job& job,
                   const Operation& operation,
                   const Region2d& region,
-                  const Budget& budget)
+                  const Budget& budget,
+                  CutDepth* depth)
         : job_{job},
           operation_{operation},
           region_{region},
           budget_{budget},
           floor_{operation.floor, operation.tool, budget.accuracy},
-          moves_{job.stock_top + job.clearance}
+          moves_{job.stock_top + job.clearance},
+          depth_{depth}
     {
     }
 
@@ -72,7 +74,10 @@ public:
         ClearedRegion cleared = passes();
         const std::size_t loops = cleared.passes.size();
         add_cliff_passes(cleared);
-        FloorCutter cutter{operation_, floor_, moves_};
+        FloorCutter cutter{operation_, floor_, moves_, depth_};
+        if (depth_ != nullptr) {
+            depth_->begin(operation_.tool);
+        }
         CutSettings settings =
             cutting(rough != nullptr ? std::optional{rough->left} : std::nullopt);
         if (rough != nullptr) {
@@ -230,6 +235,7 @@ private:
         }
         CutSettings settings = cutting(std::nullopt);
         settings.laying.nurbs = false;
+        settings.depth_share = 1.0;
         settings.repeated.assign(walls.passes.size(), true);
         double above = job_.stock_top;
         for (const double level : heights) {
@@ -257,6 +263,8 @@ private:
         settings.laying.nurbs = operation_.output == OutputForm::kNurbs;
         settings.entry = operation_.entry;
         settings.first = budget_.first;
+        // What roughing leaves between its loops on a slope is deepest where it is narrowest.
+        settings.depth_share = 0.7;
         const double top = job_.stock_top;
         settings.entry_heights = [top, roughed](double pass) {
             const double metal = std::max(top, pass);
@@ -283,7 +291,22 @@ private:
         if (cliff_passes_ > 0) {
             stats.counts.emplace_back("cliff_passes", static_cast<double>(cliff_passes_));
         }
+        report_depth(stats);
         report_rest(stats);
+    }
+
+    void report_depth(OperationStats& stats) const
+    {
+        constexpr double kFelt = 0.02;  // mm: no deeper than slivers are
+        if (depth_ == nullptr) {
+            return;
+        }
+        stats.counts.emplace_back("deepest_cut_mm", depth_->deepest());
+        if (depth_->deepest() > depth_->most() + kFelt) {
+            stats.warnings.push_back("a cut is " + number_text(depth_->deepest()) +
+                                     " mm deep, over the max_depth of " +
+                                     number_text(depth_->most()) + " mm");
+        }
     }
 
     // Where the tool does not reach, and how much stays there.
@@ -336,6 +359,7 @@ private:
     const Budget& budget_;
     TipFloor floor_;
     PocketMoves moves_;
+    CutDepth* depth_;
     int cliff_passes_{0};
 };
 
@@ -346,10 +370,19 @@ std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operatio
     const auto begin = std::chrono::steady_clock::now();
     const Budget budget = make_budget(job, operation);
     const Region2d region = make_region(operation, budget.fit);
-    FinishPlanner finish{job, operation, region, budget};
+    std::optional<CutDepth> depth;
+    if (operation.max_depth) {
+        const Tool& rougher = operation.tools.empty() ? operation.tool : operation.tools.front();
+        const bool finer = rougher.radius < operation.tool.radius;
+        depth.emplace(box_of(region), finer ? rougher : operation.tool, job.stock_top,
+                      *operation.max_depth);
+    }
+    CutDepth* const cut_depth = depth ? &*depth : nullptr;
+    FinishPlanner finish{job, operation, region, budget, cut_depth};
     check_coverage(operation, region, finish.floor());
     std::vector<PlannedOperation> result;
-    const std::optional<RoughResult> rough = plan_rough_layers(job, operation, region, budget);
+    const std::optional<RoughResult> rough =
+        plan_rough_layers(job, operation, region, budget, cut_depth);
     if (rough && !rough->operation.path.moves.empty()) {
         result.push_back(rough->operation);
     }

@@ -21,6 +21,12 @@ double lowest_of(const FloorPath& path)
     return lowest;
 }
 
+// From level to level of one pass: along it.
+EntryKind way_down(EntryKind entry)
+{
+    return entry == EntryKind::kPlunge ? entry : EntryKind::kRamp;
+}
+
 }  // namespace
 
 FloorPath FloorCutter::laid(const std::vector<Edge>& plan, const FloorPathSettings& laying)
@@ -32,11 +38,10 @@ FloorPath FloorCutter::laid(const std::vector<Edge>& plan, const FloorPathSettin
     return path;
 }
 
-void FloorCutter::enter(const ClearingPass& pass,
-                        const FloorPath& cut,
-                        const CutSettings& settings,
-                        FloorPathSettings laying)
+void FloorCutter::enter(const Laid& cut, const CutSettings& settings)
 {
+    const ClearingPass& pass = cut.pass;
+    FloorPathSettings laying = cut.laying;
     const double tool = operation_.tool.radius;
     const double radius = std::min(0.6 * tool, pass.room - settings.first - 1e-3);
     const bool short_pass = length(pass.path) < 6.0 * tool;
@@ -44,9 +49,9 @@ void FloorCutter::enter(const ClearingPass& pass,
         settings.entry == EntryKind::kHelix || (settings.entry == EntryKind::kAuto && short_pass);
     const bool lines = !laying.arcs && !laying.nurbs;
     laying.arcs = laying.nurbs = false;
-    const FloorPath path = lines ? cut : laid(pass.path, laying);
+    const FloorPath path = lines ? cut.path : laid(pass.path, laying);
     const EntryHeights heights = settings.entry_heights(path.start.z);
-    if (helix && radius > 0.2 * tool) {
+    if (helix && radius > 0.2 * tool && helix_is_shallow(pass, radius, path.start.z)) {
         moves_.enter_by_helix(
             path.start, radius, heights,
             [&](Vec2d at) { return std::max(floor_.drop(at).height + laying.raise, laying.level); },
@@ -58,40 +63,121 @@ void FloorCutter::enter(const ClearingPass& pass,
     moves_.enter_along(path, heights, open || settings.entry == EntryKind::kPlunge);
 }
 
+// A helix reaches farther than the pass, where metal may stand that no pass has met.
+bool FloorCutter::helix_is_shallow(const ClearingPass& pass, double radius, double lowest) const
+{
+    return depth_ == nullptr || !depth_->too_deep_around(pass.path.front().start, radius, lowest);
+}
+
+bool FloorCutter::too_deep(const FloorPath& path, const CutSettings& settings) const
+{
+    return depth_ != nullptr && depth_->along(path, settings.depth_share).too_deep();
+}
+
+FloorCutter::Laid FloorCutter::lay(const ClearingPass& pass,
+                                   const CutSettings& settings,
+                                   bool repeated)
+{
+    Laid result{pass, settings.laying, {}};
+    if (repeated) {
+        result.laying.aside = repeated_aside(settings.laying.aside);
+    }
+    result.path = laid(pass.path, result.laying);
+    return result;
+}
+
+// False where the way over would cut too deep.
+bool FloorCutter::link(const Laid& laid_pass, const CutSettings& settings)
+{
+    FloorPathSettings linking = settings.laying;
+    linking.nurbs = false;
+    linking.even = true;
+    const FloorPath link = laid(laid_pass.pass.link, linking);
+    if (too_deep(link, settings)) {
+        return false;
+    }
+    least_gap_ = std::min(least_gap_, link.least_gap);
+    moves_.link(link);
+    return true;
+}
+
+// Cuts the pass at levels over itself, as low as the metal allows, until it is not too deep.
+// Returns the pass as it is to be cut then, from the same path in plan.
+FloorCutter::Laid FloorCutter::cut_above(const Laid& deep,
+                                         const CutSettings& settings,
+                                         bool repeated)
+{
+    constexpr int kMostLevels = 1000;
+    ClearingPass flat = deep.pass;
+    if (!repeated) {
+        flat.path = flattened(flat.path, settings.laying.aside, settings.laying.spacing,
+                              settings.laying.arcs);
+    }
+    const Laid last = lay(flat, settings, true);
+    CutSettings entering = settings;
+    entering.entry = way_down(settings.entry);
+    for (int i = 0; i < kMostLevels; ++i) {
+        depth_->feel(moves_.moves());
+        const CutDepth::Found found = depth_->along(last.path, settings.depth_share);
+        if (!found.too_deep() || (i > 0 && found.level > entering.laying.level - kWrittenStep)) {
+            break;
+        }
+        entering.laying.level = std::max(found.level, settings.laying.level);
+        entering.laying.nurbs = false;
+        entering.entry_heights = [&](double pass) {
+            const double metal = std::max(found.highest, pass);
+            return EntryHeights{metal + 1.0, metal + 0.1};
+        };
+        const Laid over = lay(flat, entering, true);
+        if (i == 0) {
+            moves_.retract();
+        }
+        enter(over, entering);
+        least_gap_ = std::min(least_gap_, over.path.least_gap);
+        moves_.cut(over.path);
+    }
+    return last;
+}
+
 void FloorCutter::cut(const ClearedRegion& cleared, const CutSettings& settings)
 {
     bool cut_before = false;
     Vec2d last{};
     for (std::size_t i = 0; i < cleared.passes.size(); ++i) {
-        const ClearingPass& pass = cleared.passes[i];
-        FloorPathSettings laying = settings.laying;
-        if (i < settings.repeated.size() && settings.repeated[i]) {
-            laying.aside = repeated_aside(laying.aside);
-        }
-        const FloorPath path = laid(pass.path, laying);
-        if (lowest_of(path) >= settings.skip_above) {
+        const bool repeated = i < settings.repeated.size() && settings.repeated[i];
+        Laid now = lay(cleared.passes[i], settings, repeated);
+        if (lowest_of(now.path) >= settings.skip_above) {
             cut_before = false;
             continue;
         }
-        least_gap_ = std::min(least_gap_, path.least_gap);
+        if (depth_ != nullptr) {
+            depth_->feel(moves_.moves());
+        }
+        const bool layered = too_deep(now.path, settings);
+        if (layered) {
+            now = cut_above(now, settings, repeated);
+        }
+        least_gap_ = std::min(least_gap_, now.path.least_gap);
+        const ClearingPass& pass = now.pass;
         const bool beside =
             distance(pass.link.empty() ? Vec2d{} : pass.link.front().start, last) < 1e-6;
-        if (pass.start == PassStart::kLink && cut_before && beside) {
-            FloorPathSettings linking = settings.laying;
-            linking.nurbs = false;
-            linking.even = true;
-            const FloorPath link = laid(pass.link, linking);
-            least_gap_ = std::min(least_gap_, link.least_gap);
-            moves_.link(link);
-        } else {
-            moves_.retract();
-            enter(pass, path, settings, laying);
+        const bool may_link = !layered && pass.start == PassStart::kLink && cut_before && beside;
+        if (!may_link || !link(now, settings)) {
+            if (!layered) {
+                moves_.retract();
+            }
+            CutSettings entering = settings;
+            entering.entry = layered ? way_down(settings.entry) : settings.entry;
+            enter(now, entering);
         }
-        moves_.cut(path);
+        moves_.cut(now.path);
         cut_before = true;
         last = pass.path.back().end;
     }
     moves_.retract();
+    if (depth_ != nullptr) {
+        depth_->feel(moves_.moves());
+    }
 }
 
 }  // namespace cusp::host

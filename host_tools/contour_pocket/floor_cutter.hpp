@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "host_tools/clearing/clearing.hpp"
+#include "host_tools/contour_pocket/cut_depth.hpp"
 #include "host_tools/contour_pocket/floor_path.hpp"
 #include "host_tools/contour_pocket/pocket_moves.hpp"
 #include "host_tools/import/job.hpp"
@@ -18,14 +19,20 @@ struct CutSettings {
     double skip_above{1e300};
     // Which passes have paths that are cut at several heights (flattened()); empty: none.
     std::vector<bool> repeated;
+    // Of the depth allowed: what a pass may cut as far as the metal is known.
+    double depth_share{1.0};
     // Where entries start, from the height of the pass there.
     std::function<EntryHeights(double)> entry_heights;
 };
 
 class FloorCutter {
 public:
-    FloorCutter(const Operation& operation, const TipFloor& floor, PocketMoves& moves)
-        : operation_{operation}, floor_{floor}, moves_{moves}
+    // depth  where given, passes that would cut too deep are cut at levels over them first
+    FloorCutter(const Operation& operation,
+                const TipFloor& floor,
+                PocketMoves& moves,
+                CutDepth* depth)
+        : operation_{operation}, floor_{floor}, moves_{moves}, depth_{depth}
     {
     }
 
@@ -36,16 +43,24 @@ public:
     double least_gap() const { return least_gap_; }
 
 private:
+    // A pass as it is laid.
+    struct Laid {
+        ClearingPass pass;
+        FloorPathSettings laying;
+        FloorPath path;
+    };
+    Laid lay(const ClearingPass& pass, const CutSettings& settings, bool repeated);
+    bool too_deep(const FloorPath& path, const CutSettings& settings) const;
+    bool link(const Laid& laid, const CutSettings& settings);
+    Laid cut_above(const Laid& laid, const CutSettings& settings, bool repeated);
     FloorPath laid(const std::vector<Edge>& plan, const FloorPathSettings& laying);
-    // cut: the pass as it is to be cut.
-    void enter(const ClearingPass& pass,
-               const FloorPath& cut,
-               const CutSettings& settings,
-               FloorPathSettings laying);
+    void enter(const Laid& cut, const CutSettings& settings);
+    bool helix_is_shallow(const ClearingPass& pass, double radius, double lowest) const;
 
     const Operation& operation_;
     const TipFloor& floor_;
     PocketMoves& moves_;
+    CutDepth* depth_;
     double least_gap_{0.0};
 };
 

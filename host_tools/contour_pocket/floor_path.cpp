@@ -155,12 +155,8 @@ struct Raised {
     double gap;
 };
 
-Raised raised_off(Vec3d start,
-                  FloorMove move,
-                  double gap,
-                  const TipFloor& floor,
-                  double allowed,
-                  double fine)
+Raised raised_off(
+    Vec3d start, FloorMove move, double gap, const TipFloor& floor, double allowed, double fine)
 {
     constexpr int kRounds = 20;
     constexpr int kGentleRounds = 4;  // later ones raise by more and more

@@ -18,6 +18,18 @@ double plan_distance(Vec3d a, Vec3d b) { return std::hypot(a.x - b.x, a.y - b.y)
 
 }  // namespace
 
+ToolMove tool_move(MoveKind kind, const FloorMove& move)
+{
+    if (!move.curve.points.empty()) {
+        return {kind, NurbsTo{move.curve}};
+    }
+    if (move.turn == 0) {
+        return {kind, LineTo{move.end}};
+    }
+    const Vec3d centre{move.centre.x, move.centre.y, 0.0};
+    return {kind, ArcTo{move.end, centre, ArcPlane::kXY, move.turn < 0}};
+}
+
 void PocketMoves::line(MoveKind kind, Vec3d end)
 {
     if (!moves_.empty() && end == at_) {
@@ -30,6 +42,7 @@ void PocketMoves::line(MoveKind kind, Vec3d end)
 
 void PocketMoves::approach(Vec2d at, const EntryHeights& heights)
 {
+    retract();
     line(MoveKind::kRapid, {at.x, at.y, clearance_});
     if (heights.rapid < clearance_) {
         line(MoveKind::kRapid, {at.x, at.y, heights.rapid});
@@ -48,7 +61,13 @@ void PocketMoves::enter_along(const FloorPath& path, const EntryHeights& heights
         pass.push_back(move.end);
     }
     double z = std::max(heights.metal, path.start.z);
-    approach({path.start.x, path.start.y}, {heights.rapid, z});
+    const bool stands_over = !moves_.empty() && plan_distance(at_, path.start) < 1e-6 &&
+                             at_.z >= path.start.z && at_.z < heights.rapid;
+    if (stands_over) {
+        z = at_.z;
+    } else {
+        approach({path.start.x, path.start.y}, {heights.rapid, z});
+    }
     const double turns = (z - lowest) / std::max(kSlope * round, 1e-9);
     if (plunge || turns * static_cast<double>(pass.size()) > kMostPoints) {
         line(MoveKind::kPlunge, pass.front());
@@ -118,20 +137,14 @@ void PocketMoves::follow(MoveKind kind, const FloorPath& path)
 {
     line(kind, path.start);
     for (const FloorMove& move : path.moves) {
-        if (!move.curve.points.empty()) {
-            moves_.push_back({kind, NurbsTo{move.curve}});
-            at_ = move.end;
-            points_ += kind == MoveKind::kCut ? static_cast<int>(move.curve.points.size()) - 1 : 0;
-            continue;
-        }
-        if (move.turn == 0) {
+        if (move.turn == 0 && move.curve.points.empty()) {
             line(kind, move.end);
             continue;
         }
-        const Vec3d centre{move.centre.x, move.centre.y, 0.0};
-        moves_.push_back({kind, ArcTo{move.end, centre, ArcPlane::kXY, move.turn < 0}});
+        moves_.push_back(tool_move(kind, move));
         at_ = move.end;
-        points_ += kind == MoveKind::kCut ? 1 : 0;
+        const int points = std::max(1, static_cast<int>(move.curve.points.size()) - 1);
+        points_ += kind == MoveKind::kCut ? points : 0;
     }
 }
 

@@ -15,13 +15,16 @@ struct EntryHeights {
     double metal;
 };
 
+ToolMove tool_move(MoveKind kind, const FloorMove& move);
+
 class PocketMoves {
 public:
     // clearance: z at which rapid moves run, mm.
     explicit PocketMoves(double clearance) : clearance_{clearance} {}
 
     // Down to the start of a closed pass of straight moves: round it again and again on a gentle
-    // slope until it lies wholly at its depth; straight down where `plunge`.
+    // slope until it lies wholly at its depth; straight down where `plunge`. From where the tool
+    // stands, where that is straight over the start and below the heights.
     void enter_along(const FloorPath& path, const EntryHeights& heights, bool plunge);
 
     // Down on a helix about the start of a pass. lowest(at) is the lowest the tip may stand there,
@@ -36,6 +39,7 @@ public:
     void link(const FloorPath& path) { follow(MoveKind::kLink, path); }
     void retract();
 
+    const std::vector<ToolMove>& moves() const { return moves_; }
     std::vector<ToolMove> take() { return std::move(moves_); }
     int retracts() const { return retracts_; }
     int points() const { return points_; }

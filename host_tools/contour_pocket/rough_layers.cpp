@@ -81,7 +81,8 @@ double lowest_tip(const ClearedRegion& cleared, const TipFloor& floor)
 std::optional<RoughResult> plan_rough_layers(const Job& job,
                                              const Operation& operation,
                                              const Region2d& region,
-                                             const Budget& budget)
+                                             const Budget& budget,
+                                             CutDepth* cut_depth)
 {
     if (!operation.max_depth && operation.layers.empty()) {
         return std::nullopt;
@@ -119,7 +120,10 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     }
     settings.repeated.assign(cleared.passes.size(), true);
     PocketMoves moves{job.stock_top + job.clearance};
-    FloorCutter cutter{rough, floor, moves};
+    FloorCutter cutter{rough, floor, moves, cut_depth};
+    if (cut_depth != nullptr) {
+        cut_depth->begin(rough.tool);
+    }
     const double bottom = lowest_tip(cleared, floor) + operation.allowance;
     double above = job.stock_top;
     for (const double level :

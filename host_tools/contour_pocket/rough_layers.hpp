@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "host_tools/clearing/clearing.hpp"
+#include "host_tools/contour_pocket/cut_depth.hpp"
 #include "host_tools/contour_pocket/pocket_task.hpp"
 
 namespace cusp::host {
@@ -22,10 +23,11 @@ double layer_depth(const Operation& operation);
 double lowest_tip(const ClearedRegion& cleared, const TipFloor& floor);
 
 // Layers for operation.tools.front(), at the depths operation.layers or no deeper than
-// operation.max_depth each; no value where neither is given.
+// operation.max_depth each; no value where neither is given. cut_depth as FloorCutter asks for it.
 std::optional<RoughResult> plan_rough_layers(const Job& job,
                                              const Operation& operation,
                                              const Region2d& region,
-                                             const Budget& budget);
+                                             const Budget& budget,
+                                             CutDepth* cut_depth);
 
 }  // namespace cusp::host

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host_tools/grid_pocket/grid_moves.hpp"
-#include "host_tools/grid_pocket/standing_metal.hpp"
+#include "host_tools/clearing/standing_metal.hpp"
 
 namespace cusp::host {
 

@@ -8,20 +8,28 @@
 
 namespace cusp::host {
 
-// Heights of metal at places a twelfth of the tool's radius apart (more in pockets of over four
-// million places). What is thinner than that may be missed.
+// Heights of metal at places on a grid (a coarser one in pockets of over four million places). What
+// is thinner than that may be missed.
 class StandingMetal {
 public:
     // box  all places that the tool may touch
     // top  of the uncut stock
-    StandingMetal(const Box2d& box, const Tool& tool, double top);
+    // share  of the tool's radius: between places
+    StandingMetal(const Box2d& box, const Tool& tool, double top, double share = 1.0 / 12);
+
+    // From here on another tool cuts and feels.
+    void use(const Tool& tool);
 
     // The height at which a tip that comes down over `at` first touches metal; -1e300 where none
     // stands.
     double touch(Vec2d at) const;
 
     // Takes what the tool sweeps on a straight move. Returns the deepest that it cuts, mm.
-    double cut(Vec3d from, Vec3d to);
+    double cut(Vec3d from, Vec3d to) { return sweep(from, to, tool_); }
+
+    // As cut(), by a tool that is smaller by slivers: what it would only graze stays, to be felt by
+    // the next move that meets it.
+    double cut_inside(Vec3d from, Vec3d to) { return sweep(from, to, feeler_); }
 
 private:
     // The tool's lower side: a flat of radius `flat`, a corner around it.
@@ -36,10 +44,10 @@ private:
         std::size_t end;
     };
 
-    double spacing_;
-    double sliver_;  // mm: what stands between two looked-at places of a move is no metal
-    Profile tool_;
-    Profile feeler_;  // the tool, smaller by the slivers
+    double spacing_{};
+    double sliver_{};  // mm: what stands between two looked-at places of a move is no metal
+    Profile tool_{};
+    Profile feeler_{};  // the tool, smaller by the slivers
     Vec2d origin_;
     double pitch_;
     std::size_t columns_;
@@ -48,7 +56,8 @@ private:
     std::vector<float> heights_;
 
     static Range range(double low, double high, double origin, double pitch, std::size_t count);
-    double cut_at(Vec3d tip);
+    double sweep(Vec3d from, Vec3d to, const Profile& taken);
+    double cut_at(Vec3d tip, const Profile& taken);
 };
 
 }  // namespace cusp::host

@@ -1,5 +1,5 @@
 // Each looked-at position lowers the places under the tool to its lower side.
-#include "host_tools/grid_pocket/standing_metal.hpp"
+#include "host_tools/clearing/standing_metal.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,6 @@ namespace cusp::host {
 namespace {
 
 constexpr double kNoMetal = -1e300;
-constexpr double kPitchShare = 1.0 / 12;    // of the radius
 constexpr double kSpacingShare = 1.0 / 10;  // of the radius
 constexpr double kMostPlaces = 4e6;
 constexpr double kLeastSliver = 2e-3;  // mm
@@ -21,19 +20,23 @@ double StandingMetal::Profile::at(double squared) const
     return corner - std::sqrt(std::max(0.0, corner * corner - beyond * beyond));
 }
 
-StandingMetal::StandingMetal(const Box2d& box, const Tool& tool, double top)
-    : spacing_{tool.radius * kSpacingShare},
-      sliver_{spacing_ * spacing_ / (4 * tool.radius) + kLeastSliver},
-      tool_{tool.radius - tool.corner_radius, tool.corner_radius, tool.radius * tool.radius},
-      feeler_{},
-      origin_{box.x0, box.y0},
-      pitch_{std::max(tool.radius * kPitchShare,
+StandingMetal::StandingMetal(const Box2d& box, const Tool& tool, double top, double share)
+    : origin_{box.x0, box.y0},
+      pitch_{std::max(tool.radius * share,
                       std::sqrt((box.x1 - box.x0) * (box.y1 - box.y0) / kMostPlaces))},
       columns_{static_cast<std::size_t>((box.x1 - box.x0) / pitch_) + 1},
       rows_{static_cast<std::size_t>((box.y1 - box.y0) / pitch_) + 1},
       top_{top},
       heights_(columns_ * rows_, static_cast<float>(top))
 {
+    use(tool);
+}
+
+void StandingMetal::use(const Tool& tool)
+{
+    spacing_ = tool.radius * kSpacingShare;
+    sliver_ = spacing_ * spacing_ / (4 * tool.radius) + kLeastSliver;
+    tool_ = {tool.radius - tool.corner_radius, tool.corner_radius, tool.radius * tool.radius};
     const double radius = tool.radius - sliver_;
     const double corner = std::max(0.0, tool.corner_radius - sliver_);
     feeler_ = {radius - corner, corner, radius * radius};
@@ -68,9 +71,9 @@ double StandingMetal::touch(Vec2d at) const
     return highest - sliver_;
 }
 
-double StandingMetal::cut_at(Vec3d tip)
+double StandingMetal::cut_at(Vec3d tip, const Profile& taken)
 {
-    const double reach = std::sqrt(tool_.reach);
+    const double reach = std::sqrt(taken.reach);
     const Range columns = range(tip.x - reach, tip.x + reach, origin_.x, pitch_, columns_);
     const Range rows = range(tip.y - reach, tip.y + reach, origin_.y, pitch_, rows_);
     double deepest = 0;
@@ -81,19 +84,19 @@ double StandingMetal::cut_at(Vec3d tip)
             const double dy = origin_.y + static_cast<double>(j) * pitch_ - tip.y;
             const double squared = dx * dx + dy * dy;
             const double over = static_cast<double>(heights[j]) - tip.z;
-            if (squared > tool_.reach || over <= 0) {
+            if (squared > taken.reach || over <= 0) {
                 continue;
             }
             const double felt = over - sliver_ - feeler_.at(squared);
             deepest = squared <= feeler_.reach && felt > deepest ? felt : deepest;
-            const double left = tool_.at(squared);
+            const double left = taken.at(squared);
             heights[j] = left < over ? static_cast<float>(tip.z + left) : heights[j];
         }
     }
     return deepest;
 }
 
-double StandingMetal::cut(Vec3d from, Vec3d to)
+double StandingMetal::sweep(Vec3d from, Vec3d to, const Profile& taken)
 {
     if (std::min(from.z, to.z) >= top_) {
         return 0;
@@ -102,7 +105,7 @@ double StandingMetal::cut(Vec3d from, Vec3d to)
     double deepest = 0;
     for (int i = 1; i <= count; ++i) {
         const Vec3d tip = from + (to - from) * (static_cast<double>(i) / count);
-        deepest = tip.z < top_ ? std::max(deepest, cut_at(tip)) : deepest;
+        deepest = tip.z < top_ ? std::max(deepest, cut_at(tip, taken)) : deepest;
     }
     return deepest;
 }

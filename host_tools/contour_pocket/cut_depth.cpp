@@ -1,0 +1,91 @@
+// Feels every move in turn; looks along paths before they are cut.
+#include "host_tools/contour_pocket/cut_depth.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host_tools/contour_pocket/pocket_moves.hpp"
+#include "host_tools/toolpath/toolpath_measure.hpp"
+
+namespace cusp::host {
+
+namespace {
+
+// The metal is known at places only: what stands between them may be this much higher.
+constexpr double kBetween = 0.005;   // mm
+constexpr double kAimed = 0.9;       // of the depth allowed: what levels take
+constexpr double kPitch = 1.0 / 24;  // of the finest tool's radius
+constexpr double kChord = 0.002;     // mm: curves are felt along chords this near
+constexpr double kApart = 1.0 / 20;  // of the tool's radius
+
+}  // namespace
+
+CutDepth::CutDepth(const Box2d& box, const Tool& finest, double top, double most)
+    : metal_{box, finest, top, kPitch}, ahead_{metal_}, most_{most}
+{
+    begin(finest);
+}
+
+void CutDepth::begin(const Tool& tool)
+{
+    metal_.use(tool);
+    apart_ = kApart * tool.radius;
+    felt_ = 0;
+}
+
+void CutDepth::feel(const std::vector<ToolMove>& path)
+{
+    for (; felt_ < path.size(); ++felt_) {
+        for (const Vec3d p : points_of(path[felt_], at_, kChord)) {
+            // Where the first move of a path comes from is over the stock.
+            deepest_ = felt_ > 0 ? std::max(deepest_, metal_.cut(at_, p)) : deepest_;
+            at_ = p;
+        }
+    }
+}
+
+void CutDepth::look(Vec3d from, Vec3d tip, double most, Found& found)
+{
+    found.highest = std::max(found.highest, metal_.touch({tip.x, tip.y}) + kBetween);
+    const double depth = ahead_.cut_inside(from, tip) + kBetween;
+    if (depth > most) {
+        found.level = std::max(found.level, tip.z + depth - kAimed * most);
+    }
+}
+
+CutDepth::Found CutDepth::along(const FloorPath& path, double share)
+{
+    const double most = share * most_;
+    Found found;
+    ahead_ = metal_;
+    Vec3d at = path.start;
+    look(at, at, most, found);
+    for (const FloorMove& move : path.moves) {
+        for (const Vec3d p : points_of(tool_move(MoveKind::kCut, move), at, kChord)) {
+            const int n = 1 + static_cast<int>(norm(p - at) / apart_);
+            Vec3d from = at;
+            for (int i = 1; i <= n; ++i) {
+                const Vec3d to = at + (p - at) * (static_cast<double>(i) / n);
+                look(from, to, most, found);
+                from = to;
+            }
+            at = p;
+        }
+    }
+    return found;
+}
+
+bool CutDepth::too_deep_around(Vec2d centre, double radius, double height) const
+{
+    constexpr int kPlaces = 32;
+    for (int i = 0; i < kPlaces; ++i) {
+        const double angle = 6.28318530717958648 * i / kPlaces;
+        const Vec2d at{centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)};
+        if (metal_.touch(at) + kBetween - height > most_) {
+            return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace cusp::host
