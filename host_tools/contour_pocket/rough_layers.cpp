@@ -38,13 +38,33 @@ std::vector<double> layer_heights(const Job& job,
     }
     if (heights.empty()) {
         const double deep = job.stock_top - bottom;
-        const int n = std::max(1, static_cast<int>(std::ceil(deep / depth - 1e-9)));
+        const auto count = [&](double of) {
+            return std::max(1, static_cast<int>(std::ceil(deep / of - 1e-9)));
+        };
+        int n = count(depth);
+        if (const double least = operation.min_depth.value_or(0.0); deep < n * least) {
+            // Fewer layers, as far as max_depth lets them: passes that ridges of the layer above
+            // make too deep are cut twice.
+            n = std::max(count(*operation.max_depth), static_cast<int>(deep / least + 1e-9));
+        }
         for (int i = 1; i <= n; ++i) {
             heights.push_back(job.stock_top - deep * i / n);
         }
     }
     std::sort(heights.begin(), heights.end(), [](double a, double b) { return a > b; });
     return heights;
+}
+
+// max_depth goes before min_depth.
+void warn_of_thin_layers(const Job& job, const Operation& operation, RoughResult& result)
+{
+    const double deep = result.heights.empty() ? 0.0 : job.stock_top - result.heights.front();
+    if (deep < operation.min_depth.value_or(0.0) - 1e-6) {
+        result.operation.stats.warnings.push_back(
+            "layers are " + number_text(deep) + " mm deep, less than min_depth, " +
+            number_text(*operation.min_depth) +
+            " mm: max_depth and the depth of the pocket leave no other");
+    }
 }
 
 }  // namespace
@@ -138,6 +158,7 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
         settings.skip_above = above = level;
         result.heights.push_back(level);
     }
+    warn_of_thin_layers(job, operation, result);
     const std::size_t layers = result.heights.size();
     result.operation.path.feed = job.feed;
     result.operation.path.plunge_feed = job.plunge_feed;

@@ -258,8 +258,10 @@ LayerPlanes layer_planes(const PocketSpace& pocket)
         const double ridge = ridge_over_tracks(operation);
         const FollowSettings follow = follow_settings(operation);
         const double over = band_height(follow) * (follow.both_sides ? 2 : 1);
-        const double step = std::max(*operation.max_depth - ridge - over - operation.allowance,
-                                     *operation.max_depth * kLeastStep);
+        // With min_depth the extra passes that keep to max_depth may be more.
+        const double step =
+            std::max({*operation.max_depth - ridge - over - operation.allowance,
+                      *operation.max_depth * kLeastStep, operation.min_depth.value_or(0)});
         if ((pocket.job.stock_top - lowest) / step > 1e4) {
             refuse_grid_pocket(pocket.job, "max_depth " +
                                                length_text(pocket.job, *operation.max_depth) +

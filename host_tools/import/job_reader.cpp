@@ -85,6 +85,7 @@ private:
     bool takes_mesh(const Operation& operation, const std::vector<std::string>& floor) const;
     void read_mesh_of(const std::vector<std::string>& floor, Operation& operation);
     void read_parts(JobTable& table, Operation& operation);
+    void check_least_depth(const JobTable& table, const Operation& operation) const;
     void check_strategy(const JobTable& table, const Operation& operation) const;
     const Tool& tool_numbered(const JobTable& table, const char* key, int number) const;
     std::string path_of(const std::string& name) const;
@@ -411,6 +412,28 @@ void check_islands(const Operation& operation)
     }
 }
 
+// Of the strategies that always finish: without layers there is but one depth of cut.
+void JobReader::check_least_depth(const JobTable& table, const Operation& operation) const
+{
+    if (!operation.min_depth) {
+        return;
+    }
+    if (!operation.max_depth && operation.layers.empty()) {
+        table.refuse("min_depth", "needs max_depth or layers: without them " + operation.strategy +
+                                      " cuts no layers");
+    }
+    constexpr double kRounding = 1e-6;  // mm
+    double above = 0;
+    for (const double depth : operation.layers) {
+        if (depth - above < *operation.min_depth - kRounding) {
+            table.refuse("layers", fmt::format("the layer down to {:g} mm is {:g} mm deep, less "
+                                               "than the min_depth of {:g} mm",
+                                               depth, depth - above, *operation.min_depth));
+        }
+        above = depth;
+    }
+}
+
 void JobReader::check_strategy(const JobTable& table, const Operation& operation) const
 {
     const std::string& strategy = operation.strategy;
@@ -422,9 +445,11 @@ void JobReader::check_strategy(const JobTable& table, const Operation& operation
     if (strategy == "contour_pocket") {
         need(operation.boundary.has_value(), "boundary", "the loop that bounds the pocket");
         need(operation.scallop.has_value(), "scallop", "the height of the ridges that may stay");
+        check_least_depth(table, operation);
     } else if (strategy == "grid_pocket") {
         need(operation.boundary.has_value(), "boundary", "the loop that bounds the pocket");
         need(operation.grid_x > 0, "grid", "the size of its cells, [gx, gy]");
+        check_least_depth(table, operation);
     } else if (strategy == "hull_rough") {
         need(operation.max_depth.has_value(), "max_depth", "the depth of cut of a layer");
     } else if (strategy == "parallel_planes") {
