@@ -44,35 +44,45 @@ void CutDepth::feel(const std::vector<ToolMove>& path)
     }
 }
 
-void CutDepth::look(Vec3d from, Vec3d tip, double most, Found& found)
+// Calls visit(from, to) with places of the path, no farther apart than `apart_`.
+template <class Visit>
+void CutDepth::walk(const FloorPath& path, Visit visit) const
 {
-    found.highest = std::max(found.highest, metal_.touch({tip.x, tip.y}) + kBetween);
-    const double depth = ahead_.cut_inside(from, tip) + kBetween;
-    if (depth > most) {
-        found.level = std::max(found.level, tip.z + depth - kAimed * most);
-    }
-}
-
-CutDepth::Found CutDepth::along(const FloorPath& path, double share)
-{
-    const double most = share * most_;
-    Found found;
-    ahead_ = metal_;
     Vec3d at = path.start;
-    look(at, at, most, found);
+    visit(at, at);
     for (const FloorMove& move : path.moves) {
         for (const Vec3d p : points_of(tool_move(MoveKind::kCut, move), at, kChord)) {
             const int n = 1 + static_cast<int>(norm(p - at) / apart_);
             Vec3d from = at;
             for (int i = 1; i <= n; ++i) {
                 const Vec3d to = at + (p - at) * (static_cast<double>(i) / n);
-                look(from, to, most, found);
+                visit(from, to);
                 from = to;
             }
             at = p;
         }
     }
-    return found;
+}
+
+std::optional<double> CutDepth::level_over(const FloorPath& path, double share)
+{
+    const double most = share * most_;
+    double level = -1e300;
+    ahead_ = metal_;
+    walk(path, [&](Vec3d from, Vec3d to) {
+        const double depth = ahead_.cut_inside(from, to) + kBetween;
+        if (depth > most) {
+            level = std::max(level, to.z + depth - kAimed * most);
+        }
+    });
+    return level > -1e299 ? std::optional{level} : std::nullopt;
+}
+
+double CutDepth::highest(const FloorPath& path) const
+{
+    double z = -1e300;
+    walk(path, [&](Vec3d, Vec3d to) { z = std::max(z, metal_.touch({to.x, to.y}) + kBetween); });
+    return z;
 }
 
 bool CutDepth::too_deep_around(Vec2d centre, double radius, double height) const

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "host_tools/clearing/standing_metal.hpp"
@@ -24,14 +25,12 @@ public:
     // Takes off what moves do that were added to the path since.
     void feel(const std::vector<ToolMove>& path);
 
-    struct Found {
-        double highest{-1e300};  // z: where a tip coming down over the path first touches metal
-        double level{-1e300};    // z: a tip no lower is nowhere too deep; none where none is
-        bool too_deep() const { return level > -1e299; }
-    };
-    // What following the path would cut, in turn.
-    // share: of `most`, what it may
-    Found along(const FloorPath& path, double share);
+    // What following the path would cut, move by move: no value where that is nowhere deeper than
+    // `share` of what may be; else z of a level that a tip on the path may be raised to.
+    std::optional<double> level_over(const FloorPath& path, double share);
+
+    // z: where a tip that comes down over the path first touches metal.
+    double highest(const FloorPath& path) const;
 
     // Whether a tip that comes down to `height` anywhere on the circle cuts too deep.
     bool too_deep_around(Vec2d centre, double radius, double height) const;
@@ -42,10 +41,11 @@ public:
     double deepest() const { return deepest_; }
 
 private:
-    void look(Vec3d from, Vec3d tip, double most, Found& found);
+    template <class Visit>
+    void walk(const FloorPath& path, Visit visit) const;
 
     StandingMetal metal_;
-    StandingMetal ahead_;  // what along() cuts
+    StandingMetal ahead_;  // what level_over() cuts
     double most_;
     double apart_{};  // mm between places of a path
     std::size_t felt_{0};

@@ -71,7 +71,7 @@ bool FloorCutter::helix_is_shallow(const ClearingPass& pass, double radius, doub
 
 bool FloorCutter::too_deep(const FloorPath& path, const CutSettings& settings) const
 {
-    return depth_ != nullptr && depth_->along(path, settings.depth_share).too_deep();
+    return depth_ != nullptr && depth_->level_over(path, settings.depth_share).has_value();
 }
 
 FloorCutter::Laid FloorCutter::lay(const ClearingPass& pass,
@@ -118,14 +118,14 @@ FloorCutter::Laid FloorCutter::cut_above(const Laid& deep,
     entering.entry = way_down(settings.entry);
     for (int i = 0; i < kMostLevels; ++i) {
         depth_->feel(moves_.moves());
-        const CutDepth::Found found = depth_->along(last.path, settings.depth_share);
-        if (!found.too_deep() || (i > 0 && found.level > entering.laying.level - kWrittenStep)) {
+        const auto level = depth_->level_over(last.path, settings.depth_share);
+        if (!level || (i > 0 && *level > entering.laying.level - kWrittenStep)) {
             break;
         }
-        entering.laying.level = std::max(found.level, settings.laying.level);
+        entering.laying.level = std::max(*level, settings.laying.level);
         entering.laying.nurbs = false;
-        entering.entry_heights = [&](double pass) {
-            const double metal = std::max(found.highest, pass);
+        entering.entry_heights = [highest = depth_->highest(last.path)](double pass) {
+            const double metal = std::max(highest, pass);
             return EntryHeights{metal + 1.0, metal + 0.1};
         };
         const Laid over = lay(flat, entering, true);
