@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Plans random pockets and cuts them in memory: floors and walls are whole, no rapid move meets
-metal, and no more stays than the job allows.
+metal, no cut is deeper than the job allows, and no more stays.
 
 usage: random_pockets_test.py CUSP [CASES [FIRST_SEED]]
 
@@ -9,6 +9,7 @@ of cases that fail are kept, and named.
 """
 import json
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -18,10 +19,18 @@ from random_pocket import RandomPocket
 
 REFUSALS = ("crosses", "lies outside", "lies inside", "fits nowhere")
 LEAST_GOUGE = 1e-3  # mm, what the judge's grid resolves
+SLIVER = 0.02  # mm of depth
 
 
 def call(*words):
     return subprocess.run([str(w) for w in words], capture_output=True, text=True, check=False)
+
+
+def limit(job, key):
+    """A length of the job in mm, None where it is not given."""
+    text = job.read_text()
+    found = re.search(rf"^{key} = ([0-9.]+)$", text, re.MULTILINE)
+    return found and float(found.group(1)) * (25.4 if 'units = "inch"' in text else 1.0)
 
 
 def fault(cusp, job, folder):
@@ -39,6 +48,9 @@ def fault(cusp, job, folder):
     for name in ("gouge_max_mm", "wall_gouge_max_mm", "rapid_cut_max_mm"):
         if found.get(name, 0.0) > LEAST_GOUGE:
             return f"{name} {found[name]}"
+    deepest = limit(job, "max_depth")
+    if deepest and found["cut_depth_max_mm"] > deepest * 1.02 + SLIVER:
+        return f"cut_depth_max_mm {found['cut_depth_max_mm']}, max_depth {deepest}"
     return ""
 
 

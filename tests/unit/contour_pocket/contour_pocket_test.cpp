@@ -182,6 +182,50 @@ double count_of(const PlannedOperation& planned, const std::string& name)
     return -1.0;
 }
 
+// Roughing's loops leave terraces on a slope, each as high as the slope climbs between two loops.
+TEST(ContourPocket, CutsTheTerracesThatRoughingLeavesInLayers)
+{
+    Operation operation = pocket();
+    operation.floor = {plane(60.0, -24.0)};
+    for (Vec3d& p : operation.floor.front().points) {
+        p.z += 0.9 * (p.x - 30.0);
+    }
+    operation.tool = {1, ToolShape::kFlat, 4.0, 0.0};
+    operation.plan_tolerance = operation.floor_tolerance = 0.05;
+    operation.scallop = 0.6;
+    operation.max_depth = 2.0;
+    operation.allowance = 0.3;
+    Job stock = job();
+    stock.stock_top = 4.0;
+    const auto plan = plan_contour_pocket(stock, operation);
+    LONGS_EQUAL(2, plan.size());
+    for (const auto& [key, value] : plan.back().stats.counts) {
+        CHECK(key != "deepest_cut_mm" || value <= 2.02);
+    }
+    for (const std::string& warning : plan.back().stats.warnings) {
+        CHECK(warning.find("max_depth") == std::string::npos);
+    }
+}
+
+TEST(ContourPocket, LayersAreNoThinnerThanMinDepthAsFarAsMaxDepthLets)
+{
+    Operation operation = pocket();
+    operation.tool = {1, ToolShape::kFlat, 4.0, 0.0};
+    operation.max_depth = 3.0;
+    operation.min_depth = 2.5;
+    auto plan = plan_contour_pocket(job(), operation);
+    const auto layers = [](const PlannedOperation& planned) {
+        return planned.stats.counts.front().second;
+    };
+    // Three layers of 2.7 mm.
+    DOUBLES_EQUAL(3.0, layers(plan.front()), 0.0);
+    LONGS_EQUAL(0, plan.front().stats.warnings.size());
+    operation.min_depth = 2.9;
+    plan = plan_contour_pocket(job(), operation);
+    LONGS_EQUAL(1, plan.front().stats.warnings.size());
+    STRCMP_CONTAINS("less than min_depth, 2.9 mm", plan.front().stats.warnings.front().c_str());
+}
+
 TEST(ContourPocket, SaysWhereTheToolDoesNotReachAndHowMuchStays)
 {
     const PlannedOperation planned = plan_contour_pocket(job(), pocket()).back();

@@ -107,4 +107,49 @@ TEST(FloorPath, ARidgeBetweenLookupsIsFollowed)
     }
 }
 
+// A cliff beside the path is met by moves that stray from it: they are raised there, and not over
+// all of their length.
+TEST(FloorPath, AMoveThatGrazesACliffIsRaisedOnlyThere)
+{
+    constexpr int kCases = 40;
+    double longest = 0.0;
+    for (int i = 0; i < kCases; ++i) {
+        const double away = 5.0 + 0.02 * i;  // the ball passes the plate's edge at 5.196 mm
+        std::vector<Surface> floor{hill(60.0, 0.0), hill(1.0, 0.0)};
+        for (Vec3d& p : floor.back().points) {
+            p = p + Vec3d{29.5, 9.0, 3.0};
+        }
+        const TipFloor tips{floor, kBall, kAccuracy};
+        FloorPathSettings laying = settings();
+        laying.arcs = true;
+        // A circle of 200 mm that comes nearest to the plate beside its middle.
+        const double y = 10.0 + away;
+        const Vec2d centre{30.0, y + 200.0};
+        std::vector<Edge> plan;
+        Vec2d from{10.0, centre.y - std::sqrt(200.0 * 200.0 - 400.0)};
+        for (int k = 1; k <= 20; ++k) {
+            const double x = -20.0 + 2.0 * k;
+            const Vec2d to{30.0 + x, centre.y - std::sqrt(200.0 * 200.0 - x * x)};
+            plan.push_back(line_edge(from, to));
+            from = to;
+        }
+        const FloorPath path = lay_on_floor(plan, tips, laying);
+        DOUBLES_EQUAL(0.0, path.least_gap, 1e-9);
+        double lifted = 0.0;
+        Vec3d at = path.start;
+        for (const FloorMove& move : path.moves) {
+            const double length = std::hypot(move.end.x - at.x, move.end.y - at.y);
+            constexpr int kPlaces = 20;
+            for (int j = 0; j < kPlaces; ++j) {
+                const Vec3d tip = at + (move.end - at) * ((j + 0.5) / kPlaces);
+                const double over = tip.z - tips.drop({tip.x, tip.y}).height;
+                lifted += over > 3.0 * laying.above ? length / kPlaces : 0.0;
+            }
+            at = move.end;
+        }
+        longest = std::max(longest, lifted);
+    }
+    CHECK(longest < 0.2 * kBall.radius);
+}
+
 }  // namespace cusp::host
