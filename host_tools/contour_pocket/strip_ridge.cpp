@@ -15,7 +15,6 @@ namespace {
 constexpr double kNowhere = 1e300;
 constexpr double kAlong = 1.0 / 6.0;     // of the tool's radius: ways are no farther apart
 constexpr double kClosest = 1.0 / 48.0;  // of it: where what stands changes
-constexpr int kPlaces = 8;               // on a way, at most
 constexpr double kFine = 0.02;           // of the tool's radius: places on a way are no closer
 constexpr double kEnough = 4.0;          // more need not be known
 
@@ -333,11 +332,25 @@ double StripRidge::left_under(const Probe& a, const Probe& b) const
     }
     double most = 0.0;
     for (int i = 1; i < kPieces; ++i) {
-        const Vec2d p = a.touched + (b.touched - a.touched) * (static_cast<double>(i) / kPieces);
+        const double share = static_cast<double>(i) / kPieces;
+        const Vec2d p = a.touched + (b.touched - a.touched) * share;
         const double best = std::min(a.tip + profile_height(tool, distance(a.at, p)),
                                      b.tip + profile_height(tool, distance(b.at, p)));
-        const double secant = std::max(a.secant, b.secant);
+        // The floor of a valley is as steep as its sides only beside them.
+        const Vec2d slope = a.gradient * (1.0 - share) + b.gradient * share;
+        const double secant = std::sqrt(1.0 + dot(slope, slope));
         most = std::max(most, (left_at(p, a.at) - best) / (secant * strayed_ * allowed(secant)));
+    }
+    return most;
+}
+
+// Along a valley the two sides that the ball rests on are met by different ways.
+double StripRidge::left_beside(const Way& a, const Way& b) const
+{
+    double most = 0.0;
+    for (std::size_t i = 0; ball_ && i < static_cast<std::size_t>(std::min(a.count, b.count));
+         ++i) {
+        most = std::max(most, left_under(a.probes[i], b.probes[i]));
     }
     return most;
 }
@@ -373,16 +386,17 @@ StripRidge::Way StripRidge::way(const Edge& edge, double along, const LevelStrip
     std::array<double, kPlaces + 1> found{};
     double most = 0.0;
     double climb = 0.0;
-    Probe last_probe{};
+    Way result{along, 0.0, 0.0};
     const int places =
         std::clamp(static_cast<int>(step / (kFine * floor_.tool().radius)), 3, kPlaces);
     const int n = std::max(1, static_cast<int>(std::ceil(places * end / step)));
     for (int i = 0; i <= n && most < kEnough; ++i) {
         const Probe here = probe(place(end * i / n));
         if (i > 0 && ball_) {
-            most = std::max(most, left_under(last_probe, here));
+            most = std::max(most, left_under(result.probes[static_cast<std::size_t>(i) - 1], here));
         }
-        last_probe = here;
+        result.probes[static_cast<std::size_t>(i)] = here;
+        result.count = i + 1;
         climb = i == 0 ? dot(here.gradient, tangent) : climb;
         const double standing = left(here);
         found[static_cast<std::size_t>(i)] = standing;
@@ -404,7 +418,9 @@ StripRidge::Way StripRidge::way(const Edge& edge, double along, const LevelStrip
         const double fall = found[i] - found[i + 1];
         most = std::max(most, found[i] + std::min(std::max(0.0, rise), std::max(0.0, fall)));
     }
-    return {along, most, climb};
+    result.share = most;
+    result.climb = climb;
+    return result;
 }
 
 // Beside a corner ways end early, where they meet those from its other side.
@@ -430,7 +446,8 @@ double StripRidge::ways_along(const Edge& edge, Corners corners, const LevelStri
     double most = last.share;
     for (std::size_t i = 1; i < places.size() && most < kEnough; ++i) {
         const Way next = way(edge, places[i], strip);
-        most = std::max({most, next.share, between(edge, last, next, strip)});
+        most =
+            std::max({most, next.share, left_beside(last, next), between(edge, last, next, strip)});
         last = next;
     }
     return most;

@@ -1,6 +1,7 @@
 // The highest ridge that two neighbouring levels of loops leave in the strip between them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -45,12 +46,7 @@ public:
     double proven_step(const Region2d& level) const;
 
 private:
-    // A way inward from a place of an edge.
-    struct Way {
-        double along;  // share of the edge
-        double share;  // of what may stand, the most on it
-        double climb;  // slope of the tip's height along the edge
-    };
+    static constexpr int kPlaces = 8;  // on a way, at most
     struct Probe {
         Vec2d at;
         double tip;  // z
@@ -58,6 +54,14 @@ private:
         double floor;  // z of what is touched
         Vec2d gradient;
         double secant;
+    };
+    // A way inward from a place of an edge.
+    struct Way {
+        double along;  // share of the edge
+        double share;  // of what may stand, the most on it
+        double climb;  // slope of the tip's height along the edge
+        std::array<Probe, kPlaces + 1> probes{};
+        int count{0};  // of them that were looked at
     };
     void lay(const Region2d& level, double step);
     void sort_segments(double cell);
@@ -72,6 +76,7 @@ private:
     double allowed(double secant) const;
     double left(const Probe& probe) const;
     double left_under(const Probe& a, const Probe& b) const;
+    double left_beside(const Way& a, const Way& b) const;
     double left_at(Vec2d at, Vec2d near) const;
 
     double proven(const Box2d& level, double step) const;
