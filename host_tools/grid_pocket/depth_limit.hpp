@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "host_tools/grid_pocket/grid_moves.hpp"
 #include "host_tools/clearing/standing_metal.hpp"
+#include "host_tools/grid_pocket/grid_moves.hpp"
 
 namespace cusp::host {
 

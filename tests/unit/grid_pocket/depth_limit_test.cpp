@@ -6,8 +6,8 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/grid_pocket/grid_pocket.hpp"
 #include "host_tools/clearing/standing_metal.hpp"
+#include "host_tools/grid_pocket/grid_pocket.hpp"
 #include "tests/support/loops.hpp"
 
 using namespace cusp::host;

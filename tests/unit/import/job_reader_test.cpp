@@ -140,7 +140,7 @@ TEST(JobReader, RefusesALeastDepthThatNoLayerCanHave)
 {
     const std::string none = refused(kHead + pocket("scallop = 0.4\nmin_depth = 1\n"));
     STRCMP_CONTAINS("min_depth: needs max_depth or layers", none.c_str());
-    STRCMP_CONTAINS("job.toml:18", none.c_str());
+    STRCMP_CONTAINS("job.toml:19", none.c_str());
     STRCMP_CONTAINS(
         "layers: the layer down to 3.5 mm is 0.5 mm deep, less than the min_depth of 1 mm",
         refused(kHead + pocket("min_depth = 1\nlayers = [3, 3.5]\n")).c_str());
