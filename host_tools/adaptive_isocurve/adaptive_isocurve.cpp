@@ -11,6 +11,7 @@
 #include "host_tools/adaptive_isocurve/even_spacing.hpp"
 #include "host_tools/adaptive_isocurve/isocurve_extraction.hpp"
 #include "host_tools/adaptive_isocurve/mesh_isocurves.hpp"
+#include "host_tools/adaptive_isocurve/neighbour_bound.hpp"
 #include "host_tools/adaptive_isocurve/pass_tracer.hpp"
 #include "host_tools/adaptive_isocurve/ridge.hpp"
 #include "host_tools/adaptive_isocurve/rough_levels.hpp"
@@ -38,7 +39,9 @@ constexpr int kHandLooks = 8;
 constexpr std::size_t kMostMeasured = 4000;
 constexpr double kBetweenPlaces = 1.25;  // what may stand between places measured in them
 constexpr double kMoreExpected = 2;
-constexpr double kSameEdge = 0.1;  // in steps: edges nearer than this are one
+constexpr int kNeighbourRounds = 5;
+constexpr double kNearer = 0.9998;  // than the bound asks for
+constexpr double kSameEdge = 0.1;   // in steps: edges nearer than this are one
 
 void swap_loops(Surface& surface)
 {
@@ -190,6 +193,13 @@ public:
                 "of what is left");
         }
         planned.stats.counts.emplace_back("isocurves", static_cast<double>(curves));
+        if (apart_ > 0) {
+            planned.stats.counts.emplace_back("iso_distance_bound_mm", apart_);
+        }
+        if (apart_ > operation_.iso_distance.value_or(apart_)) {
+            planned.stats.warnings.push_back(
+                "neighbouring passes are not proved to be within iso_distance everywhere");
+        }
         if (operation_.output == OutputForm::kNurbs) {
             planned.stats.counts.emplace_back("offset_isocurves", exact_curves_);
             planned.stats.counts.emplace_back("offset_bound_mm", offset_error_);
@@ -283,7 +293,7 @@ private:
         return least;
     }
 
-    std::vector<DomainCurve> curves_of(int surface, bool complete) const
+    std::vector<DomainCurve> curves_of(int surface, bool complete)
     {
         const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
         if (complete) {
@@ -293,13 +303,10 @@ private:
         }
         const SurfaceFunction at = surface_function(surface);
         if (operation_.iso_distance && operation_.even_steps) {
-            const double delta = *operation_.iso_distance;
-            const StepDensity steps = [delta](const SurfacePoint& p) {
-                return norm(p.dv) / delta;
-            };
-            return even_passes(s, surface, at, steps, {}).curves;
+            return neighbours_within(*operation_.iso_distance, surface, at);
         }
         if (operation_.iso_distance) {
+            apart_ = std::max(apart_, *operation_.iso_distance);
             return adaptive_isocurves(s, surface, *operation_.iso_distance);
         }
         const double scallop = *operation_.scallop;
@@ -310,6 +317,38 @@ private:
             return std::min(1.5, std::sqrt(std::max(0.0, over)));
         };
         return even_passes(s, surface, at, density(), judge).curves;
+    }
+
+    // Even passes, nearer to each other by what the bound everywhere asks for.
+    std::vector<DomainCurve> neighbours_within(double delta, int surface, const SurfaceFunction& at)
+    {
+        const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
+        const NeighbourBound bound{s, work_.model(), surface};
+        std::vector<DomainCurve> curves;
+        std::optional<SurfaceCut> cut;
+        double cut_at = 0;
+        double asked = delta;
+        double apart = 0;
+        for (int round = 0; round < kNeighbourRounds; ++round) {
+            const StepDensity steps = [asked](const SurfacePoint& p) {
+                return norm(p.dv) / asked;
+            };
+            const StripJudge judge = [&](double u, CurvePlace low, CurvePlace high) {
+                if (!cut || u != cut_at) {
+                    cut.emplace(work_.model().cut_at(surface, u));
+                    cut_at = u;
+                }
+                return norm(cut->at(high.v).point - cut->at(low.v).point) / asked;
+            };
+            curves = even_passes(s, surface, at, steps, judge).curves;
+            apart = bound.over(curves, delta);
+            if (apart <= delta) {
+                break;
+            }
+            asked *= kNearer * delta / apart;
+        }
+        apart_ = std::max(apart_, apart);
+        return curves;
     }
 
     std::size_t add_surface(int surface, bool complete)
@@ -476,6 +515,7 @@ private:
     bool plain_{};
     double ridge_share_{};
     double spacing_{};
+    double apart_{};  // mm: the bound of neighbours at equal u, by iso_distance
     double ridge_{};
     int unreached_{};
     int exact_curves_{};
