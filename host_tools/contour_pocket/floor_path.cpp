@@ -132,12 +132,13 @@ FloorMove first_half(Vec3d start, const FloorMove& move)
     return half;
 }
 
-// Moves of no more than this length (mm) are raised as a whole by what they lack (mm).
-double shortest_halved(double radius, double lacks, const FloorPathSettings& settings)
+// Moves of no more than this length (mm) are raised as a whole by what they lack (mm). Steep ones
+// are made level and upright rather than raised: the shorter, the nearer to where they were.
+double shortest_halved(double radius, double lacks, bool steep, const FloorPathSettings& settings)
 {
     for (const Graze& graze : kGrazes) {
         if (lacks > graze.bands * settings.above) {
-            return graze.shortest * radius;
+            return (steep ? kGrazes[0].shortest : graze.shortest) * radius;
         }
     }
     return 1e300;
@@ -198,28 +199,24 @@ double certify(FloorPath& path,
         Vec3d& start = i == 0 ? path.start : path.moves[i - 1].end;
         Vec3d& end = path.moves[i].end;
         const double gap = gap_of(start, path.moves[i], floor, fine);
-        if (gap < allowed && is_steep(start, path.moves[i])) {
+        const double along = std::hypot(end.x - start.x, end.y - start.y);
+        const Raised raised = raised_off(start, path.moves[i], gap, floor, allowed, fine);
+        const double lift = raised.end - end.z;
+        const bool steep = is_steep(start, path.moves[i]);
+        const double lacks = std::max(lift, allowed - gap);
+        if (path.moves[i].curve.points.empty() &&
+            along > shortest_halved(floor.tool().radius, lacks, steep, settings)) {
+            halve_move(path.moves, i, start);
+            --i;
+            continue;
+        }
+        if (steep && lift > settings.above) {
             const FloorMove corner{level_corner(start, end)};
             path.moves.insert(path.moves.begin() + static_cast<std::ptrdiff_t>(i), corner);
             --i;
             continue;
         }
-        const double along = std::hypot(end.x - start.x, end.y - start.y);
-        const double radius = floor.tool().radius;
-        const bool divides = path.moves[i].curve.points.empty();
-        if (divides && along > shortest_halved(radius, allowed - gap, settings)) {
-            halve_move(path.moves, i, start);
-            --i;
-            continue;
-        }
-        const Raised raised = raised_off(start, path.moves[i], gap, floor, allowed, fine);
-        if (divides && along > shortest_halved(radius, raised.end - end.z, settings)) {
-            halve_move(path.moves, i, start);
-            --i;
-            continue;
-        }
         path.least_gap = std::min(path.least_gap, raised.gap);
-        const double lift = raised.end - end.z;
         most = std::max(most, lift);
         if (lift > settings.above && i > 0 && along > kWrittenStep) {
             stand_upright(path.moves, i, raised);
