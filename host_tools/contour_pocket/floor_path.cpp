@@ -199,6 +199,10 @@ double certify(FloorPath& path,
         Vec3d& start = i == 0 ? path.start : path.moves[i - 1].end;
         Vec3d& end = path.moves[i].end;
         const double gap = gap_of(start, path.moves[i], floor, fine);
+        if (gap >= allowed) {
+            path.least_gap = std::min(path.least_gap, gap);
+            continue;
+        }
         const double along = std::hypot(end.x - start.x, end.y - start.y);
         const Raised raised = raised_off(start, path.moves[i], gap, floor, allowed, fine);
         const double lift = raised.end - end.z;
