@@ -21,8 +21,9 @@ namespace cusp::host {
 
 namespace {
 
-// Area of the pocket that the tool's body can't sweep beside walls, mm^2: corners and necks.
-double unswept_area(const Region2d& region, double radius)
+// Area of the pocket that the tool's body, its axis among `centres`, can't sweep beside walls,
+// mm^2: corners and necks.
+double unswept_area(const Region2d& region, const Region2d& centres, double radius)
 {
     const auto area_of = [](const Region2d& part) {
         double sum = 0.0;
@@ -31,7 +32,6 @@ double unswept_area(const Region2d& region, double radius)
         }
         return sum;
     };
-    const Region2d centres = RegionOffset{region}.at(radius);
     return centres.contours.empty() ? area_of(region)
                                     : area_of(region) - area_of(grown(centres, radius));
 }
@@ -60,7 +60,9 @@ public:
           operation_{operation},
           region_{region},
           budget_{budget},
+          walls_{region},
           floor_{operation.floor, operation.tool, budget.accuracy},
+          ridge_{floor_, operation.floor, budget_},
           moves_{job.stock_top + job.clearance},
           depth_{depth}
     {
@@ -103,7 +105,7 @@ public:
     }
 
 private:
-    ClearedRegion passes() const
+    ClearedRegion passes()
     {
         ClearingSettings settings;
         settings.first = budget_.first;
@@ -113,13 +115,12 @@ private:
         const bool corners = settings.cover_corners;
         const bool whole = is_one_whole_surface();
         LevelInterval interval{floor_, budget_, corners && !whole, !corners || !whole};
-        StripRidge ridge{floor_, operation_.floor, budget_};
         settings.step_from = [&](const Region2d& level) {
-            return interval.from(level, corners && whole ? ridge.proven_step(level) : 0.0);
+            return interval.from(level, corners && whole ? ridge_.proven_step(level) : 0.0);
         };
         if (corners && whole) {
             settings.left_between = [&](const LevelStrip& strip) {
-                return ridge.share(strip);
+                return ridge_.share(strip);
             };
         }
         ClearedRegion cleared = clear_region(region_, settings);
@@ -161,14 +162,13 @@ private:
         const double radius = operation_.tool.radius;
         const Tool& tool = rough.operation.path.tool;
         const double larger = tool.radius - radius;
-        const RegionOffset walls{region_};
-        const EdgeTree centres{edges_of(walls.at(rough.first))};
+        const EdgeTree centres{edges_of(walls_.at(rough.first))};
         const TipFloor roughed_floor{operation_.floor, tool, budget_.accuracy};
         const double depth = layer_depth(operation_);
         const double higher = rough.left + highest_over(tool, operation_.tool);
         const double slack = 0.02 * radius;
         const auto fits = [&](Vec2d p) {
-            if (walls.clearance(p) >= rough.first - std::min(larger, 0.0)) {
+            if (walls_.clearance(p) >= rough.first - std::min(larger, 0.0)) {
                 return true;
             }
             return larger > 0.0 && centres.any_nearer(p, larger);
@@ -313,16 +313,18 @@ private:
     void report_rest(OperationStats& stats) const
     {
         constexpr std::size_t kNamed = 5;
+        const Region2d centres = walls_.at(budget_.first);
+        const double least = std::max(*operation_.scallop, 0.02 * operation_.tool.radius);
         const std::vector<RestPlace> places =
-            rest_material(region_, operation_.floor, floor_, budget_.first, job_.stock_top,
-                          std::max(*operation_.scallop, 0.02 * operation_.tool.radius));
+            rest_material(walls_, centres, operation_.floor, floor_,
+                          {budget_.first, job_.stock_top, least, !ridge_.reaches_floor(region_)});
         double volume = 0.0;
         double height = 0.0;
         for (const RestPlace& place : places) {
             volume += place.volume;
             height = std::max(height, place.height);
         }
-        stats.counts.emplace_back("rest_area_mm2", unswept_area(region_, budget_.first));
+        stats.counts.emplace_back("rest_area_mm2", unswept_area(region_, centres, budget_.first));
         stats.counts.emplace_back("rest_places", static_cast<double>(places.size()));
         stats.counts.emplace_back("rest_volume_mm3", volume);
         stats.counts.emplace_back("rest_height_max_mm", height);
@@ -357,7 +359,9 @@ private:
     const Operation& operation_;
     const Region2d& region_;
     const Budget& budget_;
+    RegionOffset walls_;
     TipFloor floor_;
+    StripRidge ridge_;
     PocketMoves moves_;
     CutDepth* depth_;
     int cliff_passes_{0};

@@ -20,17 +20,18 @@ Tool needle() { return {1, ToolShape::kFlat, 1e-3, 0.0}; }
 
 class RestSearch {
 public:
-    RestSearch(const Region2d& region,
+    RestSearch(const RegionOffset& walls,
+               const Region2d& centres,
                const std::vector<Surface>& floor,
                const TipFloor& tips,
                double first)
-        : walls_{region},
-          centres_{edges_of(walls_.at(first))},
+        : walls_{walls},
+          centres_{edges_of(centres)},
           tips_{tips},
           floor_{floor, needle(), 0.01 * tips.tool().radius},
           first_{first},
           radius_{tips.tool().radius},
-          box_{box_of(region)}
+          box_{box_of(walls.source())}
     {
         const double longest = std::max(box_.x1 - box_.x0, box_.y1 - box_.y0);
         cell_ = std::max(0.25 * radius_, longest / kMostCells);
@@ -38,14 +39,15 @@ public:
         rows_ = static_cast<int>((box_.y1 - box_.y0) / cell_) + 1;
         rest_.assign(index(columns_, 0), 0.0);
         by_wall_.assign(rest_.size(), false);
-        slopes_.assign(rest_.size(), std::nullopt);
         find_places();
     }
 
-    std::vector<RestPlace> run(double top, double least)
+    std::vector<RestPlace> run(const RestSettings& settings)
     {
-        find_rest_at_walls(top, least);
-        find_valleys(least);
+        find_rest_at_walls(settings.top, settings.least);
+        if (settings.valleys) {
+            find_valleys(settings.least);
+        }
         std::vector<RestPlace> places;
         for (int i = 0; i < columns_; ++i) {
             for (int j = 0; j < rows_; ++j) {
@@ -129,6 +131,7 @@ private:
     // reach between.
     void find_valleys(double least)
     {
+        slopes_.assign(rest_.size(), std::nullopt);
         for (int i = 0; i + 2 < columns_; i += 2) {
             for (int j = 0; j + 2 < rows_; j += 2) {
                 if (turns_up(i, j, i + 2, j) || turns_up(i, j, i, j + 2)) {
@@ -238,7 +241,7 @@ private:
 
     enum class Place : std::uint8_t { kOutside, kBeside, kAllowed };
 
-    RegionOffset walls_;
+    const RegionOffset& walls_;
     EdgeTree centres_;
     const TipFloor& tips_;
     TipFloor floor_;
@@ -257,14 +260,13 @@ private:
 
 }  // namespace
 
-std::vector<RestPlace> rest_material(const Region2d& region,
+std::vector<RestPlace> rest_material(const RegionOffset& walls,
+                                     const Region2d& centres,
                                      const std::vector<Surface>& floor,
                                      const TipFloor& tips,
-                                     double first,
-                                     double top,
-                                     double least)
+                                     const RestSettings& settings)
 {
-    return RestSearch{region, floor, tips, first}.run(top, least);
+    return RestSearch{walls, centres, floor, tips, settings.first}.run(settings);
 }
 
 }  // namespace cusp::host

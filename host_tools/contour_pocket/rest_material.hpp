@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "host_tools/clearing/tip_floor.hpp"
-#include "host_tools/offset/contour.hpp"
+#include "host_tools/offset/offset.hpp"
 
 namespace cusp::host {
 
@@ -19,17 +19,25 @@ struct RestPlace {
 // Places of the region that no position of the tool sweeps down to `least` (mm) over the floor,
 // the largest volume first.
 //
-//   first  mm: least distance of the tool's axis from the contours
-//   top    z of the stock: what walls keep the tool from stands to there
+//   walls    contours of the region
+//   centres  where the tool's axis may be
+//   first    mm: least distance of these from the contours
+//   top      z of the stock: what walls keep the tool from stands to there
+//   valleys  false where the floor is known to have none that the tool does not reach
 //
 // Looked at on a grid of a quarter of the tool's radius (coarser in pockets of more than 500 such
 // cells a side): areas and volumes are as coarse, heights of valleys good to 0.02 radii. Places
 // smaller than a cell may be missed.
-std::vector<RestPlace> rest_material(const Region2d& region,
+struct RestSettings {
+    double first;
+    double top;
+    double least;
+    bool valleys;
+};
+std::vector<RestPlace> rest_material(const RegionOffset& walls,
+                                     const Region2d& centres,
                                      const std::vector<Surface>& floor,
                                      const TipFloor& tips,
-                                     double first,
-                                     double top,
-                                     double least);
+                                     const RestSettings& settings);
 
 }  // namespace cusp::host

@@ -152,6 +152,11 @@ double StripRidge::proven_step(const Region2d& level) const
     return step > flat ? std::min(step, 2.0 * kMargin * proven(box, step)) : step;
 }
 
+bool StripRidge::reaches_floor(const Region2d& region) const
+{
+    return ball_ && bounds_.near(box_of(region)).up * floor_.tool().radius < 1.0;
+}
+
 double StripRidge::share(const LevelStrip& strip)
 {
     constexpr double kWorthIt = 0.95;

@@ -45,6 +45,10 @@ public:
     // bounds alone, mm; 0 where they tell nothing.
     double proven_step(const Region2d& level) const;
 
+    // True where those bounds prove that the ball reaches all of the floor around the region: no
+    // valley is bent tighter than it.
+    bool reaches_floor(const Region2d& region) const;
+
 private:
     static constexpr int kPlaces = 8;  // on a way, at most
     struct Probe {
