@@ -163,6 +163,8 @@ private:
     double bound(const Piece& piece, const Query& query, double best, bool& tight) const;
     double beside_line(const Piece& piece, const Vec3d& a, const Vec3d& b) const;
     double ball_gap(const Piece& piece, const Vec3d& a, const Vec3d& b, double margin) const;
+    enum class NextLook : std::uint8_t { kNone, kHalvesOfMove, kHalvesOfPiece };
+    NextLook next_look(const Piece& piece, double here, double length, double tilt) const;
     double axial_gap(const Piece& piece, Vec3d a, Vec3d b, double margin) const;
     Vec2d slope_of(const Piece& piece, Vec2d at) const;
     struct Rectangle {

@@ -118,6 +118,43 @@ double TipFloor::axial_gap(const Piece& piece, Vec3d a, Vec3d b, double margin) 
     return std::max(over_box, std::min(over_plane(a), over_plane(b)));
 }
 
+// What to do with a part of a move that comes `here` near to a piece.
+//
+//   length  of the part
+//   tilt    by how much it rises more than the piece's plane
+TipFloor::NextLook TipFloor::next_look(const Piece& piece,
+                                       double here,
+                                       double length,
+                                       double tilt) const
+{
+    const bool ball = tool_.corner_radius == tool_.radius;
+    const double size = std::max(piece.x1 - piece.x0, piece.y1 - piece.y0);
+    const double thin = piece.graph ? piece.thickness / piece.secant : size;
+    const double turned = piece.graph ? std::abs(tilt) / piece.secant : length;
+    const bool small = length < accuracy_ && size < accuracy_;
+    // Beyond the piece's rectangle its plane tells of metal that is not there: only a ball's turned
+    // box knows of the rectangle, for other tools the pieces must be small. A long move passes
+    // beside a piece in a corner of the box that it spans, where the piece's plane is not the
+    // floor: what cuts is looked at in short moves.
+    const bool clear = here >= -accuracy_ || length + size < 0.1 * tool_.radius;
+    const bool flat = thin < accuracy_ && turned < accuracy_;
+    const bool settled =
+        ball ? flat && clear
+             : thin < 0.5 * accuracy_ && size * piece.secant < 0.05 && length < 0.05;
+    const bool whole = is_whole(piece, accuracy_);
+    const bool deep =
+        whole && here < -accuracy_ && std::max(extent(piece), length) < kDeepShare * -here;
+    if ((settled && whole) || deep || small) {
+        return NextLook::kNone;
+    }
+    // Of a piece that an edge cuts the size tells how much is not there.
+    const bool halve_move = !whole          ? length > extent(piece)
+                            : settled       ? false
+                            : ball && !flat ? turned > thin
+                                            : length > size;
+    return halve_move ? NextLook::kHalvesOfMove : NextLook::kHalvesOfPiece;
+}
+
 double TipFloor::gap(Vec3d a, Vec3d b, double margin) const
 {
     struct Entry {
@@ -130,6 +167,7 @@ double TipFloor::gap(Vec3d a, Vec3d b, double margin) const
     const Vec3d way = b - a;
     const double whole_length = norm(way);
     double least = 0.0;
+    double smallest = 1e300;
     std::array<Entry, kStack> stack;
     std::size_t depth = 0;
     // How deep a deep cut is need not be known better than to a tenth.
@@ -145,70 +183,46 @@ double TipFloor::gap(Vec3d a, Vec3d b, double margin) const
             stack[depth++] = {index, from, to, here};
         }
     };
-    // The deeper half is looked at first.
-    const auto order = [&](std::size_t before) {
+    const auto look_at_halves = [&](const Entry& top, NextLook look) {
+        const std::size_t before = depth;
+        if (look == NextLook::kHalvesOfMove) {
+            const double middle = 0.5 * (top.from + top.to);
+            consider(top.piece, top.from, middle);
+            consider(top.piece, middle, top.to);
+        } else {
+            if (pieces_[top.piece].child == 0) {
+                halve(top.piece);
+            }
+            const std::uint32_t child = pieces_[top.piece].child;
+            consider(child, top.from, top.to);
+            consider(child + 1, top.from, top.to);
+        }
+        // The deeper half is looked at first.
         if (depth == before + 2 && stack[before].here < stack[before + 1].here) {
             std::swap(stack[before], stack[before + 1]);
         }
     };
-    double smallest = 1e300;
     const auto look_into = [&](std::uint32_t index) {
         consider(index, 0.0, 1.0);
         while (depth > 0) {
             const Entry top = stack[--depth];
-            const double here = top.here;
-            if (!matters(here)) {
+            if (!matters(top.here)) {
                 continue;
             }
             const Piece& piece = pieces_[top.piece];
-            const double part = top.to - top.from;
-            const double length = part * whole_length;
             const double size = std::max(piece.x1 - piece.x0, piece.y1 - piece.y0);
             if (size < smallest) {
                 smallest = size;
                 beside_ = top.piece;
             }
-            const double thin = piece.graph ? piece.thickness / piece.secant : size;
+            const double part = top.to - top.from;
             const double tilt = part * (way.z - dot(piece.gradient, Vec2d{way.x, way.y}));
-            const double turned = piece.graph ? std::abs(tilt) / piece.secant : length;
-            const bool small = length < accuracy_ && size < accuracy_;
-            // Beyond the piece's rectangle its plane tells of metal that is not there: only a
-            // ball's turned box knows of the rectangle, for other tools the pieces must be small.
-            // A long move passes beside a piece in a corner of the box that it spans, where the
-            // piece's plane is not the floor: what cuts is looked at in short moves.
-            const bool clear = here >= -accuracy_ || length + size < 0.1 * tool_.radius;
-            const bool flat = thin < accuracy_ && turned < accuracy_;
-            const bool settled =
-                ball ? flat && clear
-                     : thin < 0.5 * accuracy_ && size * piece.secant < 0.05 && length < 0.05;
-            const bool whole = is_whole(piece, accuracy_);
-            const bool deep =
-                whole && here < -accuracy_ && std::max(extent(piece), length) < kDeepShare * -here;
-            if ((settled && whole) || deep || small || depth + 2 > kStack) {
-                least = std::min(least, here);
-                continue;
+            const NextLook look = next_look(piece, top.here, part * whole_length, tilt);
+            if (look == NextLook::kNone || depth + 2 > kStack) {
+                least = std::min(least, top.here);
+            } else {
+                look_at_halves(top, look);
             }
-            // Of a piece that an edge cuts the size tells how much is not there.
-            const bool halve_move = !whole          ? length > extent(piece)
-                                    : settled       ? false
-                                    : ball && !flat ? turned > thin
-                                                    : length > size;
-            if (halve_move) {
-                const double middle = 0.5 * (top.from + top.to);
-                const std::size_t before = depth;
-                consider(top.piece, top.from, middle);
-                consider(top.piece, middle, top.to);
-                order(before);
-                continue;
-            }
-            if (piece.child == 0) {
-                halve(top.piece);
-            }
-            const std::uint32_t child = pieces_[top.piece].child;
-            const std::size_t before = depth;
-            consider(child, top.from, top.to);
-            consider(child + 1, top.from, top.to);
-            order(before);
         }
     };
     // From a piece that the move before came near to upwards, as in drop().
