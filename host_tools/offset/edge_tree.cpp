@@ -110,27 +110,19 @@ bool EdgeTree::any_nearer(Vec2d point, double reach) const
 template <class Better>
 void EdgeTree::search(Vec2d point, const double& best, Better better) const
 {
-    struct Entry {
-        std::uint32_t node;
-        double square;  // of its box's distance
-    };
-    Entry stack[64];
+    std::uint32_t stack[64];
     int depth = 0;
-    if (!nodes_.empty()) {
-        stack[depth++] = {0, square_distance(nodes_[0].box, point)};
-    }
-    while (depth > 0) {
-        const Entry top = stack[--depth];
-        if (top.square >= best * best) {
+    stack[depth++] = 0;
+    while (depth > 0 && !nodes_.empty()) {
+        const Node& node = nodes_[stack[--depth]];
+        if (square_distance(node.box, point) >= best * best) {
             continue;
         }
-        const Node& node = nodes_[top.node];
         if (node.count == 0) {
             const double left = square_distance(nodes_[node.first].box, point);
             const double right = square_distance(nodes_[node.first + 1].box, point);
-            const bool left_first = left < right;
-            stack[depth++] = {node.first + (left_first ? 1 : 0), left_first ? right : left};
-            stack[depth++] = {node.first + (left_first ? 0 : 1), left_first ? left : right};
+            stack[depth++] = left < right ? node.first + 1 : node.first;
+            stack[depth++] = left < right ? node.first : node.first + 1;
             continue;
         }
         for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
