@@ -248,6 +248,13 @@ private:
                 "too many places keep more than the scallop to look at them all: nothing is proved "
                 "of what is left");
         }
+        constexpr double kShown = 1e-2;  // mm2
+        if (coverage_.blocked_area() > kShown) {
+            told.push_back(fmt::format(
+                "on {:.3g} mm2 the ball does not touch the mesh (feet of walls, concave edges, "
+                "undercuts, valleys narrower than the ball): metal is left standing there",
+                coverage_.blocked_area()));
+        }
         planned.stats.counts.emplace_back("isocurves", curves_);
         planned.stats.counts.emplace_back("triangles", static_cast<double>(operation_.mesh.size()));
         return planned;

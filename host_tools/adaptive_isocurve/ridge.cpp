@@ -10,14 +10,22 @@ namespace {
 
 constexpr double kUnreached = std::numeric_limits<double>::infinity();
 constexpr int kTurns = 8;
+constexpr double kLevel = 1e-7;   // z of a normal
+constexpr double kBeside = 0.01;  // of the way to the neighbour
 
 }  // namespace
 
-Ridges::Sweep Ridges::sweep_at(CurvePlace place)
+Ridges::Sweep Ridges::sweep_at(CurvePlace place, double towards)
 {
     const SurfacePoint p = cut_->at(place.v);
+    Vec3d normal = upward_normal(p);
+    // Rounding decides which side of a level normal is up: the surface beside it tells.
+    if (normal.z < kLevel &&
+        dot(normal, upward_normal(cut_->at(place.v + kBeside * (towards - place.v)))) < 0) {
+        normal = -normal;
+    }
     const Vec3d along = p.du + p.dv * place.slope;
-    return {place, p.point + upward_normal(p) * (tool_.radius + tool_.outward),
+    return {place, p.point + normal * (tool_.radius + tool_.outward),
             along / std::max(1e-300, norm(along))};
 }
 
@@ -45,8 +53,8 @@ double Ridges::between(double u, CurvePlace low_place, CurvePlace high_place)
     }
     const bool known =
         last_ && last_->place.v == low_place.v && last_->place.slope == low_place.slope;
-    const Sweep low = known ? *last_ : sweep_at(low_place);
-    const Sweep high = sweep_at(high_place);
+    const Sweep low = known ? *last_ : sweep_at(low_place, high_place.v);
+    const Sweep high = sweep_at(high_place, low_place.v);
     last_ = high;
     double from = low_place.v;
     double to = high_place.v;

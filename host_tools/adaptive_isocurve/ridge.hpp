@@ -41,7 +41,8 @@ private:
 
         double left(Vec3d p, Vec3d normal, double radius) const;
     };
-    Sweep sweep_at(CurvePlace place);
+    // towards  v of the neighbour
+    Sweep sweep_at(CurvePlace place, double towards);
 
     const SurfaceModel& model_;
     int surface_;

@@ -7,7 +7,8 @@
 namespace cusp::host {
 namespace {
 
-constexpr double kPole = 1e-7;  // of |S_uv|: at a pole S_u is rounding, and so is all that follows
+constexpr double kPole = 1e-7;   // of |S_uv|: at a pole S_u is rounding, and so is all that follows
+constexpr double kLevel = 1e-7;  // z of a normal
 
 // Near a pole S_u is S_uv times the way from it: that gives the normal.
 CrossSection cross_section_at_pole(const SurfacePoint& p)
@@ -51,7 +52,10 @@ CrossSection cross_section_at(const SurfacePoint& p)
     const Vec3d across = p.dv + p.du * a;
     const Vec3d bend = p.duu * (a * a) + p.duv * (2 * a) + p.dvv;
     const double square = dot(across, across);
-    return {square > 0 ? dot(normal, bend) / square : 0, std::sqrt(square)};
+    const double curvature = square > 0 ? dot(normal, bend) / square : 0;
+    // Rounding decides which side of a level normal is up: the one that asks for more passes
+    // counts.
+    return {normal.z < kLevel ? -std::abs(curvature) : curvature, std::sqrt(square)};
 }
 
 }  // namespace cusp::host

@@ -249,7 +249,32 @@ double SurfaceModel::clearance_along(
 Contact SurfaceModel::contact(int surface, double u, double v, double distance) const
 {
     const SurfacePoint p = tangents(surface, u, v);
-    return {surface, u, v, p.point, upward_normal(p), distance, -1};
+    return {surface, u, v, p.point, facing_up(surface, u, v, p), distance, -1};
+}
+
+Vec3d SurfaceModel::facing_up(int surface, double u, double v, const SurfacePoint& p) const
+{
+    constexpr double kLevel = 1e-7;   // z of a normal: rounding decides its sign
+    constexpr double kBeside = 1e-4;  // of the domain
+    const Vec3d normal = upward_normal(p);
+    if (std::abs(normal.z) > kLevel || dot(normal, normal) == 0) {
+        return normal;
+    }
+    const State::Grid& grid = state_->grids[static_cast<std::size_t>(surface)];
+    const auto [u0, u1] = std::pair{grid.creases_u.front(), grid.creases_u.back()};
+    const auto [v0, v1] = std::pair{grid.creases_v.front(), grid.creases_v.back()};
+    // Of places beside it that face up clearly the highest: what bulges is met from outside.
+    std::optional<SurfacePoint> best;
+    for (const auto& [du, dv] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+        const double at_u = std::clamp(u + kBeside * (u1 - u0) * du, u0, u1);
+        const double at_v = std::clamp(v + kBeside * (v1 - v0) * dv, v0, v1);
+        const SurfacePoint beside = evaluate(surface, at_u, at_v);
+        if (upward_normal(beside).z > kLevel && inside_trims(surface, at_u, at_v) &&
+            (!best || beside.point.z > best->point.z)) {
+            best = beside;
+        }
+    }
+    return best && dot(upward_normal(*best), normal) < 0 ? -normal : normal;
 }
 
 std::optional<double> SurfaceModel::clearance_between(const Contact& a,

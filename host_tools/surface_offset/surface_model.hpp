@@ -86,6 +86,10 @@ public:
 
     Contact contact(int surface, double u, double v, double distance) const;
 
+    // `upward_normal`, but where it is level, as on the rim of a half torus: the side that faces up
+    // beside it. `p` is the surface at (u, v).
+    Vec3d facing_up(int surface, double u, double v, const SurfacePoint& p) const;
+
     // A lower bound of the clearance of a ball along the straight way of its centre between two
     // contacts, without a search for the nearest place; none where that proves less than `enough`:
     // near creases, in valleys hardly wider than the ball, beside other surfaces.

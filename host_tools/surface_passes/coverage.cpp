@@ -65,7 +65,7 @@ void Coverage::add(const Points& tips)
 Coverage::Corner Coverage::corner(int surface, double u, double v) const
 {
     Corner out{surface, u, v, certified_.model().evaluate(surface, u, v), {}};
-    out.normal = upward_normal(out.point);
+    out.normal = certified_.model().facing_up(surface, u, v, out.point);
     return out;
 }
 

@@ -102,7 +102,7 @@ FacetCoverage::Verdict FacetCoverage::judge(const Cell& cell) const
         if (!covered(corner, cell.normal, kSmallShare)) {
             each = false;
             if (!certified_.stands_free(touching_tip({corner, cell.normal}))) {
-                return low_enough(cell) ? Verdict::kCovered : Verdict::kUncovered;
+                return low_enough(cell) ? Verdict::kCovered : Verdict::kBlocked;
             }
         }
     }
@@ -130,10 +130,14 @@ void FacetCoverage::look_into(const Cell& cell, int depth)
     if (verdict == Verdict::kCovered) {
         return;
     }
-    if (verdict == Verdict::kUncovered || depth == 0) {
+    if (verdict != Verdict::kHalve || depth == 0) {
         overflowed_ = gaps_.size() >= kMostGaps;
         if (!overflowed_) {
             gaps_.push_back(cell);
+        }
+        if (verdict == Verdict::kBlocked && looking_over_) {
+            blocked_area_ += 0.5 * norm(cross(cell.corners[1] - cell.corners[0],
+                                              cell.corners[2] - cell.corners[0]));
         }
         return;
     }
@@ -152,12 +156,14 @@ void FacetCoverage::look_into(const Cell& cell, int depth)
 
 void FacetCoverage::look_over()
 {
+    looking_over_ = true;
     for (const auto& corners : triangles_) {
         const Facet facet{corners};
         if (facet.normal.z >= kUpright) {
             look_into({corners, facet.normal}, kDeepest);
         }
     }
+    looking_over_ = false;
 }
 
 // The tip that is missing at a place; none where nothing is, or the tool can't touch and

@@ -44,6 +44,10 @@ public:
     // Passes for what is not covered, each handed to `cut`, which must `add` what it makes of it.
     void close_gaps(const std::function<void(const Points&)>& cut);
 
+    // mm2 of facets, square to them, that keep more than the scallop because the tool can't touch
+    // them: feet of walls, concave edges, valleys narrower than the tool.
+    double blocked_area() const { return blocked_area_; }
+
     // Whether the look ended early because too many cells are bare.
     bool overflowed() const { return overflowed_; }
     // Cells that stay uncovered, after `close_gaps`.
@@ -62,7 +66,7 @@ private:
 
         Vec3d middle() const { return (corners[0] + corners[1] + corners[2]) / 3.0; }
     };
-    enum class Verdict : std::uint8_t { kCovered, kHalve, kUncovered };
+    enum class Verdict : std::uint8_t { kCovered, kHalve, kBlocked, kUncovered };
 
     void look_into(const Cell& cell, int depth);
     Verdict judge(const Cell& cell) const;
@@ -87,7 +91,9 @@ private:
     mutable LowestReach reach_;
     std::vector<Cell> gaps_;
     double most_left_{};
+    double blocked_area_{};
     bool overflowed_{};
+    bool looking_over_{};
     mutable std::vector<std::uint32_t> near_;
 };
 
