@@ -41,7 +41,8 @@ constexpr double kBetweenPlaces = 1.25;  // what may stand between places measur
 constexpr double kMoreExpected = 2;
 constexpr int kNeighbourRounds = 5;
 constexpr double kNearer = 0.9998;  // than the bound asks for
-constexpr double kSameEdge = 0.1;   // in steps: edges nearer than this are one
+constexpr double kMostPasses = 20000;
+constexpr double kSameEdge = 0.1;  // in steps: edges nearer than this are one
 
 void swap_loops(Surface& surface)
 {
@@ -88,11 +89,35 @@ std::vector<Surface> along_u(const Operation& operation)
     return out;
 }
 
+// The longest side of the box of all control points, mm.
+double size_of(const std::vector<Surface>& surfaces)
+{
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    Vec3d low{kFar, kFar, kFar};
+    Vec3d high = -low;
+    for (const Surface& surface : surfaces) {
+        for (const Vec3d& p : surface.points) {
+            for (unsigned k = 0; k < 3; ++k) {
+                low[k] = std::min(low[k], p[k]);
+                high[k] = std::max(high[k], p[k]);
+            }
+        }
+    }
+    return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+}
+
 void check_spacing(const Job& job, const Operation& operation)
 {
     if (!operation.iso_distance && !operation.scallop) {
         throw InputError(
             fmt::format("{}: {}: give iso_distance or scallop", job.file, operation.strategy));
+    }
+    const double size = size_of(operation.floor);
+    if (operation.iso_distance && size > kMostPasses * *operation.iso_distance) {
+        throw InputError(fmt::format(
+            "{}: iso_distance is {:g} mm, over a part of {:g} mm it must be at least {:g} mm ({:g} "
+            "passes)",
+            job.file, *operation.iso_distance, size, size / kMostPasses, kMostPasses));
     }
     if (operation.iso_distance && *operation.iso_distance >= 2 * operation.tool.radius) {
         throw InputError(fmt::format(

@@ -7,6 +7,7 @@
 
 #include "host_tools/import/job.hpp"
 #include "host_tools/import/job_table.hpp"
+#include "host_tools/import/job_text.hpp"
 #include "host_tools/import/loop_shape.hpp"
 #include "host_tools/import/path_ending.hpp"
 #include "host_tools/import/text_of_file.hpp"
@@ -22,6 +23,8 @@ constexpr double kDefaultClearance = 5.0;   // mm
 constexpr double kDefaultLargestArcRadius = 1000.0;
 // Tool numbers as controllers take them.
 constexpr Range kToolNumber{1, 255};
+// Programs are written to a ten-thousandth of a millimetre: far less is never held.
+constexpr Range kTolerance{1e-5, kLargest};
 
 const std::vector<std::string> kStrategies{"contour_pocket",     "adaptive_isocurve",
                                            "grid_pocket",        "hull_rough",
@@ -254,13 +257,13 @@ void JobReader::read_common(JobTable& table, Operation& operation)
     operation.output = output == "lines"  ? OutputForm::kLines
                        : output == "arcs" ? OutputForm::kArcs
                                           : OutputForm::kNurbs;
-    operation.plan_tolerance = length(table, "plan_tolerance", kPositive, kDefaultTolerance);
-    operation.floor_tolerance = length(table, "floor_tolerance", kPositive, kDefaultTolerance);
+    operation.plan_tolerance = length(table, "plan_tolerance", kTolerance, kDefaultTolerance);
+    operation.floor_tolerance = length(table, "floor_tolerance", kTolerance, kDefaultTolerance);
     operation.tolerance_side =
         table.one_of("tolerance_side", {"outside", "both"}).value_or("outside") == "both"
             ? ToleranceSide::kBoth
             : ToleranceSide::kOutside;
-    operation.scallop = length(table, "scallop", kPositive);
+    operation.scallop = length(table, "scallop", kTolerance);
     if (operation.scallop && operation.tolerance_side == ToleranceSide::kOutside &&
         *operation.scallop <= operation.floor_tolerance) {
         table.refuse("scallop",
@@ -318,7 +321,7 @@ void JobReader::read_grid(JobTable& table, Operation& operation)
         }
         operation.zigzag.push_back(axis[0]);
     }
-    operation.arc_tolerance = length(table, "arc_tolerance", kPositive, operation.floor_tolerance);
+    operation.arc_tolerance = length(table, "arc_tolerance", kTolerance, operation.floor_tolerance);
     operation.max_arc_radius = length(table, "max_arc_radius", kPositive, kDefaultLargestArcRadius);
     operation.max_roughness = length(table, "max_roughness", kPositive);
 }
@@ -483,9 +486,11 @@ Operation JobReader::read_operation(const toml::table& entry, std::size_t index)
 
 Job JobReader::read()
 {
+    const std::string text = text_of_file(file_);
+    check_plain_text(text, file_);
     toml::table document;
     try {
-        document = toml::parse(text_of_file(file_), file_);
+        document = toml::parse(text, file_);
     } catch (const toml::parse_error& error) {
         throw InputError(fmt::format("{}:{}: not TOML: {}", file_, error.source().begin.line,
                                      error.description()));

@@ -191,6 +191,38 @@ DRAWINGS = (
     (dxf((0, "SPLINE", 8, 0, 71, 3, 72, 2, 73, 1, 40, 0, 40, 1, 10, 1, 20, 1)), "edge.dxf"))
 
 
+def curves(*ends):
+    data = [{"degree": 1, "knotvector": [0, 0, 1, 1], "control_points": {"points": [list(a), list(b)]}} for a, b in ends]
+    return json.dumps({"shape": {"type": "curve", "count": len(data), "data": data}})
+
+
+def polygon(*corners):
+    return curves(*zip(corners, corners[1:] + corners[:1]))
+
+
+BOUNDARY = polygon((2, 2), (28, 2), (28, 18), (2, 18))
+ISLAND = polygon((10, 8), (15, 8), (15, 12), (10, 12))
+# boundary, islands, words of the message
+POCKETS = (
+    (curves(((2, 2), (28, 2)), ((28, 2), (28, 18)), ((28, 18), (2, 18))), (), "the loop is open"),
+    (polygon((2, 2), (28, 18), (28, 2), (2, 18)), (), "crosses itself near x 15.000 y 10.000"),
+    (polygon((2, 2), (2, 2), (28, 2), (28, 18), (2, 18)), (), "curve 1 has no length"),
+    (curves(((2, 2), (28, 2)), ((28, 2), (28, 18)), ((28, 18), (2, 2)), ((2, 2), (2, 2))), (), "curve 4 has no length"),
+    (polygon((2, 2), (28, 2), (2, 2), (2, 18)), (), "no area"),
+    (polygon((2, 2), (38, 2), (38, 18), (2, 18)), (), "does not cover the pocket at"),
+    (polygon((2, 2), (5, 2), (5, 5), (2, 5)), (), "the tool of radius 2 mm fits nowhere"),
+    (BOUNDARY, (polygon((20, 8), (35, 8), (35, 12), (20, 12)),), "crosses island0.json at (28, 8)"),
+    (BOUNDARY, (polygon((40, 8), (45, 8), (45, 12), (40, 12)),), "lies outside the boundary"),
+    (BOUNDARY, (BOUNDARY,), "lies outside the boundary"),
+    (BOUNDARY, (ISLAND, polygon((13, 9), (18, 9), (18, 11), (13, 11))), "crosses island1.json at (15, 9)"),
+    (BOUNDARY, (ISLAND, polygon((11, 9), (12, 9), (12, 10), (11, 10))), "lies inside another"),
+    (BOUNDARY, (ISLAND, ISLAND), "lies inside another"),
+    (BOUNDARY, (curves(((10, 8), (15, 8)), ((15, 8), (15, 12))),), "island0.json: the loop is open"),
+    (BOUNDARY, (polygon((10, 8), (15, 12), (15, 8), (10, 12)),), "island0.json: the loop crosses itself"),
+    (BOUNDARY, (polygon((3, 3), (27, 3), (27, 17), (3, 17)),), "fits nowhere"))
+NUMBERS = ("0", "-1", "nan", "inf", "-inf", "1e9", "1e-12", '"x"', "true")
+
+
 class BadParts(unittest.TestCase):
     def setUp(self):
         self.scratch = tempfile.TemporaryDirectory()
@@ -246,6 +278,34 @@ class BadParts(unittest.TestCase):
             (self.folder / "edge.dxf").write_text(text)
             self.refused(POCKET, words)
 
+    def test_pockets(self):
+        (self.folder / "floor.json").write_text(surface({}))
+        for boundary, islands, words in POCKETS:
+            (self.folder / "edge.json").write_text(boundary)
+            names = [f"island{k}.json" for k in range(len(islands))]
+            for name, island in zip(names, islands):
+                (self.folder / name).write_text(island)
+            self.refused(POCKET.replace("edge.dxf", "edge.json") + f"islands = {json.dumps(names)}\n", words)
+
+    def test_bounds_that_are_none(self):
+        (self.folder / "floor.json").write_text(surface({}))
+        (self.folder / "edge.json").write_text(BOUNDARY)
+        pocket = POCKET.replace("edge.dxf", "edge.json")
+        isocurves = JOB.replace("FLOOR", "floor.json")
+        for number in NUMBERS:
+            for job in (pocket, isocurves):
+                self.refused(job.replace("scallop = 0.2", f"scallop = {number}"), "operation 1: scallop: ")
+                self.refused(job + f"floor_tolerance = {number}\n", "operation 1: floor_tolerance: ")
+                self.refused(job + f"plan_tolerance = {number}\n", "operation 1: plan_tolerance: ")
+            self.refused(isocurves.replace("scallop = 0.2", f"iso_distance = {number}"), "iso_distance")
+
+    def test_letters_outside_strings(self):
+        (self.folder / "floor\u00e9.json").write_text(surface({}))
+        job = JOB.replace("FLOOR", "floor\u00e9.json") + "# caf\u00e9 \ufecc \"\n"
+        self.assertEqual(0, self.plan(job).returncode)
+        self.refused(job.replace("top = 20\n", "top = 20\ufecctop\n"), "job.toml:9: byte 0xEF outside strings")
+        self.refused(job + 'entry = """a\n"quoted\u00e9" """ \u00e9\n', "job.toml:16: byte 0xC3 outside strings")
+
     def test_missing_files(self):
         for name in ("gone.json", "gone.stl", "gone.step", "gone.igs", "gone.obj", "."):
             self.refused(JOB.replace("FLOOR", name), name if CAD or name[-4:] not in
@@ -269,6 +329,16 @@ class BadParts(unittest.TestCase):
         points = [[x, y, z] for x, z in ((0, 10), (14, -10), (16, -10), (30, 10)) for y in (0, 20)]
         self.planned({"points": points}, JOB.replace("diameter = 4", "diameter = 12"),
                      "metal is left standing")
+
+    def test_what_a_mesh_keeps_is_told(self):
+        # a narrow valley, and a roof over its side
+        facets = []
+        for (x0, z0), (x1, z1) in (((0, 10), (14, -10)), ((14, -10), (16, -10)), ((16, -10), (30, 10)), ((20, 12), (30, 12))):
+            facets += [((x0, 0, z0), (x1, 0, z1), (x1, 20, z1)), ((x0, 0, z0), (x1, 20, z1), (x0, 20, z0))]
+        (self.folder / "valley.stl").write_bytes(binary_stl(facets))
+        result = self.plan(JOB.replace("FLOOR", "valley.stl").replace("diameter = 4", "diameter = 12"))
+        self.assertEqual(0, result.returncode, result.stdout)
+        self.assertIn("metal is left standing", result.stdout)
 
     def test_an_edge_that_is_one_point_is_a_pole(self):
         points = [[0, 10, 0], [0, 10, 0]] + FLOOR["control_points"]["points"][2:]

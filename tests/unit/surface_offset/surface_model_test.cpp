@@ -349,3 +349,14 @@ TEST(MeshModel, TopIsTheHighestFacetThere)
     CHECK_FALSE(model.top_of_mesh(8, 8).has_value());
     DOUBLES_EQUAL(1, model.top_of_mesh(4, 4)->normal.z, 1e-12);
 }
+
+TEST(SurfaceModelDistance, ContactOnARimWithALevelNormalIsOutside)
+{
+    const SurfaceModel model{{quarter_cylinder()}};
+    DOUBLES_EQUAL(1, model.contact(0, 0.0, 0.3, 3).normal.x, 1e-9);
+    Surface other = quarter_cylinder();
+    for (Vec3d& p : other.points) {
+        p.x = -p.x;
+    }
+    DOUBLES_EQUAL(-1, SurfaceModel{{other}}.contact(0, 0.0, 0.3, 3).normal.x, 1e-9);
+}
