@@ -32,6 +32,13 @@ Vec3d raised(Vec3d point, Vec3d normal, double scallop, bool upright)
     return upright ? point + Vec3d{0, 0, scallop / normal.z} : point + normal * scallop;
 }
 
+// The centre of a ball that touches the surface under where the metal may stand: raised upright
+// over a steep wall that is up the wall from the place itself.
+Vec3d centre_under(Vec3d top, Vec3d normal, double scallop, double radius)
+{
+    return top + normal * (radius - scallop);
+}
+
 double largest(const std::array<double, 4>& of) { return *std::max_element(of.begin(), of.end()); }
 
 }  // namespace
@@ -76,9 +83,9 @@ Vec3d Coverage::touching_tip(const Corner& at) const
 
 bool Coverage::place_covered(const Corner& at) const
 {
-    const Vec3d top =
-        raised(at.point.point, at.normal, scallop_ * (1 - kSlopeShare), at.normal.z >= kSteep);
-    swept_.near(at.point.point + at.normal * radius_, near_);
+    const double allowed = scallop_ * (1 - kSlopeShare);
+    const Vec3d top = raised(at.point.point, at.normal, allowed, at.normal.z >= kSteep);
+    swept_.near(centre_under(top, at.normal, allowed, radius_), near_);
     return std::any_of(near_.begin(), near_.end(),
                        [&](std::uint32_t move) { return swept_.removes(move, top, path_off_); });
 }
@@ -118,7 +125,9 @@ Coverage::Verdict Coverage::judge(const Cell& cell) const
     const double bend = upright ? turn / least_z : turn;
     const double less = path_off_ + largest(bow) + 0.5 * scallop_ * bend * bend;
     Corner middle = corner(cell.surface, 0.5 * (cell.u0 + cell.u1), 0.5 * (cell.v0 + cell.v1));
-    swept_.near(middle.point.point + middle.normal * radius_, near_);
+    const Vec3d middle_top =
+        raised(middle.point.point, middle.normal, scallop_, upright && middle.normal.z >= kSteep);
+    swept_.near(centre_under(middle_top, middle.normal, scallop_, radius_), near_);
     std::array<Vec3d, 4> tops{};
     for (std::size_t k = 0; k < 4; ++k) {
         tops[k] = raised(at[k].point.point, at[k].normal, scallop_, upright);
