@@ -238,12 +238,14 @@ double certify(FloorPath& path,
 }
 
 // What the control points of a move lack to keep it off the floor; of a straight one, its ends.
-// allowed: their gap, mm; least: the least gap found.
+// allowed: their gap, mm; least: the least gap found. Where that lacks more than `most` (mm) the
+// rest is not looked at.
 std::vector<double> lacking(Vec3d start,
                             const FloorMove& move,
                             const TipFloor& floor,
                             double fine,
                             double allowed,
+                            double most,
                             double& least)
 {
     const auto raise = [&](double gap) {
@@ -255,7 +257,7 @@ std::vector<double> lacking(Vec3d start,
     }
     std::vector<double> raises(move.curve.points.size(), 0.0);
     const Chords chords = chords_of(move.curve, fine);
-    for (std::size_t i = 1; i < chords.points.size(); ++i) {
+    for (std::size_t i = 1; i < chords.points.size() && allowed - least <= most; ++i) {
         const double more =
             raise(floor.gap(chords.points[i - 1], chords.points[i], chords.sagitta));
         // The four points of the chord's span carry all of it.
@@ -305,15 +307,16 @@ double certify_curves(FloorPath& path,
         std::vector<std::vector<double>> raises;
         Vec3d start = path.start;
         for (const FloorMove& move : path.moves) {
-            raises.push_back(lacking(start, move, floor, fine, allowed, path.least_gap));
+            raises.push_back(
+                lacking(start, move, floor, fine, allowed, settings.above, path.least_gap));
             start = move.end;
+            if (allowed - path.least_gap > settings.above) {
+                return allowed - path.least_gap;
+            }
         }
         const double lacks = allowed - path.least_gap;
         if (lacks <= 0.0) {
             break;
-        }
-        if (lacks > settings.above) {
-            return lacks;
         }
         raise_moves(path, raises, closed);
         most += kWrittenStep + 1.5 * lacks;
