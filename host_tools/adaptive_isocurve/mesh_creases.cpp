@@ -2,11 +2,12 @@
 #include "host_tools/adaptive_isocurve/mesh_creases.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <utility>
+
+#include "host_tools/adaptive_isocurve/cell_chains.hpp"
 
 namespace cusp::host {
 namespace {
@@ -20,8 +21,6 @@ constexpr double kShortest = 0.05;  // radii
 constexpr std::size_t kMostGrid = 700;
 
 using Rest = SurfaceModel::MeshRest;
-// A side of the grid: its lower node and whether it runs along x.
-using GridSide = std::pair<std::size_t, bool>;
 
 class CreaseFinder {
 public:
@@ -45,20 +44,18 @@ public:
 
     std::vector<Points> creases()
     {
+        CellChains chains;
         for (std::size_t i = 0; i + 1 < nx_; ++i) {
             for (std::size_t j = 0; j + 1 < ny_; ++j) {
-                cross_cell(i * ny_ + j);
+                chains.join(i * ny_ + j, ny_,
+                            [&](const GridSide& side) { return found(side).has_value(); });
             }
         }
         std::vector<Points> out;
-        for (const bool open : {true, false}) {
-            for (const auto& [side, neighbours] : neighbours_) {
-                if (!used_[side] && (neighbours.size() == 1 || !open)) {
-                    Points tips = tips_along(walk(side));
-                    if (length_of(tips) > kShortest * radius_) {
-                        out.push_back(std::move(tips));
-                    }
-                }
+        for (const std::vector<GridSide>& chain : chains.chains()) {
+            Points tips = tips_along(chain);
+            if (length_of(tips) > kShortest * radius_) {
+                out.push_back(std::move(tips));
             }
         }
         return out;
@@ -126,60 +123,16 @@ private:
         return Crossing{from, to, centre - Vec3d{0, 0, certified_.tool().radius}};
     }
 
-    bool crosses(std::size_t a, std::size_t b) const
-    {
-        return rests_[a] && rests_[b] && turned(*rests_[a], *rests_[b]);
-    }
-
-    void cross_cell(std::size_t k)
-    {
-        const std::array<std::pair<GridSide, bool>, 4> sides{
-            {{{k, true}, crosses(k, k + ny_)},
-             {{k + ny_, false}, crosses(k + ny_, k + ny_ + 1)},
-             {{k + 1, true}, crosses(k + 1, k + ny_ + 1)},
-             {{k, false}, crosses(k, k + 1)}}};
-        std::vector<GridSide> crossed;
-        for (const auto& [side, across] : sides) {
-            if (across && found(side)) {
-                crossed.push_back(side);
-            }
-        }
-        for (std::size_t n = 0; n + 1 < crossed.size(); n += 2) {
-            neighbours_[crossed[n]].push_back(crossed[n + 1]);
-            neighbours_[crossed[n + 1]].push_back(crossed[n]);
-        }
-    }
-
     const std::optional<Crossing>& found(const GridSide& side)
     {
         const auto known = crossings_.find(side);
         if (known != crossings_.end()) {
             return known->second;
         }
-        const auto [node, along_x] = side;
-        return crossings_[side] = crossing(places_[node], places_[node + (along_x ? ny_ : 1)]);
-    }
-
-    std::vector<GridSide> walk(GridSide from)
-    {
-        std::vector<GridSide> chain{from};
-        used_[from] = true;
-        for (bool more = true; more;) {
-            more = false;
-            for (const GridSide& next : neighbours_[chain.back()]) {
-                if (!used_[next]) {
-                    used_[next] = true;
-                    chain.push_back(next);
-                    more = true;
-                    break;
-                }
-            }
-        }
-        const auto& back = neighbours_[chain.back()];
-        if (chain.size() > 2 && std::find(back.begin(), back.end(), from) != back.end()) {
-            chain.push_back(from);
-        }
-        return chain;
+        const std::size_t a = side.first;
+        const std::size_t b = end_node(side, ny_);
+        const bool crosses = rests_[a] && rests_[b] && turned(*rests_[a], *rests_[b]);
+        return crossings_[side] = crosses ? crossing(places_[a], places_[b]) : std::nullopt;
     }
 
     Points tips_along(const std::vector<GridSide>& chain)
@@ -233,8 +186,6 @@ private:
     std::vector<Vec2d> places_;
     std::vector<std::optional<Rest>> rests_;
     std::map<GridSide, std::optional<Crossing>> crossings_;
-    std::map<GridSide, std::vector<GridSide>> neighbours_;
-    std::map<GridSide, bool> used_;
 };
 
 }  // namespace

@@ -2,10 +2,10 @@
 #include "host_tools/adaptive_isocurve/pass_tracer.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <map>
 #include <utility>
+
+#include "host_tools/adaptive_isocurve/cell_chains.hpp"
 
 namespace cusp::host {
 namespace {
@@ -41,81 +41,6 @@ std::vector<double> even(double from, double to, std::size_t parts)
     }
     return out;
 }
-
-// A side of the grid: its lower node and whether it runs along u.
-using GridSide = std::pair<std::size_t, bool>;
-
-// Chains of sides that follow each other round the free part (marching squares).
-class GridEdges {
-public:
-    GridEdges(const std::vector<bool>& free, std::size_t nu, std::size_t nv)
-    {
-        for (std::size_t i = 0; i + 1 < nu; ++i) {
-            for (std::size_t j = 0; j + 1 < nv; ++j) {
-                cross_cell(free, i * nv + j, nv);
-            }
-        }
-    }
-
-    std::vector<std::vector<GridSide>> chains()
-    {
-        std::vector<std::vector<GridSide>> out;
-        // Open chains start where one cell only knows the side.
-        for (const bool open : {true, false}) {
-            for (const auto& [side, neighbours] : neighbours_) {
-                if (!used_[side] && (neighbours.size() == 1 || !open)) {
-                    out.push_back(walk(side));
-                }
-            }
-        }
-        return out;
-    }
-
-private:
-    void cross_cell(const std::vector<bool>& free, std::size_t k, std::size_t nv)
-    {
-        const std::array<std::pair<GridSide, bool>, 4> sides{
-            {{{k, true}, free[k] != free[k + nv]},
-             {{k + nv, false}, free[k + nv] != free[k + nv + 1]},
-             {{k + 1, true}, free[k + 1] != free[k + nv + 1]},
-             {{k, false}, free[k] != free[k + 1]}}};
-        std::vector<GridSide> crossed;
-        for (const auto& [side, crosses] : sides) {
-            if (crosses) {
-                crossed.push_back(side);
-            }
-        }
-        for (std::size_t n = 0; n + 1 < crossed.size(); n += 2) {
-            neighbours_[crossed[n]].push_back(crossed[n + 1]);
-            neighbours_[crossed[n + 1]].push_back(crossed[n]);
-        }
-    }
-
-    std::vector<GridSide> walk(GridSide from)
-    {
-        std::vector<GridSide> chain{from};
-        used_[from] = true;
-        for (bool more = true; more;) {
-            more = false;
-            for (const GridSide& next : neighbours_[chain.back()]) {
-                if (!used_[next]) {
-                    used_[next] = true;
-                    chain.push_back(next);
-                    more = true;
-                    break;
-                }
-            }
-        }
-        const auto& back = neighbours_[chain.back()];
-        if (chain.size() > 2 && std::find(back.begin(), back.end(), from) != back.end()) {
-            chain.push_back(from);
-        }
-        return chain;
-    }
-
-    std::map<GridSide, std::vector<GridSide>> neighbours_;
-    std::map<GridSide, bool> used_;
-};
 
 }  // namespace
 
@@ -231,11 +156,20 @@ std::vector<Points> PassTracer::free_region_edges(int surface, double spacing) c
     const auto place = [&](std::size_t k) {
         return Vec2d{us[k / vs.size()], vs[k % vs.size()]};
     };
+    CellChains chains;
+    for (std::size_t i = 0; i + 1 < us.size(); ++i) {
+        for (std::size_t j = 0; j + 1 < vs.size(); ++j) {
+            chains.join(i * vs.size() + j, vs.size(), [&](const GridSide& side) {
+                return free[side.first] != free[end_node(side, vs.size())];
+            });
+        }
+    }
     std::vector<Points> out;
-    for (const std::vector<GridSide>& chain : GridEdges{free, us.size(), vs.size()}.chains()) {
+    for (const std::vector<GridSide>& chain : chains.chains()) {
         std::vector<EdgeSide> sides;
-        for (const auto& [node, along_u] : chain) {
-            const std::size_t other = node + (along_u ? vs.size() : 1);
+        for (const GridSide& side : chain) {
+            const std::size_t node = side.first;
+            const std::size_t other = end_node(side, vs.size());
             sides.push_back({place(free[node] ? node : other), place(free[node] ? other : node)});
         }
         Points dense{edge_tip(surface, sides.front())};

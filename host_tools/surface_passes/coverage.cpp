@@ -12,32 +12,11 @@ namespace {
 constexpr double kSmallest = 1.0 / 96;  // cells, in steps between passes
 constexpr double kLargest = 4;          // the same
 constexpr double kBlockedCell = 0.25;   // the same, where the tool can't touch
-constexpr double kSlopeShare = 0.02;    // of the scallop, for the slope in a smallest cell
-constexpr double kReachPitch = 0.125;   // radii, at least
 constexpr double kTraceStep = 0.125;    // in steps between passes
-constexpr double kTraceApart = 0.3;     // the same, of tips that one line may join
-constexpr double kFarApart = 0.5;       // radii, of tips that one pass may join
 constexpr int kMostTraced = 4000;       // places of one pass
 constexpr int kRounds = 5;
 constexpr int kDeepest = 40;
-constexpr double kUpright = 0.05;   // z of the normal
-constexpr double kSteep = 0.2;      // the same
-constexpr double kHidden = 1e-3;    // mm
-constexpr double kShortest = 1e-3;  // mm
-
-// Where metal may stand at most. On all but steep ground it is measured upright and turned square:
-// over sharp ridges that asks for more than the way along the normal.
-Vec3d raised(Vec3d point, Vec3d normal, double scallop, bool upright)
-{
-    return upright ? point + Vec3d{0, 0, scallop / normal.z} : point + normal * scallop;
-}
-
-// The centre of a ball that touches the surface under where the metal may stand: raised upright
-// over a steep wall that is up the wall from the place itself.
-Vec3d centre_under(Vec3d top, Vec3d normal, double scallop, double radius)
-{
-    return top + normal * (radius - scallop);
-}
+constexpr double kHidden = 1e-3;  // mm
 
 double largest(const std::array<double, 4>& of) { return *std::max_element(of.begin(), of.end()); }
 
@@ -53,17 +32,15 @@ Coverage::Coverage(const std::vector<Surface>& surfaces,
       radius_{certified.tool().radius},
       scallop_{scallop},
       path_off_{path_off},
-      step_{std::sqrt(8 * certified.tool().radius * scallop)},
       most_gaps_{most_gaps},
-      swept_{radius_, 0.6 * step_},
-      reach_{surfaces, certified, std::max(kBlockedCell * step_, kReachPitch * radius_)}
+      places_{surfaces, certified, scallop, path_off}
 {
 }
 
 void Coverage::add(const Points& tips)
 {
     if (tops_) {
-        swept_.add(tips);
+        places_.add(tips);
     } else {
         waiting_.push_back(tips);
     }
@@ -76,18 +53,11 @@ Coverage::Corner Coverage::corner(int surface, double u, double v) const
     return out;
 }
 
-Vec3d Coverage::touching_tip(const Corner& at) const
+// Whether a ball can touch the place.
+bool Coverage::stands_free(const Corner& at) const
 {
-    return at.point.point + at.normal * (radius_ + certified_.band().lift) - Vec3d{0, 0, radius_};
-}
-
-bool Coverage::place_covered(const Corner& at) const
-{
-    const double allowed = scallop_ * (1 - kSlopeShare);
-    const Vec3d top = raised(at.point.point, at.normal, allowed, at.normal.z >= kSteep);
-    swept_.near(centre_under(top, at.normal, allowed, radius_), near_);
-    return std::any_of(near_.begin(), near_.end(),
-                       [&](std::uint32_t move) { return swept_.removes(move, top, path_off_); });
+    return dot(at.normal, at.normal) > 0 &&
+           certified_.stands_free(places_.touching_tip(at.point.point, at.normal));
 }
 
 Coverage::Verdict Coverage::judge(const Cell& cell) const
@@ -116,18 +86,18 @@ Coverage::Verdict Coverage::judge(const Cell& cell) const
     const double long_u = std::max(largest(along_u), norm(at[1].point.point - at[0].point.point));
     const double long_v = std::max(largest(along_v), norm(at[2].point.point - at[0].point.point));
     const Verdict longer = long_u >= long_v ? Verdict::kHalveU : Verdict::kHalveV;
-    if (std::max(long_u, long_v) > kLargest * step_ || turn > 0.5) {
-        if (std::max(long_u, long_v) > kSmallest * step_) {
+    if (std::max(long_u, long_v) > kLargest * places_.step() || turn > 0.5) {
+        if (std::max(long_u, long_v) > kSmallest * places_.step()) {
             return longer;
         }
     }
-    const bool upright = least_z >= kSteep;
+    const bool upright = least_z >= kSteepNormal;
     const double bend = upright ? turn / least_z : turn;
     const double less = path_off_ + largest(bow) + 0.5 * scallop_ * bend * bend;
     Corner middle = corner(cell.surface, 0.5 * (cell.u0 + cell.u1), 0.5 * (cell.v0 + cell.v1));
-    const Vec3d middle_top =
-        raised(middle.point.point, middle.normal, scallop_, upright && middle.normal.z >= kSteep);
-    swept_.near(centre_under(middle_top, middle.normal, scallop_, radius_), near_);
+    const Vec3d middle_top = raised(middle.point.point, middle.normal, scallop_,
+                                    upright && middle.normal.z >= kSteepNormal);
+    places_.swept().near(centre_under(middle_top, middle.normal, scallop_, radius_), near_);
     std::array<Vec3d, 4> tops{};
     for (std::size_t k = 0; k < 4; ++k) {
         tops[k] = raised(at[k].point.point, at[k].normal, scallop_, upright);
@@ -137,7 +107,7 @@ Coverage::Verdict Coverage::judge(const Cell& cell) const
     for (const std::uint32_t move : near_) {
         unsigned covers = 0;
         for (unsigned k = 0; k < 4; ++k) {
-            if (swept_.removes(move, tops[k], less)) {
+            if (places_.swept().removes(move, tops[k], less)) {
                 covers |= 1U << k;
             }
         }
@@ -154,15 +124,15 @@ Coverage::Verdict Coverage::judge(const Cell& cell) const
         }
         return false;
     };
-    if (std::max(long_u, long_v) < kBlockedCell * step_ && blocked_somewhere(at)) {
+    if (std::max(long_u, long_v) < kBlockedCell * places_.step() && blocked_somewhere(at)) {
         return Verdict::kUncovered;
     }
-    if (std::max(long_u, long_v) < kSmallest * step_) {
+    if (std::max(long_u, long_v) < kSmallest * places_.step()) {
         const bool each =
             std::all_of(at.begin(), at.end(), [&](const Corner& c) { return place_covered(c); });
         return each ? Verdict::kCovered : Verdict::kUncovered;
     }
-    const double least = 0.5 * kSmallest * step_;
+    const double least = 0.5 * kSmallest * places_.step();
     if (long_u > least && long_v > least) {
         if (some(3) && some(12)) {
             return Verdict::kHalveV;
@@ -171,7 +141,7 @@ Coverage::Verdict Coverage::judge(const Cell& cell) const
             return Verdict::kHalveU;
         }
     }
-    if (near_.empty() && std::max(long_u, long_v) < step_ && hidden(middle) &&
+    if (near_.empty() && std::max(long_u, long_v) < places_.step() && hidden(middle) &&
         std::all_of(at.begin(), at.end(), [&](const Corner& c) { return hidden(c); })) {
         return Verdict::kCovered;
     }
@@ -181,10 +151,8 @@ Coverage::Verdict Coverage::judge(const Cell& cell) const
 // Whether some corner is bare because the tool can't touch it, or is trimmed away.
 bool Coverage::blocked_somewhere(const std::array<Corner, 4>& at) const
 {
-    return std::any_of(at.begin(), at.end(), [&](const Corner& c) {
-        return !place_covered(c) &&
-               !(dot(c.normal, c.normal) > 0 && certified_.stands_free(touching_tip(c)));
-    });
+    return std::any_of(at.begin(), at.end(),
+                       [&](const Corner& c) { return !place_covered(c) && !stands_free(c); });
 }
 
 // Whether the place is trimmed away or lies well under another surface.
@@ -226,9 +194,9 @@ void Coverage::look_into(const Cell& cell, int depth)
 void Coverage::look_over(int surface)
 {
     if (!tops_) {
-        tops_.emplace(surfaces_, certified_.model(), kBlockedCell * step_);
+        tops_.emplace(surfaces_, certified_.model(), kBlockedCell * places_.step());
         for (const Points& tips : waiting_) {
-            swept_.add(tips);
+            places_.add(tips);
         }
         waiting_.clear();
     }
@@ -246,41 +214,21 @@ std::optional<Vec3d> Coverage::missing_tip(int surface,
     if (!certified_.model().inside_trims(surface, u, v) || place_covered(at)) {
         return std::nullopt;
     }
-    if (dot(at.normal, at.normal) > 0) {
-        const Vec3d tip = touching_tip(at);
-        if (certified_.stands_free(tip)) {
-            return tip;
-        }
+    if (stands_free(at)) {
+        return places_.touching_tip(at.point.point, at.normal);
     }
     return where_blocked ? better_tip(at) : std::nullopt;
 }
 
-// Where the tool would stand lowest over the place, from where it does now.
 std::optional<Vec3d> Coverage::better_tip(const Corner& at) const
 {
-    const Vec3d p = at.point.point;
-    const double cosine = at.normal.z;
     // On upright walls heights say nothing.
-    if (at.normal.z < kUpright || hidden(at)) {
+    if (at.normal.z < kUprightNormal || hidden(at)) {
         return std::nullopt;
     }
-    const SweptBalls::Lowest now = swept_.lowest(p.x, p.y);
-    if ((now.height - p.z) * cosine <= scallop_) {
-        return std::nullopt;
-    }
-    const std::optional<LowestReach::Answer> best = reach_.over(p, now.height - scallop_ / cosine);
-    if (!best || (now.height - best->height) * cosine <= scallop_) {
-        return std::nullopt;
-    }
-    // A pass there is kept off edges, and so no better than this.
-    const Vec3d kept = certified_.kept_off_edges({best->tip}).front() + Vec3d{0, 0, radius_};
-    const double square =
-        radius_ * radius_ - (kept.x - p.x) * (kept.x - p.x) - (kept.y - p.y) * (kept.y - p.y);
-    if ((now.height - kept.z + std::sqrt(std::max(0.0, square))) * cosine <= scallop_) {
-        kept_off_ = true;
-        return std::nullopt;
-    }
-    return best->tip;
+    const PlaceCoverage::Better better = places_.better_tip(at.point.point, at.normal);
+    kept_off_ = kept_off_ || better.kept_off;
+    return better.tip;
 }
 
 Points Coverage::trace(int surface, Place place, bool along_u) const
@@ -305,7 +253,7 @@ Points Coverage::trace(int surface, Place place, bool along_u) const
             const double speed = norm(along_u ? p.du : p.dv);
             double& at = along_u ? at_u : at_v;
             const double step =
-                std::min(kTraceStep * step_ / std::max(1e-9, speed), (end - begin) / 8);
+                std::min(kTraceStep * places_.step() / std::max(1e-9, speed), (end - begin) / 8);
             const double next = std::clamp(at + sign * step, begin, end);
             if (next == at) {
                 break;
@@ -314,36 +262,6 @@ Points Coverage::trace(int surface, Place place, bool along_u) const
         }
         if (sign < 0) {
             std::reverse(out.begin(), out.end());
-        }
-    }
-    return out;
-}
-
-// The best tips of neighbouring places may lie apart (two sides of a ridge): between those that do
-// the tool follows the model, or it is lifted.
-std::vector<Points> Coverage::runs_of(const Points& tips) const
-{
-    // A place that is at the limit may have its tip when asked once and none the next time: drops
-    // are right to a micrometre only.
-    if (tips.empty()) {
-        return {};
-    }
-    std::vector<Points> out{{tips.front()}};
-    for (std::size_t k = 1; k < tips.size(); ++k) {
-        const double apart = norm(tips[k] - out.back().back());
-        if (apart > kFarApart * radius_) {
-            out.push_back({tips[k]});
-            continue;
-        }
-        if (apart > kTraceApart * step_) {
-            const Points between = certified_.sample_dropped(out.back().back(), tips[k]);
-            out.back().insert(out.back().end(), between.begin() + 1, between.end() - 1);
-        }
-        out.back().push_back(tips[k]);
-    }
-    for (Points& run : out) {
-        if (run.size() == 1) {
-            run.push_back(run.front() + Vec3d{kShortest, 0, 0});
         }
     }
     return out;
@@ -390,7 +308,7 @@ void Coverage::close_gaps(const std::function<void(const Points&)>& cut)
             if (one.empty() || length_of(other) > length_of(one)) {
                 std::swap(one, other);
             }
-            for (const Points& run : runs_of(one)) {
+            for (const Points& run : places_.runs_of(one)) {
                 cut(run);
             }
         }
@@ -408,7 +326,8 @@ void Coverage::close_gaps(const std::function<void(const Points&)>& cut)
     for (const Cell& cell : beside_edges) {
         const Corner at =
             corner(cell.surface, 0.5 * (cell.u0 + cell.u1), 0.5 * (cell.v0 + cell.v1));
-        most_left_ = std::max(most_left_, left_at(at, std::max(scallop_, most_left_)));
+        most_left_ = std::max(
+            most_left_, places_.left_at(at.point.point, at.normal, std::max(scallop_, most_left_)));
     }
 }
 
@@ -419,24 +338,8 @@ double Coverage::left_over(const Cell& cell) const
     if (!place) {
         return 0;
     }
-    return left_at(corner(cell.surface, place->u, place->v), 0);
-}
-
-// Not told apart below `worth`, which saves most of the search.
-double Coverage::left_at(const Corner& at, double worth) const
-{
-    const Vec3d p = at.point.point;
-    const SweptBalls::Lowest now = swept_.lowest(p.x, p.y);
-    if (!std::isfinite(now.height)) {
-        return radius_;
-    }
-    if ((now.height - p.z) * at.normal.z <= worth) {
-        return 0;
-    }
-    const std::optional<LowestReach::Answer> best =
-        reach_.over(p, now.height - worth / at.normal.z);
-    const double from = best ? std::max(p.z, best->height) : p.z;
-    return std::min(radius_, std::max(0.0, (now.height - from) * at.normal.z));
+    const Corner at = corner(cell.surface, place->u, place->v);
+    return places_.left_at(at.point.point, at.normal, 0);
 }
 
 // Highest places first: most of the others are told to be lower without a search.
@@ -453,8 +356,8 @@ double Coverage::measured_left() const
                                    Place{cell.u0, cell.v1}, Place{cell.u1, cell.v1}}) {
             const Corner at = corner(cell.surface, place.u, place.v);
             const Vec3d p = at.point.point;
-            const double over = (swept_.lowest(p.x, p.y).height - p.z) * at.normal.z;
-            if (over > scallop_ && at.normal.z >= kUpright && !hidden(at)) {
+            const double over = (places_.swept().lowest(p.x, p.y).height - p.z) * at.normal.z;
+            if (over > scallop_ && at.normal.z >= kUprightNormal && !hidden(at)) {
                 all.push_back({at, over});
             }
         }
@@ -465,7 +368,8 @@ double Coverage::measured_left() const
         if (high.over <= most) {
             break;
         }
-        most = std::max(most, left_at(high.at, std::max(scallop_, most)));
+        most = std::max(
+            most, places_.left_at(high.at.point.point, high.at.normal, std::max(scallop_, most)));
     }
     return most;
 }

@@ -7,9 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "host_tools/surface_passes/certified_pass.hpp"
-#include "host_tools/surface_passes/lowest_reach.hpp"
-#include "host_tools/surface_passes/swept_balls.hpp"
+#include "host_tools/surface_passes/place_coverage.hpp"
 #include "host_tools/surface_passes/top_map.hpp"
 
 namespace cusp::host {
@@ -81,10 +79,13 @@ private:
     enum class Verdict : std::uint8_t { kCovered, kHalveU, kHalveV, kUncovered };
 
     Corner corner(int surface, double u, double v) const;
-    Vec3d touching_tip(const Corner& at) const;
     void look_into(const Cell& cell, int depth);
     Verdict judge(const Cell& cell) const;
-    bool place_covered(const Corner& at) const;
+    bool place_covered(const Corner& at) const
+    {
+        return places_.covered(at.point.point, at.normal);
+    }
+    bool stands_free(const Corner& at) const;
     bool blocked_somewhere(const std::array<Corner, 4>& at) const;
     bool hidden(const Corner& at) const;
     std::optional<Place> bare_place(const Cell& cell) const;
@@ -93,26 +94,22 @@ private:
     std::optional<Vec3d> missing_tip(int surface, double u, double v, bool where_blocked) const;
     std::optional<Vec3d> better_tip(const Corner& at) const;
     double left_over(const Cell& cell) const;
-    double left_at(const Corner& at, double worth) const;
     std::optional<Vec3d> tip_over_rim(int surface, Vec2d place) const;
     void go_over_rim(int surface,
                      Vec2d from,
                      Vec2d to,
                      const std::function<void(const Points&)>& cut);
     Points trace(int surface, Place place, bool along_u) const;
-    std::vector<Points> runs_of(const Points& tips) const;
 
     const std::vector<Surface>& surfaces_;
     const CertifiedPasses& certified_;
     double radius_;
     double scallop_;
     double path_off_;
-    double step_;  // mm, between passes on flat ground
     std::size_t most_gaps_;
+    PlaceCoverage places_;
     std::vector<Points> waiting_;  // passes given before the first look
-    SweptBalls swept_;
-    std::optional<TopMap> tops_;  // from the first look on: many parts need none
-    mutable LowestReach reach_;
+    std::optional<TopMap> tops_;   // from the first look on: many parts need none
     std::vector<Cell> gaps_;
     double most_left_{};
     bool overflowed_{};

@@ -12,24 +12,12 @@ namespace {
 constexpr double kSmallest = 1.0 / 64;  // cells, in steps between passes
 constexpr double kLargest = 2;          // the same
 constexpr double kBlockedCell = 0.25;   // the same, where the tool can't touch
-constexpr double kSmallShare = 0.98;    // of the scallop, at places that stand for a smallest cell
-constexpr double kReachPitch = 0.125;   // radii, at least
 constexpr double kTraceStep = 0.125;    // in steps between passes
-constexpr double kTraceApart = 0.3;     // the same, of tips that one line may join
-constexpr double kFarApart = 0.5;       // radii, of tips that one pass may join
 constexpr int kMostTraced = 4000;       // places of one pass
 constexpr int kRounds = 5;
 constexpr int kDeepest = 60;
 constexpr std::size_t kMostGaps = 300000;
-constexpr double kUpright = 0.05;   // z of the normal
-constexpr double kSteep = 0.2;      // the same
-constexpr double kHidden = 1e-3;    // mm
-constexpr double kShortest = 1e-3;  // mm
-
-Vec3d raised(Vec3d point, Vec3d normal, double scallop)
-{
-    return normal.z >= kSteep ? point + Vec3d{0, 0, scallop / normal.z} : point + normal * scallop;
-}
+constexpr double kHidden = 1e-3;  // mm
 
 }  // namespace
 
@@ -39,21 +27,10 @@ FacetCoverage::FacetCoverage(const std::vector<std::array<Vec3d, 3>>& triangles,
                              double path_off)
     : triangles_{triangles},
       certified_{certified},
-      radius_{certified.tool().radius},
       scallop_{scallop},
       path_off_{path_off},
-      step_{std::sqrt(8 * radius_ * scallop)},
-      swept_{radius_, 0.6 * step_},
-      reach_{no_surfaces_, certified, std::max(kBlockedCell * step_, kReachPitch * radius_)}
+      places_{no_surfaces_, certified, scallop, path_off}
 {
-}
-
-bool FacetCoverage::covered(Vec3d place, Vec3d normal, double share) const
-{
-    const Vec3d top = raised(place, normal, scallop_ * share);
-    swept_.near(place + normal * radius_, near_);
-    return std::any_of(near_.begin(), near_.end(),
-                       [&](std::uint32_t move) { return swept_.removes(move, top, path_off_); });
 }
 
 bool FacetCoverage::hidden(Vec3d point) const
@@ -62,51 +39,50 @@ bool FacetCoverage::hidden(Vec3d point) const
     return top && top->point.z > point.z + kHidden;
 }
 
-Vec3d FacetCoverage::touching_tip(const Place& at) const
-{
-    return at.point + at.normal * (radius_ + certified_.band().lift) - Vec3d{0, 0, radius_};
-}
-
 FacetCoverage::Verdict FacetCoverage::judge(const Cell& cell) const
 {
     double longest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         longest = std::max(longest, norm(cell.corners[(k + 1) % 3] - cell.corners[k]));
     }
-    if (longest > kLargest * step_) {
+    if (longest > kLargest * step()) {
         return Verdict::kHalve;
     }
     const Vec3d middle = cell.middle();
-    swept_.near(middle + cell.normal * radius_, near_);
+    const bool upright = cell.normal.z >= kSteepNormal;
+    places_.swept().near(centre_under(raised(middle, cell.normal, scallop_, upright), cell.normal,
+                                      scallop_, certified_.tool().radius),
+                         near_);
     bool touched = false;
     for (const std::uint32_t move : near_) {
         const auto count =
             std::count_if(cell.corners.begin(), cell.corners.end(), [&](Vec3d corner) {
-                return swept_.removes(move, raised(corner, cell.normal, scallop_), path_off_);
+                return places_.swept().removes(move, raised(corner, cell.normal, scallop_, upright),
+                                               path_off_);
             });
         if (count == 3) {
             return Verdict::kCovered;
         }
         touched = touched || count > 0;
     }
-    if (!touched && longest < step_ && hidden(middle) &&
+    if (!touched && longest < step() && hidden(middle) &&
         std::all_of(cell.corners.begin(), cell.corners.end(),
                     [&](Vec3d corner) { return hidden(corner); })) {
         return Verdict::kCovered;
     }
-    if (longest >= kBlockedCell * step_) {
+    if (longest >= kBlockedCell * step()) {
         return Verdict::kHalve;
     }
     bool each = true;
     for (const Vec3d& corner : cell.corners) {
-        if (!covered(corner, cell.normal, kSmallShare)) {
+        if (!covered(corner, cell.normal, kPlaceShare)) {
             each = false;
-            if (!certified_.stands_free(touching_tip({corner, cell.normal}))) {
+            if (!certified_.stands_free(places_.touching_tip(corner, cell.normal))) {
                 return low_enough(cell) ? Verdict::kCovered : Verdict::kBlocked;
             }
         }
     }
-    if (longest >= kSmallest * step_) {
+    if (longest >= kSmallest * step()) {
         return Verdict::kHalve;
     }
     return each ? Verdict::kCovered : Verdict::kUncovered;
@@ -116,8 +92,8 @@ FacetCoverage::Verdict FacetCoverage::judge(const Cell& cell) const
 bool FacetCoverage::low_enough(const Cell& cell) const
 {
     return std::all_of(cell.corners.begin(), cell.corners.end(), [&](Vec3d corner) {
-        const double over = swept_.lowest(corner.x, corner.y).height - corner.z;
-        return over * cell.normal.z <= kSmallShare * scallop_;
+        const double over = places_.swept().lowest(corner.x, corner.y).height - corner.z;
+        return over * cell.normal.z <= kPlaceShare * scallop_;
     });
 }
 
@@ -159,7 +135,7 @@ void FacetCoverage::look_over()
     looking_over_ = true;
     for (const auto& corners : triangles_) {
         const Facet facet{corners};
-        if (facet.normal.z >= kUpright) {
+        if (facet.normal.z >= kUprightNormal) {
             look_into({corners, facet.normal}, kDeepest);
         }
     }
@@ -170,30 +146,15 @@ void FacetCoverage::look_over()
 // `where_blocked` is false.
 std::optional<Vec3d> FacetCoverage::missing_tip(const Place& at, bool where_blocked) const
 {
-    if (at.normal.z < kUpright || covered(at.point, at.normal, kSmallShare) || hidden(at.point)) {
+    if (at.normal.z < kUprightNormal || covered(at.point, at.normal, kPlaceShare) ||
+        hidden(at.point)) {
         return std::nullopt;
     }
-    const Vec3d tip = touching_tip(at);
+    const Vec3d tip = places_.touching_tip(at.point, at.normal);
     if (certified_.stands_free(tip)) {
         return tip;
     }
-    return where_blocked ? better_tip(at) : std::nullopt;
-}
-
-// Where the tool would stand lowest over the place, from where it does now.
-std::optional<Vec3d> FacetCoverage::better_tip(const Place& at) const
-{
-    const Vec3d p = at.point;
-    const double cosine = at.normal.z;
-    const SweptBalls::Lowest now = swept_.lowest(p.x, p.y);
-    if ((now.height - p.z) * cosine <= scallop_) {
-        return std::nullopt;
-    }
-    const std::optional<LowestReach::Answer> best = reach_.over(p, now.height - scallop_ / cosine);
-    if (!best || (now.height - best->height) * cosine <= scallop_) {
-        return std::nullopt;
-    }
-    return best->tip;
+    return where_blocked ? places_.better_tip(at.point, at.normal).tip : std::nullopt;
 }
 
 // A place of the cell that lacks a pass.
@@ -229,7 +190,7 @@ Points FacetCoverage::trace(const Place& from, Vec3d way) const
             }
             const double slant = dot(at.normal, way) / at.normal.z;
             const Vec3d next =
-                at.point + way * (sign * kTraceStep * step_ / std::sqrt(1 + slant * slant));
+                at.point + way * (sign * kTraceStep * step() / std::sqrt(1 + slant * slant));
             const auto top = certified_.model().top_of_mesh(next.x, next.y);
             if (!top) {
                 break;
@@ -238,31 +199,6 @@ Points FacetCoverage::trace(const Place& from, Vec3d way) const
         }
         if (sign < 0) {
             std::reverse(out.begin(), out.end());
-        }
-    }
-    return out;
-}
-
-// The best tips of neighbouring places may lie apart (two sides of a ridge): between those that do
-// the tool follows the model, or it is lifted.
-std::vector<Points> FacetCoverage::runs_of(const Points& tips) const
-{
-    std::vector<Points> out{{tips.front()}};
-    for (std::size_t k = 1; k < tips.size(); ++k) {
-        const double apart = norm(tips[k] - out.back().back());
-        if (apart > kFarApart * radius_) {
-            out.push_back({tips[k]});
-            continue;
-        }
-        if (apart > kTraceApart * step_) {
-            const Points between = certified_.sample_dropped(out.back().back(), tips[k]);
-            out.back().insert(out.back().end(), between.begin() + 1, between.end() - 1);
-        }
-        out.back().push_back(tips[k]);
-    }
-    for (Points& run : out) {
-        if (run.size() == 1) {
-            run.push_back(run.front() + Vec3d{kShortest, 0, 0});
         }
     }
     return out;
@@ -285,7 +221,7 @@ void FacetCoverage::close_gaps(const std::function<void(const Points&)>& cut)
             if (length_of(other) > length_of(one)) {
                 std::swap(one, other);
             }
-            for (const Points& run : runs_of(one)) {
+            for (const Points& run : places_.runs_of(one)) {
                 cut(run);
             }
         }
@@ -299,22 +235,9 @@ void FacetCoverage::close_gaps(const std::function<void(const Points&)>& cut)
     gaps_.erase(std::remove_if(gaps_.begin(), gaps_.end(), met), gaps_.end());
     for (const Cell& cell : gaps_) {
         if (const std::optional<Place> place = bare_place(cell)) {
-            most_left_ = std::max(most_left_, left_at(*place));
+            most_left_ = std::max(most_left_, places_.left_at(place->point, place->normal, 0));
         }
     }
-}
-
-// What is left at a bare place, square to its facet, over the best that can be done.
-double FacetCoverage::left_at(const Place& at) const
-{
-    const Vec3d p = at.point;
-    const SweptBalls::Lowest now = swept_.lowest(p.x, p.y);
-    if (!std::isfinite(now.height)) {
-        return radius_;
-    }
-    const std::optional<LowestReach::Answer> best = reach_.over(p, now.height);
-    const double from = best ? std::max(p.z, best->height) : p.z;
-    return std::min(radius_, std::max(0.0, (now.height - from) * at.normal.z));
 }
 
 }  // namespace cusp::host

@@ -7,9 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "host_tools/surface_passes/certified_pass.hpp"
-#include "host_tools/surface_passes/lowest_reach.hpp"
-#include "host_tools/surface_passes/swept_balls.hpp"
+#include "host_tools/surface_passes/place_coverage.hpp"
 
 namespace cusp::host {
 
@@ -28,15 +26,18 @@ public:
                   double path_off);
 
     // A pass that will be cut, by its tips.
-    void add(const Points& tips) { swept_.add(tips); }
+    void add(const Points& tips) { places_.add(tips); }
 
     // Whether what stands over a place of the mesh is taken off to a share of the scallop.
     //
     // normal  unit, upward
-    bool covered(Vec3d place, Vec3d normal, double share) const;
+    bool covered(Vec3d place, Vec3d normal, double share) const
+    {
+        return places_.covered(place, normal, share);
+    }
 
     // mm: between passes on level ground that leave the scallop
-    double step() const { return step_; }
+    double step() const { return places_.step(); }
 
     // Looks over all triangles; what is not covered is kept for `close_gaps`.
     void look_over();
@@ -72,23 +73,16 @@ private:
     Verdict judge(const Cell& cell) const;
     bool hidden(Vec3d point) const;
     bool low_enough(const Cell& cell) const;
-    Vec3d touching_tip(const Place& at) const;
     std::optional<Place> bare_place(const Cell& cell) const;
     std::optional<Vec3d> missing_tip(const Place& at, bool where_blocked) const;
-    std::optional<Vec3d> better_tip(const Place& at) const;
-    double left_at(const Place& at) const;
     Points trace(const Place& from, Vec3d way) const;
-    std::vector<Points> runs_of(const Points& tips) const;
 
     const std::vector<std::array<Vec3d, 3>>& triangles_;
     const CertifiedPasses& certified_;
     const std::vector<Surface> no_surfaces_;
-    double radius_;
     double scallop_;
     double path_off_;
-    double step_;
-    SweptBalls swept_;
-    mutable LowestReach reach_;
+    PlaceCoverage places_;
     std::vector<Cell> gaps_;
     double most_left_{};
     double blocked_area_{};

@@ -40,7 +40,7 @@ std::optional<Vec3d> Coverage::tip_over_rim(int surface, Vec2d place) const
         return std::nullopt;
     }
     const Vec3d p = at.point.point;
-    const double now = swept_.lowest(p.x, p.y).height;
+    const double now = places_.swept().lowest(p.x, p.y).height;
     if (now <= p.z + scallop_) {
         return std::nullopt;
     }
@@ -55,11 +55,11 @@ void Coverage::go_over_rim(int surface,
 {
     const double length = length_between(certified_.model(), surface, from, to);
     const int parts =
-        std::clamp(static_cast<int>(length / (kRimStep * step_)), kLeastRim, kMostRim);
+        std::clamp(static_cast<int>(length / (kRimStep * places_.step())), kLeastRim, kMostRim);
     Points run;
     const auto close = [&] {
         if (!run.empty()) {
-            for (const Points& pass : runs_of(run)) {
+            for (const Points& pass : places_.runs_of(run)) {
                 cut(pass);
             }
         }

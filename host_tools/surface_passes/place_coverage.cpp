@@ -1,0 +1,121 @@
+// Moves near the place are tried one by one; best tips come from `LowestReach`.
+#include "host_tools/surface_passes/place_coverage.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cusp::host {
+namespace {
+
+constexpr double kReachStep = 0.25;    // in steps between passes
+constexpr double kReachPitch = 0.125;  // radii, at least
+constexpr double kTraceApart = 0.3;    // in steps between passes, of tips that one line may join
+constexpr double kFarApart = 0.5;      // radii, of tips that one pass may join
+constexpr double kShortest = 1e-3;     // mm
+
+}  // namespace
+
+Vec3d raised(Vec3d point, Vec3d normal, double scallop, bool upright)
+{
+    return upright ? point + Vec3d{0, 0, scallop / normal.z} : point + normal * scallop;
+}
+
+Vec3d centre_under(Vec3d top, Vec3d normal, double scallop, double radius)
+{
+    return top + normal * (radius - scallop);
+}
+
+PlaceCoverage::PlaceCoverage(const std::vector<Surface>& surfaces,
+                             const CertifiedPasses& certified,
+                             double scallop,
+                             double path_off)
+    : certified_{certified},
+      radius_{certified.tool().radius},
+      scallop_{scallop},
+      path_off_{path_off},
+      step_{std::sqrt(8 * radius_ * scallop)},
+      swept_{radius_, 0.6 * step_},
+      reach_{surfaces, certified, std::max(kReachStep * step_, kReachPitch * radius_)}
+{
+}
+
+Vec3d PlaceCoverage::touching_tip(Vec3d point, Vec3d normal) const
+{
+    return point + normal * (radius_ + certified_.band().lift) - Vec3d{0, 0, radius_};
+}
+
+bool PlaceCoverage::covered(Vec3d point, Vec3d normal, double share) const
+{
+    const double allowed = scallop_ * share;
+    const Vec3d top = raised(point, normal, allowed, normal.z >= kSteepNormal);
+    swept_.near(centre_under(top, normal, allowed, radius_), near_);
+    return std::any_of(near_.begin(), near_.end(),
+                       [&](std::uint32_t move) { return swept_.removes(move, top, path_off_); });
+}
+
+PlaceCoverage::Better PlaceCoverage::better_tip(Vec3d point, Vec3d normal) const
+{
+    const double cosine = normal.z;
+    const SweptBalls::Lowest now = swept_.lowest(point.x, point.y);
+    if ((now.height - point.z) * cosine <= scallop_) {
+        return {};
+    }
+    const std::optional<LowestReach::Answer> best =
+        reach_.over(point, now.height - scallop_ / cosine);
+    if (!best || (now.height - best->height) * cosine <= scallop_) {
+        return {};
+    }
+    // A pass there is kept off edges, and so no better than this.
+    const Vec3d kept = certified_.kept_off_edges({best->tip}).front() + Vec3d{0, 0, radius_};
+    const double square = radius_ * radius_ - (kept.x - point.x) * (kept.x - point.x) -
+                          (kept.y - point.y) * (kept.y - point.y);
+    if ((now.height - kept.z + std::sqrt(std::max(0.0, square))) * cosine <= scallop_) {
+        return {std::nullopt, true};
+    }
+    return {best->tip, false};
+}
+
+double PlaceCoverage::left_at(Vec3d point, Vec3d normal, double worth) const
+{
+    const SweptBalls::Lowest now = swept_.lowest(point.x, point.y);
+    if (!std::isfinite(now.height)) {
+        return radius_;
+    }
+    if ((now.height - point.z) * normal.z <= worth) {
+        return 0;
+    }
+    const std::optional<LowestReach::Answer> best =
+        reach_.over(point, now.height - worth / normal.z);
+    const double from = best ? std::max(point.z, best->height) : point.z;
+    return std::min(radius_, std::max(0.0, (now.height - from) * normal.z));
+}
+
+std::vector<Points> PlaceCoverage::runs_of(const Points& tips) const
+{
+    // A place that is at the limit may have its tip when asked once and none the next time: drops
+    // are right to a micrometre only.
+    if (tips.empty()) {
+        return {};
+    }
+    std::vector<Points> out{{tips.front()}};
+    for (std::size_t k = 1; k < tips.size(); ++k) {
+        const double apart = norm(tips[k] - out.back().back());
+        if (apart > kFarApart * radius_) {
+            out.push_back({tips[k]});
+            continue;
+        }
+        if (apart > kTraceApart * step_) {
+            const Points between = certified_.sample_dropped(out.back().back(), tips[k]);
+            out.back().insert(out.back().end(), between.begin() + 1, between.end() - 1);
+        }
+        out.back().push_back(tips[k]);
+    }
+    for (Points& run : out) {
+        if (run.size() == 1) {
+            run.push_back(run.front() + Vec3d{kShortest, 0, 0});
+        }
+    }
+    return out;
+}
+
+}  // namespace cusp::host

@@ -1,0 +1,82 @@
+// What passes of a ball leave over single places of a model, and the tip that would take it off.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "host_tools/surface_passes/certified_pass.hpp"
+#include "host_tools/surface_passes/lowest_reach.hpp"
+#include "host_tools/surface_passes/swept_balls.hpp"
+
+namespace cusp::host {
+
+// Where metal may stand at most over a place, with `scallop` left. On all but steep ground it is
+// measured upright and turned square: over sharp ridges that asks for more than the way along the
+// normal.
+Vec3d raised(Vec3d point, Vec3d normal, double scallop, bool upright);
+
+// The centre of a ball that touches the surface under where the metal may stand: raised upright
+// over a steep wall that is up the wall from the place itself.
+Vec3d centre_under(Vec3d top, Vec3d normal, double scallop, double radius);
+
+// Least z of a normal for metal to be measured upright.
+constexpr double kSteepNormal = 0.2;
+// Least z of a normal where heights say anything.
+constexpr double kUprightNormal = 0.05;
+// Of the scallop: what is asked of places that stand for a smallest cell.
+constexpr double kPlaceShare = 0.98;
+
+class PlaceCoverage {
+public:
+    // surfaces  none for a mesh
+    // scallop   mm: what may be left
+    // path_off  mm: how far the path that is cut may be from the points given to `add`
+    PlaceCoverage(const std::vector<Surface>& surfaces,
+                  const CertifiedPasses& certified,
+                  double scallop,
+                  double path_off);
+
+    // A pass that will be cut, by its tips.
+    void add(const Points& tips) { swept_.add(tips); }
+
+    const SweptBalls& swept() const { return swept_; }
+
+    // mm, between passes on flat ground that leave the scallop.
+    double step() const { return step_; }
+
+    // The tip of a ball that rests on the place, lifted as passes are.
+    Vec3d touching_tip(Vec3d point, Vec3d normal) const;
+
+    // Whether what stands over the place is taken off to a share of the scallop.
+    //
+    //   normal  unit, upward
+    bool covered(Vec3d point, Vec3d normal, double share = kPlaceShare) const;
+
+    struct Better {
+        std::optional<Vec3d> tip;  // none where no tip takes more than the scallop off
+        bool kept_off{};           // there is one, but passes keep off the edge beside it
+    };
+    // Where the tool would stand lowest over the place, from where it does now.
+    // Precondition: normal.z >= kUprightNormal
+    Better better_tip(Vec3d point, Vec3d normal) const;
+
+    // What is left at a place, mm, square to the surface, over the best that can be done; at most
+    // the radius. Not told apart below `worth`, which saves most of the search.
+    double left_at(Vec3d point, Vec3d normal, double worth) const;
+
+    // Passes of best tips of neighbouring places. They may lie apart (two sides of a ridge):
+    // between those that do the tool follows the model, or it is lifted.
+    std::vector<Points> runs_of(const Points& tips) const;
+
+private:
+    const CertifiedPasses& certified_;
+    double radius_;
+    double scallop_;
+    double path_off_;
+    double step_;
+    SweptBalls swept_;
+    mutable LowestReach reach_;
+    mutable std::vector<std::uint32_t> near_;
+};
+
+}  // namespace cusp::host
