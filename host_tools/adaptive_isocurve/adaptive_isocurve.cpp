@@ -10,6 +10,7 @@
 
 #include "host_tools/adaptive_isocurve/even_spacing.hpp"
 #include "host_tools/adaptive_isocurve/isocurve_extraction.hpp"
+#include "host_tools/adaptive_isocurve/isocurve_floor.hpp"
 #include "host_tools/adaptive_isocurve/mesh_isocurves.hpp"
 #include "host_tools/adaptive_isocurve/neighbour_bound.hpp"
 #include "host_tools/adaptive_isocurve/pass_tracer.hpp"
@@ -27,11 +28,11 @@ namespace cusp::host {
 namespace {
 
 constexpr int kRidgeLooks = 200;
+constexpr int kCurvatureLooks = 60;
 // Of what the scallop leaves for the ridge: the rest is for bends of passes along their way.
 constexpr double kRidgeShare = 0.99;
 // The same where cells prove it: those need room between the ridge and the scallop.
 constexpr double kProvedShare = 0.97;
-constexpr int kCurvatureLooks = 60;
 // Of the band, for how far an approximated offset is from the exact one.
 constexpr double kOffsetShare = 0.9;
 constexpr int kHandLooks = 8;
@@ -41,135 +42,13 @@ constexpr double kBetweenPlaces = 1.25;  // what may stand between places measur
 constexpr double kMoreExpected = 2;
 constexpr int kNeighbourRounds = 5;
 constexpr double kNearer = 0.9998;  // than the bound asks for
-constexpr double kMostPasses = 20000;
-constexpr double kSameEdge = 0.1;  // in steps: edges nearer than this are one
-
-void swap_loops(Surface& surface)
-{
-    for (std::vector<Curve>& loop : surface.trims) {
-        for (Curve& curve : loop) {
-            for (Vec3d& p : curve.points) {
-                std::swap(p.x, p.y);
-            }
-        }
-    }
-}
-
-// The same surface with u and v exchanged.
-Surface transposed(const Surface& s)
-{
-    Surface out = s;
-    out.degree_u = s.degree_v;
-    out.degree_v = s.degree_u;
-    out.knots_u = s.knots_v;
-    out.knots_v = s.knots_u;
-    out.size_u = s.size_v;
-    out.size_v = s.size_u;
-    std::size_t k = 0;
-    for (int j = 0; j < s.size_v; ++j) {
-        for (int i = 0; i < s.size_u; ++i, ++k) {
-            const std::size_t from = static_cast<std::size_t>(i * s.size_v + j);
-            out.points[k] = s.points[from];
-            out.weights[k] = s.weights[from];
-        }
-    }
-    swap_loops(out);
-    return out;
-}
-
-std::vector<Surface> along_u(const Operation& operation)
-{
-    if (operation.direction == 'u') {
-        return operation.floor;
-    }
-    std::vector<Surface> out;
-    for (const Surface& surface : operation.floor) {
-        out.push_back(transposed(surface));
-    }
-    return out;
-}
-
-// The longest side of the box of all control points, mm.
-double size_of(const std::vector<Surface>& surfaces)
-{
-    constexpr double kFar = std::numeric_limits<double>::infinity();
-    Vec3d low{kFar, kFar, kFar};
-    Vec3d high = -low;
-    for (const Surface& surface : surfaces) {
-        for (const Vec3d& p : surface.points) {
-            for (unsigned k = 0; k < 3; ++k) {
-                low[k] = std::min(low[k], p[k]);
-                high[k] = std::max(high[k], p[k]);
-            }
-        }
-    }
-    return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
-}
-
-void check_spacing(const Job& job, const Operation& operation)
-{
-    if (!operation.iso_distance && !operation.scallop) {
-        throw InputError(
-            fmt::format("{}: {}: give iso_distance or scallop", job.file, operation.strategy));
-    }
-    const double size = size_of(operation.floor);
-    if (operation.iso_distance && size > kMostPasses * *operation.iso_distance) {
-        throw InputError(fmt::format(
-            "{}: iso_distance is {:g} mm, over a part of {:g} mm it must be at least {:g} mm ({:g} "
-            "passes)",
-            job.file, *operation.iso_distance, size, size / kMostPasses, kMostPasses));
-    }
-    if (operation.iso_distance && *operation.iso_distance >= 2 * operation.tool.radius) {
-        throw InputError(fmt::format(
-            "{}: iso_distance is {:g} mm, passes of a ball of radius {:g} mm must be nearer than "
-            "{:g} mm",
-            job.file, *operation.iso_distance, operation.tool.radius, 2 * operation.tool.radius));
-    }
-    if (operation.scallop && *operation.scallop >= operation.tool.radius) {
-        throw InputError(
-            fmt::format("{}: scallop is {:g} mm, not below the tool's radius of {:g} mm", job.file,
-                        *operation.scallop, operation.tool.radius));
-    }
-}
-
-// Whether the surface has a crease or a pole: there the ridges between neighbours say too little.
-bool is_plain(const Surface& s)
-{
-    if (!s.trims.empty()) {
-        return false;
-    }
-    const auto creased = [](const std::vector<double>& knots, int degree) {
-        const std::size_t p = static_cast<std::size_t>(degree);
-        for (std::size_t k = p + 1; k + 2 * p < knots.size(); ++k) {
-            if (knots[k] == knots[k + p - 1] && knots[k] > knots[p]) {
-                return true;
-            }
-        }
-        return false;
-    };
-    if (creased(s.knots_u, s.degree_u) || creased(s.knots_v, s.degree_v)) {
-        return false;
-    }
-    double least = std::numeric_limits<double>::infinity();
-    double most = 0;
-    for (int i = 0; i <= kCurvatureLooks; ++i) {
-        for (int j = 0; j <= kCurvatureLooks; ++j) {
-            const SurfacePoint p =
-                derivatives_at(s, s.u_begin() + (s.u_end() - s.u_begin()) * i / kCurvatureLooks,
-                               s.v_begin() + (s.v_end() - s.v_begin()) * j / kCurvatureLooks);
-            const double area = norm(cross(p.du, p.dv));
-            least = std::min(least, area);
-            most = std::max(most, area);
-        }
-    }
-    return least > 0.02 * most;
-}
+constexpr double kSameEdge = 0.1;   // in steps: edges nearer than this are one
 
 class IsocurvePlanner {
 public:
     IsocurvePlanner(const Job& job, const Operation& operation)
         : operation_{operation},
-          work_{job, operation, along_u(operation)},
+          work_{job, operation, surfaces_along_u(operation)},
           tracer_{work_.surfaces(), work_.certified()},
           tool_{operation.tool.radius, work_.outward()}
     {

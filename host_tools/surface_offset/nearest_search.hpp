@@ -3,7 +3,6 @@
 
 #include <array>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "host_tools/surface_offset/bezier_cell.hpp"
@@ -65,24 +64,6 @@ struct NearestResult {
     NearestPlace place;
 };
 NearestResult nearest(const SurfaceModel::State& state, const ToolCore& core, double limit);
-
-// A ball let down at (x, y) on the facets of a model; none where it passes beside all of them.
-// Where several are met at once, the one that faces the ball most.
-struct MeshContact {
-    FacetContact at;
-    std::size_t facet;
-};
-std::optional<MeshContact> rest_on_facets(const SurfaceModel::State& state,
-                                          double x,
-                                          double y,
-                                          double radius);
-
-// The highest facet at (x, y).
-struct FacetUnder {
-    std::size_t facet;
-    double height;
-};
-std::optional<FacetUnder> highest_facet(const SurfaceModel::State& state, double x, double y);
 
 // Whether all of the model is at least so far from the core: ends at the first place that is not.
 bool keeps_away(const SurfaceModel::State& state, const ToolCore& core, double least);

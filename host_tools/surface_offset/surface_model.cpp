@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "host_tools/nurbs/knot_insertion.hpp"
+#include "host_tools/surface_offset/facet_search.hpp"
 #include "host_tools/surface_offset/nearest_search.hpp"
 #include "host_tools/surface_offset/rolling_ball.hpp"
 #include "host_tools/surface_offset/surface_cut.hpp"
