@@ -323,6 +323,20 @@ double StripRidge::left(const Probe& probe) const
            (probe.secant * strayed_ * allowed(probe.secant));
 }
 
+// The ball rests on both sides of a valley where the continuations of its heights meet: lower than
+// at either place.
+StripRidge::Lowest StripRidge::where_sides_meet(const Probe& a, const Probe& b)
+{
+    const Vec2d move = b.at - a.at;
+    const double fall = -dot(a.gradient, move);
+    const double rise = dot(b.gradient, move);
+    const double share = (a.tip - b.tip + rise) / (fall + rise);
+    if (fall > 0.0 && rise > 0.0 && share > 0.0 && share < 1.0) {
+        return {a.at + move * share, a.tip - fall * share};
+    }
+    return a.tip < b.tip ? Lowest{a.at, a.tip} : Lowest{b.at, b.tip};
+}
+
 // Where a ball does not reach the floor, between the places that it touches from two neighbouring
 // ones: over what it leaves at best. (A flat foot bridges most of what is hollow.)
 double StripRidge::left_under(const Probe& a, const Probe& b) const
@@ -335,16 +349,20 @@ double StripRidge::left_under(const Probe& a, const Probe& b) const
     if (!known || apart < std::max(kFar * tool.radius, 3.0 * distance(a.at, b.at))) {
         return 0.0;
     }
+    const Lowest lowest = where_sides_meet(a, b);
     double most = 0.0;
     for (int i = 1; i < kPieces; ++i) {
         const double share = static_cast<double>(i) / kPieces;
         const Vec2d p = a.touched + (b.touched - a.touched) * share;
-        const double best = std::min(a.tip + profile_height(tool, distance(a.at, p)),
-                                     b.tip + profile_height(tool, distance(b.at, p)));
+        const double best =
+            std::min({a.tip + profile_height(tool, distance(a.at, p)),
+                      b.tip + profile_height(tool, distance(b.at, p)),
+                      lowest.height + profile_height(tool, distance(lowest.at, p))});
         // The floor of a valley is as steep as its sides only beside them.
         const Vec2d slope = a.gradient * (1.0 - share) + b.gradient * share;
         const double secant = std::sqrt(1.0 + dot(slope, slope));
-        most = std::max(most, (left_at(p, a.at) - best) / (secant * strayed_ * allowed(secant)));
+        const double stands = std::min(left_at(p, a.at), left_at(p, lowest.at));
+        most = std::max(most, (stands - best) / (secant * strayed_ * allowed(secant)));
     }
     return most;
 }

@@ -79,6 +79,11 @@ private:
     Probe probe(Vec2d at) const;
     double allowed(double secant) const;
     double left(const Probe& probe) const;
+    struct Lowest {
+        Vec2d at;
+        double height;  // of the tip: z
+    };
+    static Lowest where_sides_meet(const Probe& a, const Probe& b);
     double left_under(const Probe& a, const Probe& b) const;
     double left_beside(const Way& a, const Way& b) const;
     double left_at(Vec2d at, Vec2d near) const;

@@ -1,0 +1,191 @@
+// Steep floors with valleys that a ball does not reach into: what it leaves, by brute force.
+#include <cstdio>
+
+#include "host_tools/contour_pocket/contour_pocket.hpp"
+#include "tests/property/contour_pocket/pocket_judge.hpp"
+#include "tests/property/offset/random_regions.hpp"
+#include "tests/support/loops.hpp"
+#include "tests/support/property_cases.hpp"
+
+// Last: CppUTest redefines new, which the standard headers can not bear.
+#include "CppUTest/TestHarness.h"
+
+namespace cusp::host {
+namespace {
+
+constexpr double kHalf = 12.0;   // mm, of the pocket
+constexpr double kBeyond = 8.0;  // mm, of floor round it
+constexpr double kPitch = 0.02;  // mm, of the section
+constexpr int kPlaces = 400;
+
+// A profile in x, the same at every y.
+Surface drawn_out(Random& random, double height, double wave)
+{
+    const double side = 1.5 * kHalf + kBeyond;  // corners of a turned pocket
+    const int count = static_cast<int>(2.0 * side / wave) + 4;
+    Surface s;
+    s.degree_u = 3;
+    s.degree_v = 1;
+    s.size_u = count;
+    s.size_v = 2;
+    s.knots_u.assign(4, 0.0);
+    for (int i = 1; i < count - 3; ++i) {
+        s.knots_u.push_back(i);
+    }
+    s.knots_u.insert(s.knots_u.end(), 4, count - 3.0);
+    s.knots_v = {0.0, 0.0, 1.0, 1.0};
+    for (int i = 0; i < count; ++i) {
+        const auto k = static_cast<std::size_t>(i);
+        const double greville = (s.knots_u[k + 1] + s.knots_u[k + 2] + s.knots_u[k + 3]) / 3.0;
+        const double x = side * (2.0 * greville / (count - 3.0) - 1.0);
+        const double z = -12.0 + uniform(random, -height, height);
+        s.points.push_back({x, -side, z});
+        s.points.push_back({x, side, z});
+    }
+    s.weights.assign(s.points.size(), 1.0);
+    return s;
+}
+
+// The section of such a floor, how low a ball's tip may stand over it, and the lowest it cuts.
+class Section {
+public:
+    Section(const Surface& s, double radius) : radius_{radius}
+    {
+        low_ = s.points.front().x;
+        const double length = s.points.back().x - low_;
+        const int count = static_cast<int>(length / kPitch) + 1;
+        for (int i = 0; i < count; ++i) {
+            // x is linear in u: control points stand at the Greville abscissae.
+            const double u = s.u_begin() + (s.u_end() - s.u_begin()) * kPitch * i / length;
+            floor_.push_back(derivatives_at(s, u, 0.5).point.z);
+        }
+        tip_ = over(
+            floor_, [](double z, double profile) { return z - profile; }, -1e300,
+            [](double a, double b) { return std::max(a, b); });
+        cut_ = over(
+            tip_, [](double z, double profile) { return z + profile; }, 1e300,
+            [](double a, double b) { return std::min(a, b); });
+    }
+
+    // By places of the floor only: no tip may be lower.
+    double tip(double x) const
+    {
+        const auto count = static_cast<double>(floor_.size());
+        const double first = std::max(0.0, std::ceil((x - radius_ - low_) / kPitch));
+        const double last = std::min(count - 1.0, std::floor((x + radius_ - low_) / kPitch));
+        double most = -1e300;
+        for (auto k = static_cast<std::size_t>(first); k <= static_cast<std::size_t>(last); ++k) {
+            const double apart = low_ + kPitch * static_cast<double>(k) - x;
+            const double square = std::max(0.0, radius_ * radius_ - apart * apart);
+            most = std::max(most, floor_[k] - radius_ + std::sqrt(square));
+        }
+        return most;
+    }
+
+    double cut(double x) const { return at(cut_, x); }
+
+    // Of the steepness of what the ball leaves.
+    double cosine(double x) const
+    {
+        return 1.0 / std::hypot(1.0, (cut(x + kPitch) - cut(x - kPitch)) / (2.0 * kPitch));
+    }
+
+private:
+    template <class Shift, class Better>
+    std::vector<double> over(const std::vector<double>& heights,
+                             const Shift& shift,
+                             double worst,
+                             const Better& better) const
+    {
+        const int count = static_cast<int>(heights.size());
+        const int reach = static_cast<int>(radius_ / kPitch);
+        std::vector<double> out;
+        for (int i = 0; i < count; ++i) {
+            double best = worst;
+            for (int k = std::max(0, i - reach); k <= std::min(count - 1, i + reach); ++k) {
+                const double apart = kPitch * (k - i);
+                const double profile = radius_ - std::sqrt(radius_ * radius_ - apart * apart);
+                best = better(best, shift(heights[static_cast<std::size_t>(k)], profile));
+            }
+            out.push_back(best);
+        }
+        return out;
+    }
+
+    double at(const std::vector<double>& heights, double x) const
+    {
+        const double place = (x - low_) / kPitch;
+        const auto k = static_cast<std::size_t>(place);
+        const double share = place - static_cast<double>(k);
+        return heights[k] * (1.0 - share) + heights[k + 1] * share;
+    }
+
+    double radius_;
+    double low_;
+    std::vector<double> floor_;
+    std::vector<double> tip_;
+    std::vector<double> cut_;
+};
+
+double cut_at(double radius, const std::vector<Vec3d>& tips, Vec2d p)
+{
+    double least = 1e300;
+    for (const Vec3d tip : tips) {
+        const double square = (tip.x - p.x) * (tip.x - p.x) + (tip.y - p.y) * (tip.y - p.y);
+        if (square < radius * radius) {
+            least = std::min(least, tip.z + radius - std::sqrt(radius * radius - square));
+        }
+    }
+    return least;
+}
+
+TEST_GROUP(RandomValley){};
+
+TEST(RandomValley, KeepsNoMoreThanTheScallopOverWhatABallReaches)
+{
+    constexpr unsigned kSeed = 4242;
+    Random random{kSeed};
+    for (int i = 0; i < property_cases(8); ++i) {
+        const double radius = uniform(random, 1.5, 3.0);
+        Operation operation;
+        operation.strategy = "contour_pocket";
+        operation.floor = {drawn_out(random, uniform(random, 2.0, 5.0), uniform(random, 2.0, 5.0))};
+        operation.floor_files = {"floor"};
+        const double angle = uniform(random, 0.0, 1.5);
+        const Vec2d along = Vec2d{std::cos(angle), std::sin(angle)} * kHalf;
+        const Vec2d across = left_normal(along);
+        operation.boundary =
+            loop_of({(along + across) * -1.0, along - across, along + across, across - along});
+        operation.boundary_file = "boundary";
+        operation.tool = {1, ToolShape::kBall, radius, radius};
+        operation.plan_tolerance = operation.floor_tolerance = 0.02;
+        operation.scallop = uniform(random, 0.05, 0.3);
+        Job job;
+        job.file = "job";
+        job.stock_top = 1.0;
+        job.clearance = 5.0;
+        const std::vector<PlannedOperation> planned = plan_contour_pocket(job, operation);
+        const std::vector<Vec3d> tips = tips_of(planned.back().path, 0.0, 0.03);
+        const Section section{operation.floor.front(), radius};
+        double gouge = 0.0;
+        for (const Vec3d tip : tips) {
+            gouge = std::max(gouge, section.tip(tip.x) - tip.z);
+        }
+        double most = 0.0;
+        const double inner = 1.0 - 2.0 * radius / kHalf;
+        for (int k = 0; k < kPlaces; ++k) {
+            const Vec2d p =
+                along * uniform(random, -inner, inner) + across * uniform(random, -inner, inner);
+            const double left = cut_at(radius, tips, p) - section.cut(p.x);
+            most = std::max(most, left * section.cosine(p.x));
+        }
+        std::printf("seed %u valley %d: ball %.2f, gouge %.5f, left %.4f of %.4f\n", kSeed, i,
+                    radius, gouge, most, *operation.scallop);
+        CHECK(gouge <= 1e-6);
+        CHECK(most <= *operation.scallop + 2e-3);
+        DOUBLES_EQUAL(0.0, planned.back().stats.gouge_bound_mm, 1e-9);
+    }
+}
+
+}  // namespace
+}  // namespace cusp::host
