@@ -1,4 +1,4 @@
-// Steep floors with valleys that a ball does not reach into: what it leaves, by brute force.
+// Steep floors with valleys that a tool does not reach into: what it leaves, by brute force.
 #include <cstdio>
 
 #include "host_tools/contour_pocket/contour_pocket.hpp"
@@ -46,10 +46,10 @@ Surface drawn_out(Random& random, double height, double wave)
     return s;
 }
 
-// The section of such a floor, how low a ball's tip may stand over it, and the lowest it cuts.
+// The section of such a floor, how low a tool's tip may stand over it, and the lowest it cuts.
 class Section {
 public:
-    Section(const Surface& s, double radius) : radius_{radius}
+    Section(const Surface& s, const Tool& tool) : tool_{tool}
     {
         low_ = s.points.front().x;
         const double length = s.points.back().x - low_;
@@ -71,20 +71,20 @@ public:
     double tip(double x) const
     {
         const auto count = static_cast<double>(floor_.size());
-        const double first = std::max(0.0, std::ceil((x - radius_ - low_) / kPitch));
-        const double last = std::min(count - 1.0, std::floor((x + radius_ - low_) / kPitch));
+        const double first = std::max(0.0, std::ceil((x - tool_.radius - low_) / kPitch));
+        const double last = std::min(count - 1.0, std::floor((x + tool_.radius - low_) / kPitch));
         double most = -1e300;
         for (auto k = static_cast<std::size_t>(first); k <= static_cast<std::size_t>(last); ++k) {
             const double apart = low_ + kPitch * static_cast<double>(k) - x;
-            const double square = std::max(0.0, radius_ * radius_ - apart * apart);
-            most = std::max(most, floor_[k] - radius_ + std::sqrt(square));
+            most = std::max(
+                most, floor_[k] - profile_height(tool_, std::min(tool_.radius, std::abs(apart))));
         }
         return most;
     }
 
     double cut(double x) const { return at(cut_, x); }
 
-    // Of the steepness of what the ball leaves.
+    // Of the steepness of what the tool leaves.
     double cosine(double x) const
     {
         return 1.0 / std::hypot(1.0, (cut(x + kPitch) - cut(x - kPitch)) / (2.0 * kPitch));
@@ -98,13 +98,13 @@ private:
                              const Better& better) const
     {
         const int count = static_cast<int>(heights.size());
-        const int reach = static_cast<int>(radius_ / kPitch);
+        const int reach = static_cast<int>(tool_.radius / kPitch);
         std::vector<double> out;
         for (int i = 0; i < count; ++i) {
             double best = worst;
             for (int k = std::max(0, i - reach); k <= std::min(count - 1, i + reach); ++k) {
                 const double apart = kPitch * (k - i);
-                const double profile = radius_ - std::sqrt(radius_ * radius_ - apart * apart);
+                const double profile = profile_height(tool_, std::abs(apart));
                 best = better(best, shift(heights[static_cast<std::size_t>(k)], profile));
             }
             out.push_back(best);
@@ -120,36 +120,41 @@ private:
         return heights[k] * (1.0 - share) + heights[k + 1] * share;
     }
 
-    double radius_;
+    Tool tool_;
     double low_;
     std::vector<double> floor_;
     std::vector<double> tip_;
     std::vector<double> cut_;
 };
 
-double cut_at(double radius, const std::vector<Vec3d>& tips, Vec2d p)
+double cut_at(const Tool& tool, const std::vector<Vec3d>& tips, Vec2d p)
 {
     double least = 1e300;
     for (const Vec3d tip : tips) {
         const double square = (tip.x - p.x) * (tip.x - p.x) + (tip.y - p.y) * (tip.y - p.y);
-        if (square < radius * radius) {
-            least = std::min(least, tip.z + radius - std::sqrt(radius * radius - square));
+        if (square < tool.radius * tool.radius) {
+            least = std::min(least, tip.z + profile_height(tool, std::sqrt(square)));
         }
     }
     return least;
 }
 
-TEST_GROUP(RandomValley){};
+struct Waves {
+    double height;  // mm, of control points, up and down
+    double length;  // mm between them
+};
 
-TEST(RandomValley, KeepsNoMoreThanTheScallopOverWhatABallReaches)
+// Plans `count` pockets over such floors and checks each.
+template <class NextWaves>
+void check_floors(ToolShape shape, unsigned seed, int count, const NextWaves& next_waves)
 {
-    constexpr unsigned kSeed = 4242;
-    Random random{kSeed};
-    for (int i = 0; i < property_cases(8); ++i) {
+    Random random{seed};
+    for (int i = 0; i < count; ++i) {
+        const Waves waves = next_waves(random);
         const double radius = uniform(random, 1.5, 3.0);
         Operation operation;
         operation.strategy = "contour_pocket";
-        operation.floor = {drawn_out(random, uniform(random, 2.0, 5.0), uniform(random, 2.0, 5.0))};
+        operation.floor = {drawn_out(random, waves.height, waves.length)};
         operation.floor_files = {"floor"};
         const double angle = uniform(random, 0.0, 1.5);
         const Vec2d along = Vec2d{std::cos(angle), std::sin(angle)} * kHalf;
@@ -157,7 +162,10 @@ TEST(RandomValley, KeepsNoMoreThanTheScallopOverWhatABallReaches)
         operation.boundary =
             loop_of({(along + across) * -1.0, along - across, along + across, across - along});
         operation.boundary_file = "boundary";
-        operation.tool = {1, ToolShape::kBall, radius, radius};
+        operation.tool = {1, shape, radius,
+                          shape == ToolShape::kFlat   ? 0.0
+                          : shape == ToolShape::kBall ? radius
+                                                      : uniform(random, 0.2, 0.7) * radius};
         operation.plan_tolerance = operation.floor_tolerance = 0.02;
         operation.scallop = uniform(random, 0.05, 0.3);
         Job job;
@@ -166,7 +174,7 @@ TEST(RandomValley, KeepsNoMoreThanTheScallopOverWhatABallReaches)
         job.clearance = 5.0;
         const std::vector<PlannedOperation> planned = plan_contour_pocket(job, operation);
         const std::vector<Vec3d> tips = tips_of(planned.back().path, 0.0, 0.03);
-        const Section section{operation.floor.front(), radius};
+        const Section section{operation.floor.front(), operation.tool};
         double gouge = 0.0;
         for (const Vec3d tip : tips) {
             gouge = std::max(gouge, section.tip(tip.x) - tip.z);
@@ -176,15 +184,33 @@ TEST(RandomValley, KeepsNoMoreThanTheScallopOverWhatABallReaches)
         for (int k = 0; k < kPlaces; ++k) {
             const Vec2d p =
                 along * uniform(random, -inner, inner) + across * uniform(random, -inner, inner);
-            const double left = cut_at(radius, tips, p) - section.cut(p.x);
+            const double left = cut_at(operation.tool, tips, p) - section.cut(p.x);
             most = std::max(most, left * section.cosine(p.x));
         }
-        std::printf("seed %u valley %d: ball %.2f, gouge %.5f, left %.4f of %.4f\n", kSeed, i,
-                    radius, gouge, most, *operation.scallop);
+        std::printf("seed %u valley %d: tool %.2f/%.2f, gouge %.5f, left %.4f of %.4f\n", seed, i,
+                    radius, operation.tool.corner_radius, gouge, most, *operation.scallop);
         CHECK(gouge <= 1e-6);
         CHECK(most <= *operation.scallop + 2e-3);
         DOUBLES_EQUAL(0.0, planned.back().stats.gouge_bound_mm, 1e-9);
     }
+}
+
+TEST_GROUP(RandomValley){};
+
+TEST(RandomValley, KeepsNoMoreThanTheScallopOverWhatABallReaches)
+{
+    check_floors(ToolShape::kBall, 4242, property_cases(8), [](Random& random) {
+        return Waves{uniform(random, 2.0, 5.0), uniform(random, 2.0, 5.0)};
+    });
+}
+
+TEST(RandomValley, KeepsNoMoreThanTheScallopOverWhatAFlatOrBullNoseEndReaches)
+{
+    const auto waves = [](Random& random) {
+        return Waves{uniform(random, 1.0, 3.0), uniform(random, 3.0, 8.0)};
+    };
+    check_floors(ToolShape::kFlat, 77, property_cases(3), waves);
+    check_floors(ToolShape::kBull, 78, property_cases(3), waves);
 }
 
 }  // namespace
