@@ -13,6 +13,8 @@
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"
 
+#include "tests/support/leaks_on_threads.hpp"
+
 namespace cusp::host {
 namespace {
 

@@ -12,6 +12,7 @@
 
 #include "host_tools/simulate/virtual_controller.hpp"
 #include "host_tools/stream/streamer.hpp"
+#include "tests/support/leaks_on_threads.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace {

@@ -7,6 +7,7 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "tests/support/leaks_on_threads.hpp"
 #include "tests/unit/import/scratch_folder.hpp"
 
 using namespace cusp;
