@@ -97,6 +97,7 @@ public:
                 "of what is left");
         }
         planned.stats.counts.emplace_back("isocurves", static_cast<double>(curves));
+        report_left_beside_edges(planned.stats);
         if (apart_ > 0) {
             planned.stats.counts.emplace_back("iso_distance_bound_mm", apart_);
         }
@@ -119,6 +120,19 @@ public:
     }
 
 private:
+    void report_left_beside_edges(OperationStats& stats) const
+    {
+        const double left = std::max(beside_edges_, coverage_ ? coverage_->left_beside_edges() : 0);
+        if (left > ridge_) {
+            stats.counts.emplace_back("left_beside_edges_mm", left);
+            stats.warnings.push_back(fmt::format(
+                "up to {:.3f} mm stands beside rims and creases, in slivers about as thin as the "
+                "tolerance: with tolerance_side = \"both\" passes keep off edges that the ball "
+                "would cut into from beside",
+                left));
+        }
+    }
+
     void add_pass(const Points& dense,
                   const std::optional<Curve>& exact = std::nullopt,
                   const Feet& feet = {})
@@ -153,7 +167,9 @@ private:
                 seen.look_over(static_cast<int>(k));
             }
             if (!seen.overflowed()) {
-                return std::min(radius, std::max(expected, kBetweenPlaces * seen.measured_left()));
+                const double measured = seen.measured_left();
+                beside_edges_ = seen.left_beside_edges();
+                return std::min(radius, std::max(expected, kBetweenPlaces * measured));
             }
             // Far more is left than was expected: what is under the new bound needs no measuring.
             expected *= kMoreExpected;
@@ -421,6 +437,7 @@ private:
     double spacing_{};
     double apart_{};  // mm: the bound of neighbours at equal u, by iso_distance
     double ridge_{};
+    double beside_edges_{};  // mm: left there where there is no coverage
     int unreached_{};
     int exact_curves_{};
     double offset_error_{};

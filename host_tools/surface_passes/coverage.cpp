@@ -267,18 +267,23 @@ Points Coverage::trace(int surface, Place place, bool along_u) const
     return out;
 }
 
+// Its middle, then its corners.
+std::array<Coverage::Place, 5> Coverage::places_of(const Cell& cell) const
+{
+    return {Place{0.5 * (cell.u0 + cell.u1), 0.5 * (cell.v0 + cell.v1)}, Place{cell.u0, cell.v0},
+            Place{cell.u1, cell.v0}, Place{cell.u0, cell.v1}, Place{cell.u1, cell.v1}};
+}
+
 // A place of the cell that lacks a pass.
 std::optional<Coverage::Place> Coverage::bare_place(const Cell& cell) const
 {
     const double u = 0.5 * (cell.u0 + cell.u1);
-    const double v = 0.5 * (cell.v0 + cell.v1);
     const Surface& s = surfaces_[static_cast<std::size_t>(cell.surface)];
     // Beyond a border no other cell says what is left.
     const auto on_border = [&](const Place& at) {
         return at.u == s.u_begin() || at.u == s.u_end() || at.v == s.v_begin() || at.v == s.v_end();
     };
-    for (const Place& place : {Place{u, v}, Place{cell.u0, cell.v0}, Place{cell.u1, cell.v0},
-                               Place{cell.u0, cell.v1}, Place{cell.u1, cell.v1}}) {
+    for (const Place& place : places_of(cell)) {
         if (missing_tip(cell.surface, place.u, place.v, place.u == u || on_border(place))) {
             return place;
         }
@@ -317,33 +322,42 @@ void Coverage::close_gaps(const std::function<void(const Points&)>& cut)
         }
     }
     const auto met = [&](const Cell& cell) {
-        return !bare_place(cell).has_value();
+        kept_off_ = false;
+        const std::optional<Place> place = bare_place(cell);
+        if (place) {
+            most_left_ =
+                std::max(most_left_, reachable_left(corner(cell.surface, place->u, place->v), 0));
+        } else if (kept_off_) {
+            beside_edges.push_back(cell);
+        }
+        return !place;
     };
     gaps_.erase(std::remove_if(gaps_.begin(), gaps_.end(), met), gaps_.end());
-    for (const Cell& cell : gaps_) {
-        most_left_ = std::max(most_left_, left_over(cell));
-    }
-    for (const Cell& cell : beside_edges) {
-        const Corner at =
-            corner(cell.surface, 0.5 * (cell.u0 + cell.u1), 0.5 * (cell.v0 + cell.v1));
-        most_left_ = std::max(
-            most_left_, places_.left_at(at.point.point, at.normal, std::max(scallop_, most_left_)));
-    }
+    measure_beside_edges(beside_edges);
 }
 
-// What is left at a bare place of the cell, square to the surface, over the best that can be done.
-double Coverage::left_over(const Cell& cell) const
+double Coverage::reachable_left(const Corner& at, double worth)
 {
-    const std::optional<Place> place = bare_place(cell);
-    if (!place) {
-        return 0;
+    const PlaceCoverage::Left left = places_.left_at(at.point.point, at.normal, worth);
+    left_beside_edges_ = std::max(left_beside_edges_, left.beside_edges);
+    return left.reachable;
+}
+
+// Cells where nothing is left to do but by tips that passes are kept off.
+void Coverage::measure_beside_edges(const std::vector<Cell>& cells)
+{
+    for (const Cell& cell : cells) {
+        for (const Place& place : places_of(cell)) {
+            const Corner at = corner(cell.surface, place.u, place.v);
+            if (at.normal.z >= kUprightNormal && !hidden(at)) {
+                reachable_left(at, std::max(scallop_, left_beside_edges_));
+            }
+        }
     }
-    const Corner at = corner(cell.surface, place->u, place->v);
-    return places_.left_at(at.point.point, at.normal, 0);
 }
 
 // Highest places first: most of the others are told to be lower without a search.
-double Coverage::measured_left() const
+double Coverage::measured_left()
 {
     struct High {
         Corner at;
@@ -351,9 +365,7 @@ double Coverage::measured_left() const
     };
     std::vector<High> all;
     for (const Cell& cell : gaps_) {
-        const Place middle{0.5 * (cell.u0 + cell.u1), 0.5 * (cell.v0 + cell.v1)};
-        for (const Place& place : {middle, Place{cell.u0, cell.v0}, Place{cell.u1, cell.v0},
-                                   Place{cell.u0, cell.v1}, Place{cell.u1, cell.v1}}) {
+        for (const Place& place : places_of(cell)) {
             const Corner at = corner(cell.surface, place.u, place.v);
             const Vec3d p = at.point.point;
             const double over = (places_.swept().lowest(p.x, p.y).height - p.z) * at.normal.z;
@@ -368,8 +380,7 @@ double Coverage::measured_left() const
         if (high.over <= most) {
             break;
         }
-        most = std::max(
-            most, places_.left_at(high.at.point.point, high.at.normal, std::max(scallop_, most)));
+        most = std::max(most, reachable_left(high.at, std::max(scallop_, most)));
     }
     return most;
 }

@@ -52,13 +52,18 @@ public:
 
     // The most left in cells not covered, mm, where no pass may be added: measured at their
     // middles and corners. What lies between can be higher.
-    double measured_left() const;
+    double measured_left();
 
     // Cells that stay uncovered, after `close_gaps`.
     std::size_t uncovered() const { return gaps_.size(); }
 
     // The most that was found left there over what the tool can reach, mm.
     double most_left() const { return most_left_; }
+
+    // The most that was found standing beside rims and creases over what the tool could reach, mm,
+    // since passes keep off those so as not to cut into them from beside; at most as wide as they
+    // keep off. Not part of what is left elsewhere; 0 for a one-sided tolerance.
+    double left_beside_edges() const { return left_beside_edges_; }
 
 private:
     struct Place {
@@ -93,7 +98,9 @@ private:
     // `where_blocked` is false.
     std::optional<Vec3d> missing_tip(int surface, double u, double v, bool where_blocked) const;
     std::optional<Vec3d> better_tip(const Corner& at) const;
-    double left_over(const Cell& cell) const;
+    std::array<Place, 5> places_of(const Cell& cell) const;
+    double reachable_left(const Corner& at, double worth);
+    void measure_beside_edges(const std::vector<Cell>& cells);
     std::optional<Vec3d> tip_over_rim(int surface, Vec2d place) const;
     void go_over_rim(int surface,
                      Vec2d from,
@@ -112,6 +119,7 @@ private:
     std::optional<TopMap> tops_;   // from the first look on: many parts need none
     std::vector<Cell> gaps_;
     double most_left_{};
+    double left_beside_edges_{};
     bool overflowed_{};
     mutable bool kept_off_{};  // some better tip was none, since passes keep off edges
     mutable std::vector<std::uint32_t> near_;

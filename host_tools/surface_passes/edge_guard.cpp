@@ -18,6 +18,7 @@ constexpr double kLeastUp = 1e-3;   // z of the way to the centre
 constexpr double kStepShare = 0.2;  // of the depth, for what lies between places of a move
 constexpr int kMostPlaces = 2000;   // of a move
 constexpr int kMostPushes = 3;      // off edges that meet
+constexpr double kRaised = 1e-7;    // mm
 
 Vec3d nearest_on(Vec3d p, Vec3d a, Vec3d b)
 {
@@ -113,13 +114,11 @@ std::uint64_t EdgeGuard::key(std::int64_t i, std::int64_t j) const
     return (static_cast<std::uint64_t>(i) << 32) ^ (static_cast<std::uint64_t>(j) & 0xffffffffU);
 }
 
-// The way off the edge where most is missing; nothing where none lacks `margin`.
-Vec3d EdgeGuard::missing(Vec3d centre, double margin) const
+// Pieces of edges that may be nearer than `around`, seen from above.
+template <class Look>
+void EdgeGuard::look_round(Vec3d centre, double around, const Look& look) const
 {
-    double most = 0;
-    Vec3d out;
-    const double limit = radius_ + margin;
-    const double around = limit + kSquare * radius_;
+    around += kSquare * radius_;
     const std::int64_t j_end = cell(centre.y + around);
     for (std::int64_t i = cell(centre.x - around); i <= cell(centre.x + around); ++i) {
         for (std::int64_t j = cell(centre.y - around); j <= j_end; ++j) {
@@ -128,22 +127,63 @@ Vec3d EdgeGuard::missing(Vec3d centre, double margin) const
                 continue;
             }
             for (const std::uint32_t number : found->second) {
-                const Piece& piece = pieces_[number];
-                const Vec3d way = centre - nearest_on(centre, piece.from, piece.to);
-                const double distance = norm(way);
-                if (distance >= limit || distance <= 0) {
-                    continue;
-                }
-                const double up = std::max(kLeastUp, way.z / distance);
-                const double depth = deepest_ * up / std::max(kLeastUp, piece.upright);
-                if (limit - depth - distance > most) {
-                    most = limit - depth - distance;
-                    out = way * (most / distance);
-                }
+                look(pieces_[number]);
             }
         }
     }
+}
+
+// How much farther off the piece the ball has to be, to take off no more with `margin` to spare.
+double EdgeGuard::lacking(const Piece& piece, Vec3d centre, double margin) const
+{
+    const Vec3d way = centre - nearest_on(centre, piece.from, piece.to);
+    const double distance = norm(way);
+    const double limit = radius_ + margin;
+    if (distance >= limit || distance <= 0) {
+        return 0;
+    }
+    const double up = std::max(kLeastUp, way.z / distance);
+    const double depth = deepest_ * up / std::max(kLeastUp, piece.upright);
+    return limit - depth - distance;
+}
+
+// The way off the edge where most is missing; nothing where none lacks `margin`.
+Vec3d EdgeGuard::missing(Vec3d centre, double margin) const
+{
+    double most = 0;
+    Vec3d out;
+    look_round(centre, radius_ + margin, [&](const Piece& piece) {
+        const double lack = lacking(piece, centre, margin);
+        if (lack > most) {
+            const Vec3d way = centre - nearest_on(centre, piece.from, piece.to);
+            most = lack;
+            out = way * (most / norm(way));
+        }
+    });
     return out;
+}
+
+Vec3d EdgeGuard::raised(Vec3d tip, double band) const
+{
+    Vec3d centre = tip + Vec3d{0, 0, radius_};
+    bool again = true;
+    for (int k = 0; k < kMostPushes && again; ++k) {
+        again = false;
+        look_round(centre, radius_ + band, [&](const Piece& piece) {
+            if (lacking(piece, centre, band) <= 0) {
+                return;
+            }
+            again = true;
+            double low = centre.z;
+            double free = std::max(piece.from.z, piece.to.z) + radius_ + band;
+            while (free - low > kRaised) {
+                centre.z = 0.5 * (low + free);
+                (lacking(piece, centre, band) > 0 ? low : free) = centre.z;
+            }
+            centre.z = free;
+        });
+    }
+    return centre - Vec3d{0, 0, radius_};
 }
 
 Vec3d EdgeGuard::moved_off(Vec3d tip, double band) const

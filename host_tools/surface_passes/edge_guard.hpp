@@ -26,6 +26,9 @@ public:
     // more, with places between where it has to bend; unchanged where nothing has to move.
     std::vector<Vec3d> kept_off(const std::vector<Vec3d>& tips, double band) const;
 
+    // The tip, raised where it has to be so that no place within `band` of it takes off more.
+    Vec3d raised(Vec3d tip, double band) const;
+
     // Whether a straight move of the tip takes nowhere more off a face at its edge.
     bool spares(Vec3d from, Vec3d to) const;
 
@@ -40,6 +43,9 @@ private:
     bool append_moved(Vec3d from, Vec3d to, double band, std::vector<Vec3d>& out) const;
     void add_border(const Surface& surface, Vec2d from, Vec2d to, Vec2d aside);
     void add(const Piece& piece);
+    template <class Look>
+    void look_round(Vec3d centre, double around, const Look& look) const;
+    double lacking(const Piece& piece, Vec3d centre, double margin) const;
     Vec3d missing(Vec3d centre, double margin) const;
     std::uint64_t key(std::int64_t i, std::int64_t j) const;
     std::int64_t cell(double at) const;

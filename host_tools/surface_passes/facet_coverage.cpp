@@ -235,7 +235,8 @@ void FacetCoverage::close_gaps(const std::function<void(const Points&)>& cut)
     gaps_.erase(std::remove_if(gaps_.begin(), gaps_.end(), met), gaps_.end());
     for (const Cell& cell : gaps_) {
         if (const std::optional<Place> place = bare_place(cell)) {
-            most_left_ = std::max(most_left_, places_.left_at(place->point, place->normal, 0));
+            most_left_ =
+                std::max(most_left_, places_.left_at(place->point, place->normal, 0).reachable);
         }
     }
 }

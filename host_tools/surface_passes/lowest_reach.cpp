@@ -214,4 +214,77 @@ std::optional<LowestReach::Answer> LowestReach::over(Vec3d place, double worth)
     return Answer{*tip, height_of(*tip + Vec3d{0, 0, radius_})};
 }
 
+// What the tool leaves where it stands on the model and off its guarded edges.
+std::optional<LowestReach::Answer> LowestReach::raised_over(Vec3d place,
+                                                            double x,
+                                                            double y,
+                                                            bool exact)
+{
+    const double under = square(radius_) - square(x - place.x) - square(y - place.y);
+    if (under < 0) {
+        return std::nullopt;
+    }
+    Vec3d tip;
+    if (exact) {
+        const std::optional<Vec3d> on_model = certified_.dropped(x, y);
+        if (!on_model) {
+            return std::nullopt;
+        }
+        tip = *on_model;
+    } else {
+        tip = dropped(x, y).centre - Vec3d{0, 0, radius_};
+        if (!std::isfinite(tip.z)) {
+            return std::nullopt;
+        }
+    }
+    tip = certified_.raised_off_edges(tip);
+    return Answer{tip, tip.z + radius_ - std::sqrt(under)};
+}
+
+void LowestReach::improve_raised(Vec3d place, Answer& best)
+{
+    double turn = 0;
+    for (double step = pitch_; step > kFinest * pitch_; turn += kTurn) {
+        bool lower = false;
+        for (int k = 0; k < kDirections && !lower; ++k) {
+            const double angle = turn + k * 0.78539816339744831;
+            const std::optional<Answer> other =
+                raised_over(place, best.tip.x + step * std::cos(angle),
+                            best.tip.y + step * std::sin(angle), false);
+            lower = other && other->height < best.height;
+            if (lower) {
+                best = *other;
+            }
+        }
+        if (!lower) {
+            step *= 0.5;
+        }
+    }
+}
+
+// Contacts say nothing of how far an edge keeps the tool off: here each step is a drop.
+std::optional<LowestReach::Answer> LowestReach::kept_off_edges(Vec3d place,
+                                                               const Answer& from,
+                                                               double worth)
+{
+    std::vector<Start> starts = starts_over(place);
+    starts.push_back({from.height, from.tip});
+    std::optional<Answer> best;
+    for (const Start& start : starts) {
+        std::optional<Answer> here = raised_over(place, start.centre.x, start.centre.y, false);
+        if (!here) {
+            continue;
+        }
+        improve_raised(place, *here);
+        if (!best || here->height < best->height) {
+            best = here;
+        }
+    }
+    if (!best || best->height > worth) {
+        return std::nullopt;
+    }
+    best = raised_over(place, best->tip.x, best->tip.y, true);
+    return best && best->height <= worth ? best : std::nullopt;
+}
+
 }  // namespace cusp::host

@@ -37,6 +37,10 @@ public:
     // None where the tool can't stand over the place.
     std::optional<Answer> over(Vec3d place, double worth);
 
+    // The same for a tool that keeps off guarded edges as passes do, starting from `over`'s answer
+    // that does not; none where no tip is found that leaves less than `worth`.
+    std::optional<Answer> kept_off_edges(Vec3d place, const Answer& from, double worth);
+
 private:
     struct Node {
         Vec3d centre;  // of the ball; z is infinite where the tool misses the model
@@ -52,6 +56,8 @@ private:
     std::vector<Start> starts_over(Vec3d place);
     double height_over(Vec3d place, double x, double y) const;
     std::array<double, 2> improved(Vec3d place, double x, double y);
+    std::optional<Answer> raised_over(Vec3d place, double x, double y, bool exact);
+    void improve_raised(Vec3d place, Answer& best);
 
     const std::vector<Surface>& surfaces_;
     const CertifiedPasses& certified_;

@@ -65,29 +65,40 @@ PlaceCoverage::Better PlaceCoverage::better_tip(Vec3d point, Vec3d normal) const
     if (!best || (now.height - best->height) * cosine <= scallop_) {
         return {};
     }
-    // A pass there is kept off edges, and so no better than this.
-    const Vec3d kept = certified_.kept_off_edges({best->tip}).front() + Vec3d{0, 0, radius_};
-    const double square = radius_ * radius_ - (kept.x - point.x) * (kept.x - point.x) -
-                          (kept.y - point.y) * (kept.y - point.y);
-    if ((now.height - kept.z + std::sqrt(std::max(0.0, square))) * cosine <= scallop_) {
+    if (certified_.kept_off_edges({best->tip}).front() == best->tip) {
+        return {best->tip, false};
+    }
+    const std::optional<LowestReach::Answer> kept =
+        reach_.kept_off_edges(point, *best, now.height - scallop_ / cosine);
+    if (!kept || (now.height - kept->height) * cosine <= scallop_) {
         return {std::nullopt, true};
     }
-    return {best->tip, false};
+    return {kept->tip, false};
 }
 
-double PlaceCoverage::left_at(Vec3d point, Vec3d normal, double worth) const
+PlaceCoverage::Left PlaceCoverage::left_at(Vec3d point, Vec3d normal, double worth) const
 {
     const SweptBalls::Lowest now = swept_.lowest(point.x, point.y);
     if (!std::isfinite(now.height)) {
-        return radius_;
+        return {radius_, 0};
     }
     if ((now.height - point.z) * normal.z <= worth) {
-        return 0;
+        return {};
     }
-    const std::optional<LowestReach::Answer> best =
-        reach_.over(point, now.height - worth / normal.z);
-    const double from = best ? std::max(point.z, best->height) : point.z;
-    return std::min(radius_, std::max(0.0, (now.height - from) * normal.z));
+    const auto over = [&](double height) {
+        const double from = std::max(point.z, height);
+        return std::min(radius_, std::max(0.0, (now.height - from) * normal.z));
+    };
+    const double told_apart = now.height - worth / normal.z;
+    const std::optional<LowestReach::Answer> best = reach_.over(point, told_apart);
+    if (!best) {
+        return {over(point.z), 0};
+    }
+    if (best->height > told_apart || certified_.kept_off_edges({best->tip}).front() == best->tip) {
+        return {over(best->height), 0};
+    }
+    const std::optional<LowestReach::Answer> kept = reach_.kept_off_edges(point, *best, told_apart);
+    return {kept ? over(kept->height) : 0, over(best->height)};
 }
 
 std::vector<Points> PlaceCoverage::runs_of(const Points& tips) const

@@ -60,9 +60,14 @@ public:
     // Precondition: normal.z >= kUprightNormal
     Better better_tip(Vec3d point, Vec3d normal) const;
 
-    // What is left at a place, mm, square to the surface, over the best that can be done; at most
-    // the radius. Not told apart below `worth`, which saves most of the search.
-    double left_at(Vec3d point, Vec3d normal, double worth) const;
+    struct Left {
+        double reachable{};     // mm: over the best that passes can do
+        double beside_edges{};  // mm: over the best that the tool could do, where passes keep off
+                                // an edge of which it would take too much
+    };
+    // What is left at a place, square to the surface; at most the radius. Not told apart below
+    // `worth`, which saves most of the search.
+    Left left_at(Vec3d point, Vec3d normal, double worth) const;
 
     // Passes of best tips of neighbouring places. They may lie apart (two sides of a ridge):
     // between those that do the tool follows the model, or it is lifted.

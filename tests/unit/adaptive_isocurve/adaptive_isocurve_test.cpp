@@ -61,6 +61,27 @@ Surface upright_rim()
     return s;
 }
 
+// Level, with a trough along x that a ball of radius 2 does not fit into: only from beyond its ends
+// does the ball get lower there.
+Surface trough()
+{
+    Surface s;
+    s.degree_u = 1;
+    s.degree_v = 2;
+    s.knots_u = {0, 0, 1, 1};
+    s.knots_v = {0, 0, 0, 0.5, 0.5, 1, 1, 1};
+    s.size_u = 2;
+    s.size_v = 5;
+    for (const double x : {0.0, 2.0}) {
+        for (const Vec2d p :
+             {Vec2d{0, 0}, Vec2d{1, 0}, Vec2d{1.5, -1.5}, Vec2d{2, 0}, Vec2d{3, 0}}) {
+            s.points.push_back({x, p.x, p.y});
+        }
+    }
+    s.weights.assign(10, 1.0);
+    return s;
+}
+
 // How low the path cuts straight above (x, y).
 double lowest_cut(const Toolpath& path, double x, double y)
 {
@@ -177,6 +198,17 @@ TEST(AdaptiveIsocurve, LeavesNoSliverOverTheOpenRimOfAnUprightWall)
         }
     }
     DOUBLES_EQUAL(0, deepest_cut(planned.front().path, made.operations.front().floor), 1e-6);
+}
+
+TEST(AdaptiveIsocurve, SaysWhatATwoSidedToleranceLeavesBesideEdges)
+{
+    Job valley = job_for({trough()}, "adaptive_isocurve");
+    valley.operations[0].tolerance_side = ToleranceSide::kBoth;
+    valley.operations[0].scallop = 0.1;
+    const OperationStats stats = plan_adaptive_isocurve(valley, valley.operations[0]).front().stats;
+    DOUBLES_EQUAL(0.1, stats.scallop_bound_mm, 1e-9);
+    CHECK(stats.counts.back().first == "left_beside_edges_mm");
+    CHECK(stats.counts.back().second > 0.1);
 }
 
 TEST(AdaptiveIsocurve, BoundsWhatPassesOfAGivenDistanceLeaveBesideEdges)

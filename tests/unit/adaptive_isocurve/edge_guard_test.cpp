@@ -71,3 +71,22 @@ TEST(EdgeGuard, FindsTheRimBetweenTwoFarPlaces)
         CHECK(below_rim(tip) <= kDeepest);
     }
 }
+
+TEST(EdgeGuard, RaisesTheBallBesideTheRimUntilItNeedsNoPush)
+{
+    const EdgeGuard guard{{plate()}, kRadius, kDeepest};
+    for (const double beside : {0.3, 1.0, 1.95, 1.999, 2.001}) {
+        const double dip = std::max(0.0, std::pow(kRadius - kDeepest, 2) - beside * beside);
+        const Vec3d tip{-beside, 5, std::sqrt(dip) - kRadius};
+        const Vec3d raised = guard.raised(tip, kBand);
+        CHECK(raised.x == tip.x && raised.y == tip.y && raised.z >= tip.z);
+        DOUBLES_EQUAL(0, norm(guard.kept_off({raised}, kBand).front() - raised), 1e-6);
+        // No higher than it has to be.
+        if (raised.z > tip.z) {
+            CHECK(norm(guard.kept_off({raised - Vec3d{0, 0, 1e-4}}, kBand).front() -
+                       (raised - Vec3d{0, 0, 1e-4})) > 0);
+        }
+    }
+    const Vec3d over{1, 5, 0};
+    CHECK(guard.raised(over, kBand) == over);
+}
