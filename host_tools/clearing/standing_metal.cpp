@@ -11,6 +11,7 @@ constexpr double kNoMetal = -1e300;
 constexpr double kSpacingShare = 1.0 / 10;  // of the radius
 constexpr double kMostPlaces = 4e6;
 constexpr double kLeastSliver = 2e-3;  // mm
+constexpr double kHeights = 256;       // of the tool's lower side
 
 }  // namespace
 
@@ -40,6 +41,9 @@ void StandingMetal::use(const Tool& tool)
     const double radius = tool.radius - sliver_;
     const double corner = std::max(0.0, tool.corner_radius - sliver_);
     feeler_ = {radius - corner, corner, radius * radius};
+    for (std::size_t i = 0; i < at_least_.size(); ++i) {
+        at_least_[i] = tool_.at(tool_.reach * static_cast<double>(i) / kHeights);
+    }
 }
 
 StandingMetal::Range StandingMetal::range(
@@ -75,16 +79,19 @@ double StandingMetal::cut_at(Vec3d tip, const Profile& taken)
 {
     const double reach = std::sqrt(taken.reach);
     const Range columns = range(tip.x - reach, tip.x + reach, origin_.x, pitch_, columns_);
-    const Range rows = range(tip.y - reach, tip.y + reach, origin_.y, pitch_, rows_);
+    const double scale = kHeights / tool_.reach;
     double deepest = 0;
     for (std::size_t i = columns.begin; i < columns.end; ++i) {
         const double dx = origin_.x + static_cast<double>(i) * pitch_ - tip.x;
+        const double half = std::sqrt(std::max(0.0, taken.reach - dx * dx));
+        const Range rows = range(tip.y - half, tip.y + half, origin_.y, pitch_, rows_);
         float* heights = heights_.data() + i * rows_;
         for (std::size_t j = rows.begin; j < rows.end; ++j) {
             const double dy = origin_.y + static_cast<double>(j) * pitch_ - tip.y;
             const double squared = dx * dx + dy * dy;
             const double over = static_cast<double>(heights[j]) - tip.z;
-            if (squared > taken.reach || over <= 0) {
+            if (squared > taken.reach ||
+                over <= at_least_[static_cast<std::size_t>(squared * scale)]) {
                 continue;
             }
             const double felt = over - sliver_ - feeler_.at(squared);

@@ -1,6 +1,7 @@
 // The metal that still stands in the pocket, as heights on a fine grid: how deep a move would cut.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "host_tools/offset/contour.hpp"
@@ -48,6 +49,9 @@ private:
     double sliver_{};  // mm: what stands between two looked-at places of a move is no metal
     Profile tool_{};
     Profile feeler_{};  // the tool, smaller by the slivers
+    // Heights that the tool's lower side has at least, by squared distance: most places under it
+    // are cut already, and told so without a root.
+    std::array<double, 257> at_least_{};
     Vec2d origin_;
     double pitch_;
     std::size_t columns_;
