@@ -31,8 +31,7 @@ public:
     // The least distance inward from the level, mm, at which no cusp between is higher than
     // allowed, by path_interval() and the ridge.
     //
-    //   proven  mm: a distance at which nothing too high stands, see StripRidge. It is the answer
-    //   as
+    //   proven  mm: a distance at which nothing too high stands, see StripRidge. The answer as
     //           soon as some place of the level allows hardly more: others could only allow less.
     double from(const Region2d& level, double proven = 0.0);
 

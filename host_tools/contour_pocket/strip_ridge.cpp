@@ -323,8 +323,8 @@ double StripRidge::left(const Probe& probe) const
            (probe.secant * strayed_ * allowed(probe.secant));
 }
 
-// The ball rests on both sides of a valley where the continuations of its heights meet: lower than
-// at either place.
+// The ball rests on both sides of a valley where the continuations of its heights meet, lower than
+// at either place; where they don't, at the second.
 StripRidge::Lowest StripRidge::where_sides_meet(const Probe& a, const Probe& b)
 {
     const Vec2d move = b.at - a.at;
@@ -334,7 +334,7 @@ StripRidge::Lowest StripRidge::where_sides_meet(const Probe& a, const Probe& b)
     if (fall > 0.0 && rise > 0.0 && share > 0.0 && share < 1.0) {
         return {a.at + move * share, a.tip - fall * share};
     }
-    return a.tip < b.tip ? Lowest{a.at, a.tip} : Lowest{b.at, b.tip};
+    return {b.at, b.tip};
 }
 
 // Where a ball does not reach the floor, between the places that it touches from two neighbouring

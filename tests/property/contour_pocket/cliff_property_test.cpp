@@ -1,9 +1,7 @@
 // Patches over level floors: what stays at the foot of their cliffs, by brute force.
 #include <cstdio>
 
-#include "host_tools/contour_pocket/contour_pocket.hpp"
 #include "tests/property/contour_pocket/pocket_judge.hpp"
-#include "tests/property/offset/random_regions.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/plates.hpp"
 #include "tests/support/property_cases.hpp"
@@ -115,20 +113,6 @@ double cosine_at(const Tool& tool, const Patch& patch, double apart)
     return 1.0 / std::hypot(1.0, rise / (2.0 * kStep));
 }
 
-double cut_at(const Tool& tool, const std::vector<Vec3d>& tips, Vec2d p)
-{
-    double least = 1e300;
-    for (const Vec3d tip : tips) {
-        const double x = tip.x - p.x;
-        const double y = tip.y - p.y;
-        const double square = x * x + y * y;
-        if (square < tool.radius * tool.radius) {
-            least = std::min(least, tip.z + profile_height(tool, std::sqrt(square)));
-        }
-    }
-    return least;
-}
-
 Loop square_loop(double half)
 {
     return loop_of({{-half, -half}, {half, -half}, {half, half}, {-half, half}});
@@ -150,34 +134,19 @@ TEST(RandomCliff, LeavesNoMoreAtItsFootThanTheScallop)
                           round > 0.0 ? 0.0 : uniform(random, 4.0, 10.0),
                           round,
                           kLow + uniform(random, 0.2, 5.0)};
-        Operation operation;
-        operation.strategy = "contour_pocket";
-        operation.floor = {turned_plate({0.0, 0.0}, {1.0, 0.0}, 60.0, 60.0, kLow),
-                           surface_of(patch)};
-        operation.floor_files = {"floor"};
-        operation.boundary = square_loop(20.0);
-        operation.boundary_file = "boundary";
         const ToolShape shapes[] = {ToolShape::kFlat, ToolShape::kBall, ToolShape::kBull};
-        const ToolShape shape = shapes[i % 3];
-        operation.tool = {1, shape, radius,
-                          shape == ToolShape::kFlat   ? 0.0
-                          : shape == ToolShape::kBall ? radius
-                                                      : uniform(random, 0.2, 0.7) * radius};
-        operation.plan_tolerance = operation.floor_tolerance = 0.02;
-        operation.scallop = uniform(random, 0.05, 0.2);
-        Job job;
-        job.file = "job";
-        job.stock_top = 1.0;
-        job.clearance = 5.0;
-        const std::vector<PlannedOperation> planned = plan_contour_pocket(job, operation);
-        const std::vector<Vec3d> tips = tips_of(planned.back().path, 0.0, kPitch);
+        const Operation operation = random_pocket(
+            random, {turned_plate({0.0, 0.0}, {1.0, 0.0}, 60.0, 60.0, kLow), surface_of(patch)},
+            square_loop(20.0), {1, shapes[i % 3], radius, 0.0}, 0.2);
+        const PlannedOperation planned = planned_pocket(operation);
+        const std::vector<Vec3d> tips = tips_of(planned.path, 0.0, kPitch);
         double most = 0.0;
         double gouge = 0.0;
         for (const double out : {0.0, kFarFromCliff, 0.1, 0.2 * radius, 0.5 * radius, radius}) {
             for (double share = 0.0; share < 1.0; share += 0.01) {
                 const Vec2d p = patch.around(share, out);
                 const double apart = patch.distance(p);
-                const double cut = cut_at(operation.tool, tips, p);
+                const double cut = lowest_cut(operation.tool, tips, p);
                 const double part = apart > 1e-9 ? kLow : patch.top;
                 gouge = std::max(gouge, part - cut);
                 if (out > 0.0) {
@@ -191,7 +160,7 @@ TEST(RandomCliff, LeavesNoMoreAtItsFootThanTheScallop)
                     *operation.scallop);
         CHECK(gouge <= 1e-6);
         CHECK(most <= *operation.scallop + 2e-3);
-        DOUBLES_EQUAL(0.0, planned.back().stats.gouge_bound_mm, 1e-9);
+        DOUBLES_EQUAL(0.0, planned.stats.gouge_bound_mm, 1e-9);
     }
 }
 

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <vector>
 
+#include "host_tools/contour_pocket/contour_pocket.hpp"
 #include "host_tools/import/job.hpp"
 #include "host_tools/offset/contour.hpp"
+#include "tests/property/offset/random_regions.hpp"
 
 namespace cusp::host {
 
@@ -76,6 +78,50 @@ inline std::vector<Vec3d> tips_of(const Toolpath& path, double top, double step)
         }
     }
     return tips;
+}
+
+// The lowest that the tool cuts over a place, z.
+inline double lowest_cut(const Tool& tool, const std::vector<Vec3d>& tips, Vec2d p)
+{
+    double least = 1e300;
+    for (const Vec3d tip : tips) {
+        const double x = tip.x - p.x;
+        const double y = tip.y - p.y;
+        const double square = x * x + y * y;
+        if (square < tool.radius * tool.radius) {
+            least = std::min(least, tip.z + profile_height(tool, std::sqrt(square)));
+        }
+    }
+    return least;
+}
+
+// A pocket under a stock to z = 1, its tool's corner and its scallop (0.05 to `scallop` mm) drawn.
+inline Operation random_pocket(
+    Random& random, std::vector<Surface> floor, Loop boundary, const Tool& tool, double scallop)
+{
+    Operation operation;
+    operation.strategy = "contour_pocket";
+    operation.floor = std::move(floor);
+    operation.floor_files = {"floor"};
+    operation.boundary = std::move(boundary);
+    operation.boundary_file = "boundary";
+    operation.tool = tool;
+    operation.tool.corner_radius = tool.shape == ToolShape::kFlat ? 0.0
+                                   : tool.shape == ToolShape::kBall
+                                       ? tool.radius
+                                       : uniform(random, 0.2, 0.7) * tool.radius;
+    operation.plan_tolerance = operation.floor_tolerance = 0.02;
+    operation.scallop = uniform(random, 0.05, scallop);
+    return operation;
+}
+
+inline PlannedOperation planned_pocket(const Operation& operation)
+{
+    Job job;
+    job.file = "job";
+    job.stock_top = 1.0;
+    job.clearance = 5.0;
+    return plan_contour_pocket(job, operation).back();
 }
 
 // For a ball. Where a surface point is farther than the tool's radius from the walls it counts as

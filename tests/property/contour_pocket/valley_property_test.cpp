@@ -1,9 +1,7 @@
 // Steep floors with valleys that a tool does not reach into: what it leaves, by brute force.
 #include <cstdio>
 
-#include "host_tools/contour_pocket/contour_pocket.hpp"
 #include "tests/property/contour_pocket/pocket_judge.hpp"
-#include "tests/property/offset/random_regions.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/property_cases.hpp"
 
@@ -127,18 +125,6 @@ private:
     std::vector<double> cut_;
 };
 
-double cut_at(const Tool& tool, const std::vector<Vec3d>& tips, Vec2d p)
-{
-    double least = 1e300;
-    for (const Vec3d tip : tips) {
-        const double square = (tip.x - p.x) * (tip.x - p.x) + (tip.y - p.y) * (tip.y - p.y);
-        if (square < tool.radius * tool.radius) {
-            least = std::min(least, tip.z + profile_height(tool, std::sqrt(square)));
-        }
-    }
-    return least;
-}
-
 struct Waves {
     double height;  // mm, of control points, up and down
     double length;  // mm between them
@@ -152,28 +138,16 @@ void check_floors(ToolShape shape, unsigned seed, int count, const NextWaves& ne
     for (int i = 0; i < count; ++i) {
         const Waves waves = next_waves(random);
         const double radius = uniform(random, 1.5, 3.0);
-        Operation operation;
-        operation.strategy = "contour_pocket";
-        operation.floor = {drawn_out(random, waves.height, waves.length)};
-        operation.floor_files = {"floor"};
         const double angle = uniform(random, 0.0, 1.5);
         const Vec2d along = Vec2d{std::cos(angle), std::sin(angle)} * kHalf;
         const Vec2d across = left_normal(along);
-        operation.boundary =
+        const Loop boundary =
             loop_of({(along + across) * -1.0, along - across, along + across, across - along});
-        operation.boundary_file = "boundary";
-        operation.tool = {1, shape, radius,
-                          shape == ToolShape::kFlat   ? 0.0
-                          : shape == ToolShape::kBall ? radius
-                                                      : uniform(random, 0.2, 0.7) * radius};
-        operation.plan_tolerance = operation.floor_tolerance = 0.02;
-        operation.scallop = uniform(random, 0.05, 0.3);
-        Job job;
-        job.file = "job";
-        job.stock_top = 1.0;
-        job.clearance = 5.0;
-        const std::vector<PlannedOperation> planned = plan_contour_pocket(job, operation);
-        const std::vector<Vec3d> tips = tips_of(planned.back().path, 0.0, 0.03);
+        const Operation operation =
+            random_pocket(random, {drawn_out(random, waves.height, waves.length)}, boundary,
+                          {1, shape, radius, 0.0}, 0.3);
+        const PlannedOperation planned = planned_pocket(operation);
+        const std::vector<Vec3d> tips = tips_of(planned.path, 0.0, 0.03);
         const Section section{operation.floor.front(), operation.tool};
         double gouge = 0.0;
         for (const Vec3d tip : tips) {
@@ -184,14 +158,14 @@ void check_floors(ToolShape shape, unsigned seed, int count, const NextWaves& ne
         for (int k = 0; k < kPlaces; ++k) {
             const Vec2d p =
                 along * uniform(random, -inner, inner) + across * uniform(random, -inner, inner);
-            const double left = cut_at(operation.tool, tips, p) - section.cut(p.x);
+            const double left = lowest_cut(operation.tool, tips, p) - section.cut(p.x);
             most = std::max(most, left * section.cosine(p.x));
         }
         std::printf("seed %u valley %d: tool %.2f/%.2f, gouge %.5f, left %.4f of %.4f\n", seed, i,
                     radius, operation.tool.corner_radius, gouge, most, *operation.scallop);
         CHECK(gouge <= 1e-6);
         CHECK(most <= *operation.scallop + 2e-3);
-        DOUBLES_EQUAL(0.0, planned.back().stats.gouge_bound_mm, 1e-9);
+        DOUBLES_EQUAL(0.0, planned.stats.gouge_bound_mm, 1e-9);
     }
 }
 
