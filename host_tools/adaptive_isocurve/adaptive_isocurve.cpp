@@ -41,8 +41,9 @@ constexpr std::size_t kMostMeasured = 4000;
 constexpr double kBetweenPlaces = 1.25;  // what may stand between places measured in them
 constexpr double kMoreExpected = 2;
 constexpr int kNeighbourRounds = 5;
-constexpr double kNearer = 0.9998;  // than the bound asks for
-constexpr double kSameEdge = 0.1;   // in steps: edges nearer than this are one
+constexpr double kNearer = 0.9998;       // than the bound asks for
+constexpr double kShortestPiece = 1e-3;  // mm
+constexpr double kSameEdge = 0.1;        // in steps: edges nearer than this are one
 
 class IsocurvePlanner {
 public:
@@ -321,6 +322,9 @@ private:
     bool add_whole(const DomainCurve& curve)
     {
         const TracedPiece piece = tracer_.whole(curve);
+        if (length_of(piece.points) < kShortestPiece) {
+            return true;  // along a pole
+        }
         const std::optional<Points> points = work_.add_free_pass(piece.points, piece.feet);
         if (points) {
             remember(*points);

@@ -7,16 +7,13 @@
 namespace cusp::host {
 namespace {
 
-constexpr double kPole = 1e-7;   // of |S_uv|: at a pole S_u is rounding, and so is all that follows
 constexpr double kLevel = 1e-7;  // z of a normal
 
-// Near a pole S_u is S_uv times the way from it: that gives the normal.
+// There is one way across only, that of v.
 CrossSection cross_section_at_pole(const SurfacePoint& p)
 {
-    SurfacePoint beside = p;
-    beside.du = p.duv;
     const double square = dot(p.dv, p.dv);
-    return {square > 0 ? dot(upward_normal(beside), p.dvv) / square : 0, std::sqrt(square)};
+    return {square > 0 ? dot(upward_normal(p), p.dvv) / square : 0, std::sqrt(square)};
 }
 
 }  // namespace
@@ -40,10 +37,10 @@ double scallop_width(double radius, double scallop, double curvature)
 
 CrossSection cross_section_at(const SurfacePoint& p)
 {
-    const double e = dot(p.du, p.du);
-    if (e <= kPole * kPole * dot(p.duv, p.duv)) {
+    if (at_pole(p.du, p)) {
         return cross_section_at_pole(p);
     }
+    const double e = dot(p.du, p.du);
     const Vec3d normal = upward_normal(p);
     if (dot(normal, normal) == 0) {
         return {0, 0};

@@ -88,8 +88,12 @@ struct SurfacePoint {
 Vec3d point_at(const Surface& surface, double u, double v);
 SurfacePoint derivatives_at(const Surface& surface, double u, double v);
 
-// Unit normal, pointing up (z >= 0); for a vertical tangent plane to the left of du. Zero where the
-// derivatives are parallel.
+// Whether a first derivative, du or dv, is rounding: where a side of the surface is drawn together
+// to a point. Beside it the derivative is duv times the way from it.
+bool at_pole(Vec3d derivative, const SurfacePoint& s);
+
+// Unit normal, pointing up (z >= 0); for a vertical tangent plane to the left of du. At a pole the
+// one beside it on the way there. Zero where the derivatives are parallel.
 Vec3d upward_normal(const SurfacePoint& s);
 
 // Rational Bezier patches of the surface, row by row in u then v; each with its box of the domain.

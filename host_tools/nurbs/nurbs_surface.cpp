@@ -163,20 +163,28 @@ SurfacePoint derivatives_at(const Surface& surface, double u, double v)
     return s;
 }
 
+bool at_pole(Vec3d derivative, const SurfacePoint& s)
+{
+    constexpr double kPole = 1e-7;
+    return dot(derivative, derivative) <= kPole * kPole * dot(s.duv, s.duv);
+}
+
 Vec3d upward_normal(const SurfacePoint& s)
 {
     // Below this share of |du| |dv| the cross product is rounding.
     constexpr double kParallel = 1e-12;
-    const Vec3d n = cross(s.du, s.dv);
+    const Vec3d du = at_pole(s.du, s) ? s.duv : s.du;
+    const Vec3d dv = at_pole(s.dv, s) ? s.duv : s.dv;
+    const Vec3d n = cross(du, dv);
     const double square = dot(n, n);
-    if (!(square > kParallel * kParallel * dot(s.du, s.du) * dot(s.dv, s.dv))) {
+    if (!(square > kParallel * kParallel * dot(du, du) * dot(dv, dv))) {
         return {};
     }
     const Vec3d unit = n / std::sqrt(square);
     if (std::abs(unit.z) > kParallel) {
         return unit.z < 0 ? -unit : unit;
     }
-    const double leftward = unit.y * s.du.x - unit.x * s.du.y;
+    const double leftward = unit.y * du.x - unit.x * du.y;
     return leftward < 0 ? -unit : unit;
 }
 

@@ -249,7 +249,13 @@ double SurfaceModel::clearance_along(
 
 Contact SurfaceModel::contact(int surface, double u, double v, double distance) const
 {
-    const SurfacePoint p = tangents(surface, u, v);
+    constexpr double kNearPole = 1e-6;
+    SurfacePoint p = tangents(surface, u, v);
+    const double square_u = dot(p.du, p.du);
+    const double square_v = dot(p.dv, p.dv);
+    if (std::min(square_u, square_v) < kNearPole * kNearPole * std::max(square_u, square_v)) {
+        p = evaluate(surface, u, v);  // at a pole the normal is in the second derivatives
+    }
     return {surface, u, v, p.point, facing_up(surface, u, v, p), distance, -1};
 }
 

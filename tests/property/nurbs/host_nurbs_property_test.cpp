@@ -367,6 +367,20 @@ TEST(UpwardNormal, PointsToTheLeftOfDuOnAWall)
     DOUBLES_EQUAL(1, upward_normal(s).y, 1e-15);
 }
 
+TEST(UpwardNormal, IsThatOfPlacesBesideAPole)
+{
+    // Where du is what rounding leaves, or nothing.
+    for (const Vec3d du : {Vec3d{}, Vec3d{1e-16, 3e-17, 2e-16}}) {
+        SurfacePoint s;
+        s.du = du;
+        s.dv = {0, 2, 0};
+        s.duv = {1, 0, 0};
+        DOUBLES_EQUAL(1, upward_normal(s).z, 1e-15);
+        std::swap(s.du, s.dv);
+        DOUBLES_EQUAL(1, upward_normal(s).z, 1e-15);
+    }
+}
+
 TEST(UpwardNormal, IsZeroWhereTheDerivativesAreParallel)
 {
     SurfacePoint s;

@@ -82,6 +82,31 @@ Surface trough()
     return s;
 }
 
+// Half a ball of radius 5, open upwards, as CAD writes it: all around u, its pole below.
+Surface bowl()
+{
+    constexpr double kRadius = 5;
+    const double half = std::sqrt(0.5);
+    const double turn[][3] = {{1, 0, 1},     {1, 1, half},  {0, 1, 1},
+                              {-1, 1, half}, {-1, 0, 1},    {-1, -1, half},
+                              {0, -1, 1},    {1, -1, half}, {1, 0, 1}};
+    const double rise[][3] = {{0, -1, 1}, {1, -1, half}, {1, 0, 1}};
+    Surface s;
+    s.degree_u = s.degree_v = 2;
+    s.knots_u = {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4};
+    s.knots_v = {0, 0, 0, 1, 1, 1};
+    s.size_u = 9;
+    s.size_v = 3;
+    for (const auto& a : turn) {
+        for (const auto& b : rise) {
+            s.points.push_back(
+                {7.3 + kRadius * b[0] * a[0], -4.1 + kRadius * b[0] * a[1], kRadius * b[1] - 0.37});
+            s.weights.push_back(a[2] * b[2]);
+        }
+    }
+    return s;
+}
+
 // How low the path cuts straight above (x, y).
 double lowest_cut(const Toolpath& path, double x, double y)
 {
@@ -209,6 +234,20 @@ TEST(AdaptiveIsocurve, SaysWhatATwoSidedToleranceLeavesBesideEdges)
     DOUBLES_EQUAL(0.1, stats.scallop_bound_mm, 1e-9);
     CHECK(stats.counts.back().first == "left_beside_edges_mm");
     CHECK(stats.counts.back().second > 0.1);
+}
+
+TEST(AdaptiveIsocurve, CutsThePoleOfABowlOnce)
+{
+    // A curve along the pole followed what rounding made of its normals, ten times the bowl's way.
+    Job made = job_for({bowl()}, "adaptive_isocurve");
+    made.operations.front().tool.radius = made.operations.front().tool.corner_radius = 3;
+    made.operations.front().scallop = 0.1;
+    const auto planned = plan_adaptive_isocurve(made, made.operations.front());
+    // The tip of the tool runs over a ball of radius 2, and once around over the rim.
+    CHECK(measure(planned.front().path, {}).cut_length_mm < 130);
+    CHECK(lowest_cut(planned.front().path, 7.3, -4.1) < -5.37 + 0.1);
+    CHECK(planned.front().stats.scallop_bound_mm <= 0.1);
+    DOUBLES_EQUAL(0, deepest_cut(planned.front().path, made.operations.front().floor), 1e-6);
 }
 
 TEST(AdaptiveIsocurve, BoundsWhatPassesOfAGivenDistanceLeaveBesideEdges)
