@@ -230,7 +230,7 @@ PlannedOperation SurfaceOperation::finish(double spacing, double scallop_bound)
                     std::move(linked.moves), {}};
     planned.path.comments = {
         operation_.strategy,
-        fmt::format("gouge at most {:.6f} mm, scallop at most {:.4f} mm where the tool reaches",
+        fmt::format("gouge at most {:.6f} mm, scallop at most {:.4f} mm where it reaches",
                     stats.gouge_bound_mm, stats.scallop_bound_mm)};
     return planned;
 }

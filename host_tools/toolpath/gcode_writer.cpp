@@ -48,12 +48,27 @@ std::string nine_digits(double value)
     return fixed_point(value, kKnotDigits - before_point);
 }
 
-std::string comment_line(std::string text)
+// What controllers take out of the stream as a command, or as the end of the comment, is none here.
+char plain_character(char c)
 {
-    for (char& c : text) {
-        c = c == '(' ? '[' : c == ')' ? ']' : c < ' ' ? ' ' : c;
+    const bool printable = c >= ' ' && c <= '~';
+    const bool command = c == '!' || c == '?' || c == '~' || c == '%';
+    return c == '(' ? '[' : c == ')' ? ']' : printable && !command ? c : '_';
+}
+
+// As many comments as the text needs: a controller's line is short.
+std::string comment_lines(std::string text)
+{
+    std::transform(text.begin(), text.end(), text.begin(), plain_character);
+    std::string lines;
+    while (text.size() > kCommentWidth) {
+        const std::size_t blank = text.rfind(' ', kCommentWidth);
+        const bool between_words = blank != std::string::npos && blank > 0;
+        const std::size_t end = between_words ? blank : kCommentWidth;
+        lines += "(" + text.substr(0, end) + ")\n";
+        text.erase(0, between_words ? end + 1 : end);
     }
-    return "(" + text.substr(0, kCommentWidth) + ")\n";
+    return lines + "(" + text + ")\n";
 }
 
 std::string tool_text(const Tool& tool, double unit, const char* name)
@@ -142,10 +157,10 @@ void ProgramWriter::add_coordinate(std::string& text, std::int64_t value) const
 
 void ProgramWriter::begin(const std::vector<PlannedOperation>& operations)
 {
-    out_ << comment_line(form_.title);
+    out_ << comment_lines(form_.title);
     for (const PlannedOperation& operation : operations) {
         for (const std::string& text : operation.path.comments) {
-            out_ << comment_line(text);
+            out_ << comment_lines(text);
         }
     }
     out_ << (form_.inch ? "G17 G20 G40 G49 G54 G80 G90 G94\n"
@@ -202,7 +217,7 @@ void ProgramWriter::change_tool(const Toolpath& path)
         }
         out_ << "M5\n";
     }
-    out_ << comment_line(tool_text(path.tool, unit_, form_.inch ? "inch" : "mm"));
+    out_ << comment_lines(tool_text(path.tool, unit_, form_.inch ? "inch" : "mm"));
     out_ << "T" << tool_ << '\n';
     if (!first) {
         out_ << "M0\n";

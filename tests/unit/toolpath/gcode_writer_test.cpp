@@ -171,3 +171,21 @@ TEST(GcodeWriter, KeepsBracketsOutOfComments)
     planned.path.comments = {"a (b) c"};
     STRCMP_CONTAINS("(a [b] c)\n", written({planned}).c_str());
 }
+
+TEST(GcodeWriter, KeepsCommandsOfControllersOutOfComments)
+{
+    PlannedOperation planned = operation({rapid({0, 0, 5})});
+    planned.path.comments = {"stop! 50% \x18 w\xc3\xb6?~"};
+    STRCMP_CONTAINS("(stop_ 50_ _ w____)\n", written({planned}).c_str());
+}
+
+TEST(GcodeWriter, BreaksLongComments)
+{
+    PlannedOperation planned = operation({rapid({0, 0, 5})});
+    const std::string word(40, 'a');
+    planned.path.comments = {word + " " + word + " " + std::string(80, 'b')};
+    STRCMP_CONTAINS(("(" + word + ")\n(" + word + ")\n(" + std::string(72, 'b') + ")\n(" +
+                     std::string(8, 'b') + ")\n")
+                        .c_str(),
+                    written({planned}).c_str());
+}
