@@ -150,6 +150,8 @@ private:
     std::vector<double> height_;
 };
 
+constexpr double kEnough = 0.05;  // mm over the allowance
+
 struct Figures {
     double cut{};
     double rapid{};
@@ -157,7 +159,12 @@ struct Figures {
     std::set<double> levels;
 };
 
-void cut(Block& block, const PlannedOperation& plan, const SurfaceModel& model, Figures& figures)
+// Distances from the model matter below `enough`.
+void cut(Block& block,
+         const PlannedOperation& plan,
+         const SurfaceModel& model,
+         double enough,
+         Figures& figures)
 {
     const Tool& tool = plan.path.tool;
     Vec3d at = end_of(plan.path.moves.front());
@@ -170,7 +177,7 @@ void cut(Block& block, const PlannedOperation& plan, const SurfaceModel& model, 
                 double& deepest = move.kind == MoveKind::kRapid ? figures.rapid : figures.cut;
                 deepest = std::max(deepest, block.cut(tool, tip));
                 figures.clearance =
-                    std::min(figures.clearance, model.clearance(tool, tip, 1.0).distance);
+                    std::min(figures.clearance, model.clearance(tool, tip, enough).distance);
             }
             at = to;
         }
@@ -217,7 +224,7 @@ void check_model(unsigned seed)
     double gouge = 0;
     std::size_t told = 0;
     for (const PlannedOperation& plan : plans) {
-        cut(block, plan, model, figures);
+        cut(block, plan, model, operation.allowance + kEnough, figures);
         moves += plan.path.moves.size();
         seconds += plan.stats.planning_s;
         gouge = std::max(gouge, plan.stats.gouge_bound_mm);
