@@ -48,19 +48,23 @@ Surface transposed(const Surface& s)
     return out;
 }
 
-// The longest side of the box of all control points, mm.
-double size_of(const std::vector<Surface>& surfaces)
+// The longest side of the box of all control points, or of a mesh, mm.
+double size_of(const Operation& operation)
 {
     constexpr double kFar = std::numeric_limits<double>::infinity();
     Vec3d low{kFar, kFar, kFar};
     Vec3d high = -low;
-    for (const Surface& surface : surfaces) {
-        for (const Vec3d& p : surface.points) {
-            for (unsigned k = 0; k < 3; ++k) {
-                low[k] = std::min(low[k], p[k]);
-                high[k] = std::max(high[k], p[k]);
-            }
+    const auto take = [&](const Vec3d& p) {
+        for (unsigned k = 0; k < 3; ++k) {
+            low[k] = std::min(low[k], p[k]);
+            high[k] = std::max(high[k], p[k]);
         }
+    };
+    for (const Surface& surface : operation.floor) {
+        std::for_each(surface.points.begin(), surface.points.end(), take);
+    }
+    for (const auto& triangle : operation.mesh) {
+        std::for_each(triangle.begin(), triangle.end(), take);
     }
     return std::max({high.x - low.x, high.y - low.y, high.z - low.z});
 }
@@ -85,7 +89,7 @@ void check_spacing(const Job& job, const Operation& operation)
         throw InputError(
             fmt::format("{}: {}: give iso_distance or scallop", job.file, operation.strategy));
     }
-    const double size = size_of(operation.floor);
+    const double size = size_of(operation);
     if (operation.iso_distance && size > kMostPasses * *operation.iso_distance) {
         throw InputError(fmt::format(
             "{}: iso_distance is {:g} mm, over a part of {:g} mm it must be at least {:g} mm ({:g} "

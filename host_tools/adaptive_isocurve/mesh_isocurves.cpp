@@ -22,9 +22,10 @@ constexpr double kNarrowest = 1.0 / 64;  // of it, between neighbours
 // Of the scallop, in the middle between neighbours: beside it a little more stands.
 constexpr double kMiddleShare = 0.85;
 constexpr int kEdgeHalvings = 20;
-constexpr double kFacing = 0.985;   // cosine: beside the mesh the ball touches it squarely, or not
-constexpr double kShortest = 1e-3;  // mm
-constexpr double kRowsDone = 0.2;   // of the progress
+constexpr double kFacing = 0.985;    // cosine: beside the mesh the ball touches it squarely, or not
+constexpr double kOutside = 0.9995;  // the same beyond its box
+constexpr double kShortest = 1e-3;   // mm
+constexpr double kRowsDone = 0.2;    // of the progress
 constexpr double kStripsDone = 0.7;
 
 struct Range {
@@ -90,31 +91,42 @@ private:
 
     Vec3d place(double s, double t) const { return origin_ + along_ * s + across_ * t; }
 
+    Range whole() const { return {-radius_, length_ + radius_}; }
+
     std::optional<Rest> rest(double s, double t) const
     {
         const Vec3d at = place(s, t);
         std::optional<Rest> found = work_.model().rest_on_mesh(at.x, at.y, radius_);
-        // Beside the mesh, where it only rolls off its rim, nothing is to be cut.
-        if (found && dot(found->centre - found->point, found->normal) < kFacing * radius_ &&
-            !work_.model().top_of_mesh(at.x, at.y)) {
+        if (found && !work_.model().top_of_mesh(at.x, at.y) && !stands_on(*found, s, t)) {
             return std::nullopt;
         }
         return found;
+    }
+
+    // Beside the mesh, where it only rolls off its rim, or stands beside a wall, nothing is to be
+    // cut.
+    bool stands_on(const Rest& at, double s, double t) const
+    {
+        const double facing = dot(at.centre - at.point, at.normal) / radius_;
+        const bool outside = s < 0 || s > length_ || t < 0 || t > width_;
+        return outside ? facing >= kOutside && at.normal.z >= kUprightNormal : facing >= kFacing;
     }
 
     void add_pass(const Points& tips) { coverage_.add(work_.add_pass(tips)); }
 
     void add_rows()
     {
+        // A ball on a slope that ends in the rim stands beyond it.
         const int rows = std::max(1, static_cast<int>(std::ceil(width_ / row_)));
+        const int beyond = static_cast<int>(std::ceil(radius_ / row_));
         std::vector<Strip> strips;
-        for (int k = 0; k <= rows; ++k) {
+        for (int k = -beyond; k <= rows + beyond; ++k) {
             const double t = width_ * k / rows;
-            cut({0, length_}, t);
-            if (k > 0) {
-                strips.push_back({width_ * (k - 1) / rows, t, {{0, length_}}});
+            cut(whole(), t);
+            if (k > -beyond) {
+                strips.push_back({width_ * (k - 1) / rows, t, {whole()}});
             }
-            job_.report_progress(kRowsDone * k / rows);
+            job_.report_progress(kRowsDone * (k + beyond) / (rows + 2 * beyond));
         }
         while (!strips.empty()) {
             std::vector<Strip> next;
@@ -155,7 +167,7 @@ private:
             if (!is_missing(s, strip)) {
                 continue;
             }
-            const Range around{std::max(0.0, s - look_), std::min(length_, s + look_)};
+            const Range around{std::max(whole().from, s - look_), std::min(whole().to, s + look_)};
             if (!missing.empty() && around.from <= missing.back().to) {
                 missing.back().to = std::max(missing.back().to, around.to);
             } else {

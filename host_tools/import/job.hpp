@@ -28,8 +28,7 @@ struct Operation {
     std::string strategy;
     std::vector<Surface> floor;
     std::vector<std::string> floor_files;
-    // adaptive_isocurve, where all of the floor is STL: its triangles; `floor` covers them
-    // smoothly.
+    // adaptive_isocurve, where all of the floor is STL: its triangles, and no `floor`.
     std::vector<std::array<Vec3d, 3>> mesh;
     std::optional<Loop> boundary;
     std::string boundary_file;

@@ -50,7 +50,8 @@ private:
     void read_strategy_keys(JobTable& table, Operation& operation);
     void read_grid(JobTable& table, Operation& operation);
     bool takes_mesh(const Operation& operation, const std::vector<std::string>& floor) const;
-    void read_mesh_of(const std::vector<std::string>& floor, Operation& operation);
+    void read_mesh_of(const std::string& path, Operation& operation);
+    void read_surfaces_of(const std::string& path, Operation& operation);
     void read_parts(JobTable& table, Operation& operation);
     void check_least_depth(const JobTable& table, const Operation& operation) const;
     void check_strategy(const JobTable& table, const Operation& operation) const;
@@ -72,7 +73,7 @@ private:
     double unit_{1.0};  // mm
     Job job_;
     std::map<std::string, Loop> loops_;
-    std::map<std::string, std::vector<Surface>> surfaces_;
+    std::map<std::pair<std::string, double>, std::vector<Surface>> surfaces_;  // by tolerance, too
     std::map<std::string, std::vector<std::array<Vec3d, 3>>> meshes_;
 };
 
@@ -315,15 +316,24 @@ bool JobReader::takes_mesh(const Operation& operation, const std::vector<std::st
                        [](const std::string& name) { return path_ending(name) == ".stl"; });
 }
 
-void JobReader::read_mesh_of(const std::vector<std::string>& floor, Operation& operation)
+void JobReader::read_mesh_of(const std::string& path, Operation& operation)
 {
-    for (const std::string& name : floor) {
-        const std::string path = path_of(name);
-        if (meshes_.count(path) == 0) {
-            meshes_[path] = read_mesh(path, unit_, &job_.notes);
-        }
-        operation.mesh.insert(operation.mesh.end(), meshes_[path].begin(), meshes_[path].end());
+    if (meshes_.count(path) == 0) {
+        meshes_[path] = read_mesh(path, unit_, &job_.notes);
     }
+    operation.mesh.insert(operation.mesh.end(), meshes_[path].begin(), meshes_[path].end());
+}
+
+void JobReader::read_surfaces_of(const std::string& path, Operation& operation)
+{
+    // half of what the floor may be off goes to a mesh's height field
+    const double tolerance = path_ending(path) == ".stl" ? operation.floor_tolerance / 2 : 0;
+    const auto [found, is_new] = surfaces_.try_emplace({path, tolerance});
+    std::vector<Surface>& surfaces = found->second;
+    if (is_new) {
+        surfaces = read_surfaces(path, unit_, tolerance, &job_.notes);
+    }
+    operation.floor.insert(operation.floor.end(), surfaces.begin(), surfaces.end());
 }
 
 void JobReader::read_parts(JobTable& table, Operation& operation)
@@ -332,21 +342,15 @@ void JobReader::read_parts(JobTable& table, Operation& operation)
         table.texts("floor").value_or(std::vector<std::string>{});
     const bool mesh = takes_mesh(operation, floor);
     for (const std::string& name : floor) {
-        const std::string path = path_of(name);
-        if (surfaces_.count(path) == 0) {
-            // half of what the floor may be off goes to a mesh's height field
-            surfaces_[path] = read_surfaces(path, unit_, operation.floor_tolerance / 2,
-                                            mesh ? nullptr : &job_.notes);
+        operation.floor_files.push_back(path_of(name));
+        if (mesh) {
+            read_mesh_of(operation.floor_files.back(), operation);
+        } else {
+            read_surfaces_of(operation.floor_files.back(), operation);
         }
-        operation.floor_files.push_back(path);
-        operation.floor.insert(operation.floor.end(), surfaces_[path].begin(),
-                               surfaces_[path].end());
     }
-    if (operation.floor.empty()) {
+    if (operation.floor.empty() && operation.mesh.empty()) {
         table.refuse("floor", "is missing: files with the surfaces to cut");
-    }
-    if (mesh) {
-        read_mesh_of(floor, operation);
     }
     const auto loop = [&](const std::string& path) {
         if (loops_.count(path) == 0) {

@@ -1,4 +1,5 @@
 // Polylines of one colour each: a path of many moves stays a small file.
+#include <array>
 #include <limits>
 #include <vector>
 
@@ -28,10 +29,12 @@ struct Extent {
 Extent extent_of(const Job& job, const Program& program)
 {
     std::vector<Surface> surfaces;
+    std::vector<std::array<Vec3d, 3>> mesh;
     for (const Operation& operation : job.operations) {
         surfaces.insert(surfaces.end(), operation.floor.begin(), operation.floor.end());
+        mesh.insert(mesh.end(), operation.mesh.begin(), operation.mesh.end());
     }
-    const PartBox box = part_box(surfaces);
+    const PartBox box = part_box(surfaces, mesh);
     Extent extent{{box.x_low, box.x_high, box.y_low, box.y_high}, 1e9, -1e9};
     for (std::size_t k = 1; k < program.moves.size(); ++k) {
         const path::Move& move = program.moves[k].move;

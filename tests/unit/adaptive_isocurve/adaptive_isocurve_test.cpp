@@ -236,18 +236,41 @@ TEST(AdaptiveIsocurve, SaysWhatATwoSidedToleranceLeavesBesideEdges)
     CHECK(stats.counts.back().second > 0.1);
 }
 
+TEST(AdaptiveIsocurve, RowsOverASlopedMeshReachItsRims)
+{
+    // The ball stands beyond the rims, the lower one along x and those along y, where it touches
+    // them.
+    Job made = job_for({}, "adaptive_isocurve");
+    Operation& slope = made.operations.front();
+    const Vec3d a{0, 0, 0};
+    const Vec3d b{10, 0, 10};
+    const Vec3d c{10, 10, 15};
+    const Vec3d d{0, 10, 5};
+    slope.mesh = {{a, b, c}, {a, c, d}};
+    const PlannedOperation planned = plan_adaptive_isocurve(made, slope).front();
+    const double tilt = std::sqrt(1 + 1 + 0.25);
+    for (const Vec3d p : {a, b, c, d, (a + d) * 0.5, (a + b) * 0.5}) {
+        const Vec3d in = p + ((a + c) * 0.5 - p) * 1e-3;
+        CHECK((lowest_cut(planned.path, in.x, in.y) - in.z) / tilt <= 0.2);
+    }
+    // All passes are rows: none had to be added where they left metal.
+    CHECK(planned.stats.counts[2].first == "isocurves");
+    DOUBLES_EQUAL(planned.stats.passes, planned.stats.counts[2].second, 0);
+}
+
 TEST(AdaptiveIsocurve, CutsThePoleOfABowlOnce)
 {
     // A curve along the pole followed what rounding made of its normals, ten times the bowl's way.
     Job made = job_for({bowl()}, "adaptive_isocurve");
     made.operations.front().tool.radius = made.operations.front().tool.corner_radius = 3;
-    made.operations.front().scallop = 0.1;
+    made.operations.front().floor_tolerance = 0.1;
+    made.operations.front().scallop = 0.2;
     const auto planned = plan_adaptive_isocurve(made, made.operations.front());
     // The tip of the tool runs over a ball of radius 2, and once around over the rim.
     CHECK(measure(planned.front().path, {}).cut_length_mm < 130);
-    CHECK(lowest_cut(planned.front().path, 7.3, -4.1) < -5.37 + 0.1);
-    CHECK(planned.front().stats.scallop_bound_mm <= 0.1);
-    DOUBLES_EQUAL(0, deepest_cut(planned.front().path, made.operations.front().floor), 1e-6);
+    CHECK(lowest_cut(planned.front().path, 7.3, -4.1) < -5.37 + 0.2);
+    CHECK(planned.front().stats.scallop_bound_mm <= 0.2);
+    DOUBLES_EQUAL(0, planned.front().stats.gouge_bound_mm, 1e-6);
 }
 
 TEST(AdaptiveIsocurve, BoundsWhatPassesOfAGivenDistanceLeaveBesideEdges)

@@ -56,6 +56,22 @@ TEST_GROUP(JobReader)
     }
 };
 
+TEST(JobReader, IsocurvesTakeAMeshItselfOtherStrategiesTheSurfacesOverIt)
+{
+    folder.write("plate.stl",
+                 "solid p\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 10 0 0\n"
+                 "vertex 0 10 0\nendloop\nendfacet\nendsolid p\n");
+    const auto operation = [&](const std::string& strategy) {
+        return read(kHead + "[[operation]]\nstrategy = \"" + strategy +
+                    "\"\nfloor = \"plate.stl\"\nscallop = 0.4\nstep_over = 2\n")
+            .operations.front();
+    };
+    LONGS_EQUAL(1, operation("adaptive_isocurve").mesh.size());
+    LONGS_EQUAL(0, operation("adaptive_isocurve").floor.size());
+    LONGS_EQUAL(0, operation("parallel_planes").mesh.size());
+    LONGS_EQUAL(1, operation("parallel_planes").floor.size());
+}
+
 TEST(JobReader, ReadsTheDemo)
 {
     const Job job = read(kHead + pocket("floor_tolerance = 0.01\noutput = \"arcs\"\n"));
