@@ -32,6 +32,48 @@ struct Profile {
     }
 };
 
+// A level foot on its way from one position to the next: what it leaves on a slope is as low as its
+// rim comes there, between the positions too.
+class FootSweep {
+public:
+    FootSweep(Vec3d from, Vec3d to, double radius) : from_{from}, square_{radius * radius}
+    {
+        const double x = to.x - from.x;
+        const double y = to.y - from.y;
+        length_ = std::sqrt(x * x + y * y);
+        constexpr double kShortest = 1e-9;
+        if (length_ < kShortest) {
+            length_ = 0.0;
+            from_.z = std::min(from.z, to.z);
+            return;
+        }
+        way_ = {x / length_, y / length_};
+        slope_ = (to.z - from.z) / length_;
+    }
+
+    // z; infinite where the foot does not come.
+    double lowest(double x, double y) const
+    {
+        const double dx = x - from_.x;
+        const double dy = y - from_.y;
+        const double along = dx * way_.x + dy * way_.y;
+        const double away = dy * way_.x - dx * way_.y;
+        const double half = std::sqrt(std::max(0.0, square_ - away * away));
+        const double begin = std::max(0.0, along - half);
+        const double end = std::min(length_, along + half);
+        const double height = from_.z + slope_ * (slope_ > 0.0 ? begin : end);
+        return away * away <= square_ && begin <= end ? height : kNowhere;
+    }
+
+private:
+    static constexpr double kNowhere = 1e300;
+    Vec3d from_;
+    Vec2d way_{1.0, 0.0};
+    double square_;
+    double length_{};
+    double slope_{0.0};
+};
+
 }  // namespace
 
 Stock::Stock(const HeightGrid& grid, double top)
@@ -53,6 +95,8 @@ CutFigures Stock::cut_band(const ToolPositions& positions,
     for (std::size_t j = 0; j < grid_.ny; ++j) {
         row_shift[j] = grid_.shift(j);
     }
+    // Rounder corners leave no more between positions than the square of their distance.
+    const bool edged = tool.radius > tool.corner_radius && tool.corner_radius < spacing;
     constexpr std::size_t kReport = 4096;
     CutFigures figures;
     for (std::size_t k = 0; k < positions.tips.size(); ++k) {
@@ -82,10 +126,29 @@ CutFigures Stock::cut_band(const ToolPositions& positions,
                 height[j] = squared <= profile.reach && lower < height[j] ? lower : height[j];
             }
         }
+        if (edged && k > 0 && positions.tips[k - 1].z < top_) {
+            sweep_foot(tool, positions.tips[k - 1], tip, begin, end);
+        }
         double& worst = positions.rapid[k] ? figures.rapid_cut : figures.cut_depth;
         worst = std::max(worst, deepest);
     }
     return figures;
+}
+
+void Stock::sweep_foot(const Tool& tool, Vec3d from, Vec3d to, std::size_t begin, std::size_t end)
+{
+    const double radius = tool.radius - tool.corner_radius;
+    const FootSweep sweep{from, to, radius};
+    const std::size_t first = std::max(begin, grid_.first_column(std::min(from.x, to.x) - radius));
+    const std::size_t last = std::min(end, grid_.end_column(std::max(from.x, to.x) + radius));
+    const std::size_t low = grid_.first_row(std::min(from.y, to.y) - radius);
+    const std::size_t high = grid_.end_row(std::max(from.y, to.y) + radius);
+    for (std::size_t i = first; i < last; ++i) {
+        double* height = heights_.data() + i * grid_.ny;
+        for (std::size_t j = low; j < high; ++j) {
+            height[j] = std::min(height[j], sweep.lowest(grid_.x(i, j), grid_.y(i, j)));
+        }
+    }
 }
 
 CutFigures Stock::cut(const ToolPositions& positions, double spacing, const Progress& progress)

@@ -28,7 +28,8 @@ class Stock {
 public:
     Stock(const HeightGrid& grid, double top);
 
-    // Removes what the tool sweeps, position by position.
+    // Removes what the tool sweeps, position by position; under a foot with an edge also what it
+    // takes between them.
     //
     // spacing  mm between positions: depths are felt with a tool that is smaller by what the
     // slivers
@@ -44,6 +45,7 @@ private:
                         std::size_t begin,
                         std::size_t end,
                         const Progress& progress);
+    void sweep_foot(const Tool& tool, Vec3d from, Vec3d to, std::size_t begin, std::size_t end);
 
     HeightGrid grid_;
     double top_;

@@ -94,6 +94,58 @@ TEST(Verify, AllowsGougesBelowTheTolerance)
     LONGS_EQUAL(0, verdict(passes(-5.01, 1)).broken.size());
 }
 
+// A flat end that climbs straight up a plane of slope 1 rests on its rim all the way: little stands
+// where it went. Then one that goes as deep as it fits into a furrow between two such planes: what
+// stands over the bottom is out of its reach.
+TEST(Verify, KnowsWhereTheRimOfAFlatEndCutsOnASlope)
+{
+    const auto floor = [](const std::string& along, const std::string& points) {
+        return R"({"shape": {"type": "surface", "count": 1, "data": [{"degree_u": 1, "degree_v": 1,
+            "size_v": 2, "knotvector_v": [0, 0, 1, 1], )" +
+               along + R"(, "control_points": {"points": [)" + points + "]}}]}}";
+    };
+    const auto judged = [&](const std::string& moves) {
+        const Job job = read_job(
+            folder.write("job.toml",
+                         "[tool]\nshape = \"flat\"\ndiameter = 2\n[cutting]\nfeed = 1000\n"
+                         "[[operation]]\nstrategy = \"parallel_planes\"\nfloor = \"floor.json\"\n"
+                         "boundary = \"walls.json\"\nstep_over = 1\nscallop = 0.03\n"));
+        const std::string program = "G21 G90\nG0 Z5\nG0 X1 Y1\n" + moves + "M30\n";
+        return verify(job, folder.write("p.ngc", program), settings, [](double) {}).figures;
+    };
+    folder.write("walls.json", R"({"shape": {"type": "curve", "count": 1, "data": [{"degree": 1,
+        "knotvector": [0, 0, 1, 2, 3, 4, 4], "control_points": {"points":
+         [[0, 0], [10, 0], [10, 6], [0, 6], [0, 0]]}}]}})");
+    char line[96];
+    folder.write("floor.json", floor(R"("size_u": 2, "knotvector_u": [0, 0, 1, 1])",
+                                     "[0, 0, -11], [0, 6, -11], [10, 0, -1], [10, 6, -1]"));
+    std::string climbs;
+    for (int k = 0; k <= 20; ++k) {
+        std::snprintf(line, sizeof line, "G0 X1 Y%.1f\nG1 Z-9 F900\nG1 X9 Z-1\nG0 Z5\n",
+                      1.0 + 0.2 * k);
+        climbs += line;
+    }
+    const VerifyFigures plane = judged(climbs);
+    DOUBLES_EQUAL(0.0, plane.gouge_max, 1e-3);
+    // the rim comes this much short of the floor half way between passes
+    CHECK(plane.scallop_max <= (1.0 - std::sqrt(1.0 - 0.1 * 0.1)) * std::sqrt(0.5) + 1e-3);
+
+    folder.write("floor.json", floor(R"("size_u": 3, "knotvector_u": [0, 0, 0.5, 1, 1])",
+                                     "[0, 0, -5], [0, 6, -5], [5, 0, -10], [5, 6, -10], "
+                                     "[10, 0, -5], [10, 6, -5]"));
+    settings.pitch = 5.0 / 27.5;  // one line along the bottom, none at the rim
+    std::string along;
+    for (int k = 0; k <= 250; ++k) {
+        const double x = 1.0 + 0.032 * k;
+        const double tip = -9.0 + std::abs(x - 5.0);
+        std::snprintf(line, sizeof line, "G0 X%.3f Y1\nG1 Z%.3f F900\nG1 Y5\nG0 Z5\n", x, tip);
+        along += line;
+    }
+    const VerifyFigures furrow = judged(along);
+    DOUBLES_EQUAL(0.0, furrow.gouge_max, 1e-3);
+    DOUBLES_EQUAL(0.0, furrow.uncovered_share, 0.0);
+}
+
 TEST(Verify, MeasuresTheScallopOfAWidePath)
 {
     const Verification result = verdict(passes(-5, 4));
