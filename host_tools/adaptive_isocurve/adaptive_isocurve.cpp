@@ -232,9 +232,11 @@ private:
         }
         const double scallop = *operation_.scallop;
         Ridges ridges{work_.model(), surface, tool_};
-        const StripJudge judge = [&](double u, CurvePlace low, CurvePlace high) {
-            const double ridge = ridges.between(u, low, high);
-            const double over = (ridge - tool_.outward) / (scallop - tool_.outward);
+        const double allowed = scallop - tool_.outward;
+        const StripJudge judge = [&](double u, CurvePlace low, CurvePlace high, double enough) {
+            const double ridge =
+                ridges.between(u, low, high, tool_.outward + enough * enough * allowed);
+            const double over = (ridge - tool_.outward) / allowed;
             return std::min(1.5, std::sqrt(std::max(0.0, over)));
         };
         return even_passes(s, surface, at, density(), judge).curves;
@@ -254,7 +256,7 @@ private:
             const StepDensity steps = [asked](const SurfacePoint& p) {
                 return norm(p.dv) / asked;
             };
-            const StripJudge judge = [&](double u, CurvePlace low, CurvePlace high) {
+            const StripJudge judge = [&](double u, CurvePlace low, CurvePlace high, double) {
                 if (!cut || u != cut_at) {
                     cut.emplace(work_.model().cut_at(surface, u));
                     cut_at = u;

@@ -19,7 +19,8 @@ constexpr double kTighter = 1.0005;
 constexpr std::size_t kTightened = 6;  // spans beside one that is made denser
 constexpr double kGrown = 1.002;
 constexpr double kMostGrowth = 1.05;
-constexpr int kFitRounds = 2;
+constexpr std::size_t kLengthNodes = 4;  // of u, from one that counts to the next
+constexpr int kFitRounds = 1;
 constexpr double kFitFailed = 1.05;
 constexpr double kOverlap =
     0.15;  // steps: how early a pass begins, for the interpolation of its end
@@ -99,6 +100,7 @@ public:
         return out;
     }
 
+    // About, to tell one plan from another.
     double length() const
     {
         const bool from_middle = anchor_ == Anchor::kMiddle;
@@ -110,7 +112,10 @@ public:
         std::vector<double> last(2 * most + 1, kNoPlace);
         std::vector<double> here(last.size(), kNoPlace);
         double sum = 0;
-        for (std::size_t i = 0; i < table_.u.size(); ++i) {
+        std::size_t before = 0;
+        for (std::size_t i = 0; i < table_.u.size();
+             i = i + 1 < table_.u.size() ? std::min(i + kLengthNodes, table_.u.size() - 1)
+                                         : table_.u.size()) {
             const int count = static_cast<int>(std::floor(0.5 * width_[i]));
             here.front() = v_of(i, 0, 0);
             for (std::size_t k = 1; k <= most; ++k) {
@@ -119,16 +124,16 @@ public:
                 here[2 * k] = steps <= count ? v_of(i, side, -steps) : kNoPlace;
             }
             const double middle_width =
-                i > 0 ? width_[i - 1] - 2 * std::floor(0.5 * std::min(width_[i - 1], width_[i]))
-                      : 0;
+                width_[before] - 2 * std::floor(0.5 * std::min(width_[before], width_[i]));
             const std::size_t first = from_middle || middle_width > 1 ? 0 : 1;
             for (std::size_t k = first; i > 0 && k < here.size(); ++k) {
                 if (last[k] != kNoPlace && here[k] != kNoPlace) {
-                    sum += table_.length(i - 1, last[k], table_.u[i] - table_.u[i - 1],
+                    sum += table_.length(before, last[k], table_.u[i] - table_.u[before],
                                          here[k] - last[k]);
                 }
             }
             last.swap(here);
+            before = i;
         }
         return sum;
     }
@@ -292,7 +297,7 @@ double judge_strips(StepTable& table,
             const double u = table.u[i] * (1 - t) + table.u[i + 1] * t;
             const std::vector<CurvePlace> across = places_at(curves, u);
             for (std::size_t k = 1; k < across.size(); ++k) {
-                const double asked = judge(u, across[k - 1], across[k]) / kJudged;
+                const double asked = judge(u, across[k - 1], across[k], kJudged) / kJudged;
                 worst = std::max(worst, asked);
                 if (asked > 1) {
                     table.ask(i, 0.5 * (across[k - 1].v + across[k].v), kTighter * asked);

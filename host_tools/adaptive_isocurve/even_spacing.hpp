@@ -15,7 +15,8 @@ using StepDensity = std::function<double(const SurfacePoint&)>;
 
 // What lies between two neighbouring curves at a u, to be refused with the factor by which the
 // density must grow; 1 or less accepts.
-using StripJudge = std::function<double(double u, CurvePlace low, CurvePlace high)>;
+// Any value that is no less than it and no more than `enough` will do.
+using StripJudge = std::function<double(double u, CurvePlace low, CurvePlace high, double enough)>;
 
 using SurfaceFunction = std::function<SurfacePoint(double u, double v)>;
 

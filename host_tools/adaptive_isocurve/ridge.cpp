@@ -12,6 +12,7 @@ constexpr double kUnreached = std::numeric_limits<double>::infinity();
 constexpr int kTurns = 8;
 constexpr double kLevel = 1e-7;   // z of a normal
 constexpr double kBeside = 0.01;  // of the way to the neighbour
+constexpr double kLeastShare = 0.1;
 
 }  // namespace
 
@@ -44,7 +45,7 @@ double Ridges::Sweep::left(Vec3d p, Vec3d normal, double radius) const
     return (-b - std::sqrt(square)) / a;
 }
 
-double Ridges::between(double u, CurvePlace low_place, CurvePlace high_place)
+double Ridges::between(double u, CurvePlace low_place, CurvePlace high_place, double enough)
 {
     if (!cut_ || u != u_) {
         cut_.emplace(model_.cut_at(surface_, u));
@@ -59,7 +60,8 @@ double Ridges::between(double u, CurvePlace low_place, CurvePlace high_place)
     double from = low_place.v;
     double to = high_place.v;
     double bound = kUnreached;
-    double v = 0.5 * (from + to);
+    const double width = to - from;
+    double v = from + share_ * width;
     for (int turn = 0; turn < kTurns; ++turn) {
         const SurfacePoint p = cut_->at(v);
         const Vec3d normal = upward_normal(p);
@@ -67,12 +69,14 @@ double Ridges::between(double u, CurvePlace low_place, CurvePlace high_place)
         const double by_high = high.left(p.point, normal, tool_.radius);
         bound = std::min(bound, std::max(by_low, by_high));
         const double excess = by_low - by_high;
-        if (excess == 0 || std::abs(excess) < 0.002 * bound) {
+        if (bound <= enough || excess == 0 || std::abs(excess) < 0.002 * bound) {
+            if (width > 0) {
+                share_ = std::clamp((v - low_place.v) / width, kLeastShare, 1 - kLeastShare);
+            }
             break;
         }
         (excess > 0 ? to : from) = v;
         // The difference is nearly linear across, and as large at the ends as the step is wide.
-        const double width = high_place.v - low_place.v;
         const double scale = std::isfinite(excess) ? 2 * std::max(by_low, by_high) : kUnreached;
         const double guess = v - 0.5 * width * excess / (2 * scale);
         v = std::isfinite(guess) && guess > from && guess < to ? guess : 0.5 * (from + to);

@@ -27,7 +27,8 @@ public:
     // ball of neither pass reaches. Both passes count as straight along their tangents there.
     //
     // Returns a bound: never below the ridge where the way across is shorter than the ball is wide.
-    double between(double u, CurvePlace low, CurvePlace high);
+    // The first that is no more than `enough` will do.
+    double between(double u, CurvePlace low, CurvePlace high, double enough = 0);
 
     // The highest over all neighbours at `count` places along u.
     double highest(const std::vector<DomainCurve>& curves, double u_begin, double u_end, int count);
@@ -50,6 +51,7 @@ private:
     std::optional<SurfaceCut> cut_;
     double u_{};
     std::optional<Sweep> last_;  // the upper of the last two
+    double share_{0.5};          // of the way across: where the last ridge was
 };
 
 }  // namespace cusp::host

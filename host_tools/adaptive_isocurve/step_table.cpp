@@ -68,7 +68,7 @@ void StepTable::fit(const std::vector<DomainCurve>& curves, const StripJudge& ju
             if (width < kLeastFitted) {
                 continue;
             }
-            const double asked = judge(u[i], across[k - 1], across[k]) / width;
+            const double asked = judge(u[i], across[k - 1], across[k], 0) / width;
             const double here = std::clamp(asked, 1 / kMostFitted, kMostFitted);
             const double here_v = 0.5 * (across[k - 1].v + across[k].v);
             last = last == 0 ? here : last;

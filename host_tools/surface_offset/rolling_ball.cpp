@@ -13,7 +13,7 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kCellSize = 0.4;       // radii
 constexpr int kDeepest = 4;             // halvings of a way
 constexpr int kFootSteps = 4;           // of Newton's method
-constexpr double kFootSlack = 1e-7;     // mm off the normal
+constexpr double kFootSlack = 1e-5;     // mm off the normal
 constexpr double kLeastBox = 1 / 12.0;  // radii: boxes that small prove nothing if they are near
 constexpr double kMostSkew = 0.9;       // cosine between du and dv
 constexpr double kUsualMargin = 0.01;   // radii
@@ -224,6 +224,9 @@ QuadraticForm below_both(const QuadraticForm& p,
 
 const BezierCell& RollingBall::cell_of(const Contact& at) const
 {
+    if (at.cell != nullptr) {
+        return *at.cell;
+    }
     const BezierCell* cell = &state_.cell_at(at.surface, at.u, at.v);
     const double most = kCellSize * kCellSize * radius_ * radius_;
     while (square(cell->middle().du) > most || square(cell->middle().dv) > most) {
@@ -234,6 +237,7 @@ const BezierCell& RollingBall::cell_of(const Contact& at) const
     if (cell->surroundings() == nullptr) {
         cell->set_surroundings(find_surroundings(state_, *cell));
     }
+    at.cell = cell;
     return *cell;
 }
 
@@ -332,7 +336,7 @@ std::optional<RollingBall::Foot> RollingBall::foot_of_middle(const Contact& a,
                                                              const Contact& b) const
 {
     const Vec3d middle = (a.centre() + b.centre()) * 0.5;
-    Foot foot{{a.surface, 0.5 * (a.u + b.u), 0.5 * (a.v + b.v), {}, {}, 0, -1}, kInfinite};
+    Foot foot{{a.surface, 0.5 * (a.u + b.u), 0.5 * (a.v + b.v), {}, {}, 0}, kInfinite};
     Contact& at = foot.contact;
     for (int step = 0; step < kFootSteps; ++step) {
         const SurfacePoint p = model_.evaluate(at.surface, at.u, at.v);

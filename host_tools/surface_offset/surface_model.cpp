@@ -256,7 +256,7 @@ Contact SurfaceModel::contact(int surface, double u, double v, double distance) 
     if (std::min(square_u, square_v) < kNearPole * kNearPole * std::max(square_u, square_v)) {
         p = evaluate(surface, u, v);  // at a pole the normal is in the second derivatives
     }
-    return {surface, u, v, p.point, facing_up(surface, u, v, p), distance, -1};
+    return {surface, u, v, p.point, facing_up(surface, u, v, p), distance};
 }
 
 Vec3d SurfaceModel::facing_up(int surface, double u, double v, const SurfacePoint& p) const

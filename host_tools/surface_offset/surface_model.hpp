@@ -29,6 +29,8 @@ struct Clearance {
     NearestPlace nearest;
 };
 
+class BezierCell;
+
 // A ball whose centre is straight over a place of a surface, along the upward normal.
 struct Contact {
     int surface;
@@ -37,7 +39,9 @@ struct Contact {
     Vec3d point;
     Vec3d normal;
     double distance;  // mm from the point to the centre
-    // How much farther than that all but its surroundings is known to be; negative: not known.
+    // The piece of surface it lies in, and how much farther than the contact all but the
+    // surroundings of that is known to be; null and negative: not known.
+    mutable const BezierCell* cell{nullptr};
     mutable double margin{-1};
 
     Vec3d centre() const { return point + normal * distance; }
