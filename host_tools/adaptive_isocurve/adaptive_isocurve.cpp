@@ -88,15 +88,7 @@ public:
             coverage_->close_rims(static_cast<int>(k), [&](const Points& pass) { add_pass(pass); });
         }
         PlannedOperation planned = work_.finish(spacing_, ridge_);
-        if (bare > 0) {
-            planned.stats.warnings.push_back(
-                fmt::format("{} places of the surface may keep more than the scallop", bare));
-        }
-        if (unseen) {
-            planned.stats.warnings.push_back(
-                "too many places keep more than the scallop to look at them all: nothing is proved "
-                "of what is left");
-        }
+        report_bare_places(planned.stats, bare, unseen);
         planned.stats.counts.emplace_back("isocurves", static_cast<double>(curves));
         report_left_beside_edges(planned.stats);
         if (apart_ > 0) {

@@ -187,14 +187,17 @@ private:
                (operation_.iso_distance && too_far_apart(s, strip));
     }
 
-    // Where the height of the tip jumps, no distance is small enough.
+    // Where the height of the tip, or the place it touches, jumps, no distance is small enough.
     bool too_far_apart(double s, const Strip& strip) const
     {
         const std::optional<Rest> low = rest(s, strip.low);
         const std::optional<Rest> high = rest(s, strip.high);
         const double delta = *operation_.iso_distance;
-        return low && high && norm(high->centre - low->centre) > delta &&
-               norm(high->centre - low->centre) < delta + 4 * (strip.high - strip.low);
+        const auto far = [&](Vec3d a, Vec3d b) {
+            const double way = norm(b - a);
+            return way > delta && way < delta + 4 * (strip.high - strip.low);
+        };
+        return low && high && (far(low->centre, high->centre) || far(low->point, high->point));
     }
 
     // Passes along a row, as far as the tool is on the mesh.
@@ -250,19 +253,10 @@ private:
         const bool unseen = coverage_.overflowed();
         PlannedOperation planned =
             work_.finish(row_, unseen ? radius : std::max(scallop_, coverage_.most_left()));
-        std::vector<std::string>& told = planned.stats.warnings;
-        if (coverage_.uncovered() > 0) {
-            told.push_back(fmt::format("{} places of the mesh may keep more than the scallop",
-                                       coverage_.uncovered()));
-        }
-        if (unseen) {
-            told.push_back(
-                "too many places keep more than the scallop to look at them all: nothing is proved "
-                "of what is left");
-        }
+        report_bare_places(planned.stats, coverage_.uncovered(), unseen);
         constexpr double kShown = 1e-2;  // mm2
         if (coverage_.blocked_area() > kShown) {
-            told.push_back(fmt::format(
+            planned.stats.warnings.push_back(fmt::format(
                 "on {:.3g} mm2 the ball does not touch the mesh (feet of walls, concave edges, "
                 "undercuts, valleys narrower than the ball): metal is left standing there",
                 coverage_.blocked_area()));

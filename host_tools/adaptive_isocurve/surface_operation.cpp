@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kOverStock = 1.0;   // mm over uncut metal where rapids end
 constexpr double kLeastSize = 1e-6;  // mm
+constexpr double kLeastRise = 1e-6;  // z of a normal
 constexpr double kChordShare = 0.2;  // of the band, between arcs or curves and their chords
 
 std::string file_of(const Operation& operation)
@@ -102,12 +103,13 @@ void SurfaceOperation::check_tool() const
     }
 }
 
-void SurfaceOperation::check_surfaces() const
+void SurfaceOperation::check_surfaces()
 {
     for (std::size_t k = 0; k < surfaces_.size(); ++k) {
         const Surface& s = surfaces_[k];
         constexpr int kLooks = 8;
         double area = 0;
+        double most_up = 0;
         for (int i = 0; i < kLooks; ++i) {
             for (int j = 0; j < kLooks; ++j) {
                 const SurfacePoint p =
@@ -115,12 +117,20 @@ void SurfaceOperation::check_surfaces() const
                                    s.v_begin() + (s.v_end() - s.v_begin()) * (j + 0.5) / kLooks);
                 area += norm(cross(p.du, p.dv)) * (s.u_end() - s.u_begin()) *
                         (s.v_end() - s.v_begin()) / (kLooks * kLooks);
+                most_up = std::max(most_up, upward_normal(p).z);
             }
         }
         if (!(area > kLeastSize)) {
             throw InputError(fmt::format("{}: surface {} has an area of {:g} mm2, it is degenerate",
                                          file_of(operation_), k + 1, area));
         }
+        upright_ += most_up < kLeastRise ? 1 : 0;
+    }
+    if (upright_ > 0 && surfaces_.size() == static_cast<std::size_t>(upright_)) {
+        throw InputError(fmt::format(
+            "{}: every surface stands upright (no normal rises by {:g}): seen from above, along "
+            "the tool, there is nothing to cut",
+            file_of(operation_), kLeastRise));
     }
 }
 
@@ -226,6 +236,12 @@ PlannedOperation SurfaceOperation::finish(double spacing, double scallop_bound)
     stats.gouge_bound_mm = std::max(0.0, -certified_->least_clearance());
     stats.scallop_bound_mm = scallop_bound;
     stats.counts = {{"pass_length_mm", linked.cut_length}, {"link_length_mm", linked.link_length}};
+    if (upright_ > 0) {
+        stats.warnings.push_back(fmt::format(
+            "{} of {} surfaces stand upright: they do not tell which side of them is metal and are "
+            "cut where their normal points to the left of the way along u",
+            upright_, surfaces_.size()));
+    }
     planned.path = {operation_.tool,         job_.feed, job_.plunge_feed, job_.spindle,
                     std::move(linked.moves), {}};
     planned.path.comments = {
@@ -233,6 +249,18 @@ PlannedOperation SurfaceOperation::finish(double spacing, double scallop_bound)
         fmt::format("gouge at most {:.6f} mm, scallop at most {:.4f} mm where it reaches",
                     stats.gouge_bound_mm, stats.scallop_bound_mm)};
     return planned;
+}
+
+void report_bare_places(OperationStats& stats, std::size_t bare, bool unseen)
+{
+    if (bare > 0) {
+        stats.warnings.push_back(fmt::format("{} places may keep more than the scallop", bare));
+    }
+    if (unseen) {
+        stats.warnings.push_back(
+            "too many places keep more than the scallop to look at them all: nothing is proved of "
+            "what is left");
+    }
 }
 
 }  // namespace cusp::host

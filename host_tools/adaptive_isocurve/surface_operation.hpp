@@ -53,7 +53,7 @@ public:
 private:
     void check_tool() const;
     void check_form() const;
-    void check_surfaces() const;
+    void check_surfaces();
     Points path_of(const SurfacePass& pass) const;
 
     const Job& job_;
@@ -63,6 +63,13 @@ private:
     std::unique_ptr<CertifiedPasses> certified_;
     std::vector<SurfacePass> passes_;
     bool moved_off_edges_{};
+    int upright_{};  // surfaces
 };
+
+// Warns of places that may keep more than the scallop.
+//
+// bare    how many stay uncovered
+// unseen  whether the look for them ended early
+void report_bare_places(OperationStats& stats, std::size_t bare, bool unseen);
 
 }  // namespace cusp::host

@@ -225,6 +225,7 @@ void CurveMaker::add_spline(const DxfEntity& entity)
     drawing_.required(entity, 71);
     curve.degree = static_cast<int>(drawing_.flags(entity, 71));
     curve.knots = drawing_.values(entity, 40);
+    merge_close_knots(curve.knots);
     curve.weights = drawing_.values(entity, 41);
     const std::vector<double> x = drawing_.values(entity, 10);
     const std::vector<double> y = drawing_.values(entity, 20);

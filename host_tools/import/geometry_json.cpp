@@ -90,6 +90,7 @@ Curve read_curve(const Json& shape, double millimetres, const std::string& place
     Curve curve;
     curve.degree = whole_number(shape, "degree", place);
     curve.knots = numbers(shape, "knotvector", place);
+    merge_close_knots(curve.knots);
     read_control_points(shape, millimetres, place, curve.points, curve.weights);
     check_curve(curve, place);
     return clamped(curve);
@@ -158,6 +159,8 @@ Surface read_surface(const Json& shape, double millimetres, const std::string& p
     surface.size_v = whole_number(shape, "size_v", place);
     surface.knots_u = numbers(shape, "knotvector_u", place);
     surface.knots_v = numbers(shape, "knotvector_v", place);
+    merge_close_knots(surface.knots_u);
+    merge_close_knots(surface.knots_v);
     read_control_points(shape, millimetres, place, surface.points, surface.weights);
     check_surface(surface, place);
     surface = clamped(surface);

@@ -1,6 +1,7 @@
 // The checks of degree, counts, knots, weights and coordinates.
 #include "host_tools/import/nurbs_validity.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "host_tools/input_error/input_error.hpp"
@@ -37,13 +38,25 @@ void check_knots(const Direction& d, const std::string& place)
         throw InputError(fmt::format("{}: knotvector{} leaves no domain: it begins and ends at {}",
                                      place, d.suffix, d.knots[p]));
     }
+    const double domain = d.knots[d.count] - d.knots[p];
+    if (!(domain <= kLargestDomain && domain >= 1 / kLargestDomain)) {
+        throw InputError(fmt::format("{}: knotvector{} is {} long, it must be {} to {}", place,
+                                     d.suffix, domain, 1 / kLargestDomain, kLargestDomain));
+    }
     for (const double u : distinct_knots(d.knots, d.degree, d.count)) {
         const std::size_t times = multiplicity(d.knots, u);
-        if (u > d.knots[p] && u < d.knots[d.count] && times > p) {
+        const bool inside = u > d.knots[p] && u < d.knots[d.count];
+        if (inside && times > p) {
             throw InputError(
                 fmt::format("{}: knotvector{} holds {} {} times inside the domain, "
                             "at most {} (the degree) keep it in one piece",
                             place, d.suffix, u, times, d.degree));
+        }
+        if (times > p + 1) {
+            throw InputError(
+                fmt::format("{}: knotvector{} holds {} {} times, at most {} (the "
+                            "degree and one) leave every control point some of it",
+                            place, d.suffix, u, times, p + 1));
         }
     }
 }
@@ -68,6 +81,18 @@ void check_direction(const Direction& d, const std::string& place)
     check_knots(d, place);
 }
 
+void check_weight_ratio(const std::vector<double>& weights, const std::string& place)
+{
+    const auto [least, most] = std::minmax_element(weights.begin(), weights.end());
+    if (*most > kLargestWeightRatio * *least) {
+        throw InputError(
+            fmt::format("{}: weight {} is {}, weight {} is {}: the larger may be {} "
+                        "times the smaller at most",
+                        place, least - weights.begin(), *least, most - weights.begin(), *most,
+                        kLargestWeightRatio));
+    }
+}
+
 void check_points(const std::vector<Vec3d>& points,
                   const std::vector<double>& weights,
                   const std::string& place)
@@ -89,6 +114,7 @@ void check_points(const std::vector<Vec3d>& points,
                 fmt::format("{}: weight {} is {}, it must be above 0", place, i, weights[i]));
         }
     }
+    check_weight_ratio(weights, place);
 }
 
 bool has_area(const Surface& surface)
@@ -110,6 +136,19 @@ bool has_area(const Surface& surface)
 }
 
 }  // namespace
+
+void merge_close_knots(std::vector<double>& knots)
+{
+    if (knots.empty()) {
+        return;
+    }
+    const double close = 1e-15 * (knots.back() - knots.front());
+    for (std::size_t i = 1; i < knots.size(); ++i) {
+        if (knots[i] > knots[i - 1] && knots[i] <= knots[i - 1] + close) {
+            knots[i] = knots[i - 1];
+        }
+    }
+}
 
 void check_curve(const Curve& curve, const std::string& place)
 {

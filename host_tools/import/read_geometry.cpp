@@ -73,6 +73,10 @@ void describe_patches(const std::string& file,
                       double tolerance,
                       std::vector<std::string>& notes)
 {
+    notes.push_back(fmt::format(
+        "{}: its facets are covered by {} surfaces, nowhere below them and at most {:.3g} mm over "
+        "them",
+        file, patches.surfaces.size(), patches.lift));
     if (patches.loose_share > 0) {
         notes.push_back(fmt::format(
             "{}: on {:.1f} % of its curved parts the path keeps up to {:.3g} mm off the mesh "
