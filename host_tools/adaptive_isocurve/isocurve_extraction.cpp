@@ -36,6 +36,8 @@ public:
             }
         }
         std::sort(breaks.begin(), breaks.end());
+        // cells stand in rows: most breaks are the same
+        breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
         double sum = 0;
         for (std::size_t k = 1; k < breaks.size(); ++k) {
             const double middle = 0.5 * (breaks[k - 1] + breaks[k]);

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "host_tools/adaptive_isocurve/isocurve_floor.hpp"
 #include "host_tools/adaptive_isocurve/scallop_width.hpp"
 #include "host_tools/adaptive_isocurve/surface_operation.hpp"
 #include "host_tools/input_error/input_error.hpp"
@@ -69,10 +70,25 @@ public:
             Vec3d to = across_.y == 1 ? Vec3d{high.x, low.y, low.z} : Vec3d{low.x, high.y, low.z};
             add_plane(from + across_ * shift, to + across_ * shift);
         }
-        return work_.finish(step, operation_.step_over ? 0.0 : operation_.scallop.value_or(0));
+        return finished(step);
     }
 
 private:
+    // The step keeps ridges between planes on one smooth surface within the scallop, that is all.
+    PlannedOperation finished(double step)
+    {
+        const bool known = operation_.scallop && !operation_.step_over &&
+                           work_.surfaces().size() == 1 && is_plain(work_.surfaces().front());
+        PlannedOperation planned =
+            work_.finish(step, known ? *operation_.scallop : operation_.tool.radius);
+        if (!known) {
+            planned.stats.warnings.push_back(
+                "parallel_planes proves nothing of what is left beside walls, edges and on steep "
+                "ground, or with step_over: adaptive_isocurve does");
+        }
+        return planned;
+    }
+
     double step_for_scallop() const
     {
         const double ridge = *operation_.scallop - work_.outward();

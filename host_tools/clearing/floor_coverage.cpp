@@ -27,12 +27,34 @@ std::optional<Vec2d> uncovered_inside(const Region2d& region,
     return std::nullopt;
 }
 
+// Whether two opposite sides meet.
+bool closes(const Surface& s)
+{
+    constexpr double kSame = 1e-3;  // mm
+    constexpr int kLooks = 4;
+    bool in_u = true;
+    bool in_v = true;
+    for (int k = 0; k <= kLooks; ++k) {
+        const double t = static_cast<double>(k) / kLooks;
+        const double u = s.u_begin() + (s.u_end() - s.u_begin()) * t;
+        const double v = s.v_begin() + (s.v_end() - s.v_begin()) * t;
+        in_u = in_u && norm(point_at(s, s.u_begin(), v) - point_at(s, s.u_end(), v)) < kSame;
+        in_v = in_v && norm(point_at(s, u, s.v_begin()) - point_at(s, u, s.v_end())) < kSame;
+    }
+    return in_u || in_v;
+}
+
+bool may_have_gaps(const std::vector<Surface>& surfaces)
+{
+    return surfaces.size() != 1 || !surfaces.front().trims.empty() || closes(surfaces.front());
+}
+
 }  // namespace
 
 std::optional<Vec2d> uncovered_place(const Region2d& region,
                                      const TipFloor& floor,
-                                     double tool_radius,
-                                     bool inside)
+                                     const std::vector<Surface>& surfaces,
+                                     double tool_radius)
 {
     for (const Contour& contour : region.contours) {
         for (const Edge& edge : contour) {
@@ -45,7 +67,7 @@ std::optional<Vec2d> uncovered_place(const Region2d& region,
             }
         }
     }
-    return inside ? uncovered_inside(region, floor, tool_radius) : std::nullopt;
+    return may_have_gaps(surfaces) ? uncovered_inside(region, floor, tool_radius) : std::nullopt;
 }
 
 }  // namespace cusp::host

@@ -127,8 +127,7 @@ Region2d make_region(const Operation& operation, double tolerance)
 
 void check_coverage(const Operation& operation, const Region2d& region, const TipFloor& floor)
 {
-    const bool inside = operation.floor.size() > 1 || !operation.floor.front().trims.empty();
-    if (const auto place = uncovered_place(region, floor, operation.tool.radius, inside)) {
+    if (const auto place = uncovered_place(region, floor, operation.floor, operation.tool.radius)) {
         refuse_uncovered(operation, *place);
     }
 }

@@ -161,9 +161,8 @@ PocketWalls pocket_walls(const Job& job, const Operation& operation)
 
 void check_grid_floor(const Job& job, const Operation& operation, const Region2d& region)
 {
-    const bool inside = operation.floor.size() > 1 || !operation.floor.front().trims.empty();
     const TipFloor floor{operation.floor, operation.tool, 0.01};
-    if (const auto at = uncovered_place(region, floor, operation.tool.radius, inside)) {
+    if (const auto at = uncovered_place(region, floor, operation.floor, operation.tool.radius)) {
         const std::string file =
             operation.floor_files.empty() ? "floor" : operation.floor_files.front();
         refuse_grid_pocket(job, file + ": the floor does not cover the pocket at x " +

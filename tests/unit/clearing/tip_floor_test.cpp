@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "host_tools/clearing/floor_coverage.hpp"
 #include "host_tools/offset/contour.hpp"
 #include "tests/support/plates.hpp"
 
@@ -82,6 +83,37 @@ TEST(TipFloor, CoversNothingBesideAPatchThatLiesAskew)
     const Vec2d out{std::cos(0.7), std::sin(0.7)};
     CHECK_TRUE(floor.covers(out * 9.9));
     CHECK_FALSE(floor.covers(out * 10.1));
+}
+
+// From 4 to 20 mm about the origin, with four corners.
+Surface ring()
+{
+    Surface s;
+    s.degree_u = s.degree_v = 1;
+    s.knots_u = {0, 0, 1, 2, 3, 4, 4};
+    s.knots_v = {0, 0, 1, 1};
+    s.size_u = 5;
+    s.size_v = 2;
+    for (const Vec2d way : {Vec2d{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 0}}) {
+        s.points.push_back({4 * way.x, 4 * way.y, kLow});
+        s.points.push_back({20 * way.x, 20 * way.y, kLow});
+    }
+    s.weights.assign(s.points.size(), 1.0);
+    return s;
+}
+
+TEST(TipFloor, OfARingDoesNotCoverWhatIsInside)
+{
+    const std::vector<Surface> surfaces{ring()};
+    const TipFloor floor{surfaces, kSteps[2].tool, 2e-3};
+    const Vec2d corners[] = {{-7, -7}, {7, -7}, {7, 7}, {-7, 7}};
+    Contour square;
+    for (std::size_t k = 0; k < 4; ++k) {
+        square.push_back(line_edge(corners[k], corners[(k + 1) % 4]));
+    }
+    const auto place = uncovered_place({{square}}, floor, surfaces, kRadius);
+    CHECK(place.has_value());
+    CHECK(std::abs(place->x) + std::abs(place->y) < 4);
 }
 
 }  // namespace
