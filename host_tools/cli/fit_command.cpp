@@ -1,15 +1,15 @@
 // cusp fit: a program of short lines to arcs and lines, checked, with its statistics.
 #include <chrono>
-#include <cstdio>
 #include <fstream>
 #include <memory>
 #include <sstream>
 #include <string>
-#include <unistd.h>
 
 #include "host_tools/cli/commands.hpp"
+#include "host_tools/cli/share_progress.hpp"
 #include "host_tools/fit/fit_program.hpp"
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/simulate/text_file.hpp"
 
 #include "CLI/CLI.hpp"
 #include "fmt/format.h"
@@ -36,23 +36,6 @@ std::string read_file(const std::string& name)
     return std::move(text).str();
 }
 
-void write_file(const std::string& name, const std::string& text)
-{
-    std::ofstream out(name, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out) {
-        throw InputError(name + ": can't be written");
-    }
-}
-
-void show_progress(double done)
-{
-    const bool terminal = ::isatty(::fileno(stderr)) != 0;
-    fmt::print(stderr, "{}fitting: {:3.0f} %{}", terminal ? "\r" : "", 100 * done,
-               terminal ? "" : "\n");
-}
-
 void write_stats(const std::string& name, const FitReport& report, double tolerance, double seconds)
 {
     const nlohmann::ordered_json stats{{"lines_read", report.lines_read},
@@ -65,7 +48,7 @@ void write_stats(const std::string& name, const FitReport& report, double tolera
                                        {"max_deviation_mm", report.max_deviation_mm},
                                        {"max_vertex_deviation_mm", report.max_vertex_deviation_mm},
                                        {"seconds", seconds}};
-    write_file(name, stats.dump(1) + "\n");
+    write_text(name, stats.dump(1) + "\n");
 }
 
 int run_fit(const FitOptions& options)
@@ -73,8 +56,8 @@ int run_fit(const FitOptions& options)
     const auto begin = std::chrono::steady_clock::now();
     const std::string program = read_file(options.program);
     const FittedProgram fitted =
-        fit_program(program, options.program, options.tolerance, show_progress);
-    write_file(options.output, fitted.text);
+        fit_program(program, options.program, options.tolerance, ShareProgress{"fitting"});
+    write_text(options.output, fitted.text);
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     const FitReport& report = fitted.report;

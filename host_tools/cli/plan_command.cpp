@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <memory>
 #include <sstream>
 
@@ -11,6 +10,8 @@
 #include "host_tools/cli/share_progress.hpp"
 #include "host_tools/cli/strategies.hpp"
 #include "host_tools/import/job.hpp"
+#include "host_tools/input_error/input_error.hpp"
+#include "host_tools/simulate/text_file.hpp"
 #include "host_tools/toolpath/gcode_writer.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
 
@@ -141,16 +142,6 @@ Json totals(const Plan& plan)
             {"gouge_bound_mm", stats.gouge_bound_mm},
             {"scallop_bound_mm", stats.scallop_bound_mm},
             {"estimated_s", sum.estimated_s}};
-}
-
-void write_text(const std::string& file, const std::string& text)
-{
-    std::ofstream out(file, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out) {
-        throw InputError(file + ": can't be written");
-    }
 }
 
 void print_summary(const Plan& plan,

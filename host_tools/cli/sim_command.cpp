@@ -97,9 +97,9 @@ int run_program(const SimArguments& arguments)
     }
     options.probe_z = arguments.probe_z;
     options.bits_per_second = arguments.bits_per_second;
-    const std::atomic<int>& interruptions = count_interruptions();
-    options.stop = [&interruptions] {
-        return interruptions.load() > 0;
+    const std::atomic<int>& stops = count_interruptions();
+    options.stop = [&stops] {
+        return stops.load() > 0;
     };
     const bool on_terminal = ::isatty(STDERR_FILENO) != 0;
     if (on_terminal) {
@@ -110,9 +110,7 @@ int run_program(const SimArguments& arguments)
         fmt::print(stderr, "\r\x1b[K");
     }
     if (!arguments.stats_file.empty()) {
-        TextFile file{arguments.stats_file};
-        file.write(statistics_json(result));
-        file.close();
+        write_text(arguments.stats_file, statistics_json(result));
     }
     print_result(result, options.settings.limits());
     std::fflush(stdout);

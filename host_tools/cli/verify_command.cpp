@@ -1,13 +1,13 @@
 // cusp verify: cuts a program in memory and judges what stands.
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <memory>
 
 #include "host_tools/cli/commands.hpp"
 #include "host_tools/cli/share_progress.hpp"
 #include "host_tools/import/job.hpp"
 #include "host_tools/report/pictures.hpp"
+#include "host_tools/simulate/text_file.hpp"
 #include "host_tools/verify/verify.hpp"
 
 #include "CLI/CLI.hpp"
@@ -70,16 +70,6 @@ Json stats_of(const Verification& result)
     }
     out["broken"] = result.broken;
     return out;
-}
-
-void write_text(const std::string& file, const std::string& text)
-{
-    std::ofstream out(file);
-    out << text;
-    out.close();
-    if (!out) {
-        throw InputError(file + ": can't be written");
-    }
 }
 
 int run_verify(const VerifyOptions& options)

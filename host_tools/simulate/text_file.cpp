@@ -56,4 +56,11 @@ void TextFile::flush()
     }
 }
 
+void write_text(const std::string& file, std::string_view text)
+{
+    TextFile out{file};
+    out.write(text);
+    out.close();
+}
+
 }  // namespace cusp::host

@@ -28,4 +28,7 @@ private:
     std::string buffer_;
 };
 
+// A whole file at once.
+void write_text(const std::string& file, std::string_view text);
+
 }  // namespace cusp::host
