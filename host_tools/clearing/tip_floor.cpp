@@ -132,34 +132,7 @@ void TipFloor::measure(Piece& piece) const
     piece.y1 = high.y;
     piece.z1 = high.z;
     measure_plane(piece, corners_);
-    measure_outline(piece, corners_);
-}
-
-// Of a piece that an edge may cut, whether it still does. One that is trimmed away becomes a box
-// that nothing meets.
-void TipFloor::trim(Piece& piece) const
-{
-    if (!piece.cut) {
-        return;
-    }
-    const Patch& patch = patches_[piece.patch];
-    const auto share = [](double from, double to, float at) {
-        return from + (to - from) * static_cast<double>(at);
-    };
-    const TrimRegion::Part part = trims_[patch.surface].part(
-        share(patch.u0, patch.u1, piece.u[0]), share(patch.u0, patch.u1, piece.u[1]),
-        share(patch.v0, patch.v1, piece.v[0]), share(patch.v0, patch.v1, piece.v[1]));
-    piece.cut = part == TrimRegion::Part::kCut;
-    if (part == TrimRegion::Part::kInside) {
-        // What lies beside it may be trimmed away.
-        piece.border = kAllSides;
-        measure_outline(piece, corners_);
-    }
-    if (part == TrimRegion::Part::kOutside) {
-        piece.graph = false;
-        piece.x0 = piece.y0 = piece.z0 = 1e300;
-        piece.x1 = piece.y1 = piece.z1 = -1e300;
-    }
+    measure_outline(piece);
 }
 
 void TipFloor::measure_plane(Piece& piece, const std::vector<Vec3d>& points) const

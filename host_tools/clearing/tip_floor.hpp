@@ -6,12 +6,14 @@
 // halving the pieces near the contact brings the bound down to the accuracy asked for. Nothing is
 // iterated that could fail to converge, and the tool touches whatever is highest: several surfaces,
 // walls and narrow valleys need no case of their own. Where a surface is trimmed, pieces across the
-// edge are halved until what hangs over it is as small as the accuracy.
+// edge end at a line along it, and are halved until nothing stands over that line by more than the
+// accuracy.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "host_tools/nurbs/nurbs.hpp"
@@ -106,11 +108,14 @@ private:
     struct Side {
         Vec2d across;  // outward
         double inner, outer, low, high;
-        double begin, end;  // of the outer line, between those of the next sides
+        double begin, end;  // of the outer line, between those of the other sides
     };
     struct Outline {
-        std::array<Side, 4> sides;
-        double bow;  // mm: of the sides, seen from above
+        std::array<Side, 5> sides;  // the fifth one along the edge that cuts the piece
+        std::size_t count{4};
+        double bow{0.0};  // mm: of the sides, seen from above
+        const Side* begin() const { return sides.data(); }
+        const Side* end() const { return sides.data() + count; }
     };
     // Bits of Piece::border.
     static constexpr std::uint8_t kFirstRow = 1;
@@ -135,13 +140,33 @@ private:
         return 2 * pieces_[pieces_[piece].parent].child + 1 - piece;
     }
     void measure(Piece& piece) const;
-    void measure_outline(Piece& piece, const std::vector<Vec3d>& points) const;
-    double beyond_outline(const Piece& piece, Vec2d at) const;
+    void measure_outline(Piece& piece) const;
+    bool lay_sides(const Piece& piece, Outline& outline) const;
+    static void widen(Side& side, Vec2d p);
     static void end_sides(Outline& outline);
-    static Vec2d corner_of(const Side& a, const Side& b);
-    double on_outline(const Piece& piece, Vec2d at) const;
-    Vec2d on_piece(const Piece& piece, Vec2d contact) const;
+    // What an edge leaves of a piece: places, off by `off` mm at most, in whose hull it lies.
+    struct Left {
+        std::vector<Vec3d> places;
+        std::size_t edge;  // from here on they are the edge's
+        double off;
+    };
+    void measure_left(Piece& piece) const;
+    Left left_of(const Piece& piece) const;
+    static std::optional<Side> side_along(const Left& left, double& bow);
+    double beyond_outline(const Piece& piece, Vec2d at) const;
+    // The tool on a plane that ends: height of the tip, and where in plan it touches.
+    struct PlaneRest {
+        double height;
+        Vec2d place;
+    };
+    PlaneRest on_outline(const Piece& piece, Vec2d at) const;
+    Vec2d on_piece(const Piece& piece, Vec2d at) const;
     double apart_from_outline(const Piece& piece, Vec3d a, Vec3d b) const;
+    double apart_from_plate(const Piece& piece, Vec3d a, Vec3d b) const;
+    struct Domain {
+        double u0, u1, v0, v1;
+    };
+    Domain domain_of(const Piece& piece) const;
     void trim(Piece& piece) const;
     static double extent(const Piece& piece)
     {
@@ -152,8 +177,7 @@ private:
     // False where the piece, or its outline, may stand `thin` over what the surface is.
     bool is_whole(const Piece& piece, double thin) const
     {
-        const bool exact =
-            !piece.cut && (piece.outline == 0 || outlines_[piece.outline].bow <= thin);
+        const bool exact = piece.outline == 0 ? !piece.cut : outlines_[piece.outline].bow <= thin;
         return exact || extent(piece) < thin;
     }
     struct Query {
@@ -167,12 +191,19 @@ private:
     NextLook next_look(const Piece& piece, double here, double length, double tilt) const;
     double axial_gap(const Piece& piece, Vec3d a, Vec3d b, double margin) const;
     Vec2d slope_of(const Piece& piece, Vec2d at) const;
+    double side_slope(double away) const;
     struct Rectangle {
         double x0, x1, y0, y1;
     };
-    double on_edges(const Piece& piece, Vec2d at) const;
-    double on_edges(const Rectangle& part, Vec2d slope, double here, double reach, Vec2d at) const;
-    double on_edge(double slope, double away, double low, double high) const;
+    PlaneRest on_edges(const Piece& piece, Vec2d at) const;
+    PlaneRest on_edges(
+        const Rectangle& part, Vec2d slope, double here, double reach, Vec2d at) const;
+    // Of a tool on a straight edge.
+    struct EdgeRest {
+        double lift;   // of the tip over the edge's height at the tool's axis
+        double forth;  // along the edge: where it touches
+    };
+    EdgeRest on_edge(double slope, double away, double low, double high) const;
 
     Tool tool_;
     double accuracy_;

@@ -20,33 +20,37 @@ double excess(double low, double high, double x) { return std::max({low - x, 0.0
 // from the tool's axis: how far a straight edge lifts the tip. The profile is convex, so the value
 // has one top; where it lies inside, false position finds it to nanometres in few steps, at most
 // forty.
-double TipFloor::on_edge(double slope, double away, double low, double high) const
+TipFloor::EdgeRest TipFloor::on_edge(double slope, double away, double low, double high) const
 {
     const double r = tool_.radius;
     const double c = tool_.corner_radius;
     const double room = r * r - away * away;
     if (room <= 0.0) {
-        return kNothing;
+        return {kNothing, 0.0};
     }
     const double reach = std::sqrt(room);
     low = std::max(low, -reach);
     high = std::min(high, reach);
     if (low > high) {
-        return kNothing;
+        return {kNothing, 0.0};
     }
-    const auto value = [&](double y) {
+    const auto rest_at = [&](double y) {
         const double out = std::max(0.0, std::sqrt(away * away + y * y) - (r - c));
-        return slope * y - (c - std::sqrt(std::max(c * c - out * out, 0.0)));
+        return EdgeRest{slope * y - (c - std::sqrt(std::max(c * c - out * out, 0.0))), y};
+    };
+    const auto higher = [](EdgeRest one, EdgeRest other) {
+        return one.lift < other.lift ? other : one;
     };
     if (c == 0.0) {
-        return std::max(value(low), value(high));
+        return higher(rest_at(low), rest_at(high));
     }
     if (c == r) {
         const double secant = std::sqrt(1.0 + slope * slope);
         const double top = slope * reach / secant;
         const double y = std::clamp(top, low, high);
-        return y == top ? reach * secant - c
-                        : slope * y - c + std::sqrt(std::max(room - y * y, 0.0));
+        return {
+            y == top ? reach * secant - c : slope * y - c + std::sqrt(std::max(room - y * y, 0.0)),
+            y};
     }
     // Positive where the value rises.
     const auto rise = [&](double y) {
@@ -59,7 +63,7 @@ double TipFloor::on_edge(double slope, double away, double low, double high) con
     double rise_a = rise(a);
     double rise_b = rise(b);
     if (rise_a <= 0.0 || rise_b >= 0.0) {
-        return std::max(value(low), value(high));
+        return higher(rest_at(low), rest_at(high));
     }
     // False position, where one end stays its weight is halved. The top is flat: a hundred
     // thousandth of the radius off it misses its height by the square of that.
@@ -85,7 +89,7 @@ double TipFloor::on_edge(double slope, double away, double low, double high) con
             stayed = -1;
         }
     }
-    return std::max({value(a), value(b), value(low), value(high)});
+    return higher(higher(rest_at(a), rest_at(b)), higher(rest_at(low), rest_at(high)));
 }
 
 // The highest rest of the tool on a plane above a rectangle; kNothing where the place at which the
@@ -94,24 +98,26 @@ double TipFloor::on_edge(double slope, double away, double low, double high) con
 // it.
 //
 //   here  height of the plane at the tool's axis
-double TipFloor::on_edges(
+TipFloor::PlaneRest TipFloor::on_edges(
     const Rectangle& part, Vec2d slope, double here, double reach, Vec2d at) const
 {
     const Vec2d contact = at + slope * reach;
-    double best = kNothing;
+    PlaneRest best{kNothing, contact};
     if (contact.x < part.x0 || contact.x > part.x1) {
         const double x = (contact.x < part.x0 ? part.x0 : part.x1) - at.x;
-        best = here + slope.x * x + on_edge(slope.y, x, part.y0 - at.y, part.y1 - at.y);
+        const EdgeRest rest = on_edge(slope.y, x, part.y0 - at.y, part.y1 - at.y);
+        best = {here + slope.x * x + rest.lift, at + Vec2d{x, rest.forth}};
     }
     if (contact.y < part.y0 || contact.y > part.y1) {
         const double y = (contact.y < part.y0 ? part.y0 : part.y1) - at.y;
-        best = std::max(best,
-                        here + slope.y * y + on_edge(slope.x, y, part.x0 - at.x, part.x1 - at.x));
+        const EdgeRest rest = on_edge(slope.x, y, part.x0 - at.x, part.x1 - at.x);
+        const double height = here + slope.y * y + rest.lift;
+        best = height > best.height ? PlaneRest{height, at + Vec2d{rest.forth, y}} : best;
     }
     return best;
 }
 
-double TipFloor::on_edges(const Piece& piece, Vec2d at) const
+TipFloor::PlaneRest TipFloor::on_edges(const Piece& piece, Vec2d at) const
 {
     const double here = piece.level + dot(piece.gradient, at);
     return on_edges({piece.x0, piece.x1, piece.y0, piece.y1}, piece.gradient, here, piece.contact,
@@ -150,7 +156,7 @@ double TipFloor::bound(const Piece& piece, const Query& query, double best, bool
         if (contact.x >= piece.x0 && contact.x <= piece.x1 && contact.y >= piece.y0 &&
             contact.y <= piece.y1 &&
             (piece.outline == 0 || beyond_outline(piece, contact) <= 0.0)) {
-            const bool whole = !piece.cut || extent(piece) < query.thin;
+            const bool whole = !piece.cut || is_whole(piece, query.thin);
             tight = whole && piece.thickness <= query.thin;
             return std::min(by_plane, piece.z1);
         }
@@ -171,10 +177,14 @@ double TipFloor::bound(const Piece& piece, const Query& query, double best, bool
     const Vec2d contact = at + g * piece.contact;
     if (contact.x < piece.x0 || contact.x > piece.x1 || contact.y < piece.y0 ||
         contact.y > piece.y1) {
-        least = std::min(least, on_edges(piece, at));
+        least = std::min(least, on_edges(piece, at).height);
     }
     if (piece.outline != 0 && beyond_outline(piece, contact) > 0.0) {
-        least = std::min(least, on_outline(piece, at));
+        const PlaneRest rest = on_outline(piece, at);
+        least = std::min(least, rest.height);
+        // On a steep side of the tool what stands over in plan counts as many times.
+        const double steep = std::max(1.0, side_slope(distance(rest.place, at)));
+        tight = tight && (!piece.cut || is_whole(piece, query.thin / steep));
     }
     return least;
 }
@@ -234,7 +244,7 @@ TipFloor::Rest TipFloor::drop(Vec2d at, double slack) const
 Vec2d TipFloor::touched(Vec2d at, const Rest& rest) const
 {
     const Piece& piece = pieces_[rest.piece];
-    return on_piece(piece, at + piece.gradient * piece.contact);
+    return on_piece(piece, at);
 }
 
 // The slope of the tip's height: of the piece's plane, or where the tool touches beyond the piece,
@@ -242,20 +252,27 @@ Vec2d TipFloor::touched(Vec2d at, const Rest& rest) const
 Vec2d TipFloor::slope_of(const Piece& piece, Vec2d at) const
 {
     const Vec2d contact = at + piece.gradient * piece.contact;
-    const Vec2d place = on_piece(piece, contact);
+    const Vec2d place = on_piece(piece, at);
     const Vec2d arm = place - at;
     const double away = std::sqrt(dot(arm, arm));
-    const double c = tool_.corner_radius;
-    const double out = away - (tool_.radius - c);
     const bool on_plane = piece.graph && distance(place, contact) < kOnPiece * tool_.radius;
-    if (c == 0.0 || on_plane) {
+    if (tool_.corner_radius == 0.0 || on_plane) {
         return piece.gradient;
     }
-    if (out <= 0.0) {
-        return {0.0, 0.0};
+    const double slope = side_slope(away);
+    return slope > 0.0 ? arm * (slope / away) : Vec2d{0.0, 0.0};
+}
+
+// Of the tool's lower side at this distance from its axis.
+double TipFloor::side_slope(double away) const
+{
+    const double c = tool_.corner_radius;
+    const double out = away - (tool_.radius - c);
+    if (out <= 0.0 || c == 0.0) {
+        return 0.0;
     }
     const double side = std::sqrt(std::max(c * c - out * out, 0.0));
-    return arm * (std::min(out / std::max(side, 1e-9 * tool_.radius), kSteepestSide) / away);
+    return std::min(out / std::max(side, 1e-9 * tool_.radius), kSteepestSide);
 }
 
 }  // namespace cusp::host

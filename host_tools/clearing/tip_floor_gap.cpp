@@ -11,6 +11,35 @@ namespace {
 
 constexpr double kDeepShare = 0.1;
 
+// Distance between the segments from a to b and from c to d.
+// Source: Ericson, Real-Time Collision Detection, 5.1.9.
+double between_segments(Vec3d a, Vec3d b, Vec3d c, Vec3d d)
+{
+    const Vec3d u = b - a;
+    const Vec3d v = d - c;
+    const Vec3d w = a - c;
+    const double uu = dot(u, u);
+    const double vv = dot(v, v);
+    const double uv = dot(u, v);
+    const double uw = dot(u, w);
+    const double vw = dot(v, w);
+    const auto share = [](double up, double down) {
+        return down > 0.0 ? std::clamp(up / down, 0.0, 1.0) : 0.0;
+    };
+    double s = share(uv * vw - uw * vv, uu * vv - uv * uv);
+    double t = uv * s + vw;
+    if (t < 0.0 || vv == 0.0) {
+        t = 0.0;
+        s = share(-uw, uu);
+    } else if (t > vv) {
+        t = 1.0;
+        s = share(uv - uw, uu);
+    } else {
+        t /= vv;
+    }
+    return norm(w + u * s - v * t);
+}
+
 }  // namespace
 
 // How far the piece's box lies beside the line through a and b, in plan, mm: the box of a long move
@@ -75,7 +104,58 @@ double TipFloor::ball_gap(const Piece& piece, const Vec3d& a, const Vec3d& b, do
         const double aside = apart_from_outline(piece, a, b);
         square = std::max(square, aside * aside);
     }
+    if (piece.outline != 0 && piece.graph && square < reach * reach) {
+        const double apart_from_it = apart_from_plate(piece, a, b);
+        square = std::max(square, apart_from_it * apart_from_it);
+    }
     return square < reach * reach ? std::sqrt(square) - reach : 0.0;
+}
+
+// No place of a graph lies farther above or below the polygon that its outline cuts out of the
+// middle plane of its slab than half its thickness: how far a straight way from a to b passes by,
+// at least, mm.
+double TipFloor::apart_from_plate(const Piece& piece, Vec3d a, Vec3d b) const
+{
+    constexpr double kEndless = 1e200;
+    const Outline& outline = outlines_[piece.outline];
+    const Vec2d g = piece.gradient;
+    const double level = 1.0 / piece.secant;
+    const double plane = piece.level - 0.5 * piece.thickness;
+    const auto over = [&](Vec3d p) {
+        return p.z - plane - g.x * p.x - g.y * p.y;
+    };
+    const auto holds = [&](Vec2d p) {
+        return std::all_of(outline.begin(), outline.end(),
+                           [p](const Side& side) { return dot(side.across, p) <= side.outer; });
+    };
+    const auto above = [&](Vec3d p) {
+        const double height = over(p);
+        const Vec2d foot = Vec2d{p.x, p.y} + g * (height * level * level);
+        return holds(foot) ? std::abs(height) * level : 1e300;
+    };
+    const double from = over(a);
+    const double to = over(b);
+    if (from * to < 0.0) {
+        const Vec3d met = a + (b - a) * (from / (from - to));
+        if (holds({met.x, met.y})) {
+            return 0.0;
+        }
+    }
+    double least = std::min(above(a), above(b));
+    for (const Side& side : outline) {
+        if (side.begin > side.end) {
+            continue;
+        }
+        if (side.end - side.begin > kEndless) {
+            return 0.0;
+        }
+        const auto place = [&](double forth) {
+            const Vec2d p = side.across * side.outer + left_normal(side.across) * forth;
+            return Vec3d{p.x, p.y, plane + dot(g, p)};
+        };
+        least = std::min(least, between_segments(a, b, place(side.begin), place(side.end)));
+    }
+    return least < 1e300 ? std::max(0.0, least - 0.5 * piece.thickness) : 0.0;
 }
 
 // Along the axis: how far the tip stays above what the piece asks for while the tool moves from a
@@ -129,26 +209,32 @@ TipFloor::NextLook TipFloor::next_look(const Piece& piece,
 {
     const bool ball = tool_.corner_radius == tool_.radius;
     const double size = std::max(piece.x1 - piece.x0, piece.y1 - piece.y0);
-    const double thin = piece.graph ? piece.thickness / piece.secant : size;
+    // Of a plate that ends where its piece does all is known but its thickness.
+    const bool plate = ball && piece.graph && piece.outline != 0;
+    const double thin = plate         ? piece.thickness
+                        : piece.graph ? piece.thickness / piece.secant
+                                      : size;
     const double turned = piece.graph ? std::abs(tilt) / piece.secant : length;
     const bool small = length < accuracy_ && size < accuracy_;
     // Beyond the piece's rectangle its plane tells of metal that is not there: only a ball's turned
     // box knows of the rectangle, for other tools the pieces must be small. A long move passes
     // beside a piece in a corner of the box that it spans, where the piece's plane is not the
     // floor: what cuts is looked at in short moves.
-    const bool clear = here >= -accuracy_ || length + size < 0.1 * tool_.radius;
-    const bool flat = thin < accuracy_ && turned < accuracy_;
+    const bool clear = plate || here >= -accuracy_ || length + size < 0.1 * tool_.radius;
+    const bool flat = thin < accuracy_ && (plate || turned < accuracy_);
     const bool settled =
         ball ? flat && clear
              : thin < 0.5 * accuracy_ && size * piece.secant < 0.05 && length < 0.05;
-    const bool whole = is_whole(piece, accuracy_);
+    const bool whole =
+        is_whole(piece, accuracy_) && (ball || !piece.cut || extent(piece) < accuracy_);
     const bool deep =
         whole && here < -accuracy_ && std::max(extent(piece), length) < kDeepShare * -here;
     if ((settled && whole) || deep || small) {
         return NextLook::kNone;
     }
     // Of a piece that an edge cuts the size tells how much is not there.
-    const bool halve_move = !whole          ? length > extent(piece)
+    const bool halve_move = plate           ? false
+                            : !whole        ? length > extent(piece)
                             : settled       ? false
                             : ball && !flat ? turned > thin
                                             : length > size;

@@ -16,93 +16,98 @@ Vec2d seen_from_above(Vec3d p) { return {p.x, p.y}; }
 
 }  // namespace
 
-// Where the outer lines of two sides meet; anywhere where they do not.
-Vec2d TipFloor::corner_of(const Side& a, const Side& b)
-{
-    const double bend = cross(a.across, b.across);
-    const double safe = std::abs(bend) > kEven ? bend : kEven;
-    return {(a.outer * b.across.y - b.outer * a.across.y) / safe,
-            (a.across.x * b.outer - b.across.x * a.outer) / safe};
-}
-
-// Each outer line as far as the lines before and behind it, all of it where they are no convex
-// loop.
+// Each outer line as far as the lines of the other sides, and by nanometres farther; its end lies
+// before its begin where it is outside of them.
 void TipFloor::end_sides(Outline& outline)
 {
-    constexpr double kConvex = 0.05;  // sine of the turn at a corner
-    const auto after = [&](std::size_t i) -> const Side& {
-        return outline.sides[(i + 1) % 4];
-    };
-    double least = 1e300;
-    double most = -1e300;
-    for (std::size_t i = 0; i < 4; ++i) {
-        const double turn = cross(outline.sides[i].across, after(i).across);
-        least = std::min(least, turn);
-        most = std::max(most, turn);
-    }
-    const bool convex = least > kConvex || most < -kConvex;
-    for (std::size_t i = 0; i < 4; ++i) {
+    constexpr double kOver = 1e-9;  // mm
+    for (std::size_t i = 0; i < outline.count; ++i) {
         Side& side = outline.sides[i];
         const Vec2d along = left_normal(side.across);
-        const double one = dot(along, corner_of(side, outline.sides[(i + 3) % 4]));
-        const double other = dot(along, corner_of(side, after(i)));
-        side.begin = convex ? std::min(one, other) : -1e300;
-        side.end = convex ? std::max(one, other) : 1e300;
+        side.begin = -1e300;
+        side.end = 1e300;
+        for (std::size_t k = 0; k < outline.count; ++k) {
+            const Side& other = outline.sides[k];
+            const double bend = dot(other.across, along);
+            const double room = other.outer - dot(other.across, side.across) * side.outer + kOver;
+            if (bend > kEven) {
+                side.end = std::min(side.end, room / bend);
+            } else if (bend < -kEven) {
+                side.begin = std::max(side.begin, room / bend);
+            } else if (room < 0.0) {
+                side.end = -1e300;
+            }
+        }
     }
 }
 
-void TipFloor::measure_outline(Piece& piece, const std::vector<Vec3d>& points) const
+// The piece's four sides, round it; false where one has no length.
+bool TipFloor::lay_sides(const Piece& piece, Outline& outline) const
 {
-    piece.outline = 0;
-    piece.outlined = false;
-    if (piece.border == 0) {
-        return;
-    }
+    const std::vector<Vec3d>& points = corners_;
     const Patch& patch = patches_[piece.patch];
     const std::size_t rows = patch.rows;
     const std::size_t columns = patch.columns;
     const std::size_t last = (rows - 1) * columns;
     struct Row {
         std::size_t first, step, count;
+        std::uint8_t border;
     };
-    // One after the other round the piece.
-    const std::array<Row, 4> all{Row{0, 1, columns}, Row{columns - 1, columns, rows},
-                                 Row{last, 1, columns}, Row{0, columns, rows}};
+    const std::array<Row, 4> all{
+        Row{0, 1, columns, kFirstRow}, Row{columns - 1, columns, rows, kLastColumn},
+        Row{last, 1, columns, kLastRow}, Row{0, columns, rows, kFirstColumn}};
     const Vec2d middle = (seen_from_above(points[0]) + seen_from_above(points[columns - 1]) +
                           seen_from_above(points[last]) + seen_from_above(points.back())) *
                          0.25;
-    Outline outline{};
-    bool even = true;
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Row& row = all[i];
         const Vec2d a = seen_from_above(points[row.first]);
         const Vec2d b = seen_from_above(points[row.first + row.step * (row.count - 1)]);
         if (distance(a, b) == 0.0) {
-            return;
+            return false;
         }
         const Vec2d left = left_normal(unit(b - a));
         const Vec2d across = dot(middle - a, left) > 0.0 ? left * -1.0 : left;
         Side side{across, 1e300, -1e300, 1e300, -1e300, 0.0, 0.0};
         for (const Vec3d& p : points) {
-            const double out = dot(across, seen_from_above(p));
-            const double forth = dot(left_normal(across), seen_from_above(p));
-            side.inner = std::min(side.inner, out);
-            side.outer = std::max(side.outer, out);
-            side.low = std::min(side.low, forth);
-            side.high = std::max(side.high, forth);
+            widen(side, seen_from_above(p));
         }
-        double bow = 0.0;
-        for (std::size_t k = 0; k < row.count; ++k) {
+        // Beside a piece that an edge cuts its surface goes on.
+        for (std::size_t k = 0; k < row.count && (!piece.cut || (piece.border & row.border) != 0);
+             ++k) {
             const Vec2d p = seen_from_above(points[row.first + row.step * k]);
-            bow = std::max(bow, side.outer - dot(across, p));
+            outline.bow = std::max(outline.bow, side.outer - dot(across, p));
         }
-        // Beside even sides the box is right.
-        even = even && bow < kEven && std::min(std::abs(across.x), std::abs(across.y)) < kEven;
-        outline.bow = std::max(outline.bow, bow);
         outline.sides[i] = side;
     }
+    return true;
+}
+
+void TipFloor::widen(Side& side, Vec2d p)
+{
+    const double out = dot(side.across, p);
+    const double forth = dot(left_normal(side.across), p);
+    side.inner = std::min(side.inner, out);
+    side.outer = std::max(side.outer, out);
+    side.low = std::min(side.low, forth);
+    side.high = std::max(side.high, forth);
+}
+
+void TipFloor::measure_outline(Piece& piece) const
+{
+    piece.outline = 0;
+    piece.outlined = false;
+    Outline outline{};
+    if (piece.border == 0 || !lay_sides(piece, outline)) {
+        return;
+    }
     piece.outlined = true;
-    if (even) {
+    // Beside even sides the box is right.
+    const auto is_even = [](const Side& side) {
+        return std::min(std::abs(side.across.x), std::abs(side.across.y)) < kEven;
+    };
+    if (outline.bow < kEven &&
+        std::all_of(outline.sides.begin(), outline.sides.begin() + 4, is_even)) {
         return;
     }
     end_sides(outline);
@@ -114,7 +119,7 @@ void TipFloor::measure_outline(Piece& piece, const std::vector<Vec3d>& points) c
 double TipFloor::beyond_outline(const Piece& piece, Vec2d at) const
 {
     double most = -1e300;
-    for (const Side& side : outlines_[piece.outline].sides) {
+    for (const Side& side : outlines_[piece.outline]) {
         most = std::max(most, dot(side.across, at) - side.outer);
     }
     return most;
@@ -122,37 +127,47 @@ double TipFloor::beyond_outline(const Piece& piece, Vec2d at) const
 
 // The highest rest of the tool on the piece's plane inside the outline, where the place at which it
 // touches the plane lies outside: then the best place is on a side that faces it.
-double TipFloor::on_outline(const Piece& piece, Vec2d at) const
+TipFloor::PlaneRest TipFloor::on_outline(const Piece& piece, Vec2d at) const
 {
     const Vec2d g = piece.gradient;
     const double here = piece.level + dot(g, at);
     const Vec2d contact = at + g * piece.contact;
-    double best = kNothing;
-    for (const Side& side : outlines_[piece.outline].sides) {
+    PlaneRest best{kNothing, contact};
+    for (const Side& side : outlines_[piece.outline]) {
         if (dot(contact, side.across) > side.outer) {
             const Vec2d along = left_normal(side.across);
             const double away = side.outer - dot(at, side.across);
             const double forth = dot(at, along);
-            best = std::max(best,
-                            here + dot(g, side.across) * away +
-                                on_edge(dot(g, along), away, side.begin - forth, side.end - forth));
+            const EdgeRest rest =
+                on_edge(dot(g, along), away, side.begin - forth, side.end - forth);
+            const double height = here + dot(g, side.across) * away + rest.lift;
+            if (height > best.height) {
+                best = {height, at + side.across * away + along * rest.forth};
+            }
         }
     }
     return best;
 }
 
-// The place of the piece nearest to where the tool touches its plane.
-Vec2d TipFloor::on_piece(const Piece& piece, Vec2d contact) const
+// Where the tool over `at` touches the piece's plane, or else the edge of the piece.
+Vec2d TipFloor::on_piece(const Piece& piece, Vec2d at) const
 {
-    Vec2d place{std::clamp(contact.x, piece.x0, piece.x1),
-                std::clamp(contact.y, piece.y0, piece.y1)};
-    if (piece.outline == 0) {
+    const Vec2d contact = at + piece.gradient * piece.contact;
+    const Vec2d place{std::clamp(contact.x, piece.x0, piece.x1),
+                      std::clamp(contact.y, piece.y0, piece.y1)};
+    if (!piece.graph) {
         return place;
     }
-    for (const Side& side : outlines_[piece.outline].sides) {
-        place = place - side.across * std::max(0.0, dot(place, side.across) - side.outer);
+    PlaneRest rest{kNothing, place};
+    if (piece.outline != 0) {
+        if (beyond_outline(piece, contact) <= 0.0) {
+            return contact;
+        }
+        rest = on_outline(piece, at);
+    } else {
+        rest = on_edges(piece, at);
     }
-    return place;
+    return rest.height > kNothing ? rest.place : place;
 }
 
 // How far a straight way from a to b passes by the box that is turned with the outline, in plan and
@@ -164,7 +179,7 @@ double TipFloor::apart_from_outline(const Piece& piece, Vec3d a, Vec3d b) const
     };
     const double uz = apart(piece.z0, piece.z1, a.z, b.z);
     double square = 0.0;
-    for (const Side& side : outlines_[piece.outline].sides) {
+    for (const Side& side : outlines_[piece.outline]) {
         const auto out = [&](Vec3d p) {
             return dot(side.across, seen_from_above(p));
         };

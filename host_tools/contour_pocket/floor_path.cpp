@@ -182,6 +182,32 @@ void stand_upright(std::vector<FloorMove>& moves, std::size_t i, const Raised& r
     moves.insert(moves.insert(at + 1, down) - 1, up);
 }
 
+// Whether a move would climb all its way where its end is raised beside a cliff: of a shorter one
+// nothing is missed.
+bool is_long(Vec3d start, const FloorMove& move, double radius)
+{
+    return move.curve.points.empty() &&
+           std::hypot(move.end.x - start.x, move.end.y - start.y) > kGrazes[0].shortest * radius;
+}
+
+// Halves the moves before and behind the move i until those next to it are short. Returns by how
+// many places the move i went back.
+std::size_t part_neighbours(FloorPath& path, std::size_t i, double radius)
+{
+    std::vector<FloorMove>& moves = path.moves;
+    const auto begin_of = [&](std::size_t k) {
+        return k == 0 ? path.start : moves[k - 1].end;
+    };
+    std::size_t before = 0;
+    for (; i > 0 && is_long(begin_of(i - 1), moves[i - 1], radius); ++i, ++before) {
+        halve_move(moves, i - 1, begin_of(i - 1));
+    }
+    while (i + 1 < moves.size() && is_long(moves[i].end, moves[i + 1], radius)) {
+        halve_move(moves, i + 1, moves[i].end);
+    }
+    return before;
+}
+
 // Raises the ends of every move by what it lacks to keep off the floor, until none lacks anything.
 // Raising only ever adds room to the neighbours; a closed path's ends are raised together. Returns
 // the most that a move is raised by (mm).
@@ -226,8 +252,13 @@ double certify(FloorPath& path,
             stand_upright(path.moves, i, raised);
             ++i;
         } else {
-            start.z = raised.start;
-            end.z = raised.end;
+            const std::size_t before =
+                lift > settings.above ? part_neighbours(path, i, floor.tool().radius) : 0;
+            i += before;
+            (i == 0 ? path.start : path.moves[i - 1].end).z = raised.start;
+            path.moves[i].end.z = raised.end;
+            // The halves are rounded: they are looked at again.
+            i -= before > 0 ? before + 2 : 0;
         }
     }
     if (closed && !path.moves.empty()) {

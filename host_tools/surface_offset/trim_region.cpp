@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace cusp::host {
 namespace {
@@ -68,8 +69,10 @@ std::vector<double> breaks(const Curve& curve)
     return out;
 }
 
-// Whether the side touches the rectangle (Liang and Barsky).
-bool touches(const std::array<Vec2d, 2>& side, Vec2d low, Vec2d high)
+// The part of the side, as shares, that lies in the rectangle (Liang and Barsky).
+std::optional<std::array<double, 2>> part_in(const std::array<Vec2d, 2>& side,
+                                             Vec2d low,
+                                             Vec2d high)
 {
     double from = 0;
     double to = 1;
@@ -81,7 +84,7 @@ bool touches(const std::array<Vec2d, 2>& side, Vec2d low, Vec2d high)
     for (const auto& [p, q] : bounds) {
         if (p == 0) {
             if (q < 0) {
-                return false;
+                return std::nullopt;
             }
         } else if (p < 0) {
             from = std::max(from, q / p);
@@ -89,7 +92,7 @@ bool touches(const std::array<Vec2d, 2>& side, Vec2d low, Vec2d high)
             to = std::min(to, q / p);
         }
     }
-    return from <= to;
+    return from <= to ? std::optional{std::array{from, to}} : std::nullopt;
 }
 
 }  // namespace
@@ -163,25 +166,56 @@ bool TrimRegion::inside(double u, double v) const
     return in;
 }
 
+// A little wider, so that an edge along the rectangle's own side counts.
+TrimRegion::Box TrimRegion::widened(double u_begin, double u_end, double v_begin, double v_end)
+{
+    const Vec2d slack{1e-9 * (u_end - u_begin), 1e-9 * (v_end - v_begin)};
+    return {Vec2d{u_begin, v_begin} - slack, Vec2d{u_end, v_end} + slack};
+}
+
 TrimRegion::Part TrimRegion::part(double u_begin, double u_end, double v_begin, double v_end) const
 {
-    // A little wider, so that an edge along the rectangle's own side counts.
-    const Vec2d slack{1e-9 * (u_end - u_begin), 1e-9 * (v_end - v_begin)};
-    const Vec2d low = Vec2d{u_begin, v_begin} - slack;
-    const Vec2d high = Vec2d{u_end, v_end} + slack;
+    const Box box = widened(u_begin, u_end, v_begin, v_end);
     if (sides_.empty()) {
         return Part::kInside;
     }
-    const std::size_t last = row(high.y);
-    for (std::size_t at = row(low.y); at <= last; ++at) {
+    const std::size_t last = row(box.high.y);
+    for (std::size_t at = row(box.low.y); at <= last; ++at) {
         for (const std::uint32_t side : rows_[at]) {
-            if (touches(sides_[side], low, high)) {
+            if (part_in(sides_[side], box.low, box.high)) {
                 return Part::kCut;
             }
         }
     }
     return inside(0.5 * (u_begin + u_end), 0.5 * (v_begin + v_end)) ? Part::kInside
                                                                     : Part::kOutside;
+}
+
+TrimRegion::Remnant TrimRegion::remnant(double u_begin,
+                                        double u_end,
+                                        double v_begin,
+                                        double v_end) const
+{
+    Remnant result;
+    for (const Vec2d corner : {Vec2d{u_begin, v_begin}, Vec2d{u_begin, v_end},
+                               Vec2d{u_end, v_begin}, Vec2d{u_end, v_end}}) {
+        if (inside(corner.x, corner.y)) {
+            result.corners.push_back(corner);
+        }
+    }
+    const Box box = widened(u_begin, u_end, v_begin, v_end);
+    const std::size_t last = row(box.high.y);
+    for (std::size_t at = row(box.low.y); at <= last && !sides_.empty(); ++at) {
+        for (const std::uint32_t index : rows_[at]) {
+            const std::array<Vec2d, 2>& side = sides_[index];
+            if (const auto part = part_in(side, box.low, box.high)) {
+                const Vec2d way = side[1] - side[0];
+                result.edge.push_back(side[0] + way * (*part)[0]);
+                result.edge.push_back(side[0] + way * (*part)[1]);
+            }
+        }
+    }
+    return result;
 }
 
 }  // namespace cusp::host

@@ -22,6 +22,14 @@ public:
     // Of a rectangle of the domain; kCut where an edge may touch it.
     Part part(double u_begin, double u_end, double v_begin, double v_end) const;
 
+    // What edges leave of a rectangle of the domain lies in the convex hull of these places, (u,
+    // v).
+    struct Remnant {
+        std::vector<Vec2d> corners;  // of the rectangle, as far as they are inside
+        std::vector<Vec2d> edge;     // ends of the edges' sides in the rectangle
+    };
+    Remnant remnant(double u_begin, double u_end, double v_begin, double v_end) const;
+
     // The edges in space.
     const std::vector<std::array<Vec3d, 2>>& edges() const { return edges_; }
 
@@ -29,6 +37,10 @@ public:
     const std::vector<std::vector<Vec2d>>& loops() const { return loops_; }
 
 private:
+    struct Box {
+        Vec2d low, high;
+    };
+    static Box widened(double u_begin, double u_end, double v_begin, double v_end);
     std::size_t row(double v) const;
     void make_rows();
 

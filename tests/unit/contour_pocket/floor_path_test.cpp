@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host_tools/contour_pocket/station_row.hpp"
+#include "tests/support/holed_sheet.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"
@@ -73,6 +74,24 @@ double most_over(const FloorPath& path, const TipFloor& floor)
     return most;
 }
 
+// Of the path in plan, mm, as far as its tip stands over its lowest place by more than `over`.
+double length_over(const FloorPath& path, const TipFloor& floor, double over)
+{
+    constexpr int kPlaces = 20;
+    double sum = 0.0;
+    Vec3d from = path.start;
+    for (const FloorMove& move : path.moves) {
+        const double length = std::hypot(move.end.x - from.x, move.end.y - from.y);
+        for (int i = 0; i < kPlaces; ++i) {
+            const Vec3d tip = from + (move.end - from) * ((i + 0.5) / kPlaces);
+            const bool stands = tip.z - floor.drop({tip.x, tip.y}).height > over;
+            sum += stands ? length / kPlaces : 0.0;
+        }
+        from = move.end;
+    }
+    return sum;
+}
+
 }  // namespace
 
 TEST_GROUP(FloorPath){};
@@ -135,21 +154,37 @@ TEST(FloorPath, AMoveThatGrazesACliffIsRaisedOnlyThere)
         }
         const FloorPath path = lay_on_floor(plan, tips, laying);
         DOUBLES_EQUAL(0.0, path.least_gap, 1e-9);
-        double lifted = 0.0;
-        Vec3d at = path.start;
-        for (const FloorMove& move : path.moves) {
-            const double length = std::hypot(move.end.x - at.x, move.end.y - at.y);
-            constexpr int kPlaces = 20;
-            for (int j = 0; j < kPlaces; ++j) {
-                const Vec3d tip = at + (move.end - at) * ((j + 0.5) / kPlaces);
-                const double over = tip.z - tips.drop({tip.x, tip.y}).height;
-                lifted += over > 3.0 * laying.above ? length / kPlaces : 0.0;
-            }
-            at = move.end;
-        }
+        const double lifted = length_over(path, tips, 3.0 * laying.above);
         longest = std::max(longest, lifted);
     }
     CHECK(longest < 0.2 * kBall.radius);
+}
+
+// Into a hole and out of it: what is raised at its rim leaves the long moves beside it down.
+TEST(FloorPath, LongMovesUpToARimStayDown)
+{
+    const Tool ball{1, ToolShape::kBall, 2.0, 2.0};
+    const TipFloor tips{holed_floor(0.25), ball, kAccuracy};
+    FloorPathSettings laying = settings();
+    laying.spacing = 0.2;
+    laying.arcs = true;
+    double longest = 0.0;
+    for (int i = 0; i < 60; ++i) {
+        const double turn = 0.1 * i;
+        const Vec2d way{std::cos(turn), std::sin(turn)};
+        const Vec2d middle = Vec2d{15.0, 15.0} + left_normal(way) * (0.08 * i - 2.4);
+        std::vector<Edge> plan;
+        for (int k = -10; k < 10; ++k) {
+            const auto place = [&](double x) {
+                return middle + way * x + left_normal(way) * (0.005 * x * x);
+            };
+            plan.push_back(line_edge(place(k), place(k + 1)));
+        }
+        const FloorPath path = lay_on_floor(plan, tips, laying);
+        DOUBLES_EQUAL(0.0, path.least_gap, 1e-9);
+        longest = std::max(longest, length_over(path, tips, 3.0 * laying.above));
+    }
+    CHECK(longest < 0.2 * ball.radius);
 }
 
 }  // namespace cusp::host

@@ -1,0 +1,49 @@
+// A bumpy surface with a round hole, over a low plate: a cliff round about.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "host_tools/nurbs/nurbs.hpp"
+#include "tests/support/plates.hpp"
+
+namespace cusp::host {
+
+// Over [0, 30] x [0, 30] mm, from 2 to 7 mm high; the hole about its middle, in (u, v).
+//
+//   radius  in (u, v): a share of the size
+inline Surface holed_sheet(double radius)
+{
+    Surface s;
+    s.degree_u = s.degree_v = 3;
+    s.size_u = s.size_v = 6;
+    s.knots_u = s.knots_v = {0, 0, 0, 0, 1.0 / 3, 2.0 / 3, 1, 1, 1, 1};
+    for (int i = 0; i < 6; ++i) {
+        for (int j = 0; j < 6; ++j) {
+            s.points.push_back({6.0 * i, 6.0 * j, 4.5 + 2.5 * std::sin(1.9 * i + 2.3 * j)});
+            s.weights.push_back(1.0 + 0.2 * ((i + j) % 2));
+        }
+    }
+    Curve circle{2, {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4}, {}, {}};
+    constexpr double kWay[][2] = {{1, 0},  {1, -1}, {0, -1}, {-1, -1}, {-1, 0},
+                                  {-1, 1}, {0, 1},  {1, 1},  {1, 0}};
+    for (int k = 0; k < 9; ++k) {
+        circle.points.push_back({0.5 + radius * kWay[k][0], 0.5 + radius * kWay[k][1], 0.0});
+        circle.weights.push_back(k % 2 == 0 ? 1.0 : std::sqrt(0.5));
+    }
+    const auto side = [](Vec3d a, Vec3d b) {
+        return Curve{1, {0, 0, 1, 1}, {a, b}, {1, 1}};
+    };
+    s.trims = {{side({0, 0, 0}, {1, 0, 0}), side({1, 0, 0}, {1, 1, 0}), side({1, 1, 0}, {0, 1, 0}),
+                side({0, 1, 0}, {0, 0, 0})},
+               {circle}};
+    return s;
+}
+
+// With the plate under it.
+inline std::vector<Surface> holed_floor(double radius)
+{
+    return {plate(-5, -5, 35, 35, 0), holed_sheet(radius)};
+}
+
+}  // namespace cusp::host
