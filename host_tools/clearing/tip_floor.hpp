@@ -42,9 +42,9 @@ public:
     Vec2d touched(Vec2d at, const Rest& rest) const;
 
     // Lower bound of the gap between the tool, moved straight from tip a to tip b, and the
-    // surfaces: 0 where it keeps clear of them, negative (mm) by how much it may cut; along the
-    // normal for a ball, along the axis for other tools.
-    // margin (mm, >= 0): how far beside the straight line the tool may really be.
+    // surfaces with what is below them: 0 where it keeps clear of them, negative (mm) by how much
+    // it may cut; along the normal for a ball, along the axis for other tools. margin (mm, >= 0):
+    // how far beside the straight line the tool may really be.
     double gap(Vec3d a, Vec3d b, double margin = 0.0) const;
 
     // True where some surface, as far as it is not trimmed away, lies straight above or below (x,
@@ -186,6 +186,7 @@ private:
     };
     double bound(const Piece& piece, const Query& query, double best, bool& tight) const;
     double beside_line(const Piece& piece, const Vec3d& a, const Vec3d& b) const;
+    bool hangs(const Piece& piece) const;
     double ball_gap(const Piece& piece, const Vec3d& a, const Vec3d& b, double margin) const;
     enum class NextLook : std::uint8_t { kNone, kHalvesOfMove, kHalvesOfPiece };
     NextLook next_look(const Piece& piece, double here, double length, double tilt) const;

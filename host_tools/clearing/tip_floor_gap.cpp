@@ -11,9 +11,9 @@ namespace {
 
 constexpr double kDeepShare = 0.1;
 
-// Distance between the segments from a to b and from c to d.
+// From the segment from c to d to the one from a to b, where they are nearest to each other.
 // Source: Ericson, Real-Time Collision Detection, 5.1.9.
-double between_segments(Vec3d a, Vec3d b, Vec3d c, Vec3d d)
+Vec3d between_segments(Vec3d a, Vec3d b, Vec3d c, Vec3d d)
 {
     const Vec3d u = b - a;
     const Vec3d v = d - c;
@@ -37,7 +37,19 @@ double between_segments(Vec3d a, Vec3d b, Vec3d c, Vec3d d)
     } else {
         t /= vv;
     }
-    return norm(w + u * s - v * t);
+    return w + u * s - v * t;
+}
+
+// From the segment from a to b to the metal that hangs from the one from c to d: under an edge
+// there is no way.
+double above_edge(Vec3d a, Vec3d b, Vec3d c, Vec3d d)
+{
+    const Vec3d off = between_segments(a, b, c, d);
+    if (off.z >= 0.0) {
+        return norm(off);
+    }
+    a.z = b.z = c.z = d.z = 0.0;
+    return norm(between_segments(a, b, c, d));
 }
 
 }  // namespace
@@ -58,6 +70,15 @@ double TipFloor::beside_line(const Piece& piece, const Vec3d& a, const Vec3d& b)
     return std::max(0.0, std::abs(dot(side, middle)) - half);
 }
 
+// Whether metal below a piece is looked at as well: what ends somewhere could be passed under, as
+// the rest could not. Small pieces of upright walls hang over nothing.
+bool TipFloor::hangs(const Piece& piece) const
+{
+    constexpr double kSmall = 0.1;  // of the radius
+    const bool ends = piece.patch == kGroup || piece.border != 0 || piece.cut;
+    return ends && (piece.graph || extent(piece) > kSmall * tool_.radius);
+}
+
 // Distance from the ball's centre line to the piece's upright box, or component by component to one
 // of its turned boxes, whichever says more; some value of 0 or more where that is clear.
 double TipFloor::ball_gap(const Piece& piece, const Vec3d& a, const Vec3d& b, double margin) const
@@ -68,7 +89,8 @@ double TipFloor::ball_gap(const Piece& piece, const Vec3d& a, const Vec3d& b, do
     const double reach = tool_.radius + margin;
     const double ux = apart(piece.x0, piece.x1, a.x, b.x);
     const double uy = apart(piece.y0, piece.y1, a.y, b.y);
-    const double uz = apart(piece.z0, piece.z1, a.z, b.z);
+    const bool below = hangs(piece);
+    const double uz = apart(below ? -1e300 : piece.z0, piece.z1, a.z, b.z);
     double square = ux * ux + uy * uy + uz * uz;
     if (square >= reach * reach) {
         return 0.0;
@@ -79,7 +101,7 @@ double TipFloor::ball_gap(const Piece& piece, const Vec3d& a, const Vec3d& b, do
             return p.z - g.x * p.x - g.y * p.y - piece.level;
         };
         const double level = 1.0 / piece.secant;
-        const double tz = apart(-piece.thickness, 0.0, over(a), over(b)) * level;
+        const double tz = apart(below ? -1e300 : -piece.thickness, 0.0, over(a), over(b)) * level;
         if (tz >= reach) {
             return 0.0;
         }
@@ -94,7 +116,7 @@ double TipFloor::ball_gap(const Piece& piece, const Vec3d& a, const Vec3d& b, do
         };
         const double tx = apart(piece.lateral[0], piece.lateral[1], first(a), first(b));
         const double ty = apart(piece.lateral[2], piece.lateral[3], second(a), second(b));
-        square = std::max(square, tx * tx + ty * ty + tz * tz);
+        square = std::max(square, tz * tz + (below ? 0.0 : tx * tx + ty * ty));
     }
     if (square < reach * reach) {
         const double beside = beside_line(piece, a, b);
@@ -112,8 +134,8 @@ double TipFloor::ball_gap(const Piece& piece, const Vec3d& a, const Vec3d& b, do
 }
 
 // No place of a graph lies farther above or below the polygon that its outline cuts out of the
-// middle plane of its slab than half its thickness: how far a straight way from a to b passes by,
-// at least, mm.
+// middle plane of its slab than half its thickness: how far a straight way from a to b passes over
+// that, or beside it, at least, mm.
 double TipFloor::apart_from_plate(const Piece& piece, Vec3d a, Vec3d b) const
 {
     constexpr double kEndless = 1e200;
@@ -130,8 +152,10 @@ double TipFloor::apart_from_plate(const Piece& piece, Vec3d a, Vec3d b) const
     };
     const auto above = [&](Vec3d p) {
         const double height = over(p);
-        const Vec2d foot = Vec2d{p.x, p.y} + g * (height * level * level);
-        return holds(foot) ? std::abs(height) * level : 1e300;
+        if (height < 0.0) {
+            return holds({p.x, p.y}) ? 0.0 : 1e300;
+        }
+        return holds(Vec2d{p.x, p.y} + g * (height * level * level)) ? height * level : 1e300;
     };
     const double from = over(a);
     const double to = over(b);
@@ -153,7 +177,7 @@ double TipFloor::apart_from_plate(const Piece& piece, Vec3d a, Vec3d b) const
             const Vec2d p = side.across * side.outer + left_normal(side.across) * forth;
             return Vec3d{p.x, p.y, plane + dot(g, p)};
         };
-        least = std::min(least, between_segments(a, b, place(side.begin), place(side.end)));
+        least = std::min(least, above_edge(a, b, place(side.begin), place(side.end)));
     }
     return least < 1e300 ? std::max(0.0, least - 0.5 * piece.thickness) : 0.0;
 }

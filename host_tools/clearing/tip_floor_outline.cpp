@@ -102,14 +102,6 @@ void TipFloor::measure_outline(Piece& piece) const
         return;
     }
     piece.outlined = true;
-    // Beside even sides the box is right.
-    const auto is_even = [](const Side& side) {
-        return std::min(std::abs(side.across.x), std::abs(side.across.y)) < kEven;
-    };
-    if (outline.bow < kEven &&
-        std::all_of(outline.sides.begin(), outline.sides.begin() + 4, is_even)) {
-        return;
-    }
     end_sides(outline);
     piece.outline = static_cast<std::uint32_t>(outlines_.size());
     outlines_.push_back(outline);
@@ -170,14 +162,14 @@ Vec2d TipFloor::on_piece(const Piece& piece, Vec2d at) const
     return rest.height > kNothing ? rest.place : place;
 }
 
-// How far a straight way from a to b passes by the box that is turned with the outline, in plan and
-// in height, at least, mm.
+// How far a straight way from a to b passes by the box that is turned with the outline, in plan, or
+// over it, at least, mm.
 double TipFloor::apart_from_outline(const Piece& piece, Vec3d a, Vec3d b) const
 {
     const auto apart = [](double low, double high, double p, double q) {
         return std::max({low - std::max(p, q), 0.0, std::min(p, q) - high});
     };
-    const double uz = apart(piece.z0, piece.z1, a.z, b.z);
+    const double uz = std::max(0.0, std::min(a.z, b.z) - piece.z1);
     double square = 0.0;
     for (const Side& side : outlines_[piece.outline]) {
         const auto out = [&](Vec3d p) {

@@ -24,15 +24,15 @@ constexpr double kAround = 7.5;  // mm: the rim's way from the middle, about
 // Places of the floor: a grid, and the rim twenty times as dense.
 std::vector<Vec3d> places_of(const std::vector<Surface>& floor)
 {
-    constexpr int kGrid = 300;
     constexpr double kOnRim = 0.01;  // mm
     std::vector<Vec3d> places;
     for (const Surface& surface : floor) {
         const TrimRegion region{surface, 1e-5};
-        for (int i = 0; i <= kGrid; ++i) {
-            for (int j = 0; j <= kGrid; ++j) {
-                const double u = static_cast<double>(i) / kGrid;
-                const double v = static_cast<double>(j) / kGrid;
+        const int grid = surface.degree_u == 1 ? 50 : 450;
+        for (int i = 0; i <= grid; ++i) {
+            for (int j = 0; j <= grid; ++j) {
+                const double u = static_cast<double>(i) / grid;
+                const double v = static_cast<double>(j) / grid;
                 if (region.inside(u, v)) {
                     places.push_back(point_at(surface, u, v));
                 }
@@ -122,6 +122,29 @@ TEST(TrimmedFloor, TellsTheRoomOfMovesOverItsRim)
         CHECK(gap <= room + 1e-9);
         CHECK(gap >= 1.2 * room - 2.0 * kAccuracy);
     }
+}
+
+// The sheet is the top of metal: a ball on the plate can not reach under the rim.
+TEST(TrimmedFloor, LeavesNoWayUnderItsRim)
+{
+    const Tool ball{1, ToolShape::kBall, kRadius, kRadius};
+    const TipFloor tips{floor, ball, kAccuracy};
+    constexpr double kLow = 0.01;  // mm
+    int under = 0;
+    for (int i = 0; i < 60; ++i) {
+        const Vec2d way{std::cos(0.1 * i), std::sin(0.1 * i)};
+        const Vec2d from = Vec2d{15.0, 15.0} + way * (kAround - kRadius - 1.0);
+        const Vec2d to = Vec2d{15.0, 15.0} + way * (kAround - kRadius + 0.3);
+        double cut = 0.0;
+        for (const Vec3d& p : places) {
+            const double away = std::hypot(p.x - to.x, p.y - to.y);
+            cut = p.z > kLow + kRadius ? std::max(cut, kRadius - away) : cut;
+        }
+        under += cut > 0.0 ? 1 : 0;
+        CHECK(tips.gap({from.x, from.y, kLow}, {to.x, to.y, kLow}) <= 1e-3 - cut);
+        CHECK(tips.gap({to.x, to.y, kLow}, {to.x, to.y, kLow + 0.5}) <= 1e-3 - cut);
+    }
+    CHECK(under > 20);
 }
 
 // Where it falls off the rim the ball stands its radius away from it, to where the rim is known.
