@@ -12,6 +12,7 @@ namespace {
 constexpr double kSmallest = 1.0 / 96;  // cells, in steps between passes
 constexpr double kLargest = 4;          // the same
 constexpr double kBlockedCell = 0.25;   // the same, where the tool can't touch
+constexpr double kBorderCell = 0.03;    // the same across a border, where a ball reaches over it
 constexpr double kTraceStep = 0.125;    // in steps between passes
 constexpr int kMostTraced = 4000;       // places of one pass
 constexpr int kRounds = 5;
@@ -125,7 +126,7 @@ Coverage::Verdict Coverage::judge(const Cell& cell) const
         return false;
     };
     if (std::max(long_u, long_v) < kBlockedCell * places_.step() && blocked_somewhere(at)) {
-        return Verdict::kUncovered;
+        return thinned_at_border(cell, long_u, long_v);
     }
     if (std::max(long_u, long_v) < kSmallest * places_.step()) {
         const bool each =
@@ -146,6 +147,20 @@ Coverage::Verdict Coverage::judge(const Cell& cell) const
         return Verdict::kCovered;
     }
     return longer;
+}
+
+// From beyond a border the ball gets the lower the nearer to it a place is.
+Coverage::Verdict Coverage::thinned_at_border(const Cell& cell, double long_u, double long_v) const
+{
+    const Surface& s = surfaces_[static_cast<std::size_t>(cell.surface)];
+    const double thin = kBorderCell * places_.step();
+    if (long_u > thin && (cell.u0 == s.u_begin() || cell.u1 == s.u_end())) {
+        return Verdict::kHalveU;
+    }
+    if (long_v > thin && (cell.v0 == s.v_begin() || cell.v1 == s.v_end())) {
+        return Verdict::kHalveV;
+    }
+    return Verdict::kUncovered;
 }
 
 // Whether some corner is bare because the tool can't touch it, or is trimmed away.

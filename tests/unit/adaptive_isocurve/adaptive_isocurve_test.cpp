@@ -1,6 +1,7 @@
 // Whole plans, judged by the certified distance of dense places of the path.
 #include "host_tools/adaptive_isocurve/adaptive_isocurve.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <random>
@@ -107,8 +108,29 @@ Surface bowl()
     return s;
 }
 
-// How low the path cuts straight above (x, y).
-double lowest_cut(const Toolpath& path, double x, double y)
+// Open at y = 0, as wide as 4 mm: a ball of radius 3 reaches down into it from beyond that side.
+Surface half_bowl()
+{
+    const double half = std::sqrt(0.5);
+    Surface s;
+    s.degree_u = 3;
+    s.degree_v = 2;
+    s.knots_u = {0, 0, 0, 0, 1, 1, 1, 1};
+    s.knots_v = {0, 0, 0, 0.5, 0.5, 1, 1, 1};
+    s.size_u = 4;
+    s.size_v = 5;
+    for (const Vec2d p : {Vec2d{0, -6.94}, Vec2d{0.8, -6.94}, Vec2d{2, -4.56}, Vec2d{2, -1}}) {
+        const std::array<Vec2d, 5> ring{Vec2d{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}};
+        for (std::size_t k = 0; k < ring.size(); ++k) {
+            s.points.push_back({p.x * ring[k].x, p.x * ring[k].y, p.y});
+            s.weights.push_back(k % 2 == 1 ? half : 1);
+        }
+    }
+    return s;
+}
+
+// All that the path cuts.
+SweptBalls swept_by(const Toolpath& path)
 {
     SweptBalls swept{path.tool.radius, path.tool.radius};
     std::vector<Vec3d> tips;
@@ -121,7 +143,7 @@ double lowest_cut(const Toolpath& path, double x, double y)
         }
     }
     swept.add(tips);
-    return swept.lowest(x, y).height;
+    return swept;
 }
 
 Job job_for(std::vector<Surface> floor, const std::string& strategy)
@@ -217,9 +239,10 @@ TEST(AdaptiveIsocurve, LeavesNoSliverOverTheOpenRimOfAnUprightWall)
     // What a one-sided tolerance keeps off the wall would stand up to the stock's top otherwise.
     const Job made = job_for({upright_rim()}, "adaptive_isocurve");
     const auto planned = plan_adaptive_isocurve(made, made.operations.front());
+    const SweptBalls swept = swept_by(planned.front().path);
     for (const double y : {0.1, 2.0, 5.9}) {
         for (const double in : {1e-4, 0.002, 0.01, 0.019}) {
-            CHECK(lowest_cut(planned.front().path, 5 - in, y) < 0.025);
+            CHECK(swept.lowest(5 - in, y).height < 0.025);
         }
     }
     DOUBLES_EQUAL(0, deepest_cut(planned.front().path, made.operations.front().floor), 1e-6);
@@ -242,16 +265,15 @@ TEST(AdaptiveIsocurve, RowsOverASlopedMeshReachItsRims)
     // them.
     Job made = job_for({}, "adaptive_isocurve");
     Operation& slope = made.operations.front();
-    const Vec3d a{0, 0, 0};
-    const Vec3d b{10, 0, 10};
-    const Vec3d c{10, 10, 15};
-    const Vec3d d{0, 10, 5};
+    const Vec3d a{0, 0, 0}, b{10, 0, 10};
+    const Vec3d c{10, 10, 15}, d{0, 10, 5};
     slope.mesh = {{a, b, c}, {a, c, d}};
     const PlannedOperation planned = plan_adaptive_isocurve(made, slope).front();
+    const SweptBalls swept = swept_by(planned.path);
     const double tilt = std::sqrt(1 + 1 + 0.25);
     for (const Vec3d p : {a, b, c, d, (a + d) * 0.5, (a + b) * 0.5}) {
         const Vec3d in = p + ((a + c) * 0.5 - p) * 1e-3;
-        CHECK((lowest_cut(planned.path, in.x, in.y) - in.z) / tilt <= 0.2);
+        CHECK((swept.lowest(in.x, in.y).height - in.z) / tilt <= 0.2);
     }
     // All passes are rows: none had to be added where they left metal.
     CHECK(planned.stats.counts[2].first == "isocurves");
@@ -268,9 +290,47 @@ TEST(AdaptiveIsocurve, CutsThePoleOfABowlOnce)
     const auto planned = plan_adaptive_isocurve(made, made.operations.front());
     // The tip of the tool runs over a ball of radius 2, and once around over the rim.
     CHECK(measure(planned.front().path, {}).cut_length_mm < 130);
-    CHECK(lowest_cut(planned.front().path, 7.3, -4.1) < -5.37 + 0.2);
+    CHECK(swept_by(planned.front().path).lowest(7.3, -4.1).height < -5.37 + 0.2);
     CHECK(planned.front().stats.scallop_bound_mm <= 0.2);
     DOUBLES_EQUAL(0, planned.front().stats.gouge_bound_mm, 1e-6);
+}
+
+TEST(AdaptiveIsocurve, KeepsTheScallopBesideARimThatTheBallPassesOutside)
+{
+    Job bowl = job_for({half_bowl()}, "adaptive_isocurve");
+    Operation& finish = bowl.operations.front();
+    finish.tool.radius = finish.tool.corner_radius = 3;
+    finish.scallop = 0.1;
+    finish.floor_tolerance = 0.01;
+    finish.direction = 'v';
+    const auto planned = plan_adaptive_isocurve(bowl, finish).front();
+    CHECK(planned.stats.scallop_bound_mm <= 0.1);
+    // What a ball could do that stands on the passes' floor, beyond the bowl's open side.
+    const SurfaceModel model{finish.floor};
+    Tool lifted = finish.tool;
+    lifted.radius += 0.6 * finish.floor_tolerance;
+    lifted.corner_radius = lifted.radius;
+    const SweptBalls swept = swept_by(planned.path);
+    std::vector<Vec3d> centres;
+    for (double y = -2.6; y < -2.2; y += 0.02) {
+        if (const auto z = model.drop(lifted, 0, y)) {
+            centres.push_back({0, y, *z + lifted.radius});
+        }
+    }
+    for (double u = 0.1; u < 0.5; u += 0.05) {
+        for (double v = 0.2; v < 0.9; v += 0.05) {
+            const SurfacePoint at = model.evaluate(0, u, v);
+            double best = 1e9;
+            for (const Vec3d& c : centres) {
+                const double off = std::hypot(at.point.x - c.x, at.point.y - c.y);
+                if (off < 3) {
+                    best = std::min(best, c.z - std::sqrt(9 - off * off));
+                }
+            }
+            const double cut = swept.lowest(at.point.x, at.point.y).height;
+            CHECK((cut - std::max(best, at.point.z)) * upward_normal(at).z <= 0.1);
+        }
+    }
 }
 
 TEST(AdaptiveIsocurve, BoundsWhatPassesOfAGivenDistanceLeaveBesideEdges)
