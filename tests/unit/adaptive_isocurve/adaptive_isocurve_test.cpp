@@ -301,7 +301,7 @@ TEST(AdaptiveIsocurve, KeepsTheScallopBesideARimThatTheBallPassesOutside)
     Operation& finish = bowl.operations.front();
     finish.tool.radius = finish.tool.corner_radius = 3;
     finish.scallop = 0.1;
-    finish.floor_tolerance = 0.01;
+    finish.floor_tolerance = 0.005;
     finish.direction = 'v';
     const auto planned = plan_adaptive_isocurve(bowl, finish).front();
     CHECK(planned.stats.scallop_bound_mm <= 0.1);
