@@ -169,6 +169,7 @@ double StripRidge::share(const LevelStrip& strip)
     if (step <= least_interval(floor_.tool(), budget_)) {
         return 0.0;
     }
+    places_ = std::clamp(static_cast<int>(step / (kFine * floor_.tool().radius)), 3, kPlaces);
     segments_.clear();
     lay(strip.outer, step);
     lay(strip.inner, step);
@@ -192,10 +193,7 @@ double StripRidge::share(const LevelStrip& strip)
             most = std::max(most, ways_along(loop[e], corners, strip));
         }
     }
-    // Under a flat foot a ridge that was missed is as narrow as others are: little found there is
-    // no reason for wider steps.
-    constexpr double kNoLess = 0.75;
-    return ball_ ? most : std::max(most, kNoLess);
+    return most;
 }
 
 // Places without floor are refused when the path is laid.
@@ -367,13 +365,42 @@ double StripRidge::left_under(const Probe& a, const Probe& b) const
     return most;
 }
 
-// Along a valley the two sides that the ball rests on are met by different ways.
+// Over a valley whose bottom a foot does not reach: what the paths leave over its middle and its
+// rim where it stands lowest between two neighbouring places. Down along the valley its rim cuts
+// steps.
+double StripRidge::left_under_foot(const Probe& a, const Probe& b) const
+{
+    constexpr double kTurned = 0.1;  // slope: from where on it is no bend
+    constexpr int kRound = 12;       // places on the rim
+    constexpr double kInside = 0.9999;
+    const bool known = a.floor != TipFloor::kNothing && b.floor != TipFloor::kNothing;
+    const Vec2d move = b.at - a.at;
+    if (!known || dot(b.gradient - a.gradient, move) <= kTurned * std::sqrt(dot(move, move))) {
+        return 0.0;
+    }
+    const Lowest lowest = where_sides_meet(a, b);
+    const Tool& tool = floor_.tool();
+    const double foot = kInside * (tool.radius - tool.corner_radius);
+    double most = lowest.height;
+    for (int i = 0; i <= kRound; ++i) {
+        const double angle = 6.28318530717958648 * i / kRound;
+        const Vec2d way{std::cos(angle), std::sin(angle)};
+        const Vec2d p = i < kRound ? lowest.at + way * foot : lowest.at;
+        const double stands =
+            std::min({left_at(p, lowest.at), left_at(p, (lowest.at + p) * 0.5), left_at(p, p)});
+        most = stands < kNowhere ? std::max(most, stands) : most;  // else beyond both levels
+    }
+    // A step is highest just before the next pass, by up to a place more than was looked at.
+    const double unseen = static_cast<double>(places_) / (places_ - 1);
+    return unseen * (most - lowest.height) / (strayed_ * allowed(1.0));
+}
+
+// Along a valley the two sides that the tool rests on are met by different ways.
 double StripRidge::left_beside(const Way& a, const Way& b) const
 {
     double most = 0.0;
-    for (std::size_t i = 0; ball_ && i < static_cast<std::size_t>(std::min(a.count, b.count));
-         ++i) {
-        most = std::max(most, left_under(a.probes[i], b.probes[i]));
+    for (std::size_t i = 0; i < static_cast<std::size_t>(std::min(a.count, b.count)); ++i) {
+        most = std::max(most, left_between(a.probes[i], b.probes[i]));
     }
     return most;
 }
@@ -410,13 +437,12 @@ StripRidge::Way StripRidge::way(const Edge& edge, double along, const LevelStrip
     double most = 0.0;
     double climb = 0.0;
     Way result{along, 0.0, 0.0};
-    const int places =
-        std::clamp(static_cast<int>(step / (kFine * floor_.tool().radius)), 3, kPlaces);
-    const int n = std::max(1, static_cast<int>(std::ceil(places * end / step)));
+    const int n = std::max(1, static_cast<int>(std::ceil(places_ * end / step)));
     for (int i = 0; i <= n && most < kEnough; ++i) {
         const Probe here = probe(place(end * i / n));
-        if (i > 0 && ball_) {
-            most = std::max(most, left_under(result.probes[static_cast<std::size_t>(i) - 1], here));
+        if (i > 0) {
+            const Probe& before = result.probes[static_cast<std::size_t>(i) - 1];
+            most = std::max(most, left_between(before, here));
         }
         result.probes[static_cast<std::size_t>(i)] = here;
         result.count = i + 1;

@@ -85,6 +85,11 @@ private:
     };
     static Lowest where_sides_meet(const Probe& a, const Probe& b);
     double left_under(const Probe& a, const Probe& b) const;
+    double left_under_foot(const Probe& a, const Probe& b) const;
+    double left_between(const Probe& a, const Probe& b) const
+    {
+        return ball_ ? left_under(a, b) : left_under_foot(a, b);
+    }
     double left_beside(const Way& a, const Way& b) const;
     double left_at(Vec2d at, Vec2d near) const;
 
@@ -102,6 +107,7 @@ private:
     int columns_{};
     int rows_{};
     std::vector<std::vector<std::uint32_t>> cells_;
+    int places_{3};     // on a way from one level to the other
     double strayed_{};  // what of a ridge's height moves beside their paths leave allowed
 };
 

@@ -187,4 +187,29 @@ TEST(FloorPath, LongMovesUpToARimStayDown)
     CHECK(longest < 0.2 * ball.radius);
 }
 
+// Level and upright moves are for cliffs. On a steep floor without one, what lacks a micrometre is
+// raised by as much.
+TEST(FloorPath, MovesUpASmoothSteepFloorStandNoMoreThanTheBandOverIt)
+{
+    const Tool tools[] = {{1, ToolShape::kBall, 2.0, 2.0},
+                          {1, ToolShape::kBull, 2.0, 0.7},
+                          {1, ToolShape::kFlat, 2.0, 0.0}};
+    FloorPathSettings laying = settings();
+    laying.above = 0.008;
+    laying.spacing = 0.2;
+    constexpr double kSteepest = 3.3;
+    for (const Tool& tool : tools) {
+        for (int i = 0; i < 3; ++i) {
+            const TipFloor floor{{hill(20.0, 40.0)}, tool, kAccuracy};
+            const double x = 3.0 + 1.7 * i;
+            laying.arcs = i % 2 == 0;
+            const FloorPath path =
+                lay_on_floor({line_edge({x, 3.0}, {20.0 - x, 17.0})}, floor, laying);
+            DOUBLES_EQUAL(0.0, path.least_gap, 1e-9);
+            // beside its path a move stands as much higher as the floor falls there
+            CHECK(most_over(path, floor) <= 2.0 * (laying.above + kSteepest * laying.aside));
+        }
+    }
+}
+
 }  // namespace cusp::host

@@ -153,5 +153,26 @@ TEST(FloorBounds, ProveNothingWhereTheBallDoesNotFit)
     DOUBLES_EQUAL(0.0, proven_reach(6.0, 0.1, {0.0, 0.2, 0.0}), 0.0);
 }
 
+// Both passes climb everywhere: the rim sweeps an ellipse, and ridges between are low.
+TEST(StripRidge, LowRidgesOfAFlatEndAreKnownToBeLow)
+{
+    const Tool flat{1, ToolShape::kFlat, 2.0, 0.0};
+    const Surface slope = floor_of(4, [](double x, double y) { return x + 0.5 * y; });
+    const double low = share(slope, flat, 0.05, 0.2);
+    CHECK(low > 0.0);
+    CHECK(low < 0.6);
+}
+
+// Down a furrow that it does not fit into a flat end leaves steps as high as the furrow falls from
+// pass to pass.
+TEST(StripRidge, StepsThatAFlatEndLeavesDownAFurrowCount)
+{
+    const Tool flat{1, ToolShape::kFlat, 2.0, 0.0};
+    constexpr int kPoints = 60;
+    const Surface furrow =
+        floor_of(kPoints, [](double x, double y) { return std::abs(x) + 0.5 * y; });
+    CHECK(share(furrow, flat, 0.05, 0.2) >= 0.95 * 0.5 * 0.2 / 0.05);
+}
+
 }  // namespace
 }  // namespace cusp::host
