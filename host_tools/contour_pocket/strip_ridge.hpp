@@ -9,18 +9,9 @@
 #include "host_tools/clearing/tip_floor.hpp"
 #include "host_tools/contour_pocket/floor_bounds.hpp"
 #include "host_tools/contour_pocket/pocket_task.hpp"
+#include "host_tools/contour_pocket/tip_segment.hpp"
 
 namespace cusp::host {
-
-// A straight piece of a path of the tip.
-struct TipSegment {
-    Vec3d start;
-    Vec3d end;
-};
-
-// How low the tool, moved along the segment, cuts over the plan position: z, mm; infinite where it
-// does not get there.
-double cut_over(const Tool& tool, const TipSegment& segment, Vec2d at);
 
 class StripRidge {
 public:

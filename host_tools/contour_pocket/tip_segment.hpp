@@ -1,0 +1,19 @@
+// What a straight move of the tip cuts.
+#pragma once
+
+#include "host_tools/offset/contour.hpp"
+#include "host_tools/toolpath/toolpath.hpp"
+
+namespace cusp::host {
+
+// A straight piece of a path of the tip.
+struct TipSegment {
+    Vec3d start;
+    Vec3d end;
+};
+
+// How low the tool, moved along the segment, cuts over the plan position: z, mm; infinite where it
+// does not get there.
+double cut_over(const Tool& tool, const TipSegment& segment, Vec2d at);
+
+}  // namespace cusp::host
