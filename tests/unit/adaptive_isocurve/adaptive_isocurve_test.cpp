@@ -1,7 +1,6 @@
 // Whole plans, judged by the certified distance of dense places of the path.
 #include "host_tools/adaptive_isocurve/adaptive_isocurve.hpp"
 
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <random>
@@ -10,124 +9,15 @@
 #include "CppUTest/TestHarness.h"
 
 #include "host_tools/adaptive_isocurve/parallel_planes.hpp"
-#include "host_tools/input_error/input_error.hpp"
 #include "host_tools/surface_offset/surface_model.hpp"
 #include "host_tools/surface_passes/swept_balls.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
+#include "tests/unit/adaptive_isocurve/small_models.hpp"
 
 using namespace cusp;
 using namespace cusp::host;
 
 namespace {
-
-Surface bumps(std::mt19937& random, double height)
-{
-    std::uniform_real_distribution<double> z{0, height};
-    Surface s;
-    s.degree_u = s.degree_v = 3;
-    s.knots_u = s.knots_v = {0, 0, 0, 0, 1, 2, 2, 2, 2};
-    s.size_u = s.size_v = 5;
-    for (int i = 0; i < 5; ++i) {
-        for (int j = 0; j < 5; ++j) {
-            s.points.push_back({5.0 * i, 5.0 * j, z(random)});
-        }
-    }
-    s.weights.assign(25, 1.0);
-    return s;
-}
-
-Surface wall(double x, double z)
-{
-    Surface s;
-    s.degree_u = s.degree_v = 1;
-    s.knots_u = s.knots_v = {0, 0, 1, 1};
-    s.size_u = s.size_v = 2;
-    s.points = {{x, 0, -2}, {x + 1, 0, z}, {x, 20, -2}, {x + 1, 20, z}};
-    s.weights = {1, 1, 1, 1};
-    return s;
-}
-
-// A floor that bends up into a wall, upright at its open rim: x from 0 to 5, z from -5 to 0.
-Surface upright_rim()
-{
-    Surface s;
-    s.degree_u = 1;
-    s.degree_v = 2;
-    s.knots_u = {0, 0, 1, 1};
-    s.knots_v = {0, 0, 0, 1, 1, 1};
-    s.size_u = 2;
-    s.size_v = 3;
-    s.points = {{0, 0, -5}, {5, 0, -5}, {5, 0, 0}, {0, 6, -5}, {5, 6, -5}, {5, 6, 0}};
-    s.weights.assign(6, 1.0);
-    return s;
-}
-
-// Level, with a trough along x that a ball of radius 2 does not fit into: only from beyond its ends
-// does the ball get lower there.
-Surface trough()
-{
-    Surface s;
-    s.degree_u = 1;
-    s.degree_v = 2;
-    s.knots_u = {0, 0, 1, 1};
-    s.knots_v = {0, 0, 0, 0.5, 0.5, 1, 1, 1};
-    s.size_u = 2;
-    s.size_v = 5;
-    for (const double x : {0.0, 2.0}) {
-        for (const Vec2d p :
-             {Vec2d{0, 0}, Vec2d{1, 0}, Vec2d{1.5, -1.5}, Vec2d{2, 0}, Vec2d{3, 0}}) {
-            s.points.push_back({x, p.x, p.y});
-        }
-    }
-    s.weights.assign(10, 1.0);
-    return s;
-}
-
-// Half a ball of radius 5, open upwards, as CAD writes it: all around u, its pole below.
-Surface bowl()
-{
-    constexpr double kRadius = 5;
-    const double half = std::sqrt(0.5);
-    const double turn[][3] = {{1, 0, 1},     {1, 1, half},  {0, 1, 1},
-                              {-1, 1, half}, {-1, 0, 1},    {-1, -1, half},
-                              {0, -1, 1},    {1, -1, half}, {1, 0, 1}};
-    const double rise[][3] = {{0, -1, 1}, {1, -1, half}, {1, 0, 1}};
-    Surface s;
-    s.degree_u = s.degree_v = 2;
-    s.knots_u = {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4};
-    s.knots_v = {0, 0, 0, 1, 1, 1};
-    s.size_u = 9;
-    s.size_v = 3;
-    for (const auto& a : turn) {
-        for (const auto& b : rise) {
-            s.points.push_back(
-                {7.3 + kRadius * b[0] * a[0], -4.1 + kRadius * b[0] * a[1], kRadius * b[1] - 0.37});
-            s.weights.push_back(a[2] * b[2]);
-        }
-    }
-    return s;
-}
-
-// Open at y = 0, as wide as 4 mm: a ball of radius 3 reaches down into it from beyond that side.
-Surface half_bowl()
-{
-    const double half = std::sqrt(0.5);
-    Surface s;
-    s.degree_u = 3;
-    s.degree_v = 2;
-    s.knots_u = {0, 0, 0, 0, 1, 1, 1, 1};
-    s.knots_v = {0, 0, 0, 0.5, 0.5, 1, 1, 1};
-    s.size_u = 4;
-    s.size_v = 5;
-    for (const Vec2d p : {Vec2d{0, -6.94}, Vec2d{0.8, -6.94}, Vec2d{2, -4.56}, Vec2d{2, -1}}) {
-        const std::array<Vec2d, 5> ring{Vec2d{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}};
-        for (std::size_t k = 0; k < ring.size(); ++k) {
-            s.points.push_back({p.x * ring[k].x, p.x * ring[k].y, p.y});
-            s.weights.push_back(k % 2 == 1 ? half : 1);
-        }
-    }
-    return s;
-}
 
 // All that the path cuts.
 SweptBalls swept_by(const Toolpath& path)
@@ -144,25 +34,6 @@ SweptBalls swept_by(const Toolpath& path)
     }
     swept.add(tips);
     return swept;
-}
-
-Job job_for(std::vector<Surface> floor, const std::string& strategy)
-{
-    Job job;
-    job.file = "job.toml";
-    job.tools = {{1, ToolShape::kBall, 2, 2}};
-    job.feed = 1000;
-    job.plunge_feed = 250;
-    job.stock_top = 20;
-    job.clearance = 5;
-    Operation operation;
-    operation.strategy = strategy;
-    operation.floor = std::move(floor);
-    operation.tool = job.tools.front();
-    operation.plan_tolerance = operation.floor_tolerance = 0.02;
-    operation.scallop = 0.2;
-    job.operations = {operation};
-    return job;
 }
 
 // The deepest cut into the model over the whole path, rapids included.
@@ -204,16 +75,6 @@ std::vector<Vec3d> pass_middles(const Toolpath& path)
         at = end_of(move);
     }
     return out;
-}
-
-void refused(const Job& job, const char* word)
-{
-    try {
-        plan_adaptive_isocurve(job, job.operations.front());
-        FAIL("accepted");
-    } catch (const InputError& error) {
-        STRCMP_CONTAINS(word, error.what());
-    }
 }
 
 }  // namespace
@@ -387,30 +248,6 @@ TEST(AdaptiveIsocurve, IsocurvesAreThoseOfTheApproximatedOffsetToItsBound)
     }
 }
 
-TEST(AdaptiveIsocurve, RefusesKeysOfRoughingWithoutIt)
-{
-    operation.allowance = 0.3;
-    refused(job, "allowance is 0.3 mm");
-    operation.allowance = 0;
-    operation.max_depth = 2.0;
-    refused(job, "max_depth");
-    operation.max_depth.reset();
-    operation.tools = {{2, ToolShape::kFlat, 3, 0}};
-    refused(job, "tools names the tools that rough");
-    operation.roughing = true;
-    operation.max_depth = 1e-4;
-    refused(job, "max_depth is 0.0001 mm");
-    operation.max_depth = 2.0;
-    operation.allowance = 500;
-    refused(job, "nothing is to be roughed");
-    operation.allowance = 0;
-    operation.layers = {4.0, 4.5};
-    refused(job, "deep, more than max_depth, 2 mm");
-    operation.max_depth = 20.0;
-    operation.min_depth = 1.0;
-    refused(job, "is 0.5 mm deep, less than min_depth, 1 mm");
-}
-
 TEST(AdaptiveIsocurve, WritesOneNurbsForAPassThatNeverEntersTheModel)
 {
     operation.floor.pop_back();
@@ -473,30 +310,4 @@ TEST(AdaptiveIsocurve, IsShorterThanParallelPlanesAtTheSameScallop)
     const auto planes = plan_parallel_planes(job, operation).front();
     CHECK(measure(isocurves.path, {}).cut_length_mm < measure(planes.path, {}).cut_length_mm);
     CHECK(deepest_cut(planes.path, operation.floor) <= 1e-6);
-}
-
-TEST(AdaptiveIsocurve, RefusesAToolThatIsNoBall)
-{
-    operation.tool = {1, ToolShape::kFlat, 2, 0};
-    refused(job, "finishes with a ball");
-}
-
-TEST(AdaptiveIsocurve, RefusesASurfaceWithoutArea)
-{
-    for (Vec3d& p : operation.floor.front().points) {
-        p = {1, 1, 1};
-    }
-    refused(job, "degenerate");
-}
-
-TEST(AdaptiveIsocurve, RefusesAPartOverTheClearanceHeight)
-{
-    job.stock_top = 1;
-    refused(job, "clearance height");
-}
-
-TEST(AdaptiveIsocurve, RefusesToGuessASpacing)
-{
-    operation.scallop.reset();
-    refused(job, "iso_distance or scallop");
 }

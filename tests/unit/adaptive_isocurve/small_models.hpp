@@ -1,0 +1,143 @@
+// Surfaces of a few millimetres that are hard in some way, and jobs over them.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host_tools/import/job.hpp"
+
+namespace cusp::host {
+
+inline Surface bumps(std::mt19937& random, double height)
+{
+    std::uniform_real_distribution<double> z{0, height};
+    Surface s;
+    s.degree_u = s.degree_v = 3;
+    s.knots_u = s.knots_v = {0, 0, 0, 0, 1, 2, 2, 2, 2};
+    s.size_u = s.size_v = 5;
+    for (int i = 0; i < 5; ++i) {
+        for (int j = 0; j < 5; ++j) {
+            s.points.push_back({5.0 * i, 5.0 * j, z(random)});
+        }
+    }
+    s.weights.assign(25, 1.0);
+    return s;
+}
+
+inline Surface wall(double x, double z)
+{
+    Surface s;
+    s.degree_u = s.degree_v = 1;
+    s.knots_u = s.knots_v = {0, 0, 1, 1};
+    s.size_u = s.size_v = 2;
+    s.points = {{x, 0, -2}, {x + 1, 0, z}, {x, 20, -2}, {x + 1, 20, z}};
+    s.weights = {1, 1, 1, 1};
+    return s;
+}
+
+// A floor that bends up into a wall, upright at its open rim: x from 0 to 5, z from -5 to 0.
+inline Surface upright_rim()
+{
+    Surface s;
+    s.degree_u = 1;
+    s.degree_v = 2;
+    s.knots_u = {0, 0, 1, 1};
+    s.knots_v = {0, 0, 0, 1, 1, 1};
+    s.size_u = 2;
+    s.size_v = 3;
+    s.points = {{0, 0, -5}, {5, 0, -5}, {5, 0, 0}, {0, 6, -5}, {5, 6, -5}, {5, 6, 0}};
+    s.weights.assign(6, 1.0);
+    return s;
+}
+
+// Level, with a trough along x that a ball of radius 2 does not fit into: only from beyond its ends
+// does the ball get lower there.
+inline Surface trough()
+{
+    Surface s;
+    s.degree_u = 1;
+    s.degree_v = 2;
+    s.knots_u = {0, 0, 1, 1};
+    s.knots_v = {0, 0, 0, 0.5, 0.5, 1, 1, 1};
+    s.size_u = 2;
+    s.size_v = 5;
+    for (const double x : {0.0, 2.0}) {
+        for (const Vec2d p :
+             {Vec2d{0, 0}, Vec2d{1, 0}, Vec2d{1.5, -1.5}, Vec2d{2, 0}, Vec2d{3, 0}}) {
+            s.points.push_back({x, p.x, p.y});
+        }
+    }
+    s.weights.assign(10, 1.0);
+    return s;
+}
+
+// Half a ball of radius 5, open upwards, as CAD writes it: all around u, its pole below.
+inline Surface bowl()
+{
+    constexpr double kRadius = 5;
+    const double half = std::sqrt(0.5);
+    const double turn[][3] = {{1, 0, 1},     {1, 1, half},  {0, 1, 1},
+                              {-1, 1, half}, {-1, 0, 1},    {-1, -1, half},
+                              {0, -1, 1},    {1, -1, half}, {1, 0, 1}};
+    const double rise[][3] = {{0, -1, 1}, {1, -1, half}, {1, 0, 1}};
+    Surface s;
+    s.degree_u = s.degree_v = 2;
+    s.knots_u = {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4};
+    s.knots_v = {0, 0, 0, 1, 1, 1};
+    s.size_u = 9;
+    s.size_v = 3;
+    for (const auto& a : turn) {
+        for (const auto& b : rise) {
+            s.points.push_back(
+                {7.3 + kRadius * b[0] * a[0], -4.1 + kRadius * b[0] * a[1], kRadius * b[1] - 0.37});
+            s.weights.push_back(a[2] * b[2]);
+        }
+    }
+    return s;
+}
+
+// Open at y = 0, as wide as 4 mm: a ball of radius 3 reaches down into it from beyond that side.
+inline Surface half_bowl()
+{
+    const double half = std::sqrt(0.5);
+    Surface s;
+    s.degree_u = 3;
+    s.degree_v = 2;
+    s.knots_u = {0, 0, 0, 0, 1, 1, 1, 1};
+    s.knots_v = {0, 0, 0, 0.5, 0.5, 1, 1, 1};
+    s.size_u = 4;
+    s.size_v = 5;
+    for (const Vec2d p : {Vec2d{0, -6.94}, Vec2d{0.8, -6.94}, Vec2d{2, -4.56}, Vec2d{2, -1}}) {
+        const std::array<Vec2d, 5> ring{Vec2d{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}};
+        for (std::size_t k = 0; k < ring.size(); ++k) {
+            s.points.push_back({p.x * ring[k].x, p.x * ring[k].y, p.y});
+            s.weights.push_back(k % 2 == 1 ? half : 1);
+        }
+    }
+    return s;
+}
+
+inline Job job_for(std::vector<Surface> floor, const std::string& strategy)
+{
+    Job job;
+    job.file = "job.toml";
+    job.tools = {{1, ToolShape::kBall, 2, 2}};
+    job.feed = 1000;
+    job.plunge_feed = 250;
+    job.stock_top = 20;
+    job.clearance = 5;
+    Operation operation;
+    operation.strategy = strategy;
+    operation.floor = std::move(floor);
+    operation.tool = job.tools.front();
+    operation.plan_tolerance = operation.floor_tolerance = 0.02;
+    operation.scallop = 0.2;
+    job.operations = {operation};
+    return job;
+}
+
+}  // namespace cusp::host

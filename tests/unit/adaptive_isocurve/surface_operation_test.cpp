@@ -1,0 +1,80 @@
+// What can't be planned is refused by name, value and limit.
+#include "CppUTest/TestHarness.h"
+
+#include "host_tools/adaptive_isocurve/adaptive_isocurve.hpp"
+#include "host_tools/input_error/input_error.hpp"
+#include "tests/unit/adaptive_isocurve/small_models.hpp"
+
+using namespace cusp;
+using namespace cusp::host;
+
+namespace {
+
+void refused(const Job& job, const char* word)
+{
+    try {
+        plan_adaptive_isocurve(job, job.operations.front());
+        FAIL("accepted");
+    } catch (const InputError& error) {
+        STRCMP_CONTAINS(word, error.what());
+    }
+}
+
+}  // namespace
+
+TEST_GROUP(SurfaceOperation)
+{
+    std::mt19937 random{5};
+    Job job = job_for({bumps(random, 6), wall(9, 9)}, "adaptive_isocurve");
+    Operation& operation = job.operations.front();
+};
+
+TEST(SurfaceOperation, RefusesAToolThatIsNoBall)
+{
+    operation.tool = {1, ToolShape::kFlat, 2, 0};
+    refused(job, "finishes with a ball");
+}
+
+TEST(SurfaceOperation, RefusesASurfaceWithoutArea)
+{
+    for (Vec3d& p : operation.floor.front().points) {
+        p = {1, 1, 1};
+    }
+    refused(job, "degenerate");
+}
+
+TEST(SurfaceOperation, RefusesAPartOverTheClearanceHeight)
+{
+    job.stock_top = 1;
+    refused(job, "clearance height");
+}
+
+TEST(SurfaceOperation, RefusesToGuessASpacing)
+{
+    operation.scallop.reset();
+    refused(job, "iso_distance or scallop");
+}
+
+TEST(SurfaceOperation, RefusesKeysOfRoughingWithoutIt)
+{
+    operation.allowance = 0.3;
+    refused(job, "allowance is 0.3 mm");
+    operation.allowance = 0;
+    operation.max_depth = 2.0;
+    refused(job, "max_depth");
+    operation.max_depth.reset();
+    operation.tools = {{2, ToolShape::kFlat, 3, 0}};
+    refused(job, "tools names the tools that rough");
+    operation.roughing = true;
+    operation.max_depth = 1e-4;
+    refused(job, "max_depth is 0.0001 mm");
+    operation.max_depth = 2.0;
+    operation.allowance = 500;
+    refused(job, "nothing is to be roughed");
+    operation.allowance = 0;
+    operation.layers = {4.0, 4.5};
+    refused(job, "deep, more than max_depth, 2 mm");
+    operation.max_depth = 20.0;
+    operation.min_depth = 1.0;
+    refused(job, "is 0.5 mm deep, less than min_depth, 1 mm");
+}
