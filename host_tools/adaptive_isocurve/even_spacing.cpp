@@ -20,7 +20,7 @@ constexpr std::size_t kTightened = 6;  // spans beside one that is made denser
 constexpr double kGrown = 1.002;
 constexpr double kMostGrowth = 1.05;
 constexpr std::size_t kLengthNodes = 4;  // of u, from one that counts to the next
-constexpr int kFitRounds = 1;
+constexpr int kFitRounds = 2;
 constexpr double kFitFailed = 1.05;
 constexpr double kOverlap =
     0.15;  // steps: how early a pass begins, for the interpolation of its end
