@@ -52,17 +52,11 @@ CurvePlace DomainCurve::place_at(double at) const
         const double t = std::clamp((at - u[0]) / (u[1] - u[0]), 0.0, 1.0);
         return {v[0] + t * (v[1] - v[0]), chord_slope(*this, 0)};
     }
-    if (slopes.empty()) {
-        slopes.resize(u.size());
-        for (std::size_t k = 0; k < u.size(); ++k) {
-            slopes[k] = slope_at(*this, k);
-        }
-    }
     const std::size_t k = span_of(u, at);
     const double h = u[k + 1] - u[k];
     const double t = std::clamp((at - u[k]) / h, 0.0, 1.0);
-    const double m0 = slopes[k] * h;
-    const double m1 = slopes[k + 1] * h;
+    const double m0 = slope_at(*this, k) * h;
+    const double m1 = slope_at(*this, k + 1) * h;
     const double rise = v[k + 1] - v[k];
     const double bend = 3 * rise - 2 * m0 - m1;
     const double turn = m0 + m1 - 2 * rise;

@@ -17,8 +17,6 @@ struct DomainCurve {
     int surface{};
     std::vector<double> u;
     std::vector<double> v;
-    // Of v by u at the nodes, from the first question on: nodes stay as they are then.
-    mutable std::vector<double> slopes{};
 
     double v_at(double at) const;
     // v and its slope.

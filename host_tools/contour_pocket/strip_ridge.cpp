@@ -249,8 +249,8 @@ double StripRidge::left(const Probe& probe) const
            (probe.secant * strayed_ * allowed(probe.secant));
 }
 
-// The ball rests on both sides of a valley where the continuations of its heights meet, lower than
-// at either place; where they don't, at the second.
+// The tool rests on both sides of a valley where the continuations of its heights meet, lower than
+// at either place; where they don't, at the lower one.
 StripRidge::Lowest StripRidge::where_sides_meet(const Probe& a, const Probe& b)
 {
     const Vec2d move = b.at - a.at;
@@ -260,11 +260,11 @@ StripRidge::Lowest StripRidge::where_sides_meet(const Probe& a, const Probe& b)
     if (fall > 0.0 && rise > 0.0 && share > 0.0 && share < 1.0) {
         return {a.at + move * share, a.tip - fall * share};
     }
-    return {b.at, b.tip};
+    return a.tip < b.tip ? Lowest{a.at, a.tip} : Lowest{b.at, b.tip};
 }
 
 // Where a ball does not reach the floor, between the places that it touches from two neighbouring
-// ones: over what it leaves at best. (A flat foot bridges most of what is hollow.)
+// ones: over what it leaves at best.
 double StripRidge::left_under(const Probe& a, const Probe& b) const
 {
     constexpr int kPieces = 4;
@@ -287,7 +287,7 @@ double StripRidge::left_under(const Probe& a, const Probe& b) const
         // The floor of a valley is as steep as its sides only beside them.
         const Vec2d slope = a.gradient * (1.0 - share) + b.gradient * share;
         const double secant = std::sqrt(1.0 + dot(slope, slope));
-        const double stands = std::min(left_at(p, a.at), left_at(p, lowest.at));
+        const double stands = std::min({left_at(p, a.at), left_at(p, lowest.at), left_at(p, b.at)});
         most = std::max(most, (stands - best) / (secant * strayed_ * allowed(secant)));
     }
     return most;

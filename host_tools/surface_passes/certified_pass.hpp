@@ -45,7 +45,6 @@ public:
 
     // The tip, raised so far that it is not moved off guarded edges.
     Vec3d raised_off_edges(Vec3d tip) const;
-    bool guards_edges() const { return edges_.has_value(); }
 
     // Whether a straight move cuts into no guarded edge from beside.
     bool spares_edges(Vec3d a, Vec3d b) const;
