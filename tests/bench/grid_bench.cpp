@@ -8,6 +8,7 @@
 #include "host_tools/grid_pocket/grid_pocket.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/tap.hpp"
+#include "tests/support/test_jobs.hpp"
 
 namespace {
 
@@ -62,11 +63,7 @@ BENCHMARK(navigation)->RangeMultiplier(10)->Range(1000, 1000000)->Unit(benchmark
 
 void plan(benchmark::State& state)
 {
-    Job job;
-    job.file = "bench";
-    job.feed = 1000;
-    job.plunge_feed = 200;
-    job.clearance = 5;
+    Job job = plain_job();
     Operation operation;
     operation.floor = {tap()};
     operation.boundary = loop_of({{2, -10}, {115, -10}, {115, 10}, {2, 10}});

@@ -1,7 +1,6 @@
 // Planning of sine-hills with the proof of every move, and one certified distance; roughing and the
 // approximated offset against the number of patches. Good: under a second for the plan, about a
 // microsecond for a distance; time over patches within a factor of 3 from 100 patches on.
-#include <cmath>
 #include <string>
 
 #include "benchmark/benchmark.h"
@@ -10,7 +9,7 @@
 #include "host_tools/adaptive_isocurve/rough_levels.hpp"
 #include "host_tools/surface_offset/offset_surface.hpp"
 #include "host_tools/surface_offset/surface_model.hpp"
-#include "tests/support/tap.hpp"
+#include "tests/support/test_jobs.hpp"
 
 using namespace cusp;
 using namespace cusp::host;
@@ -24,13 +23,9 @@ std::vector<Surface> sine_hills()
 
 void plan_sine_hills(benchmark::State& state)
 {
-    Job job;
-    job.file = "bench";
+    Job job = plain_job();
     job.tools = {{1, ToolShape::kBall, 3, 3}};
-    job.feed = 1000;
-    job.plunge_feed = 250;
     job.stock_top = 8.5;
-    job.clearance = 5;
     Operation operation;
     operation.strategy = "adaptive_isocurve";
     operation.floor = sine_hills();
@@ -59,19 +54,6 @@ void certified_distance(benchmark::State& state)
 }
 BENCHMARK(certified_distance);
 
-// Hills of one size over a square of about `patches` patches of 10 x 10 mm.
-Surface hills(std::int64_t patches)
-{
-    const int side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(patches)))) + 3;
-    std::vector<Vec3d> net;
-    for (int i = 0; i < side; ++i) {
-        for (int j = 0; j < side; ++j) {
-            net.push_back({10.0 * i, 10.0 * j, 8 * std::sin(i * 0.7) * std::cos(j * 0.6)});
-        }
-    }
-    return bicubic(side, side, std::move(net));
-}
-
 void count_patches(benchmark::State& state)
 {
     state.counters["us_per_patch"] = benchmark::Counter(
@@ -81,7 +63,7 @@ void count_patches(benchmark::State& state)
 
 void offset_within_two_micrometres(benchmark::State& state)
 {
-    const Surface surface = hills(state.range(0));
+    const Surface surface = hills(static_cast<double>(state.range(0)));
     for (auto _ : state) {
         const OffsetSurface offset{surface, {3.0, 0.0018}};
         state.counters["bound_mm"] = offset.error_bound();
@@ -98,16 +80,12 @@ BENCHMARK(offset_within_two_micrometres)
 // range(1): of one cutter, or of a smaller one after it, too.
 void rough_levels(benchmark::State& state)
 {
-    Job job;
-    job.file = "bench";
-    job.feed = 1000;
-    job.plunge_feed = 200;
+    Job job = plain_job();
     job.stock_top = 9;
-    job.clearance = 5;
     Operation operation;
     operation.strategy = "adaptive_isocurve";
     operation.roughing = true;
-    operation.floor = {hills(state.range(0))};
+    operation.floor = {hills(static_cast<double>(state.range(0)))};
     operation.tools = {{1, ToolShape::kFlat, 4, 0}};
     if (state.range(1) > 1) {
         operation.tools.push_back({2, ToolShape::kBall, 2, 2});

@@ -8,6 +8,7 @@
 #include "host_tools/import/job.hpp"
 #include "tests/property/offset/random_regions.hpp"
 #include "tests/support/loops.hpp"
+#include "tests/support/test_jobs.hpp"
 
 namespace cusp::host {
 
@@ -83,12 +84,8 @@ inline Tool random_tool(Random& random)
 // A job of one operation, at feeds and a clearance that suit all.
 inline Job job_of(const Operation& operation)
 {
-    Job job;
-    job.file = "random.toml";
-    job.feed = 1200;
-    job.plunge_feed = 300;
+    Job job = plain_job();
     job.spindle = 10000;
-    job.clearance = 5;
     job.tools = operation.tools.empty() ? std::vector<Tool>{operation.tool} : operation.tools;
     job.operations = {operation};
     return job;

@@ -3,12 +3,12 @@
 #include <memory>
 #include <string>
 #include <variant>
-#include <vector>
 
 #include "CppUTest/TestHarness.h"
 
 #include "host_tools/grid_pocket/grid_pocket.hpp"
 #include "host_tools/import/job.hpp"
+#include "tests/support/test_jobs.hpp"
 
 using namespace cusp::host;
 
@@ -26,16 +26,6 @@ Job job_of(const std::string& name)
     return job;
 }
 
-double count(const PlannedOperation& plan, const std::string& name)
-{
-    for (const auto& [key, value] : plan.stats.counts) {
-        if (key == name) {
-            return value;
-        }
-    }
-    return -1;
-}
-
 PlannedOperation rectangle(double arc_tolerance_inch, ToleranceSide side)
 {
     Job job = job_of("rectangle");
@@ -51,34 +41,34 @@ TEST_GROUP(ChoiPaper){};
 TEST(ChoiPaper, RectangleTakesAtMost125CommandsAtOneHundredthByThePapersRule)
 {
     const PlannedOperation plan = rectangle(.01, ToleranceSide::kBoth);
-    DOUBLES_EQUAL(2016, count(plan, "cells"), 0);
-    CHECK(count(plan, "main_path_moves") <= 125);
+    DOUBLES_EQUAL(2016, count_of(plan, "cells"), 0);
+    CHECK(count_of(plan, "main_path_moves") <= 125);
     CHECK(plan.stats.gouge_bound_mm <= .01 * kInch + 1e-6);
 }
 
 TEST(ChoiPaper, RectangleTakesAtMost225CommandsAtOneThousandthByThePapersRule)
 {
-    CHECK(count(rectangle(.001, ToleranceSide::kBoth), "main_path_moves") <= 225);
+    CHECK(count_of(rectangle(.001, ToleranceSide::kBoth), "main_path_moves") <= 225);
 }
 
 TEST(ChoiPaper, RectangleIsNeverCutIntoWhereTheToleranceIsOutside)
 {
     const PlannedOperation plan = rectangle(.001, ToleranceSide::kOutside);
     CHECK(plan.stats.gouge_bound_mm <= 1e-6);
-    CHECK(count(plan, "main_path_moves") <= 300);
+    CHECK(count_of(plan, "main_path_moves") <= 300);
 }
 
 TEST(ChoiPaper, RectangleStaysUnderThePapersRoughness)
 {
-    CHECK(count(rectangle(.01, ToleranceSide::kOutside), "roughness_mm") <= .0089 * kInch);
+    CHECK(count_of(rectangle(.01, ToleranceSide::kOutside), "roughness_mm") <= .0089 * kInch);
 }
 
 TEST(ChoiPaper, PolygonWastesAtMostOnePercentOfItsSteps)
 {
     const Job job = job_of("polygon");
     const PlannedOperation plan = plan_grid_pocket(job, job.operations.front()).front();
-    DOUBLES_EQUAL(712, count(plan, "cells"), 0);
-    CHECK(count(plan, "backtracks") <= .01 * count(plan, "steps"));
+    DOUBLES_EQUAL(712, count_of(plan, "cells"), 0);
+    CHECK(count_of(plan, "backtracks") <= .01 * count_of(plan, "steps"));
     CHECK(plan.stats.gouge_bound_mm <= 1e-6);
-    CHECK(count(plan, "roughness_mm") <= .04 * kInch);
+    CHECK(count_of(plan, "roughness_mm") <= .04 * kInch);
 }

@@ -1,28 +1,17 @@
 // Chuang & Pan: the numbers of docs/papers.md, from the job in examples/hull_rough.
 #include <map>
 #include <memory>
-#include <string>
 #include <variant>
-#include <vector>
 
 #include "CppUTest/TestHarness.h"
 
 #include "host_tools/hull_rough/hull_rough.hpp"
 #include "host_tools/import/job.hpp"
+#include "tests/support/test_jobs.hpp"
 
 using namespace cusp::host;
 
 namespace {
-
-double count(const PlannedOperation& plan, const std::string& name)
-{
-    for (const auto& [key, value] : plan.stats.counts) {
-        if (key == name) {
-            return value;
-        }
-    }
-    return -1;
-}
 
 PlannedOperation tap(int extra_subdivision)
 {
@@ -41,10 +30,10 @@ TEST_GROUP(ChuangPaper){};
 TEST(ChuangPaper, TapIsCutInFifteenLayers)
 {
     const PlannedOperation plan = tap(0);
-    DOUBLES_EQUAL(15, count(plan, "layers"), 0);
-    DOUBLES_EQUAL(1.012, count(plan, "thinnest_layer_mm"), 5e-4);
-    DOUBLES_EQUAL(1.838, count(plan, "thickest_layer_mm"), 5e-4);
-    DOUBLES_EQUAL(kStock, count(plan, "stock_mm3"), 0.1);
+    DOUBLES_EQUAL(15, count_of(plan, "layers"), 0);
+    DOUBLES_EQUAL(1.012, count_of(plan, "thinnest_layer_mm"), 5e-4);
+    DOUBLES_EQUAL(1.838, count_of(plan, "thickest_layer_mm"), 5e-4);
+    DOUBLES_EQUAL(kStock, count_of(plan, "stock_mm3"), 0.1);
 }
 
 TEST(ChuangPaper, BoxesToTheirOwnTopsRemoveThreeQuartersOfWhatCanBeRemoved)
@@ -54,14 +43,14 @@ TEST(ChuangPaper, BoxesToTheirOwnTopsRemoveThreeQuartersOfWhatCanBeRemoved)
     job.operations.front().extra_subdivision = 0;
     job.operations.front().min_depth = 0;
     const PlannedOperation plan = plan_hull_rough(job, job.operations.front()).front();
-    DOUBLES_EQUAL(33, count(plan, "layers"), 0);
-    const double removed = kStock - count(plan, "left_under_boxes_mm3");
+    DOUBLES_EQUAL(33, count_of(plan, "layers"), 0);
+    const double removed = kStock - count_of(plan, "left_under_boxes_mm3");
     DOUBLES_EQUAL(0.748, removed / (kStock - kPart), 1e-3);
 }
 
 TEST(ChuangPaper, FinerHullsLeaveFivePercentOfWhatCanBeRemoved)
 {
     const PlannedOperation plan = tap(3);
-    CHECK(count(plan, "layers") <= 17);
-    CHECK(count(plan, "left_under_boxes_mm3") - kPart <= 0.045 * (kStock - kPart));
+    CHECK(count_of(plan, "layers") <= 17);
+    CHECK(count_of(plan, "left_under_boxes_mm3") - kPart <= 0.045 * (kStock - kPart));
 }

@@ -16,6 +16,7 @@
 #include "CppUTest/TestHarness.h"
 
 #include "tests/support/leaks_on_threads.hpp"
+#include "tests/support/test_jobs.hpp"
 
 namespace cusp::host {
 namespace {
@@ -131,17 +132,6 @@ VerifyFigures cut_in_memory(const Job& job, const std::vector<PlannedOperation>&
     return verify(raised, file, settings, [](double) {}).figures;
 }
 
-double counted(const PlannedOperation& operation, const std::string& name)
-{
-    for (const auto& [key, value] : operation.stats.counts) {
-        if (key == name) {
-            return value;
-        }
-    }
-    FAIL(("no count of " + name).c_str());
-    return 0;
-}
-
 void check_model(unsigned seed)
 {
     std::printf("random model seed %u\n", seed);
@@ -152,9 +142,9 @@ void check_model(unsigned seed)
     CHECK(figures.gouge_max <= 2e-3);
     CHECK(figures.ball_gouge_max.value_or(0) <= 1e-3);
     CHECK(figures.rapid_cut_max <= 0.01);
-    DOUBLES_EQUAL(0, counted(plan.front(), "left_mm2"), 0);
-    CHECK(figures.cut_depth_max <= counted(plan.front(), "deepest_cut_mm") + 0.01);
-    CHECK(counted(plan.front(), "deepest_cut_mm") <=
+    DOUBLES_EQUAL(0, count_of(plan.front(), "left_mm2"), 0);
+    CHECK(figures.cut_depth_max <= count_of(plan.front(), "deepest_cut_mm") + 0.01);
+    CHECK(count_of(plan.front(), "deepest_cut_mm") <=
           1.1 * *job.operations.front().max_depth + 1e-5);
 }
 
@@ -191,7 +181,7 @@ TEST(HullProperty, ALargeFlatCutterMeetsWhatASmallBallLeftAtTheFootOfWalls)
     const VerifyFigures figures = cut_in_memory(job, plan);
     CHECK(figures.gouge_max <= 1e-3);
     CHECK(figures.rapid_cut_max <= 0.01);
-    CHECK(figures.cut_depth_max <= counted(plan.front(), "deepest_cut_mm") + 0.01);
+    CHECK(figures.cut_depth_max <= count_of(plan.front(), "deepest_cut_mm") + 0.01);
 }
 
 TEST(HullProperty, RandomModelsAreNeverCutInto)

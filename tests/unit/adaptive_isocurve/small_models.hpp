@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host_tools/import/job.hpp"
+#include "tests/support/test_jobs.hpp"
 
 namespace cusp::host {
 
@@ -123,13 +124,9 @@ inline Surface half_bowl()
 
 inline Job job_for(std::vector<Surface> floor, const std::string& strategy)
 {
-    Job job;
-    job.file = "job.toml";
+    Job job = plain_job();
     job.tools = {{1, ToolShape::kBall, 2, 2}};
-    job.feed = 1000;
-    job.plunge_feed = 250;
     job.stock_top = 20;
-    job.clearance = 5;
     Operation operation;
     operation.strategy = strategy;
     operation.floor = std::move(floor);

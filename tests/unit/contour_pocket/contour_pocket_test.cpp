@@ -4,6 +4,8 @@
 #include <functional>
 #include <map>
 
+#include "tests/support/test_jobs.hpp"
+
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"
 
@@ -170,16 +172,6 @@ TEST(ContourPocket, CutsValleysThatRoughingDoesNotReachInLayers)
     operation.tool = {1, ToolShape::kBall, 1.5, 1.5};
     operation.tools = {{2, ToolShape::kFlat, 10.0, 0.0}, operation.tool};
     CHECK(deepest_first_cut(plan_contour_pocket(job(), operation), 0.0) <= 2.0 + 0.4);
-}
-
-double count_of(const PlannedOperation& planned, const std::string& name)
-{
-    for (const auto& [key, count] : planned.stats.counts) {
-        if (key == name) {
-            return count;
-        }
-    }
-    return -1.0;
 }
 
 // Roughing's loops leave terraces on a slope, each as high as the slope climbs between two loops.

@@ -1,14 +1,13 @@
 // No cut is deeper than max_depth, beside cliffs and under them too; what stands is known.
-#include <cmath>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "CppUTest/TestHarness.h"
 
 #include "host_tools/clearing/standing_metal.hpp"
 #include "host_tools/grid_pocket/grid_pocket.hpp"
 #include "tests/support/loops.hpp"
+#include "tests/support/test_jobs.hpp"
 
 using namespace cusp::host;
 using cusp::Vec3d;
@@ -28,16 +27,6 @@ Surface level(const Box2d& box, double z)
     return s;
 }
 
-Job job_of()
-{
-    Job job;
-    job.file = "cliff.toml";
-    job.feed = 1000;
-    job.plunge_feed = 200;
-    job.clearance = 5;
-    return job;
-}
-
 // A table with upright sides, 7 mm over a level floor.
 Operation beside_a_cliff()
 {
@@ -50,16 +39,6 @@ Operation beside_a_cliff()
     operation.floor_tolerance = operation.plan_tolerance = 0.02;
     operation.max_depth = 1.5;
     return operation;
-}
-
-double count(const PlannedOperation& plan, const std::string& name)
-{
-    for (const auto& [key, value] : plan.stats.counts) {
-        if (key == name) {
-            return value;
-        }
-    }
-    return -1;
 }
 
 }  // namespace
@@ -82,9 +61,9 @@ TEST(DepthLimit, HoldsBesideACliffThatTheAllowanceStandsOn)
 {
     Operation operation = beside_a_cliff();
     operation.allowance = 0.3;
-    const auto plan = plan_grid_pocket(job_of(), operation);
-    CHECK(count(plan[0], "deepest_cut_mm") <= 1.5);
-    CHECK(count(plan[0], "depth_passes") > 0);
+    const auto plan = plan_grid_pocket(plain_job(), operation);
+    CHECK(count_of(plan[0], "deepest_cut_mm") <= 1.5);
+    CHECK(count_of(plan[0], "depth_passes") > 0);
     // Only of what stays beside the table.
     LONGS_EQUAL(1, plan[0].stats.warnings.size());
     STRCMP_CONTAINS("the floor steps by ", plan[0].stats.warnings[0].c_str());
@@ -95,8 +74,8 @@ TEST(DepthLimit, HoldsWhereTheFloorFallsByMoreThanALayerFromCellToCell)
     Operation operation = beside_a_cliff();
     operation.grid_x = operation.grid_y = 4.2;
     operation.max_depth = 1.0;
-    const auto plan = plan_grid_pocket(job_of(), operation);
-    CHECK(count(plan[0], "deepest_cut_mm") <= 1.0);
+    const auto plan = plan_grid_pocket(plain_job(), operation);
+    CHECK(count_of(plan[0], "deepest_cut_mm") <= 1.0);
 }
 
 TEST(DepthLimit, IsNoneForLayersOfTheJobButTheDepthIsReported)
@@ -104,8 +83,8 @@ TEST(DepthLimit, IsNoneForLayersOfTheJobButTheDepthIsReported)
     Operation operation = beside_a_cliff();
     operation.max_depth.reset();
     operation.layers = {4};
-    const auto plan = plan_grid_pocket(job_of(), operation);
-    DOUBLES_EQUAL(5, count(plan[0], "deepest_cut_mm"), 0.1);
+    const auto plan = plan_grid_pocket(plain_job(), operation);
+    DOUBLES_EQUAL(5, count_of(plan[0], "deepest_cut_mm"), 0.1);
 }
 
 TEST(DepthLimit, LayersThatTheFloorKeepsTheToolFromAreNamed)
@@ -113,8 +92,8 @@ TEST(DepthLimit, LayersThatTheFloorKeepsTheToolFromAreNamed)
     Operation operation = beside_a_cliff();
     operation.max_depth.reset();
     operation.layers = {4, 9.5, 12};
-    const auto plan = plan_grid_pocket(job_of(), operation);
-    LONGS_EQUAL(1, static_cast<int>(count(plan[0], "layers")));
+    const auto plan = plan_grid_pocket(plain_job(), operation);
+    LONGS_EQUAL(1, static_cast<int>(count_of(plan[0], "layers")));
     LONGS_EQUAL(2, plan[0].stats.warnings.size());
     STRCMP_CONTAINS("layers: 2 lie below 9.00000 mm under stock.top",
                     plan[0].stats.warnings[0].c_str());

@@ -18,6 +18,7 @@
 #include "host_tools/toolpath/toolpath_measure.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/tap.hpp"
+#include "tests/support/test_jobs.hpp"
 
 using namespace cusp::host;
 using cusp::Vec3d;
@@ -38,16 +39,6 @@ Surface hills(double width, double depth, std::mt19937& random)
         }
     }
     return bicubic(7, 7, std::move(net));
-}
-
-Job job_of()
-{
-    Job job;
-    job.file = "pocket.toml";
-    job.feed = 1000;
-    job.plunge_feed = 200;
-    job.clearance = 5;
-    return job;
 }
 
 Operation operation_of(unsigned seed, OutputForm output)
@@ -103,21 +94,11 @@ double least_clearance(const PlannedOperation& plan, const Operation& operation)
 std::string refusal(const Operation& operation)
 {
     try {
-        plan_grid_pocket(job_of(), operation);
+        plan_grid_pocket(plain_job(), operation);
     } catch (const InputError& error) {
         return error.what();
     }
     return "";
-}
-
-double count(const PlannedOperation& plan, const std::string& name)
-{
-    for (const auto& [key, value] : plan.stats.counts) {
-        if (key == name) {
-            return value;
-        }
-    }
-    return -1;
 }
 
 }  // namespace
@@ -130,7 +111,7 @@ TEST(GridPlan, NeverCutsIntoRandomFloors)
         std::printf("GridPlan seed %u\n", seed);
         const OutputForm form = seed % 2 == 0 ? OutputForm::kArcs : OutputForm::kLines;
         const Operation operation = operation_of(seed, form);
-        const auto plan = plan_grid_pocket(job_of(), operation);
+        const auto plan = plan_grid_pocket(plain_job(), operation);
         CHECK(plan[0].stats.gouge_bound_mm <= 1e-6);
         CHECK(least_clearance(plan[0], operation) >= -2e-6);
     }
@@ -142,8 +123,8 @@ TEST(GridPlan, LayersAndZigzagsNeverCutInEither)
     operation.max_depth = 3;
     operation.allowance = 0.3;
     operation.zigzag = {'x', 'y'};
-    const auto plan = plan_grid_pocket(job_of(), operation);
-    CHECK(count(plan[0], "layers") >= 2);
+    const auto plan = plan_grid_pocket(plain_job(), operation);
+    CHECK(count_of(plan[0], "layers") >= 2);
     CHECK(least_clearance(plan[0], operation) >= -2e-6);
 }
 
@@ -155,7 +136,7 @@ TEST(GridPlan, TurnsAroundWallsInArcsWhereTheFloorIsLevel)
     }
     for (const Tool& tool : {Tool{1, ToolShape::kBall, 3, 3}, Tool{1, ToolShape::kFlat, 3, 0}}) {
         operation.tool = tool;
-        const auto plan = plan_grid_pocket(job_of(), operation);
+        const auto plan = plan_grid_pocket(plain_job(), operation);
         int turns = 0;
         for (const ToolMove& move : plan[0].path.moves) {
             const auto* arc = std::get_if<ArcTo>(&move.shape);
@@ -172,7 +153,7 @@ TEST(GridPlan, ReportsHowDeepATwoSidedToleranceCutsIn)
     for (const OutputForm form : {OutputForm::kLines, OutputForm::kArcs}) {
         Operation operation = operation_of(6, form);
         operation.tolerance_side = ToleranceSide::kBoth;
-        const auto plan = plan_grid_pocket(job_of(), operation);
+        const auto plan = plan_grid_pocket(plain_job(), operation);
         CHECK(plan[0].stats.gouge_bound_mm <= 0.02 + 2e-6);
         CHECK(least_clearance(plan[0], operation) >= -plan[0].stats.gouge_bound_mm - 2e-6);
     }
@@ -182,14 +163,14 @@ TEST(GridPlan, LayersVisitOnlyCellsThatTheFloorLeaves)
 {
     Operation operation = operation_of(9, OutputForm::kLines);
     operation.layers = {2.0, 6.0, 7.0};
-    const auto plan = plan_grid_pocket(job_of(), operation);
-    CHECK(count(plan[0], "steps") < 4 * count(plan[0], "cells"));
+    const auto plan = plan_grid_pocket(plain_job(), operation);
+    CHECK(count_of(plan[0], "steps") < 4 * count_of(plan[0], "cells"));
 }
 
 TEST(GridPlan, KeepsTheRadiusFromTheWalls)
 {
     const Operation operation = operation_of(5, OutputForm::kLines);
-    const auto plan = plan_grid_pocket(job_of(), operation);
+    const auto plan = plan_grid_pocket(plain_job(), operation);
     Region2d region;
     Contour contour;
     for (const Curve& c : *operation.boundary) {

@@ -13,21 +13,12 @@
 #include "host_tools/hull_rough/hull_rough.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/tap.hpp"
+#include "tests/support/test_jobs.hpp"
 
 using namespace cusp::host;
 using cusp::Vec3d;
 
 namespace {
-
-Job tap_job()
-{
-    Job job;
-    job.file = "tap.toml";
-    job.feed = 1200;
-    job.plunge_feed = 300;
-    job.clearance = 5;
-    return job;
-}
 
 Operation tap_operation(int extra_subdivision)
 {
@@ -139,16 +130,6 @@ void machine(Block& block, const std::vector<PlannedOperation>& plan)
     }
 }
 
-double count(const PlannedOperation& operation, const std::string& name)
-{
-    for (const auto& [key, value] : operation.stats.counts) {
-        if (key == name) {
-            return value;
-        }
-    }
-    return -1;
-}
-
 constexpr double kStockVolume = 104832;
 constexpr double kPartVolume = 22604;
 
@@ -158,9 +139,9 @@ TEST_GROUP(HullPlan){};
 
 TEST(HullPlan, OfTheTapHasThePapersLayersAndCutsNoDeeper)
 {
-    const auto plan = plan_hull_rough(tap_job(), tap_operation(0));
+    const auto plan = plan_hull_rough(plain_job(), tap_operation(0));
     LONGS_EQUAL(1, plan.size());
-    DOUBLES_EQUAL(15, count(plan[0], "layers"), 0);
+    DOUBLES_EQUAL(15, count_of(plan[0], "layers"), 0);
     Block block;
     machine(block, plan);
     CHECK(block.deepest_cut < 1.84);
@@ -170,7 +151,7 @@ TEST(HullPlan, OfTheTapHasThePapersLayersAndCutsNoDeeper)
 TEST(HullPlan, NeverReachesIntoTheSurface)
 {
     for (const int levels : {0, 2}) {
-        const auto plan = plan_hull_rough(tap_job(), tap_operation(levels));
+        const auto plan = plan_hull_rough(plain_job(), tap_operation(levels));
         const Block block;
         for (std::size_t i = 0; i < plan[0].path.moves.size(); i += 7) {
             const ToolMove& move = plan[0].path.moves[i];
@@ -181,8 +162,8 @@ TEST(HullPlan, NeverReachesIntoTheSurface)
 
 TEST(HullPlan, WithExtraSubdivisionTakesNinetyFivePercentInNoMoreThanSeventeenLayers)
 {
-    const auto plan = plan_hull_rough(tap_job(), tap_operation(3));
-    CHECK(count(plan[0], "layers") <= 17);
+    const auto plan = plan_hull_rough(plain_job(), tap_operation(3));
+    CHECK(count_of(plan[0], "layers") <= 17);
     Block block;
     machine(block, plan);
     const double removed = kStockVolume - block.volume();
@@ -194,7 +175,7 @@ TEST(HullPlan, KeepsTheDepthWhenASmallCutterFollowsALargeOne)
 {
     Operation operation = tap_operation(2);
     operation.tools = {{1, ToolShape::kFlat, 10, 0}, {2, ToolShape::kFlat, 2, 0}};
-    Job job = tap_job();
+    Job job = plain_job();
     job.feed = 100;
     const auto plan = plan_hull_rough(job, operation);
     Block block;
@@ -211,7 +192,7 @@ TEST(HullPlan, RefusesInputThatCannotBeUsedWithItsValueAndLimit)
         change(operation);
         std::string text;
         try {
-            plan_hull_rough(tap_job(), operation);
+            plan_hull_rough(plain_job(), operation);
         } catch (const InputError& error) {
             text = error.what();
         }
