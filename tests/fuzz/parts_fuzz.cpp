@@ -3,36 +3,21 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <cstdlib>
 #include <string>
-#include <unistd.h>
 
 #include "host_tools/import/job.hpp"
-
-namespace {
-
-// Removed at the end of the process.
-struct Folder {
-    Folder()
-    {
-        std::array<char, 32> name{"/tmp/cusp-parts-fuzz-XXXXXX"};
-        path = ::mkdtemp(name.data()) == nullptr ? "/tmp" : name.data();
-    }
-    std::string path;
-};
-
-}  // namespace
+#include "tests/support/temporary_folder.hpp"
 
 // The first byte picks the format.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
 {
-    static const Folder folder;
+    static const cusp::test::TemporaryFolder folder;  // to the end of the process
     static const std::array<const char*, 5> kNames{"s.json", "c.json", "c.dxf", "s.stl", "j.toml"};
     if (size == 0) {
         return 0;
     }
     const std::size_t kind = data[0] % kNames.size();
-    const std::string file = folder.path + "/" + kNames[kind];
+    const std::string file = folder.file(kNames[kind]);
     std::FILE* out = std::fopen(file.c_str(), "wb");
     if (out == nullptr) {
         return 0;

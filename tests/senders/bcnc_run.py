@@ -18,7 +18,8 @@ BCNC = sys.argv[2] if len(sys.argv) > 2 else "/usr/share/bcnc/bCNC"
 if not os.path.exists(f"{BCNC}/Sender.py"):
     say(f"no bCNC at {BCNC}")
     sys.exit(77)
-os.environ["HOME"] = tempfile.mkdtemp()
+HOME = tempfile.TemporaryDirectory()
+os.environ["HOME"] = HOME.name
 for part in ("", "lib", "plugins", "controllers"):
     sys.path.append(str(pathlib.Path(BCNC) / part))
 import Utils  # noqa: E402

@@ -3,6 +3,7 @@
 
 #include "host_tools/adaptive_isocurve/adaptive_isocurve.hpp"
 #include "host_tools/input_error/input_error.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/unit/adaptive_isocurve/small_models.hpp"
 
 using namespace cusp;
@@ -12,12 +13,9 @@ namespace {
 
 void refused(const Job& job, const char* word)
 {
-    try {
-        plan_adaptive_isocurve(job, job.operations.front());
-        FAIL("accepted");
-    } catch (const InputError& error) {
-        STRCMP_CONTAINS(word, error.what());
-    }
+    const std::string text =
+        test::refusal([&] { plan_adaptive_isocurve(job, job.operations.front()); });
+    STRCMP_CONTAINS(word, text.c_str());
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 
+#include "tests/support/refusal.hpp"
 #include "tests/support/test_jobs.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
@@ -62,12 +63,7 @@ std::string refusal(const std::function<void(Operation&)>& spoil)
 {
     Operation operation = pocket();
     spoil(operation);
-    try {
-        plan_contour_pocket(job(), operation);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return test::refusal([&] { plan_contour_pocket(job(), operation); });
 }
 
 bool says(const std::string& text, const char* part)

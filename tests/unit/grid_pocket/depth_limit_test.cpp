@@ -1,5 +1,4 @@
 // No cut is deeper than max_depth, beside cliffs and under them too; what stands is known.
-#include <string>
 #include <utility>
 
 #include "CppUTest/TestHarness.h"

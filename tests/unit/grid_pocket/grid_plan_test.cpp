@@ -17,6 +17,7 @@
 #include "host_tools/surface_offset/surface_model.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
 #include "tests/support/loops.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/tap.hpp"
 #include "tests/support/test_jobs.hpp"
 
@@ -93,12 +94,7 @@ double least_clearance(const PlannedOperation& plan, const Operation& operation)
 
 std::string refusal(const Operation& operation)
 {
-    try {
-        plan_grid_pocket(plain_job(), operation);
-    } catch (const InputError& error) {
-        return error.what();
-    }
-    return "";
+    return cusp::test::refusal([&] { plan_grid_pocket(plain_job(), operation); });
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "host_tools/hull_rough/hull_rough.hpp"
 #include "tests/support/loops.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/tap.hpp"
 #include "tests/support/test_jobs.hpp"
 
@@ -190,12 +191,8 @@ TEST(HullPlan, RefusesInputThatCannotBeUsedWithItsValueAndLimit)
     const auto says = [](const char* part, auto change) {
         Operation operation = tap_operation(0);
         change(operation);
-        std::string text;
-        try {
-            plan_hull_rough(plain_job(), operation);
-        } catch (const InputError& error) {
-            text = error.what();
-        }
+        const std::string text =
+            cusp::test::refusal([&] { plan_hull_rough(plain_job(), operation); });
         STRCMP_CONTAINS(part, text.c_str());
     };
     says("floor names no surface", [](Operation& o) { o.floor.clear(); });

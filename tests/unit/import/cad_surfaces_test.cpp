@@ -25,7 +25,8 @@
 
 #include "host_tools/import/job.hpp"
 #include "host_tools/import/loop_shape.hpp"
-#include "tests/unit/import/scratch_folder.hpp"
+#include "tests/support/refusal.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace cusp;
 using namespace cusp::host;
@@ -107,14 +108,14 @@ constexpr double kHole = 36 * 3.141592653589793;
 
 TEST_GROUP(CadSurfaces)
 {
-    ScratchFolder folder;
+    cusp::test::TemporaryFolder folder;
     std::string step(const TopoDS_Shape& shape, const char* unit = "MM")
     {
         STEPControl_Controller::Init();
         Interface_Static::SetCVal("write.step.unit", unit);  // asked when the writer is made
         STEPControl_Writer writer;
         writer.Transfer(shape, STEPControl_AsIs);
-        const std::string file = folder.path("part.step");
+        const std::string file = folder.file("part.step");
         CHECK_EQUAL(IFSelect_RetDone, writer.Write(file.c_str()));
         return file;
     }
@@ -124,7 +125,7 @@ TEST_GROUP(CadSurfaces)
         IGESControl_Writer writer{"MM", solids ? 1 : 0};
         writer.AddShape(shape);
         writer.ComputeModel();
-        const std::string file = folder.path("part.igs");
+        const std::string file = folder.file("part.igs");
         CHECK(writer.Write(file.c_str()));
         return file;
     }
@@ -167,7 +168,7 @@ TEST(CadSurfaces, OfABallFusedIntoABlockAreWholeOrRefused)
                 BRepAlgoAPI_Fuse(box, BRepPrimAPI_MakeSphere(at, 10).Shape()).Shape();
             const std::string file = step(both);
             std::vector<Surface> surfaces;
-            const std::string words = refusal([&] { surfaces = read_surfaces(file); });
+            const std::string words = cusp::test::refusal([&] { surfaces = read_surfaces(file); });
             if (words.empty()) {
                 ++read;
                 DOUBLES_EQUAL(60 * 40 + 2 * disc * (1 - place.inside),
@@ -201,10 +202,12 @@ TEST(CadSurfaces, KeepAFreeFormFaceAndItsShape)
 
 TEST(CadSurfaces, AreRefusedFromWhatIsNoModel)
 {
-    STRCMP_CONTAINS("this is no STEP file",
-                    refusal([&] { read_surfaces(folder.write("x.step", "nothing")); }).c_str());
+    STRCMP_CONTAINS("this is no STEP file", cusp::test::refusal([&] {
+                                                read_surfaces(folder.with("x.step", "nothing"));
+                                            }).c_str());
     STRCMP_CONTAINS("can't be read",
-                    refusal([&] { read_surfaces(folder.path("absent.stp")); }).c_str());
-    STRCMP_CONTAINS("igs: ",
-                    refusal([&] { read_surfaces(folder.write("x.igs", "nothing")); }).c_str());
+                    cusp::test::refusal([&] { read_surfaces(folder.file("absent.stp")); }).c_str());
+    STRCMP_CONTAINS("igs: ", cusp::test::refusal([&] {
+                                 read_surfaces(folder.with("x.igs", "nothing"));
+                             }).c_str());
 }

@@ -7,7 +7,8 @@
 
 #include "host_tools/import/job.hpp"
 #include "host_tools/import/loop_shape.hpp"
-#include "tests/unit/import/scratch_folder.hpp"
+#include "tests/support/refusal.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace cusp;
 using namespace cusp::host;
@@ -34,16 +35,16 @@ std::string line(const std::string& ax,
 
 TEST_GROUP(DxfCurves)
 {
-    ScratchFolder folder;
+    cusp::test::TemporaryFolder folder;
     double area(const std::string& entities, double unit = 1)
     {
-        const Loop loop = read_loop(folder.write("d.dxf", drawing(entities)), unit);
+        const Loop loop = read_loop(folder.with("d.dxf", drawing(entities)), unit);
         return signed_area(loop_polyline(loop, 1e-5));
     }
     std::string refused(const std::string& text)
     {
-        const std::string file = folder.write("d.dxf", text);
-        return refusal([&] { read_loop(file); });
+        const std::string file = folder.with("d.dxf", text);
+        return cusp::test::refusal([&] { read_loop(file); });
     }
 };
 
@@ -94,7 +95,7 @@ TEST(DxfCurves, MirrorWhatIsDrawnFromBelow)
 {
     const std::string entities =
         "0\nARC\n10\n0\n20\n0\n40\n2\n50\n90\n51\n270\n230\n-1\n" + line("0", "2", "0", "-2");
-    const Loop loop = read_loop(folder.write("d.dxf", drawing(entities)));
+    const Loop loop = read_loop(folder.with("d.dxf", drawing(entities)));
     double rightmost = 0;
     for (const Vec2d p : loop_polyline(loop, 0.01)) {
         rightmost = std::max(rightmost, p.x);
@@ -146,7 +147,7 @@ TEST(DxfCurves, BelieveTheDrawingThatItIsInInches)
     const std::string text =
         "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n1\n9\n$MEASUREMENT\n70\n0\n0\nENDSEC\n"
         "0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n10\n0\n20\n0\n40\n1\n0\nENDSEC\n0\nEOF\n";
-    const Loop loop = read_loop(folder.write("d.dxf", text));
+    const Loop loop = read_loop(folder.with("d.dxf", text));
     DOUBLES_EQUAL(25.4 * 25.4 * kPi, signed_area(loop_polyline(loop, 1e-5)), 0.1);
 }
 
@@ -155,15 +156,15 @@ TEST(DxfCurves, LeaveHiddenLayersOutAndTakeTheLayerAskedFor)
     const auto circle = [](const std::string& layer, const std::string& radius) {
         return "0\nCIRCLE\n8\n" + layer + "\n10\n0\n20\n0\n40\n" + radius + "\n";
     };
-    const std::string file = folder.write(
-        "d.dxf",
-        "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n0\nLAYER\n2\nnotes\n70\n0\n62\n-7\n"
-        "0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" +
-            circle("notes", "9") + circle("outline", "2") + "0\nENDSEC\n0\nEOF\n");
+    const std::string file =
+        folder.with("d.dxf",
+                    "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n0\nLAYER\n2\nnotes\n70\n0\n62\n-7\n"
+                    "0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" +
+                        circle("notes", "9") + circle("outline", "2") + "0\nENDSEC\n0\nEOF\n");
     DOUBLES_EQUAL(4 * kPi, signed_area(loop_polyline(read_loop(file), 1e-5)), 1e-3);
     DOUBLES_EQUAL(81 * kPi, signed_area(loop_polyline(read_loop(file + "#notes"), 1e-5)), 1e-2);
     STRCMP_CONTAINS("no curve on the layer \"holes\"",
-                    refusal([&] { read_loop(file + "#holes"); }).c_str());
+                    cusp::test::refusal([&] { read_loop(file + "#holes"); }).c_str());
 }
 
 namespace {
@@ -195,7 +196,7 @@ TEST(DxfCurves, DrawBlocksWhereTheyAreInserted)
     const std::string text = with_blocks(
         block("Square", kSquare),
         insert("SQUARE", "10\n10\n20\n20\n41\n2\n42\n3\n50\n90\n0\nATTRIB\n1\nname\n0\nSEQEND\n"));
-    const Loop loop = read_loop(folder.write("d.dxf", text));
+    const Loop loop = read_loop(folder.with("d.dxf", text));
     DOUBLES_EQUAL(24, signed_area(loop_polyline(loop, 1e-5)), 1e-9);
     for (const Curve& curve : loop) {
         for (const Vec3d& p : curve.points) {
@@ -211,7 +212,7 @@ TEST(DxfCurves, ScaleCirclesOfBlocksToEllipsesAndNestThem)
         with_blocks(block("inner", "0\nCIRCLE\n8\n0\n10\n1\n20\n0\n40\n1\n") +
                         block("outer", insert("inner", "10\n1\n20\n0\n41\n-2\n42\n3\n50\n30\n")),
                     insert("outer", "10\n5\n20\n6\n41\n2\n42\n2\n"));
-    const Loop loop = read_loop(folder.write("d.dxf", text));
+    const Loop loop = read_loop(folder.with("d.dxf", text));
     DOUBLES_EQUAL(24 * kPi, signed_area(loop_polyline(loop, 1e-5)), 1e-2);
 }
 
@@ -220,7 +221,7 @@ TEST(DxfCurves, RepeatBlocksInArrays)
     const std::string text =
         with_blocks(block("dot", "0\nCIRCLE\n8\n0\n10\n1\n20\n0\n40\n1\n"),
                     insert("dot", "10\n0\n20\n0\n70\n3\n71\n2\n44\n5\n45\n7\n"));
-    const auto curves = read_dxf_curves(folder.write("d.dxf", text), 1);
+    const auto curves = read_dxf_curves(folder.with("d.dxf", text), 1);
     CHECK_EQUAL(6U, curves.size());
     double sum = 0;
     for (const Curve& curve : curves) {
@@ -234,9 +235,9 @@ TEST(DxfCurves, PutLayerZeroOfABlockOnTheLayerOfItsReference)
     const std::string text =
         with_blocks(block("square", kSquare + "0\nCIRCLE\n8\nother\n10\n9\n20\n9\n40\n1\n"),
                     "0\nINSERT\n8\ncut\n2\nsquare\n10\n0\n20\n0\n" + line("50", "50", "60", "60"));
-    CHECK_EQUAL(4U, read_dxf_curves(folder.write("d.dxf", text), 1, "cut").size());
-    CHECK_EQUAL(1U, read_dxf_curves(folder.write("d.dxf", text), 1, "other").size());
-    CHECK_EQUAL(6U, read_dxf_curves(folder.write("d.dxf", text), 1).size());
+    CHECK_EQUAL(4U, read_dxf_curves(folder.with("d.dxf", text), 1, "cut").size());
+    CHECK_EQUAL(1U, read_dxf_curves(folder.with("d.dxf", text), 1, "other").size());
+    CHECK_EQUAL(6U, read_dxf_curves(folder.with("d.dxf", text), 1).size());
 }
 
 TEST(DxfCurves, RefuseReferencesThatCannotBeDrawn)

@@ -6,7 +6,8 @@
 
 #include "host_tools/import/job.hpp"
 #include "host_tools/import/loop_shape.hpp"
-#include "tests/unit/import/scratch_folder.hpp"
+#include "tests/support/refusal.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace cusp;
 using namespace cusp::host;
@@ -44,17 +45,17 @@ std::string bilinear(const std::string& change_from = "", const std::string& cha
 
 TEST_GROUP(GeometryJson)
 {
-    ScratchFolder folder;
+    cusp::test::TemporaryFolder folder;
 
     std::string surface_refusal(const std::string& text)
     {
-        const std::string file = folder.write("s.json", text);
-        return refusal([&] { read_surfaces(file); });
+        const std::string file = folder.with("s.json", text);
+        return cusp::test::refusal([&] { read_surfaces(file); });
     }
     std::string loop_refusal(const std::string& text)
     {
-        const std::string file = folder.write("c.json", text);
-        return refusal([&] { read_loop(file); });
+        const std::string file = folder.with("c.json", text);
+        return cusp::test::refusal([&] { read_loop(file); });
     }
 };
 
@@ -85,24 +86,24 @@ TEST(GeometryJson, ScalesInchesToMillimetres)
 TEST(GeometryJson, TurnsAClockwiseLoop)
 {
     const std::string file =
-        folder.write("c.json", curves(line("[0, 0]", "[0, 5]") + "," + line("[0, 5]", "[5, 5]") +
-                                          "," + line("[5, 5]", "[0, 0]"),
-                                      3));
+        folder.with("c.json", curves(line("[0, 0]", "[0, 5]") + "," + line("[0, 5]", "[5, 5]") +
+                                         "," + line("[5, 5]", "[0, 0]"),
+                                     3));
     CHECK(signed_area(loop_polyline(read_loop(file), 0.01)) > 0);
 }
 
 TEST(GeometryJson, TurnsSingleCurvesThatRunAgainstTheLoop)
 {
     const std::string file =
-        folder.write("c.json", curves(line("[5, 0]", "[0, 0]") + "," + line("[5, 5]", "[5, 0]") +
-                                          "," + line("[5, 5]", "[0, 0]"),
-                                      3));
+        folder.with("c.json", curves(line("[5, 0]", "[0, 0]") + "," + line("[5, 5]", "[5, 0]") +
+                                         "," + line("[5, 5]", "[0, 0]"),
+                                     3));
     DOUBLES_EQUAL(12.5, signed_area(loop_polyline(read_loop(file), 0.01)), 1e-9);
 }
 
 TEST(GeometryJson, ClosesGapsBelowAMicrometre)
 {
-    const std::string file = folder.write(
+    const std::string file = folder.with(
         "c.json", curves(line("[0, 0]", "[5, 0]") + "," + line("[5, 0.0009]", "[5, 5]") + "," +
                              line("[5, 5]", "[0, 0]"),
                          3));
@@ -138,7 +139,8 @@ TEST(GeometryJson, RefusesACurveWithoutLength)
 
 TEST(GeometryJson, RefusesAMissingFileByName)
 {
-    const std::string text = refusal([&] { read_surfaces(folder.path("nowhere.json")); });
+    const std::string text =
+        cusp::test::refusal([&] { read_surfaces(folder.file("nowhere.json")); });
     STRCMP_CONTAINS("nowhere.json", text.c_str());
     STRCMP_CONTAINS("No such file", text.c_str());
 }

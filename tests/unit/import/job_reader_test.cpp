@@ -5,7 +5,8 @@
 #include "CppUTest/TestHarness.h"
 
 #include "host_tools/import/job.hpp"
-#include "tests/unit/import/scratch_folder.hpp"
+#include "tests/support/refusal.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace cusp;
 using namespace cusp::host;
@@ -40,12 +41,12 @@ std::string pocket(const std::string& more = "")
 
 TEST_GROUP(JobReader)
 {
-    ScratchFolder folder;
+    cusp::test::TemporaryFolder folder;
 
-    Job read(const std::string& text) { return read_job(folder.write("job.toml", text)); }
+    Job read(const std::string& text) { return read_job(folder.with("job.toml", text)); }
     std::string refused(const std::string& text)
     {
-        return refusal([&] { read(text); });
+        return cusp::test::refusal([&] { read(text); });
     }
     // The head with one piece of text replaced.
     std::string refused_head(const std::string& from, const std::string& to)
@@ -58,9 +59,9 @@ TEST_GROUP(JobReader)
 
 TEST(JobReader, IsocurvesTakeAMeshItselfOtherStrategiesTheSurfacesOverIt)
 {
-    folder.write("plate.stl",
-                 "solid p\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 10 0 0\n"
-                 "vertex 0 10 0\nendloop\nendfacet\nendsolid p\n");
+    folder.with("plate.stl",
+                "solid p\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 10 0 0\n"
+                "vertex 0 10 0\nendloop\nendfacet\nendsolid p\n");
     const auto operation = [&](const std::string& strategy) {
         return read(kHead + "[[operation]]\nstrategy = \"" + strategy +
                     "\"\nfloor = \"plate.stl\"\nscallop = 0.4\nstep_over = 2\n")
@@ -189,7 +190,8 @@ TEST(JobReader, RefusesBrokenTomlWithItsLine)
 
 TEST(JobReader, RefusesAMissingJob)
 {
-    STRCMP_CONTAINS("No such file", refusal([&] { read_job(folder.path("none.toml")); }).c_str());
+    STRCMP_CONTAINS("No such file",
+                    cusp::test::refusal([&] { read_job(folder.file("none.toml")); }).c_str());
 }
 
 TEST(JobReader, RefusesNumbersOutOfRange)
@@ -253,7 +255,7 @@ TEST(JobReader, RefusesAnIslandOutsideTheBoundary)
     const std::string square =
         R"({"shape": {"type": "curve", "data": [{"degree": 1, "knotvector": [0, 0, 1, 2, 3, 3],
         "control_points": {"points": [[500, 500], [510, 500], [505, 510], [500, 500]]}}]}})";
-    const std::string island = folder.write("island.json", square);
+    const std::string island = folder.with("island.json", square);
     const std::string text =
         "[[operation]]\nstrategy = \"contour_pocket\"\nscallop = 0.4\nfloor = \"" + kParts +
         "suh-lee-floor.json\"\nboundary = \"" + kParts +

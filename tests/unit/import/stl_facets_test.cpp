@@ -12,7 +12,8 @@
 #include "host_tools/import/height_field.hpp"
 #include "host_tools/import/job.hpp"
 #include "host_tools/import/mesh_patches.hpp"
-#include "tests/unit/import/scratch_folder.hpp"
+#include "tests/support/refusal.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace cusp;
 using namespace cusp::host;
@@ -94,20 +95,20 @@ const char* const kOneFacet =
 
 TEST_GROUP(StlFacets)
 {
-    ScratchFolder folder;
+    cusp::test::TemporaryFolder folder;
     std::string refused(const std::string& text)
     {
-        const std::string file = folder.write("m.stl", text);
-        return refusal([&] { read_stl(file, 1.0); });
+        const std::string file = folder.with("m.stl", text);
+        return cusp::test::refusal([&] { read_stl(file, 1.0); });
     }
 };
 
 TEST(StlFacets, AreReadFromWordsAndFromBytes)
 {
-    const Facets words = read_stl(folder.write("a.stl", kOneFacet), 25.4);
+    const Facets words = read_stl(folder.with("a.stl", kOneFacet), 25.4);
     LONGS_EQUAL(1, words.triangles.size());
     DOUBLES_EQUAL(254, words.triangles[0][1].x, 1e-9);
-    const Facets bytes = read_stl(folder.write("b.stl", binary(sheet(3, wave), 18)), 1.0);
+    const Facets bytes = read_stl(folder.with("b.stl", binary(sheet(3, wave), 18)), 1.0);
     LONGS_EQUAL(18, bytes.triangles.size());
 }
 
@@ -115,14 +116,14 @@ TEST(StlFacets, OfABinaryFileWhoseTitleSaysSolid)
 {
     std::string text = binary(sheet(2, wave), 8);
     text.replace(0, 5, "solid");
-    LONGS_EQUAL(8, read_stl(folder.write("b.stl", text), 1.0).triangles.size());
+    LONGS_EQUAL(8, read_stl(folder.with("b.stl", text), 1.0).triangles.size());
 }
 
 TEST(StlFacets, CountThoseWithoutArea)
 {
     std::vector<Triangle> triangles = sheet(1, wave);
     triangles.push_back({Vec3d{0, 0, 0}, Vec3d{1, 1, 1}, Vec3d{2, 2, 2}});
-    const Facets facets = read_stl(folder.write("b.stl", binary(triangles, 3)), 1.0);
+    const Facets facets = read_stl(folder.with("b.stl", binary(triangles, 3)), 1.0);
     LONGS_EQUAL(2, facets.triangles.size());
     LONGS_EQUAL(1, facets.degenerate);
 }
@@ -183,10 +184,10 @@ TEST(HeightFieldOfAMesh, ReportsStepsOverhangsAndOpenGround)
 
 TEST(HeightFieldOfAMesh, IsAFloorLikeAnyOther)
 {
-    const ScratchFolder folder;
+    const cusp::test::TemporaryFolder folder;
     std::vector<std::string> notes;
     const auto surfaces =
-        read_surfaces(folder.write("m.STL", binary(sheet(30, wave), 1800)), 1.0, 0.01, &notes);
+        read_surfaces(folder.with("m.STL", binary(sheet(30, wave), 1800)), 1.0, 0.01, &notes);
     LONGS_EQUAL(1, surfaces.size());
     LONGS_EQUAL(1, notes.size());
     STRCMP_CONTAINS("covered by 1 surfaces, nowhere below them", notes.front().c_str());

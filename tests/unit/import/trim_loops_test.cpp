@@ -4,7 +4,7 @@
 #include "CppUTest/TestHarness.h"
 
 #include "host_tools/import/loop_shape.hpp"
-#include "tests/unit/import/scratch_folder.hpp"
+#include "tests/support/refusal.hpp"
 
 using namespace cusp;
 using namespace cusp::host;
@@ -64,20 +64,21 @@ TEST(TrimLoops, ChainsOpenCurves)
 TEST(TrimLoops, RefusesAHoleThatRunsLikeAnOuterLoop)
 {
     STRCMP_CONTAINS("contradict",
-                    refusal([] {
+                    cusp::test::refusal([] {
                         trim_loops({square(0.1, 0.9), square(0.4, 0.6)}, unit_square(), "s");
                     }).c_str());
 }
 
 TEST(TrimLoops, RefusesATrimOutsideTheDomain)
 {
-    STRCMP_CONTAINS("leaves the domain",
-                    refusal([] { trim_loops({square(0.5, 1.5)}, unit_square(), "s"); }).c_str());
+    STRCMP_CONTAINS("leaves the domain", cusp::test::refusal([] {
+                                             trim_loops({square(0.5, 1.5)}, unit_square(), "s");
+                                         }).c_str());
 }
 
 TEST(TrimLoops, RefusesAnOpenTrim)
 {
-    STRCMP_CONTAINS("open", refusal([] {
+    STRCMP_CONTAINS("open", cusp::test::refusal([] {
                                 trim_loops({split_at(square(0.1, 0.9), 1.5)[0]}, unit_square(),
                                            "s");
                             }).c_str());
@@ -87,7 +88,7 @@ TEST(TrimLoops, RefusesAHoleOutsideTheOuterLoop)
 {
     STRCMP_CONTAINS(
         "outside every outer loop",
-        refusal([] {
+        cusp::test::refusal([] {
             trim_loops({square(0.1, 0.4), reversed(square(0.6, 0.9))}, unit_square(), "s");
         }).c_str());
 }
@@ -95,7 +96,7 @@ TEST(TrimLoops, RefusesAHoleOutsideTheOuterLoop)
 TEST(TrimLoops, RefusesLoopsThatCross)
 {
     STRCMP_CONTAINS(
-        "cross", refusal([] {
+        "cross", cusp::test::refusal([] {
                      trim_loops({square(0.1, 0.6), reversed(square(0.4, 0.9))}, unit_square(), "s");
                  }).c_str());
 }
@@ -104,5 +105,6 @@ TEST(TrimLoops, RefusesALoopThatCrossesItself)
 {
     Curve eight = square(0.1, 0.9);
     std::swap(eight.points[1], eight.points[2]);
-    STRCMP_CONTAINS("cross", refusal([&] { trim_loops({eight}, unit_square(), "s"); }).c_str());
+    STRCMP_CONTAINS("cross",
+                    cusp::test::refusal([&] { trim_loops({eight}, unit_square(), "s"); }).c_str());
 }

@@ -5,18 +5,19 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "tests/unit/import/scratch_folder.hpp"
+#include "tests/support/refusal.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace cusp;
 using namespace cusp::host;
 
 TEST_GROUP(ProgramMoves)
 {
-    ScratchFolder folder;
-    Program read(const std::string& text) { return read_program(folder.write("p.ngc", text), 100); }
+    cusp::test::TemporaryFolder folder;
+    Program read(const std::string& text) { return read_program(folder.with("p.ngc", text), 100); }
     std::string refused(const std::string& text)
     {
-        return refusal([&] { read(text); });
+        return cusp::test::refusal([&] { read(text); });
     }
 };
 
@@ -68,5 +69,5 @@ TEST(ProgramMoves, RefuseAnEmptyProgram)
 {
     STRCMP_CONTAINS("no move", refused("(nothing)\n").c_str());
     STRCMP_CONTAINS("No such file",
-                    refusal([&] { read_program(folder.path("none.ngc"), 0); }).c_str());
+                    cusp::test::refusal([&] { read_program(folder.file("none.ngc"), 0); }).c_str());
 }

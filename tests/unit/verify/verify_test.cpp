@@ -8,7 +8,8 @@
 #include "CppUTest/TestHarness.h"
 
 #include "tests/support/leaks_on_threads.hpp"
-#include "tests/unit/import/scratch_folder.hpp"
+#include "tests/support/refusal.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 using namespace cusp;
 using namespace cusp::host;
@@ -55,15 +56,15 @@ std::string passes(double z, double step, double begin = 0, double end = 20)
 
 TEST_GROUP(Verify)
 {
-    ScratchFolder folder;
+    cusp::test::TemporaryFolder folder;
     VerifySettings settings;
 
     Verification verdict(const std::string& program, const std::string& more = "")
     {
-        folder.write("plane.json", kPlane);
-        folder.write("wall.json", kWall);
-        const Job job = read_job(folder.write("job.toml", kJob + more));
-        return verify(job, folder.write("p.ngc", program), settings, [](double) {});
+        folder.with("plane.json", kPlane);
+        folder.with("wall.json", kWall);
+        const Job job = read_job(folder.with("job.toml", kJob + more));
+        return verify(job, folder.with("p.ngc", program), settings, [](double) {});
     }
 };
 
@@ -106,19 +107,19 @@ TEST(Verify, KnowsWhereTheRimOfAFlatEndCutsOnASlope)
     };
     const auto judged = [&](const std::string& moves) {
         const Job job = read_job(
-            folder.write("job.toml",
-                         "[tool]\nshape = \"flat\"\ndiameter = 2\n[cutting]\nfeed = 1000\n"
-                         "[[operation]]\nstrategy = \"parallel_planes\"\nfloor = \"floor.json\"\n"
-                         "boundary = \"walls.json\"\nstep_over = 1\nscallop = 0.03\n"));
+            folder.with("job.toml",
+                        "[tool]\nshape = \"flat\"\ndiameter = 2\n[cutting]\nfeed = 1000\n"
+                        "[[operation]]\nstrategy = \"parallel_planes\"\nfloor = \"floor.json\"\n"
+                        "boundary = \"walls.json\"\nstep_over = 1\nscallop = 0.03\n"));
         const std::string program = "G21 G90\nG0 Z5\nG0 X1 Y1\n" + moves + "M30\n";
-        return verify(job, folder.write("p.ngc", program), settings, [](double) {}).figures;
+        return verify(job, folder.with("p.ngc", program), settings, [](double) {}).figures;
     };
-    folder.write("walls.json", R"({"shape": {"type": "curve", "count": 1, "data": [{"degree": 1,
+    folder.with("walls.json", R"({"shape": {"type": "curve", "count": 1, "data": [{"degree": 1,
         "knotvector": [0, 0, 1, 2, 3, 4, 4], "control_points": {"points":
          [[0, 0], [10, 0], [10, 6], [0, 6], [0, 0]]}}]}})");
     char line[96];
-    folder.write("floor.json", floor(R"("size_u": 2, "knotvector_u": [0, 0, 1, 1])",
-                                     "[0, 0, -11], [0, 6, -11], [10, 0, -1], [10, 6, -1]"));
+    folder.with("floor.json", floor(R"("size_u": 2, "knotvector_u": [0, 0, 1, 1])",
+                                    "[0, 0, -11], [0, 6, -11], [10, 0, -1], [10, 6, -1]"));
     std::string climbs;
     for (int k = 0; k <= 20; ++k) {
         std::snprintf(line, sizeof line, "G0 X1 Y%.1f\nG1 Z-9 F900\nG1 X9 Z-1\nG0 Z5\n",
@@ -130,9 +131,9 @@ TEST(Verify, KnowsWhereTheRimOfAFlatEndCutsOnASlope)
     // the rim comes this much short of the floor half way between passes
     CHECK(plane.scallop_max <= (1.0 - std::sqrt(1.0 - 0.1 * 0.1)) * std::sqrt(0.5) + 1e-3);
 
-    folder.write("floor.json", floor(R"("size_u": 3, "knotvector_u": [0, 0, 0.5, 1, 1])",
-                                     "[0, 0, -5], [0, 6, -5], [5, 0, -10], [5, 6, -10], "
-                                     "[10, 0, -5], [10, 6, -5]"));
+    folder.with("floor.json", floor(R"("size_u": 3, "knotvector_u": [0, 0, 0.5, 1, 1])",
+                                    "[0, 0, -5], [0, 6, -5], [5, 0, -10], [5, 6, -10], "
+                                    "[10, 0, -5], [10, 6, -5]"));
     settings.pitch = 5.0 / 27.5;  // one line along the bottom, none at the rim
     std::string along;
     for (int k = 0; k <= 250; ++k) {
@@ -188,5 +189,5 @@ TEST(Verify, FindsTheToolInAWall)
 TEST(Verify, RefusesAToolThatTheJobLacks)
 {
     STRCMP_CONTAINS("T7 is no tool of the job",
-                    refusal([&] { verdict("T7\n" + passes(-5, 1)); }).c_str());
+                    cusp::test::refusal([&] { verdict("T7\n" + passes(-5, 1)); }).c_str());
 }

@@ -1,0 +1,22 @@
+// How bad input is refused.
+#pragma once
+
+#include <string>
+
+#include "host_tools/input_error/input_error.hpp"
+
+namespace cusp::test {
+
+// The text of the InputError that `act` throws; "" where it throws none.
+template <class Act>
+std::string refusal(Act act)
+{
+    try {
+        act();
+    } catch (const host::InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+}  // namespace cusp::test
