@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "host_tools/nurbs/nurbs.hpp"
+#include "host_tools/surface_offset/edge_guard.hpp"
 #include "host_tools/surface_offset/trim_region.hpp"
 #include "host_tools/toolpath/toolpath.hpp"
 
@@ -40,6 +41,10 @@ public:
 
     // Where in plan the tool over `at` touches what it rests on, as drop() found it.
     Vec2d touched(Vec2d at, const Rest& rest) const;
+
+    // From now on what a ball cuts into rims and creases counts square to the face that ends there,
+    // as a tolerance does; see `EdgeGuard`. allowed (mm, > 0): how deep moves may cut.
+    void guard_edges(double allowed);
 
     // Lower bound of the gap between the tool, moved straight from tip a to tip b, and the
     // surfaces with what is below them: 0 where it keeps clear of them, negative (mm) by how much
@@ -209,6 +214,7 @@ private:
     Tool tool_;
     double accuracy_;
     std::vector<Surface> surfaces_;
+    std::optional<EdgeGuard> edges_;
     std::vector<TrimRegion> trims_;  // of each surface; empty where none is trimmed
     std::vector<Patch> patches_;
     // Halved when first needed; a const query only makes them finer.

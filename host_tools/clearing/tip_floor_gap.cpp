@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "host_tools/clearing/tip_floor.hpp"
+#include "host_tools/nurbs/knot_insertion.hpp"
 #include "host_tools/offset/contour.hpp"
 
 namespace cusp::host {
@@ -341,7 +342,24 @@ double TipFloor::gap(Vec3d a, Vec3d b, double margin) const
     for (std::uint32_t piece = first; piece != kRoot; piece = pieces_[piece].parent) {
         look_into(sibling(piece));
     }
-    return least < -accuracy_ ? (1.0 + kDeepShare) * least : least;
+    least = least < -accuracy_ ? (1.0 + kDeepShare) * least : least;
+    return least < 0.0 && edges_ ? std::min(least, -edges_->cut(a, b, margin)) : least;
+}
+
+// One smooth surface ends beyond the walls.
+void TipFloor::guard_edges(double allowed)
+{
+    const auto smooth = [](const Surface& s) {
+        const auto whole = [](const std::vector<double>& knots, int degree, int count) {
+            return crease_knots(knots, degree, static_cast<std::size_t>(count)).size() == 2;
+        };
+        return s.trims.empty() && whole(s.knots_u, s.degree_u, s.size_u) &&
+               whole(s.knots_v, s.degree_v, s.size_v);
+    };
+    const bool ball = tool_.corner_radius == tool_.radius;
+    if (ball && !(surfaces_.size() == 1 && smooth(surfaces_.front()))) {
+        edges_.emplace(surfaces_, tool_.radius, allowed);
+    }
 }
 
 }  // namespace cusp::host

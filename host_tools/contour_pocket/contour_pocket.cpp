@@ -66,6 +66,9 @@ public:
           moves_{job.stock_top + job.clearance},
           depth_{depth}
     {
+        if (!budget.outside) {
+            floor_.guard_edges(operation.floor_tolerance);
+        }
     }
 
     const TipFloor& floor() const { return floor_; }

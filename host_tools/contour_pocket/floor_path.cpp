@@ -368,9 +368,8 @@ Chain curves_through(const std::vector<Station>& stations,
     };
     chain.start = tip(stations.front());
     for (std::size_t c = 1; c < corners.size(); ++c) {
-        const std::vector<Station> run(
-            stations.begin() + static_cast<std::ptrdiff_t>(corners[c - 1]),
-            stations.begin() + static_cast<std::ptrdiff_t>(corners[c] + 1));
+        std::vector<Station> run(stations.begin() + static_cast<std::ptrdiff_t>(corners[c - 1]),
+                                 stations.begin() + static_cast<std::ptrdiff_t>(corners[c] + 1));
         if (auto curve = fit_cubic(run, aside, low, high)) {
             for (Vec3d& p : curve->points) {
                 p = written(p);
@@ -378,9 +377,9 @@ Chain curves_through(const std::vector<Station>& stations,
             chain.moves.push_back({tip(run.back()), {}, 0, std::move(*curve)});
             continue;
         }
+        run.back().exact = true;  // the next run starts there
         const Chain lines = chain_through(run, aside, low, high, false, false);
         chain.moves.insert(chain.moves.end(), lines.moves.begin(), lines.moves.end());
-        chain.moves.back().end = tip(run.back());
     }
     return chain;
 }

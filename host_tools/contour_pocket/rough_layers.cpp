@@ -112,7 +112,10 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     rough.tool = operation.tools.empty() ? operation.tool : operation.tools.front();
     const double depth = operation.max_depth.value_or(rough.tool.radius);
     const RoughStep step = rough_step(rough.tool, depth);
-    const TipFloor floor{operation.floor, rough.tool, budget.accuracy};
+    TipFloor floor{operation.floor, rough.tool, budget.accuracy};
+    if (!budget.outside) {
+        floor.guard_edges(operation.floor_tolerance);
+    }
     ClearingSettings clearing;
     clearing.first = budget.first - operation.tool.radius + rough.tool.radius + operation.allowance;
     clearing.step = step.across;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "host_tools/surface_offset/surface_model.hpp"
-#include "host_tools/surface_passes/edge_guard.hpp"
+#include "host_tools/surface_offset/edge_guard.hpp"
 
 namespace cusp::host {
 

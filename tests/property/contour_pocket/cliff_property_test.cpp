@@ -118,6 +118,19 @@ Loop square_loop(double half)
     return loop_of({{-half, -half}, {half, -half}, {half, half}, {-half, half}});
 }
 
+// Turned by chance; each second one is a circle.
+Patch random_patch(Random& random, int i, double least, double most)
+{
+    const double angle = uniform(random, 0.0, 3.0);
+    const double round = i % 2 == 0 ? 0.0 : uniform(random, 3.0, 6.0);
+    return {{uniform(random, -4.0, 4.0), uniform(random, -4.0, 4.0)},
+            {std::cos(angle), std::sin(angle)},
+            round > 0.0 ? 0.0 : uniform(random, 5.0, 14.0),
+            round > 0.0 ? 0.0 : uniform(random, 4.0, 10.0),
+            round,
+            kLow + uniform(random, least, most)};
+}
+
 TEST_GROUP(RandomCliff){};
 
 TEST(RandomCliff, LeavesNoMoreAtItsFootThanTheScallop)
@@ -125,15 +138,8 @@ TEST(RandomCliff, LeavesNoMoreAtItsFootThanTheScallop)
     constexpr unsigned kSeed = 2026;
     Random random{kSeed};
     for (int i = 0; i < property_cases(3); ++i) {
-        const double angle = uniform(random, 0.0, 3.0);
         const double radius = uniform(random, 1.5, 3.0);
-        const double round = i % 2 == 0 ? 0.0 : uniform(random, 3.0, 6.0);
-        const Patch patch{{uniform(random, -4.0, 4.0), uniform(random, -4.0, 4.0)},
-                          {std::cos(angle), std::sin(angle)},
-                          round > 0.0 ? 0.0 : uniform(random, 5.0, 14.0),
-                          round > 0.0 ? 0.0 : uniform(random, 4.0, 10.0),
-                          round,
-                          kLow + uniform(random, 0.2, 5.0)};
+        const Patch patch = random_patch(random, i, 0.2, 5.0);
         const ToolShape shapes[] = {ToolShape::kFlat, ToolShape::kBall, ToolShape::kBull};
         const Operation operation = random_pocket(
             random, {turned_plate({0.0, 0.0}, {1.0, 0.0}, 60.0, 60.0, kLow), surface_of(patch)},
@@ -161,6 +167,34 @@ TEST(RandomCliff, LeavesNoMoreAtItsFootThanTheScallop)
         CHECK(gouge <= 1e-6);
         CHECK(most <= *operation.scallop + 2e-3);
         DOUBLES_EQUAL(0.0, planned.stats.gouge_bound_mm, 1e-9);
+    }
+}
+
+// From beside, a ball that goes a tolerance into the edge would take more off the patch.
+TEST(RandomCliff, IsCutNoDeeperThanATwoSidedTolerance)
+{
+    constexpr unsigned kSeed = 718;
+    Random random{kSeed};
+    for (int i = 0; i < property_cases(4); ++i) {
+        const double radius = uniform(random, 1.0, 3.0);
+        const Patch patch = random_patch(random, i, 0.2, 1.0);
+        Operation operation = random_pocket(
+            random, {turned_plate({0.0, 0.0}, {1.0, 0.0}, 60.0, 60.0, kLow), surface_of(patch)},
+            square_loop(20.0), {1, ToolShape::kBall, radius, 0.0}, 0.2);
+        operation.tolerance_side = ToleranceSide::kBoth;
+        operation.output = i % 3 == 0 ? OutputForm::kLines : OutputForm::kArcs;
+        const PlannedOperation planned = planned_pocket(operation);
+        const std::vector<Vec3d> tips = tips_of(planned.path, 0.0, kPitch);
+        double deepest = 0.0;
+        for (double share = 0.0; share < 1.0; share += 0.0025) {
+            const Vec2d p = patch.around(share, 0.0);
+            deepest = std::max(deepest, patch.top - lowest_cut(operation.tool, tips, p));
+        }
+        std::printf("seed %u cliff %d: height %.2f, ball %.2f, cut %.5f of %.4f bound %.5f\n",
+                    kSeed, i, patch.top - kLow, radius, deepest, operation.floor_tolerance,
+                    planned.stats.gouge_bound_mm);
+        CHECK(deepest <= operation.floor_tolerance + 1e-6);
+        CHECK(deepest <= planned.stats.gouge_bound_mm + 1e-6);
     }
 }
 

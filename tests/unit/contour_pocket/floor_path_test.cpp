@@ -187,6 +187,39 @@ TEST(FloorPath, LongMovesUpToARimStayDown)
     CHECK(longest < 0.2 * ball.radius);
 }
 
+// Where a curve has too few places to go by: lines start and end where it would, and are nowhere
+// farther beside the way than it may be.
+TEST(FloorPath, LinesInPlaceOfAShortCurveStayBesideTheWay)
+{
+    const TipFloor tips{{hill(60.0, 0.0)}, kBall, kAccuracy};
+    FloorPathSettings laying = settings();
+    laying.arcs = true;
+    laying.nurbs = true;
+    for (int i = 0; i < 60; ++i) {
+        const double radius = 1.0 + 0.15 * (i % 10);
+        const Vec2d centre{30.0, 30.0};
+        const auto place = [&](double angle) {
+            return centre + Vec2d{std::cos(angle), std::sin(angle)} * radius;
+        };
+        const double end = 0.2 + 0.01 * i;
+        const std::vector<Edge> plan{line_edge({40.0, 25.0}, place(0.0)),
+                                     arc_edge(place(0.0), place(end), centre, 1),
+                                     line_edge(place(end), {50.0, 40.0})};
+        const FloorPath path = lay_on_floor(plan, tips, laying);
+        Vec3d from = path.start;
+        for (const FloorMove& move : path.moves) {
+            for (int k = 0; k <= 40 && move.turn == 0 && move.curve.points.empty(); ++k) {
+                const Vec3d p = from + (move.end - from) * (k / 40.0);
+                const double off =
+                    std::min({distance_to(plan[0], {p.x, p.y}), distance_to(plan[1], {p.x, p.y}),
+                              distance_to(plan[2], {p.x, p.y})});
+                CHECK(off <= laying.aside + kWrittenStep);
+            }
+            from = move.end;
+        }
+    }
+}
+
 // Level and upright moves are for cliffs. On a steep floor without one, what lacks a micrometre is
 // raised by as much.
 TEST(FloorPath, MovesUpASmoothSteepFloorStandNoMoreThanTheBandOverIt)

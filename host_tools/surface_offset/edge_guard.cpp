@@ -1,24 +1,26 @@
 // Pieces of edges are kept in squares seen from above.
-#include "host_tools/surface_passes/edge_guard.hpp"
+#include "host_tools/surface_offset/edge_guard.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "host_tools/nurbs/knot_insertion.hpp"
 
 namespace cusp::host {
 namespace {
 
-constexpr double kPiece = 0.02;     // radii
-constexpr double kSquare = 0.25;    // radii
-constexpr int kLeastPieces = 8;     // between knots
-constexpr int kMostPieces = 4000;   // the same
-constexpr double kAside = 1e-6;     // of the domain: which side of a crease is meant
-constexpr double kLeastUp = 1e-3;   // z of the way to the centre
-constexpr double kStepShare = 0.2;  // of the depth, for what lies between places of a move
-constexpr int kMostPlaces = 2000;   // of a move
-constexpr int kMostPushes = 3;      // off edges that meet
-constexpr double kRaised = 1e-7;    // mm
+constexpr double kPiece = 0.02;      // radii
+constexpr double kSquare = 0.25;     // radii
+constexpr int kLooks = 8;            // between knots: for a length
+constexpr int kMostPieces = 4000;    // the same
+constexpr double kAside = 1e-6;      // of the domain: which side of a crease is meant
+constexpr double kLeastUp = 1e-3;    // z of the way to the centre
+constexpr double kStepShare = 0.2;   // of the depth, for what lies between places of a move
+constexpr double kTrimShare = 0.05;  // of the depth, between the edge of a trim and its polyline
+constexpr int kMostPlaces = 2000;    // of a move
+constexpr int kMostPushes = 3;       // off edges that meet
+constexpr double kRaised = 1e-7;     // mm
 
 Vec3d nearest_on(Vec3d p, Vec3d a, Vec3d b)
 {
@@ -27,60 +29,96 @@ Vec3d nearest_on(Vec3d p, Vec3d a, Vec3d b)
     return a + d * (square > 0 ? std::clamp(dot(p - a, d) / square, 0.0, 1.0) : 0.0);
 }
 
+// Of a ball whose centre moves straight from a to b: how low it reaches over the place p in plan.
+double lowest_over(Vec3d a, Vec3d b, double radius, Vec3d p)
+{
+    const double length = std::hypot(b.x - a.x, b.y - a.y);
+    const Vec2d arm{p.x - a.x, p.y - a.y};
+    const Vec2d way = length > 0 ? Vec2d{b.x - a.x, b.y - a.y} * (1 / length) : Vec2d{1, 0};
+    const double along = dot(arm, way);
+    const double square = radius * radius - dot(arm, arm) + along * along;
+    const double half = std::sqrt(std::max(0.0, square));
+    const double low = std::max(0.0, along - half);
+    const double high = std::min(length, along + half);
+    if (square <= 0 || low > high) {
+        return std::numeric_limits<double>::infinity();
+    }
+    if (length == 0) {
+        return std::min(a.z, b.z) - std::sqrt(std::max(0.0, square - along * along));
+    }
+    const double slope = (b.z - a.z) / length;
+    const double best = std::clamp(along - slope * half / std::sqrt(1 + slope * slope), low, high);
+    return a.z + slope * best - std::sqrt(std::max(0.0, square - (best - along) * (best - along)));
+}
+
 }  // namespace
 
 EdgeGuard::EdgeGuard(const std::vector<Surface>& surfaces, double radius, double deepest)
     : radius_{radius}, deepest_{deepest}, step_{std::sqrt(8 * radius * kStepShare * deepest)}
 {
     for (const Surface& s : surfaces) {
-        const double aside_u = kAside * (s.u_end() - s.u_begin());
-        const double aside_v = kAside * (s.v_end() - s.v_begin());
-        const auto size_u = static_cast<std::size_t>(s.size_u);
-        const auto size_v = static_cast<std::size_t>(s.size_v);
-        const std::vector<double> us = distinct_knots(s.knots_u, s.degree_u, size_u);
-        const std::vector<double> vs = distinct_knots(s.knots_v, s.degree_v, size_v);
-        const auto along_v = [&](double u, double aside) {
-            for (std::size_t k = 1; k < vs.size(); ++k) {
-                add_border(s, {u, vs[k - 1]}, {u, vs[k]}, {aside, 0});
-            }
-        };
-        const auto along_u = [&](double v, double aside) {
-            for (std::size_t k = 1; k < us.size(); ++k) {
-                add_border(s, {us[k - 1], v}, {us[k], v}, {0, aside});
-            }
-        };
-        // Both sides of a crease, the inner one of an end.
-        for (const double u : crease_knots(s.knots_u, s.degree_u, size_u)) {
-            if (u < s.u_end()) {
-                along_v(u, aside_u);
-            }
-            if (u > s.u_begin()) {
-                along_v(u, -aside_u);
-            }
-        }
-        for (const double v : crease_knots(s.knots_v, s.degree_v, size_v)) {
-            if (v < s.v_end()) {
-                along_u(v, aside_v);
-            }
-            if (v > s.v_begin()) {
-                along_u(v, -aside_v);
+        const TrimRegion trims{s, kTrimShare * deepest};
+        edge_error_ = trims.trimmed() ? kTrimShare * deepest : edge_error_;
+        add_borders(s, trims);
+        for (const std::vector<Vec2d>& loop : trims.loops()) {
+            for (std::size_t k = 0; k < loop.size(); ++k) {
+                add_edge(s, trims, loop[k], loop[(k + 1) % loop.size()], {});
             }
         }
     }
 }
 
-void EdgeGuard::add_border(const Surface& surface, Vec2d from, Vec2d to, Vec2d aside)
+// As far as they are not trimmed away.
+void EdgeGuard::add_borders(const Surface& s, const TrimRegion& trims)
+{
+    const double aside_u = kAside * (s.u_end() - s.u_begin());
+    const double aside_v = kAside * (s.v_end() - s.v_begin());
+    const auto size_u = static_cast<std::size_t>(s.size_u);
+    const auto size_v = static_cast<std::size_t>(s.size_v);
+    const std::vector<double> us = distinct_knots(s.knots_u, s.degree_u, size_u);
+    const std::vector<double> vs = distinct_knots(s.knots_v, s.degree_v, size_v);
+    const auto along_v = [&](double u, double aside) {
+        for (std::size_t k = 1; k < vs.size(); ++k) {
+            add_edge(s, trims, {u, vs[k - 1]}, {u, vs[k]}, {aside, 0});
+        }
+    };
+    const auto along_u = [&](double v, double aside) {
+        for (std::size_t k = 1; k < us.size(); ++k) {
+            add_edge(s, trims, {us[k - 1], v}, {us[k], v}, {0, aside});
+        }
+    };
+    // Both sides of a crease, the inner one of an end.
+    for (const double u : crease_knots(s.knots_u, s.degree_u, size_u)) {
+        if (u < s.u_end()) {
+            along_v(u, aside_u);
+        }
+        if (u > s.u_begin()) {
+            along_v(u, -aside_u);
+        }
+    }
+    for (const double v : crease_knots(s.knots_v, s.degree_v, size_v)) {
+        if (v < s.v_end()) {
+            along_u(v, aside_v);
+        }
+        if (v > s.v_begin()) {
+            along_u(v, -aside_v);
+        }
+    }
+}
+
+// aside: from the edge into the face, in (u, v); none along the edge of a trim.
+void EdgeGuard::add_edge(
+    const Surface& surface, const TrimRegion& trims, Vec2d from, Vec2d to, Vec2d aside)
 {
     double length = 0;
     Vec3d last = point_at(surface, from.x, from.y);
-    for (int k = 1; k <= kLeastPieces; ++k) {
-        const Vec2d at = from + (to - from) * (static_cast<double>(k) / kLeastPieces);
+    for (int k = 1; k <= kLooks; ++k) {
+        const Vec2d at = from + (to - from) * (static_cast<double>(k) / kLooks);
         const Vec3d next = point_at(surface, at.x, at.y);
         length += norm(next - last);
         last = next;
     }
-    const int parts =
-        std::clamp(static_cast<int>(length / (kPiece * radius_)), kLeastPieces, kMostPieces);
+    const int parts = std::clamp(static_cast<int>(length / (kPiece * radius_)) + 1, 1, kMostPieces);
     Vec3d at = point_at(surface, from.x, from.y);
     double upright = 0;
     for (int k = 0; k <= parts; ++k) {
@@ -88,7 +126,9 @@ void EdgeGuard::add_border(const Surface& surface, Vec2d from, Vec2d to, Vec2d a
         const Vec3d next = point_at(surface, place.x, place.y);
         const Vec2d inside = place + aside;
         const double up = upward_normal(derivatives_at(surface, inside.x, inside.y)).z;
-        if (k > 0 && norm(next - at) > 0) {
+        const Vec2d middle = place + (from - to) * (0.5 / parts) + aside;
+        const bool stands = norm(aside) == 0 || trims.inside(middle.x, middle.y);
+        if (k > 0 && stands && norm(next - at) > 0) {
             add({at, next, std::max(upright, up)});
         }
         upright = up;
@@ -235,6 +275,29 @@ bool EdgeGuard::spares(Vec3d from, Vec3d to) const
         }
     }
     return true;
+}
+
+double EdgeGuard::cut(Vec3d from, Vec3d to, double margin) const
+{
+    const Vec3d way = to - from;
+    // Squares are looked at round a place: of a long move part by part.
+    const double length = std::hypot(way.x, way.y);
+    const int parts = std::max(1, static_cast<int>(std::ceil(length / radius_)));
+    // Between the ends of a piece the ball may reach as much lower as if it were that much larger.
+    const double round = radius_ * (1 + 0.125 * kPiece * kPiece) + edge_error_ + margin;
+    double most = 0;
+    for (int k = 0; k < parts; ++k) {
+        const Vec3d a = from + way * (static_cast<double>(k) / parts);
+        const Vec3d b = from + way * (static_cast<double>(k + 1) / parts);
+        look_round((a + b) * 0.5, round + 0.5 * length / parts, [&](const Piece& piece) {
+            for (const Vec3d p : {piece.from, piece.to}) {
+                const Vec3d up{0, 0, radius_};
+                most =
+                    std::max(most, piece.upright * (p.z - lowest_over(a + up, b + up, round, p)));
+            }
+        });
+    }
+    return most;
 }
 
 }  // namespace cusp::host

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host_tools/nurbs/nurbs.hpp"
+#include "host_tools/surface_offset/trim_region.hpp"
 
 namespace cusp::host {
 
@@ -14,8 +15,8 @@ namespace cusp::host {
 // face's edge, coming from beside it, takes off more, square to the face: the depth times the
 // ratio of the normals' heights, without limit for one that passes an upright edge.
 //
-// Edges are the borders of the surfaces' domains and lines of knots where the tangent plane may
-// jump; trimmed edges are not looked at. They are polylines, as fine as a 50th of the radius.
+// Edges are the borders of the surfaces' domains, lines of knots where the tangent plane may jump,
+// and the edges of trims. They are polylines, as fine as a 50th of the radius.
 class EdgeGuard {
 public:
     // radius   mm, of the ball
@@ -32,6 +33,10 @@ public:
     // Whether a straight move of the tip takes nowhere more off a face at its edge.
     bool spares(Vec3d from, Vec3d to) const;
 
+    // The most (mm) that a straight move of the tip takes off a face at its edge, square to the
+    // face; 0: nothing. margin (mm): how far beside the straight line the tool may really be.
+    double cut(Vec3d from, Vec3d to, double margin) const;
+
 private:
     struct Piece {
         Vec3d from;
@@ -41,7 +46,9 @@ private:
     Vec3d moved_off(Vec3d tip, double band) const;
     // Returns whether some place had to move.
     bool append_moved(Vec3d from, Vec3d to, double band, std::vector<Vec3d>& out) const;
-    void add_border(const Surface& surface, Vec2d from, Vec2d to, Vec2d aside);
+    void add_borders(const Surface& surface, const TrimRegion& trims);
+    void add_edge(
+        const Surface& surface, const TrimRegion& trims, Vec2d from, Vec2d to, Vec2d aside);
     void add(const Piece& piece);
     template <class Look>
     void look_round(Vec3d centre, double around, const Look& look) const;
@@ -52,7 +59,8 @@ private:
 
     double radius_;
     double deepest_;
-    double step_;  // mm: between places of a move looked at
+    double step_;          // mm: between places of a move looked at
+    double edge_error_{};  // mm: between an edge and its pieces
     std::vector<Piece> pieces_;
     std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
 };

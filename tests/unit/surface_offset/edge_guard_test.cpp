@@ -1,5 +1,5 @@
 // Moves of a ball past the rim of a level plate, against what they take off it seen from above.
-#include "host_tools/surface_passes/edge_guard.hpp"
+#include "host_tools/surface_offset/edge_guard.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +14,7 @@ namespace {
 constexpr double kRadius = 2;
 constexpr double kDeepest = 0.005;
 constexpr double kBand = 0.0045;
+constexpr double kPieces = 5e-5;  // radii that edges in pieces count for more
 
 // 10 by 10 mm, its upper side at z = 0.
 Surface plate()
@@ -89,4 +90,40 @@ TEST(EdgeGuard, RaisesTheBallBesideTheRimUntilItNeedsNoPush)
     }
     const Vec3d over{1, 5, 0};
     CHECK(guard.raised(over, kBand) == over);
+}
+
+TEST(EdgeGuard, TellsHowDeepAMoveCutsIntoTheRim)
+{
+    const EdgeGuard guard{{plate()}, kRadius, kDeepest};
+    for (const double beside : {0.3, 1.0, 1.7, 1.95}) {
+        const double centre = std::sqrt(std::pow(kRadius - kDeepest, 2) - beside * beside);
+        const double up = centre / kRadius;
+        const Vec3d from{-beside, 1, centre - kRadius};
+        const Vec3d to{-beside, 90, centre - kRadius};
+        // Up to the rim and back, deepest where it is nearest.
+        const Vec3d far{-9, 4, from.z};
+        for (const double cut :
+             {guard.cut(from, to, 0), guard.cut(from, from, 0), guard.cut(far, from, 0)}) {
+            CHECK(cut >= below_rim(from) && cut <= below_rim(from) + 1.1 * kPieces * kRadius / up);
+        }
+    }
+    DOUBLES_EQUAL(0, guard.cut({-1, 1, 0}, {-1, 9, 0}, 0), 0.0);
+    DOUBLES_EQUAL(kBand, guard.cut({0, 1, -kBand}, {0, 9, -kBand}, 0), 1.1 * kPieces * kRadius);
+}
+
+TEST(EdgeGuard, KeepsOffTheEdgeOfATrimButNotOffWhatIsTrimmedAway)
+{
+    Surface half = plate();
+    const auto side = [](Vec3d a, Vec3d b) {
+        return Curve{1, {0, 0, 1, 1}, {a, b}, {1, 1}};
+    };
+    half.trims = {{side({0.5, 0, 0}, {1, 0, 0}), side({1, 0, 0}, {1, 1, 0}),
+                   side({1, 1, 0}, {0.5, 1, 0}), side({0.5, 1, 0}, {0.5, 0, 0})}};
+    const EdgeGuard guard{{half}, kRadius, kDeepest};
+    const double beside = 1.0;
+    const double depth = std::sqrt(std::pow(kRadius - kDeepest, 2) - beside * beside) - kRadius;
+    const Vec3d cut{0, 0, below_rim({-beside, 5, depth})};
+    DOUBLES_EQUAL(cut.z, guard.cut({5 - beside, 1, depth}, {5 - beside, 9, depth}, 0),
+                  0.2 * kDeepest);
+    DOUBLES_EQUAL(0, guard.cut({-beside, 1, depth}, {-beside, 9, depth}, 0), 0.0);
 }
