@@ -71,10 +71,8 @@ public:
         whole_ = whole_ && !work_.moved_off_edges();
         std::size_t bare = 0;
         bool unseen = false;
-        if (coverage_ && !(plain_ && whole_ && ridge_ <= *operation_.scallop)) {
-            for (std::size_t k = 0; k < work_.surfaces().size(); ++k) {
-                coverage_->look_over(static_cast<int>(k));
-            }
+        if (coverage_ && !(plain_ && whole_ && open_.empty())) {
+            look_over_cells();
             coverage_->close_gaps([&](const Points& pass) { add_pass(pass); });
             bare = coverage_->uncovered();
             ridge_ = std::max(*operation_.scallop, coverage_->most_left());
@@ -90,6 +88,9 @@ public:
         PlannedOperation planned = work_.finish(spacing_, ridge_);
         report_bare_places(planned.stats, bare, unseen);
         planned.stats.counts.emplace_back("isocurves", static_cast<double>(curves));
+        if (coverage_) {
+            planned.stats.counts.emplace_back("cells_share", cells_share_);
+        }
         report_left_beside_edges(planned.stats);
         if (apart_ > 0) {
             planned.stats.counts.emplace_back("iso_distance_bound_mm", apart_);
@@ -139,6 +140,27 @@ private:
             coverage_->add(points);
         } else {
             cut_.push_back(points);
+        }
+    }
+
+    // All of the surfaces, or only where strips between passes of one leave too much.
+    void look_over_cells()
+    {
+        const std::vector<Surface>& surfaces = work_.surfaces();
+        const double area = (surfaces.front().u_end() - surfaces.front().u_begin()) *
+                            (surfaces.front().v_end() - surfaces.front().v_begin());
+        for (const Ridges::Strip& strip : open_) {
+            cells_share_ += (strip.u1 - strip.u0) * (strip.v1 - strip.v0) / area;
+        }
+        if (plain_ && whole_ && cells_share_ < 1) {
+            for (const Ridges::Strip& strip : open_) {
+                coverage_->look_over(0, {strip.u0, strip.v0}, {strip.u1, strip.v1});
+            }
+            return;
+        }
+        cells_share_ = 1;
+        for (std::size_t k = 0; k < surfaces.size(); ++k) {
+            coverage_->look_over(static_cast<int>(k));
         }
     }
 
@@ -307,8 +329,11 @@ private:
         if (trimmed) {
             add_edges(surface);
         }
-        ridge_ = std::max(ridge_, Ridges{work_.model(), surface, tool_}.highest(
-                                      curves, s.u_begin(), s.u_end(), kRidgeLooks));
+        const Ridges::Highest highest = Ridges{work_.model(), surface, tool_}.highest(
+            curves, s.u_begin(), s.u_end(), kRidgeLooks,
+            coverage_ ? *operation_.scallop : std::numeric_limits<double>::infinity());
+        ridge_ = std::max(ridge_, highest.ridge);
+        open_ = highest.open;
         return curves.size();
     }
 
@@ -435,7 +460,9 @@ private:
     double spacing_{};
     double apart_{};  // mm: the bound of neighbours at equal u, by iso_distance
     double ridge_{};
-    double beside_edges_{};  // mm: left there where there is no coverage
+    std::vector<Ridges::Strip> open_;  // of one smooth surface, where they leave too much
+    double cells_share_{};             // of the surfaces' domains, that cells were asked about
+    double beside_edges_{};            // mm: left there where there is no coverage
     int unreached_{};
     int exact_curves_{};
     double offset_error_{};

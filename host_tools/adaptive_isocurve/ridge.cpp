@@ -13,6 +13,7 @@ constexpr int kTurns = 8;
 constexpr double kLevel = 1e-7;   // z of a normal
 constexpr double kBeside = 0.01;  // of the way to the neighbour
 constexpr double kLeastShare = 0.1;
+constexpr double kToldApart = 0.995;
 
 }  // namespace
 
@@ -84,20 +85,29 @@ double Ridges::between(double u, CurvePlace low_place, CurvePlace high_place, do
     return bound;
 }
 
-double Ridges::highest(const std::vector<DomainCurve>& curves,
-                       double u_begin,
-                       double u_end,
-                       int count)
+Ridges::Highest Ridges::highest(
+    const std::vector<DomainCurve>& curves, double u_begin, double u_end, int count, double allowed)
 {
-    double worst = 0;
+    const double enough = std::isfinite(allowed) ? kToldApart * allowed : 0;
+    const double width = (u_end - u_begin) / count;
+    Highest out{0, {}};
     for (int k = 0; k <= count; ++k) {
-        const double u = u_begin + (u_end - u_begin) * k / count;
+        const double u = u_begin + width * k;
         const std::vector<CurvePlace> across = places_at(curves, u);
         for (std::size_t j = 1; j < across.size(); ++j) {
-            worst = std::max(worst, between(u, across[j - 1], across[j]));
+            const CurvePlace low = across[j - 1];
+            const CurvePlace high = across[j];
+            const double ridge = between(u, low, high, enough);
+            if (ridge <= allowed) {
+                out.ridge = std::max(out.ridge, ridge);
+            } else {
+                out.open.push_back({std::max(u_begin, u - width), std::min(u_end, u + width),
+                                    low.v - width * std::abs(low.slope),
+                                    high.v + width * std::abs(high.slope)});
+            }
         }
     }
-    return worst;
+    return out;
 }
 
 }  // namespace cusp::host

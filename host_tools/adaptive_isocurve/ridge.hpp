@@ -1,6 +1,7 @@
 // The ridge that a ball leaves between two neighbouring passes of one surface.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -30,8 +31,22 @@ public:
     // The first that is no more than `enough` will do.
     double between(double u, CurvePlace low, CurvePlace high, double enough = 0);
 
-    // The highest over all neighbours at `count` places along u.
-    double highest(const std::vector<DomainCurve>& curves, double u_begin, double u_end, int count);
+    // A part of the domain, as low and high as two neighbours are there.
+    struct Strip {
+        double u0, u1, v0, v1;
+    };
+    struct Highest {
+        double ridge;             // over all neighbours but those of `open`
+        std::vector<Strip> open;  // where it is more than was allowed
+    };
+    // Over all neighbours at `count` + 1 places along u. What is open reaches to the next places.
+    //
+    // allowed  mm: ridges under a share of it are not told apart
+    Highest highest(const std::vector<DomainCurve>& curves,
+                    double u_begin,
+                    double u_end,
+                    int count,
+                    double allowed = std::numeric_limits<double>::infinity());
 
 private:
     // A ball that moves straight.

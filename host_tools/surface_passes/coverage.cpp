@@ -21,6 +21,19 @@ constexpr double kHidden = 1e-3;  // mm
 
 double largest(const std::array<double, 4>& of) { return *std::max_element(of.begin(), of.end()); }
 
+// Both ends and the knots between them.
+std::vector<double> cut_at_knots(const std::vector<double>& knots, double from, double to)
+{
+    std::vector<double> out{from};
+    for (const double knot : knots) {
+        if (knot > out.back() && knot < to) {
+            out.push_back(knot);
+        }
+    }
+    out.push_back(to);
+    return out;
+}
+
 }  // namespace
 
 Coverage::Coverage(const std::vector<Surface>& surfaces,
@@ -40,7 +53,7 @@ Coverage::Coverage(const std::vector<Surface>& surfaces,
 
 void Coverage::add(const Points& tips)
 {
-    if (tops_) {
+    if (looked_) {
         places_.add(tips);
     } else {
         waiting_.push_back(tips);
@@ -175,7 +188,15 @@ bool Coverage::hidden(const Corner& at) const
 {
     const Vec3d p = at.point.point;
     return !certified_.model().inside_trims(at.surface, at.u, at.v) ||
-           tops_->least_around(p.x, p.y) > p.z + kHidden + 2 * tops_->pitch();
+           tops().least_around(p.x, p.y) > p.z + kHidden + 2 * tops().pitch();
+}
+
+const TopMap& Coverage::tops() const
+{
+    if (!tops_) {
+        tops_.emplace(surfaces_, certified_.model(), kBlockedCell * places_.step());
+    }
+    return *tops_;
 }
 
 void Coverage::look_into(const Cell& cell, int depth)
@@ -208,15 +229,28 @@ void Coverage::look_into(const Cell& cell, int depth)
 
 void Coverage::look_over(int surface)
 {
-    if (!tops_) {
-        tops_.emplace(surfaces_, certified_.model(), kBlockedCell * places_.step());
+    const Surface& s = surfaces_[static_cast<std::size_t>(surface)];
+    look_over(surface, {s.u_begin(), s.v_begin()}, {s.u_end(), s.v_end()});
+}
+
+void Coverage::look_over(int surface, Vec2d low, Vec2d high)
+{
+    if (!looked_) {
         for (const Points& tips : waiting_) {
             places_.add(tips);
         }
         waiting_.clear();
+        looked_ = true;
     }
-    for (const BezierPatch& patch : bezier_patches(surfaces_[static_cast<std::size_t>(surface)])) {
-        look_into({surface, patch.u_begin, patch.u_end, patch.v_begin, patch.v_end}, kDeepest);
+    const Surface& s = surfaces_[static_cast<std::size_t>(surface)];
+    const std::vector<double> us =
+        cut_at_knots(s.knots_u, std::max(low.x, s.u_begin()), std::min(high.x, s.u_end()));
+    const std::vector<double> vs =
+        cut_at_knots(s.knots_v, std::max(low.y, s.v_begin()), std::min(high.y, s.v_end()));
+    for (std::size_t i = 1; i < us.size(); ++i) {
+        for (std::size_t j = 1; j < vs.size(); ++j) {
+            look_into({surface, us[i - 1], us[i], vs[j - 1], vs[j]}, kDeepest);
+        }
     }
 }
 

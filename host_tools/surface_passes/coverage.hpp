@@ -39,6 +39,8 @@ public:
 
     // Looks over one surface; what is not covered is kept for `close_gaps`.
     void look_over(int surface);
+    // The same of what lies between two corners of the domain.
+    void look_over(int surface, Vec2d low, Vec2d high);
 
     // Whether a look ended early because more cells are bare than are kept.
     bool overflowed() const { return overflowed_; }
@@ -94,6 +96,7 @@ private:
     bool stands_free(const Corner& at) const;
     bool blocked_somewhere(const std::array<Corner, 4>& at) const;
     bool hidden(const Corner& at) const;
+    const TopMap& tops() const;
     std::optional<Place> bare_place(const Cell& cell) const;
     // The tip that is missing at a place; none where nothing is, or the tool can't touch and
     // `where_blocked` is false.
@@ -117,7 +120,8 @@ private:
     std::size_t most_gaps_;
     PlaceCoverage places_;
     std::vector<Points> waiting_;  // passes given before the first look
-    std::optional<TopMap> tops_;   // from the first look on: many parts need none
+    bool looked_{};
+    mutable std::optional<TopMap> tops_;  // many parts need none
     std::vector<Cell> gaps_;
     double most_left_{};
     double left_beside_edges_{};
