@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "host_tools/verify/bands.hpp"
+#include "host_tools/verify/floor_reach.hpp"
 #include "host_tools/verify/reachable.hpp"
 
 namespace cusp::host {
@@ -137,6 +138,31 @@ Ideal ideal_heights(const FloorQuestion& q, const PartHeights& part)
     return ideal;
 }
 
+// Where more than the scallop stands over the part, the height that is best there is looked for
+// itself: the grid's misses rims and crests between its points, and the lowest places of narrow
+// valleys.
+void settle_doubts(const FloorQuestion& q,
+                   const PartHeights& part,
+                   const std::vector<double>& clear,
+                   Ideal& ideal)
+{
+    const double radius = least_radius(q.tools);
+    for_each_band(q.grid.nx, [&](std::size_t begin, std::size_t end, std::size_t) {
+        FloorReach reach{q.surfaces, q.mesh, q.tools, q.walls, q.keep_off};
+        for (std::size_t k = q.grid.index(begin, 0); k < q.grid.index(end, 0); ++k) {
+            const double allowed = *q.scallop / part.cosine[k];
+            if (!std::isfinite(part.z[k]) || clear[k] < radius || q.cut[k] - part.z[k] <= allowed) {
+                continue;
+            }
+            const std::size_t i = k / q.grid.ny;
+            const std::size_t j = k % q.grid.ny;
+            const Vec3d normal{part.lean[k][0], part.lean[k][1], part.cosine[k]};
+            ideal.height[k] = reach.lowest_over({q.grid.x(i, j), q.grid.y(i, j), part.z[k]}, normal,
+                                                q.cut[k] - allowed);
+        }
+    });
+}
+
 struct Sums {
     std::size_t part{};
     std::size_t unreachable{};
@@ -173,7 +199,7 @@ void fill_figures(const Sums& sums, std::size_t cells, VerifyFigures& figures)
 std::vector<double> judge_floor(const FloorQuestion& q, VerifyFigures& figures)
 {
     const PartHeights part = part_heights(q.surfaces, q.mesh, q.grid);
-    const Ideal ideal = ideal_heights(q, part);
+    Ideal ideal = ideal_heights(q, part);
     const double radius = least_radius(q.tools);
     const double bound = q.scallop.value_or(kFar);
     std::vector<double> left(q.grid.size(), kNone);
@@ -185,6 +211,9 @@ std::vector<double> judge_floor(const FloorQuestion& q, VerifyFigures& figures)
             }
         }
     });
+    if (q.scallop) {
+        settle_doubts(q, part, clear, ideal);
+    }
     Sums sums;
     std::size_t cells = 0;
     double wall_left = -kFar;

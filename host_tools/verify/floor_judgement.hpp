@@ -22,6 +22,7 @@ struct FloorQuestion {
     const std::vector<double>& cut;  // heights of the stock after cutting
     double top;                      // of the uncut stock
     std::optional<double> scallop;
+    double keep_off;  // mm: how far the path may have to stay off the floor
 };
 
 // Fills the figures of the floor. Returns what is left over what can be reached, per grid point:

@@ -124,6 +124,11 @@ Root solve(const Quad& quad, double x, double y, double u, double v)
     return root;
 }
 
+std::array<float, 2> lean_of(Vec3d normal)
+{
+    return {static_cast<float>(normal.x), static_cast<float>(normal.y)};
+}
+
 // Fills the columns [begin, end) of the grid below one quad.
 void fill(const Quad& quad,
           const Trims& trims,
@@ -166,6 +171,7 @@ void fill(const Quad& quad,
             const Vec3d n = upward_normal(root.at);
             heights.z[at] = root.at.point.z;
             heights.cosine[at] = n.z > 0 ? n.z : 1.0;
+            heights.lean[at] = lean_of(n);
         }
     }
 }
@@ -180,6 +186,7 @@ void fill(const std::array<Vec3d, 3>& t, const HeightGrid& grid, PartHeights& he
     if (!(cosine > kUpright)) {
         return;
     }
+    const std::array<float, 2> lean = lean_of(across * ((across.z < 0 ? -1 : 1) / norm(across)));
     const auto [x_low, x_high] = std::minmax({t[0].x, t[1].x, t[2].x});
     const auto [y_low, y_high] = std::minmax({t[0].y, t[1].y, t[2].y});
     for (std::size_t i = grid.first_column(x_low); i < grid.end_column(x_high); ++i) {
@@ -195,6 +202,7 @@ void fill(const std::array<Vec3d, 3>& t, const HeightGrid& grid, PartHeights& he
             if (s >= -kOnSide && r >= -kOnSide && s + r <= 1 + kOnSide && z > heights.z[at]) {
                 heights.z[at] = z;
                 heights.cosine[at] = cosine;
+                heights.lean[at] = lean;
             }
         }
     }
@@ -207,7 +215,8 @@ PartHeights part_heights(const std::vector<Surface>& surfaces,
                          const HeightGrid& grid)
 {
     PartHeights heights{std::vector<double>(grid.size(), -std::numeric_limits<double>::infinity()),
-                        std::vector<double>(grid.size(), 1.0)};
+                        std::vector<double>(grid.size(), 1.0),
+                        std::vector<std::array<float, 2>>(grid.size())};
     for (const Surface& surface : surfaces) {
         const Trims trims{surface};
         const std::vector<BezierPatch> patches = bezier_patches(surface);

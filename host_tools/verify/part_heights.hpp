@@ -10,8 +10,9 @@
 namespace cusp::host {
 
 struct PartHeights {
-    std::vector<double> z;       // NaN where no surface lies
-    std::vector<double> cosine;  // of the slope there; 1 on flat ground
+    std::vector<double> z;                   // NaN where no surface lies
+    std::vector<double> cosine;              // of the slope there; 1 on flat ground
+    std::vector<std::array<float, 2>> lean;  // x and y of the upward normal
 };
 
 // Heights are roots of the surfaces' equations (Newton), not interpolated. Surfaces that stand

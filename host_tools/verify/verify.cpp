@@ -30,6 +30,7 @@ struct Scene {
     double floor_tolerance{};
     double plan_tolerance{};
     std::optional<double> scallop;
+    double keep_off{};  // mm: the floor tolerance where it is one-sided
 };
 
 Scene scene_of(const Job& job)
@@ -59,6 +60,8 @@ Scene scene_of(const Job& job)
         scene.plan_tolerance = std::max(scene.plan_tolerance, operation.plan_tolerance);
         if (operation.scallop) {
             scene.scallop = operation.scallop;
+            scene.keep_off =
+                operation.tolerance_side == ToleranceSide::kOutside ? operation.floor_tolerance : 0;
         }
     }
     return scene;
@@ -263,7 +266,7 @@ Verification verify(const Job& job,
     }
     figures.ball_gouge_max = ball_gouge(scene, runs, job.stock_top);
     result.left = judge_floor({scene.surfaces, scene.mesh, tools, walls, result.grid,
-                               stock.heights(), job.stock_top, scene.scallop},
+                               stock.heights(), job.stock_top, scene.scallop, scene.keep_off},
                               figures);
     judge(scene, result);
     return result;

@@ -147,6 +147,52 @@ TEST(Verify, KnowsWhereTheRimOfAFlatEndCutsOnASlope)
     DOUBLES_EQUAL(0.0, furrow.uncovered_share, 0.0);
 }
 
+// A slot a little narrower than the ball between two level sheets. All that the ball can do over
+// the slot's floor is to sink between the rims; the map of heights misses those by half a pitch,
+// and lets it fall through. (The floor ends where the ball does not come from beyond the slot's
+// ends.) Without the passes in the middle metal is left.
+TEST(Verify, KnowsHowLowABallSinksBetweenTwoRims)
+{
+    const auto sheet = [](double x0, double x1, double y0, double y1, double z) {
+        char text[400];
+        std::snprintf(text, sizeof text,
+                      R"({"degree_u": 1, "degree_v": 1, "size_u": 2, "size_v": 2,
+            "knotvector_u": [0, 0, 1, 1], "knotvector_v": [0, 0, 1, 1], "control_points": {
+            "points": [[%.2f, %g, %g], [%.2f, %g, %g], [%.2f, %g, %g], [%.2f, %g, %g]]}})",
+                      x0, y0, z, x0, y1, z, x1, y0, z, x1, y1, z);
+        return std::string{text};
+    };
+    folder.write("slot.json", R"({"shape": {"type": "surface", "count": 3, "data": [)" +
+                                  sheet(0, 3.05, 0, 6, -5) + "," + sheet(3.05, 5.95, 2, 4, -9) +
+                                  "," + sheet(5.95, 9, 0, 6, -5) + "]}}");
+    const Job job = read_job(
+        folder.write("slot.toml",
+                     "[tool]\nshape = \"ball\"\ndiameter = 3\n[cutting]\nfeed = 1000\n"
+                     "[[operation]]\nstrategy = \"parallel_planes\"\nfloor = \"slot.json\"\n"
+                     "step_over = 1\nscallop = 0.02\nfloor_tolerance = 0.001\n"));
+    const auto verdict_of = [&](double left_out) {
+        std::string text = "G21 G90\nG0 Z5\nG0 X0 Y0\n";
+        char line[96];
+        for (int k = 0; k <= 180; ++k) {
+            const double x = 0.05 * k;
+            const double from_rim = 1.45 - std::abs(x - 4.5);
+            if (std::abs(x - 4.5) < left_out) {
+                continue;
+            }
+            const double tip = from_rim < 0 ? -5 : -6.5 + std::sqrt(2.25 - from_rim * from_rim);
+            std::snprintf(line, sizeof line, "G0 X%.3f Y0\nG1 Z%.5f F900\nG1 Y6\nG0 Z5\n", x, tip);
+            text += line;
+        }
+        return verify(job, folder.write("p.ngc", text + "M30\n"), settings, [](double) {});
+    };
+    const Verification good = verdict_of(0);
+    STRCMP_EQUAL("", good.broken.empty() ? "" : good.broken.front().c_str());
+    CHECK(good.figures.scallop_max <= 0.02);
+    const Verification bad = verdict_of(0.1);
+    CHECK(bad.figures.uncovered_share > 0.01);
+    CHECK(!bad.broken.empty());
+}
+
 TEST(Verify, MeasuresTheScallopOfAWidePath)
 {
     const Verification result = verdict(passes(-5, 4));

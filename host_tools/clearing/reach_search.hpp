@@ -1,0 +1,84 @@
+// How low a tool gets over a place that it can't touch: the best position of the tool in valleys,
+// concave edges and under overhangs.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "host_tools/clearing/tip_floor.hpp"
+#include "host_tools/nurbs/nurbs.hpp"
+#include "host_tools/toolpath/toolpath.hpp"
+
+namespace cusp::host {
+
+// Drops of the tool on a grid, made where first asked for, say where to begin. From there the
+// position is improved over all contacts found so far, which are the floor that the tool stands on,
+// dropped, and so on until drop and contacts agree (Kelley's way).
+//
+// A search, not a proof: a better position may hide between the places of the grid.
+class ReachSearch {
+public:
+    // Where a tool that was let down comes to rest.
+    struct Rest {
+        Vec3d centre;  // straight over the tip by the tool's corner radius, a ball's middle; z is
+                       // kNowhere where the tool meets nothing, or may not stand
+        Vec3d contact;
+    };
+    static constexpr double kNowhere = std::numeric_limits<double>::infinity();
+    using Drop = std::function<Rest(double x, double y)>;
+
+    // tool      that cuts
+    // keep_off  mm: how much larger all round the tool of `drop` is
+    // pitch     mm, of the grid
+    ReachSearch(const Tool& tool, double keep_off, double pitch, Drop drop);
+
+    struct Answer {
+        Vec3d centre;
+        double height;  // mm: what the tool leaves straight above or below the place
+    };
+    // worth  mm: heights above this are not told apart; a low one saves most of the time
+    // enough mm: the search ends at heights below this
+    // guess  in plan: where the tool may get low
+    //
+    // None where the tool can't stand over the place.
+    std::optional<Answer> over(Vec3d place,
+                               double worth,
+                               double enough = -1e300,
+                               std::optional<Vec2d> guess = std::nullopt);
+
+    // Places of the grid where the tool gets lowest, apart from each other.
+    std::vector<Answer> starts_over(Vec3d place);
+
+    Rest dropped(double x, double y) const { return drop_(x, y); }
+
+    // What the tool leaves over the place where its centre is there; infinite where it misses it.
+    double height_under(Vec3d centre, Vec3d place) const;
+    double pitch() const { return pitch_; }
+
+private:
+    const Rest& node(std::int64_t i, std::int64_t j);
+    double lowest_known(Vec3d place, Vec2d at) const;
+    Vec2d improved(Vec3d place, Vec2d at);
+    void improve_from(const Answer& start, Vec3d place, double worth, std::optional<Answer>& best);
+
+    void improve_by_drops(Vec3d place, Answer& best);
+
+    double radius_;
+    double flat_;            // mm: radius of the tool's flat
+    double corner_;          // mm: the tool's corner radius
+    double contact_corner_;  // mm: of the tool that is let down
+    double pitch_;
+    Drop drop_;
+    std::unordered_map<std::uint64_t, Rest> nodes_;
+    std::vector<Vec3d> contacts_;  // near the place asked for
+};
+
+// The floor's tool let down on it. The contact is where the tool is stopped, as far above the
+// surface as the floor's accuracy.
+ReachSearch::Rest rest_on(const TipFloor& floor, double x, double y);
+
+}  // namespace cusp::host
