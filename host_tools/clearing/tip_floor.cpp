@@ -10,6 +10,43 @@ namespace {
 
 constexpr double kSteepest = 60.0;  // planes beyond this slope are not used as z(x, y)
 
+// Halves `stride` Bezier polynomials, whose coefficients stand one behind the other `count` times,
+// by de Casteljau: the first points of each level are the first half's, in place of the whole, the
+// last ones the other's.
+template <class Coefficient>
+void halve_line(Coefficient* low, Coefficient* high, std::size_t count, std::size_t stride)
+{
+    constexpr std::size_t kCubic = 4;
+    if (count == kCubic) {
+        for (std::size_t k = 0; k < stride; ++k) {
+            const Coefficient a = low[k];
+            const Coefficient b = low[k + stride];
+            const Coefficient c = low[k + 2 * stride];
+            const Coefficient d = low[k + 3 * stride];
+            const Coefficient ab = 0.5 * (a + b);
+            const Coefficient bc = 0.5 * (b + c);
+            const Coefficient cd = 0.5 * (c + d);
+            const Coefficient abc = 0.5 * (ab + bc);
+            const Coefficient bcd = 0.5 * (bc + cd);
+            low[k + stride] = ab;
+            low[k + 2 * stride] = abc;
+            low[k + 3 * stride] = high[k] = 0.5 * (abc + bcd);
+            high[k + stride] = bcd;
+            high[k + 2 * stride] = cd;
+            high[k + 3 * stride] = d;
+        }
+        return;
+    }
+    std::copy_n(low, count * stride, high);
+    for (std::size_t level = 1; level < count; ++level) {
+        std::copy(high, high + stride, low + (level - 1) * stride);
+        for (std::size_t k = 0; k < (count - level) * stride; ++k) {
+            high[k] = 0.5 * (high[k] + high[k + stride]);
+        }
+    }
+    std::copy(high, high + stride, low + (count - 1) * stride);
+}
+
 }  // namespace
 
 TipFloor::TipFloor(const std::vector<Surface>& surfaces, const Tool& tool, double accuracy)
@@ -17,7 +54,7 @@ TipFloor::TipFloor(const std::vector<Surface>& surfaces, const Tool& tool, doubl
 {
     constexpr std::size_t kManyPieces = 20000;  // moving fewer of them costs more than the room
     pieces_.reserve(kManyPieces);
-    nets_.reserve(24 * kManyPieces);
+    nets_.reserve(8 * kManyPieces);
     std::vector<Piece> whole;  // patches
     if (std::any_of(surfaces_.begin(), surfaces_.end(),
                     [](const Surface& s) { return !s.trims.empty(); })) {
@@ -35,15 +72,14 @@ TipFloor::TipFloor(const std::vector<Surface>& surfaces, const Tool& tool, doubl
             const bool even = std::all_of(bezier.weights.begin(), bezier.weights.end(),
                                           [](double w) { return w == 1.0; });
             for (std::size_t i = 0; i < bezier.points.size(); ++i) {
-                const double w = bezier.weights[i];
-                const Vec3d p = bezier.points[i];
-                nets_.insert(nets_.end(), {p.x * w, p.y * w, p.z * w});
-                if (!even) {
-                    nets_.push_back(w);
-                }
+                nets_.push_back(bezier.points[i] * bezier.weights[i]);
+            }
+            if (!even) {
+                weights_.resize(piece.net);
+                weights_.insert(weights_.end(), bezier.weights.begin(), bezier.weights.end());
             }
             patches_.push_back({s, static_cast<std::uint32_t>(bezier.degree_u + 1),
-                                static_cast<std::uint32_t>(bezier.degree_v + 1), even ? 3U : 4U,
+                                static_cast<std::uint32_t>(bezier.degree_v + 1), !even,
                                 patch.u_begin, patch.u_end, patch.v_begin, patch.v_end});
             constexpr double kSame = 1e-12;
             const Surface& whole_surface = surfaces_[s];
@@ -106,24 +142,20 @@ void TipFloor::gather(std::uint32_t place, std::uint32_t parent, Piece* first, P
 void TipFloor::measure(Piece& piece) const
 {
     const Patch& patch = patches_[piece.patch];
-    corners_.resize(std::size_t{patch.rows} * patch.columns);
-    const double* q = &nets_[piece.net];
-    for (Vec3d& corner : corners_) {
-        corner = {q[0], q[1], q[2]};
-        q += patch.numbers;
-    }
-    if (patch.numbers == 4) {
-        q = &nets_[piece.net];
-        for (Vec3d& corner : corners_) {
-            corner = corner / q[3];
-            q += patch.numbers;
+    const std::size_t size = std::size_t{patch.rows} * patch.columns;
+    if (patch.weighted) {
+        unweighted_.resize(size);
+        for (std::size_t i = 0; i < size; ++i) {
+            unweighted_[i] = nets_[piece.net + i] / weights_[piece.net + i];
         }
     }
-    Vec3d low = corners_.front();
+    const Vec3d* const points = points_of(piece);
+    Vec3d low = points[0];
     Vec3d high = low;
-    for (const Vec3d& p : corners_) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    for (std::size_t i = 1; i < size; ++i) {
+        const Vec3d& p = points[i];
+        low = {std::min(p.x, low.x), std::min(p.y, low.y), std::min(p.z, low.z)};
+        high = {std::max(p.x, high.x), std::max(p.y, high.y), std::max(p.z, high.z)};
     }
     piece.x0 = low.x;
     piece.y0 = low.y;
@@ -131,17 +163,19 @@ void TipFloor::measure(Piece& piece) const
     piece.x1 = high.x;
     piece.y1 = high.y;
     piece.z1 = high.z;
-    measure_plane(piece, corners_);
+    measure_plane(piece);
     measure_outline(piece);
 }
 
-void TipFloor::measure_plane(Piece& piece, const std::vector<Vec3d>& points) const
+void TipFloor::measure_plane(Piece& piece) const
 {
     const Patch& patch = patches_[piece.patch];
+    const Vec3d* const points = points_of(piece);
+    const std::size_t last = std::size_t{patch.rows} * patch.columns - 1;
     const Vec3d c00 = points[0];
     const Vec3d c01 = points[patch.columns - 1];
-    const Vec3d c10 = points[(patch.rows - 1) * patch.columns];
-    const Vec3d c11 = points[patch.rows * patch.columns - 1];
+    const Vec3d c10 = points[last + 1 - patch.columns];
+    const Vec3d c11 = points[last];
     Vec3d normal = cross((c10 - c00) + (c11 - c01), (c01 - c00) + (c11 - c10));
     normal = normal.z < 0.0 ? -normal : normal;
     piece.graph = normal.z * kSteepest > norm(normal);
@@ -161,14 +195,14 @@ void TipFloor::measure_plane(Piece& piece, const std::vector<Vec3d>& points) con
     double low = 1e300;
     double high = -1e300;
     std::array<double, 4> ends{1e300, -1e300, 1e300, -1e300};
-    for (const Vec3d& p : points) {
-        const double level = p.z - g.x * p.x - g.y * p.y;
-        low = std::min(low, level);
-        high = std::max(high, level);
-        const double first = p.x + g.x * p.z;
-        const double second = run * p.y + g.y * (p.z - g.x * p.x);
-        ends = {std::min(ends[0], first), std::max(ends[1], first), std::min(ends[2], second),
-                std::max(ends[3], second)};
+    for (const Vec3d* p = points; p != points + last + 1; ++p) {
+        const double level = p->z - g.x * p->x - g.y * p->y;
+        low = std::min(level, low);
+        high = std::max(level, high);
+        const double first = p->x + g.x * p->z;
+        const double second = run * p->y + g.y * (p->z - g.x * p->x);
+        ends = {std::min(first, ends[0]), std::max(first, ends[1]), std::min(second, ends[2]),
+                std::max(second, ends[3])};
     }
     const double along = 1.0 / std::sqrt(run);
     const double aside = along / piece.secant;
@@ -183,11 +217,10 @@ void TipFloor::halve(std::uint32_t index) const
     const Patch& patch = patches_[piece.patch];
     const std::size_t rows = patch.rows;
     const std::size_t columns = patch.columns;
-    const std::size_t numbers = patch.numbers;
     const std::size_t size = rows * columns;
     const auto place = [&](std::size_t i) {
-        const double* q = &nets_[piece.net + i * numbers];
-        return numbers == 3 ? Vec3d{q[0], q[1], q[2]} : Vec3d{q[0], q[1], q[2]} / q[3];
+        const std::size_t at = piece.net + i;
+        return patch.weighted ? nets_[at] / weights_[at] : nets_[at];
     };
     // The longer way, by the corners and the middle rows.
     const double long_u =
@@ -195,40 +228,37 @@ void TipFloor::halve(std::uint32_t index) const
     const double long_v =
         norm(place(columns - 1) - place(0)) + norm(place(size - 1) - place((rows - 1) * columns));
     const bool by_u = columns == 1 || (rows > 1 && long_u > long_v);
-    // De Casteljau at one half: the first points of each level make one half, the last the other.
     // Along u whole rows are halved at once.
     const std::size_t lines = by_u ? 1 : rows;
     const std::size_t count = by_u ? rows : columns;
-    const std::size_t stride = by_u ? columns * numbers : numbers;
+    const std::size_t stride = by_u ? columns : 1;
     const std::size_t base = nets_.size();
-    nets_.resize(base + size * numbers);
-    std::copy_n(nets_.data() + piece.net, size * numbers, nets_.data() + base);
-    for (std::size_t line = 0; line < lines; ++line) {
-        double* const low = nets_.data() + piece.net + line * count * stride;
-        double* const high = nets_.data() + base + line * count * stride;
-        for (std::size_t level = 1; level < count; ++level) {
-            std::copy(high, high + stride, low + (level - 1) * stride);
-            for (std::size_t k = 0; k < (count - level) * stride; ++k) {
-                high[k] = 0.5 * (high[k] + high[k + stride]);
-            }
-        }
-        std::copy(high, high + stride, low + (count - 1) * stride);
+    nets_.resize(base + size);
+    if (patch.weighted) {
+        weights_.resize(base + size);
     }
-    Piece first = piece;
-    first.parent = index;
-    Piece second = first;
+    for (std::size_t line = 0; line < lines; ++line) {
+        const std::size_t from = line * count * stride;
+        halve_line(&nets_[piece.net + from], &nets_[base + from], count, stride);
+        if (patch.weighted) {
+            halve_line(&weights_[piece.net + from], &weights_[base + from], count, stride);
+        }
+    }
+    const auto child = static_cast<std::uint32_t>(pieces_.size());
+    pieces_[index].child = child;
+    pieces_.insert(pieces_.end(), 2, piece);
+    Piece& first = pieces_[child];
+    Piece& second = pieces_[child + 1];
+    first.parent = second.parent = index;
     second.net = static_cast<std::uint32_t>(base);
     (by_u ? first.u : first.v)[1] = (by_u ? second.u : second.v)[0] =
         by_u ? 0.5F * (piece.u[0] + piece.u[1]) : 0.5F * (piece.v[0] + piece.v[1]);
     first.border &= static_cast<std::uint8_t>(by_u ? ~kLastRow : ~kLastColumn);
     second.border &= static_cast<std::uint8_t>(by_u ? ~kFirstRow : ~kFirstColumn);
-    measure(first);
-    trim(first);
-    measure(second);
-    trim(second);
-    pieces_[index].child = static_cast<std::uint32_t>(pieces_.size());
-    pieces_.push_back(first);
-    pieces_.push_back(second);
+    for (Piece* half : {&first, &second}) {
+        measure(*half);
+        trim(*half);
+    }
 }
 
 }  // namespace cusp::host

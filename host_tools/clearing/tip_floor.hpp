@@ -134,7 +134,7 @@ private:
     struct Patch {
         std::uint32_t surface;
         std::uint32_t rows, columns;  // of control points
-        std::uint32_t numbers;        // of each: 4 where weights differ, else 3
+        bool weighted;                // weights differ
         double u0, u1, v0, v1;
     };
 
@@ -145,6 +145,11 @@ private:
         return 2 * pieces_[pieces_[piece].parent].child + 1 - piece;
     }
     void measure(Piece& piece) const;
+    // Control points of the piece being measured.
+    const Vec3d* points_of(const Piece& piece) const
+    {
+        return patches_[piece.patch].weighted ? unweighted_.data() : &nets_[piece.net];
+    }
     void measure_outline(Piece& piece) const;
     bool lay_sides(const Piece& piece, Outline& outline) const;
     static void widen(Side& side, Vec2d p);
@@ -177,7 +182,7 @@ private:
     {
         return std::max({piece.x1 - piece.x0, piece.y1 - piece.y0, piece.z1 - piece.z0});
     }
-    void measure_plane(Piece& piece, const std::vector<Vec3d>& points) const;
+    void measure_plane(Piece& piece) const;
     void halve(std::uint32_t piece) const;
     // False where the piece, or its outline, may stand `thin` over what the surface is.
     bool is_whole(const Piece& piece, double thin) const
@@ -189,6 +194,8 @@ private:
         Vec2d at;
         double thin;  // mm: pieces this thin are not halved
     };
+    static double over_plane(const Piece& piece, Vec2d at);
+    std::uint32_t guess(Vec2d at) const;
     double bound(const Piece& piece, const Query& query, double best, bool& tight) const;
     double beside_line(const Piece& piece, const Vec3d& a, const Vec3d& b) const;
     bool hangs(const Piece& piece) const;
@@ -219,10 +226,11 @@ private:
     std::vector<Patch> patches_;
     // Halved when first needed; a const query only makes them finer.
     mutable std::vector<Piece> pieces_;
-    mutable std::vector<double> nets_;          // x, y, z; where weights differ times w, and w
+    mutable std::vector<Vec3d> nets_;           // where weights differ times those
+    mutable std::vector<double> weights_;       // beside nets_, as far as some differ
     mutable std::vector<Outline> outlines_{1};  // the first one stands for none
-    mutable std::vector<Vec3d> corners_;        // control points of the piece being measured
-    mutable std::uint32_t last_{kRoot};         // where the tool rested last: a good first guess
+    mutable std::vector<Vec3d> unweighted_;     // control points of the piece being measured
+    mutable std::uint32_t last_{kRoot};         // where the tool rested last
     mutable std::uint32_t beside_{kRoot};  // the smallest piece that the last move came near to
     double lowest_{1e300};
     double highest_{-1e300};

@@ -12,7 +12,12 @@ namespace {
 constexpr double kOnPiece = 0.01;       // of the radius: pieces beside the contact touch as well
 constexpr double kSteepestSide = 30.0;  // slope
 
-double excess(double low, double high, double x) { return std::max({low - x, 0.0, x - high}); }
+double excess(double low, double high, double x)
+{
+    return std::max(0.0, std::max(low - x, x - high));
+}
+
+double square_of(double x) { return x * x; }
 
 }  // namespace
 
@@ -124,6 +129,13 @@ TipFloor::PlaneRest TipFloor::on_edges(const Piece& piece, Vec2d at) const
                     at);
 }
 
+// Height of the tip on the piece's plane, which goes on for ever.
+double TipFloor::over_plane(const Piece& piece, Vec2d at)
+{
+    const Vec2d g = piece.gradient;
+    return piece.graph ? piece.level + g.x * at.x + g.y * at.y + piece.rise : 1e300;
+}
+
 // Upper bound of the tip's height that the piece asks for, as far as it is above `best`; tight
 // where halving it would change it by no more than its thickness.
 double TipFloor::bound(const Piece& piece, const Query& query, double best, bool& tight) const
@@ -131,17 +143,13 @@ double TipFloor::bound(const Piece& piece, const Query& query, double best, bool
     tight = false;
     const Vec2d at = query.at;
     const Vec2d g = piece.gradient;
-    const double by_plane =
-        piece.graph ? piece.level + g.x * at.x + g.y * at.y + piece.rise : 1e300;
-    if (by_plane <= best) {
-        return kNothing;
-    }
+    const double by_plane = over_plane(piece, at);
     const double r = tool_.radius;
     const double c = tool_.corner_radius;
     const double dx = excess(piece.x0, piece.x1, at.x);
     const double dy = excess(piece.y0, piece.y1, at.y);
     double square = dx * dx + dy * dy;
-    if (square >= r * r || piece.z1 <= best) {
+    if (square >= r * r) {
         return kNothing;
     }
     if (piece.outline != 0) {
@@ -151,22 +159,22 @@ double TipFloor::bound(const Piece& piece, const Query& query, double best, bool
             return kNothing;
         }
     }
-    if (piece.graph) {
-        const Vec2d contact = at + g * piece.contact;
-        if (contact.x >= piece.x0 && contact.x <= piece.x1 && contact.y >= piece.y0 &&
-            contact.y <= piece.y1 &&
-            (piece.outline == 0 || beyond_outline(piece, contact) <= 0.0)) {
-            const bool whole = !piece.cut || is_whole(piece, query.thin);
-            tight = whole && piece.thickness <= query.thin;
-            return std::min(by_plane, piece.z1);
-        }
+    const Vec2d contact = at + g * piece.contact;
+    const bool in_box = contact.x >= piece.x0 && contact.x <= piece.x1 && contact.y >= piece.y0 &&
+                        contact.y <= piece.y1;
+    if (piece.graph && in_box && (piece.outline == 0 || beyond_outline(piece, contact) <= 0.0)) {
+        const bool whole = !piece.cut || is_whole(piece, query.thin);
+        tight = whole && piece.thickness <= query.thin;
+        return std::min(by_plane, piece.z1);
     }
-    const bool whole = is_whole(piece, query.thin);
-    const double far = std::max(0.0, std::sqrt(square) - (r - c));
-    const double by_box = piece.z1 - (c - std::sqrt(std::max(c * c - far * far, 0.0)));
-    if (by_box <= best) {
+    const double far = c == r ? square : square_of(std::max(0.0, std::sqrt(square) - (r - c)));
+    const double up = best - piece.z1 + c;
+    const double room = std::max(c * c - far, 0.0);
+    if (up >= 0.0 && room <= up * up) {
         return kNothing;
     }
+    const double by_box = piece.z1 - (c - std::sqrt(room));
+    const bool whole = is_whole(piece, query.thin);
     if (!piece.graph) {
         tight = whole && piece.patch != kGroup &&
                 std::max(piece.x1 - piece.x0, piece.y1 - piece.y0) < 5.0 * accuracy_;
@@ -174,9 +182,7 @@ double TipFloor::bound(const Piece& piece, const Query& query, double best, bool
     }
     tight = whole && piece.thickness <= query.thin;
     double least = std::min(by_plane, by_box);
-    const Vec2d contact = at + g * piece.contact;
-    if (contact.x < piece.x0 || contact.x > piece.x1 || contact.y < piece.y0 ||
-        contact.y > piece.y1) {
+    if (!in_box) {
         least = std::min(least, on_edges(piece, at).height);
     }
     if (piece.outline != 0 && beyond_outline(piece, contact) > 0.0) {
@@ -189,9 +195,34 @@ double TipFloor::bound(const Piece& piece, const Query& query, double best, bool
     return least;
 }
 
+// The smallest piece, of those that there are, with the place that the tool would touch if the
+// slope were what it was where it rested last.
+std::uint32_t TipFloor::guess(Vec2d at) const
+{
+    const Vec2d place = at + pieces_[last_].gradient * pieces_[last_].contact;
+    const auto holds = [&](std::uint32_t index) {
+        const Piece& piece = pieces_[index];
+        return place.x >= piece.x0 && place.x <= piece.x1 && place.y >= piece.y0 &&
+               place.y <= piece.y1;
+    };
+    std::uint32_t index = last_;
+    while (index != kRoot && !holds(index)) {
+        index = pieces_[index].parent;
+    }
+    while (const std::uint32_t child = pieces_[index].child) {
+        if (!holds(child) && !holds(child + 1)) {
+            break;
+        }
+        index = holds(child) ? child : child + 1;
+    }
+    return index;
+}
+
 TipFloor::Rest TipFloor::drop(Vec2d at, double slack) const
 {
     const Query query{at, std::max(accuracy_, slack)};
+    const double r = tool_.radius;
+    const Box2d around{at.x - r, at.y - r, at.x + r, at.y + r};
     struct Entry {
         double height;
         std::uint32_t piece;
@@ -200,10 +231,16 @@ TipFloor::Rest TipFloor::drop(Vec2d at, double slack) const
     std::size_t depth = 0;
     Rest best{kNothing, {0.0, 0.0}, 0};
     const auto consider = [&](std::uint32_t index) {
+        const Piece& piece = pieces_[index];
+        const bool far = piece.x0 >= around.x1 || piece.x1 <= around.x0 || piece.y0 >= around.y1 ||
+                         piece.y1 <= around.y0;
+        if (far || piece.z1 <= best.height || over_plane(piece, at) <= best.height) {
+            return;
+        }
         bool tight = false;
-        const double height = bound(pieces_[index], query, best.height, tight);
+        const double height = bound(piece, query, best.height, tight);
         if (height > best.height && (tight || depth == kStack)) {
-            best = {height, pieces_[index].gradient, index};
+            best = {height, piece.gradient, index};
         } else if (height > best.height) {
             stack[depth++] = {height, index};
         }
@@ -228,10 +265,12 @@ TipFloor::Rest TipFloor::drop(Vec2d at, double slack) const
             }
         }
     };
-    // From where the tool rested last upwards: what contains that place need not be looked at
-    // itself, only what lies beside it.
-    look_into(last_);
-    for (std::uint32_t piece = last_; piece != kRoot; piece = pieces_[piece].parent) {
+    // From where the tool should rest upwards: what contains that place need not be looked at
+    // itself, only what lies beside it. A flat foot rests on its rim: where it did last is as good.
+    const bool ball = tool_.corner_radius == r;
+    const std::uint32_t first = ball ? guess(at) : last_;
+    look_into(first);
+    for (std::uint32_t piece = first; piece != kRoot; piece = pieces_[piece].parent) {
         look_into(sibling(piece));
     }
     if (best.height != kNothing) {

@@ -85,7 +85,7 @@ bool TipFloor::hangs(const Piece& piece) const
 double TipFloor::ball_gap(const Piece& piece, const Vec3d& a, const Vec3d& b, double margin) const
 {
     const auto apart = [](double low, double high, double p, double q) {
-        return std::max({low - std::max(p, q), 0.0, std::min(p, q) - high});
+        return std::max(0.0, std::max(low - std::max(p, q), std::min(p, q) - high));
     };
     const double reach = tool_.radius + margin;
     const double ux = apart(piece.x0, piece.x1, a.x, b.x);
@@ -166,7 +166,13 @@ double TipFloor::apart_from_plate(const Piece& piece, Vec3d a, Vec3d b) const
             return 0.0;
         }
     }
-    double least = std::min(above(a), above(b));
+    const double over_a = above(a);
+    const double over_b = above(b);
+    double least = std::min(over_a, over_b);
+    // Over a slope its upper edge is farther aside than the plane is away.
+    if (std::max(over_a, over_b) < 1e300) {
+        return std::max(0.0, least - 0.5 * piece.thickness);
+    }
     for (const Side& side : outline) {
         if (side.begin > side.end) {
             continue;
@@ -189,7 +195,7 @@ double TipFloor::apart_from_plate(const Piece& piece, Vec3d a, Vec3d b) const
 double TipFloor::axial_gap(const Piece& piece, Vec3d a, Vec3d b, double margin) const
 {
     const auto apart = [](double low, double high, double p, double q) {
-        return std::max({low - std::max(p, q), 0.0, std::min(p, q) - high});
+        return std::max(0.0, std::max(low - std::max(p, q), std::min(p, q) - high));
     };
     const double dx = apart(piece.x0, piece.x1, a.x, b.x);
     const double dy = apart(piece.y0, piece.y1, a.y, b.y);
@@ -273,6 +279,9 @@ double TipFloor::gap(Vec3d a, Vec3d b, double margin) const
         double from, to;  // shares of the move
         double here;
     };
+    const double reach = tool_.radius + margin;
+    const Box2d around{std::min(a.x, b.x) - reach, std::min(a.y, b.y) - reach,
+                       std::max(a.x, b.x) + reach, std::max(a.y, b.y) + reach};
     const bool ball = tool_.corner_radius == tool_.radius;
     const Vec3d start = a + Vec3d{0.0, 0.0, ball ? tool_.radius : 0.0};
     const Vec3d way = b - a;
@@ -286,10 +295,15 @@ double TipFloor::gap(Vec3d a, Vec3d b, double margin) const
         return here < (least < -accuracy_ ? (1.0 + kDeepShare) * least : least);
     };
     const auto consider = [&](std::uint32_t index, double from, double to) {
+        const Piece& piece = pieces_[index];
+        if (piece.x0 > around.x1 || piece.x1 < around.x0 || piece.y0 > around.y1 ||
+            piece.y1 < around.y0) {
+            return;
+        }
         const Vec3d begin = start + way * from;
         const Vec3d end = start + way * to;
-        const double here = ball ? ball_gap(pieces_[index], begin, end, margin)
-                                 : axial_gap(pieces_[index], begin, end, margin);
+        const double here =
+            ball ? ball_gap(piece, begin, end, margin) : axial_gap(piece, begin, end, margin);
         if (matters(here)) {
             stack[depth++] = {index, from, to, here};
         }

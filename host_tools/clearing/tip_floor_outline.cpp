@@ -44,7 +44,7 @@ void TipFloor::end_sides(Outline& outline)
 // The piece's four sides, round it; false where one has no length.
 bool TipFloor::lay_sides(const Piece& piece, Outline& outline) const
 {
-    const std::vector<Vec3d>& points = corners_;
+    const Vec3d* const points = points_of(piece);
     const Patch& patch = patches_[piece.patch];
     const std::size_t rows = patch.rows;
     const std::size_t columns = patch.columns;
@@ -56,9 +56,10 @@ bool TipFloor::lay_sides(const Piece& piece, Outline& outline) const
     const std::array<Row, 4> all{
         Row{0, 1, columns, kFirstRow}, Row{columns - 1, columns, rows, kLastColumn},
         Row{last, 1, columns, kLastRow}, Row{0, columns, rows, kFirstColumn}};
-    const Vec2d middle = (seen_from_above(points[0]) + seen_from_above(points[columns - 1]) +
-                          seen_from_above(points[last]) + seen_from_above(points.back())) *
-                         0.25;
+    const Vec2d middle =
+        (seen_from_above(points[0]) + seen_from_above(points[columns - 1]) +
+         seen_from_above(points[last]) + seen_from_above(points[last + columns - 1])) *
+        0.25;
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Row& row = all[i];
         const Vec2d a = seen_from_above(points[row.first]);
@@ -69,8 +70,8 @@ bool TipFloor::lay_sides(const Piece& piece, Outline& outline) const
         const Vec2d left = left_normal(unit(b - a));
         const Vec2d across = dot(middle - a, left) > 0.0 ? left * -1.0 : left;
         Side side{across, 1e300, -1e300, 1e300, -1e300, 0.0, 0.0};
-        for (const Vec3d& p : points) {
-            widen(side, seen_from_above(p));
+        for (std::size_t k = 0; k < last + columns; ++k) {
+            widen(side, seen_from_above(points[k]));
         }
         // Beside a piece that an edge cuts its surface goes on.
         for (std::size_t k = 0; k < row.count && (!piece.cut || (piece.border & row.border) != 0);
@@ -167,7 +168,7 @@ Vec2d TipFloor::on_piece(const Piece& piece, Vec2d at) const
 double TipFloor::apart_from_outline(const Piece& piece, Vec3d a, Vec3d b) const
 {
     const auto apart = [](double low, double high, double p, double q) {
-        return std::max({low - std::max(p, q), 0.0, std::min(p, q) - high});
+        return std::max(0.0, std::max(low - std::max(p, q), std::min(p, q) - high));
     };
     const double uz = std::max(0.0, std::min(a.z, b.z) - piece.z1);
     double square = 0.0;

@@ -61,11 +61,12 @@ TipFloor::Left TipFloor::left_of(const Piece& piece) const
     const Patch& patch = patches_[piece.patch];
     const std::size_t rows = patch.rows;
     const std::size_t columns = patch.columns;
-    const std::vector<Vec3d>& points = corners_;
+    const Vec3d* const points = points_of(piece);
+    const std::size_t size = rows * columns;
     const Vec3d c00 = points[0];
     const Vec3d c01 = points[columns - 1];
     const Vec3d c10 = points[(rows - 1) * columns];
-    const Vec3d c11 = points.back();
+    const Vec3d c11 = points[size - 1];
     const Vec3d by_s = ((c10 - c00) + (c11 - c01)) * 0.5;
     const Vec3d by_t = ((c01 - c00) + (c11 - c10)) * 0.5;
     const Vec3d middle = (c00 + c01 + c10 + c11) * 0.25;
@@ -75,11 +76,11 @@ TipFloor::Left TipFloor::left_of(const Piece& piece) const
     Left left{{}, 0, 0.0};
     double least = 1e300;
     double most = 0.0;
-    for (std::size_t k = 0; k < points.size(); ++k) {
+    for (std::size_t k = 0; k < size; ++k) {
         const double s = static_cast<double>(k / columns) / static_cast<double>(rows - 1);
         const double t = static_cast<double>(k % columns) / static_cast<double>(columns - 1);
         left.off = std::max(left.off, norm(points[k] - on_plane(s, t)));
-        const double weight = patch.numbers == 4 ? nets_[piece.net + k * patch.numbers + 3] : 1.0;
+        const double weight = patch.weighted ? weights_[piece.net + k] : 1.0;
         least = std::min(least, weight);
         most = std::max(most, weight);
     }

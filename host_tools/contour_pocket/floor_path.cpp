@@ -77,6 +77,9 @@ Chords chords_of(Vec3d start, const FloorMove& move, double fine)
 
 double gap_of(Vec3d start, const FloorMove& move, const TipFloor& floor, double fine)
 {
+    if (move.turn == 0 && move.curve.points.empty()) {
+        return floor.gap(start, move.end);
+    }
     const Chords chords = chords_of(start, move, fine);
     double least = 0.0;
     for (std::size_t i = 1; i < chords.points.size(); ++i) {
@@ -418,8 +421,8 @@ double lay_on_stations(const std::vector<Edge>& plan,
                        bool sparse,
                        FloorPath& path)
 {
-    StationRow row =
-        stations_along(plan, &floor, {settings.spacing, settings.aside, settings.above, sparse});
+    StationRow row = stations_along(
+        plan, &floor, {settings.spacing, settings.aside, settings.above, sparse, settings.told});
     if (row.missing) {
         path.over_floor = false;
         path.missing = *row.missing;

@@ -20,7 +20,8 @@ struct FloorPathSettings {
     double cushion{};      // mm: kept off the floor, so that certifying a move needs no finer floor
     double raise{};        // mm: metal left over the floor, measured along the axis
     double level{-1e300};  // mm: the tip stays at or above this z
-    double spacing{};      // mm between the floor heights looked at
+    double spacing{};      // mm between the floor heights that moves are made for
+    double told{};  // mm: cubics between lookups no farther apart are good enough; 0: not known
 };
 
 // One move; turn 0: straight. An arc rises evenly with its angle and sweeps less than half a turn.

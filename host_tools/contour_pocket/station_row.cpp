@@ -2,6 +2,7 @@
 #include "host_tools/contour_pocket/station_row.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace cusp::host {
@@ -10,7 +11,8 @@ namespace {
 
 constexpr double kClosest = 2e-3;    // mm between stations: they are not halved further
 constexpr double kSmooth = 0.999;    // cosine of 2.6 degrees
-constexpr std::size_t kStretch = 6;  // stations that two lookups may tell
+constexpr std::size_t kStretch = 6;  // stations that two lookups may tell on any floor
+constexpr double kTurned = 1.0;      // radians: where they tell more
 constexpr double kTold = 0.06;       // of the height allowed: how well they must
 
 // Both visits are to meet at one point: a corner micrometres beside the path's other visit would be
@@ -83,10 +85,11 @@ public:
         row_.corners.push_back(0);
         for (std::size_t i = 0; i < stops_.size() && !row_.missing;) {
             const std::size_t last = end_of_stretch(i);
-            if (!interpolate(i, last)) {
-                for (; i <= last && !row_.missing; ++i) {
-                    step_to(i);
-                }
+            if (floor_ != nullptr && spacing_.sparse && last >= i + 2) {
+                const Place middle = place_of(halfway(i, last));
+                fill(start_of(i), i, last, {middle, place_of(last)});
+            } else {
+                step_along(i, last);
             }
             i = last + 1;
         }
@@ -125,12 +128,21 @@ private:
     std::size_t end_of_stretch(std::size_t first) const
     {
         std::size_t last = first;
-        while (last + 1 < stops_.size() && last + 1 < first + kStretch && !stops_[last].kink &&
-               !stops_[last].exact) {
+        double turned = 0.0;
+        while (last + 1 < stops_.size() && !stops_[last].kink && !stops_[last].exact) {
+            const Stop& next = stops_[last + 1];
+            turned += std::abs(next.bend) * (next.along - stops_[last].along);
+            const double along = next.along - begin_of(first);
+            const bool told = along < 2.0 * (spacing_.told - spacing_.along) && turned < kTurned;
+            if (last + 1 >= first + kStretch && !told) {
+                break;
+            }
             ++last;
         }
         return last;
     }
+
+    double begin_of(std::size_t i) const { return i == 0 ? 0.0 : stops_[i - 1].along; }
 
     Station look(Vec2d at, double bend)
     {
@@ -144,40 +156,6 @@ private:
         return {at, rest.height, rest.gradient, bend};
     }
 
-    // The end and the middle of the stretch are looked up, and what lies between them follows by
-    // cubics, where the one from end to end tells the middle. False where it does not.
-    bool interpolate(std::size_t first, std::size_t last)
-    {
-        if (floor_ == nullptr || !spacing_.sparse || last < first + 2) {
-            return false;
-        }
-        const std::size_t half = first + (last - first) / 2;
-        const Place start{row_.stations.back(), first == 0 ? 0.0 : stops_[first - 1].along,
-                          way_of(*stops_[first].edge, row_.stations.back().at)};
-        const Place middle = place_of(half);
-        const Place end = place_of(last);
-        if (row_.missing) {
-            return true;
-        }
-        const double told = between(start, end, stops_[half]).height;
-        if (std::abs(told - middle.station.height) > kTold * spacing_.height) {
-            return false;
-        }
-        const std::size_t before = row_.stations.size();
-        for (std::size_t i = first; i <= last; ++i) {
-            Station next = i == half   ? middle.station
-                           : i == last ? end.station
-                                       : between(i < half ? start : middle, i < half ? middle : end,
-                                                 stops_[i]);
-            if (!is_even(row_.stations.back(), next)) {
-                row_.stations.resize(before);
-                return false;
-            }
-            add(next, stops_[i]);
-        }
-        return true;
-    }
-
     // A station with its place and direction along the plan.
     struct Place {
         Station station;
@@ -189,6 +167,92 @@ private:
     {
         const Stop& stop = stops_[i];
         return {look(stop.at, stop.bend), stop.along, way_of(*stop.edge, stop.at)};
+    }
+
+    // Of a stretch: the last station.
+    Place start_of(std::size_t first) const
+    {
+        const Station& last = row_.stations.back();
+        return {last, begin_of(first), way_of(*stops_[first].edge, last.at)};
+    }
+
+    // The stop in the middle, by number where the stretch is short.
+    std::size_t halfway(std::size_t first, std::size_t last) const
+    {
+        std::size_t half = first + (last - first) / 2;
+        if (last - first >= kStretch) {
+            const double middle = 0.5 * (begin_of(first) + stops_[last].along);
+            half = first;
+            while (stops_[half + 1].along <= middle) {
+                ++half;
+            }
+        }
+        return half;
+    }
+
+    // The middle of a stretch, and its end.
+    struct Lookups {
+        Place middle;
+        Place end;
+    };
+
+    // What lies between the stretch's middle and its ends follows by cubics, where the one from end
+    // to end tells the middle. Else a long stretch is halved, and all of a short one is looked up.
+    void fill(const Place& start, std::size_t first, std::size_t last, const Lookups& known)
+    {
+        if (row_.missing) {
+            return;
+        }
+        const std::size_t half = halfway(first, last);
+        const double told = between(start, known.end, stops_[half]).height;
+        const bool even = std::abs(told - known.middle.station.height) <= kTold * spacing_.height &&
+                          interpolate(first, half, last, {start, known.middle, known.end});
+        if (!even && last - first >= kStretch) {
+            fill_half(start, first, half, known.middle);
+            fill_half(known.middle, half + 1, last, known.end);
+        } else if (!even) {
+            step_along(first, last);
+        }
+    }
+
+    void fill_half(const Place& start, std::size_t first, std::size_t last, const Place& end)
+    {
+        if (last < first + 2) {
+            step_along(first, last);
+        } else if (!row_.missing) {
+            fill(start, first, last, {place_of(halfway(first, last)), end});
+        }
+    }
+
+    // False, and nothing added, where the stations are not even.
+    bool interpolate(std::size_t first,
+                     std::size_t half,
+                     std::size_t last,
+                     const std::array<Place, 3>& known)
+    {
+        const auto& [start, middle, end] = known;
+        const std::size_t before = row_.stations.size();
+        const std::size_t corners = row_.corners.size();
+        for (std::size_t i = first; i <= last; ++i) {
+            Station next = i == half   ? middle.station
+                           : i == last ? end.station
+                                       : between(i < half ? start : middle, i < half ? middle : end,
+                                                 stops_[i]);
+            if (!is_even(row_.stations.back(), next)) {
+                row_.stations.resize(before);
+                row_.corners.resize(corners);
+                return false;
+            }
+            add(next, stops_[i]);
+        }
+        return true;
+    }
+
+    void step_along(std::size_t first, std::size_t last)
+    {
+        for (std::size_t i = first; i <= last && !row_.missing; ++i) {
+            step_to(i);
+        }
     }
 
     // On the cubic with the heights and slopes at two places.

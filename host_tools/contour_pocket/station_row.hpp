@@ -14,7 +14,8 @@ struct StationSpacing {
     double along;   // mm between stations at most
     double aside;   // mm: chords of arcs keep within an eighth of it
     double height;  // mm: chords of the floor keep within a twentieth of it
-    bool sparse;  // where the floor is smooth every other station is interpolated, to a tenth of it
+    bool sparse;    // where the floor is smooth most stations are interpolated, to a tenth of it
+    double told{};  // mm: between lookups no farther apart nothing hides; 0: not known
 };
 
 struct StationRow {

@@ -85,6 +85,21 @@ bool StripRidge::reaches_floor(const Region2d& region) const
     return ball_ && bounds_.near(box_of(region)).up * floor_.tool().radius < 1.0;
 }
 
+// Where the second derivative stays in a range of width w, the cubic through heights and slopes at
+// distance h is w h^2 / 32 off at most: its remainder is the integral of the second derivative with
+// a kernel that straight lines vanish under, of the absolute integral h^2 / 16. That of the tip's
+// height: see proven_reach().
+double StripRidge::told_length(const Region2d& region, double off) const
+{
+    const BendBounds bounds = bounds_.near(box_of(region));
+    const double radius = floor_.tool().radius;
+    if (!ball_ || !(bounds.up * radius < 1.0) || !std::isfinite(bounds.down)) {
+        return 0.0;
+    }
+    const double width = bounds.up / (1.0 - bounds.up * radius) + bounds.down;
+    return std::min(std::sqrt(32.0 * off / std::max(width, 1e-12)), 4.0 * radius);
+}
+
 double StripRidge::share(const LevelStrip& strip)
 {
     constexpr double kWorthIt = 0.95;

@@ -36,6 +36,11 @@ public:
     // bounds alone, mm; 0 where they tell nothing.
     double proven_step(const Region2d& level) const;
 
+    // How far apart along a straight way two of the tip's heights and slopes may be known so that
+    // the cubic through them is `off` (mm) from the true height at most, by those bounds; 0 where
+    // they tell nothing.
+    double told_length(const Region2d& region, double off) const;
+
     // True where those bounds prove that the ball reaches all of the floor around the region: no
     // valley is bent tighter than it.
     bool reaches_floor(const Region2d& region) const;

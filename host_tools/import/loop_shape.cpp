@@ -33,7 +33,7 @@ double polygon_length(const Curve& curve)
 struct Weighted {
     double x, y, weight;
 
-    Vec2d place() const { return {x / weight, y / weight}; }
+    Vec2d place() const { return weight == 1.0 ? Vec2d{x, y} : Vec2d{x / weight, y / weight}; }
 };
 
 Weighted middle_of(const Weighted& a, const Weighted& b)
@@ -183,6 +183,11 @@ void check_simple(const std::vector<Vec2d>& closed, const std::string& place)
 std::optional<Vec2d> crossing_of(const std::vector<std::vector<Vec2d>>& closed)
 {
     std::vector<Segment> segments;
+    std::size_t count = 0;
+    for (const std::vector<Vec2d>& polyline : closed) {
+        count += polyline.size();
+    }
+    segments.reserve(count);
     for (std::size_t loop = 0; loop < closed.size(); ++loop) {
         const std::vector<Vec2d>& polyline = closed[loop];
         for (std::size_t i = 0; i + 1 < polyline.size(); ++i) {

@@ -35,12 +35,6 @@ Edge arc_edge(Vec2d start, Vec2d end, Vec2d centre, int turn)
     return {start, end, centre, 0.5 * (distance(start, centre) + distance(end, centre)), turn};
 }
 
-Vec2d unit(Vec2d a)
-{
-    const double size = std::sqrt(dot(a, a));
-    return size > 0.0 ? a * (1.0 / size) : Vec2d{0.0, 0.0};
-}
-
 double sweep(const Edge& edge)
 {
     if (edge.turn == 0) {
@@ -54,22 +48,6 @@ double sweep(const Edge& edge)
 double length(const Edge& edge)
 {
     return edge.turn == 0 ? distance(edge.start, edge.end) : edge.radius * sweep(edge);
-}
-
-Vec2d tangent_at_start(const Edge& edge)
-{
-    if (edge.turn == 0) {
-        return unit(edge.end - edge.start);
-    }
-    return left_normal(edge.start - edge.centre) * (edge.turn / edge.radius);
-}
-
-Vec2d tangent_at_end(const Edge& edge)
-{
-    if (edge.turn == 0) {
-        return unit(edge.end - edge.start);
-    }
-    return left_normal(edge.end - edge.centre) * (edge.turn / edge.radius);
 }
 
 Vec2d point_on(const Edge& edge, double share)

@@ -34,12 +34,24 @@ Edge arc_edge(Vec2d start, Vec2d end, Vec2d centre, int turn);
 
 inline Vec2d left_normal(Vec2d t) { return {-t.y, t.x}; }
 inline double distance(Vec2d a, Vec2d b) { return std::sqrt(dot(a - b, a - b)); }
-Vec2d unit(Vec2d a);
+inline Vec2d unit(Vec2d a)
+{
+    const double size = std::sqrt(dot(a, a));
+    return size > 0.0 ? a * (1.0 / size) : Vec2d{0.0, 0.0};
+}
 
 double length(const Edge& edge);
 double sweep(const Edge& edge);  // radians, >= 0; 0 for a line
-Vec2d tangent_at_start(const Edge& edge);
-Vec2d tangent_at_end(const Edge& edge);
+inline Vec2d tangent_at_start(const Edge& edge)
+{
+    return edge.turn == 0 ? unit(edge.end - edge.start)
+                          : left_normal(edge.start - edge.centre) * (edge.turn / edge.radius);
+}
+inline Vec2d tangent_at_end(const Edge& edge)
+{
+    return edge.turn == 0 ? unit(edge.end - edge.start)
+                          : left_normal(edge.end - edge.centre) * (edge.turn / edge.radius);
+}
 
 // The point at a share of the edge's length, and the unit tangent there. share in [0, 1].
 Vec2d point_on(const Edge& edge, double share);

@@ -20,8 +20,8 @@ void grow(Box2d& box, const Box2d& by)
 
 double square_distance(const Box2d& box, Vec2d p)
 {
-    const double dx = std::max({box.x0 - p.x, 0.0, p.x - box.x1});
-    const double dy = std::max({box.y0 - p.y, 0.0, p.y - box.y1});
+    const double dx = std::max(0.0, std::max(box.x0 - p.x, p.x - box.x1));
+    const double dy = std::max(0.0, std::max(box.y0 - p.y, p.y - box.y1));
     return dx * dx + dy * dy;
 }
 

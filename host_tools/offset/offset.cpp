@@ -80,25 +80,28 @@ std::optional<std::vector<Cut>> find_cuts(const std::vector<RawPiece>& pieces, s
 {
     const std::vector<std::uint32_t> next = successors(pieces);
     struct Entry {
-        Box2d box;
+        double x0;
         std::uint32_t piece;
     };
     std::vector<Entry> entries(pieces.size());
+    std::vector<Box2d> boxes(pieces.size());
     for (std::uint32_t i = 0; i < pieces.size(); ++i) {
         const Box2d box = box_of(pieces[i].edge);
-        entries[i] = {{box.x0 - kSlack, box.y0 - kSlack, box.x1 + kSlack, box.y1 + kSlack}, i};
+        boxes[i] = {box.x0 - kSlack, box.y0 - kSlack, box.x1 + kSlack, box.y1 + kSlack};
+        entries[i] = {boxes[i].x0, i};
     }
     std::sort(entries.begin(), entries.end(),
-              [](const Entry& a, const Entry& b) { return a.box.x0 < b.box.x0; });
+              [](const Entry& a, const Entry& b) { return a.x0 < b.x0; });
     std::vector<Cut> cuts;
     std::size_t pairs = 0;
     for (std::size_t i = 0; i < entries.size(); ++i) {
-        const Box2d& box = entries[i].box;
-        for (std::size_t j = i + 1; j < entries.size() && entries[j].box.x0 <= box.x1; ++j) {
+        const Box2d& box = boxes[entries[i].piece];
+        for (std::size_t j = i + 1; j < entries.size() && entries[j].x0 <= box.x1; ++j) {
             if (++pairs > most) {
                 return std::nullopt;
             }
-            if (entries[j].box.y0 <= box.y1 && box.y0 <= entries[j].box.y1) {
+            const Box2d& other = boxes[entries[j].piece];
+            if (other.y0 <= box.y1 && box.y0 <= other.y1) {
                 cut_pair(pieces, next, entries[i].piece, entries[j].piece, cuts);
             }
         }
