@@ -38,8 +38,9 @@ constexpr double kOffsetShare = 0.9;
 constexpr int kHandLooks = 8;
 // Cells that passes of a given distance leave bare.
 constexpr std::size_t kMostMeasured = 4000;
+constexpr double kProvedMore = 1.04;     // cells need some room over the ridges
 constexpr double kBetweenPlaces = 1.25;  // what may stand between places measured in them
-constexpr double kMoreExpected = 2;
+constexpr double kMoreExpected = 1.06;   // at first
 constexpr int kNeighbourRounds = 5;
 constexpr double kNearer = 0.9998;       // than the bound asks for
 constexpr double kShortestPiece = 1e-3;  // mm
@@ -79,8 +80,8 @@ public:
             unseen = coverage_->overflowed();
             ridge_ = unseen ? operation_.tool.radius : ridge_;
         }
-        if (!coverage_ && !(plain_ && whole_ && std::isfinite(ridge_))) {
-            ridge_ = most_left_anywhere();
+        if (!coverage_) {
+            ridge_ = proved_left();
         }
         for (std::size_t k = 0; coverage_ && k < work_.surfaces().size(); ++k) {
             coverage_->close_rims(static_cast<int>(k), [&](const Points& pass) { add_pass(pass); });
@@ -164,30 +165,46 @@ private:
         }
     }
 
-    // Ridges between neighbours say nothing of edges, poles and places where passes end: there what
-    // the passes of a given distance leave is measured.
-    double most_left_anywhere()
+    // The least bound that cells prove, about: from what the ridges between neighbours are on, a
+    // little more where it does not hold yet. Cells that a lower bound holds for are done. Where
+    // the tool can't touch, what is left is measured.
+    double proved_left()
     {
         const double radius = operation_.tool.radius;
         const double half = 0.5 * std::min(spacing_, radius);
         const double flat = work_.outward() + radius - std::sqrt(radius * radius - half * half);
-        for (double expected = std::isfinite(ridge_) ? std::max(flat, ridge_) : flat;
-             expected < radius;) {
-            Coverage seen{work_.surfaces(), work_.certified(), expected, work_.path_off(),
-                          kMostMeasured};
+        double bound = ridge_ > 0 && std::isfinite(ridge_) ? kProvedMore * ridge_ : flat;
+        double blocked = 0;
+        double more = kMoreExpected;
+        std::vector<Coverage::Part> parts;
+        for (std::size_t k = 0; k < work_.surfaces().size(); ++k) {
+            const Surface& s = work_.surfaces()[k];
+            parts.push_back(
+                {static_cast<int>(k), {s.u_begin(), s.v_begin()}, {s.u_end(), s.v_end()}});
+        }
+        while (bound < radius) {
+            Coverage cells{work_.surfaces(), work_.certified(), bound, work_.path_off(),
+                           kMostMeasured};
             for (const Points& pass : cut_) {
-                seen.add(pass);
+                cells.add(pass);
             }
-            for (std::size_t k = 0; k < work_.surfaces().size(); ++k) {
-                seen.look_over(static_cast<int>(k));
+            for (const Coverage::Part& part : parts) {
+                cells.look_over(part.surface, part.low, part.high);
             }
-            if (!seen.overflowed()) {
-                const double measured = seen.measured_left();
-                beside_edges_ = seen.left_beside_edges();
-                return std::min(radius, std::max(expected, kBetweenPlaces * measured));
+            if (cells.overflowed()) {
+                // More is left than was expected, perhaps far more.
+                bound *= more;
+                more *= more;
+                continue;
             }
-            // Far more is left than was expected: what is under the new bound needs no measuring.
-            expected *= kMoreExpected;
+            const Coverage::Unproved unproved = cells.unproved();
+            blocked = std::max(blocked, unproved.blocked_left);
+            beside_edges_ = std::max(beside_edges_, cells.left_beside_edges());
+            if (unproved.parts.empty()) {
+                return std::min(radius, std::max(bound, kBetweenPlaces * blocked));
+            }
+            parts = unproved.parts;
+            bound = kProvedMore * std::max(bound, unproved.left);
         }
         return radius;
     }

@@ -74,14 +74,18 @@ bool Coverage::stands_free(const Corner& at) const
            certified_.stands_free(places_.touching_tip(at.point.point, at.normal));
 }
 
+std::array<Coverage::Corner, 4> Coverage::corners_of(const Cell& cell) const
+{
+    return {corner(cell.surface, cell.u0, cell.v0), corner(cell.surface, cell.u1, cell.v0),
+            corner(cell.surface, cell.u0, cell.v1), corner(cell.surface, cell.u1, cell.v1)};
+}
+
 Coverage::Verdict Coverage::judge(const Cell& cell) const
 {
     if (certified_.model().outside_trims(cell.surface, {cell.u0, cell.v0}, {cell.u1, cell.v1})) {
         return Verdict::kCovered;
     }
-    const std::array<Corner, 4> at{
-        corner(cell.surface, cell.u0, cell.v0), corner(cell.surface, cell.u1, cell.v0),
-        corner(cell.surface, cell.u0, cell.v1), corner(cell.surface, cell.u1, cell.v1)};
+    const std::array<Corner, 4> at = corners_of(cell);
     const double width_u = cell.u1 - cell.u0;
     const double width_v = cell.v1 - cell.v0;
     std::array<double, 4> along_u{};
@@ -405,15 +409,37 @@ void Coverage::measure_beside_edges(const std::vector<Cell>& cells)
     }
 }
 
+Coverage::Unproved Coverage::unproved()
+{
+    Unproved out;
+    std::vector<Cell> touched;
+    std::vector<Cell> blocked;
+    for (const Cell& cell : gaps_) {
+        const std::array<Corner, 4> at = corners_of(cell);
+        if (std::all_of(at.begin(), at.end(), [&](const Corner& c) { return hidden(c); })) {
+            continue;
+        }
+        if (blocked_somewhere(at)) {
+            blocked.push_back(cell);
+            continue;
+        }
+        touched.push_back(cell);
+        out.parts.push_back({cell.surface, {cell.u0, cell.v0}, {cell.u1, cell.v1}});
+    }
+    out.left = most_left_in(touched);
+    out.blocked_left = most_left_in(blocked);
+    return out;
+}
+
 // Highest places first: most of the others are told to be lower without a search.
-double Coverage::measured_left()
+double Coverage::most_left_in(const std::vector<Cell>& cells)
 {
     struct High {
         Corner at;
         double over;  // mm, over the surface
     };
     std::vector<High> all;
-    for (const Cell& cell : gaps_) {
+    for (const Cell& cell : cells) {
         for (const Place& place : places_of(cell)) {
             const Corner at = corner(cell.surface, place.u, place.v);
             const Vec3d p = at.point.point;

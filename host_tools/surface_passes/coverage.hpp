@@ -52,9 +52,20 @@ public:
     // off such a wall is a sliver that no pass beside it can take down. Trimmed edges have none.
     void close_rims(int surface, const std::function<void(const Points&)>& cut);
 
-    // The most left in cells not covered, mm, where no pass may be added: measured at their
-    // middles and corners. What lies between can be higher.
-    double measured_left();
+    // A part of a surface's domain.
+    struct Part {
+        int surface;
+        Vec2d low;
+        Vec2d high;
+    };
+    // What is left where no pass may be added, measured at middles and corners of the cells not
+    // covered. What lies between can be higher.
+    struct Unproved {
+        std::vector<Part> parts;  // where the tool can touch
+        double left{};            // mm: the most there
+        double blocked_left{};    // mm: the most in the other cells, over what the tool can reach
+    };
+    Unproved unproved();
 
     // Cells that stay uncovered, after `close_gaps`.
     std::size_t uncovered() const { return gaps_.size(); }
@@ -104,6 +115,8 @@ private:
     std::optional<Vec3d> better_tip(const Corner& at) const;
     std::array<Place, 5> places_of(const Cell& cell) const;
     double reachable_left(const Corner& at, double worth);
+    std::array<Corner, 4> corners_of(const Cell& cell) const;
+    double most_left_in(const std::vector<Cell>& cells);
     void measure_beside_edges(const std::vector<Cell>& cells);
     std::optional<Vec3d> tip_over_rim(int surface, Vec2d place) const;
     void go_over_rim(int surface,

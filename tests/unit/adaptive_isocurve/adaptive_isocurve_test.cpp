@@ -205,6 +205,41 @@ TEST(AdaptiveIsocurve, BoundsWhatPassesOfAGivenDistanceLeaveBesideEdges)
     CHECK(planned.front().stats.scallop_bound_mm < 2);
 }
 
+TEST(AdaptiveIsocurve, ProvesWhatPassesOfAGivenDistanceLeaveBetweenThem)
+{
+    constexpr int kParts = 120;
+    for (unsigned seed = 200; seed < 206; ++seed) {
+        std::printf("seed %u ", seed);
+        std::mt19937 other{seed};
+        Job made = job_for({bumps(other, 2)}, "adaptive_isocurve");
+        Operation& at_distance = made.operations.front();
+        at_distance.scallop.reset();
+        at_distance.iso_distance = 1.2;
+        at_distance.even_steps = seed % 3 == 0;
+        at_distance.direction = seed % 2 == 0 ? 'u' : 'v';
+        const Surface& floor = at_distance.floor.front();
+        const PlannedOperation planned = plan_adaptive_isocurve(made, at_distance).front();
+        const double bound = planned.stats.scallop_bound_mm;
+        const SurfaceModel model{at_distance.floor};
+        const SweptBalls swept = swept_by(planned.path);
+        double most = 0;
+        for (int i = 0; i <= kParts; ++i) {
+            for (int j = 0; j <= kParts; ++j) {
+                const SurfacePoint p =
+                    derivatives_at(floor, floor.u_end() * i / kParts, floor.v_end() * j / kParts);
+                const Vec3d n = upward_normal(p);
+                const Vec3d tip = p.point + n * 2 - Vec3d{0, 0, 2};
+                const double cut = swept.lowest(p.point.x, p.point.y).height;
+                if (model.clearance(planned.path.tool, tip, 0).distance > -1e-6) {
+                    most = std::max(most, (cut - p.point.z) * n.z);
+                }
+            }
+        }
+        CHECK(most <= bound);
+        CHECK(bound <= 1.35 * most);
+    }
+}
+
 TEST(AdaptiveIsocurve, NeverEntersRandomSurfaces)
 {
     for (unsigned seed = 100; seed < 102; ++seed) {
