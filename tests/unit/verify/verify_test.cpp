@@ -162,14 +162,14 @@ TEST(Verify, KnowsHowLowABallSinksBetweenTwoRims)
                       x0, y0, z, x0, y1, z, x1, y0, z, x1, y1, z);
         return std::string{text};
     };
-    folder.write("slot.json", R"({"shape": {"type": "surface", "count": 3, "data": [)" +
-                                  sheet(0, 3.05, 0, 6, -5) + "," + sheet(3.05, 5.95, 2, 4, -9) +
-                                  "," + sheet(5.95, 9, 0, 6, -5) + "]}}");
+    folder.with("slot.json", R"({"shape": {"type": "surface", "count": 3, "data": [)" +
+                                 sheet(0, 3.05, 0, 6, -5) + "," + sheet(3.05, 5.95, 2, 4, -9) +
+                                 "," + sheet(5.95, 9, 0, 6, -5) + "]}}");
     const Job job = read_job(
-        folder.write("slot.toml",
-                     "[tool]\nshape = \"ball\"\ndiameter = 3\n[cutting]\nfeed = 1000\n"
-                     "[[operation]]\nstrategy = \"parallel_planes\"\nfloor = \"slot.json\"\n"
-                     "step_over = 1\nscallop = 0.02\nfloor_tolerance = 0.001\n"));
+        folder.with("slot.toml",
+                    "[tool]\nshape = \"ball\"\ndiameter = 3\n[cutting]\nfeed = 1000\n"
+                    "[[operation]]\nstrategy = \"parallel_planes\"\nfloor = \"slot.json\"\n"
+                    "step_over = 1\nscallop = 0.02\nfloor_tolerance = 0.001\n"));
     const auto verdict_of = [&](double left_out) {
         std::string text = "G21 G90\nG0 Z5\nG0 X0 Y0\n";
         char line[96];
@@ -183,7 +183,7 @@ TEST(Verify, KnowsHowLowABallSinksBetweenTwoRims)
             std::snprintf(line, sizeof line, "G0 X%.3f Y0\nG1 Z%.5f F900\nG1 Y6\nG0 Z5\n", x, tip);
             text += line;
         }
-        return verify(job, folder.write("p.ngc", text + "M30\n"), settings, [](double) {});
+        return verify(job, folder.with("p.ngc", text + "M30\n"), settings, [](double) {});
     };
     const Verification good = verdict_of(0);
     STRCMP_EQUAL("", good.broken.empty() ? "" : good.broken.front().c_str());
