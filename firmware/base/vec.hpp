@@ -61,6 +61,17 @@ T norm(Vec3<T> a) noexcept
     return std::sqrt(dot(a, a));
 }
 
+// Each part without its sign.
+inline Vec3f magnitude(Vec3f a) noexcept
+{
+    return {std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)};
+}
+
+constexpr Vec3f to_float(Vec3d a) noexcept
+{
+    return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
+}
+
 inline constexpr double kNanometresPerMillimetre = 1e6;
 
 // Nearest doubles: exact for the micrometre grid of machine travel, within 1e-10 mm to 1000 m.

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string_view>
 
 #include "firmware/base/vec.hpp"
 #include "firmware/path/path.hpp"
@@ -50,6 +51,8 @@ struct ModalState {
 };
 
 inline constexpr unsigned kCoordinateSystems = 9;
+inline constexpr std::array<std::string_view, kCoordinateSystems> kCoordinateSystemNames{
+    "G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"};
 
 // Offsets and stored positions; machine nanometres. The machine keeps all but the last two through
 // a power cycle; a reset clears those two.

@@ -29,12 +29,11 @@ void write_named_position(std::string_view name, Position at, bool inches, Reply
 
 bool write_parameter(unsigned index, const ListingSource& source, ReplyQueue& out) noexcept
 {
-    constexpr std::array<std::string_view, gcode::kCoordinateSystems> kNames{
-        "G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"};
     const gcode::Parameters& parameters = source.parameters;
     const bool inches = source.stored.settings.on(Setting::kReportInches);
     if (index < gcode::kCoordinateSystems) {
-        write_named_position(kNames[index], parameters.work_offsets[index], inches, out);
+        write_named_position(gcode::kCoordinateSystemNames[index], parameters.work_offsets[index],
+                             inches, out);
         return true;
     }
     switch (index - gcode::kCoordinateSystems) {
@@ -172,9 +171,10 @@ void write_modal_state(const gcode::ModalState& modal,
                        const Settings& settings,
                        ReplyQueue& out) noexcept
 {
-    constexpr std::array<std::string_view, gcode::kCoordinateSystems> kSystems{
-        " G54", " G55", " G56", " G57", " G58", " G59", " G59.1", " G59.2", " G59.3"};
-    (void)out.text("[GC:").text(word_of(modal.motion)).text(kSystems[modal.coordinate_system]);
+    (void)out.text("[GC:")
+        .text(word_of(modal.motion))
+        .character(' ')
+        .text(gcode::kCoordinateSystemNames[modal.coordinate_system]);
     (void)out.text(word_of(modal.plane)).text(modal.inches ? " G20" : " G21");
     (void)out.text(modal.incremental ? " G91" : " G90").text(modal.inverse_time ? " G93" : " G94");
     switch (accessories.spindle) {

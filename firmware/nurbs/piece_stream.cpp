@@ -177,11 +177,6 @@ PieceStream::Net PieceStream::part_of_span(double from, double to) const noexcep
 
 namespace {
 
-Vec3f to_float(Vec3d v) noexcept
-{
-    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
 // The straight line to the end, as a curve of the same order.
 void straighten(path::BezierPiece& piece, Vec3d end) noexcept
 {

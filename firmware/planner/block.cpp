@@ -156,8 +156,7 @@ EndGeometry curve_geometry(const CurveBlock& curve, float u) noexcept
 
 PathDerivatives line_derivatives(const Block& block) noexcept
 {
-    const Vec3f tangent = displacement_mm(block) / length_mm(block);
-    return {{std::fabs(tangent.x), std::fabs(tangent.y), std::fabs(tangent.z)}, {}, {}};
+    return {magnitude(displacement_mm(block) / length_mm(block)), {}, {}};
 }
 
 float sweep(const Block& block) noexcept

@@ -14,11 +14,6 @@ namespace {
 constexpr double kMaxArcLength = 4.0;
 constexpr double kMaxArcAngle = kPi / 2;
 
-Vec3f to_float(Vec3d a) noexcept
-{
-    return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
-}
-
 PathOffset path_offset(Position from, Position to) noexcept
 {
     const auto scaled = [](std::int64_t nm) {

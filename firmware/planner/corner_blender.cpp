@@ -25,16 +25,9 @@ constexpr double kApex = 3.0 / 16.0;
 // A blend must save this part of the time of a stop: what speeds up around it takes longer.
 constexpr float kWorthIt = 0.5F;
 
-Vec3f magnitude(Vec3f a) noexcept { return {std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)}; }
-
 bool may_blend(const path::Move& move) noexcept
 {
     return move.tolerance > 0 && std::holds_alternative<path::Line>(move.path);
-}
-
-Vec3f to_float(Vec3d a) noexcept
-{
-    return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
 }
 
 }  // namespace

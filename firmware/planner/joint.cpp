@@ -9,8 +9,6 @@ namespace {
 
 constexpr unsigned kBisections = 20;
 
-Vec3f magnitude(Vec3f a) noexcept { return {std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)}; }
-
 struct Shares {
     float acceleration;
     float jerk;

@@ -31,7 +31,7 @@ std::vector<Edge> fitted_edges(const std::vector<Edge>& edges, double tolerance,
         const int parts = edge.turn == 0 ? 1 : 1 + static_cast<int>(sweep(edge) / turn);
         for (int k = 1; k <= parts; ++k) {
             const Vec2d p = k == parts ? edge.end : point_on(edge, static_cast<double>(k) / parts);
-            if (norm(p - Vec2d{vertices.back().x, vertices.back().y}) > 1e-6) {
+            if (norm(p - in_plan(vertices.back())) > 1e-6) {
                 vertices.push_back({p.x, p.y, 0.0});
             }
         }

@@ -356,4 +356,11 @@ std::optional<Region2d> with_corner_spurs(const Region2d& level,
     return spurs.empty() ? level : with_spurs(level, std::move(spurs));
 }
 
+bool starts_spur(const Contour& contour, std::size_t edge)
+{
+    constexpr double kSamePoint = 1e-9;  // mm
+    return edge + 1 < contour.size() && contour[edge].turn == 0 && contour[edge + 1].turn == 0 &&
+           distance(contour[edge].start, contour[edge + 1].end) < kSamePoint;
+}
+
 }  // namespace cusp::host

@@ -1,6 +1,7 @@
 // Short ways out of a loop into the corners that it and the loop outside it leave between them.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
 #include "host_tools/offset/offset.hpp"
@@ -22,5 +23,8 @@ std::optional<Region2d> with_corner_spurs(const Region2d& level,
                                           const Region2d& border,
                                           const RegionOffset& source,
                                           const SpurSpace& space);
+
+// Whether a way out and back on one line starts with the edge.
+bool starts_spur(const Contour& contour, std::size_t edge);
 
 }  // namespace cusp::host

@@ -139,6 +139,11 @@ private:
     };
 
     Contact contact_on(const Piece& piece, double height, double u, double v) const;
+    // How far x lies outside of low to high.
+    static double excess(double low, double high, double x)
+    {
+        return std::max(0.0, std::max(low - x, x - high));
+    }
     void gather(std::uint32_t place, std::uint32_t parent, Piece* first, Piece* last);
     std::uint32_t sibling(std::uint32_t piece) const
     {

@@ -12,11 +12,6 @@ namespace {
 constexpr double kOnPiece = 0.01;       // of the radius: pieces beside the contact touch as well
 constexpr double kSteepestSide = 30.0;  // slope
 
-double excess(double low, double high, double x)
-{
-    return std::max(0.0, std::max(low - x, x - high));
-}
-
 double square_of(double x) { return x * x; }
 
 }  // namespace

@@ -156,7 +156,7 @@ double TipFloor::apart_from_plate(const Piece& piece, Vec3d a, Vec3d b) const
         if (height < 0.0) {
             return holds({p.x, p.y}) ? 0.0 : 1e300;
         }
-        return holds(Vec2d{p.x, p.y} + g * (height * level * level)) ? height * level : 1e300;
+        return holds(in_plan(p) + g * (height * level * level)) ? height * level : 1e300;
     };
     const double from = over(a);
     const double to = over(b);
@@ -341,7 +341,7 @@ double TipFloor::gap(Vec3d a, Vec3d b, double margin) const
                 beside_ = top.piece;
             }
             const double part = top.to - top.from;
-            const double tilt = part * (way.z - dot(piece.gradient, Vec2d{way.x, way.y}));
+            const double tilt = part * (way.z - dot(piece.gradient, in_plan(way)));
             const NextLook look = next_look(piece, top.here, part * whole_length, tilt);
             if (look == NextLook::kNone || depth + 2 > kStack) {
                 least = std::min(least, top.here);

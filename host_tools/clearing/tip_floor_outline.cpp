@@ -12,8 +12,6 @@ namespace {
 
 constexpr double kEven = 1e-9;  // of a unit vector: along an axis
 
-Vec2d seen_from_above(Vec3d p) { return {p.x, p.y}; }
-
 }  // namespace
 
 // Each outer line as far as the lines of the other sides, and by nanometres farther; its end lies
@@ -56,14 +54,13 @@ bool TipFloor::lay_sides(const Piece& piece, Outline& outline) const
     const std::array<Row, 4> all{
         Row{0, 1, columns, kFirstRow}, Row{columns - 1, columns, rows, kLastColumn},
         Row{last, 1, columns, kLastRow}, Row{0, columns, rows, kFirstColumn}};
-    const Vec2d middle =
-        (seen_from_above(points[0]) + seen_from_above(points[columns - 1]) +
-         seen_from_above(points[last]) + seen_from_above(points[last + columns - 1])) *
-        0.25;
+    const Vec2d middle = (in_plan(points[0]) + in_plan(points[columns - 1]) +
+                          in_plan(points[last]) + in_plan(points[last + columns - 1])) *
+                         0.25;
     for (std::size_t i = 0; i < all.size(); ++i) {
         const Row& row = all[i];
-        const Vec2d a = seen_from_above(points[row.first]);
-        const Vec2d b = seen_from_above(points[row.first + row.step * (row.count - 1)]);
+        const Vec2d a = in_plan(points[row.first]);
+        const Vec2d b = in_plan(points[row.first + row.step * (row.count - 1)]);
         if (distance(a, b) == 0.0) {
             return false;
         }
@@ -71,12 +68,12 @@ bool TipFloor::lay_sides(const Piece& piece, Outline& outline) const
         const Vec2d across = dot(middle - a, left) > 0.0 ? left * -1.0 : left;
         Side side{across, 1e300, -1e300, 1e300, -1e300, 0.0, 0.0};
         for (std::size_t k = 0; k < last + columns; ++k) {
-            widen(side, seen_from_above(points[k]));
+            widen(side, in_plan(points[k]));
         }
         // Beside a piece that an edge cuts its surface goes on.
         for (std::size_t k = 0; k < row.count && (!piece.cut || (piece.border & row.border) != 0);
              ++k) {
-            const Vec2d p = seen_from_above(points[row.first + row.step * k]);
+            const Vec2d p = in_plan(points[row.first + row.step * k]);
             outline.bow = std::max(outline.bow, side.outer - dot(across, p));
         }
         outline.sides[i] = side;
@@ -174,10 +171,10 @@ double TipFloor::apart_from_outline(const Piece& piece, Vec3d a, Vec3d b) const
     double square = 0.0;
     for (const Side& side : outlines_[piece.outline]) {
         const auto out = [&](Vec3d p) {
-            return dot(side.across, seen_from_above(p));
+            return dot(side.across, in_plan(p));
         };
         const auto forth = [&](Vec3d p) {
-            return dot(left_normal(side.across), seen_from_above(p));
+            return dot(left_normal(side.across), in_plan(p));
         };
         const double ux = apart(side.inner, side.outer, out(a), out(b));
         const double uy = apart(side.low, side.high, forth(a), forth(b));

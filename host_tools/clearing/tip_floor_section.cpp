@@ -12,8 +12,6 @@ namespace {
 
 double middle_of(std::array<float, 2> ends) { return 0.5 * static_cast<double>(ends[0] + ends[1]); }
 
-double excess(double low, double high, double x) { return std::max({low - x, 0.0, x - high}); }
-
 }  // namespace
 
 // Of a piece whose outline is not known nothing is known but the box, which must be small.
@@ -85,7 +83,7 @@ TipFloor::Contact TipFloor::touching(Vec2d at, double slack) const
         const Vec3d n = contact.normal;
         const double steep = std::hypot(n.x, n.y);
         const double out = steep > 0.0 ? (tool_.radius - corner) / steep + corner : corner;
-        const Vec2d aside = at - Vec2d{n.x, n.y} * out - Vec2d{s.point.x, s.point.y};
+        const Vec2d aside = at - in_plan(n) * out - in_plan(s.point);
         const double bend = s.du.x * s.dv.y - s.du.y * s.dv.x;
         u += (aside.x * s.dv.y - aside.y * s.dv.x) / (bend * (patch.u1 - patch.u0));
         v += (s.du.x * aside.y - s.du.y * aside.x) / (bend * (patch.v1 - patch.v0));

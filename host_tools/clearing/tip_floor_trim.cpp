@@ -13,8 +13,6 @@ namespace {
 constexpr std::size_t kMostPlaces = 200;  // of an edge: more of them are no line
 constexpr double kRounding = 1e-9;        // mm
 
-Vec2d seen_from_above(Vec3d p) { return {p.x, p.y}; }
-
 }  // namespace
 
 TipFloor::Domain TipFloor::domain_of(const Piece& piece) const
@@ -107,11 +105,11 @@ std::optional<TipFloor::Side> TipFloor::side_along(const Left& left, double& bow
 {
     const auto from = left.places.begin() + static_cast<std::ptrdiff_t>(left.edge);
     const auto farthest = [&](Vec2d p) {
-        return seen_from_above(*std::max_element(from, left.places.end(), [&](Vec3d a, Vec3d b) {
-            return distance(seen_from_above(a), p) < distance(seen_from_above(b), p);
+        return in_plan(*std::max_element(from, left.places.end(), [&](Vec3d a, Vec3d b) {
+            return distance(in_plan(a), p) < distance(in_plan(b), p);
         }));
     };
-    const Vec2d one = farthest(seen_from_above(*from));
+    const Vec2d one = farthest(in_plan(*from));
     const Vec2d other = farthest(one);
     bow = 0.0;
     if (distance(one, other) < kRounding) {
@@ -123,11 +121,11 @@ std::optional<TipFloor::Side> TipFloor::side_along(const Left& left, double& bow
     for (const Vec2d across : {normal, normal * -1.0}) {
         Side side{across, 1e300, -1e300, 1e300, -1e300, 0.0, 0.0};
         for (const Vec3d& p : left.places) {
-            widen(side, seen_from_above(p));
+            widen(side, in_plan(p));
         }
         double least = 1e300;
         std::for_each(from, left.places.end(),
-                      [&](Vec3d p) { least = std::min(least, dot(across, seen_from_above(p))); });
+                      [&](Vec3d p) { least = std::min(least, dot(across, in_plan(p))); });
         if (side.outer - least < bow) {
             bow = side.outer - least;
             best = side;
@@ -166,7 +164,7 @@ void TipFloor::measure_left(Piece& piece) const
         Side& side = outline.sides[i];
         Side within{side.across, 1e300, -1e300, 1e300, -1e300, 0.0, 0.0};
         for (const Vec3d& p : left.places) {
-            widen(within, seen_from_above(p));
+            widen(within, in_plan(p));
         }
         side.inner = std::max(side.inner, within.inner - left.off);
         side.outer = std::min(side.outer, within.outer + left.off);

@@ -68,7 +68,7 @@ private:
         for (const FloorMove& move : path.moves) {
             const Vec3d middle = (from + move.end) * 0.5;
             const bool lifted = middle.z > floor_.drop({middle.x, middle.y}).height + most;
-            length += lifted ? distance(Vec2d{from.x, from.y}, {move.end.x, move.end.y}) : 0.0;
+            length += lifted ? distance(in_plan(from), {move.end.x, move.end.y}) : 0.0;
             from = move.end;
         }
         return length < kLifted * floor_.tool().radius;

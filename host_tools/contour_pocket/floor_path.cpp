@@ -59,8 +59,8 @@ Chords chords_of(Vec3d start, const FloorMove& move, double fine)
     if (move.turn == 0) {
         return {{start, move.end}, 0.0};
     }
-    const Vec2d a = Vec2d{start.x, start.y} - move.centre;
-    const Vec2d b = Vec2d{move.end.x, move.end.y} - move.centre;
+    const Vec2d a = in_plan(start) - move.centre;
+    const Vec2d b = in_plan(move.end) - move.centre;
     const double radius = std::sqrt(dot(a, a));
     const double angle = std::atan2(cross(a, b), dot(a, b));
     const double step = std::sqrt(8.0 * fine / radius);
@@ -124,8 +124,8 @@ FloorMove first_half(Vec3d start, const FloorMove& move)
     FloorMove half = move;
     half.end = written((start + move.end) * 0.5);
     if (move.turn != 0) {
-        const Vec2d a = Vec2d{start.x, start.y} - move.centre;
-        const Vec2d b = Vec2d{move.end.x, move.end.y} - move.centre;
+        const Vec2d a = in_plan(start) - move.centre;
+        const Vec2d b = in_plan(move.end) - move.centre;
         const double radius = std::sqrt(dot(a, a));
         const double turn = 0.5 * std::atan2(cross(a, b), dot(a, b));
         const Vec2d p =

@@ -138,7 +138,7 @@ bool stays_between(
     const Vec2d bent = left_normal(way) * (b.bend * std::sqrt(dot(way, way)));
     const auto strays = [&](double u) {
         const Vec3d second = derivatives_at(curve, u).second * (step * step);
-        const Vec2d off = Vec2d{second.x, second.y} - bent;
+        const Vec2d off = in_plan(second) - bent;
         return std::sqrt(dot(off, off)) > 8.0 * most.x || std::abs(second.z) > 8.0 * most.z;
     };
     const double inside = 1e-6 * step;
@@ -160,7 +160,7 @@ bool passes(const Curve& curve,
 {
     for (std::size_t k = 0; k < stations.size(); ++k) {
         const Vec3d p = point_at(curve, samples.shares[k]);
-        const Vec2d off = Vec2d{p.x, p.y} - stations[k].at;
+        const Vec2d off = in_plan(p) - stations[k].at;
         const double over = p.z - stations[k].height - dot(stations[k].gradient, off);
         if (!(dot(off, off) <= aside * aside) || !(over >= low) || !(over <= high)) {
             return false;

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "host_tools/clearing/corner_spurs.hpp"
+
 namespace cusp::host {
 
 namespace {
@@ -14,14 +16,6 @@ constexpr double kSmooth = 0.999;    // cosine of 2.6 degrees
 constexpr std::size_t kStretch = 6;  // stations that two lookups may tell on any floor
 constexpr double kTurned = 1.0;      // radians: where they tell more
 constexpr double kTold = 0.06;       // of the height allowed: how well they must
-
-// Both visits are to meet at one point: a corner micrometres beside the path's other visit would be
-// no place that anyone could tell from it.
-bool is_spur(const std::vector<Edge>& plan, std::size_t e)
-{
-    return e + 1 < plan.size() && plan[e].turn == 0 && plan[e + 1].turn == 0 &&
-           distance(plan[e].start, plan[e + 1].end) < 1e-9;
-}
 
 // The unit tangent where an edge passes the point.
 Vec2d way_of(const Edge& edge, Vec2d at)
@@ -102,7 +96,9 @@ private:
         double along = 0.0;
         for (std::size_t e = 0; e < plan.size(); ++e) {
             const Edge& edge = plan[e];
-            if (is_spur(plan, e) || (e > 1 && is_spur(plan, e - 2))) {
+            // Both visits of a spur are to meet at one point: a corner micrometres beside the
+            // path's other visit would be no place that anyone could tell from it.
+            if (starts_spur(plan, e) || (e > 1 && starts_spur(plan, e - 2))) {
                 (stops_.empty() ? starts_exact_ : stops_.back().exact) = true;
             }
             const double bend = edge.turn == 0 ? 0.0 : edge.turn / edge.radius;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "host_tools/clearing/corner_spurs.hpp"
 #include "host_tools/contour_pocket/level_interval.hpp"
 #include "host_tools/contour_pocket/station_row.hpp"
 
@@ -31,13 +32,6 @@ bool turns(const Edge& before, const Edge& after)
 {
     constexpr double kCorner = 0.995;  // cosine of some 6 degrees
     return dot(tangent_at_end(before), tangent_at_start(after)) < kCorner;
-}
-
-// The second visit of a spur goes back over the first.
-bool is_spur(const Contour& contour, std::size_t e)
-{
-    return e + 1 < contour.size() && contour[e].turn == 0 && contour[e + 1].turn == 0 &&
-           distance(contour[e].start, contour[e + 1].end) < 1e-9;
 }
 
 }  // namespace
@@ -125,7 +119,8 @@ double StripRidge::share(const LevelStrip& strip)
     for (const Contour& contour : strip.outer.contours) {
         Contour loop;
         for (std::size_t e = 0; e < contour.size(); ++e) {
-            if (!is_spur(contour, e) && !(e > 0 && is_spur(contour, e - 1))) {
+            // The second visit of a spur goes back over the first.
+            if (!starts_spur(contour, e) && !(e > 0 && starts_spur(contour, e - 1))) {
                 loop.push_back(contour[e]);
             }
         }

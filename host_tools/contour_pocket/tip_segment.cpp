@@ -56,7 +56,7 @@ double least_of(const Function& f, Range range)
 double cut_over(const Tool& tool, const TipSegment& segment, Vec2d at)
 {
     const Vec2d a{segment.start.x, segment.start.y};
-    const Vec2d move = Vec2d{segment.end.x, segment.end.y} - a;
+    const Vec2d move = in_plan(segment.end) - a;
     const double whole = std::sqrt(dot(move, move));
     if (whole < 1e-9) {
         return std::min(segment.start.z, segment.end.z) + profile_height(tool, distance(a, at));

@@ -120,7 +120,7 @@ private:
         double along = 0.0;
         Wedge wedge{};
         for (std::size_t k = i + 1; k <= last_; ++k) {
-            const Vec2d target = ends_home(k) ? Vec2d{home_.x, home_.y} : stations_[k].at;
+            const Vec2d target = ends_home(k) ? in_plan(home_) : stations_[k].at;
             const Vec2d arm = target - at_;
             const double apart = std::sqrt(dot(arm, arm));
             const double room = ends_home(k) ? 1e-9 : aside_;
@@ -199,7 +199,7 @@ private:
     {
         const bool home = ends_home(limit);
         if (home) {
-            way = unit(Vec2d{home_.x, home_.y} - at_);
+            way = unit(in_plan(home_) - at_);
         }
         Rise rise;
         std::optional<Reach> reach;
@@ -228,7 +228,7 @@ private:
     // Places on a circle from here through a station near the middle to station j.
     std::optional<Reach> arc_to(std::size_t i, std::size_t j) const
     {
-        const Vec2d end = ends_home(j) ? Vec2d{home_.x, home_.y} : stations_[j].at;
+        const Vec2d end = ends_home(j) ? in_plan(home_) : stations_[j].at;
         const Vec2d u = stations_[i + (j - i) / 2].at - at_;
         const Vec2d v = end - at_;
         const double bend = 2.0 * cross(u, v);

@@ -58,7 +58,7 @@ double FlatContact::room_between(Vec3d a, double over_a, Vec3d b, double over_b)
 {
     const double ends = std::min({over_a, over_b, 0.0});
     const Vec3d way = b - a;
-    const double length = norm(Vec2d{way.x, way.y});
+    const double length = norm(in_plan(way));
     if (ends < kTooLow || length < 1e-9) {
         return ends;
     }

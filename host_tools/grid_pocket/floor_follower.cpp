@@ -34,8 +34,6 @@ Tool grown_tool(Tool tool, double by)
     return tool;
 }
 
-Vec2d plan(Vec3d p) { return {p.x, p.y}; }
-
 }  // namespace
 
 double band_height(const FollowSettings& settings)
@@ -156,7 +154,7 @@ double FloorFollower::room(Vec3d a, Vec3d b, double needed) const
     }
     // A flat end's room is that along the axis, and bounds nothing of a move that cuts in: such a
     // move is looked at from as much higher as it may cut.
-    const double way = norm(plan(b) - plan(a));
+    const double way = norm(in_plan(b) - in_plan(a));
     const double steep = way > 0 ? norm(b - a) / way : 1.0;
     const Vec3d down{0, 0, -needed * steep};
     const double clear = clearance(a + down, b + down, 0);
@@ -180,7 +178,7 @@ void FloorFollower::chord(TipMoves& moves, Vec3d end, MoveKind kind, int depth)
     constexpr int kDeepest = 12;
     if (depth < kDeepest && norm(end - from) > kShortest) {
         Vec3d middle = (from + end) * 0.5;
-        const double exact = std::max(level_, height(plan(middle)).value_or(middle.z));
+        const double exact = std::max(level_, height(in_plan(middle)).value_or(middle.z));
         middle.z = std::max(middle.z, exact + kRounding);
         chord(moves, middle, kind, depth + 1);
         chord(moves, end, kind, depth + 1);
@@ -324,7 +322,7 @@ bool FloorFollower::follow_with_arcs(TipMoves& moves, Vec2d a, Vec2d b, MoveKind
             gouge_bound_ = std::max(gouge_bound_, settings_.both_sides ? -kept : 0.0);
             moves.arc(kind, arc);
         } else {
-            follow_segment(moves, plan(from), plan(piece.end), kind);
+            follow_segment(moves, in_plan(from), in_plan(piece.end), kind);
         }
     }
     return true;

@@ -99,7 +99,7 @@ bool GridMoves::helix(Vec3d start, double from, const CircleFloor& circle)
     Vec2d centre{};
     for (int i = 0; i < kSides; ++i) {
         const double angle = 2 * kPi * i / kSides;
-        const Vec2d c = Vec2d{start.x, start.y} + Vec2d{std::cos(angle), std::sin(angle)} * radius;
+        const Vec2d c = in_plan(start) + Vec2d{std::cos(angle), std::sin(angle)} * radius;
         const std::optional<double> z = circle(c, radius);
         if (z && (!lowest || *z < *lowest)) {
             lowest = z;
@@ -114,9 +114,9 @@ bool GridMoves::helix(Vec3d start, double from, const CircleFloor& circle)
     const double depth = from - end;
     const double drop = std::min(2 * kPi * radius * kEntrySlope, most_drop_);
     const int halves = 2 * std::max(1, static_cast<int>(std::ceil(depth / drop)));
-    const Vec2d opposite = centre * 2.0 - Vec2d{start.x, start.y};
+    const Vec2d opposite = centre * 2.0 - in_plan(start);
     for (int i = 1; i <= halves + 2; ++i) {
-        const Vec2d p = i % 2 == 0 ? Vec2d{start.x, start.y} : opposite;
+        const Vec2d p = i % 2 == 0 ? in_plan(start) : opposite;
         const double z = i < halves ? from - depth * i / halves : end;
         tip_.arc(MoveKind::kPlunge, {{p.x, p.y, z}, {centre.x, centre.y, z}, ArcPlane::kXY, false});
     }

@@ -27,8 +27,6 @@ constexpr double kBetweenSteps = 1.25;
 // mm: a place that a flat end touches lies on its rim, to rounding.
 constexpr double kOnTheRim = 1e-6;
 
-Vec2d plan(Vec3d p) { return {p.x, p.y}; }
-
 // What the tools at `tips` leave over the place that a tool at `here` touches, with the slope of
 // the tip's height there.
 double left_by(const Tool& tool, Vec3d here, Vec2d slope, const std::vector<Vec3d>& tips)
@@ -37,13 +35,13 @@ double left_by(const Tool& tool, Vec3d here, Vec2d slope, const std::vector<Vec3
     const double secant = std::sqrt(1 + steep * steep);
     const double corner = tool.corner_radius;
     const double aside = steep > 1e-9 ? tool.radius - corner + corner * steep / secant : 0;
-    const Vec2d touch = plan(here) + slope * (steep > 1e-9 ? aside / steep : 0);
+    const Vec2d touch = in_plan(here) + slope * (steep > 1e-9 ? aside / steep : 0);
     const double rim = tool.radius * (1 - 1e-12);
     const double z = here.z + profile_height(tool, std::min(aside, rim));
     const Vec3d normal{-slope.x / secant, -slope.y / secant, 1 / secant};
     double least = kNothing;
     for (const Vec3d& tip : tips) {
-        const double away = norm(plan(tip) - touch);
+        const double away = norm(in_plan(tip) - touch);
         if (away > tool.radius + kOnTheRim) {
             continue;
         }
@@ -97,7 +95,7 @@ public:
             for (int i = 0; i <= nx_; ++i) {
                 if (known(i, j)) {
                     const double left = left_at(place(c, i, j), slopes(i, j), asked);
-                    top = left > most ? plan(place(c, i, j)) : top;
+                    top = left > most ? in_plan(place(c, i, j)) : top;
                     most = std::max(most, left);
                 }
             }
@@ -347,10 +345,10 @@ private:
     double left_at(Vec3d here, const Slopes& slopes, int& asked)
     {
         const std::size_t cells = tips_.size();
-        const double wall = surface_.to_wall_pass(plan(here));
+        const double wall = surface_.to_wall_pass(in_plan(here));
         if (wall < tool_.radius) {
             // The pass beside the place, and a little on either way, where a flat end may need it.
-            const Vec2d foot = surface_.on_wall_pass(plan(here));
+            const Vec2d foot = surface_.on_wall_pass(in_plan(here));
             for (const Vec2d shift :
                  {Vec2d{0, 0}, Vec2d{0.3, 0}, Vec2d{-0.3, 0}, Vec2d{0, 0.3}, Vec2d{0, -0.3}}) {
                 const Vec2d on = surface_.on_wall_pass(foot + shift * tool_.radius);
@@ -380,10 +378,10 @@ private:
         double most = 0;
         for (int k = 0; k < kPlaces; ++k) {
             const double angle = 2 * kPi * k / kPlaces;
-            const Vec2d touch = plan(here) + Vec2d{std::cos(angle), std::sin(angle)} * rim;
+            const Vec2d touch = in_plan(here) + Vec2d{std::cos(angle), std::sin(angle)} * rim;
             double least = kNothing;
             for (const Vec3d& tip : tips_) {
-                const double away = norm(plan(tip) - touch);
+                const double away = norm(in_plan(tip) - touch);
                 if (away <= tool_.radius + kOnTheRim) {
                     least = std::min(
                         least,

@@ -16,9 +16,7 @@ constexpr double kLeastLength = 1e-6;
 // Chords for the questions of inside and of crossings.
 constexpr double kChordTolerance = 1e-4;
 
-Vec2d from_above(Vec3d p) { return {p.x, p.y}; }
-
-double gap(Vec3d a, Vec3d b) { return norm(from_above(a) - from_above(b)); }
+double gap(Vec3d a, Vec3d b) { return norm(in_plan(a) - in_plan(b)); }
 
 double polygon_length(const Curve& curve)
 {
@@ -202,11 +200,11 @@ std::vector<Vec2d> loop_polyline(const Loop& loop, double tolerance)
     std::vector<Vec2d> out;
     for (const Curve& curve : loop) {
         if (out.empty()) {
-            out.push_back(from_above(point_at(curve, curve.domain_begin())));
+            out.push_back(in_plan(point_at(curve, curve.domain_begin())));
         }
         for (const Curve& piece : bezier_pieces(curve)) {
             if (curve.degree == 1) {
-                out.push_back(from_above(piece.points.back()));
+                out.push_back(in_plan(piece.points.back()));
                 continue;
             }
             PieceChords{piece, tolerance, out}.run();

@@ -22,6 +22,8 @@ struct Vec2d {
 inline double dot(Vec2d a, Vec2d b) { return a.x * b.x + a.y * b.y; }
 inline double cross(Vec2d a, Vec2d b) { return a.x * b.y - a.y * b.x; }
 double norm(Vec2d a);
+// Seen from above.
+inline Vec2d in_plan(Vec3d p) { return {p.x, p.y}; }
 
 // A rational B-spline curve. Invariants (checked by the reader in host_tools/import, assumed here):
 // degree >= 1, points.size() == weights.size() >= degree + 1, knots.size() == points.size() +

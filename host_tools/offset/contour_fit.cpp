@@ -12,8 +12,6 @@ constexpr double kExact = 1e-8;
 constexpr int kSamples = 12;
 constexpr int kMostHalvings = 24;
 
-Vec2d flat(Vec3d p) { return {p.x, p.y}; }
-
 struct CurveStation {
     Vec2d point;
     Vec2d tangent;
@@ -23,11 +21,11 @@ struct CurveStation {
 CurveStation station(const Curve& curve, double u, double toward)
 {
     CurvePoint at = derivatives_at(curve, u);
-    Vec2d tangent = flat(at.first);
+    Vec2d tangent = in_plan(at.first);
     for (double share = 1e-9; dot(tangent, tangent) < 1e-18 && share < 1e-2; share *= 10.0) {
-        tangent = flat(derivatives_at(curve, u + (toward - u) * share).first);
+        tangent = in_plan(derivatives_at(curve, u + (toward - u) * share).first);
     }
-    return {flat(at.point), unit(tangent)};
+    return {in_plan(at.point), unit(tangent)};
 }
 
 std::vector<Vec2d> samples(const Curve& curve)
@@ -37,7 +35,7 @@ std::vector<Vec2d> samples(const Curve& curve)
     const double u1 = curve.domain_end();
     const int n = kSamples * static_cast<int>(curve.points.size());
     for (int i = 0; i <= n; ++i) {
-        points.push_back(flat(point_at(curve, u0 + (u1 - u0) * i / n)));
+        points.push_back(in_plan(point_at(curve, u0 + (u1 - u0) * i / n)));
     }
     return points;
 }
@@ -143,7 +141,7 @@ bool fits(
     const Curve& curve, double u0, double u1, const std::array<Edge, 2>& pair, double tolerance)
 {
     for (int i = 1; i < kSamples; ++i) {
-        const Vec2d p = flat(point_at(curve, u0 + (u1 - u0) * i / kSamples));
+        const Vec2d p = in_plan(point_at(curve, u0 + (u1 - u0) * i / kSamples));
         if (std::min(distance_to(pair[0], p), distance_to(pair[1], p)) > tolerance) {
             return false;
         }

@@ -12,9 +12,6 @@ namespace {
 using gcode::ModalState;
 using gcode::Motion;
 
-constexpr std::array<std::string_view, gcode::kCoordinateSystems> kSystems{
-    "G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"};
-
 // Where the program never went straight down.
 constexpr float kPlungeFeed = 100.0F;  // mm/min
 
@@ -113,7 +110,8 @@ Approach make_approach(const ResumePoint& point,
     const std::int64_t travel_z = std::max({wanted_z, tool_z, goal.z});
 
     Approach approach;
-    approach.lines = {"G21", "G90", "G94", "G17", "G40", "G80", std::string{kSystems[system]}};
+    approach.lines = {"G21", "G90", "G94", "G17", "G40", "G80"};
+    approach.lines.emplace_back(gcode::kCoordinateSystemNames[system]);
     restore_offsets(point, before, approach.lines);
     approach.lines.push_back("G0Z" + words_of(travel_z));
     approach.lines.push_back("G0X" + words_of(goal.x) + "Y" + words_of(goal.y));

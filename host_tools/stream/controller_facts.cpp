@@ -1,7 +1,6 @@
 // Reading of listings.
 #include "host_tools/stream/controller_facts.hpp"
 
-#include <array>
 #include <charconv>
 
 namespace cusp::host {
@@ -16,9 +15,6 @@ std::optional<Number> number_in(std::string_view text)
     const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), number);
     return failed == std::errc{} ? std::optional{number} : std::nullopt;
 }
-
-constexpr std::array<std::string_view, gcode::kCoordinateSystems> kSystems{
-    "G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"};
 
 Position position_in(std::string_view text)
 {
@@ -65,8 +61,8 @@ void ControllerFacts::take(std::string_view line)
 
 void ControllerFacts::take_parameter(std::string_view name, std::string_view value)
 {
-    for (std::size_t i = 0; i < kSystems.size(); ++i) {
-        if (name == kSystems[i]) {
+    for (std::size_t i = 0; i < gcode::kCoordinateSystemNames.size(); ++i) {
+        if (name == gcode::kCoordinateSystemNames[i]) {
             parameters_.work_offsets[i] = position_in(value);
         }
     }

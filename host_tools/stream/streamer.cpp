@@ -7,7 +7,6 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr char kSoftReset = '\x18';
-constexpr milliseconds kPump{20};
 // A machine at full speed comes to rest well within this.
 constexpr milliseconds kHoldLimit{10'000};
 constexpr milliseconds kResetLimit{3000};

@@ -126,6 +126,7 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;
+    static constexpr std::chrono::milliseconds kPump{20};
 
     // Each throws Ending where the transfer is over.
     struct Ending {

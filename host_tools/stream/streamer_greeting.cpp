@@ -5,13 +5,7 @@
 #include "host_tools/stream/streamer.hpp"
 
 namespace cusp::host {
-namespace {
-
 using std::chrono::milliseconds;
-
-constexpr milliseconds kPump{20};
-
-}  // namespace
 
 void Streamer::greet()
 {

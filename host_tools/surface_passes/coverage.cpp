@@ -11,13 +11,9 @@ namespace {
 
 constexpr double kSmallest = 1.0 / 96;  // cells, in steps between passes
 constexpr double kLargest = 4;          // the same
-constexpr double kBlockedCell = 0.25;   // the same, where the tool can't touch
 constexpr double kBorderCell = 0.03;    // the same across a border, where a ball reaches over it
-constexpr double kTraceStep = 0.125;    // in steps between passes
-constexpr int kMostTraced = 4000;       // places of one pass
 constexpr int kRounds = 5;
 constexpr int kDeepest = 40;
-constexpr double kHidden = 1e-3;  // mm
 
 double largest(const std::array<double, 4>& of) { return *std::max_element(of.begin(), of.end()); }
 

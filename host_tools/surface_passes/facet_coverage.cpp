@@ -11,13 +11,9 @@ namespace {
 
 constexpr double kSmallest = 1.0 / 64;  // cells, in steps between passes
 constexpr double kLargest = 2;          // the same
-constexpr double kBlockedCell = 0.25;   // the same, where the tool can't touch
-constexpr double kTraceStep = 0.125;    // in steps between passes
-constexpr int kMostTraced = 4000;       // places of one pass
 constexpr int kRounds = 5;
 constexpr int kDeepest = 60;
 constexpr std::size_t kMostGaps = 300000;
-constexpr double kHidden = 1e-3;  // mm
 
 }  // namespace
 

@@ -25,6 +25,13 @@ constexpr double kSteepNormal = 0.2;
 constexpr double kUprightNormal = 0.05;
 // Of the scallop: what is asked of places that stand for a smallest cell.
 constexpr double kPlaceShare = 0.98;
+// In steps between passes: a smallest cell where the tool can't touch.
+constexpr double kBlockedCell = 0.25;
+// In steps between passes: between places that a missing pass is traced by.
+constexpr double kTraceStep = 0.125;
+constexpr int kMostTraced = 4000;
+// mm: how far a surface must lie over a place to hide it.
+constexpr double kHidden = 1e-3;
 
 class PlaceCoverage {
 public:
