@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "host_tools/surface_offset/surface_model.hpp"
 #include "host_tools/surface_offset/edge_guard.hpp"
+#include "host_tools/surface_offset/surface_model.hpp"
 
 namespace cusp::host {
 
