@@ -13,6 +13,8 @@ class EdgeTree {
 public:
     explicit EdgeTree(std::vector<Edge> edges);
 
+    std::size_t size() const { return edges_.size(); }  // edges
+
     // True where some edge lies nearer to the point than `reach`.
     bool any_nearer(Vec2d point, double reach) const;
 

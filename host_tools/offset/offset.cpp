@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <numeric>
 #include <optional>
 
@@ -32,6 +33,7 @@ struct Cut {
 // ends lie nearer to the next edge than the distance.
 struct Run {
     std::vector<Edge> edges;
+    std::vector<std::uint32_t> origins;  // of its pieces
     bool closed{};
     bool open_end{};
 };
@@ -121,20 +123,21 @@ public:
     {
         joined_ = joined;
         contour_begin_ = runs_.size();
-        run_ = {{}, false, !joined};
+        run_ = {{}, {}, false, !joined};
         cut_ = false;
     }
-    void add(const Edge& edge)
+    void add(const Edge& edge, std::uint32_t origin)
     {
         if (distance(edge.start, edge.end) > kShortest) {
             run_.edges.push_back(edge);
+            run_.origins.push_back(origin);
         }
     }
     void end_run(bool at_gap)
     {
         run_.open_end = run_.open_end || at_gap;
         runs_.push_back(std::move(run_));
-        run_ = {{}, false, at_gap};
+        run_ = {{}, {}, false, at_gap};
         cut_ = true;
     }
     void end_contour()
@@ -152,6 +155,7 @@ public:
         Run& head = runs_[contour_begin_];
         head.open_end = head.open_end || run_.open_end;
         head.edges.insert(head.edges.begin(), run_.edges.begin(), run_.edges.end());
+        head.origins.insert(head.origins.end(), run_.origins.begin(), run_.origins.end());
     }
 
 private:
@@ -189,11 +193,11 @@ std::vector<Run> split_into_runs(const std::vector<RawPiece>& pieces, const std:
         const Edge& edge = pieces[i].edge;
         Vec2d from = edge.start;
         for (; cut < cuts.size() && cuts[cut].piece == i; ++cut) {
-            builder.add(between(edge, from, cuts[cut].point));
+            builder.add(between(edge, from, cuts[cut].point), pieces[i].origin);
             builder.end_run(false);
             from = cuts[cut].point;
         }
-        builder.add(between(edge, from, edge.end));
+        builder.add(between(edge, from, edge.end), pieces[i].origin);
         first = pieces[i].last;
         if (pieces[i].last) {
             builder.end_contour();
@@ -347,37 +351,98 @@ bool contours_touch(const Region2d& source, const EdgeTree& tree)
     return touch;
 }
 
-std::vector<Run> kept_runs(const Region2d& source, const EdgeTree& tree, double distance)
+// The pieces of which something may be left at this distance: the farther inward an edge's point is
+// moved, the more other edges are nearer than its own.
+std::vector<RawPiece> living(std::vector<RawPiece> pieces,
+                             const std::vector<double>& gone,
+                             double distance)
 {
-    std::vector<RawPiece> pieces = raw_offset(source, distance);
+    std::size_t count = 0;
+    std::size_t contour = 0;  // where the contour begins among those
+    bool first = true;
+    bool starts = false;  // the contour's first piece is among them
+    bool before = false;  // the piece before is
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const RawPiece piece = pieces[i];
+        const bool lives = gone[piece.origin] > distance;
+        if (first) {
+            contour = count;
+            starts = lives;
+        } else if (count > contour && !lives) {
+            pieces[count - 1].joined = false;
+        }
+        if (lives) {
+            pieces[count++] = piece;
+        }
+        before = lives;
+        first = piece.last;
+        if (piece.last && count > contour) {
+            pieces[count - 1].last = true;
+            pieces[count - 1].joined = pieces[count - 1].joined && before && starts;
+        }
+    }
+    pieces.resize(count);
+    return pieces;
+}
+
+struct KeptRuns {
+    std::vector<Run> runs;
+    std::vector<std::uint32_t> gone;  // origins of pieces of which nothing is left
+};
+
+KeptRuns kept_runs(const Region2d& source,
+                   const EdgeTree& tree,
+                   const std::vector<double>& gone,
+                   double distance)
+{
+    std::vector<RawPiece> pieces = living(raw_offset(source, distance), gone, distance);
+    std::vector<std::uint32_t> looked_at;
+    for (const RawPiece& piece : pieces) {
+        // Of a short one all may be less than a run holds.
+        if (cusp::host::distance(piece.edge.start, piece.edge.end) > kSameVertex) {
+            looked_at.push_back(piece.origin);
+        }
+    }
     auto cuts = find_cuts(pieces, kCrowded * pieces.size());
     if (!cuts) {
         pieces = trimmed(pieces, tree, distance);
         cuts = find_cuts(pieces, SIZE_MAX);
     }
-    std::vector<Run> runs = split_into_runs(pieces, *cuts);
+    KeptRuns kept{split_into_runs(pieces, *cuts), {}};
     const auto too_near = [&](const Run& run) {
         return run.open_end || run.edges.empty() ||
                tree.any_nearer(middle_of(run), distance - kNearer);
     };
-    runs.erase(std::remove_if(runs.begin(), runs.end(), too_near), runs.end());
-    return runs;
+    kept.runs.erase(std::remove_if(kept.runs.begin(), kept.runs.end(), too_near), kept.runs.end());
+    std::vector<bool> lives(gone.size(), false);
+    for (const Run& run : kept.runs) {
+        for (const std::uint32_t origin : run.origins) {
+            lives[origin] = true;
+        }
+    }
+    std::copy_if(looked_at.begin(), looked_at.end(), std::back_inserter(kept.gone),
+                 [&](std::uint32_t origin) { return !lives[origin]; });
+    return kept;
 }
 
 std::optional<Region2d> offset_once(const Region2d& source,
                                     const EdgeTree& tree,
                                     double distance,
-                                    bool touching)
+                                    bool touching,
+                                    std::vector<double>& gone)
 {
-    std::vector<Run> runs = kept_runs(source, tree, distance);
+    KeptRuns kept = kept_runs(source, tree, gone, distance);
     if (touching) {
-        remove_wrong_and_double(tree, runs);
+        remove_wrong_and_double(tree, kept.runs);
     }
-    std::optional<Region2d> region = joined(runs);
+    std::optional<Region2d> region = joined(kept.runs);
     if (region) {
         auto& contours = region->contours;
         contours.erase(std::remove_if(contours.begin(), contours.end(), encloses_nothing),
                        contours.end());
+        for (const std::uint32_t origin : kept.gone) {
+            gone[origin] = std::min(gone[origin], distance);
+        }
     }
     return region;
 }
@@ -387,7 +452,8 @@ std::optional<Region2d> offset_once(const Region2d& source,
 RegionOffset::RegionOffset(Region2d source)
     : source_{std::move(source)},
       tree_{edges_of(source_)},
-      touching_{contours_touch(source_, tree_)}
+      touching_{contours_touch(source_, tree_)},
+      gone_(kOrigins * tree_.size(), 1e300)
 {
 }
 
@@ -397,7 +463,7 @@ Region2d RegionOffset::at(double distance) const
     // good: the steps stay below the promised 1e-6 mm.
     constexpr double kSteps[] = {0.0, 1e-8, -1e-8, 3e-8, 1e-7, -1e-7, 3e-7, -3e-7, 8e-7, -8e-7};
     for (const double step : kSteps) {
-        if (auto region = offset_once(source_, tree_, distance + step, touching_)) {
+        if (auto region = offset_once(source_, tree_, distance + step, touching_, gone_)) {
             return *region;
         }
     }

@@ -6,6 +6,8 @@
 // cut where they cross, and a piece belongs to the result exactly where no source edge lies nearer.
 #pragma once
 
+#include <vector>
+
 #include "host_tools/offset/contour.hpp"
 #include "host_tools/offset/edge_tree.hpp"
 
@@ -19,7 +21,8 @@ public:
     // The points of the region at least `distance` (mm, > 0) from its contours, as contours with
     // the region on their left; empty where no such point is left. Every point of the result lies
     // within 1e-6 mm of that distance (tests/property/offset). Cost O(n log n) for n edges spread
-    // evenly.
+    // evenly; less where a nearer level has been asked for, with what is left of the edges there.
+    // Not for two threads at once.
     Region2d at(double distance) const;
 
     // Distance from the nearest contour; negative outside the region.
@@ -40,6 +43,9 @@ private:
     Region2d source_;
     EdgeTree tree_;
     bool touching_;  // two contours have a point in common
+    // Of each raw piece (RawPiece::origin): a distance from which on nothing of it is left. A const
+    // query only adds to it.
+    mutable std::vector<double> gone_;
 };
 
 // The region grown by `distance` (mm, > 0), corners rounded.

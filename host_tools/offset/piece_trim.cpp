@@ -169,7 +169,8 @@ std::vector<RawPiece> trimmed(const std::vector<RawPiece>& pieces,
             result.back().joined = false;
         }
         for (const Track::Range& range : kept) {
-            result.push_back({trimmer.track().part(range.from, range.to), false, false});
+            result.push_back(
+                {trimmer.track().part(range.from, range.to), false, false, piece.origin});
         }
         whole_end = !kept.empty() && kept.back().to >= size;
         if (whole_end) {

@@ -25,7 +25,12 @@ Edge moved(const Edge& edge, Vec2d start, Vec2d end, double distance)
 }
 
 // The arc about the corner from one offset end to the next start, in halves where it turns far.
-void add_corner(std::vector<RawPiece>& pieces, Vec2d corner, Vec2d from, Vec2d to, double distance)
+void add_corner(std::vector<RawPiece>& pieces,
+                Vec2d corner,
+                Vec2d from,
+                Vec2d to,
+                double distance,
+                std::uint32_t origin)
 {
     const Vec2d a = unit(from - corner);
     const Vec2d b = unit(to - corner);
@@ -35,17 +40,25 @@ void add_corner(std::vector<RawPiece>& pieces, Vec2d corner, Vec2d from, Vec2d t
         const double turned = std::atan2(cross(b, a), dot(a, b));
         const double half = 0.5 * (turned < 0.0 ? turned + 6.283185307179586 : turned);
         const Vec2d middle = corner + (a * std::cos(half) + ahead * std::sin(half)) * distance;
-        pieces.push_back({{from, middle, corner, distance, -1}, true, false});
-        pieces.push_back({{middle, to, corner, distance, -1}, true, false});
+        pieces.push_back({{from, middle, corner, distance, -1}, true, false, origin});
+        pieces.push_back({{middle, to, corner, distance, -1}, true, false, origin + 1});
         return;
     }
-    pieces.push_back({{from, to, corner, distance, -1}, true, false});
+    pieces.push_back({{from, to, corner, distance, -1}, true, false, origin});
 }
 
 class ContourOffset {
 public:
-    ContourOffset(const Contour& contour, double distance, std::vector<RawPiece>& pieces)
-        : contour_{contour}, distance_{distance}, pieces_{pieces}, first_{pieces.size()}
+    // origin: of the first edge's piece
+    ContourOffset(const Contour& contour,
+                  double distance,
+                  std::uint32_t origin,
+                  std::vector<RawPiece>& pieces)
+        : contour_{contour},
+          distance_{distance},
+          origin_{origin},
+          pieces_{pieces},
+          first_{pieces.size()}
     {
     }
 
@@ -53,6 +66,7 @@ public:
     {
         for (std::size_t i = 0; i < contour_.size(); ++i) {
             add_edge(contour_[i], contour_[(i + 1) % contour_.size()]);
+            origin_ += kOrigins;
         }
         if (pieces_.size() > first_) {
             pieces_.back().last = true;
@@ -78,7 +92,7 @@ private:
                 const Vec2d start = edge.start + left_normal(tangent_at_start(edge)) * distance_;
                 const Vec2d finish = smooth ? onward : end;
                 pieces_.push_back({moved(edge, start, finish, distance_),
-                                   (corner || smooth) && !(smooth && next_lost), false});
+                                   (corner || smooth) && !(smooth && next_lost), false, origin_});
                 break;
             }
             case Fate::kPoint:
@@ -90,13 +104,14 @@ private:
                 break;
         }
         if (corner) {
-            add_corner(pieces_, edge.end, end, onward, distance_);
+            add_corner(pieces_, edge.end, end, onward, distance_, origin_ + 1);
             pieces_.back().joined = !next_lost;
         }
     }
 
     const Contour& contour_;
     double distance_;
+    std::uint32_t origin_;
     std::vector<RawPiece>& pieces_;
     std::size_t first_;
 };
@@ -111,8 +126,10 @@ std::vector<RawPiece> raw_offset(const Region2d& source, double distance)
         count += contour.size();
     }
     pieces.reserve(count + count / 2);
+    std::uint32_t origin = 0;
     for (const Contour& contour : source.contours) {
-        ContourOffset{contour, distance, pieces}.run();
+        ContourOffset{contour, distance, origin, pieces}.run();
+        origin += kOrigins * static_cast<std::uint32_t>(contour.size());
     }
     return pieces;
 }

@@ -1,15 +1,21 @@
 // The untrimmed offset of contours: one piece for each edge and each corner that opens a gap.
 #pragma once
 
+#include <cstdint>
+
 #include "host_tools/offset/contour.hpp"
 
 namespace cusp::host {
 
 struct RawPiece {
     Edge edge;
-    bool joined;  // its end is the start of the next piece
-    bool last;    // the next piece of this contour is its first one
+    bool joined;             // its end is the start of the next piece
+    bool last;               // the next piece of this contour is its first one
+    std::uint32_t origin{};  // below kOrigins times the number of edges; the same at any distance
 };
+
+// Pieces that a source edge may have: its own, and two halves of the corner behind it.
+constexpr std::uint32_t kOrigins = 3;
 
 // Pieces of all contours, contour by contour, `distance` (mm, > 0) to the left of the source. Arcs
 // whose radius the offset would turn inside out are left out: each of their points lies nearer to
