@@ -20,7 +20,7 @@ constexpr double kSlack = 1e-9;       // a crossing may lie this far beyond an e
 constexpr double kShortest = 1e-8;    // pieces below are dropped
 constexpr double kNearer = 2e-8;      // a run this much too near is still kept
 constexpr double kSameVertex = 1e-6;  // run ends that meet
-constexpr std::size_t kCrowded = 60;  // pairs a piece beside each other: trimming them is cheaper
+constexpr std::size_t kCrowded = 25;  // pairs a piece beside each other: trimming them is cheaper
 
 struct Cut {
     std::uint32_t piece;
@@ -409,9 +409,18 @@ KeptRuns kept_runs(const Region2d& source,
         cuts = find_cuts(pieces, SIZE_MAX);
     }
     KeptRuns kept{split_into_runs(pieces, *cuts), {}};
+    // What is too near to one run mostly is to the next one, too.
+    std::optional<Vec2d> nearer;
     const auto too_near = [&](const Run& run) {
-        return run.open_end || run.edges.empty() ||
-               tree.any_nearer(middle_of(run), distance - kNearer);
+        if (run.open_end || run.edges.empty()) {
+            return true;
+        }
+        const double reach = distance - kNearer;
+        const Vec2d middle = middle_of(run);
+        if (!nearer || cusp::host::distance(middle, *nearer) >= reach) {
+            nearer = tree.some_nearer(middle, reach);
+        }
+        return nearer.has_value();
     };
     kept.runs.erase(std::remove_if(kept.runs.begin(), kept.runs.end(), too_near), kept.runs.end());
     std::vector<bool> lives(gone.size(), false);
