@@ -60,7 +60,7 @@ if [ "$all" = yes ]; then
     run_tests fuzz
     echo "building without Eigen and Open CASCADE"
     quietly build/configure-no-eigen.log cmake --preset dev -B build/no-eigen -DCUSP_EIGEN=OFF -DCUSP_OCCT=OFF \
-        -DCUSP_TARGET_TESTS=OFF -DCMAKE_CXX_FLAGS_DEBUG=-O0
+        -DCUSP_TARGET_TESTS=OFF -DCUSP_UNITY=ON -DCMAKE_CXX_FLAGS_DEBUG=-O0
     quietly build/build-no-eigen.log cmake --build build/no-eigen -j "$jobs" --target cusp
 fi
 

@@ -12,7 +12,7 @@
 namespace cusp::host {
 namespace {
 
-constexpr int kCurvatureLooks = 60;
+constexpr int kFloorLooks = 60;
 constexpr double kMostPasses = 20000;
 
 void swap_loops(Surface& surface)
@@ -122,11 +122,11 @@ bool is_plain(const Surface& s)
     }
     double least = std::numeric_limits<double>::infinity();
     double most = 0;
-    for (int i = 0; i <= kCurvatureLooks; ++i) {
-        for (int j = 0; j <= kCurvatureLooks; ++j) {
+    for (int i = 0; i <= kFloorLooks; ++i) {
+        for (int j = 0; j <= kFloorLooks; ++j) {
             const SurfacePoint p =
-                derivatives_at(s, s.u_begin() + (s.u_end() - s.u_begin()) * i / kCurvatureLooks,
-                               s.v_begin() + (s.v_end() - s.v_begin()) * j / kCurvatureLooks);
+                derivatives_at(s, s.u_begin() + (s.u_end() - s.u_begin()) * i / kFloorLooks,
+                               s.v_begin() + (s.v_end() - s.v_begin()) * j / kFloorLooks);
             const double area = norm(cross(p.du, p.dv));
             least = std::min(least, area);
             most = std::max(most, area);

@@ -12,12 +12,12 @@
 namespace cusp::host {
 namespace {
 
-constexpr double kTurned = 0.94;    // cosine between normals on both sides
-constexpr double kApart = 0.05;     // radii between contacts
-constexpr double kFound = 1e-5;     // mm
-constexpr double kSag = 0.2;        // of the lift, between places of a crease
-constexpr int kDeepest = 6;         // halvings between two crossings
-constexpr double kShortest = 0.05;  // radii
+constexpr double kTurned = 0.94;      // cosine between normals on both sides
+constexpr double kApart = 0.05;       // radii between contacts
+constexpr double kFound = 1e-5;       // mm
+constexpr double kSag = 0.2;          // of the lift, between places of a crease
+constexpr int kCrossingHalvings = 6;  // halvings between two crossings
+constexpr double kShortest = 0.05;    // radii
 constexpr std::size_t kMostGrid = 700;
 
 using Rest = SurfaceModel::MeshRest;
@@ -165,7 +165,7 @@ private:
     void append(const Crossing& a, const Crossing& b, int depth, Points& tips) const
     {
         const double allowed = std::max(1e-5, kSag * certified_.band().lift);
-        if (depth < kDeepest) {
+        if (depth < kCrossingHalvings) {
             const auto middle = crossing((a.from + b.from) * 0.5, (a.to + b.to) * 0.5);
             if (middle && norm(middle->tip - (a.tip + b.tip) * 0.5) > allowed) {
                 append(a, *middle, depth + 1, tips);

@@ -21,11 +21,11 @@ constexpr double kLookShare = 0.5;       // of it, between places looked at alon
 constexpr double kNarrowest = 1.0 / 64;  // of it, between neighbours
 // Of the scallop, in the middle between neighbours: beside it a little more stands.
 constexpr double kMiddleShare = 0.85;
-constexpr int kEdgeHalvings = 20;
+constexpr int kRowEndHalvings = 20;
 constexpr double kFacing = 0.985;    // cosine: beside the mesh the ball touches it squarely, or not
 constexpr double kOutside = 0.9995;  // the same beyond its box
-constexpr double kShortest = 1e-3;   // mm
-constexpr double kRowsDone = 0.2;    // of the progress
+constexpr double kShortestRun = 1e-3;  // mm
+constexpr double kRowsDone = 0.2;      // of the progress
 constexpr double kStripsDone = 0.7;
 
 struct Range {
@@ -225,7 +225,7 @@ private:
 
     double edge(double off, double on, double t) const
     {
-        for (int turn = 0; turn < kEdgeHalvings; ++turn) {
+        for (int turn = 0; turn < kRowEndHalvings; ++turn) {
             const double middle = 0.5 * (off + on);
             (rest(middle, t) ? on : off) = middle;
         }
@@ -234,7 +234,7 @@ private:
 
     void cut_run(const Range& run, double t)
     {
-        if (run.to - run.from > kShortest) {
+        if (run.to - run.from > kShortestRun) {
             add_pass(work_.certified().sample_dropped(place(run.from, t), place(run.to, t)));
             ++curves_;
         }

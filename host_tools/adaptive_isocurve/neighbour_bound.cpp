@@ -11,8 +11,7 @@ namespace {
 constexpr std::size_t kLeaves = 4096;  // of the surface, about
 constexpr int kMostHalvings = 5;       // of a patch
 constexpr double kSharp = 1e-3;
-constexpr int kDeepest = 24;
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr int kSpanHalvings = 24;
 
 using Cubic = std::array<double, 4>;
 
@@ -149,7 +148,7 @@ double NeighbourBound::over_interval(
         const double more = sag * (one.bend + other.bend);
         const double bound = std::max(norm(other.from - one.from), norm(other.to - one.to)) + more;
         const bool settled = bound <= allowed || (neighbours && more <= kSharp * allowed);
-        if (settled || depth == kDeepest) {
+        if (settled || depth == kSpanHalvings) {
             most = std::max(most, bound);
         } else {
             open[a] = open[b] = true;

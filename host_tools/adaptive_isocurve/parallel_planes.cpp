@@ -15,9 +15,9 @@
 namespace cusp::host {
 namespace {
 
-constexpr int kCurvatureLooks = 150;
-constexpr double kLookSpacing = 1.0;  // mm
-constexpr int kEdgeHalvings = 20;
+constexpr int kSlopeLooks = 150;
+constexpr double kPlaneLooks = 1.0;  // mm
+constexpr int kPlaneEndHalvings = 20;
 constexpr double kLeastCosine = 0.05;  // of the slope across: steeper places don't set the step
 
 // Spacing of planes for the ridge at one place: the width on the surface, seen in plan across the
@@ -95,12 +95,12 @@ private:
         double least = 2 * operation_.tool.radius;
         for (std::size_t k = 0; k < work_.surfaces().size(); ++k) {
             const Surface& s = work_.surfaces()[k];
-            for (int i = 0; i <= kCurvatureLooks; ++i) {
-                for (int j = 0; j <= kCurvatureLooks; ++j) {
+            for (int i = 0; i <= kSlopeLooks; ++i) {
+                for (int j = 0; j <= kSlopeLooks; ++j) {
                     const SurfacePoint p = work_.model().evaluate(
                         static_cast<int>(k),
-                        s.u_begin() + (s.u_end() - s.u_begin()) * i / kCurvatureLooks,
-                        s.v_begin() + (s.v_end() - s.v_begin()) * j / kCurvatureLooks);
+                        s.u_begin() + (s.u_end() - s.u_begin()) * i / kSlopeLooks,
+                        s.v_begin() + (s.v_end() - s.v_begin()) * j / kSlopeLooks);
                     least = std::min(least, plane_step(p, across_, operation_.tool.radius, ridge));
                 }
             }
@@ -114,7 +114,7 @@ private:
     // The parts of the line over which the tool meets the model.
     void add_plane(Vec3d from, Vec3d to)
     {
-        const int parts = std::max(2, static_cast<int>(std::ceil(norm(to - from) / kLookSpacing)));
+        const int parts = std::max(2, static_cast<int>(std::ceil(norm(to - from) / kPlaneLooks)));
         const auto place = [&](double t) {
             return from + (to - from) * t;
         };
@@ -142,7 +142,7 @@ private:
     template <class Place>
     double last_off(const Place& place, double off, double on)
     {
-        for (int turn = 0; turn < kEdgeHalvings; ++turn) {
+        for (int turn = 0; turn < kPlaneEndHalvings; ++turn) {
             const double middle = 0.5 * (off + on);
             (tip(place(middle)).has_value() ? on : off) = middle;
         }

@@ -16,7 +16,7 @@ constexpr int kEdgeHalvings = 22;
 constexpr int kEdgeDeepest = 6;
 constexpr int kDeepest = 12;             // halvings along a curve
 constexpr double kShortestPiece = 1e-3;  // mm
-constexpr std::size_t kMostGrid = 500;
+constexpr std::size_t kMostLooks = 500;
 
 double length_along(const SurfaceModel& model, int surface, Vec2d from, Vec2d to)
 {
@@ -139,7 +139,7 @@ std::vector<Points> PassTracer::free_region_edges(int surface, double spacing) c
     const double u_middle = 0.5 * (s.u_begin() + s.u_end());
     const double v_middle = 0.5 * (s.v_begin() + s.v_end());
     const auto parts = [&](double length) {
-        return std::clamp<std::size_t>(static_cast<std::size_t>(length / spacing), 8, kMostGrid);
+        return std::clamp<std::size_t>(static_cast<std::size_t>(length / spacing), 8, kMostLooks);
     };
     const std::vector<double> us =
         even(s.u_begin(), s.u_end(),

@@ -12,7 +12,7 @@
 namespace cusp::host {
 namespace {
 
-constexpr double kWritten = 1e-3;      // mm: what rounding in the program may take, and more
+constexpr double kRounded = 1e-3;      // mm: what rounding in the program may take, and more
 constexpr double kPitchOfRadius = 15;  // a lattice no finer than the radius over this
 
 RoughStock stock_of(const Job& job, const SurfaceModel& model, double allowance)
@@ -99,7 +99,7 @@ std::vector<PlannedOperation> plan_rough_levels(const Job& job, const Operation&
     std::vector<PlannedOperation> out;
     std::vector<RoughedLevels> before;
     std::vector<std::string> warnings;
-    double keep = operation.allowance + kWritten;
+    double keep = operation.allowance + kRounded;
     for (const Tool& tool : tools) {
         // Where a smaller tool follows, what the slices of a larger one keep in excess is not for
         // it.
@@ -122,7 +122,7 @@ std::vector<PlannedOperation> plan_rough_levels(const Job& job, const Operation&
                         job.file, names_of(tools), operation.allowance));
     }
     const double least = operation.min_depth.value_or(0);
-    if (work.depths.thinnest < least - kWritten) {
+    if (work.depths.thinnest < least - kRounded) {
         warnings.push_back(fmt::format(
             "levels are {:.3f} mm deep, less than min_depth, {:g} mm: max_depth and the height of "
             "the stock, {:g} mm, allow no deeper ones",

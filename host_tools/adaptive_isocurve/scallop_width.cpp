@@ -7,7 +7,7 @@
 namespace cusp::host {
 namespace {
 
-constexpr double kLevel = 1e-7;  // z of a normal
+constexpr double kLevelNormal = 1e-7;  // z of a normal
 
 // There is one way across only, that of v.
 CrossSection cross_section_at_pole(const SurfacePoint& p)
@@ -52,7 +52,7 @@ CrossSection cross_section_at(const SurfacePoint& p)
     const double curvature = square > 0 ? dot(normal, bend) / square : 0;
     // Rounding decides which side of a level normal is up: the one that asks for more passes
     // counts.
-    return {normal.z < kLevel ? -std::abs(curvature) : curvature, std::sqrt(square)};
+    return {normal.z < kLevelNormal ? -std::abs(curvature) : curvature, std::sqrt(square)};
 }
 
 }  // namespace cusp::host

@@ -10,7 +10,7 @@ namespace cusp::host {
 namespace {
 
 // The border of the rest may lie at just this reach from all of a level.
-constexpr double kRounding = 1.000001;
+constexpr double kAbout = 1.000001;
 constexpr double kNotKnown = 1e300;
 
 struct FarPoint {
@@ -126,7 +126,7 @@ private:
 
     bool lies_beside(Vec2d p, std::size_t edge) const
     {
-        return distance_to(edges_[edge], p) < space_.depth * kRounding;
+        return distance_to(edges_[edge], p) < space_.depth * kAbout;
     }
 
     // No farther from the edge of the level that was the nearest to the place before, or from the
@@ -171,7 +171,7 @@ private:
 
     FarPoint far_point(Vec2d p) const { return {p, level_.nearest(p, kNotKnown)}; }
 
-    bool is_far(const FarPoint& p) const { return p.apart > space_.reach * kRounding; }
+    bool is_far(const FarPoint& p) const { return p.apart > space_.reach * kAbout; }
 
     void refine(std::vector<Way>& ways, const Part& part, const Way& a, const Way& b)
     {
@@ -266,7 +266,7 @@ std::optional<Spur> spur_for(std::vector<Way> stretch,
 {
     const auto covers = [&](const Spur& spur, const FarPoint& p) {
         return p.apart <= reach ||
-               distance_to(line_edge(spur.foot, spur.end), p.at) <= reach * kRounding;
+               distance_to(line_edge(spur.foot, spur.end), p.at) <= reach * kAbout;
     };
     const auto covers_all = [&](const Spur& spur) {
         return std::all_of(stretch.begin(), stretch.end(), [&](Way& way) {
@@ -358,9 +358,9 @@ std::optional<Region2d> with_corner_spurs(const Region2d& level,
 
 bool starts_spur(const Contour& contour, std::size_t edge)
 {
-    constexpr double kSamePoint = 1e-9;  // mm
+    constexpr double kOnePoint = 1e-9;  // mm
     return edge + 1 < contour.size() && contour[edge].turn == 0 && contour[edge + 1].turn == 0 &&
-           distance(contour[edge].start, contour[edge + 1].end) < kSamePoint;
+           distance(contour[edge].start, contour[edge + 1].end) < kOnePoint;
 }
 
 }  // namespace cusp::host

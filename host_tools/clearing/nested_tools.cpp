@@ -11,13 +11,13 @@ namespace {
 bool nests(const Tool& before, const Tool& after, double apart, double ridge)
 {
     constexpr int kPlaces = 256;
-    constexpr double kRounding = 1e-9;
+    constexpr double kSlack = 1e-9;
     for (int i = 0; i <= kPlaces; ++i) {
         const double at = after.radius * i / kPlaces;
         const double from_before = std::max(0.0, at + apart);
-        if (from_before > before.radius + kRounding ||
+        if (from_before > before.radius + kSlack ||
             profile_height(before, std::min(from_before, before.radius)) >
-                profile_height(after, at) + ridge + kRounding) {
+                profile_height(after, at) + ridge + kSlack) {
             return false;
         }
     }

@@ -10,8 +10,8 @@ namespace cusp::host {
 
 namespace {
 
-constexpr double kClosest = 0.3;      // of the tool's radius: samples along a loop are no closer
-constexpr double kLeastShare = 0.02;  // of the tool's radius: no interval by a ridge is less
+constexpr double kSamplesApart = 0.3;  // of the tool's radius: samples along a loop are no closer
+constexpr double kLeastShare = 0.02;   // of the tool's radius: no interval by a ridge is less
 
 // Curvature of the tip's height over a floor of that curvature and slope, for a ball.
 double bend_of_tip(const Tool& tool, const TipFloor::Section& section)
@@ -68,7 +68,7 @@ double LevelInterval::from(const Region2d& level, double proven)
 {
     constexpr double kWorthIt = 0.95;
     least_ = 1e300;
-    const double apart = kClosest * floor_.tool().radius;
+    const double apart = kSamplesApart * floor_.tool().radius;
     for (const Contour& contour : level.contours) {
         Vec2d corner{1e300, 1e300};
         Vec2d arriving = tangent_at_end(contour.back());
@@ -174,13 +174,13 @@ double LevelInterval::by_ridge(Vec2d at, Vec2d direction, double most) const
 }
 
 // Closer where the floor is uneven along the edge. Of a chain of short edges only every one is
-// looked at that begins `kClosest` after the last sample.
+// looked at that begins `kSamplesApart` after the last sample.
 void LevelInterval::along(const Edge& edge)
 {
     const double radius = floor_.tool().radius;
     const double whole = length(edge);
     since_ += whole;
-    if (since_ < kClosest * radius) {
+    if (since_ < kSamplesApart * radius) {
         return;
     }
     const int n = 1 + static_cast<int>(whole / radius);
@@ -208,7 +208,7 @@ void LevelInterval::refine(const Edge& edge, double whole, const Sample& a, cons
 {
     const double apart = (b.share - a.share) * whole;
     const bool known = a.contact.found && b.contact.found;
-    if (!ridges_ || apart < kClosest * floor_.tool().radius ||
+    if (!ridges_ || apart < kSamplesApart * floor_.tool().radius ||
         (known && as_expected(a.contact, b.contact, unit(a.way + b.way), apart))) {
         return;
     }

@@ -13,11 +13,10 @@ namespace cusp::host {
 
 namespace {
 
-constexpr double kNowhere = 1e300;
-constexpr double kAlong = 1.0 / 6.0;     // of the tool's radius: ways are no farther apart
-constexpr double kClosest = 1.0 / 48.0;  // of it: where what stands changes
-constexpr double kFine = 0.02;           // of the tool's radius: places on a way are no closer
-constexpr double kEnough = 4.0;          // more need not be known
+constexpr double kAlong = 1.0 / 6.0;         // of the tool's radius: ways are no farther apart
+constexpr double kNearestWays = 1.0 / 48.0;  // of it: where what stands changes
+constexpr double kFine = 0.02;               // of the tool's radius: places on a way are no closer
+constexpr double kEnough = 4.0;              // more need not be known
 
 // Beside the rim of a flat foot what stands is low enough over a sickle only: as deep as the cusp
 // on a steep floor, and as long as the chord there.
@@ -451,7 +450,8 @@ double StripRidge::between(const Edge& edge,
     const double most = std::max(a.share, b.share);
     const bool uneven = most > kNear && std::abs(a.share - b.share) > kEven;
     const bool turns_level = !ball_ && a.climb * b.climb < 0.0;
-    if (apart < kClosest * floor_.tool().radius || most > kEnough || (!uneven && !turns_level)) {
+    if (apart < kNearestWays * floor_.tool().radius || most > kEnough ||
+        (!uneven && !turns_level)) {
         return 0.0;
     }
     const Way middle = way(edge, 0.5 * (a.along + b.along), strip);

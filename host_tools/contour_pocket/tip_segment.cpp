@@ -8,8 +8,6 @@ namespace cusp::host {
 
 namespace {
 
-constexpr double kNowhere = 1e300;
-
 struct Range {
     double low, high;
 };

@@ -12,7 +12,9 @@ struct TipSegment {
     Vec3d end;
 };
 
-// How low the tool, moved along the segment, cuts over the plan position: z, mm; infinite where it
+inline constexpr double kNowhere = 1e300;
+
+// How low the tool, moved along the segment, cuts over the plan position: z, mm; kNowhere where it
 // does not get there.
 double cut_over(const Tool& tool, const TipSegment& segment, Vec2d at);
 

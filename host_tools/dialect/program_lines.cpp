@@ -6,7 +6,7 @@ namespace {
 
 constexpr std::size_t kMostDigits = 7;  // of a line number, as Grbl has it
 constexpr std::uint64_t kMostNumber = 9'999'999;
-constexpr std::size_t kLongestLine = 255;  // that the controller takes
+constexpr std::size_t kLongestSent = 255;  // that the controller takes
 
 bool is_digit(char character) { return character >= '0' && character <= '9'; }
 
@@ -35,7 +35,7 @@ std::string numbered_line(std::string_view bare, std::uint64_t number)
         i += digits;
     }
     std::string numbered = "N" + std::to_string(number) + words;
-    return numbered.size() <= kLongestLine ? numbered : as_it_is;
+    return numbered.size() <= kLongestSent ? numbered : as_it_is;
 }
 
 std::string bare_line(std::string_view line)

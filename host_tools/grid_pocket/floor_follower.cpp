@@ -15,7 +15,7 @@ namespace {
 constexpr double kProven = -1e-6;
 
 // Moves shorter than this are lifted rather than divided.
-constexpr double kShortest = 0.02;
+constexpr double kShortestPiece = 0.02;
 
 // How far arcs may be from the chords that stand for them in proofs, over their tolerance.
 constexpr double kArcSagitta = 0.025;
@@ -176,7 +176,7 @@ void FloorFollower::chord(TipMoves& moves, Vec3d end, MoveKind kind, int depth)
         return;
     }
     constexpr int kDeepest = 12;
-    if (depth < kDeepest && norm(end - from) > kShortest) {
+    if (depth < kDeepest && norm(end - from) > kShortestPiece) {
         Vec3d middle = (from + end) * 0.5;
         const double exact = std::max(level_, height(in_plan(middle)).value_or(middle.z));
         middle.z = std::max(middle.z, exact + kRounding);

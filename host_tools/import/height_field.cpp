@@ -421,13 +421,13 @@ Surface Field::surface() const
 double overhang(const Facets& facets, double base)
 {
     constexpr double kOnBase = 1e-3;  // mm
-    constexpr double kUpright = 1e-3;
+    constexpr double kFacing = 1e-3;
     double area = 0;
     bool any_up = false;
     for (const Triangle& t : facets.triangles) {
         const Vec3d n = cross(t[1] - t[0], t[2] - t[0]);
-        any_up = any_up || n.z > kUpright * norm(n);
-        if (n.z < -kUpright * norm(n) && highest(&Vec3d::z, t) > base + kOnBase) {
+        any_up = any_up || n.z > kFacing * norm(n);
+        if (n.z < -kFacing * norm(n) && highest(&Vec3d::z, t) > base + kOnBase) {
             area -= n.z / 2;
         }
     }

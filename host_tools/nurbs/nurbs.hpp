@@ -4,11 +4,14 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "firmware/base/vec.hpp"
 
 namespace cusp::host {
+
+inline constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 struct Vec2d {
     double x{};

@@ -21,6 +21,9 @@ struct Edge {
 // A closed chain: each edge starts where the one before ends; the last ends where the first starts.
 using Contour = std::vector<Edge>;
 
+// mm: points of a region no farther apart are one.
+inline constexpr double kSamePoint = 1e-7;
+
 // The points to the left of all contours: outer contours run counter-clockwise, holes clockwise.
 struct Region2d {
     std::vector<Contour> contours;

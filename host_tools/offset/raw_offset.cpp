@@ -5,8 +5,6 @@ namespace cusp::host {
 
 namespace {
 
-constexpr double kSamePoint = 1e-7;
-
 // What the offset makes of an edge: an arc may shrink to its centre, which still joins its
 // neighbours, or turn inside out.
 enum class Fate { kKept, kPoint, kLost };

@@ -10,8 +10,6 @@ namespace cusp::host {
 
 namespace {
 
-constexpr double kSamePoint = 1e-7;
-
 struct Place {
     std::size_t contour;
     std::size_t edge;

@@ -189,11 +189,10 @@ void BezierCell::find_bounds()
     } else {
         axes_ = {Vec3d{0, 0, 1}, Vec3d{1, 0, 0}, Vec3d{0, 1, 0}};
     }
-    constexpr double kFar = std::numeric_limits<double>::infinity();
-    low_ = {kFar, kFar, kFar};
+    low_ = {kInfinite, kInfinite, kInfinite};
     high_ = -low_;
-    box_low_ = {kFar, kFar, kFar};
-    box_high_ = {-kFar, -kFar, -kFar};
+    box_low_ = {kInfinite, kInfinite, kInfinite};
+    box_high_ = {-kInfinite, -kInfinite, -kInfinite};
     for (std::size_t i = 0; i < count_s_; ++i) {
         for (std::size_t j = 0; j < count_t_; ++j) {
             const Vec3d p = control(i, j);

@@ -8,7 +8,6 @@
 namespace cusp::host {
 namespace {
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr double kAlike = 1e-9;  // mm: heights of a ball on facets that share the contact
 
 // The facets in boxes that `bound` puts over the best so far, the most promising first.
@@ -25,11 +24,11 @@ void look_at_facets(const SurfaceModel::State& state,
     std::array<Waiting, 128> stack;
     std::size_t count = 0;
     if (!state.tree.nodes.empty()) {
-        stack[count++] = {kFar, 0};
+        stack[count++] = {kInfinite, 0};
     }
     while (count > 0) {
         const Waiting next = stack[--count];
-        if (next.bound == -kFar || next.bound < best - kAlike) {
+        if (next.bound == -kInfinite || next.bound < best - kAlike) {
             continue;
         }
         const BoxTree::Node& node = state.tree.nodes[static_cast<std::size_t>(next.node)];
@@ -75,21 +74,21 @@ std::optional<MeshContact> rest_on_facets(const SurfaceModel::State& state,
     };
     const auto bound = [&](const BoxTree::Node& box) {
         const double up = radius * radius - square_to_box(box, x, y);
-        return up < 0 ? -kFar : box.high.z + std::sqrt(up);
+        return up < 0 ? -kInfinite : box.high.z + std::sqrt(up);
     };
     const auto look = [&](std::size_t facet) {
-        const double least = best ? best->at.centre - kAlike : -kFar;
+        const double least = best ? best->at.centre - kAlike : -kInfinite;
         if (const auto found = rest_on(state.facets[facet], x, y, radius, least)) {
             const MeshContact other{*found, facet};
-            const double over = best ? other.at.centre - best->at.centre : kFar;
+            const double over = best ? other.at.centre - best->at.centre : kInfinite;
             if (over > kAlike || (over > -kAlike && facing(other) > facing(*best))) {
                 best = other;
             }
         }
-        return best ? best->at.centre : -kFar;
+        return best ? best->at.centre : -kInfinite;
     };
     // Mostly the next question is beside the last one, and so is the answer.
-    const double known = state.facets.empty() ? -kFar : look(state.last_facet);
+    const double known = state.facets.empty() ? -kInfinite : look(state.last_facet);
     look_at_facets(state, known, bound, look);
     if (best) {
         state.last_facet = best->facet;
@@ -101,14 +100,14 @@ std::optional<FacetUnder> highest_facet(const SurfaceModel::State& state, double
 {
     std::optional<FacetUnder> best;
     const auto bound = [&](const BoxTree::Node& box) {
-        return square_to_box(box, x, y) > 0 ? -kFar : box.high.z;
+        return square_to_box(box, x, y) > 0 ? -kInfinite : box.high.z;
     };
-    look_at_facets(state, -kFar, bound, [&](std::size_t facet) {
+    look_at_facets(state, -kInfinite, bound, [&](std::size_t facet) {
         const auto height = height_at(state.facets[facet], x, y);
         if (height && (!best || *height > best->height)) {
             best = FacetUnder{facet, *height};
         }
-        return best ? best->height : -kFar;
+        return best ? best->height : -kInfinite;
     });
     return best;
 }

@@ -9,7 +9,6 @@
 namespace cusp::host {
 namespace {
 
-constexpr double kFar = std::numeric_limits<double>::infinity();
 constexpr int kNewtonSteps = 12;
 constexpr double kDistanceSlack = 2e-7;  // mm that a bound may lie below the truth
 constexpr double kDiscSlack =
@@ -139,7 +138,7 @@ Step newton_step(Symmetric h, double gs, double gt, double s, double t)
 CellMinimum minimize(const ToolCore& core, const BezierCell& cell, double s, double t)
 {
     CellMinimum best;
-    best.value = kFar;
+    best.value = kInfinite;
     SurfacePoint p = s == 0.5 && t == 0.5 ? cell.middle() : cell.at(s, t);
     Step tried{0, 0};
     for (int turn = 0; turn < kNewtonSteps; ++turn) {
@@ -364,7 +363,7 @@ int build(BoxTree& tree,
           std::size_t end)
 {
     const int here = static_cast<int>(tree.nodes.size());
-    Vec3d low{kFar, kFar, kFar};
+    Vec3d low{kInfinite, kInfinite, kInfinite};
     Vec3d high = -low;
     for (std::size_t k = begin; k < end; ++k) {
         for (unsigned axis = 0; axis < 3; ++axis) {

@@ -12,7 +12,6 @@ namespace cusp::host {
 namespace {
 
 constexpr int kMostQuarterings = 3;
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 using Vector = std::array<BernsteinPatch, 3>;
 

@@ -9,7 +9,6 @@
 namespace cusp::host {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kCellSize = 0.4;       // radii
 constexpr int kDeepest = 4;             // halvings of a way
 constexpr int kFootSteps = 4;           // of Newton's method

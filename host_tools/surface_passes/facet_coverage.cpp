@@ -9,10 +9,10 @@
 namespace cusp::host {
 namespace {
 
-constexpr double kSmallest = 1.0 / 64;  // cells, in steps between passes
-constexpr double kLargest = 2;          // the same
-constexpr int kRounds = 5;
-constexpr int kDeepest = 60;
+constexpr double kSmallestFacet = 1.0 / 64;  // cells, in steps between passes
+constexpr double kLargestFacet = 2;          // the same
+constexpr int kFacetRounds = 5;
+constexpr int kFacetHalvings = 60;
 constexpr std::size_t kMostGaps = 300000;
 
 }  // namespace
@@ -41,7 +41,7 @@ FacetCoverage::Verdict FacetCoverage::judge(const Cell& cell) const
     for (std::size_t k = 0; k < 3; ++k) {
         longest = std::max(longest, norm(cell.corners[(k + 1) % 3] - cell.corners[k]));
     }
-    if (longest > kLargest * step()) {
+    if (longest > kLargestFacet * step()) {
         return Verdict::kHalve;
     }
     const Vec3d middle = cell.middle();
@@ -78,7 +78,7 @@ FacetCoverage::Verdict FacetCoverage::judge(const Cell& cell) const
             }
         }
     }
-    if (longest >= kSmallest * step()) {
+    if (longest >= kSmallestFacet * step()) {
         return Verdict::kHalve;
     }
     return each ? Verdict::kCovered : Verdict::kUncovered;
@@ -132,7 +132,7 @@ void FacetCoverage::look_over()
     for (const auto& corners : triangles_) {
         const Facet facet{corners};
         if (facet.normal.z >= kUprightNormal) {
-            look_into({corners, facet.normal}, kDeepest);
+            look_into({corners, facet.normal}, kFacetHalvings);
         }
     }
     looking_over_ = false;
@@ -202,7 +202,7 @@ Points FacetCoverage::trace(const Place& from, Vec3d way) const
 
 void FacetCoverage::close_gaps(const std::function<void(const Points&)>& cut)
 {
-    for (int round = 0; round < kRounds && !gaps_.empty(); ++round) {
+    for (int round = 0; round < kFacetRounds && !gaps_.empty(); ++round) {
         const std::vector<Cell> open = std::move(gaps_);
         gaps_.clear();
         std::vector<Cell> changed;
@@ -222,7 +222,7 @@ void FacetCoverage::close_gaps(const std::function<void(const Points&)>& cut)
             }
         }
         for (const Cell& cell : changed) {
-            look_into(cell, kDeepest / 6);
+            look_into(cell, kFacetHalvings / 6);
         }
     }
     const auto met = [&](const Cell& cell) {

@@ -7,7 +7,7 @@
 namespace cusp::host {
 namespace {
 
-constexpr double kFar = ReachSearch::kNowhere;
+constexpr double kUnreached = ReachSearch::kNowhere;
 constexpr double kPitch = 0.125;        // radii, of the grid of drops
 constexpr double kDropAccuracy = 1e-4;  // mm
 constexpr double kTouches = 1e-3;       // mm: nothing is lower than the floor
@@ -39,7 +39,7 @@ FloorReach::FloorReach(const std::vector<Surface>& surfaces,
 
 ReachSearch::Rest FloorReach::dropped(Cutter& cutter, double x, double y)
 {
-    ReachSearch::Rest rest{{x, y, kFar}, {}};
+    ReachSearch::Rest rest{{x, y, kUnreached}, {}};
     for (const WallDistance& wall : walls_) {
         if (wall.at(x, y) < cutter.tool.radius) {
             return rest;
@@ -57,7 +57,7 @@ ReachSearch::Rest FloorReach::dropped(Cutter& cutter, double x, double y)
         }
         if (const auto tip = model_->drop(cutter.kept_off, x, y)) {
             const double height = *tip + cutter.kept_off.corner_radius;
-            if (rest.centre.z == kFar || height > rest.centre.z) {
+            if (rest.centre.z == kUnreached || height > rest.centre.z) {
                 rest.centre.z = height;
                 rest.contact =
                     model_->clearance(cutter.kept_off, {x, y, *tip}, kTouches).nearest.point;
@@ -69,7 +69,7 @@ ReachSearch::Rest FloorReach::dropped(Cutter& cutter, double x, double y)
 
 double FloorReach::lowest_over(Vec3d place, Vec3d normal, double worth)
 {
-    double lowest = kFar;
+    double lowest = kUnreached;
     for (Cutter& cutter : cutters_) {
         // a tool that rests on the place stands here
         const double level = std::hypot(normal.x, normal.y);
