@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "host_tools/adaptive_isocurve/step_table.hpp"
 
@@ -15,7 +14,6 @@ namespace {
 constexpr int kJudgeRounds = 24;
 constexpr std::size_t kLooksAtNode = 2;  // of u, up to the next
 constexpr double kJudged = 0.996;        // of what is allowed: the rest is for places between looks
-constexpr double kBeyondEnd = 1e-9;      // of u
 constexpr double kNearlyRight = 1.001;
 constexpr double kTighter = 1.0005;
 constexpr std::size_t kTightened = 6;    // spans beside one that is made denser
@@ -280,49 +278,6 @@ std::vector<DomainCurve> curves_of(const StepTable& table, const Plan& plan, int
     return out;
 }
 
-// A place of u to look at: all strips there, or those beside a curve that ends.
-struct Look {
-    double u;
-    std::optional<double> beside;  // v
-};
-
-// For each span between nodes of u.
-std::vector<std::vector<Look>> looks_at(const StepTable& table,
-                                        const std::vector<DomainCurve>& curves,
-                                        const std::vector<bool>& wanted)
-{
-    std::vector<std::vector<Look>> out(wanted.size());
-    for (std::size_t i = 0; i < wanted.size(); ++i) {
-        const std::size_t looks = i + 1 < wanted.size() ? kLooksAtNode : kLooksAtNode + 1;
-        for (std::size_t n = 0; wanted[i] && n < looks; ++n) {
-            const double t = static_cast<double>(n) / static_cast<double>(kLooksAtNode);
-            out[i].push_back({table.u[i] * (1 - t) + table.u[i + 1] * t, std::nullopt});
-        }
-    }
-    const double beyond = kBeyondEnd * (table.u.back() - table.u.front());
-    const auto add = [&](double u, double v) {
-        if (u <= table.u.front() || u >= table.u.back()) {
-            return;
-        }
-        const auto next = std::upper_bound(table.u.begin() + 1, table.u.end() - 1, u);
-        const std::size_t i = static_cast<std::size_t>(next - table.u.begin()) - 1;
-        if (wanted[i]) {
-            out[i].push_back({u, v});
-        }
-    };
-    for (const DomainCurve& curve : curves) {
-        const std::size_t last = curve.u.size() - 1;
-        add(curve.u.front() - beyond, curve.v.front());
-        add(curve.u.back() + beyond, curve.v.back());
-        // Its first and last piece bend otherwise than its neighbours do.
-        const double first_u = 0.5 * (curve.u[0] + curve.u[1]);
-        const double last_u = 0.5 * (curve.u[last - 1] + curve.u[last]);
-        add(first_u, curve.v_at(first_u));
-        add(last_u, curve.v_at(last_u));
-    }
-    return out;
-}
-
 // The largest factor asked for, at the nodes of u and between them.
 //
 // look  spans between nodes of u to look at; then those that `tighten` changes
@@ -333,14 +288,13 @@ double judge_strips(StepTable& table,
 {
     double worst = 0;
     std::vector<bool> changed(look.size(), false);
-    const std::vector<std::vector<Look>> looks = looks_at(table, curves, look);
     for (std::size_t i = 0; i < look.size(); ++i) {
-        for (const auto& [u, beside] : looks[i]) {
+        const std::size_t looks = i + 1 < look.size() ? kLooksAtNode : kLooksAtNode + 1;
+        for (std::size_t n = 0; look[i] && n < looks; ++n) {
+            const double t = static_cast<double>(n) / static_cast<double>(kLooksAtNode);
+            const double u = table.u[i] * (1 - t) + table.u[i + 1] * t;
             const std::vector<CurvePlace> across = places_at(curves, u);
             for (std::size_t k = 1; k < across.size(); ++k) {
-                if (beside && (across[k].v < *beside || across[k - 1].v > *beside)) {
-                    continue;
-                }
                 const double asked = judge(u, across[k - 1], across[k], kJudged) / kJudged;
                 worst = std::max(worst, asked);
                 if (asked > 1) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "host_tools/adaptive_isocurve/cell_chains.hpp"
+#include "host_tools/adaptive_isocurve/dense_tips.hpp"
 
 namespace cusp::host {
 namespace {
@@ -14,7 +15,6 @@ constexpr double kLookSpacing = 1.0;  // mm between places where freedom is look
 constexpr int kLeastLooks = 4;
 constexpr int kEdgeHalvings = 22;
 constexpr int kEdgeDeepest = 6;
-constexpr int kDeepest = 12;             // halvings along a curve
 constexpr double kShortestPiece = 1e-3;  // mm
 constexpr std::size_t kMostLooks = 500;
 
@@ -61,14 +61,11 @@ TracedPiece PassTracer::along(const DomainCurve& curve, double from, double to) 
                                        {to, curve.v_at(to)});
     const std::size_t parts =
         std::max<std::size_t>(2, static_cast<std::size_t>(length / (1.5 * kLookSpacing)));
-    std::vector<double> parameters;
-    TracedPiece piece{
-        certified_.sample([&](double u) { return tip(curve.surface, u, curve.v_at(u)); },
-                          even(from, to, parts), kDeepest, &parameters),
-        {curve.surface, {}},
-        from,
-        to};
-    for (const double u : parameters) {
+    DenseTips tips = dense_tips(
+        certified_, [&](double u) { return tip(curve.surface, u, curve.v_at(u)); },
+        even(from, to, 2 * parts));
+    TracedPiece piece{std::move(tips.points), {curve.surface, {}}, from, to};
+    for (const double u : tips.u) {
         piece.feet.places.push_back({u, curve.v_at(u)});
     }
     return piece;

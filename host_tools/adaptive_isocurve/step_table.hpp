@@ -38,28 +38,13 @@ public:
         if (wanted > sum_[end]) {
             return v.back() + (wanted - sum_[end]) / std::max(kLeastDensity, density_[end]);
         }
-        double low = 0;
-        double high = 1;
-        const double rise =
-            row[static_cast<std::ptrdiff_t>(j) + 1] - row[static_cast<std::ptrdiff_t>(j)];
-        double t = rise > 0
-                       ? std::clamp((wanted - row[static_cast<std::ptrdiff_t>(j)]) / rise, 0.0, 1.0)
-                       : 0;
+        // The density is linear in the cell: a root of a parabola.
         const double h = v[j + 1] - v[j];
-        for (int turn = 0; turn < 30; ++turn) {
-            const double off = cubic(i, j, t) - wanted;
-            (off > 0 ? high : low) = t;
-            const double slope =
-                density_[i * v.size() + j] * (1 - t) * h + density_[i * v.size() + j + 1] * t * h;
-            double next_t = slope > 0 ? t - off / slope : t;
-            if (next_t < low || next_t > high) {
-                next_t = 0.5 * (low + high);
-            }
-            if (std::abs(next_t - t) < 1e-10) {
-                break;
-            }
-            t = next_t;
-        }
+        const double at_low = density_[i * v.size() + j];
+        const double more = density_[i * v.size() + j + 1] - at_low;
+        const double part = (wanted - row[static_cast<std::ptrdiff_t>(j)]) / h;
+        const double root = std::sqrt(std::max(0.0, at_low * at_low + 2 * more * part));
+        const double t = at_low + root > 0 ? std::clamp(2 * part / (at_low + root), 0.0, 1.0) : 0;
         return v[j] + t * h;
     }
 
@@ -79,15 +64,6 @@ public:
 
     // Denser where it was asked for and round about.
     void tighten();
-
-    // Everywhere alike: a place made denser alone would push all passes beyond it aside.
-    void grow(double factor)
-    {
-        for (double& density : density_) {
-            density *= factor;
-        }
-        integrate();
-    }
 
     void integrate()
     {

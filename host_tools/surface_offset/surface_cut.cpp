@@ -15,27 +15,40 @@ SurfaceCut::SurfaceCut(const SurfaceModel& model,
       state_{state},
       surface_{surface},
       u_{u},
-      pieces_(state.grids[static_cast<std::size_t>(surface)].v.size(), Piece{nullptr, false, {}})
+      pieces_(state.grids[static_cast<std::size_t>(surface)].v.size(),
+              Piece{nullptr, false, 0, 0, {}})
 {
+}
+
+SurfaceCut::Piece& SurfaceCut::piece_at(double v)
+{
+    const BezierCell* beside = pieces_[last_].cell;
+    if (beside != nullptr && v >= beside->v_begin() && v <= beside->v_end()) {
+        return pieces_[last_];
+    }
+    const BezierCell& cell = state_.cell_at(surface_, u_, v);
+    last_ = state_.grids[static_cast<std::size_t>(surface_)].last_v;
+    Piece& piece = pieces_[last_];
+    if (piece.cell == nullptr) {
+        piece.cell = &cell;
+        piece.per_u = 1 / (cell.u_end() - cell.u_begin());
+        piece.per_v = 1 / (cell.v_end() - cell.v_begin());
+        piece.bicubic =
+            cell.cut_at(std::clamp((u_ - cell.u_begin()) * piece.per_u, 0.0, 1.0), piece.cut);
+    }
+    return piece;
 }
 
 SurfacePoint SurfaceCut::at(double v)
 {
-    const BezierCell& cell = state_.cell_at(surface_, u_, v);
-    Piece& piece = pieces_[state_.grids[static_cast<std::size_t>(surface_)].last_v];
-    if (piece.cell == nullptr) {
-        const double share = (u_ - cell.u_begin()) / (cell.u_end() - cell.u_begin());
-        piece.cell = &cell;
-        piece.bicubic = cell.cut_at(std::clamp(share, 0.0, 1.0), piece.cut);
-    }
+    const Piece& piece = piece_at(v);
     if (!piece.bicubic) {
         return model_.tangents(surface_, u_, v);
     }
-    const double width_v = cell.v_end() - cell.v_begin();
-    SurfacePoint p =
-        BezierCell::on_cut(piece.cut, std::clamp((v - cell.v_begin()) / width_v, 0.0, 1.0));
-    p.du = p.du / (cell.u_end() - cell.u_begin());
-    p.dv = p.dv / width_v;
+    const double share = (v - piece.cell->v_begin()) * piece.per_v;
+    SurfacePoint p = BezierCell::on_cut(piece.cut, std::clamp(share, 0.0, 1.0));
+    p.du = p.du * piece.per_u;
+    p.dv = p.dv * piece.per_v;
     return p;
 }
 

@@ -19,14 +19,18 @@ private:
     struct Piece {
         const BezierCell* cell;  // null: not asked for yet
         bool bicubic;
+        double per_u;  // of the cell's parameters
+        double per_v;
         BezierCell::Curve4 cut;
     };
+    Piece& piece_at(double v);
 
     const SurfaceModel& model_;
     const SurfaceModel::State& state_;
     int surface_;
     double u_;
     std::vector<Piece> pieces_;  // by spans of v
+    std::size_t last_{0};        // the next place is mostly beside the last one
 };
 
 }  // namespace cusp::host

@@ -204,11 +204,14 @@ Contact CertifiedPasses::contact(int surface, Vec2d place) const
     return model_.contact(surface, place.x, place.y, tool_.radius + band_.lift);
 }
 
+Vec3d CertifiedPasses::tip_of(const Contact& at) const
+{
+    return at.centre() - Vec3d{0, 0, tool_.radius};
+}
+
 Vec3d CertifiedPasses::tip_at(int surface, double u, double v) const
 {
-    Vec3d tip = contact(surface, {u, v}).centre();
-    tip.z -= tool_.radius;
-    return tip;
+    return tip_of(contact(surface, {u, v}));
 }
 
 bool CertifiedPasses::touches_freely(int surface, double u, double v) const
@@ -355,8 +358,8 @@ std::size_t CertifiedPasses::chord_end(const Points& dense,
 std::optional<Points> CertifiedPasses::fit_free_lines(const Points& dense, const Feet& feet)
 {
     const double least_before = least_clearance_;
-    Points out{dense.front()};
     Contact last = contact(feet.surface, feet.places.front());
+    Points out{tip_of(last)};
     std::size_t from = 0;
     std::size_t guess = 4;
     while (from + 1 < dense.size()) {
@@ -367,11 +370,11 @@ std::optional<Points> CertifiedPasses::fit_free_lines(const Points& dense, const
         if (!rolls_freely(last, next) &&
             !(touches_freely(last) && touches_freely(next) &&
               touches_freely(contact(feet.surface, feet.places[middle])) &&
-              line_is_free(out.back(), dense[to]))) {
+              line_is_free(out.back(), tip_of(next)))) {
             least_clearance_ = least_before;
             return std::nullopt;
         }
-        out.push_back(dense[to]);
+        out.push_back(tip_of(next));
         last = next;
         from = to;
     }
@@ -392,15 +395,17 @@ Points CertifiedPasses::fit_lines(const Points& dense, const Feet& feet)
         const std::size_t to = chord_end(dense, from, guess);
         guess = (to - from) / 2;
         std::optional<Contact> next;
+        Vec3d end = dense[to];
         if (known) {
             next = contact(feet.surface, feet.places[to]);
+            end = tip_of(*next);
         }
         if (last && rolls_freely(*last, *next)) {
-            out.push_back(dense[to]);
+            out.push_back(end);
         } else {
-            append_free_line(out.back(), dense[to], 0, out);
+            append_free_line(out.back(), end, 0, out);
         }
-        last = out.back() == dense[to] ? next : std::nullopt;
+        last = out.back() == end ? next : std::nullopt;
         from = to;
     }
     return out;

@@ -25,7 +25,8 @@ PassBand make_pass_band(double tolerance, bool one_sided);
 
 using Points = std::vector<Vec3d>;
 
-// Places of a surface that the tool touches, one a dense point: it stands `lift` off them, square.
+// Places of a surface that the tool touches, one a dense point: it stands `lift` off them, square,
+// to a fiftieth of the band. Ends of lines are exactly over theirs.
 struct Feet {
     int surface{};
     std::vector<Vec2d> places;  // (u, v); empty: not known
@@ -120,6 +121,7 @@ private:
     bool arc_is_free(Vec3d start, const ToolMove& arc);
     bool rolls_freely(const Contact& a, const Contact& b);
     Contact contact(int surface, Vec2d place) const;
+    Vec3d tip_of(const Contact& at) const;
     bool touches_freely(const Contact& at) const;
     // The last point that a straight line from another fits the points up to.
     std::size_t chord_end(const Points& dense, std::size_t from, std::size_t guess) const;

@@ -1,0 +1,26 @@
+// Dense tips along a curve from few exact ones.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "host_tools/adaptive_isocurve/domain_curve.hpp"
+#include "host_tools/surface_passes/certified_pass.hpp"
+
+namespace cusp::host {
+
+struct DenseTips {
+    Points points;
+    std::vector<double> u;
+};
+
+// Tips along a function of u as `CertifiedPasses::sample` gives them, most of them by quintic
+// interpolation: right to a fiftieth of the band. It is checked against the tip in the middle
+// between every two breaks; where it is off, tips there are exact.
+//
+// breaks  even
+DenseTips dense_tips(const CertifiedPasses& certified,
+                     const std::function<Vec3d(double)>& at,
+                     const std::vector<double>& breaks);
+
+}  // namespace cusp::host
