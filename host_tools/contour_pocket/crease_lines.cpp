@@ -92,9 +92,15 @@ private:
         return found.jump > search_.jump || found.turn > kTurn + distance(a.at, b.at) / radius_;
     }
 
-    // Where between a and b the line passes.
-    std::optional<CreasePoint> between(const std::optional<Look>& from,
-                                       const std::optional<Look>& to) const
+    // Where between two places a line passes, and the nearest ones on its sides.
+    struct Crossing {
+        CreasePoint point;
+        Look before;
+        Look behind;
+    };
+
+    std::optional<Crossing> crossing(const std::optional<Look>& from,
+                                     const std::optional<Look>& to) const
     {
         if (!from || !to || !is_uneven(*from, *to)) {
             return std::nullopt;
@@ -120,7 +126,16 @@ private:
         const Vec2d way = unit(b.at - a.at);
         const double climb = dot(a.rest.gradient + b.rest.gradient, way);
         const bool low_first = jump ? rise > 0.0 : climb > 0.0;
-        return low_first ? CreasePoint{a.at, way * -1.0, jump} : CreasePoint{b.at, way, jump};
+        const CreasePoint point =
+            low_first ? CreasePoint{a.at, way * -1.0, jump} : CreasePoint{b.at, way, jump};
+        return Crossing{point, a, b};
+    }
+
+    std::optional<CreasePoint> between(const std::optional<Look>& a,
+                                       const std::optional<Look>& b) const
+    {
+        const std::optional<Crossing> found = crossing(a, b);
+        return found ? std::optional{found->point} : std::nullopt;
     }
 
     std::optional<CreasePoint> between(Vec2d a, Vec2d b) const { return between(look(a), look(b)); }
@@ -131,6 +146,7 @@ private:
         Vec2d at;
         std::size_t line;
         std::size_t point;
+        double gone;  // mm: of the way that line was followed
     };
 
     Cell cell_of(Vec2d p) const
@@ -162,30 +178,44 @@ private:
         return nearest;
     }
 
-    void mark(Vec2d from, Vec2d to, std::size_t line, std::size_t point)
+    void mark(Vec2d from, Vec2d to, std::size_t line, std::size_t point, double gone)
     {
         const int n = 1 + static_cast<int>(2.0 * distance(from, to) / traced_cell_);
         for (int i = 1; i <= n; ++i) {
             const Vec2d p = from + (to - from) * (static_cast<double>(i) / n);
-            traced_[cell_of(p)].push_back({p, line, point});
+            traced_[cell_of(p)].push_back({p, line, point, gone});
         }
     }
 
-    void start_between(const std::optional<Look>& a, const std::optional<Look>& b)
+    // Halving finds the steepest line: beside a jump there may be others, of ledges.
+    void start_between(const std::optional<Look>& a, const std::optional<Look>& b, int ledges = 0)
     {
-        const std::optional<CreasePoint> found = between(a, b);
+        constexpr int kMostLedges = 3;
+        const std::optional<Crossing> found = crossing(a, b);
+        if (!found) {
+            return;
+        }
+        start_at(found->point);
+        if (found->point.jump && ledges < kMostLedges) {
+            start_between(a, found->before, ledges + 1);
+            start_between(found->behind, b, ledges + 1);
+        }
+    }
+
+    void start_at(const CreasePoint& found)
+    {
         const auto any = [](const Traced&) {
             return true;
         };
-        if (!found || traced_near(found->at, traced_cell_, any)) {
+        if (traced_near(found.at, traced_cell_, any)) {
             return;
         }
-        const std::optional<CreasePoint> start = squared(*found);
+        const std::optional<CreasePoint> start = squared(found);
         if (!start) {
             return;
         }
         lines_.push_back({{*start}, false});
-        mark(start->at, start->at, lines_.size() - 1, 0);
+        mark(start->at, start->at, lines_.size() - 1, 0, 0.0);
         follow(left_normal(start->away));
         if (!lines_.back().closed) {
             std::reverse(lines_.back().points.begin(), lines_.back().points.end());
@@ -288,10 +318,10 @@ private:
             const double apart = distance(last.at, on->point.at);
             gone += apart;
             const double reach = std::min(0.7 * apart, 0.7 * traced_cell_);
+            // One that comes round beside its start would go round for ever.
             const auto far_back = [&](const Traced& place) {
-                return place.line != line || (place.point == 0 && gone > 4.0 * traced_cell_) ||
-                       (first_of_way_back_ > 0 && place.point < first_of_way_back_ &&
-                        gone > 4.0 * traced_cell_);
+                const double since = place.point < first_of_way_back_ ? 0.0 : place.gone;
+                return place.line != line || gone - since > 4.0 * traced_cell_;
             };
             const auto met = traced_near(on->point.at, reach, far_back);
             points.push_back(on->point);
@@ -301,7 +331,7 @@ private:
                     distance(points.front().at, on->point.at) < 4.0 * traced_cell_;
                 return;
             }
-            mark(last.at, on->point.at, line, points.size() - 1);
+            mark(last.at, on->point.at, line, points.size() - 1, gone);
             way = on->way;
         }
     }

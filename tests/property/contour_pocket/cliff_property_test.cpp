@@ -83,14 +83,23 @@ Surface surface_of(const Patch& patch)
     return s;
 }
 
-// How low the tip may stand over a place so far from the patch.
-double tip_at(const Tool& tool, const Patch& patch, double apart)
+// How low the tip may stand over a place so far from the patch, over which another one may stand on
+// a ledge.
+struct Ledge {
+    double width, top;
+};
+
+double tip_at(const Tool& tool, const Patch& patch, double apart, const Ledge& ledge)
 {
-    return apart < tool.radius ? std::max(kLow, patch.top - profile_height(tool, apart)) : kLow;
+    const auto over = [&](double top, double away) {
+        return away < tool.radius ? std::max(kLow, top - profile_height(tool, away)) : kLow;
+    };
+    return std::max(over(patch.top, std::max(0.0, apart)),
+                    over(ledge.top, std::max(0.0, apart + ledge.width)));
 }
 
 // The lowest that the tool cuts, so far from the patch: best along the way straight off it.
-double best_at(const Tool& tool, const Patch& patch, double apart)
+double best_at(const Tool& tool, const Patch& patch, double apart, const Ledge& ledge = {0.0, kLow})
 {
     if (apart == 0.0) {
         return patch.top;
@@ -99,17 +108,21 @@ double best_at(const Tool& tool, const Patch& patch, double apart)
     double best = 1e300;
     for (int i = 0; i < kPlaces; ++i) {
         const double out = 0.999999 * tool.radius * (2.0 * i / kPlaces - 1.0);
-        const double tip = tip_at(tool, patch, std::max(0.0, apart + out));
+        const double tip = tip_at(tool, patch, apart + out, ledge);
         best = std::min(best, tip + profile_height(tool, std::abs(out)));
     }
     return best;
 }
 
 // Of the steepness of what the tool leaves at best: what it does not reach stands on a slope.
-double cosine_at(const Tool& tool, const Patch& patch, double apart)
+double cosine_at(const Tool& tool,
+                 const Patch& patch,
+                 double apart,
+                 const Ledge& ledge = {0.0, kLow})
 {
     constexpr double kStep = 0.005;
-    const double rise = best_at(tool, patch, apart + kStep) - best_at(tool, patch, apart - kStep);
+    const double rise =
+        best_at(tool, patch, apart + kStep, ledge) - best_at(tool, patch, apart - kStep, ledge);
     return 1.0 / std::hypot(1.0, rise / (2.0 * kStep));
 }
 
@@ -167,6 +180,42 @@ TEST(RandomCliff, LeavesNoMoreAtItsFootThanTheScallop)
         CHECK(gouge <= 1e-6);
         CHECK(most <= *operation.scallop + 2e-3);
         DOUBLES_EQUAL(0.0, planned.stats.gouge_bound_mm, 1e-9);
+    }
+}
+
+// The foot of the lower cliff is as clean where the upper one rises higher beside it.
+TEST(RandomCliff, LeavesNoMoreAtTheFootOfALedgeThanTheScallop)
+{
+    constexpr unsigned kSeed = 35;
+    Random random{kSeed};
+    const ToolShape shapes[] = {ToolShape::kBull, ToolShape::kFlat};
+    for (int i = 0; i < property_cases(2); ++i) {
+        const double radius = uniform(random, 1.5, 3.0);
+        Patch patch = random_patch(random, 0, 2.0, 3.0);
+        patch.length = uniform(random, 12.0, 14.0);
+        const Ledge ledge{uniform(random, 0.045, 0.08) * radius, patch.top + 3.0};
+        Operation operation = random_pocket(
+            random,
+            {turned_plate({0.0, 0.0}, {1.0, 0.0}, 60.0, 60.0, kLow), surface_of(patch),
+             turned_plate(patch.centre, patch.along, patch.length, patch.width - 2.0 * ledge.width,
+                          ledge.top)},
+            square_loop(20.0), {1, shapes[i % 2], radius, 0.0}, 0.1);
+        operation.tool.corner_radius = std::min(operation.tool.corner_radius, 0.4 * radius);
+        const std::vector<Vec3d> tips = tips_of(planned_pocket(operation).path, 0.0, kPitch);
+        const Vec2d across = left_normal(patch.along);
+        double most = 0.0;
+        for (double out = kFarFromCliff; out < radius; out += 0.1) {
+            for (double along = -0.25; along < 0.25; along += 0.02) {
+                const Vec2d p = patch.centre + patch.along * (along * patch.length) +
+                                across * (0.5 * patch.width + out);
+                const double left = lowest_cut(operation.tool, tips, p) -
+                                    best_at(operation.tool, patch, out, ledge);
+                most = std::max(most, left * cosine_at(operation.tool, patch, out, ledge));
+            }
+        }
+        std::printf("seed %u ledge %d: width %.3f, tool %.2f/%.2f, left %.4f of %.4f\n", kSeed, i,
+                    ledge.width, radius, operation.tool.corner_radius, most, *operation.scallop);
+        CHECK(most <= *operation.scallop + 2e-3);
     }
 }
 
