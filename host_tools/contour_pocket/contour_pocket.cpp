@@ -262,8 +262,8 @@ private:
         settings.laying.cushion = budget_.accuracy;
         settings.laying.spacing =
             std::clamp(std::sqrt(3.0 * radius * budget_.above), 0.05 * radius, radius);
-        constexpr double kTold = 0.06;  // of the band
-        settings.laying.told = ridge_.told_length(region_, kTold * budget_.above);
+        // As good as lookups are.
+        settings.laying.told = ridge_.told_length(region_, 0.5 * budget_.accuracy);
         settings.laying.arcs = operation_.output != OutputForm::kLines;
         settings.laying.nurbs = operation_.output == OutputForm::kNurbs;
         settings.entry = operation_.entry;
