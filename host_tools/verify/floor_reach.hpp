@@ -24,6 +24,8 @@ public:
                const std::vector<Tool>& tools,
                const std::vector<WallDistance>& walls,
                double keep_off);
+    FloorReach(const FloorReach&) = delete;  // its searches drop tools of its own
+    FloorReach& operator=(const FloorReach&) = delete;
 
     // Returns the height that the tools leave at best straight over the place; infinite where none
     // can come. Accuracy 1e-3 mm, as far as the search finds the best position.
