@@ -217,7 +217,7 @@ TEST(AdaptiveIsocurve, ProvesWhatPassesOfAGivenDistanceLeaveBetweenThem)
         at_distance.iso_distance = 1.2;
         at_distance.even_steps = seed % 3 == 0;
         at_distance.direction = seed % 2 == 0 ? 'u' : 'v';
-        const Surface& floor = at_distance.floor.front();
+        const Surface& surface = at_distance.floor.front();
         const PlannedOperation planned = plan_adaptive_isocurve(made, at_distance).front();
         const double bound = planned.stats.scallop_bound_mm;
         const SurfaceModel model{at_distance.floor};
@@ -225,8 +225,8 @@ TEST(AdaptiveIsocurve, ProvesWhatPassesOfAGivenDistanceLeaveBetweenThem)
         double most = 0;
         for (int i = 0; i <= kParts; ++i) {
             for (int j = 0; j <= kParts; ++j) {
-                const SurfacePoint p =
-                    derivatives_at(floor, floor.u_end() * i / kParts, floor.v_end() * j / kParts);
+                const SurfacePoint p = derivatives_at(surface, surface.u_end() * i / kParts,
+                                                      surface.v_end() * j / kParts);
                 const Vec3d n = upward_normal(p);
                 const Vec3d tip = p.point + n * 2 - Vec3d{0, 0, 2};
                 const double cut = swept.lowest(p.point.x, p.point.y).height;
