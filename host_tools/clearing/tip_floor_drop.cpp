@@ -9,8 +9,8 @@ namespace cusp::host {
 
 namespace {
 
-constexpr double kOnPiece = 0.01;       // of the radius: pieces beside the contact touch as well
-constexpr double kSteepestSide = 30.0;  // slope
+constexpr double kOnPiece = 0.01;         // of the radius: pieces beside the contact touch as well
+constexpr double kSteepestSide = 1000.0;  // slope
 
 double square_of(double x) { return x * x; }
 

@@ -15,6 +15,7 @@ namespace {
 constexpr double kGrid = 0.125;         // of the tool's radius
 constexpr double kMostCells = 600.0;    // a side
 constexpr double kTurn = 0.15;          // of the slope
+constexpr double kUpright = 20.0;       // turns of the slope by more are jumps
 constexpr double kLongestStep = 0.1;    // of the radius
 constexpr double kShortestStep = 2e-3;  // of the radius
 constexpr double kBeside = 0.35;        // of a step: how far beside its end the line is looked for
@@ -119,8 +120,9 @@ private:
             (weight(a, *middle) > weight(*middle, b) ? b : a) = *middle;
         }
         const double rise = b.rest.height - a.rest.height;
-        const bool jump = std::abs(rise) > search_.jump;
-        if (!jump && bend(a, b).turn < kTurn) {
+        const double turn = bend(a, b).turn;
+        const bool jump = std::abs(rise) > search_.jump || turn > kUpright;
+        if (!jump && turn < kTurn) {
             return std::nullopt;
         }
         const Vec2d way = unit(b.at - a.at);

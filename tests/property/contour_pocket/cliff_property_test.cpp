@@ -144,6 +144,34 @@ Patch random_patch(Random& random, int i, double least, double most)
             kLow + uniform(random, least, most)};
 }
 
+struct Found {
+    double left;   // mm, over the best that the tool reaches, square to it
+    double gouge;  // mm
+    double gouge_bound;
+};
+
+Found at_foot(const Operation& operation, const Patch& patch)
+{
+    const double radius = operation.tool.radius;
+    const PlannedOperation planned = planned_pocket(operation);
+    const std::vector<Vec3d> tips = tips_of(planned.path, 0.0, kPitch);
+    Found found{0.0, 0.0, planned.stats.gouge_bound_mm};
+    for (const double out : {0.0, kFarFromCliff, 0.1, 0.2 * radius, 0.5 * radius, radius}) {
+        for (double share = 0.0; share < 1.0; share += 0.01) {
+            const Vec2d p = patch.around(share, out);
+            const double apart = patch.distance(p);
+            const double cut = lowest_cut(operation.tool, tips, p);
+            const double part = apart > 1e-9 ? kLow : patch.top;
+            found.gouge = std::max(found.gouge, part - cut);
+            if (out > 0.0) {
+                const double left = cut - best_at(operation.tool, patch, apart);
+                found.left = std::max(found.left, left * cosine_at(operation.tool, patch, apart));
+            }
+        }
+    }
+    return found;
+}
+
 TEST_GROUP(RandomCliff){};
 
 TEST(RandomCliff, LeavesNoMoreAtItsFootThanTheScallop)
@@ -157,29 +185,37 @@ TEST(RandomCliff, LeavesNoMoreAtItsFootThanTheScallop)
         const Operation operation = random_pocket(
             random, {turned_plate({0.0, 0.0}, {1.0, 0.0}, 60.0, 60.0, kLow), surface_of(patch)},
             square_loop(20.0), {1, shapes[i % 3], radius, 0.0}, 0.2);
-        const PlannedOperation planned = planned_pocket(operation);
-        const std::vector<Vec3d> tips = tips_of(planned.path, 0.0, kPitch);
-        double most = 0.0;
-        double gouge = 0.0;
-        for (const double out : {0.0, kFarFromCliff, 0.1, 0.2 * radius, 0.5 * radius, radius}) {
-            for (double share = 0.0; share < 1.0; share += 0.01) {
-                const Vec2d p = patch.around(share, out);
-                const double apart = patch.distance(p);
-                const double cut = lowest_cut(operation.tool, tips, p);
-                const double part = apart > 1e-9 ? kLow : patch.top;
-                gouge = std::max(gouge, part - cut);
-                if (out > 0.0) {
-                    const double left = cut - best_at(operation.tool, patch, apart);
-                    most = std::max(most, left * cosine_at(operation.tool, patch, apart));
-                }
-            }
-        }
+        const Found found = at_foot(operation, patch);
         std::printf("seed %u cliff %d: height %.2f, tool %.2f/%.2f, left %.4f of %.4f\n", kSeed, i,
-                    patch.top - kLow, radius, operation.tool.corner_radius, most,
+                    patch.top - kLow, radius, operation.tool.corner_radius, found.left,
                     *operation.scallop);
-        CHECK(gouge <= 1e-6);
-        CHECK(most <= *operation.scallop + 2e-3);
-        DOUBLES_EQUAL(0.0, planned.stats.gouge_bound_mm, 1e-9);
+        CHECK(found.gouge <= 1e-6);
+        CHECK(found.left <= *operation.scallop + 2e-3);
+        DOUBLES_EQUAL(0.0, found.gouge_bound, 1e-9);
+    }
+}
+
+// Where the tool's side is nearly upright as it meets the cliff's edge its height is all but a
+// jump.
+TEST(RandomCliff, LeavesNoMoreAtTheFootOfACliffAsHighAsTheToolIsRound)
+{
+    constexpr unsigned kSeed = 907;
+    Random random{kSeed};
+    for (int i = 0; i < property_cases(2); ++i) {
+        const double radius = uniform(random, 1.2, 2.5);
+        Operation operation =
+            random_pocket(random, {}, square_loop(20.0), {1, ToolShape::kBull, radius, 0.0}, 0.05);
+        operation.tool.corner_radius = uniform(random, 0.5, 0.7) * radius;
+        Patch patch = random_patch(random, i, 0.2, 1.0);
+        patch.top = kLow + uniform(random, 0.99, 1.0) * operation.tool.corner_radius;
+        operation.floor = {turned_plate({0.0, 0.0}, {1.0, 0.0}, 60.0, 60.0, kLow),
+                           surface_of(patch)};
+        const Found found = at_foot(operation, patch);
+        std::printf("seed %u round %d: height %.4f, tool %.2f/%.4f, left %.4f of %.4f\n", kSeed, i,
+                    patch.top - kLow, radius, operation.tool.corner_radius, found.left,
+                    *operation.scallop);
+        CHECK(found.gouge <= 1e-6);
+        CHECK(found.left <= *operation.scallop + 2e-3);
     }
 }
 
