@@ -14,6 +14,7 @@
 #include "host_tools/adaptive_isocurve/mesh_isocurves.hpp"
 #include "host_tools/adaptive_isocurve/neighbour_bound.hpp"
 #include "host_tools/adaptive_isocurve/pass_tracer.hpp"
+#include "host_tools/adaptive_isocurve/proved_scallop.hpp"
 #include "host_tools/adaptive_isocurve/ridge.hpp"
 #include "host_tools/adaptive_isocurve/rough_levels.hpp"
 #include "host_tools/adaptive_isocurve/scallop_width.hpp"
@@ -36,11 +37,6 @@ constexpr double kProvedShare = 0.97;
 // Of the band, for how far an approximated offset is from the exact one.
 constexpr double kOffsetShare = 0.9;
 constexpr int kHandLooks = 8;
-// Cells that passes of a given distance leave bare.
-constexpr std::size_t kMostMeasured = 4000;
-constexpr double kProvedMore = 1.04;     // cells need some room over the ridges
-constexpr double kBetweenPlaces = 1.25;  // what may stand between places measured in them
-constexpr double kMoreExpected = 1.06;   // at first
 constexpr int kNeighbourRounds = 5;
 constexpr double kNearer = 0.9998;       // than the bound asks for
 constexpr double kShortestPiece = 1e-3;  // mm
@@ -81,7 +77,11 @@ public:
             ridge_ = unseen ? operation_.tool.radius : ridge_;
         }
         if (!coverage_) {
-            ridge_ = proved_left();
+            const ProvedScallop proved =
+                proved_scallop(work_.surfaces(), work_.certified(), work_.path_off(), cut_,
+                               {ridge_, spacing_, operation_.tool.radius, work_.outward()});
+            ridge_ = proved.bound;
+            beside_edges_ = proved.beside_edges;
         }
         for (std::size_t k = 0; coverage_ && k < work_.surfaces().size(); ++k) {
             coverage_->close_rims(static_cast<int>(k), [&](const Points& pass) { add_pass(pass); });
@@ -163,50 +163,6 @@ private:
         for (std::size_t k = 0; k < surfaces.size(); ++k) {
             coverage_->look_over(static_cast<int>(k));
         }
-    }
-
-    // The least bound that cells prove, about: from what the ridges between neighbours are on, a
-    // little more where it does not hold yet. Cells that a lower bound holds for are done. Where
-    // the tool can't touch, what is left is measured.
-    double proved_left()
-    {
-        const double radius = operation_.tool.radius;
-        const double half = 0.5 * std::min(spacing_, radius);
-        const double flat = work_.outward() + radius - std::sqrt(radius * radius - half * half);
-        double bound = ridge_ > 0 && std::isfinite(ridge_) ? kProvedMore * ridge_ : flat;
-        double blocked = 0;
-        double more = kMoreExpected;
-        std::vector<Coverage::Part> parts;
-        for (std::size_t k = 0; k < work_.surfaces().size(); ++k) {
-            const Surface& s = work_.surfaces()[k];
-            parts.push_back(
-                {static_cast<int>(k), {s.u_begin(), s.v_begin()}, {s.u_end(), s.v_end()}});
-        }
-        while (bound < radius) {
-            Coverage cells{work_.surfaces(), work_.certified(), bound, work_.path_off(),
-                           kMostMeasured};
-            for (const Points& pass : cut_) {
-                cells.add(pass);
-            }
-            for (const Coverage::Part& part : parts) {
-                cells.look_over(part.surface, part.low, part.high);
-            }
-            if (cells.overflowed()) {
-                // More is left than was expected, perhaps far more.
-                bound *= more;
-                more *= more;
-                continue;
-            }
-            const Coverage::Unproved unproved = cells.unproved();
-            blocked = std::max(blocked, unproved.blocked_left);
-            beside_edges_ = std::max(beside_edges_, cells.left_beside_edges());
-            if (unproved.parts.empty()) {
-                return std::min(radius, std::max(bound, kBetweenPlaces * blocked));
-            }
-            parts = unproved.parts;
-            bound = kProvedMore * std::max(bound, unproved.left);
-        }
-        return radius;
     }
 
     SurfaceFunction surface_function(int surface) const

@@ -5,12 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "host_tools/adaptive_isocurve/scallop_width.hpp"
+
 namespace cusp::host {
 namespace {
 
 constexpr double kUnreached = std::numeric_limits<double>::infinity();
 constexpr int kTurns = 8;
-constexpr double kLevel = 1e-7;   // z of a normal
 constexpr double kBeside = 0.01;  // of the way to the neighbour
 constexpr double kLeastShare = 0.1;
 constexpr double kToldApart = 0.995;
@@ -22,7 +23,7 @@ Ridges::Sweep Ridges::sweep_at(CurvePlace place, double towards)
     const SurfacePoint p = cut_->at(place.v);
     Vec3d normal = upward_normal(p);
     // Rounding decides which side of a level normal is up: the surface beside it tells.
-    if (normal.z < kLevel &&
+    if (normal.z < kLevelNormal &&
         dot(normal, upward_normal(cut_->at(place.v + kBeside * (towards - place.v)))) < 0) {
         normal = -normal;
     }

@@ -7,8 +7,6 @@
 namespace cusp::host {
 namespace {
 
-constexpr double kLevelNormal = 1e-7;  // z of a normal
-
 // There is one way across only, that of v.
 CrossSection cross_section_at_pole(const SurfacePoint& p)
 {

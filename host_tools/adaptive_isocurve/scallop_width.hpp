@@ -5,6 +5,9 @@
 
 namespace cusp::host {
 
+// A unit normal whose z is less counts as level: rounding decides which of its sides is up.
+constexpr double kLevelNormal = 1e-7;
+
 // The chord between two contacts of a ball for which the ridge between is `scallop` high.
 //
 // radius     mm > 0, of the ball

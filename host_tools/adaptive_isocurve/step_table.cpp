@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/nurbs/knot_insertion.hpp"
+
 namespace cusp::host {
 namespace {
 
@@ -17,13 +19,7 @@ constexpr double kFullStep = 0.998;   // the rest is for the interpolation betwe
 // All distinct knots, and equal parts between them.
 std::vector<double> nodes_of(const std::vector<double>& knots, double begin, double end)
 {
-    std::vector<double> breaks{begin};
-    for (const double knot : knots) {
-        if (knot > breaks.back() && knot < end) {
-            breaks.push_back(knot);
-        }
-    }
-    breaks.push_back(end);
+    const std::vector<double> breaks = knots_between(knots, begin, end);
     const std::size_t spans = breaks.size() - 1;
     const std::size_t parts = std::clamp(kLeastNodes / spans + 1, kNodesInSpan,
                                          std::max(kNodesInSpan, kMostNodes / spans));

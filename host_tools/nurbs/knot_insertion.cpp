@@ -126,12 +126,21 @@ void insert_to_degree(ControlRows& rows, double u)
     }
 }
 
+std::vector<double> knots_between(const std::vector<double>& knots, double from, double to)
+{
+    std::vector<double> out{from};
+    for (const double knot : knots) {
+        if (knot > out.back() && knot < to) {
+            out.push_back(knot);
+        }
+    }
+    out.push_back(to);
+    return out;
+}
+
 std::vector<double> distinct_knots(const std::vector<double>& knots, int degree, std::size_t count)
 {
-    std::vector<double> distinct(knots.begin() + degree,
-                                 knots.begin() + static_cast<std::ptrdiff_t>(count) + 1);
-    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
-    return distinct;
+    return knots_between(knots, knots[static_cast<std::size_t>(degree)], knots[count]);
 }
 
 std::vector<double> crease_knots(const std::vector<double>& knots, int degree, std::size_t count)

@@ -46,6 +46,9 @@ std::size_t multiplicity(const std::vector<double>& knots, double u);
 // Precondition: u in the domain.
 void insert_to_degree(ControlRows& rows, double u);
 
+// Both ends of a part of the domain, and the distinct knots between them, rising.
+std::vector<double> knots_between(const std::vector<double>& knots, double from, double to);
+
 // The distinct knots of the domain, its ends included.
 std::vector<double> distinct_knots(const std::vector<double>& knots, int degree, std::size_t count);
 

@@ -351,40 +351,6 @@ bool contours_touch(const Region2d& source, const EdgeTree& tree)
     return touch;
 }
 
-// The pieces of which something may be left at this distance: the farther inward an edge's point is
-// moved, the more other edges are nearer than its own.
-std::vector<RawPiece> living(std::vector<RawPiece> pieces,
-                             const std::vector<double>& gone,
-                             double distance)
-{
-    std::size_t count = 0;
-    std::size_t contour = 0;  // where the contour begins among those
-    bool first = true;
-    bool starts = false;  // the contour's first piece is among them
-    bool before = false;  // the piece before is
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-        const RawPiece piece = pieces[i];
-        const bool lives = gone[piece.origin] > distance;
-        if (first) {
-            contour = count;
-            starts = lives;
-        } else if (count > contour && !lives) {
-            pieces[count - 1].joined = false;
-        }
-        if (lives) {
-            pieces[count++] = piece;
-        }
-        before = lives;
-        first = piece.last;
-        if (piece.last && count > contour) {
-            pieces[count - 1].last = true;
-            pieces[count - 1].joined = pieces[count - 1].joined && before && starts;
-        }
-    }
-    pieces.resize(count);
-    return pieces;
-}
-
 struct KeptRuns {
     std::vector<Run> runs;
     std::vector<std::uint32_t> gone;  // origins of pieces of which nothing is left
@@ -395,7 +361,7 @@ KeptRuns kept_runs(const Region2d& source,
                    const std::vector<double>& gone,
                    double distance)
 {
-    std::vector<RawPiece> pieces = living(raw_offset(source, distance), gone, distance);
+    std::vector<RawPiece> pieces = living_pieces(raw_offset(source, distance), gone, distance);
     std::vector<std::uint32_t> looked_at;
     for (const RawPiece& piece : pieces) {
         // Of a short one all may be less than a run holds.

@@ -132,4 +132,36 @@ std::vector<RawPiece> raw_offset(const Region2d& source, double distance)
     return pieces;
 }
 
+std::vector<RawPiece> living_pieces(std::vector<RawPiece> pieces,
+                                    const std::vector<double>& gone,
+                                    double distance)
+{
+    std::size_t count = 0;
+    std::size_t contour = 0;  // where the contour begins among those
+    bool first = true;
+    bool starts = false;  // the contour's first piece is among them
+    bool before = false;  // the piece before is
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const RawPiece piece = pieces[i];
+        const bool lives = gone[piece.origin] > distance;
+        if (first) {
+            contour = count;
+            starts = lives;
+        } else if (count > contour && !lives) {
+            pieces[count - 1].joined = false;
+        }
+        if (lives) {
+            pieces[count++] = piece;
+        }
+        before = lives;
+        first = piece.last;
+        if (piece.last && count > contour) {
+            pieces[count - 1].last = true;
+            pieces[count - 1].joined = pieces[count - 1].joined && before && starts;
+        }
+    }
+    pieces.resize(count);
+    return pieces;
+}
+
 }  // namespace cusp::host

@@ -22,4 +22,12 @@ constexpr std::uint32_t kOrigins = 3;
 // the arc than `distance`.
 std::vector<RawPiece> raw_offset(const Region2d& source, double distance);
 
+// The pieces of which something may be left at this distance, and how they join: the farther inward
+// an edge's point is moved, the more other edges are nearer than its own.
+//
+// gone  for each origin the distance, mm, from which on nothing of its piece is left
+std::vector<RawPiece> living_pieces(std::vector<RawPiece> pieces,
+                                    const std::vector<double>& gone,
+                                    double distance);
+
 }  // namespace cusp::host

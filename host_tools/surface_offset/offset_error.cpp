@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "host_tools/surface_offset/bernstein_patch.hpp"
 

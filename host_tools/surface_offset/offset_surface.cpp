@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "host_tools/nurbs/knot_insertion.hpp"
 #include "host_tools/nurbs/spline_basis.hpp"

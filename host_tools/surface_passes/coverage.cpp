@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+
+#include "host_tools/nurbs/knot_insertion.hpp"
 
 namespace cusp::host {
 namespace {
@@ -16,19 +17,6 @@ constexpr int kRounds = 5;
 constexpr int kDeepest = 40;
 
 double largest(const std::array<double, 4>& of) { return *std::max_element(of.begin(), of.end()); }
-
-// Both ends and the knots between them.
-std::vector<double> cut_at_knots(const std::vector<double>& knots, double from, double to)
-{
-    std::vector<double> out{from};
-    for (const double knot : knots) {
-        if (knot > out.back() && knot < to) {
-            out.push_back(knot);
-        }
-    }
-    out.push_back(to);
-    return out;
-}
 
 }  // namespace
 
@@ -244,9 +232,9 @@ void Coverage::look_over(int surface, Vec2d low, Vec2d high)
     }
     const Surface& s = surfaces_[static_cast<std::size_t>(surface)];
     const std::vector<double> us =
-        cut_at_knots(s.knots_u, std::max(low.x, s.u_begin()), std::min(high.x, s.u_end()));
+        knots_between(s.knots_u, std::max(low.x, s.u_begin()), std::min(high.x, s.u_end()));
     const std::vector<double> vs =
-        cut_at_knots(s.knots_v, std::max(low.y, s.v_begin()), std::min(high.y, s.v_end()));
+        knots_between(s.knots_v, std::max(low.y, s.v_begin()), std::min(high.y, s.v_end()));
     for (std::size_t i = 1; i < us.size(); ++i) {
         for (std::size_t j = 1; j < vs.size(); ++j) {
             look_into({surface, us[i - 1], us[i], vs[j - 1], vs[j]}, kDeepest);

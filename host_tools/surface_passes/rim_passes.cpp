@@ -2,7 +2,6 @@
 // up to the stock's top until the ball has gone over its rim.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "host_tools/surface_passes/coverage.hpp"
 

@@ -1,0 +1,77 @@
+// Bounds are tried upward; cells that one holds for are done, only the others see the next.
+#include "host_tools/adaptive_isocurve/proved_scallop.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host_tools/surface_passes/coverage.hpp"
+
+namespace cusp::host {
+namespace {
+
+// Cells that passes of a given distance leave bare.
+constexpr std::size_t kMostMeasured = 4000;
+constexpr double kProvedMore = 1.04;     // cells need some room over the ridges
+constexpr double kBetweenPlaces = 1.25;  // what may stand between places measured in them
+constexpr double kMoreExpected = 1.06;   // at first
+
+std::vector<Coverage::Part> whole_domains(const std::vector<Surface>& surfaces)
+{
+    std::vector<Coverage::Part> parts;
+    for (std::size_t k = 0; k < surfaces.size(); ++k) {
+        const Surface& s = surfaces[k];
+        parts.push_back({static_cast<int>(k), {s.u_begin(), s.v_begin()}, {s.u_end(), s.v_end()}});
+    }
+    return parts;
+}
+
+double first_bound(const ScallopGuess& guess)
+{
+    if (guess.ridge > 0 && std::isfinite(guess.ridge)) {
+        return kProvedMore * guess.ridge;
+    }
+    const double half = 0.5 * std::min(guess.spacing, guess.radius);
+    return guess.outward + guess.radius - std::sqrt(guess.radius * guess.radius - half * half);
+}
+
+}  // namespace
+
+ProvedScallop proved_scallop(const std::vector<Surface>& surfaces,
+                             const CertifiedPasses& certified,
+                             double path_off,
+                             const std::vector<Points>& cut,
+                             const ScallopGuess& guess)
+{
+    double bound = first_bound(guess);
+    double blocked = 0;
+    double beside_edges = 0;
+    double more = kMoreExpected;
+    std::vector<Coverage::Part> parts = whole_domains(surfaces);
+    while (bound < guess.radius) {
+        Coverage cells{surfaces, certified, bound, path_off, kMostMeasured};
+        for (const Points& pass : cut) {
+            cells.add(pass);
+        }
+        for (const Coverage::Part& part : parts) {
+            cells.look_over(part.surface, part.low, part.high);
+        }
+        if (cells.overflowed()) {
+            // More is left than was expected, perhaps far more.
+            bound *= more;
+            more *= more;
+            continue;
+        }
+        const Coverage::Unproved unproved = cells.unproved();
+        blocked = std::max(blocked, unproved.blocked_left);
+        beside_edges = std::max(beside_edges, cells.left_beside_edges());
+        if (unproved.parts.empty()) {
+            return {std::min(guess.radius, std::max(bound, kBetweenPlaces * blocked)),
+                    beside_edges};
+        }
+        parts = unproved.parts;
+        bound = kProvedMore * std::max(bound, unproved.left);
+    }
+    return {guess.radius, beside_edges};
+}
+
+}  // namespace cusp::host

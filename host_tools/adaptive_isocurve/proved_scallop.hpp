@@ -1,0 +1,33 @@
+// The scallop that passes laid at a given distance leave: no scallop was asked for, cells prove
+// one.
+#pragma once
+
+#include "host_tools/surface_passes/certified_pass.hpp"
+
+namespace cusp::host {
+
+// What the search for a bound begins with, all in mm.
+struct ScallopGuess {
+    double ridge;    // between neighbours, where that is known; else 0 or infinite
+    double spacing;  // of neighbours
+    double radius;   // of the ball
+    double outward;  // how far passes may stay above the surface
+};
+
+struct ProvedScallop {
+    double bound;         // mm
+    double beside_edges;  // mm: Coverage::left_beside_edges
+};
+
+// About the least bound for which Coverage leaves no cell bare where the tool can touch, at most
+// the radius. Where the tool can't touch, what is left is measured at places, and a quarter added.
+//
+// path_off  mm: how far the path that is cut may be from the passes given
+// cut       all passes, by their tips
+ProvedScallop proved_scallop(const std::vector<Surface>& surfaces,
+                             const CertifiedPasses& certified,
+                             double path_off,
+                             const std::vector<Points>& cut,
+                             const ScallopGuess& guess);
+
+}  // namespace cusp::host
