@@ -16,6 +16,8 @@ namespace {
 
 constexpr int kMostDropSteps = 400;
 constexpr int kMostClimbs = 6;
+constexpr int kMostSlow = 3;  // steps of a drop that leave more than the share of its room
+constexpr double kSlowShare = 0.75;
 constexpr double kTouching = 1e-9;   // mm
 constexpr double kDropSlack = 5e-7;  // mm above the least height
 constexpr double kDiscDropSlack = 2e-5;
@@ -319,6 +321,8 @@ std::optional<double> SurfaceModel::drop(const Tool& tool,
     }
     const double slack = tool.corner_radius < tool.radius ? kDiscDropSlack : kDropSlack;
     int deep = 0;
+    int slow = 0;
+    double room = std::numeric_limits<double>::infinity();
     for (int step = 0; step < kMostDropSteps && high - low > slack; ++step) {
         const Clearance c = clearance(tool, {x, y, trial}, std::numeric_limits<double>::infinity());
         if (c.nearest.surface < 0) {
@@ -339,6 +343,15 @@ std::optional<double> SurfaceModel::drop(const Tool& tool,
             return std::nullopt;
         }
         const bool cut_a_little = tool.corner_radius > 0 && c.distance > -0.5 * tool.corner_radius;
+        // Beside an upright rim it falls no more at a time than it is off that: then it is tried
+        // half way down. Where it is free it can be lifted out, since all above it is the tool's.
+        const double bottom = std::max(low, floor - tool.radius);
+        slow = high - bottom > kSlowShare * room ? slow + 1 : 0;
+        room = high - bottom;
+        if (feels_depth && slow >= kMostSlow) {
+            trial = 0.5 * (bottom + high);
+            continue;
+        }
         // Cut deep, but what it cuts is known now: up there is a better place to go on.
         const bool climbs = feels_depth && low > was_low + slack && ++deep <= kMostClimbs;
         trial =

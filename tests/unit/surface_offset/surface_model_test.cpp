@@ -233,6 +233,28 @@ TEST(SurfaceModelDrop, MissesBesideTheModel)
     CHECK_FALSE(model.drop(kBall, 30, 10).has_value());
 }
 
+// From above, the tool is hardly off the upper plane's rim all the way down.
+TEST(SurfaceModelDrop, PassesAnUprightRimThatItHardlyMisses)
+{
+    Surface upper = plane(0);
+    for (Vec3d& p : upper.points) {
+        p.z = 9;
+    }
+    Surface lower = plane(0);
+    for (Vec3d& p : lower.points) {
+        p.x += 15;
+    }
+    const SurfaceModel model{{lower, upper}};
+    for (const double off : {1e-5, 1e-3, 4e-3, 0.02, 0.3}) {
+        for (const Tool& tool : {kBall, kBull}) {
+            const auto z = model.drop(tool, 20 + tool.radius + off, 10);
+            CHECK(z.has_value());
+            DOUBLES_EQUAL(0, *z, 1e-4);
+            CHECK(model.clearance(tool, {20 + tool.radius + off, 10, *z}, 1).distance > -1e-8);
+        }
+    }
+}
+
 TEST(SurfaceModelDrop, LeavesTheToolInContact)
 {
     constexpr unsigned kSeed = 11;
