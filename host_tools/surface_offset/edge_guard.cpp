@@ -29,6 +29,18 @@ Vec3d nearest_on(Vec3d p, Vec3d a, Vec3d b)
     return a + d * (square > 0 ? std::clamp(dot(p - a, d) / square, 0.0, 1.0) : 0.0);
 }
 
+// From the nearest place of a short piece to the axis of a ball with its shank, that is its centre
+// and all above it: what is higher counts as seen from above.
+Vec3d way_off(Vec3d centre, Vec3d a, Vec3d b)
+{
+    Vec3d way = centre - nearest_on(centre, a, b);
+    if (way.z < 0) {
+        way = centre - nearest_on({centre.x, centre.y, 0}, {a.x, a.y, 0}, {b.x, b.y, 0});
+        way.z = 0;
+    }
+    return way;
+}
+
 // Of a ball whose centre moves straight from a to b: how low it reaches over the place p in plan.
 double lowest_over(Vec3d a, Vec3d b, double radius, Vec3d p)
 {
@@ -176,7 +188,7 @@ void EdgeGuard::look_round(Vec3d centre, double around, const Look& look) const
 // How much farther off the piece the ball has to be, to take off no more with `margin` to spare.
 double EdgeGuard::lacking(const Piece& piece, Vec3d centre, double margin) const
 {
-    const Vec3d way = centre - nearest_on(centre, piece.from, piece.to);
+    const Vec3d way = way_off(centre, piece.from, piece.to);
     const double distance = norm(way);
     const double limit = radius_ + margin;
     if (distance >= limit || distance <= 0) {
@@ -195,7 +207,7 @@ Vec3d EdgeGuard::missing(Vec3d centre, double margin) const
     look_round(centre, radius_ + margin, [&](const Piece& piece) {
         const double lack = lacking(piece, centre, margin);
         if (lack > most) {
-            const Vec3d way = centre - nearest_on(centre, piece.from, piece.to);
+            const Vec3d way = way_off(centre, piece.from, piece.to);
             most = lack;
             out = way * (most / norm(way));
         }

@@ -73,6 +73,24 @@ TEST(EdgeGuard, FindsTheRimBetweenTwoFarPlaces)
     }
 }
 
+// The ball's middle is under the plate, its shank passes the rim.
+TEST(EdgeGuard, KeepsTheShankOffARimOverTheBall)
+{
+    const EdgeGuard guard{{plate()}, kRadius, kDeepest};
+    for (const double in : {1e-4, 0.5 * kDeepest, 0.9 * kDeepest}) {
+        for (const double tip : {-2.5, -4.0}) {
+            const Vec3d from{in - kRadius, 1, tip};
+            const Vec3d to{in - kRadius, 9, tip};
+            CHECK(!guard.spares(from, to));
+            for (const Vec3d& kept : guard.kept_off({from, to}, kBand)) {
+                CHECK(kept.x <= -kRadius - 0.99 * kBand);
+                DOUBLES_EQUAL(tip, kept.z, 1e-9);
+            }
+            CHECK(guard.raised(from, kBand).z + kRadius > 0);
+        }
+    }
+}
+
 TEST(EdgeGuard, RaisesTheBallBesideTheRimUntilItNeedsNoPush)
 {
     const EdgeGuard guard{{plate()}, kRadius, kDeepest};
