@@ -64,7 +64,7 @@ public:
         settings.least_pitch = work_.least_pitch;
         settings.field = {plan.x0 - out, plan.y0 - out, plan.x1 + out, plan.y1 + out};
         const LevelSlices slices{work_.model, tool_, settings};
-        result_.keeps = most_kept(slices.pitch());
+        result_.keeps = most_kept(slices.pitch()) + slices.slack();
         LevelMoves moves{
             result_.planned.path,
             {std::max(work_.stock.top, work_.job.stock_top) + work_.job.clearance,
@@ -75,6 +75,7 @@ public:
             work_.job.report_progress(work_.share_before + work_.share * static_cast<double>(k) /
                                                                static_cast<double>(heights.size()));
             const std::optional<Level> level = cleared_level(slices, k);
+            work_.model.forget_cells();  // the next level asks at other heights
             if (!level) {
                 break;
             }

@@ -14,6 +14,10 @@ constexpr double kMostNodes = 4e6;
 constexpr std::size_t kBlock = 16;  // nodes, each way: a power of two
 // Contours cross sides at least this share from their ends: no edge of a contour is too short.
 constexpr double kNearestEnd = 0.01;
+// How far below the truth distances may be: at a block's middle, in its reach, and at a node, in
+// `excess`.
+constexpr double kBlockSlack = 0.05;
+constexpr double kNodeSlack = 0.05;
 
 double square(double x) { return x * x; }
 
@@ -76,6 +80,8 @@ LevelSlices::LevelSlices(const SurfaceModel& model, const Tool& tool, const Slic
     pitch_y_ = height / static_cast<double>(ny_ - 1);
 }
 
+double LevelSlices::slack() const { return kNodeSlack * settings_.excess; }
+
 Vec2d LevelSlices::node(std::size_t i, std::size_t j) const
 {
     return {settings_.field.x0 + pitch_x_ * static_cast<double>(i),
@@ -90,8 +96,8 @@ bool LevelSlices::buried(Vec2d middle, double reach, const Levels& levels) const
     smaller.radius -= reach + std::hypot(pitch_x_, pitch_y_);
     constexpr double kTold = 0.01;  // mm: distances below are told apart from a cut
     return smaller.radius >= tool_.corner_radius &&
-           model_.clearance(smaller, {middle.x, middle.y, levels.z}, kTold).distance <=
-               -tool_.corner_radius;
+           model_.clearance_within(smaller, {middle.x, middle.y, levels.z}, -tool_.corner_radius,
+                                   kTold, kBlockSlack * kTold) <= -tool_.corner_radius;
 }
 
 void LevelSlices::fill(Levels& levels) const
@@ -115,12 +121,15 @@ void LevelSlices::fill(Levels& levels) const
         const Vec2d corner = node(block.i, block.j);
         const Vec2d middle{corner.x + half * pitch_x_, corner.y + half * pitch_y_};
         const double reach = half * std::hypot(pitch_x_, pitch_y_);
+        const double low = std::max(kBlockSlack * reach, slack());
+        // Below `deep` nothing is asked but whether the tool cuts at all.
+        const double told = std::max(0.0, levels.deep - reach - low - 1e-9);
         const double distance =
-            levels.corner + model_
-                                .clearance(tool_, {middle.x, middle.y, levels.z},
-                                           levels.far + reach - levels.corner + 1e-6)
-                                .distance;
-        const bool settled = distance - reach >= levels.far || distance + reach < levels.deep ||
+            levels.corner + model_.clearance_within(tool_, {middle.x, middle.y, levels.z},
+                                                    told - levels.corner,
+                                                    levels.far + reach - levels.corner + 1e-6, low);
+        const bool settled = distance - reach >= levels.far ||
+                             distance + low + reach < levels.deep ||
                              (block.size > 1 && distance <= 0.0 && buried(middle, reach, levels));
         if (!settled && block.size > 1) {
             const std::size_t part = block.size / 2;

@@ -35,6 +35,9 @@ public:
     // of less) with the tip at height z.
     Region2d at(double z, double more) const;
 
+    // How far below the truth the distances are at most, mm: contours keep so much more.
+    double slack() const;
+
     double pitch() const { return std::max(pitch_x_, pitch_y_); }
 
 private:

@@ -74,6 +74,12 @@ public:
 
     // Two halves across the longer side, made when first asked for.
     std::array<const BezierCell*, 2> halves() const;
+    // Drops them, and what is known of the surroundings.
+    void forget() const
+    {
+        halves_ = {};
+        surroundings_.reset();
+    }
 
     // The surface in and round the cell, for `RollingBall`; kept here once it is known.
     struct Surroundings {

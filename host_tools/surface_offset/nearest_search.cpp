@@ -58,11 +58,25 @@ Stiffness stiffness_at(const ToolCore& core, Vec3d p)
     return {1, 1 - core.radius / away, vertical, out / away};
 }
 
+// From the core's axis to the cell's box, seen from above.
+double distance_from_axis(const ToolCore& core, const BezierCell& cell)
+{
+    const Vec3d low = cell.low();
+    const Vec3d high = cell.high();
+    return std::hypot(std::max({low.x - core.end.x, core.end.x - high.x, 0.0}),
+                      std::max({low.y - core.end.y, core.end.y - high.y, 0.0}));
+}
+
 // What is below the stiffness everywhere in the cell.
 Stiffness least_stiffness(const ToolCore& core, const BezierCell& cell)
 {
     const double vertical = cell.high().z < core.end.z ? 1 : 0;
-    const double plane = core.radius == 0 ? 1 : 0;
+    if (core.radius == 0) {
+        return {1, 1, vertical, {1, 0, 0}};
+    }
+    // Beside the disc: across the way to it least, the nearer the less.
+    const double away = distance_from_axis(core, cell);
+    const double plane = away > core.radius ? 1 - core.radius / away : 0;
     return {plane, plane, vertical, {1, 0, 0}};
 }
 
@@ -189,16 +203,24 @@ CellMinimum at_middle(const ToolCore& core, const BezierCell& cell)
     return {0.5, 0.5, 0.5 * dot(r, r), below, p.point};
 }
 
+// The square of the way to the farther end of [0, 1].
+double farthest_square(double s)
+{
+    const double way = std::max(s, 1 - s);
+    return way * way;
+}
+
 class Search {
 public:
     // Ends where a place is found nearer than `near_enough`.
     Search(const SurfaceModel::State& state,
            const ToolCore& core,
            double limit,
+           double slack = 0,
            double near_enough = -1.0)
         : state_{state},
           core_{core},
-          slack_{core.radius > 0 ? kDiscSlack : kDistanceSlack},
+          slack_{std::max(slack, core.radius > 0 ? kDiscSlack : kDistanceSlack)},
           near_enough_{near_enough},
           found_{limit},
           bound_{limit}
@@ -306,7 +328,8 @@ private:
         const CellMinimum least = settles ? minimize(core_, cell, s, t) : at_middle(core_, cell);
         const double distance = std::sqrt(2 * least.value);
         // The distance is at least this over the cell, a unit square.
-        const double at_least = std::sqrt(2 * std::max(0.0, least.value - least.below - bend));
+        const double sag = bend * 0.5 * (farthest_square(least.s) + farthest_square(least.t));
+        const double at_least = std::sqrt(2 * std::max(0.0, least.value - least.below - sag));
         const bool settled = distance - at_least <= slack_;
         const double u = cell.u(least.s);
         const double v = cell.v(least.t);
@@ -435,14 +458,18 @@ BoxTree make_box_tree(const std::vector<std::array<Vec3d, 2>>& boxes)
     return tree;
 }
 
-NearestResult nearest(const SurfaceModel::State& state, const ToolCore& core, double limit)
+NearestResult nearest(const SurfaceModel::State& state,
+                      const ToolCore& core,
+                      double limit,
+                      double slack,
+                      double near_enough)
 {
-    return Search{state, core, limit}.run();
+    return Search{state, core, limit, slack, near_enough}.run();
 }
 
 bool keeps_away(const SurfaceModel::State& state, const ToolCore& core, double least)
 {
-    return Search{state, core, least, std::nextafter(least, 0.0)}.run().distance >= least;
+    return Search{state, core, least, 0, std::nextafter(least, 0.0)}.run().distance >= least;
 }
 
 }  // namespace cusp::host

@@ -59,11 +59,18 @@ struct SurfaceModel::State {
 };
 
 // The lower bound of the distance from the core to the model, cut off at `limit`, and its place.
+//
+// slack        mm: how low it may be, if that is more than what this takes anyhow
+// near_enough  mm: a result of no more only says that the model is no farther than this
 struct NearestResult {
     double distance;
     NearestPlace place;
 };
-NearestResult nearest(const SurfaceModel::State& state, const ToolCore& core, double limit);
+NearestResult nearest(const SurfaceModel::State& state,
+                      const ToolCore& core,
+                      double limit,
+                      double slack = 0,
+                      double near_enough = -1);
 
 // Whether all of the model is at least so far from the core: ends at the first place that is not.
 bool keeps_away(const SurfaceModel::State& state, const ToolCore& core, double least);

@@ -233,6 +233,23 @@ Clearance SurfaceModel::clearance(const Tool& tool, Vec3d tip, double limit) con
     return {found.distance - tool.corner_radius, found.place};
 }
 
+void SurfaceModel::forget_cells() const
+{
+    state_->last_cell = nullptr;
+    for (const std::unique_ptr<BezierCell>& cell : state_->cells) {
+        cell->forget();
+    }
+}
+
+double SurfaceModel::clearance_within(
+    const Tool& tool, Vec3d tip, double least, double most, double slack) const
+{
+    const NearestResult found =
+        nearest(*state_, core_of(tool, tip), std::max(0.0, most + tool.corner_radius), slack,
+                least + tool.corner_radius);
+    return found.distance - tool.corner_radius;
+}
+
 bool SurfaceModel::keeps_clear(const Tool& tool, Vec3d tip, double least) const
 {
     return least + tool.corner_radius <= 0 ||

@@ -135,6 +135,37 @@ TEST(SurfaceModelDistance, AgreesWithDenseSamplesOnRandomSurfaces)
     }
 }
 
+// What is asked for between two bounds is told within the slack; below and above, on which side.
+TEST(SurfaceModelDistance, WithinBoundsIsTheExactOneLessTheSlack)
+{
+    constexpr unsigned kSeed = 8;
+    std::printf("seed %u ", kSeed);
+    std::mt19937 random{kSeed};
+    std::uniform_real_distribution<double> at{0, 40};
+    std::uniform_real_distribution<double> share{0, 1};
+    for (int turn = 0; turn < 300; ++turn) {
+        const SurfaceModel model{{random_surface(random)}};
+        const double corner = 1.5 * (turn % 3);
+        const Tool tool{1, ToolShape::kBull, 3, corner};
+        const Vec3d tip{at(random), at(random), at(random) * 0.3};
+        const double exact = model.clearance(tool, tip, 100).distance;
+        const double least = 2 * share(random) - corner;
+        const double most = least + 4 * share(random);
+        const double slack = 0.1 * share(random);
+        const double told = model.clearance_within(tool, tip, least, most, slack);
+        constexpr double kExact = 2e-5;  // of a disc
+        CHECK(told <= most + 1e-12);
+        if (told > least) {
+            CHECK(told <= exact + kExact);
+            CHECK(told >= std::min(most, exact) - slack - kExact);
+        } else {
+            CHECK(exact <= least + slack + kExact);
+        }
+        model.forget_cells();
+        DOUBLES_EQUAL(exact, model.clearance(tool, tip, 100).distance, kExact);
+    }
+}
+
 TEST(SurfaceModelDistance, PassesThroughATrimmedHole)
 {
     const SurfaceModel model{{holed_plane()}};
