@@ -6,6 +6,7 @@
 
 #include "host_tools/clearing/corner_spurs.hpp"
 #include "host_tools/clearing/cutting_order.hpp"
+#include "host_tools/clearing/link_along.hpp"
 #include "host_tools/offset/contour_fit.hpp"
 
 namespace cusp::host {
@@ -261,7 +262,7 @@ public:
 
 private:
     // From the end of the pass before, tangent to both where that is free, else straight to the
-    // nearest point.
+    // nearest point, else along the pass before to where this one is near.
     void reach(ClearingPass& pass, const Contour& before) const
     {
         const Vec2d from = before.front().start;
@@ -278,8 +279,22 @@ private:
             pass.link = {line_edge(from, pass.path.front().start)};
         }
         const bool near = length(pass.link) < 5.0 * settings_.step;
-        const bool linked = near && free_path(offset_, pass.link, settings_.first);
+        const bool linked =
+            (near && free_path(offset_, pass.link, settings_.first)) || reach_along(pass, before);
         pass.start = linked ? PassStart::kLink : PassStart::kDrop;
+    }
+
+    bool reach_along(ClearingPass& pass, const Contour& before) const
+    {
+        constexpr double kFarthest = 1.5;  // of the step between neighbours
+        const std::vector<Edge> link = link_along(before, pass.path, kFarthest * pass.step);
+        if (link.empty() || !free_path(offset_, {link.back()}, settings_.first)) {
+            return false;
+        }
+        start_near(pass.path, link.back().end);
+        pass.link = link;
+        pass.link.back() = line_edge(link.back().start, pass.path.front().start);
+        return true;
     }
 
     const RegionOffset& offset_;

@@ -51,7 +51,8 @@ struct ClearingPass {
     int level{};        // 0: next to the contours
     double distance{};  // of the level from the contours, mm
     PassStart start{};
-    std::vector<Edge> link;  // tangent arcs where there is room, else a straight line
+    // Tangent arcs where there is room, else a straight line; else along the pass before and over.
+    std::vector<Edge> link;
     bool around_island{};
     double room{};  // mm: from the start of the path to the nearest contour
     // A rest of metal this wide may stand between this level and the next one inward, mm.

@@ -49,6 +49,12 @@ double highest_over(const Tool& tool, const Tool& other)
     return most;
 }
 
+// Such a floor has no cliffs.
+bool is_one_whole_surface(const Operation& operation)
+{
+    return operation.floor.size() == 1 && operation.floor.front().trims.empty();
+}
+
 class FinishPlanner {
 public:
     FinishPlanner(const Job& job,
@@ -116,7 +122,7 @@ private:
         settings.direction = operation_.direction_of_cut;
         settings.cover_corners = *operation_.scallop > operation_.floor_tolerance;
         const bool corners = settings.cover_corners;
-        const bool whole = is_one_whole_surface();
+        const bool whole = is_one_whole_surface(operation_);
         LevelInterval interval{floor_, budget_, corners && !whole, !corners || !whole};
         settings.step_from = [&](const Region2d& level) {
             return interval.from(level, corners && whole ? ridge_.proven_step(level) : 0.0);
@@ -135,15 +141,9 @@ private:
         return cleared;
     }
 
-    // Such a floor has no cliffs.
-    bool is_one_whole_surface() const
-    {
-        return operation_.floor.size() == 1 && operation_.floor.front().trims.empty();
-    }
-
     void add_cliff_passes(ClearedRegion& cleared)
     {
-        if (is_one_whole_surface()) {
+        if (is_one_whole_surface(operation_)) {
             return;
         }
         CliffSettings settings;
@@ -292,10 +292,11 @@ private:
         stats.scallop_bound_mm = budget_.cusp + operation_.floor_tolerance;
         stats.counts = {{"loops", static_cast<double>(loops)},
                         {"leaves", static_cast<double>(cleared.leaves)},
-                        {"islands", static_cast<double>(cleared.islands)}};
+                        {"islands", static_cast<double>(operation_.islands.size())}};
         if (cliff_passes_ > 0) {
             stats.counts.emplace_back("cliff_passes", static_cast<double>(cliff_passes_));
         }
+        report_plunges(moves_.steep_plunges(), stats);
         report_depth(stats);
         report_rest(stats);
     }
@@ -303,7 +304,7 @@ private:
     void report_depth(OperationStats& stats) const
     {
         constexpr double kFelt = 0.02;  // mm: no deeper than slivers are
-        if (depth_ == nullptr) {
+        if (depth_ == nullptr || depth_->most() == kUnlimitedDepth) {
             return;
         }
         stats.counts.emplace_back("deepest_cut_mm", depth_->deepest());
@@ -380,11 +381,12 @@ std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operatio
     const Budget budget = make_budget(job, operation);
     const Region2d region = make_region(operation, budget.fit);
     std::optional<CutDepth> depth;
-    if (operation.max_depth) {
+    // Entries beside cliffs of the floor and beside what roughing left need to know the metal.
+    if (operation.max_depth || !operation.layers.empty() || !is_one_whole_surface(operation)) {
         const Tool& rougher = operation.tools.empty() ? operation.tool : operation.tools.front();
         const bool finer = rougher.radius < operation.tool.radius;
         depth.emplace(box_of(region), finer ? rougher : operation.tool, job.stock_top,
-                      *operation.max_depth);
+                      operation.max_depth.value_or(kUnlimitedDepth));
     }
     CutDepth* const cut_depth = depth ? &*depth : nullptr;
     FinishPlanner finish{job, operation, region, budget, cut_depth};

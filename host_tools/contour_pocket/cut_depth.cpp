@@ -66,6 +66,9 @@ void CutDepth::walk(const FloorPath& path, Visit visit) const
 
 std::optional<double> CutDepth::level_over(const FloorPath& path, double share)
 {
+    if (most_ == kUnlimitedDepth) {
+        return std::nullopt;
+    }
     const double most = share * most_;
     double level = -1e300;
     ahead_ = metal_;
@@ -81,21 +84,21 @@ std::optional<double> CutDepth::level_over(const FloorPath& path, double share)
 double CutDepth::highest(const FloorPath& path) const
 {
     double z = -1e300;
-    walk(path, [&](Vec3d, Vec3d to) { z = std::max(z, metal_.touch({to.x, to.y}) + kBetween); });
+    walk(path, [&](Vec3d, Vec3d to) { z = std::max(z, highest_at({to.x, to.y})); });
     return z;
 }
 
-bool CutDepth::too_deep_around(Vec2d centre, double radius, double height) const
+double CutDepth::highest_at(Vec2d place) const { return metal_.touch(place) + kBetween; }
+
+double CutDepth::highest_around(Vec2d centre, double radius) const
 {
     constexpr int kPlaces = 32;
+    double z = -1e300;
     for (int i = 0; i < kPlaces; ++i) {
         const double angle = 6.28318530717958648 * i / kPlaces;
-        const Vec2d at{centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)};
-        if (metal_.touch(at) + kBetween - height > most_) {
-            return true;
-        }
+        z = std::max(z, highest_at(centre + Vec2d{std::cos(angle), std::sin(angle)} * radius));
     }
-    return false;
+    return z;
 }
 
 }  // namespace cusp::host

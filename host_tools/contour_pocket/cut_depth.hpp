@@ -11,12 +11,14 @@
 
 namespace cusp::host {
 
+constexpr double kUnlimitedDepth = 1e300;
+
 class CutDepth {
 public:
     // box     all places that tools may touch
     // finest  the smaller of the tools: the metal is known at places a 24th of its radius apart
     // top     of the uncut stock, z
-    // most    mm: no cut may be deeper
+    // most    mm: no cut may be deeper; kUnlimitedDepth where any may
     CutDepth(const Box2d& box, const Tool& finest, double top, double most);
 
     // Another tool begins a path of its own.
@@ -32,8 +34,11 @@ public:
     // z: where a tip that comes down over the path first touches metal.
     double highest(const FloorPath& path) const;
 
-    // Whether a tip that comes down to `height` anywhere on the circle cuts too deep.
-    bool too_deep_around(Vec2d centre, double radius, double height) const;
+    // z: where a tip that comes down over the place first touches metal.
+    double highest_at(Vec2d place) const;
+
+    // z: where a tip that comes down somewhere on the circle first touches metal.
+    double highest_around(Vec2d centre, double radius) const;
 
     double most() const { return most_; }
 

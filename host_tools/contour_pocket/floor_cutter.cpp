@@ -9,6 +9,9 @@ namespace cusp::host {
 
 namespace {
 
+constexpr double kOverMetal = 0.1;  // mm: where the plunge feed hands over to a slope
+constexpr double kRapidOver = 0.9;  // mm over that: where rapid moves end
+
 double lowest_of(const FloorPath& path)
 {
     double lowest = path.start.z;
@@ -50,23 +53,33 @@ void FloorCutter::enter(const Laid& cut, const CutSettings& settings)
     const bool lines = !laying.arcs && !laying.nurbs;
     laying.arcs = laying.nurbs = false;
     const FloorPath path = lines ? cut.path : laid(pass.path, laying);
-    const EntryHeights heights = settings.entry_heights(path.start.z);
-    if (helix && radius > 0.2 * tool && helix_is_shallow(pass, radius, path.start.z)) {
-        moves_.enter_by_helix(
-            path.start, radius, heights,
+    EntryHeights heights = settings.entry_heights(path.start.z);
+    const Vec2d start = pass.path.front().start;
+    const bool open = distance(start, pass.path.back().end) > 1e-9;
+    if (depth_ != nullptr) {
+        const double metal = depth_->highest_at(start) + kOverMetal;
+        // Open passes lie in metal that closed ones have cut.
+        heights.metal = open ? metal : std::max(heights.metal, metal);
+        heights.rapid = std::max(heights.rapid, heights.metal + kRapidOver);
+    }
+    const double around = helix ? metal_around(start, radius) : 0.0;
+    // A helix reaches farther than the pass, where metal may stand that no pass has met.
+    const bool shallow = depth_ == nullptr || around - path.start.z <= depth_->most();
+    if (helix && radius > 0.2 * tool && shallow) {
+        heights.metal = std::max(heights.metal, around + kOverMetal);
+        heights.rapid = std::max(heights.rapid, heights.metal + kRapidOver);
+        const double end = moves_.enter_by_helix(
+            path.start, radius, length(pass.path) < radius, heights,
             [&](Vec2d at) { return std::max(floor_.drop(at).height + laying.raise, laying.level); },
             [&](Vec3d a, Vec3d b) { return floor_.gap(a, b); });
-        return;
+        heights = {end + kRapidOver, end};
     }
-    // Open passes lie in metal that closed ones have cut.
-    const bool open = distance(pass.path.front().start, pass.path.back().end) > 1e-9;
-    moves_.enter_along(path, heights, open || settings.entry == EntryKind::kPlunge);
+    moves_.enter_along(path, heights, settings.entry == EntryKind::kPlunge);
 }
 
-// A helix reaches farther than the pass, where metal may stand that no pass has met.
-bool FloorCutter::helix_is_shallow(const ClearingPass& pass, double radius, double lowest) const
+double FloorCutter::metal_around(Vec2d start, double radius) const
 {
-    return depth_ == nullptr || !depth_->too_deep_around(pass.path.front().start, radius, lowest);
+    return depth_ == nullptr ? -1e300 : depth_->highest_around(start, radius);
 }
 
 bool FloorCutter::too_deep(const FloorPath& path, const CutSettings& settings) const
@@ -126,7 +139,7 @@ FloorCutter::Laid FloorCutter::cut_above(const Laid& deep,
         entering.laying.nurbs = false;
         entering.entry_heights = [highest = depth_->highest(last.path)](double pass) {
             const double metal = std::max(highest, pass);
-            return EntryHeights{metal + 1.0, metal + 0.1};
+            return EntryHeights{metal + kOverMetal + kRapidOver, metal + kOverMetal};
         };
         const Laid over = lay(flat, entering, true);
         if (i == 0) {

@@ -27,7 +27,8 @@ struct CutSettings {
 
 class FloorCutter {
 public:
-    // depth  where given, passes that would cut too deep are cut at levels over them first
+    // depth  where given, passes that would cut too deep are cut at levels over them first, and
+    //        entries start over the metal that stands
     FloorCutter(const Operation& operation,
                 const TipFloor& floor,
                 PocketMoves& moves,
@@ -55,7 +56,7 @@ private:
     Laid cut_above(const Laid& laid, const CutSettings& settings, bool repeated);
     FloorPath laid(const std::vector<Edge>& plan, const FloorPathSettings& laying);
     void enter(const Laid& cut, const CutSettings& settings);
-    bool helix_is_shallow(const ClearingPass& pass, double radius, double lowest) const;
+    double metal_around(Vec2d start, double radius) const;
 
     const Operation& operation_;
     const TipFloor& floor_;

@@ -16,6 +16,32 @@ constexpr int kMostPoints = 100000;  // of one entry: where a pass is too short 
 
 double plan_distance(Vec3d a, Vec3d b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
+double plan_length(const std::vector<Vec3d>& pass)
+{
+    double sum = 0.0;
+    for (std::size_t i = 1; i < pass.size(); ++i) {
+        sum += plan_distance(pass[i - 1], pass[i]);
+    }
+    return sum;
+}
+
+// The beginning of a pass, as long in plan as half of `way`, and back to its start.
+std::vector<Vec3d> to_and_fro(const std::vector<Vec3d>& pass, double way)
+{
+    std::vector<Vec3d> round{pass.front()};
+    double left = 0.5 * way;
+    for (std::size_t i = 1; i < pass.size() && left > 0.0; ++i) {
+        const double step = plan_distance(pass[i - 1], pass[i]);
+        const double share = step > left ? left / step : 1.0;
+        round.push_back(pass[i - 1] + (pass[i] - pass[i - 1]) * share);
+        left -= step;
+    }
+    for (std::size_t i = round.size() - 1; i-- > 0;) {
+        round.push_back(round[i]);
+    }
+    return round;
+}
+
 }  // namespace
 
 ToolMove tool_move(MoveKind kind, const FloorMove& move)
@@ -52,14 +78,6 @@ void PocketMoves::approach(Vec2d at, const EntryHeights& heights)
 
 void PocketMoves::enter_along(const FloorPath& path, const EntryHeights& heights, bool plunge)
 {
-    std::vector<Vec3d> pass{path.start};
-    double round = 0.0;
-    double lowest = path.start.z;
-    for (const FloorMove& move : path.moves) {
-        round += plan_distance(pass.back(), move.end);
-        lowest = std::min(lowest, move.end.z);
-        pass.push_back(move.end);
-    }
     double z = std::max(heights.metal, path.start.z);
     const bool stands_over = !moves_.empty() && plan_distance(at_, path.start) < 1e-6 &&
                              at_.z >= path.start.z && at_.z < heights.rapid;
@@ -68,9 +86,23 @@ void PocketMoves::enter_along(const FloorPath& path, const EntryHeights& heights
     } else {
         approach({path.start.x, path.start.y}, {heights.rapid, z});
     }
+    std::vector<Vec3d> pass{path.start};
+    for (const FloorMove& move : path.moves) {
+        pass.push_back(move.end);
+    }
+    const double way = (z - path.start.z) / kSlope;
+    const bool open = plan_distance(pass.front(), pass.back()) > 1e-6;
+    if (open || (stands_over && way < plan_length(pass))) {
+        pass = to_and_fro(pass, way);
+    }
+    const double round = plan_length(pass);
+    const double lowest =
+        std::min_element(pass.begin(), pass.end(), [](Vec3d a, Vec3d b) { return a.z < b.z; })->z;
     const double turns = (z - lowest) / std::max(kSlope * round, 1e-9);
-    if (plunge || turns * static_cast<double>(pass.size()) > kMostPoints) {
-        line(MoveKind::kPlunge, pass.front());
+    const bool steep = turns * static_cast<double>(pass.size()) > kMostPoints;
+    if (plunge || steep) {
+        steep_plunges_ += plunge ? 0 : 1;
+        line(MoveKind::kPlunge, path.start);
         return;
     }
     for (bool sloped = true; sloped && z > lowest;) {
@@ -102,35 +134,37 @@ void PocketMoves::plunge_over(Vec3d end, const std::function<double(Vec3d, Vec3d
     line(MoveKind::kPlunge, end + Vec3d{0.0, 0.0, lift});
 }
 
-void PocketMoves::enter_by_helix(Vec3d centre,
-                                 double radius,
-                                 const EntryHeights& heights,
-                                 const std::function<double(Vec2d)>& lowest,
-                                 const std::function<double(Vec3d, Vec3d)>& gap)
+double PocketMoves::enter_by_helix(Vec3d centre,
+                                   double radius,
+                                   bool whole,
+                                   const EntryHeights& heights,
+                                   const std::function<double(Vec2d)>& lowest,
+                                   const std::function<double(Vec3d, Vec3d)>& gap)
 {
-    // What stays under the helix is removed by the pass.
-    constexpr double kOver = 0.5;
+    // What stays under the helix is removed on the way to the pass, or on the slope along it.
+    constexpr double kOver = 0.05;
+    constexpr double kRapidOver = 0.5;
+    constexpr double kGentle = 0.1;
     std::vector<Vec3d> sides;
     double highest = centre.z;
+    double deepest = 1e300;
     for (int i = 1; i <= kHelixSides; ++i) {
         const double angle = 6.283185307179586 * i / kHelixSides;
         const Vec2d at{centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)};
         sides.push_back({at.x, at.y, std::max(lowest(at) + kOver, centre.z)});
         highest = std::max(highest, sides.back().z);
+        deepest = std::min(deepest, sides.back().z);
     }
     const double drop = kSlope * radius * 6.283185307179586 / kHelixSides;
     double z = std::max(heights.metal, highest);
-    approach({sides.back().x, sides.back().y}, {std::max(heights.rapid, z + kOver), z});
-    for (bool sloped = true; sloped;) {
-        sloped = false;
-        for (const Vec3d side : sides) {
-            z -= drop;
-            sloped = sloped || z > side.z;
-            plunge_over({side.x, side.y, std::max(z, side.z)}, gap);
-        }
+    approach({sides.back().x, sides.back().y}, {std::max(heights.rapid, z + kRapidOver), z});
+    for (std::size_t i = 0; z > deepest; i = (i + 1) % sides.size()) {
+        z -= drop;
+        plunge_over({sides[i].x, sides[i].y, std::max(z, sides[i].z)}, gap);
     }
-    plunge_over({centre.x, centre.y, at_.z}, gap);
-    line(MoveKind::kPlunge, centre);
+    const bool gentle = whole || at_.z - centre.z <= kGentle * radius;
+    plunge_over({centre.x, centre.y, gentle ? centre.z : at_.z}, gap);
+    return at_.z;
 }
 
 void PocketMoves::follow(MoveKind kind, const FloorPath& path)

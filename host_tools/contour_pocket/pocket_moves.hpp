@@ -22,18 +22,22 @@ public:
     // clearance: z at which rapid moves run, mm.
     explicit PocketMoves(double clearance) : clearance_{clearance} {}
 
-    // Down to the start of a closed pass of straight moves: round it again and again on a gentle
-    // slope until it lies wholly at its depth; straight down where `plunge`. From where the tool
-    // stands, where that is straight over the start and below the heights.
+    // Down to the start of a pass of straight moves: round it again and again on a gentle slope
+    // until it lies wholly at its depth, to and fro along the beginning of an open one or where
+    // that is shorter; straight down where `plunge`. From where the tool stands, where that is
+    // straight over the start and below the heights.
     void enter_along(const FloorPath& path, const EntryHeights& heights, bool plunge);
 
-    // Down on a helix about the start of a pass. lowest(at) is the lowest the tip may stand there,
-    // gap(a, b) the room of a straight move, negative where it would cut too deep.
-    void enter_by_helix(Vec3d centre,
-                        double radius,
-                        const EntryHeights& heights,
-                        const std::function<double(Vec2d)>& lowest,
-                        const std::function<double(Vec3d, Vec3d)>& gap);
+    // Down on a helix about the start of a pass, to somewhere over it; to the start itself where
+    // that is little lower, or `whole`. lowest(at) is the lowest the
+    // tip may stand there, gap(a, b) the room of a straight move, negative where it would cut too
+    // deep. Returns the height it ends at.
+    double enter_by_helix(Vec3d centre,
+                          double radius,
+                          bool whole,
+                          const EntryHeights& heights,
+                          const std::function<double(Vec2d)>& lowest,
+                          const std::function<double(Vec3d, Vec3d)>& gap);
 
     void cut(const FloorPath& pass) { follow(MoveKind::kCut, pass); }
     void link(const FloorPath& path) { follow(MoveKind::kLink, path); }
@@ -43,6 +47,8 @@ public:
     std::vector<ToolMove> take() { return std::move(moves_); }
     int retracts() const { return retracts_; }
     int points() const { return points_; }
+    // Entries that had no room for a slope.
+    int steep_plunges() const { return steep_plunges_; }
 
 private:
     void line(MoveKind kind, Vec3d end);
@@ -55,6 +61,7 @@ private:
     Vec3d at_{};
     int retracts_{};
     int points_{};
+    int steep_plunges_{};
 };
 
 }  // namespace cusp::host

@@ -59,6 +59,14 @@ std::string number_text(double value)
     return text;
 }
 
+void report_plunges(int plunges, OperationStats& stats)
+{
+    if (plunges > 0) {
+        stats.warnings.push_back(number_text(plunges) +
+                                 " entries had no room for a slope and plunge");
+    }
+}
+
 Budget make_budget(const Job& job, const Operation& operation)
 {
     const double radius = operation.tool.radius;

@@ -34,6 +34,9 @@ void check_coverage(const Operation& operation, const Region2d& region, const Ti
 
 [[noreturn]] void refuse_uncovered(const Operation& operation, Vec2d place);
 
+// Warns of entries that had no room for a slope.
+void report_plunges(int plunges, OperationStats& stats);
+
 // A number as messages and comments show it.
 std::string number_text(double value);
 

@@ -179,7 +179,10 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     stats.gouge_bound_mm = std::max(0.0, -cutter.least_gap());
     stats.scallop_bound_mm = result.left;
     stats.counts = {{"layers", static_cast<double>(layers)},
-                    {"loops", static_cast<double>(cleared.passes.size())}};
+                    {"loops", static_cast<double>(cleared.passes.size())},
+                    {"leaves", static_cast<double>(cleared.leaves)},
+                    {"islands", static_cast<double>(operation.islands.size())}};
+    report_plunges(moves.steep_plunges(), stats);
     result.operation.path.moves = moves.take();
     stats.planning_s =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

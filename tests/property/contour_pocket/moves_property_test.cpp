@@ -1,0 +1,221 @@
+// How the tool goes through random pockets with islands: entries, links, retracts, side of the
+// cut, layers, allowance, one tool or two.
+#include <cstdio>
+
+#include "host_tools/contour_pocket/contour_pocket.hpp"
+#include "tests/property/contour_pocket/moves_judge.hpp"
+#include "tests/property/offset/random_regions.hpp"
+#include "tests/support/property_cases.hpp"
+
+// Last: CppUTest redefines new, which the standard headers can not bear.
+#include "CppUTest/TestHarness.h"
+
+namespace cusp::host {
+namespace {
+
+constexpr unsigned kSeed = 1990;
+constexpr double kGrain = 1e-3;  // mm
+
+struct RandomTask {
+    Region2d region;
+    Job job;
+    Operation operation;
+};
+
+Curve curve_of(const Edge& edge)
+{
+    const Vec3d a{edge.start.x, edge.start.y, 0.0};
+    const Vec3d b{edge.end.x, edge.end.y, 0.0};
+    if (edge.turn == 0) {
+        return {1, {0.0, 0.0, 1.0, 1.0}, {a, b}, {1.0, 1.0}};
+    }
+    const double half = sweep(edge) / 2;
+    const Vec2d middle = (edge.start + edge.end) * 0.5;
+    const Vec2d out = unit(middle - edge.centre) * (edge.radius / std::cos(half));
+    const Vec2d corner = edge.centre + out;
+    return {2,
+            {0.0, 0.0, 0.0, 1.0, 1.0, 1.0},
+            {a, {corner.x, corner.y, 0.0}, b},
+            {1.0, std::cos(half), 1.0}};
+}
+
+Loop loop_of(const Contour& contour)
+{
+    Loop loop;
+    for (const Edge& edge : contour) {
+        loop.push_back(curve_of(edge));
+    }
+    return loop;
+}
+
+// Level, or bicubic with points that wander by up to 3 mm.
+Surface random_floor(Random& random, double depth, double wander)
+{
+    Surface s;
+    s.degree_u = s.degree_v = 3;
+    s.size_u = s.size_v = 5;
+    s.knots_u = s.knots_v = {0.0, 0.0, 0.0, 0.0, 0.5, 1.0, 1.0, 1.0, 1.0};
+    for (int i = 0; i < 5; ++i) {
+        for (int j = 0; j < 5; ++j) {
+            s.points.push_back(
+                {-80.0 + 40.0 * i, -80.0 + 40.0 * j, -depth + uniform(random, -1.0, 1.0) * wander});
+            s.weights.push_back(1.0);
+        }
+    }
+    return s;
+}
+
+Tool random_tool(Random& random, int number, double radius)
+{
+    const auto shape = static_cast<ToolShape>(static_cast<int>(uniform(random, 0.0, 2.999)));
+    const double corner = shape == ToolShape::kBall   ? radius
+                          : shape == ToolShape::kFlat ? 0.0
+                                                      : uniform(random, 0.2, 0.6) * radius;
+    return {number, shape, radius, corner};
+}
+
+RandomTask random_task(Random& random)
+{
+    RandomTask task;
+    const auto one_of = [&](int count) {
+        return static_cast<int>(uniform(random, 0.0, count - 1e-9));
+    };
+    task.region = random_region(random);
+    task.job.file = "job";
+    task.job.stock_top = uniform(random, 0.0, 3.0);
+    task.job.clearance = uniform(random, 2.0, 8.0);
+    task.job.feed = 1200;
+    task.job.plunge_feed = 300;
+    Operation& operation = task.operation;
+    operation.strategy = "contour_pocket";
+    operation.floor = {
+        random_floor(random, uniform(random, 5.0, 10.0), one_of(2) * uniform(random, 0.5, 3.0))};
+    operation.floor_files = {"floor"};
+    operation.boundary = loop_of(task.region.contours.front());
+    operation.boundary_file = "boundary";
+    for (std::size_t i = 1; i < task.region.contours.size(); ++i) {
+        operation.islands.push_back(loop_of(task.region.contours[i]));
+        operation.island_files.push_back("island");
+    }
+    const double radius = uniform(random, 3.5, 6.0);
+    operation.tool = random_tool(random, 1, radius);
+    operation.tools = {operation.tool};
+    operation.plan_tolerance = operation.floor_tolerance = 0.02;
+    operation.tolerance_side = one_of(3) == 0 ? ToleranceSide::kBoth : ToleranceSide::kOutside;
+    operation.scallop = 0.3;
+    operation.output = one_of(2) == 0 ? OutputForm::kLines : OutputForm::kArcs;
+    operation.direction_of_cut = static_cast<CutDirection>(one_of(2));
+    operation.entry = static_cast<EntryKind>(one_of(4));
+    if (one_of(2) == 0) {
+        operation.allowance = one_of(2) * uniform(random, 0.1, 0.5);
+        operation.max_depth = uniform(random, 2.0, 5.0);
+        if (one_of(2) == 0) {
+            operation.tools = {random_tool(random, 2, radius * uniform(random, 0.8, 1.5)),
+                               operation.tool};
+        }
+    }
+    return task;
+}
+
+double counted(const OperationStats& stats, const char* name)
+{
+    const auto found = std::find_if(stats.counts.begin(), stats.counts.end(),
+                                    [&](const auto& count) { return count.first == name; });
+    return found == stats.counts.end() ? 0.0 : found->second;
+}
+
+bool warned(const PlannedOperation& planned)
+{
+    const auto& warnings = planned.stats.warnings;
+    return std::any_of(warnings.begin(), warnings.end(), [](const std::string& text) {
+        return text.find("no room for a slope") != std::string::npos;
+    });
+}
+
+// How much nearer to the floor than it may be the metal is that stands, mm.
+double under(const MovesJudge& judge, const Surface& floor, double allowance)
+{
+    constexpr int kEach = 200;
+    double most = -1e300;
+    for (int i = 0; i <= kEach; ++i) {
+        for (int j = 0; j <= kEach; ++j) {
+            const Vec3d p =
+                point_at(floor, static_cast<double>(i) / kEach, static_cast<double>(j) / kEach);
+            most = std::max(most, p.z + allowance - judge.height({p.x, p.y}));
+        }
+    }
+    return most;
+}
+
+void check_moves(const RandomTask& task,
+                 const PlannedOperation& planned,
+                 const MovesVerdict& verdict,
+                 bool layered)
+{
+    const Operation& operation = task.operation;
+    const OperationStats& stats = planned.stats;
+    CHECK(!verdict.low_rapid);
+    CHECK(verdict.rapid_cut <= 0.05);
+    if (operation.entry != EntryKind::kPlunge && !warned(planned)) {
+        CHECK(verdict.plunged <= 0.05);
+        // Where the floor is steeper than a slope down, slopes follow it.
+        CHECK(verdict.entry_cut <= 0.3);
+    }
+    LONGS_EQUAL(stats.retracts, verdict.retracts);
+    LONGS_EQUAL(operation.islands.size(), counted(stats, "islands"));
+    const double each = counted(stats, "leaves") + counted(stats, "islands");
+    if (!layered || stats.roughing) {
+        CHECK(stats.retracts <= each * std::max(1.0, counted(stats, "layers")));
+    }
+    CHECK(verdict.wrong_side <= 0.3 * (verdict.right_side + verdict.wrong_side) + 50.0);
+    CHECK(verdict.deepest <= operation.max_depth.value_or(1e300) * 1.02 + 0.03);
+}
+
+void judge_task(const RandomTask& task, const std::vector<PlannedOperation>& planned)
+{
+    const Operation& operation = task.operation;
+    const double largest = std::max(operation.tool.radius, operation.tools.front().radius);
+    const double smallest = std::min(operation.tool.radius, operation.tools.front().radius);
+    MovesJudge judge{task.region, task.job.stock_top, smallest, largest};
+    for (const PlannedOperation& one : planned) {
+        const bool rough = one.stats.roughing;
+        const Tool& tool = rough ? operation.tools.front() : operation.tool;
+        LONGS_EQUAL(tool.number, one.path.tool.number);
+        const MovesVerdict verdict = judge.cut(one.path, task.job.stock_top + task.job.clearance,
+                                               operation.direction_of_cut == CutDirection::kClimb);
+        const double allowance = rough ? operation.allowance : 0.0;
+        const bool both = operation.tolerance_side == ToleranceSide::kBoth;
+        const double past = both ? operation.plan_tolerance : 0.0;
+        std::printf(
+            "  tool %d: rapid %.3f plunged %.3f entry %.3f deepest %.3f retracts %d of "
+            "%.0f + %.0f, wrong side %.0f of %.0f\n",
+            tool.number, verdict.rapid_cut, verdict.plunged, verdict.entry_cut, verdict.deepest,
+            verdict.retracts, counted(one.stats, "leaves"), counted(one.stats, "islands"),
+            verdict.wrong_side, verdict.wrong_side + verdict.right_side);
+        check_moves(task, one, verdict, operation.max_depth.has_value());
+        CHECK(verdict.nearest_wall >= tool.radius + allowance - past - kGrain);
+        CHECK(under(judge, operation.floor.front(), allowance) <= past + 2 * kGrain);
+    }
+}
+
+TEST_GROUP(PocketMoves){};
+
+TEST(PocketMoves, EnterGentlyLinkThroughCutMetalAndKeepSideDepthAndAllowance)
+{
+    Random random{kSeed};
+    for (int i = 0; i < property_cases(8); ++i) {
+        const RandomTask task = random_task(random);
+        std::printf("seed %u pocket %d\n", kSeed, i);
+        std::vector<PlannedOperation> planned;
+        try {
+            planned = plan_contour_pocket(task.job, task.operation);
+        } catch (const InputError& error) {
+            CHECK(std::string{error.what()}.find("fits nowhere") != std::string::npos);
+            continue;
+        }
+        judge_task(task, planned);
+    }
+}
+
+}  // namespace
+}  // namespace cusp::host
