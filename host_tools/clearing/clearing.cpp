@@ -13,7 +13,6 @@ namespace cusp::host {
 
 namespace {
 
-constexpr int kMostLevels = 20000;
 constexpr double kShare = 0.4995;  // of a step: how far from a pass metal is cut by it
 
 struct Loop2d {

@@ -67,6 +67,9 @@ struct ClearedRegion {
     double widest_gap{};  // largest step between two levels, mm
 };
 
+// More levels than these are not made.
+inline constexpr int kMostLevels = 20000;
+
 // Passes for the region that is left of its contours. Empty where the tool does not fit anywhere.
 ClearedRegion clear_region(const Region2d& region, const ClearingSettings& settings);
 

@@ -16,6 +16,7 @@
 #include "host_tools/contour_pocket/rough_layers.hpp"
 #include "host_tools/contour_pocket/strip_ridge.hpp"
 #include "host_tools/offset/offset.hpp"
+#include "host_tools/toolpath/toolpath_measure.hpp"
 
 namespace cusp::host {
 
@@ -138,6 +139,12 @@ private:
                              number_text(operation_.tool.radius) +
                              " mm fits nowhere into the pocket");
         }
+        if (cleared.levels >= kMostLevels) {
+            throw InputError(operation_text(job_, operation_) + "scallop " +
+                             number_text(*operation_.scallop) + " mm makes " +
+                             number_text(cleared.levels) + " levels of loops, the limit is " +
+                             number_text(kMostLevels - 1));
+        }
         return cleared;
     }
 
@@ -202,8 +209,8 @@ private:
         const double depth = layer_depth(operation_);
         const double bottom = lowest_tip(cleared, floor_);
         double above = heights.empty() ? job_.stock_top : heights.back();
-        const int n = static_cast<int>(std::ceil((above - bottom) / depth - 1e-9));
-        const double step = (above - bottom) / std::max(n, 1);
+        const int n = layer_count(job_, operation_, above - bottom, depth);
+        const double step = (above - bottom) / n;
         for (int i = 1; i < n; ++i) {
             above -= step;
             heights.push_back(above);
@@ -297,8 +304,20 @@ private:
             stats.counts.emplace_back("cliff_passes", static_cast<double>(cliff_passes_));
         }
         report_plunges(moves_.steep_plunges(), stats);
+        report_air(stats);
         report_depth(stats);
         report_rest(stats);
+    }
+
+    void report_air(OperationStats& stats) const
+    {
+        const std::vector<ToolMove>& moves = moves_.moves();
+        if (std::none_of(moves.begin(), moves.end(), [&](const ToolMove& move) {
+                return move.kind == MoveKind::kCut && end_of(move).z < job_.stock_top;
+            })) {
+            stats.warnings.push_back("nothing of the floor lies below stock.top, " +
+                                     number_text(job_.stock_top) + " mm: the program cuts air");
+        }
     }
 
     void report_depth(OperationStats& stats) const
@@ -380,6 +399,7 @@ std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operatio
     const auto begin = std::chrono::steady_clock::now();
     const Budget budget = make_budget(job, operation);
     const Region2d region = make_region(operation, budget.fit);
+    check_work(job, operation, region, budget);
     std::optional<CutDepth> depth;
     // Entries beside cliffs of the floor and beside what roughing left need to know the metal.
     if (operation.max_depth || !operation.layers.empty() || !is_one_whole_surface(operation)) {

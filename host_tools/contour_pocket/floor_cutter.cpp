@@ -120,7 +120,7 @@ FloorCutter::Laid FloorCutter::cut_above(const Laid& deep,
                                          const CutSettings& settings,
                                          bool repeated)
 {
-    constexpr int kMostLevels = 1000;
+    constexpr int kMostCuts = 1000;
     ClearingPass flat = deep.pass;
     if (!repeated) {
         flat.path = flattened(flat.path, settings.laying.aside, settings.laying.spacing,
@@ -129,7 +129,7 @@ FloorCutter::Laid FloorCutter::cut_above(const Laid& deep,
     const Laid last = lay(flat, settings, true);
     CutSettings entering = settings;
     entering.entry = way_down(settings.entry);
-    for (int i = 0; i < kMostLevels; ++i) {
+    for (int i = 0; i < kMostCuts; ++i) {
         depth_->feel(moves_.moves());
         const auto level = depth_->level_over(last.path, settings.depth_share);
         if (!level || (i > 0 && *level > entering.laying.level - kWrittenStep)) {

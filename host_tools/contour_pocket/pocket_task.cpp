@@ -17,14 +17,24 @@ namespace {
 
 // Of the radius of the finishing tool: with more, "within tolerance" says nothing about a pocket.
 constexpr double kMostTolerance = 0.25;
+// Radii of the finishing tool. Beyond these a length is in the wrong units, or a tool in another's
+// place.
+constexpr double kMostDepth = 1e3;
+constexpr double kMostWay = 1e7;
+constexpr int kMostLayers = 1000;
 
 std::string place_text(Vec2d p) { return "(" + number_text(p.x) + ", " + number_text(p.y) + ")"; }
 
-void check_range(const Job& job, const char* key, double value, double limit)
+// share: of the finishing tool's radius, the largest value
+void check_range(
+    const Job& job, const Operation& operation, const char* key, double value, double share)
 {
+    const Tool& tool = operation.tool;
+    const double limit = share * tool.radius;
     if (!(value > 0.0) || value > limit) {
-        throw InputError(job.file + ": contour_pocket: " + key + " " + number_text(value) +
-                         " mm is not in the range above 0 to " + number_text(limit) + " mm");
+        throw InputError(operation_text(job, operation) + key + " " + number_text(value) +
+                         " mm is not in the range above 0 to " + number_text(limit) + " mm, " +
+                         number_text(share) + " of the radius of tool " + number_text(tool.number));
     }
 }
 
@@ -52,6 +62,11 @@ void check_range(const Job& job, const char* key, double value, double limit)
 
 }  // namespace
 
+std::string operation_text(const Job& job, const Operation& operation)
+{
+    return job.file + ": operation " + std::to_string(operation.number) + ": contour_pocket: ";
+}
+
 std::string number_text(double value)
 {
     char text[40];
@@ -71,24 +86,24 @@ Budget make_budget(const Job& job, const Operation& operation)
 {
     const double radius = operation.tool.radius;
     if (operation.floor.empty()) {
-        throw InputError(job.file + ": contour_pocket: floor is missing");
+        throw InputError(operation_text(job, operation) + "floor is missing");
     }
     if (!operation.boundary) {
-        throw InputError(job.file + ": contour_pocket: boundary is missing");
+        throw InputError(operation_text(job, operation) + "boundary is missing");
     }
     if (!operation.scallop) {
-        throw InputError(job.file + ": contour_pocket: scallop is missing");
+        throw InputError(operation_text(job, operation) + "scallop is missing");
     }
     if (operation.output == OutputForm::kNurbs && !nurbs_fit_available()) {
-        throw InputError(job.file +
-                         ": contour_pocket: output \"nurbs\" needs a build with Eigen "
+        throw InputError(operation_text(job, operation) +
+                         "output \"nurbs\" needs a build with Eigen "
                          "(libeigen3-dev, CUSP_EIGEN), which this is not");
     }
-    check_range(job, "plan_tolerance", operation.plan_tolerance, kMostTolerance * radius);
-    check_range(job, "floor_tolerance", operation.floor_tolerance, kMostTolerance * radius);
-    check_range(job, "scallop", *operation.scallop, 0.9 * radius);
+    check_range(job, operation, "plan_tolerance", operation.plan_tolerance, kMostTolerance);
+    check_range(job, operation, "floor_tolerance", operation.floor_tolerance, kMostTolerance);
+    check_range(job, operation, "scallop", *operation.scallop, 0.9);
     if (operation.allowance != 0.0) {
-        check_range(job, "allowance", operation.allowance, radius);
+        check_range(job, operation, "allowance", operation.allowance, 1.0);
     }
     Budget budget;
     budget.outside = operation.tolerance_side == ToleranceSide::kOutside;
@@ -99,7 +114,7 @@ Budget make_budget(const Job& job, const Operation& operation)
     budget.cusp = *operation.scallop - operation.floor_tolerance;
     if (budget.outside) {
         if (budget.cusp <= 0.0) {
-            throw InputError(job.file + ": contour_pocket: scallop " +
+            throw InputError(operation_text(job, operation) + "scallop " +
                              number_text(*operation.scallop) + " mm is not above floor_tolerance " +
                              number_text(operation.floor_tolerance) +
                              " mm, which it includes with tolerance_side \"outside\"");
@@ -131,6 +146,56 @@ Region2d make_region(const Operation& operation, double tolerance)
         refuse_region(operation, *fault);
     }
     return region;
+}
+
+void check_work(const Job& job,
+                const Operation& operation,
+                const Region2d& region,
+                const Budget& budget)
+{
+    const Tool& tool = operation.tool;
+    double lowest = job.stock_top;
+    for (const Surface& surface : operation.floor) {
+        for (const Vec3d p : surface.points) {
+            lowest = std::min(lowest, p.z);
+        }
+    }
+    const std::string radius = number_text(tool.radius) + " mm";
+    if (job.stock_top - lowest > kMostDepth * tool.radius) {
+        const std::string file =
+            operation.floor_files.empty() ? "floor" : operation.floor_files.front();
+        throw InputError(file + ": the floor lies " + number_text(job.stock_top - lowest) +
+                         " mm below stock.top, the limit is " +
+                         number_text(kMostDepth * tool.radius) + " mm for the tool of radius " +
+                         radius);
+    }
+    double room = 0.0;
+    for (const Contour& contour : region.contours) {
+        room += area(contour);
+    }
+    const double round = 2.0 * tool.corner_radius;
+    const double across = 2.0 * (tool.radius - tool.corner_radius) +
+                          2.0 * std::sqrt(std::max(0.0, budget.cusp * (round - budget.cusp)));
+    const double way = room / std::min(across, 2.0 * tool.radius);
+    if (way > kMostWay * tool.radius) {
+        throw InputError(operation.boundary_file + ": the pocket of " + number_text(room) +
+                         " mm^2 takes " + number_text(way) + " mm of passes, the limit is " +
+                         number_text(kMostWay * tool.radius) + " mm for the tool of radius " +
+                         radius);
+    }
+}
+
+int layer_count(const Job& job, const Operation& operation, double deep, double of)
+{
+    const double count = std::ceil(deep / of - 1e-9);
+    if (count > kMostLayers) {
+        const std::string key = operation.max_depth ? "max_depth " : "layers of ";
+        throw InputError(operation_text(job, operation) + key +
+                         number_text(operation.max_depth.value_or(of)) + " mm makes " +
+                         number_text(count) + " layers of " + number_text(deep) +
+                         " mm, the limit is " + number_text(kMostLayers));
+    }
+    return std::max(1, static_cast<int>(count));
 }
 
 void check_coverage(const Operation& operation, const Region2d& region, const TipFloor& floor)

@@ -27,6 +27,16 @@ Budget make_budget(const Job& job, const Operation& operation);
 // cross.
 Region2d make_region(const Operation& operation, double tolerance);
 
+// Throws InputError where the pocket is deeper or needs more passes than makes sense for the tool.
+void check_work(const Job& job,
+                const Operation& operation,
+                const Region2d& region,
+                const Budget& budget);
+
+// How many layers no deeper than `of` a depth makes, mm, at least one. Throws InputError where they
+// are too many.
+int layer_count(const Job& job, const Operation& operation, double deep, double of);
+
 // Throws InputError where a place of the boundary or of an island has no floor; where there are
 // several surfaces or trims, a place inside, too: looked at every quarter of the tool's radius
 // (coarser in pockets of more than 250 such places a side).
@@ -36,6 +46,9 @@ void check_coverage(const Operation& operation, const Region2d& region, const Ti
 
 // Warns of entries that had no room for a slope.
 void report_plunges(int plunges, OperationStats& stats);
+
+// The operation as messages name it, up to the word that says what is wrong.
+std::string operation_text(const Job& job, const Operation& operation);
 
 // A number as messages and comments show it.
 std::string number_text(double value);

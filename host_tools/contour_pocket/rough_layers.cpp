@@ -39,7 +39,7 @@ std::vector<double> layer_heights(const Job& job,
     if (heights.empty()) {
         const double deep = job.stock_top - bottom;
         const auto count = [&](double of) {
-            return std::max(1, static_cast<int>(std::ceil(deep / of - 1e-9)));
+            return layer_count(job, operation, deep, of);
         };
         int n = count(depth);
         if (const double least = operation.min_depth.value_or(0.0); deep < n * least) {

@@ -25,6 +25,7 @@ enum class Traversal : std::uint8_t { kZigzag, kOneWay };
 using Loop = std::vector<Curve>;
 
 struct Operation {
+    int number{1};  // its place in the job
     std::string strategy;
     std::vector<Surface> floor;
     std::vector<std::string> floor_files;

@@ -25,6 +25,8 @@ constexpr double kDefaultLargestArcRadius = 1000.0;
 constexpr Range kToolNumber{1, 255};
 // Programs are written to a ten-thousandth of a millimetre: far less is never held.
 constexpr Range kTolerance{1e-5, kLargest};
+// Nor is a feed written that is far less than a thousandth.
+constexpr Range kFeed{0.01, kLargest};
 
 const std::vector<std::string> kStrategies{"contour_pocket",     "adaptive_isocurve",
                                            "grid_pocket",        "hull_rough",
@@ -142,9 +144,9 @@ void JobReader::read_cutting(JobTable& top)
         top.refuse("cutting", "is missing: a table [cutting] with at least feed");
     }
     JobTable keys{*table, file_, "cutting"};
-    job_.feed = keys.required_number("feed", kPositive) * unit_;
+    job_.feed = keys.required_number("feed", kFeed) * unit_;
     // a quarter of the feed is what cutter makers give for plunging where they give nothing else
-    job_.plunge_feed = length(keys, "plunge_feed", kPositive, job_.feed / 4);
+    job_.plunge_feed = length(keys, "plunge_feed", kFeed, job_.feed / 4);
     job_.spindle = keys.number("spindle", kNotNegative).value_or(0);
     keys.refuse_unknown_keys();
 }
@@ -376,9 +378,11 @@ void check_islands(const Operation& operation)
     }
     const auto outer = loop_polyline(*operation.boundary, kChord);
     for (std::size_t i = 0; i < operation.islands.size(); ++i) {
-        if (lies_outside(loop_polyline(operation.islands[i], kChord), outer)) {
-            throw InputError(fmt::format("{}: the island lies outside the boundary {}",
-                                         operation.island_files[i], operation.boundary_file));
+        const auto island = loop_polyline(operation.islands[i], kChord);
+        if (lies_outside(island, outer)) {
+            throw InputError(fmt::format(
+                "{}: the island lies outside the boundary {} at ({:g}, {:g}) mm",
+                operation.island_files[i], operation.boundary_file, island[0].x, island[0].y));
         }
     }
 }
@@ -439,6 +443,7 @@ Operation JobReader::read_operation(const toml::table& entry, std::size_t index)
     if (!strategy) {
         table.refuse("strategy", "is missing");
     }
+    operation.number = static_cast<int>(index);
     operation.strategy = *strategy;
     read_tool_choice(table, operation);
     read_common(table, operation);

@@ -235,7 +235,7 @@ class Cli(unittest.TestCase):
         limit = " is not in the range above 0 to 0.75 mm"
         for key in ("plan_tolerance", "floor_tolerance"):
             job = JOB.replace("scallop = 0.2", "scallop = 2.5") + f"{key} = 2\n"
-            self.refused_plan(f"job.toml: contour_pocket: {key} 2 mm" + limit, job)
+            self.refused_plan(f"job.toml: operation 1: contour_pocket: {key} 2 mm" + limit, job)
             self.refused_plan(f"{key}: is 0", JOB + f"{key} = 0\n")
             self.refused_plan(key, JOB + f'{key} = "wide"\n')
         self.refused_plan("scallop 2.8 mm is not", JOB.replace("scallop = 0.2", "scallop = 2.8"))

@@ -256,11 +256,35 @@ TEST(ContourPocket, RefusesTolerancesOutOfRange)
     CHECK(says(refusal([](Operation& o) { o.scallop = 5.0; }), "scallop 5 mm"));
     CHECK(says(
         refusal([](Operation& o) { o.plan_tolerance = 1.5; }),
-        "job.toml: contour_pocket: plan_tolerance 1.5 mm is not in the range above 0 to 1 mm"));
+        "job.toml: operation 1: contour_pocket: plan_tolerance 1.5 mm is not in the range above 0 "
+        "to 1 mm, 0.25 of the radius of tool 1"));
     CHECK(says(refusal([](Operation& o) { o.floor_tolerance = 3.0; }),
                "floor_tolerance 3 mm is not in the range above 0 to 1 mm"));
     CHECK(says(refusal([](Operation& o) { o.allowance = 4.5; }), "allowance 4.5 mm"));
     CHECK(says(refusal([](Operation& o) { o.scallop = 0.02; }), "not above floor_tolerance"));
+}
+
+TEST(ContourPocket, RefusesWhatMakesNoSenseForTheTool)
+{
+    CHECK(says(refusal([](Operation& o) { o.floor = {plane(60.0, -4001.0)}; }),
+               "floor.json: the floor lies 4001 mm below stock.top, the limit is 4000 mm for the "
+               "tool of radius 4 mm"));
+    CHECK(says(refusal([](Operation& o) {
+                   o.boundary = square_loop(5e4, 5e4, 4e4);
+                   o.floor = {plane(1e5, -8.0)};
+               }),
+               "boundary.json: the pocket of 6.4e+09 mm^2 takes"));
+    CHECK(says(refusal([](Operation& o) { o.max_depth = 1e-3; }),
+               "operation 1: contour_pocket: max_depth 0.001 mm makes"));
+    CHECK(says(refusal([](Operation& o) { o.max_depth = 1e-9; }), "layers of 8 mm, the limit is"));
+}
+
+TEST(ContourPocket, WarnsThatItCutsAir)
+{
+    Operation operation = pocket();
+    operation.floor = {plane(60.0, 8.0)};
+    const auto warnings = plan_contour_pocket(job(), operation).back().stats.warnings;
+    CHECK(!warnings.empty() && says(warnings.front(), "lies below stock.top, 0 mm"));
 }
 
 TEST(ContourPocket, RefusesLoopsThatCross)

@@ -199,6 +199,8 @@ TEST(JobReader, RefusesNumbersOutOfRange)
     STRCMP_CONTAINS("job.toml:5: tool 1: diameter: is -1, it must be above 0",
                     refused_head("diameter = 12.0", "diameter = -1").c_str());
     STRCMP_CONTAINS("feed: is 0", refused_head("feed = 1200.0", "feed = 0").c_str());
+    STRCMP_CONTAINS("feed: is 1e-09, it must be at least 0.01",
+                    refused_head("feed = 1200.0", "feed = 1e-9").c_str());
     STRCMP_CONTAINS("clearance: is -5", refused_head("clearance = 5.0", "clearance = -5").c_str());
     STRCMP_CONTAINS("top: is nan", refused_head("top = 0.0", "top = nan").c_str());
     STRCMP_CONTAINS("feed: is inf", refused_head("feed = 1200.0", "feed = inf").c_str());
