@@ -5,10 +5,11 @@
 #include <chrono>
 #include <cmath>
 
-#include "host_tools/adaptive_isocurve/isocurve_floor.hpp"
 #include "host_tools/adaptive_isocurve/scallop_width.hpp"
 #include "host_tools/adaptive_isocurve/surface_operation.hpp"
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/surface_passes/coverage.hpp"
+#include "host_tools/surface_passes/followed_ball.hpp"
 
 #include "fmt/format.h"
 
@@ -18,147 +19,227 @@ namespace {
 constexpr int kSlopeLooks = 150;
 constexpr double kPlaneLooks = 1.0;  // mm
 constexpr int kPlaneEndHalvings = 20;
-constexpr double kLeastCosine = 0.05;  // of the slope across: steeper places don't set the step
+constexpr double kShortestPlaneRun = 1e-3;  // mm
+// Of the step on level ground: places that ask for less (75 degrees steep, or nearly as hollow as
+// the ball) don't set it.
+constexpr double kLeastPlaneShare = 0.25;
+constexpr double kMeshShare = 0.9;  // of what a flat facet allows: meshes bend
+constexpr double kPlaneRidgeShare =
+    0.99;  // of what the scallop leaves: the rest is for bends along the way
+constexpr double kMostPlanes = 20000;
+constexpr std::size_t kMostBare = 4000;  // cells, till nothing is proved
+constexpr double kPlanesDone = 0.9;      // of the progress
 
-// Spacing of planes for the ridge at one place: the width on the surface, seen in plan across the
-// planes. `across` is horizontal.
-double plane_step(const SurfacePoint& p, Vec3d across, double radius, double ridge)
+// Of a unit across the planes, what lies in the tangent plane: its length is the cosine of the
+// slope.
+Vec3d along_slope(Vec3d across, Vec3d normal) { return across - normal * dot(across, normal); }
+
+// Spacing of planes for the ridge at one place: that of the ball's centres, seen in plan across the
+// planes. `across` is a horizontal unit. None where the surface has no normal to tell.
+std::optional<double> plane_step(const SurfacePoint& p, Vec3d across, double radius, double ridge)
 {
     const Vec3d normal = upward_normal(p);
-    if (dot(normal, normal) == 0) {
-        return 2 * radius;
-    }
-    const double along_u = dot(p.dv, across);
-    const double along_v = -dot(p.du, across);
-    const Vec3d tangent = p.du * along_u + p.dv * along_v;
-    const Vec3d step = cross(normal, tangent);
-    const double length = norm(step);
-    if (length == 0) {
-        return 2 * radius;
-    }
-    // The step by du and dv, for its normal curvature.
     const double e = dot(p.du, p.du);
     const double f = dot(p.du, p.dv);
     const double g = dot(p.dv, p.dv);
     const double det = e * g - f * f;
+    if (dot(normal, normal) == 0 || at_pole(p.du, p) || at_pole(p.dv, p) || !(det > 0)) {
+        return std::nullopt;
+    }
+    const Vec3d step = along_slope(across, normal);
+    const double square = dot(step, step);
+    if (square < kLeastPlaneShare * kLeastPlaneShare) {
+        return 0.0;
+    }
+    // The step by du and dv, for its normal curvature.
     const double a = (dot(step, p.du) * g - dot(step, p.dv) * f) / det;
     const double b = (dot(step, p.dv) * e - dot(step, p.du) * f) / det;
-    const Vec3d bend = p.duu * (a * a) + p.duv * (2 * a * b) + p.dvv * (b * b);
-    const double curvature = dot(normal, bend) / (length * length);
-    const double cosine = std::abs(dot(step, across)) / length;
-    return scallop_width(radius, ridge, curvature) * std::max(kLeastCosine, cosine);
+    const double curvature =
+        dot(normal, p.duu * (a * a) + p.duv * (2 * a * b) + p.dvv * (b * b)) / square;
+    // Contacts lie that far apart, centres nearer in hollows and farther over hills.
+    const double apart = scallop_width(radius, ridge, curvature) * (1 - radius * curvature);
+    return std::clamp(apart, 0.0, 2 * radius) * std::sqrt(square);
 }
 
 class PlanePlanner {
 public:
     PlanePlanner(const Job& job, const Operation& operation)
-        : operation_{operation}, work_{job, operation, operation.floor}
+        : job_{job},
+          operation_{operation},
+          work_{job, operation, operation.floor},
+          ball_{work_.certified()}
     {
         across_ = operation.direction == 'u' ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0};
+        along_ = {across_.y, across_.x, 0};
+        low_ = work_.model().box_low();
+        size_ = work_.model().box_high() - low_;
+        reach_ = work_.certified().lifted_tool().radius;
     }
 
     PlannedOperation plan()
     {
         const double step = operation_.step_over ? *operation_.step_over : step_for_scallop();
-        const Vec3d low = work_.model().box_low();
-        const Vec3d high = work_.model().box_high();
-        const double width = dot(high - low, across_);
+        const double width = dot(size_, across_);
+        if (width > kMostPlanes * step) {
+            throw InputError(fmt::format(
+                "{}: parallel_planes: planes {:.3g} mm apart ({}) over a part of {:g} mm would be "
+                "{:.0f}, at most {:g} are made",
+                job_.file, step, operation_.step_over ? "step_over" : "by the scallop", width,
+                std::ceil(width / step), kMostPlanes));
+        }
         const int planes = std::max(1, static_cast<int>(std::ceil(width / step)));
-        for (int k = 0; k <= planes; ++k) {
-            const double shift = width * k / planes;
-            Vec3d from{low.x, low.y, low.z};
-            Vec3d to = across_.y == 1 ? Vec3d{high.x, low.y, low.z} : Vec3d{low.x, high.y, low.z};
-            add_plane(from + across_ * shift, to + across_ * shift);
+        // A ball on a slope that ends in a rim stands beyond it.
+        const double lean = std::min(step, 0.5 * reach_) / reach_;
+        least_facing_ = std::sqrt(1 - lean * lean);
+        const int beyond = static_cast<int>(std::ceil(planes * reach_ / width));
+        for (int k = -beyond; k <= planes + beyond; ++k) {
+            add_plane(width * k / planes);
+            job_.report_progress(kPlanesDone * (k + beyond + 1) / (planes + 2 * beyond + 1));
         }
         return finished(step);
     }
 
 private:
-    // The step keeps ridges between planes on one smooth surface within the scallop, that is all.
     PlannedOperation finished(double step)
     {
-        const bool known = operation_.scallop && !operation_.step_over &&
-                           work_.surfaces().size() == 1 && is_plain(work_.surfaces().front());
+        const bool proved = leaves_no_more();
         PlannedOperation planned =
-            work_.finish(step, known ? *operation_.scallop : operation_.tool.radius);
-        if (!known) {
+            work_.finish(step, proved ? *operation_.scallop : operation_.tool.radius);
+        if (steep_) {
             planned.stats.warnings.push_back(
-                "parallel_planes proves nothing of what is left beside walls, edges and on steep "
-                "ground, or with step_over: adaptive_isocurve does");
+                "ground that falls off by more than 75 degrees across the planes, or is nearly as "
+                "hollow as the ball, keeps more than the scallop: it asks for planes less than a "
+                "quarter as far apart");
+        }
+        if (!proved) {
+            planned.stats.warnings.push_back(
+                "nothing is proved of what parallel_planes leaves here (walls, edges, steep "
+                "ground, meshes, or step_over): adaptive_isocurve keeps a scallop there, too");
         }
         return planned;
     }
 
-    double step_for_scallop() const
+    // By cells of the surfaces. The step is from places only, and from one at a time.
+    bool leaves_no_more()
     {
-        const double ridge = *operation_.scallop - work_.outward();
-        double least = 2 * operation_.tool.radius;
+        if (!operation_.scallop || operation_.step_over || work_.surfaces().empty() || steep_) {
+            return false;
+        }
+        Coverage cells{work_.surfaces(), work_.certified(), *operation_.scallop, work_.path_off(),
+                       kMostBare};
+        for (const Points& pass : cut_) {
+            cells.add(pass);
+        }
+        for (std::size_t k = 0; k < work_.surfaces().size() && !cells.overflowed(); ++k) {
+            cells.look_over(static_cast<int>(k));
+        }
+        if (cells.overflowed()) {
+            return false;
+        }
+        const Coverage::Unproved unproved = cells.unproved();
+        return unproved.parts.empty() && unproved.blocked_left <= *operation_.scallop;
+    }
+
+    double step_for_scallop()
+    {
+        const double ridge = kPlaneRidgeShare * (*operation_.scallop - work_.outward());
+        const double level = scallop_width(operation_.tool.radius, ridge, 0);
+        double least = level;
+        const auto ask = [&](double step) {
+            steep_ = steep_ || step < kLeastPlaneShare * level;
+            least = step < kLeastPlaneShare * level ? least : std::min(least, step);
+        };
+        for (const auto& facet : operation_.mesh) {
+            const Vec3d n = cross(facet[1] - facet[0], facet[2] - facet[0]);
+            ask(kMeshShare * level * norm(along_slope(across_, n / norm(n))));
+        }
         for (std::size_t k = 0; k < work_.surfaces().size(); ++k) {
             const Surface& s = work_.surfaces()[k];
             for (int i = 0; i <= kSlopeLooks; ++i) {
                 for (int j = 0; j <= kSlopeLooks; ++j) {
-                    const SurfacePoint p = work_.model().evaluate(
-                        static_cast<int>(k),
-                        s.u_begin() + (s.u_end() - s.u_begin()) * i / kSlopeLooks,
-                        s.v_begin() + (s.v_end() - s.v_begin()) * j / kSlopeLooks);
-                    least = std::min(least, plane_step(p, across_, operation_.tool.radius, ridge));
+                    const double u = s.u_begin() + (s.u_end() - s.u_begin()) * i / kSlopeLooks;
+                    const double v = s.v_begin() + (s.v_end() - s.v_begin()) * j / kSlopeLooks;
+                    const int surface = static_cast<int>(k);
+                    if (const auto step = plane_step(work_.model().evaluate(surface, u, v), across_,
+                                                     operation_.tool.radius, ridge);
+                        step && work_.model().inside_trims(surface, u, v)) {
+                        ask(*step);
+                    }
                 }
             }
         }
-        return 0.99 * least;
+        return least;
     }
 
-    // The tip where the axis is over the model.
-    std::optional<Vec3d> tip(Vec3d at) { return work_.certified().dropped(at.x, at.y); }
+    Vec3d place(double s, double t) const { return low_ + along_ * s + across_ * t; }
 
-    // The parts of the line over which the tool meets the model.
-    void add_plane(Vec3d from, Vec3d to)
+    // Whether the tool let down there meets the model. Beyond its box it may lean over the rim by a
+    // step: the last pass before is less than one from it.
+    bool stands(double s, double t)
     {
-        const int parts = std::max(2, static_cast<int>(std::ceil(norm(to - from) / kPlaneLooks)));
-        const auto place = [&](double t) {
-            return from + (to - from) * t;
-        };
-        double begin = 0;
-        bool was_on = tip(from).has_value();
+        const Vec3d at = place(s, t);
+        const std::optional<FollowedBall::Stand> found = ball_.at(at.x, at.y);
+        const bool over_box =
+            s >= 0 && s <= dot(size_, along_) && t >= 0 && t <= dot(size_, across_);
+        return found && (over_box || found->facing >= least_facing_);
+    }
+
+    // The parts of the plane at t over which the tool stands on the model.
+    void add_plane(double t)
+    {
+        const double from = -reach_;
+        const double to = dot(size_, along_) + reach_;
+        const int parts = static_cast<int>(std::ceil((to - from) / kPlaneLooks));
+        double begin = from;
+        double last = from;
+        bool was_on = stands(from, t);
         for (int k = 1; k <= parts; ++k) {
-            const double t = static_cast<double>(k) / parts;
-            const bool on = tip(place(t)).has_value();
-            if (on != was_on) {
-                const double last = static_cast<double>(k - 1) / parts;
-                const double edge = on ? last_off(place, last, t) : last_off(place, t, last);
-                if (on) {
-                    begin = edge;
-                } else {
-                    add_run(place(begin), place(edge));
-                }
-                was_on = on;
+            const double s = from + (to - from) * k / parts;
+            const bool on = stands(s, t);
+            if (on && !was_on) {
+                begin = last_off(last, s, t);
+            } else if (!on && was_on) {
+                add_run(begin, last_off(s, last, t), t);
             }
+            was_on = on;
+            last = s;
         }
         if (was_on) {
-            add_run(place(begin), place(1));
+            add_run(begin, to, t);
         }
     }
 
-    template <class Place>
-    double last_off(const Place& place, double off, double on)
+    double last_off(double off, double on, double t)
     {
         for (int turn = 0; turn < kPlaneEndHalvings; ++turn) {
             const double middle = 0.5 * (off + on);
-            (tip(place(middle)).has_value() ? on : off) = middle;
+            (stands(middle, t) ? on : off) = middle;
         }
         return on;
     }
 
-    void add_run(Vec3d from, Vec3d to)
+    void add_run(double from, double to, double t)
     {
-        if (norm(to - from) > 1e-3) {
-            work_.add_pass(work_.certified().sample_dropped(from, to));
+        if (to - from > kShortestPlaneRun) {
+            Feet feet;
+            const Points dense =
+                work_.certified().sample_dropped(place(from, t), place(to, t), &feet);
+            cut_.push_back(work_.add_pass(dense, std::nullopt, feet));
         }
     }
 
+    const Job& job_;
     const Operation& operation_;
     SurfaceOperation work_;
+    FollowedBall ball_;
     Vec3d across_;
+    Vec3d along_;
+    Vec3d low_;
+    Vec3d size_;
+    double reach_{};  // mm beyond the box that the tool can touch the model from
+    double least_facing_{};
+    std::vector<Points> cut_;
+    bool steep_{};  // somewhere too steep or hollow for the step
 };
 
 }  // namespace

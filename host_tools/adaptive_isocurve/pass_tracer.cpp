@@ -64,9 +64,9 @@ TracedPiece PassTracer::along(const DomainCurve& curve, double from, double to) 
     DenseTips tips = dense_tips(
         certified_, [&](double u) { return tip(curve.surface, u, curve.v_at(u)); },
         even(from, to, 2 * parts));
-    TracedPiece piece{std::move(tips.points), {curve.surface, {}}, from, to};
+    TracedPiece piece{std::move(tips.points), {}, from, to};
     for (const double u : tips.u) {
-        piece.feet.places.push_back({u, curve.v_at(u)});
+        piece.feet.push_back({curve.surface, u, curve.v_at(u)});
     }
     return piece;
 }

@@ -310,10 +310,10 @@ void JobReader::read_strategy_keys(JobTable& table, Operation& operation)
     operation.step_over = length(table, "step_over", kPositive);
 }
 
-// Isocurves run over a mesh itself; what its height field keeps off it is no matter then.
+// Some run over a mesh itself; what its height field keeps off it is no matter then.
 bool JobReader::takes_mesh(const Operation& operation, const std::vector<std::string>& floor) const
 {
-    return operation.strategy == "adaptive_isocurve" &&
+    return (operation.strategy == "adaptive_isocurve" || operation.strategy == "parallel_planes") &&
            std::all_of(floor.begin(), floor.end(),
                        [](const std::string& name) { return path_ending(name) == ".stl"; });
 }

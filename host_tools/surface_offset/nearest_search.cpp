@@ -296,10 +296,9 @@ private:
         }
         const std::size_t edge = item - state_.cells.size();
         Vec3d point;
-        const double distance = edge_distance(core_, state_.edges[edge], point);
-        if (distance - state_.edge_error < bound_) {
-            bound_ = std::max(0.0, distance - state_.edge_error);
-        }
+        const double distance =
+            std::max(0.0, edge_distance(core_, state_.edges[edge], point) - state_.edge_error);
+        bound_ = std::min(bound_, distance);
         take(distance, {point, 0, 0, state_.edge_surface[edge]});
     }
 

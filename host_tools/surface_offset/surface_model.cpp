@@ -42,17 +42,18 @@ void add_cells(const Surface& surface, int number, SurfaceModel::State& state)
     state.grids.push_back(std::move(grid));
 }
 
-// Height of the tip at which the tool, come from above, meets the point; none beside it.
-std::optional<double> touch_height(const Tool& tool, double x, double y, Vec3d p)
+// Height of the tip at which the tool, come from above, is nearer than `fat` to the point; none
+// beside it.
+std::optional<double> touch_height(const Tool& tool, double x, double y, Vec3d p, double fat = 0)
 {
     const double away = std::hypot(p.x - x, p.y - y);
-    if (away > tool.radius) {
+    if (away > tool.radius + fat) {
         return std::nullopt;
     }
     const double flat = tool.radius - tool.corner_radius;
     const double out = std::max(0.0, away - flat);
-    const double corner = tool.corner_radius;
-    return p.z - corner + std::sqrt(std::max(0.0, corner * corner - out * out));
+    const double corner = tool.corner_radius + fat;
+    return p.z - tool.corner_radius + std::sqrt(std::max(0.0, corner * corner - out * out));
 }
 
 // The least distance from the core between two places, `length` apart, where it is d0 and d1.
@@ -156,6 +157,8 @@ SurfaceModel::SurfaceModel(const std::vector<std::array<Vec3d, 3>>& triangles)
 SurfaceModel::~SurfaceModel() = default;
 SurfaceModel::SurfaceModel(SurfaceModel&&) noexcept = default;
 SurfaceModel& SurfaceModel::operator=(SurfaceModel&&) noexcept = default;
+
+bool SurfaceModel::is_mesh() const { return !state_->facets.empty(); }
 
 std::optional<SurfaceModel::MeshRest> SurfaceModel::rest_on_mesh(double x,
                                                                  double y,
@@ -266,43 +269,6 @@ double SurfaceModel::clearance_along(
     return std::min(enough, chord.between(a, at_a, b, at_b));
 }
 
-Contact SurfaceModel::contact(int surface, double u, double v, double distance) const
-{
-    constexpr double kNearPole = 1e-6;
-    SurfacePoint p = tangents(surface, u, v);
-    const double square_u = dot(p.du, p.du);
-    const double square_v = dot(p.dv, p.dv);
-    if (std::min(square_u, square_v) < kNearPole * kNearPole * std::max(square_u, square_v)) {
-        p = evaluate(surface, u, v);  // at a pole the normal is in the second derivatives
-    }
-    return {surface, u, v, p.point, facing_up(surface, u, v, p), distance};
-}
-
-Vec3d SurfaceModel::facing_up(int surface, double u, double v, const SurfacePoint& p) const
-{
-    constexpr double kLevel = 1e-7;   // z of a normal: rounding decides its sign
-    constexpr double kBeside = 1e-4;  // of the domain
-    const Vec3d normal = upward_normal(p);
-    if (std::abs(normal.z) > kLevel || dot(normal, normal) == 0) {
-        return normal;
-    }
-    const State::Grid& grid = state_->grids[static_cast<std::size_t>(surface)];
-    const auto [u0, u1] = std::pair{grid.creases_u.front(), grid.creases_u.back()};
-    const auto [v0, v1] = std::pair{grid.creases_v.front(), grid.creases_v.back()};
-    // Of places beside it that face up clearly the highest: what bulges is met from outside.
-    std::optional<SurfacePoint> best;
-    for (const auto& [du, dv] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-        const double at_u = std::clamp(u + kBeside * (u1 - u0) * du, u0, u1);
-        const double at_v = std::clamp(v + kBeside * (v1 - v0) * dv, v0, v1);
-        const SurfacePoint beside = evaluate(surface, at_u, at_v);
-        if (upward_normal(beside).z > kLevel && inside_trims(surface, at_u, at_v) &&
-            (!best || beside.point.z > best->point.z)) {
-            best = beside;
-        }
-    }
-    return best && dot(upward_normal(*best), normal) < 0 ? -normal : normal;
-}
-
 std::optional<double> SurfaceModel::clearance_between(const Contact& a,
                                                       const Contact& b,
                                                       double radius,
@@ -316,9 +282,18 @@ std::optional<double> SurfaceModel::drop(const Tool& tool,
                                          double y,
                                          std::optional<double> guess) const
 {
+    const std::optional<Rest> found = rest(tool, x, y, guess);
+    return found ? std::optional{found->tip} : std::nullopt;
+}
+
+std::optional<SurfaceModel::Rest> SurfaceModel::rest(const Tool& tool,
+                                                     double x,
+                                                     double y,
+                                                     std::optional<double> guess) const
+{
     if (state_->cells.empty() && tool.corner_radius == tool.radius) {
         const std::optional<MeshContact> found = rest_on_facets(*state_, x, y, tool.radius);
-        return found ? std::optional{found->at.centre - tool.radius} : std::nullopt;
+        return found ? std::optional{Rest{found->at.centre - tool.radius, {}}} : std::nullopt;
     }
     const double floor = state_->low.z - tool.radius - 1;
     const double nothing = -std::numeric_limits<double>::infinity();
@@ -340,20 +315,26 @@ std::optional<double> SurfaceModel::drop(const Tool& tool,
     int deep = 0;
     int slow = 0;
     double room = std::numeric_limits<double>::infinity();
+    NearestPlace place;
     for (int step = 0; step < kMostDropSteps && high - low > slack; ++step) {
         const Clearance c = clearance(tool, {x, y, trial}, std::numeric_limits<double>::infinity());
         if (c.nearest.surface < 0) {
             return std::nullopt;
         }
+        place = c.nearest;
         const double was_low = low;
-        if (const auto touch = touch_height(tool, x, y, c.nearest.point)) {
+        // Places are as fat as their distance may be low, trimmed edges above all. One that were
+        // taken for thin would be met at `low` and be free just over it, step after step.
+        const double fat = norm(core_of(tool, {x, y, trial}).reach(c.nearest.point)) -
+                           (c.distance + tool.corner_radius);
+        if (const auto touch = touch_height(tool, x, y, c.nearest.point, std::max(0.0, fat))) {
             low = std::max(low, *touch);
         }
         if (c.distance >= -kTouching && trial <= high) {
             // The tool may fall as far as it is from everything.
             high = trial - std::max(0.0, c.distance);
             if (c.distance <= slack && tool.corner_radius > 0 && trial <= low + kTouching) {
-                return trial;
+                return Rest{trial, place};
             }
         }
         if (high < floor) {
@@ -374,7 +355,7 @@ std::optional<double> SurfaceModel::drop(const Tool& tool,
         trial =
             low > nothing && (cut_a_little || climbs) && trial != low && low < high ? low : high;
     }
-    return high;
+    return Rest{high, place};
 }
 
 }  // namespace cusp::host

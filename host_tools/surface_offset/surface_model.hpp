@@ -97,6 +97,11 @@ public:
 
     Contact contact(int surface, double u, double v, double distance) const;
 
+    // The contact of a ball whose centre is over (x, y) to 1e-10 mm, by Newton's method from a
+    // place in the domain; none where that does not settle inside the domain.
+    std::optional<Contact> contact_under(
+        double x, double y, int surface, Vec2d near, double distance) const;
+
     // `upward_normal`, but where it is level, as on the rim of a half torus: the side that faces up
     // beside it. `p` is the surface at (u, v).
     Vec3d facing_up(int surface, double u, double v, const SurfacePoint& p) const;
@@ -120,6 +125,18 @@ public:
                                double x,
                                double y,
                                std::optional<double> guess = std::nullopt) const;
+
+    // The same with the place that the tool rests on, or one near it.
+    struct Rest {
+        double tip;
+        NearestPlace place;
+    };
+    std::optional<Rest> rest(const Tool& tool,
+                             double x,
+                             double y,
+                             std::optional<double> guess = std::nullopt) const;
+
+    bool is_mesh() const;
 
     // A ball let down at (x, y) on a mesh; none where it misses the mesh.
     struct MeshRest {

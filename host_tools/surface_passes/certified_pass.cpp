@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+
+#include "host_tools/surface_passes/followed_ball.hpp"
 
 namespace cusp::host {
 namespace {
@@ -199,9 +202,9 @@ bool CertifiedPasses::stands_free(Vec3d tip) const
     return model_.keeps_clear(tool_, tip, enough - 1e-9);
 }
 
-Contact CertifiedPasses::contact(int surface, Vec2d place) const
+Contact CertifiedPasses::contact(const Foot& foot) const
 {
-    return model_.contact(surface, place.x, place.y, tool_.radius + band_.lift);
+    return model_.contact(foot.surface, foot.u, foot.v, tool_.radius + band_.lift);
 }
 
 Vec3d CertifiedPasses::tip_of(const Contact& at) const
@@ -211,12 +214,12 @@ Vec3d CertifiedPasses::tip_of(const Contact& at) const
 
 Vec3d CertifiedPasses::tip_at(int surface, double u, double v) const
 {
-    return tip_of(contact(surface, {u, v}));
+    return tip_of(contact({surface, u, v}));
 }
 
 bool CertifiedPasses::touches_freely(int surface, double u, double v) const
 {
-    return touches_freely(contact(surface, {u, v}));
+    return touches_freely(contact({surface, u, v}));
 }
 
 bool CertifiedPasses::touches_freely(const Contact& at) const
@@ -271,12 +274,18 @@ Points CertifiedPasses::sample(const std::function<Vec3d(double)>& at,
     return out;
 }
 
-Points CertifiedPasses::sample_dropped(Vec3d a, Vec3d b) const
+Points CertifiedPasses::sample_dropped(Vec3d a, Vec3d b, Feet* feet) const
 {
     const double lower = std::min(a.z, b.z);
+    FollowedBall ball{*this};
+    std::map<double, Foot> foot_at;
     const auto tip = [&](double t) {
         const Vec3d p = a + (b - a) * t;
-        return dropped(p.x, p.y).value_or(Vec3d{p.x, p.y, lower});
+        const std::optional<FollowedBall::Stand> found = ball.at(p.x, p.y);
+        if (feet != nullptr && found) {
+            foot_at[t] = found->foot;
+        }
+        return found ? found->tip : Vec3d{p.x, p.y, lower};
     };
     const double length = std::hypot(b.x - a.x, b.y - a.y);
     const int pieces = std::max(1, static_cast<int>(std::ceil(length / 1.0)));
@@ -284,7 +293,12 @@ Points CertifiedPasses::sample_dropped(Vec3d a, Vec3d b) const
     for (int k = 0; k <= pieces; ++k) {
         breaks.push_back(static_cast<double>(k) / pieces);
     }
-    return sample(tip, breaks, kDropHalvings);
+    std::vector<double> parameters;
+    Points out = sample(tip, breaks, kDropHalvings, feet != nullptr ? &parameters : nullptr);
+    for (const double t : parameters) {
+        feet->push_back(foot_at[t]);
+    }
+    return out;
 }
 
 bool CertifiedPasses::line_is_free(Vec3d a, Vec3d b)
@@ -358,19 +372,18 @@ std::size_t CertifiedPasses::chord_end(const Points& dense,
 std::optional<Points> CertifiedPasses::fit_free_lines(const Points& dense, const Feet& feet)
 {
     const double least_before = least_clearance_;
-    Contact last = contact(feet.surface, feet.places.front());
+    Contact last = contact(feet.front());
     Points out{tip_of(last)};
     std::size_t from = 0;
     std::size_t guess = 4;
     while (from + 1 < dense.size()) {
         const std::size_t to = chord_end(dense, from, guess);
         guess = (to - from) / 2;
-        const Contact next = contact(feet.surface, feet.places[to]);
+        const Contact next = contact(feet[to]);
         const std::size_t middle = (from + to) / 2;
         if (!rolls_freely(last, next) &&
             !(touches_freely(last) && touches_freely(next) &&
-              touches_freely(contact(feet.surface, feet.places[middle])) &&
-              line_is_free(out.back(), tip_of(next)))) {
+              touches_freely(contact(feet[middle])) && line_is_free(out.back(), tip_of(next)))) {
             least_clearance_ = least_before;
             return std::nullopt;
         }
@@ -384,10 +397,12 @@ std::optional<Points> CertifiedPasses::fit_free_lines(const Points& dense, const
 Points CertifiedPasses::fit_lines(const Points& dense, const Feet& feet)
 {
     Points out{lifted_free(dense.front())};
-    const bool known = feet.places.size() == dense.size();
+    const auto known = [&](std::size_t k) {
+        return feet.size() == dense.size() && feet[k].surface >= 0;
+    };
     std::optional<Contact> last;
-    if (known && out.back() == dense.front()) {
-        last = contact(feet.surface, feet.places.front());
+    if (known(0) && out.back() == dense.front()) {
+        last = contact(feet.front());
     }
     std::size_t from = 0;
     std::size_t guess = 4;
@@ -396,11 +411,11 @@ Points CertifiedPasses::fit_lines(const Points& dense, const Feet& feet)
         guess = (to - from) / 2;
         std::optional<Contact> next;
         Vec3d end = dense[to];
-        if (known) {
-            next = contact(feet.surface, feet.places[to]);
+        if (known(to)) {
+            next = contact(feet[to]);
             end = tip_of(*next);
         }
-        if (last && rolls_freely(*last, *next)) {
+        if (last && next && rolls_freely(*last, *next)) {
             out.push_back(end);
         } else {
             append_free_line(out.back(), end, 0, out);

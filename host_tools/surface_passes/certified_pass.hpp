@@ -25,12 +25,14 @@ PassBand make_pass_band(double tolerance, bool one_sided);
 
 using Points = std::vector<Vec3d>;
 
-// Places of a surface that the tool touches, one a dense point: it stands `lift` off them, square,
-// to a fiftieth of the band. Ends of lines are exactly over theirs.
-struct Feet {
-    int surface{};
-    std::vector<Vec2d> places;  // (u, v); empty: not known
+// A place of a surface that the tool touches: it stands `lift` off it, square, to a fiftieth of the
+// band. Ends of lines are exactly over theirs.
+struct Foot {
+    int surface{-1};  // -1: not known
+    double u{};
+    double v{};
 };
+using Feet = std::vector<Foot>;  // one a dense point; empty: none is known
 
 class CertifiedPasses {
 public:
@@ -61,6 +63,7 @@ public:
 
     // The same for the tool that touches the surface at (u, v).
     bool touches_freely(int surface, double u, double v) const;
+    bool touches_freely(const Contact& at) const;
 
     // The tip of the tool that stands `lift` off the surface at (u, v), square to it.
     Vec3d tip_at(int surface, double u, double v) const;
@@ -84,7 +87,9 @@ public:
 
     // Tips over the straight line from a to b in plan, on the model where there is one, else at
     // the lower height of the ends.
-    Points sample_dropped(Vec3d a, Vec3d b) const;
+    //
+    // feet  where the tool touches at the points, where wanted
+    Points sample_dropped(Vec3d a, Vec3d b, Feet* feet = nullptr) const;
 
     // Few points of a polyline within the band of the dense one, proved: where a line would cut
     // deeper than allowed, the tip is lifted on the drop. With feet the proof is mostly a matter of
@@ -120,9 +125,8 @@ public:
 private:
     bool arc_is_free(Vec3d start, const ToolMove& arc);
     bool rolls_freely(const Contact& a, const Contact& b);
-    Contact contact(int surface, Vec2d place) const;
+    Contact contact(const Foot& foot) const;
     Vec3d tip_of(const Contact& at) const;
-    bool touches_freely(const Contact& at) const;
     // The last point that a straight line from another fits the points up to.
     std::size_t chord_end(const Points& dense, std::size_t from, std::size_t guess) const;
     void append_free_line(Vec3d a, Vec3d b, int depth, Points& out);

@@ -57,7 +57,7 @@ TEST_GROUP(JobReader)
     }
 };
 
-TEST(JobReader, IsocurvesTakeAMeshItselfOtherStrategiesTheSurfacesOverIt)
+TEST(JobReader, IsocurvesAndPlanesTakeAMeshItselfOtherStrategiesTheSurfacesOverIt)
 {
     folder.with("plate.stl",
                 "solid p\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 10 0 0\n"
@@ -69,8 +69,9 @@ TEST(JobReader, IsocurvesTakeAMeshItselfOtherStrategiesTheSurfacesOverIt)
     };
     LONGS_EQUAL(1, operation("adaptive_isocurve").mesh.size());
     LONGS_EQUAL(0, operation("adaptive_isocurve").floor.size());
-    LONGS_EQUAL(0, operation("parallel_planes").mesh.size());
-    LONGS_EQUAL(1, operation("parallel_planes").floor.size());
+    LONGS_EQUAL(1, operation("parallel_planes").mesh.size());
+    LONGS_EQUAL(0, operation("complete_isocurves").mesh.size());
+    LONGS_EQUAL(1, operation("complete_isocurves").floor.size());
 }
 
 TEST(JobReader, ReadsTheDemo)

@@ -9,6 +9,8 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "tests/support/holed_sheet.hpp"
+
 using namespace cusp;
 using namespace cusp::host;
 
@@ -303,6 +305,44 @@ TEST(SurfaceModelDrop, LeavesTheToolInContact)
             CHECK(gap >= -1e-7 && gap <= 1e-6);
         }
     }
+}
+
+TEST(SurfaceModelDrop, OnATrimmedEdgeIsInContactWithAllThatTheEdgeMayBeOff)
+{
+    const SurfaceModel model{{holed_sheet(0.3), plane(0)}};
+    for (int k = 0; k < 200; ++k) {
+        const double turn = 0.0314 * k;
+        const double away = 5.5 + 0.02 * k;
+        const double x = 15 + away * std::cos(turn);
+        const double y = 15 + away * std::sin(turn);
+        const auto rest = model.rest(kBall, x, y);
+        CHECK(rest.has_value());
+        const double gap = model.clearance(kBall, {x, y, rest->tip}, 1).distance;
+        CHECK(gap >= -1e-7 && gap <= 1e-6);
+    }
+}
+
+TEST(SurfaceModelDrop, RestsWhereTheContactUnderItsCentreIs)
+{
+    std::mt19937 random{13};
+    const SurfaceModel model{{random_surface(random)}};
+    std::uniform_real_distribution<double> at{6, 34};
+    int seen = 0;
+    for (int k = 0; k < 100; ++k) {
+        const double x = at(random);
+        const double y = at(random);
+        const auto rest = model.rest(kBall, x, y);
+        const auto under = model.contact_under(
+            x, y, rest->place.surface, {rest->place.u + 0.01, rest->place.v - 0.01}, kBall.radius);
+        if (!under) {
+            continue;
+        }
+        DOUBLES_EQUAL(x, under->centre().x, 1e-9);
+        DOUBLES_EQUAL(y, under->centre().y, 1e-9);
+        CHECK(under->centre().z - kBall.radius <= rest->tip + 1e-5);
+        seen += under->centre().z - kBall.radius > rest->tip - 1e-5 ? 1 : 0;
+    }
+    CHECK(seen > 60);
 }
 
 namespace {

@@ -1,0 +1,141 @@
+// What planes leave, judged by the path that was cut.
+#include "host_tools/adaptive_isocurve/parallel_planes.hpp"
+
+#include <cmath>
+#include <vector>
+
+#include "CppUTest/TestHarness.h"
+
+#include "host_tools/surface_passes/swept_balls.hpp"
+#include "host_tools/toolpath/toolpath_measure.hpp"
+#include "tests/support/refusal.hpp"
+#include "tests/unit/adaptive_isocurve/small_models.hpp"
+
+using namespace cusp;
+using namespace cusp::host;
+using cusp::test::refusal;
+
+namespace {
+
+PlannedOperation planes_over(const Job& job)
+{
+    return plan_parallel_planes(job, job.operations.front()).front();
+}
+
+SweptBalls cut_by(const Toolpath& path)
+{
+    SweptBalls swept{path.tool.radius, path.tool.radius};
+    std::vector<Vec3d> tips{end_of(path.moves.front())};
+    for (const ToolMove& move : path.moves) {
+        const std::vector<Vec3d> next = points_of(move, tips.back(), 1e-4);
+        tips.insert(tips.end(), next.begin(), next.end());
+    }
+    swept.add(tips);
+    return swept;
+}
+
+// The most that stands over the surface, upright, its rims included.
+double most_over(const SweptBalls& swept, const Surface& s)
+{
+    constexpr int kLooks = 150;
+    double most = 0;
+    for (int i = 0; i <= kLooks; ++i) {
+        for (int j = 0; j <= kLooks; ++j) {
+            const Vec3d p = point_at(s, s.u_begin() + (s.u_end() - s.u_begin()) * i / kLooks,
+                                     s.v_begin() + (s.v_end() - s.v_begin()) * j / kLooks);
+            most = std::max(most, swept.lowest(p.x, p.y).height - p.z);
+        }
+    }
+    return most;
+}
+
+// Hollow along x, hardly rounder than the ball of radius 2; its sides rise to 30 degrees.
+Surface hollow()
+{
+    constexpr double kRadius = 2.5;
+    const double half = std::sin(std::acos(-1.0) / 6);
+    const double rise = std::sqrt(1 - half * half);
+    Surface s;
+    s.degree_u = 1;
+    s.degree_v = 2;
+    s.knots_u = {0, 0, 1, 1};
+    s.knots_v = {0, 0, 0, 1, 1, 1};
+    s.size_u = 2;
+    s.size_v = 3;
+    for (const double x : {0.0, 6.0}) {
+        s.points.push_back({x, -kRadius * half, -kRadius * rise});
+        s.points.push_back({x, 0, -kRadius / rise});
+        s.points.push_back({x, kRadius * half, -kRadius * rise});
+        s.weights.insert(s.weights.end(), {1, rise, 1});
+    }
+    return s;
+}
+
+}  // namespace
+
+TEST_GROUP(ParallelPlanes){};
+
+TEST(ParallelPlanes, KeepTheScallopInAHollow)
+{
+    // Centres are a fifth as far apart as the places touched.
+    Job job = job_for({hollow()}, "parallel_planes");
+    job.operations.front().scallop = 0.05;
+    const PlannedOperation planned = planes_over(job);
+    DOUBLES_EQUAL(0.05, planned.stats.scallop_bound_mm, 1e-12);
+    CHECK(most_over(cut_by(planned.path), hollow()) <= 0.05 / std::cos(std::acos(-1.0) / 6));
+    DOUBLES_EQUAL(0, planned.stats.gouge_bound_mm, 1e-6);
+}
+
+TEST(ParallelPlanes, ReachTheRimsOfASlope)
+{
+    // Beyond which the ball stands.
+    const Surface slope = wall(9, 0);
+    Surface flat = slope;
+    for (Vec3d& p : flat.points) {
+        p.x = 4 * p.x;
+        p.z += 0.1 * p.y;
+    }
+    for (const char direction : {'u', 'v'}) {
+        Job job = job_for({flat}, "parallel_planes");
+        job.operations.front().direction = direction;
+        const PlannedOperation planned = planes_over(job);
+        DOUBLES_EQUAL(0.2, planned.stats.scallop_bound_mm, 1e-12);
+        CHECK(most_over(cut_by(planned.path), flat) <= 0.2 * std::sqrt(1 + 0.25 + 0.01));
+    }
+}
+
+TEST(ParallelPlanes, ArePutAsTheSurfaceAsksNotItsPole)
+{
+    // The curvature at a pole is rounding: from none to infinite.
+    Job job = job_for({bowl()}, "parallel_planes");
+    job.operations.front().scallop = 0.1;
+    const PlannedOperation planned = planes_over(job);
+    CHECK(planned.stats.passes > 10);
+    CHECK(planned.stats.passes < 200);
+    CHECK(cut_by(planned.path).lowest(7.3, -4.1).height < -5.37 + 0.11);
+}
+
+TEST(ParallelPlanes, RunOverTheTrianglesOfAMesh)
+{
+    Job job = job_for({}, "parallel_planes");
+    Operation& operation = job.operations.front();
+    const Vec3d a{0, 0, 0}, b{10, 0, 10};
+    const Vec3d c{10, 10, 15}, d{0, 10, 5};
+    operation.mesh = {{a, b, c}, {a, c, d}};
+    const PlannedOperation planned = planes_over(job);
+    const SweptBalls swept = cut_by(planned.path);
+    for (const Vec3d p : {a, b, c, d, (a + d) * 0.5, (a + b) * 0.5}) {
+        const Vec3d in = p + ((a + c) * 0.5 - p) * 1e-3;
+        CHECK((swept.lowest(in.x, in.y).height - in.z) / std::sqrt(1 + 1 + 0.25) <= 0.2);
+    }
+    DOUBLES_EQUAL(0, planned.stats.gouge_bound_mm, 1e-6);
+}
+
+TEST(ParallelPlanes, OfWhichThereWouldBeTooManyAreRefused)
+{
+    Job job = job_for({wall(9, 0)}, "parallel_planes");
+    job.operations.front().step_over = 5e-4;
+    const std::string said = refusal([&] { planes_over(job); });
+    STRCMP_CONTAINS("step_over", said.c_str());
+    STRCMP_CONTAINS("20 mm would be 40000, at most 20000", said.c_str());
+}
