@@ -15,10 +15,13 @@ namespace {
 constexpr int kFloorLooks = 60;
 constexpr double kMostPasses = 20000;
 
+// And reversed: what was to their right is to their left then.
 void swap_loops(Surface& surface)
 {
     for (std::vector<Curve>& loop : surface.trims) {
+        std::reverse(loop.begin(), loop.end());
         for (Curve& curve : loop) {
+            curve = reversed(curve);
             for (Vec3d& p : curve.points) {
                 std::swap(p.x, p.y);
             }

@@ -1,4 +1,4 @@
-// Even-odd test against polylines that are fine both in (u, v) and in space.
+// Even-odd test against polygons that hold what stays, fine both in (u, v) and in space.
 #include "host_tools/surface_offset/trim_region.hpp"
 
 #include <algorithm>
@@ -8,17 +8,20 @@
 namespace cusp::host {
 namespace {
 
-constexpr int kFirstPieces = 4;  // of a span, so that no wave hides between the ends
+constexpr int kFirstHalvings = 2;  // of a Bezier piece: its probe is at the middle only
 constexpr int kDeepestHalving = 14;
 constexpr std::size_t kSidesInRow = 4;
 constexpr std::size_t kMostRows = 2000;
+constexpr double kRounding = 1e-12;  // of a length
 
-struct EdgePoint {
-    double t;
-    Vec2d domain;
-    Vec3d space;
-};
+// Whether p stands to the right of the way, by more than rounding.
+bool right_of(Vec2d from, Vec2d to, Vec2d p)
+{
+    return cross(p - from, to - from) > kRounding * norm(to - from) * norm(to - from);
+}
 
+// Follows loops, to whose left the surface stays. A Bezier piece lies in the hull of its control
+// points: sides along the hull's right end leave nothing out, wherever the piece bends.
 class EdgeTracer {
 public:
     EdgeTracer(const Surface& surface, double edge_error)
@@ -26,48 +29,95 @@ public:
     {
     }
 
-    EdgePoint at(const Curve& curve, double t) const
+    std::vector<Vec2d> trace(const std::vector<Curve>& loop)
     {
-        const Vec3d p = point_at(curve, t);
-        return {t, {p.x, p.y}, point_at(surface_, p.x, p.y)};
-    }
-
-    // Appends the points after `a` up to `b`. Half of the allowed error is for what the probe at
-    // the middle does not see.
-    void trace(const Curve& curve,
-               const EdgePoint& a,
-               const EdgePoint& b,
-               int depth,
-               std::vector<EdgePoint>& out) const
-    {
-        const EdgePoint middle = at(curve, 0.5 * (a.t + b.t));
-        const double off = norm(middle.space - (a.space + b.space) * 0.5);
-        if (depth < kDeepestHalving && off > 0.5 * edge_error_) {
-            trace(curve, a, middle, depth + 1, out);
-            trace(curve, middle, b, depth + 1, out);
-        } else {
-            out.push_back(b);
+        corners_.clear();
+        for (const Curve& curve : loop) {
+            for (const Curve& piece : bezier_pieces(curve)) {
+                trace(piece, 0);
+            }
         }
+        return std::move(corners_);
     }
 
 private:
-    const Surface& surface_;
-    double edge_error_;
-};
-
-std::vector<double> breaks(const Curve& curve)
-{
-    std::vector<double> out{curve.domain_begin()};
-    for (const double knot : curve.knots) {
-        if (knot > out.back() && knot <= curve.domain_end()) {
-            const double from = out.back();
-            for (int k = 1; k <= kFirstPieces; ++k) {
-                out.push_back(from + (knot - from) * k / kFirstPieces);
-            }
+    void trace(const Curve& piece, int depth)
+    {
+        const double middle = 0.5 * (piece.domain_begin() + piece.domain_end());
+        const bool fine =
+            depth >= kFirstHalvings && goes_on(piece) && off(piece, middle) <= edge_error_;
+        if (fine || depth == kDeepestHalving) {
+            append(piece);
+            return;
+        }
+        for (const Curve& half : split_at(piece, middle)) {
+            trace(half, depth + 1);
         }
     }
-    return out;
-}
+
+    // Whether no control point stands before the first or behind the last one.
+    static bool goes_on(const Curve& piece)
+    {
+        const Vec2d from = in_plan(piece.points.front());
+        const Vec2d way = in_plan(piece.points.back()) - from;
+        return std::all_of(piece.points.begin(), piece.points.end(), [&](const Vec3d& p) {
+            const double along = dot(in_plan(p) - from, way);
+            return along >= -kRounding * dot(way, way) &&
+                   along <= dot(way, way) * (1.0 + kRounding);
+        });
+    }
+
+    Vec3d in_space(Vec3d p) const { return point_at(surface_, p.x, p.y); }
+
+    // How far the sides may lie from the edge in space. Of the chord's middle half is allowed: the
+    // rest is for what the probe does not see.
+    double off(const Curve& piece, double middle) const
+    {
+        const Vec3d from = in_space(piece.points.front());
+        const Vec3d to = in_space(piece.points.back());
+        const Vec3d way = to - from;
+        double most = 2.0 * norm(in_space(point_at(piece, middle)) - (from + to) * 0.5);
+        for (std::size_t k = 1; k + 1 < piece.points.size(); ++k) {
+            const Vec3d arm = in_space(piece.points[k]) - from;
+            const double square = dot(way, way);
+            const double share = square > 0.0 ? std::clamp(dot(arm, way) / square, 0.0, 1.0) : 0.0;
+            most = std::max(most, norm(arm - way * share));
+        }
+        return most;
+    }
+
+    // The right end of the hull, from the first control point to the last one: those that stand
+    // beyond the way between them, in the order along it, without what then stands back.
+    void append(const Curve& piece)
+    {
+        const Vec2d from = in_plan(piece.points.front());
+        const Vec2d to = in_plan(piece.points.back());
+        std::vector<Vec2d> beyond;
+        for (const Vec3d& p : piece.points) {
+            if (right_of(from, to, in_plan(p))) {
+                beyond.push_back(in_plan(p));
+            }
+        }
+        std::sort(beyond.begin(), beyond.end(),
+                  [&](Vec2d a, Vec2d b) { return dot(a, to - from) < dot(b, to - from); });
+        beyond.push_back(to);
+        if (corners_.empty() || corners_.back().x != from.x || corners_.back().y != from.y) {
+            corners_.push_back(from);
+        }
+        const std::size_t first = corners_.size();
+        for (const Vec2d p : beyond) {
+            while (corners_.size() > first &&
+                   !right_of(corners_[corners_.size() - 2], p, corners_.back())) {
+                corners_.pop_back();
+            }
+            corners_.push_back(p);
+        }
+    }
+
+    const Surface& surface_;
+    double edge_error_;
+    std::vector<Vec2d> corners_;
+};
 
 // The part of the side, as shares, that lies in the rectangle (Liang and Barsky).
 std::optional<std::array<double, 2>> part_in(const std::array<Vec2d, 2>& side,
@@ -99,27 +149,16 @@ std::optional<std::array<double, 2>> part_in(const std::array<Vec2d, 2>& side,
 
 TrimRegion::TrimRegion(const Surface& surface, double edge_error)
 {
-    const EdgeTracer tracer{surface, edge_error};
+    EdgeTracer tracer{surface, edge_error};
     for (const std::vector<Curve>& loop : surface.trims) {
-        std::vector<EdgePoint> points;
-        for (const Curve& curve : loop) {
-            const std::vector<double> at = breaks(curve);
-            EdgePoint last = tracer.at(curve, at.front());
-            points.push_back(last);
-            for (std::size_t k = 1; k < at.size(); ++k) {
-                const EdgePoint next = tracer.at(curve, at[k]);
-                tracer.trace(curve, last, next, 0, points);
-                last = next;
-            }
+        std::vector<Vec2d> corners = tracer.trace(loop);
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            const Vec2d from = corners[k];
+            const Vec2d to = corners[(k + 1) % corners.size()];
+            sides_.push_back({from, to});
+            edges_.push_back({point_at(surface, from.x, from.y), point_at(surface, to.x, to.y)});
         }
-        std::vector<Vec2d> domain;
-        for (std::size_t k = 0; k < points.size(); ++k) {
-            const EdgePoint& next = points[(k + 1) % points.size()];
-            sides_.push_back({points[k].domain, next.domain});
-            edges_.push_back({points[k].space, next.space});
-            domain.push_back(points[k].domain);
-        }
-        loops_.push_back(std::move(domain));
+        loops_.push_back(std::move(corners));
     }
     make_rows();
 }

@@ -11,8 +11,10 @@ namespace cusp::host {
 
 class TrimRegion {
 public:
-    // surface     its loops are closed, in (u, v)
-    // edge_error  mm between an edge in space and its polyline
+    // surface     its loops are closed, in (u, v); it stays to their left
+    // edge_error  mm between an edge in space and its polyline, which cuts off nothing that stays:
+    //             what is inside by the loops is inside here, and what is proven of this region
+    //             holds for that
     TrimRegion(const Surface& surface, double edge_error);
 
     bool trimmed() const { return !sides_.empty(); }
