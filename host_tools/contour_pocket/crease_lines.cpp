@@ -19,7 +19,9 @@ constexpr double kUpright = 20.0;       // turns of the slope by more are jumps
 constexpr double kLongestStep = 0.1;    // of the radius
 constexpr double kShortestStep = 2e-3;  // of the radius
 constexpr double kBeside = 0.35;        // of a step: how far beside its end the line is looked for
-constexpr double kSame = 0.04;          // of the radius: lines nearer to each other are one
+constexpr double kSame = 0.04;          // of the radius: how far along a line its places tell of it
+constexpr double kBesideSame = 0.005;   // of the radius: lines farther beside each other are two
+constexpr double kParallel = 0.9;       // cosine
 
 class LineTracer {
 public:
@@ -146,6 +148,7 @@ private:
     using Cell = std::array<int, 2>;
     struct Traced {
         Vec2d at;
+        Vec2d way;  // of the line there; zero at its start
         std::size_t line;
         std::size_t point;
         double gone;  // mm: of the way that line was followed
@@ -155,6 +158,15 @@ private:
     {
         return {static_cast<int>(std::floor(p.x / traced_cell_)),
                 static_cast<int>(std::floor(p.y / traced_cell_))};
+    }
+
+    // Whether the line that was followed to there passes by p: a ledge has two beside each other.
+    bool passes_by(const Traced& place, Vec2d p) const
+    {
+        const Vec2d arm = p - place.at;
+        const bool starts = dot(place.way, place.way) == 0.0;
+        const double beside = starts ? norm(arm) : std::abs(cross(place.way, arm));
+        return beside < kBesideSame * radius_;
     }
 
     template <class Counts>
@@ -183,9 +195,10 @@ private:
     void mark(Vec2d from, Vec2d to, std::size_t line, std::size_t point, double gone)
     {
         const int n = 1 + static_cast<int>(2.0 * distance(from, to) / traced_cell_);
+        const Vec2d way = distance(from, to) > 0.0 ? unit(to - from) : Vec2d{};
         for (int i = 1; i <= n; ++i) {
             const Vec2d p = from + (to - from) * (static_cast<double>(i) / n);
-            traced_[cell_of(p)].push_back({p, line, point, gone});
+            traced_[cell_of(p)].push_back({p, way, line, point, gone});
         }
     }
 
@@ -206,10 +219,10 @@ private:
 
     void start_at(const CreasePoint& found)
     {
-        const auto any = [](const Traced&) {
-            return true;
+        const auto passes = [&](const Traced& place) {
+            return passes_by(place, found.at);
         };
-        if (traced_near(found.at, traced_cell_, any)) {
+        if (traced_near(found.at, traced_cell_, passes)) {
             return;
         }
         const std::optional<CreasePoint> start = squared(found);
@@ -323,7 +336,9 @@ private:
             // One that comes round beside its start would go round for ever.
             const auto far_back = [&](const Traced& place) {
                 const double since = place.point < first_of_way_back_ ? 0.0 : place.gone;
-                return place.line != line || gone - since > 4.0 * traced_cell_;
+                const bool far = place.line != line || gone - since > 4.0 * traced_cell_;
+                const bool along = std::abs(dot(place.way, on->way)) > kParallel;
+                return far && (!along || passes_by(place, on->point.at));
             };
             const auto met = traced_near(on->point.at, reach, far_back);
             points.push_back(on->point);

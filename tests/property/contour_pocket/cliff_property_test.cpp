@@ -224,8 +224,8 @@ TEST(RandomCliff, LeavesNoMoreAtTheFootOfALedgeThanTheScallop)
 {
     constexpr unsigned kSeed = 35;
     Random random{kSeed};
-    const ToolShape shapes[] = {ToolShape::kBull, ToolShape::kFlat};
-    for (int i = 0; i < property_cases(2); ++i) {
+    const ToolShape shapes[] = {ToolShape::kBull, ToolShape::kFlat, ToolShape::kBall};
+    for (int i = 0; i < property_cases(3); ++i) {
         const double radius = uniform(random, 1.5, 3.0);
         Patch patch = random_patch(random, 0, 2.0, 3.0);
         patch.length = uniform(random, 12.0, 14.0);
@@ -235,8 +235,10 @@ TEST(RandomCliff, LeavesNoMoreAtTheFootOfALedgeThanTheScallop)
             {turned_plate({0.0, 0.0}, {1.0, 0.0}, 60.0, 60.0, kLow), surface_of(patch),
              turned_plate(patch.centre, patch.along, patch.length, patch.width - 2.0 * ledge.width,
                           ledge.top)},
-            square_loop(20.0), {1, shapes[i % 2], radius, 0.0}, 0.1);
-        operation.tool.corner_radius = std::min(operation.tool.corner_radius, 0.4 * radius);
+            square_loop(20.0), {1, shapes[i % 3], radius, 0.0}, 0.1);
+        if (operation.tool.shape == ToolShape::kBull) {
+            operation.tool.corner_radius = std::min(operation.tool.corner_radius, 0.4 * radius);
+        }
         const std::vector<Vec3d> tips = tips_of(planned_pocket(operation).path, 0.0, kPitch);
         const Vec2d across = left_normal(patch.along);
         double most = 0.0;
