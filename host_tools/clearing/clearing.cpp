@@ -63,21 +63,22 @@ NextLevel next_level(const RegionOffset& offset, double distance, double step, b
     return {distance + good * step, std::move(*best), true};
 }
 
-// Draws the inner level nearer until little enough stays between, or farther off, where much less
-// stays than may.
-void draw_to_suit(NextLevel& inner,
-                  const NextLevel& level,
-                  const RegionOffset& offset,
-                  const ClearingSettings& settings)
+// Draws the inner level nearer until little enough stays between, or farther off, where less stays
+// than may. Returns what stays as a share of what may; 0 where that is not asked.
+double draw_to_suit(NextLevel& inner,
+                    const NextLevel& level,
+                    const RegionOffset& offset,
+                    const ClearingSettings& settings)
 {
     constexpr int kRounds = 14;
     constexpr double kMost = 0.999;  // of the step before
     constexpr double kMostAgain = 0.98;
     constexpr double kLeast = 0.5;
-    constexpr double kLittle = 0.7;  // of what may stay
-    constexpr double kWider = 0.95;
+    constexpr double kLittle = 0.85;  // of what may stay
+    constexpr double kWider = 0.97;
     const double widest = 0.5 * settings.step;
     std::optional<NextLevel> good;
+    double good_left = 0.0;
     double bad = 1e300;
     for (int round = 0; settings.left_between && round < kRounds; ++round) {
         const double step = inner.distance - level.distance;
@@ -87,6 +88,7 @@ void draw_to_suit(NextLevel& inner,
         double share = std::clamp(kMost / std::sqrt(left), kLeast, most);
         if (left <= 1.0) {
             good = std::move(inner);
+            good_left = left;
             share = std::min(kWider / std::sqrt(left), 2.0);
             const bool free = !good->by_corners && bad == 1e300;
             if (left > kLittle || !free || step * share > widest) {
@@ -102,6 +104,7 @@ void draw_to_suit(NextLevel& inner,
     if (good) {
         inner = std::move(*good);
     }
+    return good_left;
 }
 
 std::vector<Loop2d> make_levels(const RegionOffset& offset, const ClearingSettings& settings)
@@ -111,10 +114,20 @@ std::vector<Loop2d> make_levels(const RegionOffset& offset, const ClearingSettin
         const double asked = settings.step_from ? settings.step_from(level) : settings.step;
         return std::min(asked, settings.step);
     };
+    // What makes a level lie nearer or farther than asked seldom ends with it: the next one is
+    // first drawn where that much would have suited the last one.
+    constexpr double kMostAgain = 1.5;
+    constexpr double kLeastSuited = 0.1;
+    constexpr double kMostSuited = 2.0;
+    double suited = 1.0;
+    const auto drawn_from = [&](const NextLevel& level, double step) {
+        const double first = std::min(suited * step, std::max(step, 0.5 * settings.step));
+        return next_level(offset, level.distance, first, settings.cover_corners);
+    };
     NextLevel level{settings.first, offset.at(settings.first)};
     double step = level.loops.contours.empty() ? 0.0 : step_from(level.loops);
     for (int k = 0; k < kMostLevels && !level.loops.contours.empty(); ++k) {
-        NextLevel inner = next_level(offset, level.distance, step, settings.cover_corners);
+        NextLevel inner = drawn_from(level, step);
         double inner_step = step;
         // The step must suit the loops on both of its sides. Loops that move by a fiftieth of it
         // are not looked at again: a thousandth is taken off for that.
@@ -127,22 +140,24 @@ std::vector<Loop2d> make_levels(const RegionOffset& offset, const ClearingSettin
             }
             const bool alike = inner_step >= kAlike * step;
             step = alike ? kMargin * inner_step : inner_step;
-            inner = next_level(offset, level.distance, step, settings.cover_corners);
+            inner = drawn_from(level, step);
             if (alike) {
                 break;
             }
         }
-        draw_to_suit(inner, level, offset, settings);
+        const double left = draw_to_suit(inner, level, offset, settings);
+        if (left > 0.0 && !inner.by_corners) {
+            const double drawn = (inner.distance - level.distance) / step;
+            suited = std::clamp(drawn * std::min(1.0 / std::sqrt(left), kMostAgain), kLeastSuited,
+                                kMostSuited);
+        }
         for (Contour& contour : level.loops.contours) {
             const bool outer = area(contour) > 0.0;
             loops.push_back(
                 {std::move(contour), k, level.distance, inner.distance - level.distance, outer});
         }
-        // What made this step small seldom ends with it.
-        constexpr double kGrowth = 1.5;
-        const double most = kGrowth * (inner.distance - level.distance);
         level = std::move(inner);
-        step = settings.left_between ? std::min(inner_step, most) : inner_step;
+        step = inner_step;
     }
     return loops;
 }

@@ -32,7 +32,7 @@ struct ClearingSettings {
     // Where given, the largest distance inward from a level of loops; `step` bounds it.
     std::function<double(const Region2d& level)> step_from;
     // Where given, what stands between two levels as a share of what may: they are drawn nearer
-    // together until it is at most 1, or apart, up to half of `step`, where it is much less.
+    // together until it is at most 1, or apart, up to half of `step`, where it is less.
     std::function<double(const LevelStrip& strip)> left_between;
     CutDirection direction{CutDirection::kClimb};
     // Draws loops nearer together where corners, necks or the middle would else lie farther than

@@ -85,5 +85,25 @@ TEST(Clearing, IsEmptyWhereTheToolDoesNotFit)
     CHECK(clear_region({{rectangle(0, 0, 100, 60)}}, settings).passes.empty());
 }
 
+// The step asked for is four times what suits, on every level.
+TEST(Clearing, DrawsALevelFirstWhereTheLastOneSuited)
+{
+    ClearingSettings settings;
+    settings.first = 1.0;
+    settings.step = 4.0;
+    settings.cover_corners = false;
+    int looks = 0;
+    settings.left_between = [&looks](const LevelStrip& strip) {
+        ++looks;
+        const double step = strip.to - strip.from;
+        return step * step;
+    };
+    const ClearedRegion cleared = clear_region({{rectangle(0, 0, 22, 22)}}, settings);
+    CHECK(cleared.levels >= 9);
+    CHECK(looks <= cleared.levels + 4);
+    CHECK(cleared.widest_gap <= 1.0);
+    CHECK(cleared.widest_gap >= 0.98);
+}
+
 }  // namespace
 }  // namespace cusp::host
