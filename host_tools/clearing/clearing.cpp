@@ -281,14 +281,21 @@ private:
     {
         const Vec2d from = before.front().start;
         const Vec2d leaving = tangent_at_end(before.back());
-        start_near(pass.path, from + leaving * (2.0 * pass.step));
-        const Vec2d to = pass.path.front().start;
-        const auto arcs = biarc_between(from, leaving, to, tangent_at_start(pass.path.front()));
-        const bool onward = dot(to - from, leaving) > pass.step;
-        if (arcs && onward && distance(from, to) < 4.0 * pass.step) {
-            pass.link = {arcs->front(), arcs->back()};
+        // Steps that the link gains on its way over: fewer where the pass soon turns away.
+        for (const double ahead : {2.0, 1.4, 1.0, 0.7, 2.8}) {
+            start_near(pass.path, from + leaving * (ahead * pass.step));
+            const Vec2d to = pass.path.front().start;
+            const auto arcs = biarc_between(from, leaving, to, tangent_at_start(pass.path.front()));
+            const bool onward = dot(to - from, leaving) > 0.5 * ahead * pass.step;
+            if (arcs && onward && distance(from, to) < 4.0 * pass.step) {
+                pass.link = {arcs->front(), arcs->back()};
+                if (free_path(offset_, pass.link, settings_.first)) {
+                    break;
+                }
+                pass.link.clear();
+            }
         }
-        if (pass.link.empty() || !free_path(offset_, pass.link, settings_.first)) {
+        if (pass.link.empty()) {
             start_near(pass.path, from);
             pass.link = {line_edge(from, pass.path.front().start)};
         }

@@ -13,12 +13,14 @@
 namespace cusp::host {
 
 struct MovesVerdict {
-    double rapid_cut{};     // mm, deepest
-    bool low_rapid{};       // a rapid move below the clearance that is not straight up or down
-    double plunged{};       // mm of metal under the middle of the tool on a way straight down
-    double entry_cut{};     // mm, deepest there on slopes steeper than entries may be
-    double deepest{};       // mm of cut
-    int retracts{};         // up to the clearance
+    double rapid_cut{};  // mm, deepest
+    bool low_rapid{};    // a rapid move below the clearance that is not straight up or down
+    double plunged{};    // mm of metal under the middle of the tool on a way straight down
+    double entry_cut{};  // mm, deepest there on slopes steeper than entries may be
+    double deepest{};    // mm of cut
+    int retracts{};      // up to the clearance
+    int links{};
+    int turned{};           // links that end on a corner of more than 30 degrees
     double wrong_side{};    // mm^3 that cuts on one side take from the other one than they should
     double right_side{};    // mm^3 from that
     double nearest_wall{};  // mm, of the tool's axis below the top
@@ -42,13 +44,24 @@ public:
         MovesVerdict verdict;
         verdict.nearest_wall = 1e300;
         Vec3d at{};
+        Vec2d along{};
+        MoveKind before = MoveKind::kRapid;
         for (std::size_t i = 0; i < path.moves.size(); ++i) {
             const ToolMove& move = path.moves[i];
             for (const Vec3d p : points_of(move, at, 0.004)) {
                 if (i > 0) {
                     judge_places(path.tool, move.kind, at, p, clearance, climb, verdict);
                 }
+                const Vec2d way{p.x - at.x, p.y - at.y};
                 at = p;
+                if (dot(way, way) > 1e-10) {
+                    constexpr double kCorner = 0.866;
+                    const bool link = before == MoveKind::kLink && move.kind == MoveKind::kCut;
+                    verdict.links += link ? 1 : 0;
+                    verdict.turned += link && dot(along, unit(way)) < kCorner ? 1 : 0;
+                    along = unit(way);
+                    before = move.kind;
+                }
             }
         }
         return verdict;
