@@ -101,6 +101,23 @@ TipFloor::TipFloor(const std::vector<Surface>& surfaces, const Tool& tool, doubl
     }
     pieces_.resize(kRoot + 1);  // child 0 means none
     gather(kRoot, kRoot, whole.data(), whole.data() + whole.size());
+    whole_ = {pieces_, nets_, weights_, outlines_};
+}
+
+// What a long series of questions at new places has halved would stay, gigabytes for a large steep
+// floor; where the next ones need it, it is halved again.
+void TipFloor::make_room() const
+{
+    constexpr std::size_t kMostHalves = 600000;  // some 0.3 GB
+    if (pieces_.size() < whole_.pieces.size() + kMostHalves) {
+        return;
+    }
+    pieces_ = whole_.pieces;
+    nets_ = whole_.nets;
+    weights_ = whole_.weights;
+    outlines_ = whole_.outlines;
+    last_ = kRoot;
+    beside_ = kRoot;
 }
 
 // Makes pieces_[place], a child of `parent`, of the patches [first, last): halves beside each

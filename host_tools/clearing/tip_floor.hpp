@@ -31,7 +31,7 @@ public:
     struct Rest {
         double height;   // z of the tip; kNothing where no surface lies under the tool
         Vec2d gradient;  // slope of the tip's height: of the surface where the tool rests on it
-        std::uint32_t piece;
+        std::uint32_t piece;  // for touched(), until the next question
     };
     static constexpr double kNothing = -1e300;
 
@@ -189,6 +189,7 @@ private:
     }
     void measure_plane(Piece& piece) const;
     void halve(std::uint32_t piece) const;
+    void make_room() const;
     // False where the piece, or its outline, may stand `thin` over what the surface is.
     bool is_whole(const Piece& piece, double thin) const
     {
@@ -229,14 +230,22 @@ private:
     std::optional<EdgeGuard> edges_;
     std::vector<TrimRegion> trims_;  // of each surface; empty where none is trimmed
     std::vector<Patch> patches_;
-    // Halved when first needed; a const query only makes them finer.
+    // Halved when first needed; a const query only makes them finer, or begins anew.
     mutable std::vector<Piece> pieces_;
     mutable std::vector<Vec3d> nets_;           // where weights differ times those
     mutable std::vector<double> weights_;       // beside nets_, as far as some differ
     mutable std::vector<Outline> outlines_{1};  // the first one stands for none
-    mutable std::vector<Vec3d> unweighted_;     // control points of the piece being measured
-    mutable std::uint32_t last_{kRoot};         // where the tool rested last
-    mutable std::uint32_t beside_{kRoot};  // the smallest piece that the last move came near to
+    // As they were before any was halved.
+    struct Whole {
+        std::vector<Piece> pieces;
+        std::vector<Vec3d> nets;
+        std::vector<double> weights;
+        std::vector<Outline> outlines;
+    };
+    Whole whole_;
+    mutable std::vector<Vec3d> unweighted_;  // control points of the piece being measured
+    mutable std::uint32_t last_{kRoot};      // where the tool rested last
+    mutable std::uint32_t beside_{kRoot};    // the smallest piece that the last move came near to
     double lowest_{1e300};
     double highest_{-1e300};
 };

@@ -215,6 +215,7 @@ std::uint32_t TipFloor::guess(Vec2d at) const
 
 TipFloor::Rest TipFloor::drop(Vec2d at, double slack) const
 {
+    make_room();
     const Query query{at, std::max(accuracy_, slack)};
     const double r = tool_.radius;
     const Box2d around{at.x - r, at.y - r, at.x + r, at.y + r};

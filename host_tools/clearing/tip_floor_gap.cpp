@@ -274,6 +274,7 @@ TipFloor::NextLook TipFloor::next_look(const Piece& piece,
 
 double TipFloor::gap(Vec3d a, Vec3d b, double margin) const
 {
+    make_room();
     struct Entry {
         std::uint32_t piece;
         double from, to;  // shares of the move

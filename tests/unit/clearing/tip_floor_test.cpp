@@ -1,7 +1,9 @@
 // Where a patch that lies askew over a floor ends, and the tool comes down beside it.
 #include "host_tools/clearing/tip_floor.hpp"
 
+#include <array>
 #include <cmath>
+#include <malloc.h>
 
 #include "host_tools/clearing/floor_coverage.hpp"
 #include "host_tools/offset/contour.hpp"
@@ -114,6 +116,37 @@ TEST(TipFloor, OfARingDoesNotCoverWhatIsInside)
     const auto place = uncovered_place({{square}}, floor, surfaces, kRadius);
     CHECK(place.has_value());
     CHECK(std::abs(place->x) + std::abs(place->y) < 4);
+}
+
+// More than it holds of what was halved: it begins anew, and says the same.
+TEST(TipFloor, ManyQuestionsDoNotFillTheMemory)
+{
+    constexpr double kAccuracy = 1e-8;
+    Surface bowl;
+    bowl.degree_u = bowl.degree_v = 2;
+    bowl.size_u = bowl.size_v = 3;
+    bowl.knots_u = bowl.knots_v = {0, 0, 0, 1, 1, 1};
+    bowl.weights.assign(9, 1.0);
+    for (int k = 0; k < 9; ++k) {
+        bowl.points.push_back({40.0 * (k / 3), 40.0 * (k % 3), k == 4 ? -30.0 : 0.0});
+    }
+    const TipFloor floor{{bowl}, kSteps[1].tool, kAccuracy};
+    const auto place = [](int k) {
+        return Vec2d{5.0 + std::fmod(k * 7.123456, 70.0), 5.0 + std::fmod(k * 11.654321, 70.0)};
+    };
+    constexpr int kAgain = 100;
+    std::array<double, kAgain> before;
+    for (int k = 0; k < kAgain; ++k) {
+        before[static_cast<std::size_t>(k)] = floor.drop(place(k)).height;
+    }
+    const std::size_t held = mallinfo2().uordblks + mallinfo2().hblkhd;
+    for (int k = kAgain; k < 40000; ++k) {
+        floor.drop(place(k));
+    }
+    CHECK(mallinfo2().uordblks + mallinfo2().hblkhd - held < 400'000'000);
+    for (int k = 0; k < kAgain; ++k) {
+        DOUBLES_EQUAL(before[static_cast<std::size_t>(k)], floor.drop(place(k)).height, kAccuracy);
+    }
 }
 
 }  // namespace
