@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "host_tools/adaptive_isocurve/scallop_width.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/nurbs/knot_insertion.hpp"
 
@@ -109,6 +110,15 @@ void check_spacing(const Job& job, const Operation& operation)
         throw InputError(
             fmt::format("{}: scallop is {:g} mm, not below the tool's radius of {:g} mm", job.file,
                         *operation.scallop, operation.tool.radius));
+    }
+    if (operation.scallop && !operation.iso_distance) {
+        const double apart = scallop_width(operation.tool.radius, *operation.scallop, 0);
+        if (size > kMostPasses * apart) {
+            throw InputError(fmt::format(
+                "{}: scallop is {:g} mm, that is passes {:.3g} mm apart on level ground; over a "
+                "part of {:g} mm these would be {:.0f}, at most {:g} are made",
+                job.file, *operation.scallop, apart, size, size / apart, kMostPasses));
+        }
     }
 }
 

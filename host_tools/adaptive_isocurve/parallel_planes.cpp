@@ -80,20 +80,22 @@ public:
     {
         const double step = operation_.step_over ? *operation_.step_over : step_for_scallop();
         const double width = dot(size_, across_);
-        if (width > kMostPlanes * step) {
+        if (width + 2 * reach_ > kMostPlanes * step) {
             throw InputError(fmt::format(
-                "{}: parallel_planes: planes {:.3g} mm apart ({}) over a part of {:g} mm would be "
-                "{:.0f}, at most {:g} are made",
+                "{}: parallel_planes: planes {:.3g} mm apart ({}) over a part of {:g} mm and what "
+                "the tool reaches beyond it would be {:.0f}, at most {:g} are made",
                 job_.file, step, operation_.step_over ? "step_over" : "by the scallop", width,
-                std::ceil(width / step), kMostPlanes));
+                std::ceil((width + 2 * reach_) / step), kMostPlanes));
         }
         const int planes = std::max(1, static_cast<int>(std::ceil(width / step)));
         // A ball on a slope that ends in a rim stands beyond it.
         const double lean = std::min(step, 0.5 * reach_) / reach_;
         least_facing_ = std::sqrt(1 - lean * lean);
-        const int beyond = static_cast<int>(std::ceil(planes * reach_ / width));
+        const int beyond = static_cast<int>(std::ceil(reach_ / step));
         for (int k = -beyond; k <= planes + beyond; ++k) {
-            add_plane(width * k / planes);
+            const int before = std::min(k, 0);
+            const int after = std::max(k - planes, 0);
+            add_plane(width * (k - before - after) / planes + step * (before + after));
             job_.report_progress(kPlanesDone * (k + beyond + 1) / (planes + 2 * beyond + 1));
         }
         return finished(step);
@@ -242,15 +244,32 @@ private:
     bool steep_{};  // somewhere too steep or hollow for the step
 };
 
+void check_planes(const Job& job, const Operation& operation)
+{
+    const double radius = operation.tool.radius;
+    if (!operation.step_over && !operation.scallop) {
+        throw InputError(
+            fmt::format("{}: {}: give step_over or scallop", job.file, operation.strategy));
+    }
+    if (operation.step_over && *operation.step_over >= 2 * radius) {
+        throw InputError(fmt::format(
+            "{}: step_over is {:g} mm, planes of a ball of radius {:g} mm must be nearer than "
+            "{:g} mm",
+            job.file, *operation.step_over, radius, 2 * radius));
+    }
+    if (operation.scallop && *operation.scallop >= radius) {
+        throw InputError(
+            fmt::format("{}: scallop is {:g} mm, not below the tool's radius of {:g} mm", job.file,
+                        *operation.scallop, radius));
+    }
+}
+
 }  // namespace
 
 std::vector<PlannedOperation> plan_parallel_planes(const Job& job, const Operation& operation)
 {
     const auto begin = std::chrono::steady_clock::now();
-    if (!operation.step_over && !operation.scallop) {
-        throw InputError(
-            fmt::format("{}: {}: give step_over or scallop", job.file, operation.strategy));
-    }
+    check_planes(job, operation);
     PlannedOperation planned = PlanePlanner{job, operation}.plan();
     planned.stats.planning_s =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "host_tools/import/cad_surfaces.hpp"
 #include "host_tools/import/loop_shape.hpp"
@@ -31,6 +34,8 @@
 #include "opencascade/GeomConvert.hxx"
 #include "opencascade/Geom_BSplineSurface.hxx"
 #include "opencascade/IGESControl_Reader.hxx"
+#include "opencascade/Interface_Check.hxx"
+#include "opencascade/Interface_CheckIterator.hxx"
 #include "opencascade/Message.hxx"
 #include "opencascade/Message_Messenger.hxx"
 #include "opencascade/STEPControl_Reader.hxx"
@@ -46,6 +51,7 @@
 #include "opencascade/TopoDS_Solid.hxx"
 #include "opencascade/XSAlgo.hxx"
 #include "opencascade/XSAlgo_AlgoContainer.hxx"
+#include "opencascade/XSControl_WorkSession.hxx"
 
 namespace cusp::host {
 namespace {
@@ -91,6 +97,37 @@ public:
 
 enum class Repairs { kGentle, kAll };
 
+// Whether the shape can be made without a crash, tried in a process of its own.
+bool survives_transfer(XSControl_Reader& reader)
+{
+    const pid_t child = fork();
+    if (child == 0) {
+        const rlimit no_core{0, 0};
+        setrlimit(RLIMIT_CORE, &no_core);
+        try {
+            reader.TransferRoots();
+        } catch (...) {
+        }
+        _exit(0);
+    }
+    int status = 0;
+    return child < 0 || (waitpid(child, &status, 0) == child && status == 0);
+}
+
+// Open CASCADE follows references to what it could not read. Many files with faults are read well,
+// so only those that it does not survive are refused.
+void check_faults(const std::string& file, XSControl_Reader& reader)
+{
+    Interface_CheckIterator faults = reader.WS()->ModelCheckList(true).Extract(Interface_CheckFail);
+    faults.Start();
+    if (faults.More() && !survives_transfer(reader)) {
+        throw InputError(
+            fmt::format("{}: Open CASCADE can't make a shape of it; the first fault: "
+                        "entity {}: {}",
+                        file, faults.Number(), faults.Value()->CFail(1)));
+    }
+}
+
 TopoDS_Shape read_shape(const std::string& file, Repairs repairs)
 {
     Message::DefaultMessenger()->ChangePrinters().Clear();
@@ -111,6 +148,7 @@ TopoDS_Shape read_shape(const std::string& file, Repairs repairs)
     } else {
         XSAlgo::SetAlgoContainer(new XSAlgo_AlgoContainer);
     }
+    check_faults(file, *reader);
     reader->TransferRoots();
     const TopoDS_Shape shape = reader->OneShape();
     if (shape.IsNull()) {

@@ -62,7 +62,7 @@ std::vector<double> numbers(const Json& object, const char* key, const std::stri
     return out;
 }
 
-// Points of 2 or 3 coordinates; absent weights are 1.
+// Points of 2 or 3 coordinates, all of as many; absent weights are 1.
 void read_control_points(const Json& shape,
                          double millimetres,
                          const std::string& place,
@@ -70,10 +70,15 @@ void read_control_points(const Json& shape,
                          std::vector<double>& weights)
 {
     const Json& control = member(shape, "control_points", place);
-    for (const Json& point : list(control, "points", place)) {
+    const Json& listed = list(control, "points", place);
+    for (const Json& point : listed) {
         const std::string where = fmt::format("{}: control point {}", place, points.size());
         if (!point.is_array() || (point.size() != 2 && point.size() != 3)) {
             throw InputError(where + " has not 2 or 3 coordinates");
+        }
+        if (point.size() != listed[0].size()) {
+            throw InputError(fmt::format("{} has {} coordinates, control point 0 has {}", where,
+                                         point.size(), listed[0].size()));
         }
         const double z = point.size() == 3 ? number(point[2], where) : 0;
         points.push_back(millimetres * Vec3d{number(point[0], where), number(point[1], where), z});

@@ -65,7 +65,7 @@ struct Operation {
     double overlap{};
     int extra_subdivision{};
     bool contour_clearing{false};
-    // complete_isocurves, parallel_planes
+    // parallel_planes
     std::optional<double> step_over;
 };
 

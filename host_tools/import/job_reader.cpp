@@ -430,8 +430,7 @@ void JobReader::check_strategy(const JobTable& table, const Operation& operation
     } else if (strategy == "parallel_planes") {
         need(operation.step_over || operation.scallop, "step_over", "it or scallop");
     } else {
-        need(operation.iso_distance || operation.scallop || operation.step_over, "iso_distance",
-             "it or scallop");
+        need(operation.iso_distance || operation.scallop, "iso_distance", "it or scallop");
     }
 }
 

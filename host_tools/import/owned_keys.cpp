@@ -15,10 +15,10 @@ struct OwnedKey {
 };
 constexpr std::string_view kIsocurves{"adaptive_isocurve, complete_isocurves, parallel_planes"};
 constexpr OwnedKey kOwnedKeys[]{
-    {"iso_distance", kIsocurves},
+    {"iso_distance", "adaptive_isocurve, complete_isocurves"},
     {"direction", kIsocurves},
     {"roughing", kIsocurves},
-    {"step_over", kIsocurves},
+    {"step_over", "parallel_planes"},
     {"grid", "grid_pocket"},
     {"zigzag", "grid_pocket"},
     {"arc_tolerance", "grid_pocket"},

@@ -110,6 +110,7 @@ SURFACES = (
     (with_point([0, float("inf"), 0]), "not JSON"),
     (with_point([0, 0, None]), "is not a number"),
     (with_point([0]), "control point 3 has not 2 or 3 coordinates"),
+    (with_point([0, 0]), "control point 3 has 2 coordinates, control point 0 has 3"),
     (with_point([]), "control point 3 has not 2 or 3 coordinates"),
     ({"points": []}, "0 control points"),
     ({"points": [[5, 5, 5]] * 8}, "no area"),

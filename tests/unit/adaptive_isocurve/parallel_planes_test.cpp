@@ -131,11 +131,26 @@ TEST(ParallelPlanes, RunOverTheTrianglesOfAMesh)
     DOUBLES_EQUAL(0, planned.stats.gouge_bound_mm, 1e-6);
 }
 
-TEST(ParallelPlanes, OfWhichThereWouldBeTooManyAreRefused)
+TEST(ParallelPlanes, OverASpeckAreFew)
+{
+    // Beyond its rims they are a step apart, not as far as over it.
+    Job job = job_for({}, "parallel_planes");
+    job.operations.front().mesh = {{{0, 0, 0}, {1e-5, 0, 0}, {0, 1e-5, 0}}};
+    try {
+        CHECK(planes_over(job).stats.passes < 20);
+    } catch (const InputError&) {
+        // it is no more than a place, and may be refused
+    }
+}
+
+TEST(ParallelPlanes, TooManyOrTooFarApartAreRefused)
 {
     Job job = job_for({wall(9, 0)}, "parallel_planes");
+    job.operations.front().step_over = 4;
+    STRCMP_CONTAINS("step_over is 4 mm", refusal([&] { planes_over(job); }).c_str());
     job.operations.front().step_over = 5e-4;
     const std::string said = refusal([&] { planes_over(job); });
     STRCMP_CONTAINS("step_over", said.c_str());
-    STRCMP_CONTAINS("20 mm would be 40000, at most 20000", said.c_str());
+    STRCMP_CONTAINS("over a part of 20 mm", said.c_str());
+    STRCMP_CONTAINS("at most 20000", said.c_str());
 }

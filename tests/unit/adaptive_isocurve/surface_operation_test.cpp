@@ -53,6 +53,17 @@ TEST(SurfaceOperation, RefusesToGuessASpacing)
     refused(job, "iso_distance or scallop");
 }
 
+TEST(SurfaceOperation, RefusesMorePassesThanAnyoneWouldWaitFor)
+{
+    for (Vec3d& p : operation.floor.front().points) {
+        p = p * 2000.0;
+    }
+    operation.scallop = 0.03;
+    refused(job, "scallop is 0.03 mm, that is passes 0.69");
+    refused(job, "over a part of 40000 mm these would be");
+    refused(job, "at most 20000 are made");
+}
+
 TEST(SurfaceOperation, RefusesKeysOfRoughingWithoutIt)
 {
     operation.allowance = 0.3;

@@ -25,6 +25,7 @@
 
 #include "host_tools/import/job.hpp"
 #include "host_tools/import/loop_shape.hpp"
+#include "host_tools/import/text_of_file.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -198,6 +199,19 @@ TEST(CadSurfaces, KeepAFreeFormFaceAndItsShape)
             DOUBLES_EQUAL(height(p.x, p.y), p.z, 0.02);
         }
     }
+}
+
+TEST(CadSurfaces, AreRefusedWhereOpenCascadeWouldFollowWhatItCouldNotRead)
+{
+    // Points of a kind that there is not: it crashed on the placement that names the first.
+    std::string text = text_of_file(step(block()));
+    const std::string known = "CARTESIAN_POINT";
+    for (int k = 0; k < 5; ++k) {
+        text.replace(text.find(known), known.size(), "CARTESIAN_PINT");
+    }
+    STRCMP_CONTAINS("the first fault: entity ", cusp::test::refusal([&] {
+                                                    read_surfaces(folder.with("x.step", text));
+                                                }).c_str());
 }
 
 TEST(CadSurfaces, AreRefusedFromWhatIsNoModel)

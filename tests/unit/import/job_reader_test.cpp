@@ -64,7 +64,7 @@ TEST(JobReader, IsocurvesAndPlanesTakeAMeshItselfOtherStrategiesTheSurfacesOverI
                 "vertex 0 10 0\nendloop\nendfacet\nendsolid p\n");
     const auto operation = [&](const std::string& strategy) {
         return read(kHead + "[[operation]]\nstrategy = \"" + strategy +
-                    "\"\nfloor = \"plate.stl\"\nscallop = 0.4\nstep_over = 2\n")
+                    "\"\nfloor = \"plate.stl\"\nscallop = 0.4\n")
             .operations.front();
     };
     LONGS_EQUAL(1, operation("adaptive_isocurve").mesh.size());
@@ -180,7 +180,7 @@ TEST(JobReader, RefusesAKeyOfAnotherStrategyWithItsPlace)
     const std::string text = refused(kHead + pocket("scallop = 0.4\ngrid = [1, 1]\n"));
     STRCMP_CONTAINS("grid: is a key of grid_pocket, not of contour_pocket", text.c_str());
     STRCMP_CONTAINS("job.toml:19", text.c_str());
-    STRCMP_CONTAINS("step_over: is a key of adaptive_isocurve, complete_isocurves, parallel_planes",
+    STRCMP_CONTAINS("step_over: is a key of parallel_planes",
                     refused(kHead + pocket("scallop = 0.4\nstep_over = 2\n")).c_str());
 }
 
