@@ -41,17 +41,18 @@ public:
         const double grid = std::max(kGrid * radius_, longest / kMostCells);
         const int columns = static_cast<int>((box.x1 - box.x0) / grid) + 2;
         const int rows = static_cast<int>((box.y1 - box.y0) / grid) + 2;
-        std::vector<std::optional<Look>> before;
+        std::vector<GridPlace> before;
         for (int i = 0; i < columns; ++i) {
-            std::vector<std::optional<Look>> column;
+            std::vector<GridPlace> column;
             for (int j = 0; j < rows; ++j) {
-                column.push_back(look({box.x0 + grid * i, box.y0 + grid * j}));
+                const Vec2d at{box.x0 + grid * i, box.y0 + grid * j};
+                column.push_back({at, look(at)});
                 const auto here = static_cast<std::size_t>(j);
                 if (j > 0) {
-                    start_between(column[here - 1], column[here]);
+                    start_on_edge(column[here - 1], column[here]);
                 }
                 if (i > 0) {
-                    start_between(before[here], column[here]);
+                    start_on_edge(before[here], column[here]);
                 }
             }
             before = std::move(column);
@@ -72,6 +73,33 @@ private:
         }
         const TipFloor::Rest rest = floor_.drop(at);
         return rest.height == TipFloor::kNothing ? std::nullopt : std::optional{Look{at, rest}};
+    }
+
+    struct GridPlace {
+        Vec2d at;
+        std::optional<Look> look;
+    };
+
+    // A line may run along walls, nearer to where the tool may stand at all than the grid is fine.
+    void start_on_edge(const GridPlace& a, const GridPlace& b)
+    {
+        if (a.look && b.look) {
+            start_between(a.look, b.look);
+        } else if (a.look) {
+            start_between(a.look, look(last_inside(a.at, b.at)));
+        } else if (b.look) {
+            start_between(look(last_inside(b.at, a.at)), b.look);
+        }
+    }
+
+    // On the way from a place inside to one that is not.
+    Vec2d last_inside(Vec2d in, Vec2d out) const
+    {
+        while (distance(in, out) > nearest_) {
+            const Vec2d middle = (in + out) * 0.5;
+            (search_.inside(middle) ? in : out) = middle;
+        }
+        return in;
     }
 
     struct Bend {

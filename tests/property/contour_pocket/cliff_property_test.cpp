@@ -257,6 +257,45 @@ TEST(RandomCliff, LeavesNoMoreAtTheFootOfALedgeThanTheScallop)
     }
 }
 
+// Between the line where the tool is let down and the wall there is hardly room for it.
+TEST(RandomCliff, LeavesNoMoreAtItsFootBesideAWallThanTheScallop)
+{
+    constexpr unsigned kSeed = 76;
+    constexpr double kHalf = 10.0;
+    Random random{kSeed};
+    const ToolShape shapes[] = {ToolShape::kBall, ToolShape::kFlat, ToolShape::kBull};
+    for (int i = 0; i < property_cases(3); ++i) {
+        const double radius = uniform(random, 1.5, 2.5);
+        // The tool's axis keeps off the wall by the tolerance at most.
+        const double room = uniform(random, 0.02, 0.1) * radius + 0.02;
+        const double edge = -kHalf + 2.0 * radius + room;
+        const double top = kLow + uniform(random, 1.05, 1.5) * radius;
+        // Askew, so that some loops cross the line.
+        const double angle = uniform(random, 0.0, 0.004);
+        const Patch patch{
+            {edge + 15.0, 0.0}, {std::cos(angle), std::sin(angle)}, 30.0, 30.0, 0.0, top};
+        Operation operation = random_pocket(
+            random, {turned_plate({0.0, 0.0}, {1.0, 0.0}, 80.0, 80.0, kLow), surface_of(patch)},
+            square_loop(kHalf), {1, shapes[i % 3], radius, 0.0}, 0.1);
+        const std::vector<Vec3d> tips = tips_of(planned_pocket(operation).path, 0.0, kPitch);
+        double most = 0.0;
+        for (double out = kFarFromCliff; out < 0.5 * radius; out += 0.1) {
+            for (double y = -kHalf + 1.5 * radius; y < kHalf - 1.5 * radius; y += 0.1) {
+                const Vec2d p{edge - out, y};
+                const double apart = patch.distance(p);
+                if (apart > kFarFromCliff) {
+                    const double left =
+                        lowest_cut(operation.tool, tips, p) - best_at(operation.tool, patch, apart);
+                    most = std::max(most, left * cosine_at(operation.tool, patch, apart));
+                }
+            }
+        }
+        std::printf("seed %u wall %d: room %.3f, tool %.2f/%.2f, left %.4f of %.4f\n", kSeed, i,
+                    room, radius, operation.tool.corner_radius, most, *operation.scallop);
+        CHECK(most <= *operation.scallop + 2e-3);
+    }
+}
+
 // From beside, a ball that goes a tolerance into the edge would take more off the patch.
 TEST(RandomCliff, IsCutNoDeeperThanATwoSidedTolerance)
 {
