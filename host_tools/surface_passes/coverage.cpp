@@ -13,6 +13,8 @@ namespace {
 constexpr double kSmallest = 1.0 / 96;  // cells, in steps between passes
 constexpr double kLargest = 4;          // the same
 constexpr double kBorderCell = 0.03;    // the same across a border, where a ball reaches over it
+constexpr double kSteepCell = 0.1;      // the same where what stands is steep
+constexpr double kSteepShare = 4.0;     // of the scallop, between corners: steep
 constexpr int kRounds = 5;
 constexpr int kDeepest = 40;
 
@@ -127,7 +129,7 @@ Coverage::Verdict Coverage::judge(const Cell& cell) const
         return false;
     };
     if (std::max(long_u, long_v) < kBlockedCell * places_.step() && blocked_somewhere(at)) {
-        return thinned_at_border(cell, long_u, long_v);
+        return thinned(cell, at, long_u, long_v);
     }
     if (std::max(long_u, long_v) < kSmallest * places_.step()) {
         const bool each =
@@ -150,8 +152,12 @@ Coverage::Verdict Coverage::judge(const Cell& cell) const
     return longer;
 }
 
-// From beyond a border the ball gets the lower the nearer to it a place is.
-Coverage::Verdict Coverage::thinned_at_border(const Cell& cell, double long_u, double long_v) const
+// From beyond a border the ball gets the lower the nearer to it a place is, and beside cliffs what
+// stands at one place says nothing of the next.
+Coverage::Verdict Coverage::thinned(const Cell& cell,
+                                    const std::array<Corner, 4>& at,
+                                    double long_u,
+                                    double long_v) const
 {
     const Surface& s = surfaces_[static_cast<std::size_t>(cell.surface)];
     const double thin = kBorderCell * places_.step();
@@ -161,7 +167,37 @@ Coverage::Verdict Coverage::thinned_at_border(const Cell& cell, double long_u, d
     if (long_v > thin && (cell.v0 == s.v_begin() || cell.v1 == s.v_end())) {
         return Verdict::kHalveV;
     }
+    if (stands_steep(at)) {
+        return long_u >= long_v ? Verdict::kHalveU : Verdict::kHalveV;
+    }
     return Verdict::kUncovered;
+}
+
+// Whether a cell is wide for one where some of the corners are trimmed away and others not, or far
+// more stands over some.
+bool Coverage::stands_steep(const std::array<Corner, 4>& at) const
+{
+    const double wide = kSteepCell * places_.step();
+    if (norm(at[1].point.point - at[0].point.point) < wide &&
+        norm(at[2].point.point - at[0].point.point) < wide) {
+        return false;
+    }
+    double least = std::numeric_limits<double>::infinity();
+    double most = -least;
+    int outside = 0;
+    for (const Corner& c : at) {
+        if (!certified_.model().inside_trims(c.surface, c.u, c.v)) {
+            ++outside;
+            continue;
+        }
+        const Vec3d p = c.point.point;
+        const double height = places_.swept().lowest(p.x, p.y).height;
+        if (std::isfinite(height)) {
+            least = std::min(least, (height - p.z) * c.normal.z);
+            most = std::max(most, (height - p.z) * c.normal.z);
+        }
+    }
+    return (outside > 0 && outside < 4) || most - least > kSteepShare * scallop_;
 }
 
 // Whether some corner is bare because the tool can't touch it, or is trimmed away.
@@ -341,6 +377,11 @@ void Coverage::close_gaps(const std::function<void(const Points&)>& cut)
             if (!place) {
                 if (kept_off_) {
                     beside_edges.push_back(cell);
+                }
+                // Passes cut since may have made what stands steep.
+                const std::array<Corner, 4> at = corners_of(cell);
+                if (stands_steep(at)) {
+                    changed.push_back(cell);
                 }
                 continue;
             }

@@ -103,7 +103,11 @@ private:
     {
         return places_.covered(at.point.point, at.normal);
     }
-    Verdict thinned_at_border(const Cell& cell, double long_u, double long_v) const;
+    Verdict thinned(const Cell& cell,
+                    const std::array<Corner, 4>& at,
+                    double long_u,
+                    double long_v) const;
+    bool stands_steep(const std::array<Corner, 4>& at) const;
     bool stands_free(const Corner& at) const;
     bool blocked_somewhere(const std::array<Corner, 4>& at) const;
     bool hidden(const Corner& at) const;
