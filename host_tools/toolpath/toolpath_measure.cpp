@@ -14,6 +14,7 @@ struct Stretch {
     double length;
     double velocity;      // at most, mm/s
     double acceleration;  // along the way, mm/s^2
+    double jerk;          // the same, mm/s^3
     Vec3d first_tangent;
     Vec3d last_tangent;
 };
@@ -79,7 +80,9 @@ Stretch stretch_of(const Geometry& g, double feed, const MachineRates& rates)
     if (g.least_radius > 0) {
         velocity = std::min(velocity, std::sqrt(acceleration * g.least_radius));
     }
-    return {g.length, velocity, acceleration, g.first_tangent, g.last_tangent};
+    const double jerk =
+        std::min(along(g.first_tangent, rates.jerk), along(g.last_tangent, rates.jerk));
+    return {g.length, velocity, acceleration, jerk, g.first_tangent, g.last_tangent};
 }
 
 // Square of the speed at the corner between two stretches.
@@ -114,6 +117,49 @@ double seconds_of(const Stretch& s, double begin_squared, double end_squared)
            std::max(0.0, s.length - ramps) / peak;
 }
 
+// From rest to rest, the acceleration rising and falling by the jerk; an endless jerk gives the
+// trapezoid.
+double rest_to_rest(double length, double velocity, double acceleration, double jerk)
+{
+    const double rise = acceleration / jerk;    // s
+    const double gained = acceleration * rise;  // mm/s until the acceleration is full and back
+    // The speed at which the two ramps take all of the length.
+    double peak = std::sqrt(acceleration * length + 0.25 * gained * gained) - 0.5 * gained;
+    if (peak < gained) {
+        peak = std::cbrt(0.25 * length * length * jerk);
+    }
+    peak = std::min(peak, velocity);
+    const double ramp = peak > gained ? peak / acceleration + rise : 2 * std::sqrt(peak / jerk);
+    return 2 * ramp + std::max(0.0, length - peak * ramp) / peak;
+}
+
+// What jerk adds between two stops.
+class JerkTime {
+public:
+    void add(const Stretch& s)
+    {
+        length_ += s.length;
+        velocity_ += s.length * s.velocity;
+        acceleration_ = std::min(acceleration_, s.acceleration);
+        jerk_ = std::min(jerk_, s.jerk);
+    }
+    double take()
+    {
+        const double velocity = velocity_ / length_;
+        const double more = rest_to_rest(length_, velocity, acceleration_, jerk_) -
+                            rest_to_rest(length_, velocity, acceleration_, kEndless);
+        *this = {};
+        return more;
+    }
+
+private:
+    static constexpr double kEndless = 1e30;
+    double length_{};
+    double velocity_{};  // times the length
+    double acceleration_{kEndless};
+    double jerk_{kEndless};
+};
+
 double estimated_seconds(const std::vector<Stretch>& stretches, bool exact_stop)
 {
     if (stretches.empty()) {
@@ -128,10 +174,15 @@ double estimated_seconds(const std::vector<Stretch>& stretches, bool exact_stop)
                               squared[i + 1] + 2 * stretches[i].acceleration * stretches[i].length);
     }
     double seconds = 0;
+    JerkTime jerk;
     for (std::size_t i = 0; i < stretches.size(); ++i) {
         squared[i + 1] = std::min(squared[i + 1],
                                   squared[i] + 2 * stretches[i].acceleration * stretches[i].length);
         seconds += seconds_of(stretches[i], squared[i], squared[i + 1]);
+        jerk.add(stretches[i]);
+        if (squared[i + 1] == 0) {
+            seconds += jerk.take();
+        }
     }
     return seconds;
 }

@@ -27,13 +27,14 @@ struct PathMeasure {
 struct MachineRates {
     Vec3d velocity{100, 100, 50};         // mm/s
     Vec3d acceleration{1000, 1000, 500};  // mm/s^2
+    Vec3d jerk{50000, 50000, 25000};      // mm/s^3
     bool exact_stop{true};                // G61: every corner over 0.5 degrees is a stop
 };
 
 // start  where the tool is before the path's first move
 //
-// estimated_s is the time of trapezoids with look-ahead, without jerk; the simulator knows the
-// time to the tick.
+// estimated_s is the time of trapezoids with look-ahead, and from stop to stop what jerk adds to a
+// straight way as long; the simulator knows the time to the tick.
 PathMeasure measure(const Toolpath& path, Vec3d start, const MachineRates& rates = {});
 
 // Points of a move from `start`, chords within `tolerance` mm of it, the end included and the start

@@ -34,13 +34,17 @@ TEST(ToolpathMeasure, SumsLengthsAndCounts)
     DOUBLES_EQUAL(10, sum.link_length_mm, 1e-12);
 }
 
-TEST(ToolpathMeasure, EstimatesTheTimeOfOneTrapezoid)
+TEST(ToolpathMeasure, EstimatesTheTimeFromRestToRest)
 {
     Toolpath path;
     path.feed = 3000;  // 50 mm/s
     path.moves = {{MoveKind::kCut, LineTo{{100, 0, 0}}}};
-    // ramps of 50 ms each with 1000 mm/s^2, 1.25 mm long
-    DOUBLES_EQUAL(0.1 + 97.5 / 50, measure(path, {0, 0, 0}).estimated_s, 1e-9);
+    // ramps of 70 ms each with 1000 mm/s^2 and 50 000 mm/s^3, 1.75 mm long
+    DOUBLES_EQUAL(0.14 + 96.5 / 50, measure(path, {0, 0, 0}).estimated_s, 1e-9);
+    // never at full speed: 0.25 mm, as long as two ramps up to 9.2 mm/s that reach 679 mm/s^2
+    path.moves = {{MoveKind::kCut, LineTo{{0.25, 0, 0}}}};
+    const double peak = std::cbrt(0.25 * 0.25 * 0.25 * 50000);
+    DOUBLES_EQUAL(4 * std::sqrt(peak / 50000), measure(path, {0, 0, 0}).estimated_s, 1e-9);
 }
 
 TEST(ToolpathMeasure, StopsAtCornersOnlyOnTheExactPath)
@@ -48,9 +52,9 @@ TEST(ToolpathMeasure, StopsAtCornersOnlyOnTheExactPath)
     Toolpath path;
     path.feed = 3000;
     path.moves = {{MoveKind::kCut, LineTo{{50, 0, 0}}}, {MoveKind::kCut, LineTo{{100, 0, 0}}}};
-    DOUBLES_EQUAL(0.1 + 97.5 / 50, measure(path, {0, 0, 0}).estimated_s, 1e-9);
+    DOUBLES_EQUAL(0.14 + 96.5 / 50, measure(path, {0, 0, 0}).estimated_s, 1e-9);
     path.moves[1] = {MoveKind::kCut, LineTo{{50, 50, 0}}};
-    DOUBLES_EQUAL(2 * (0.1 + 47.5 / 50), measure(path, {0, 0, 0}).estimated_s, 1e-9);
+    DOUBLES_EQUAL(2 * (0.14 + 46.5 / 50), measure(path, {0, 0, 0}).estimated_s, 1e-9);
 }
 
 TEST(ToolpathMeasure, HelicesTravelAlongTheirAxis)
