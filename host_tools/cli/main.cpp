@@ -1,6 +1,8 @@
 // The one host program: `cusp COMMAND ...`.
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <string>
 #include <vector>
 
 #include "host_tools/cli/commands.hpp"
@@ -67,7 +69,11 @@ int main(int argc, char** argv)
     try {
         return run(argc, argv);
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "cusp: %s\n", error.what());
+        // One line, whatever a file's name holds.
+        std::string text = error.what();
+        std::replace_if(
+            text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+        std::fprintf(stderr, "cusp: %s\n", text.c_str());
         return kCannotUse;
     }
 }

@@ -418,6 +418,12 @@ std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operatio
         result.push_back(rough->operation);
     }
     result.push_back(finish.plan(rough ? &*rough : nullptr));
+    if (rough && rough->operation.path.moves.empty()) {
+        const Tool& tool = rough->operation.path.tool;
+        result.back().stats.warnings.push_back(
+            "tool " + number_text(tool.number) + " of radius " + number_text(tool.radius) +
+            " mm fits nowhere with the allowance: nothing is roughed");
+    }
     const double roughing_s = rough ? rough->operation.stats.planning_s : 0.0;
     const auto end = std::chrono::steady_clock::now();
     result.back().stats.planning_s =

@@ -56,6 +56,7 @@ private:
     void read_surfaces_of(const std::string& path, Operation& operation);
     void read_parts(JobTable& table, Operation& operation);
     void check_least_depth(const JobTable& table, const Operation& operation) const;
+    void check_roughing(const JobTable& table, const Operation& operation) const;
     void check_strategy(const JobTable& table, const Operation& operation) const;
     const Tool& tool_numbered(const JobTable& table, const char* key, int number) const;
     std::string path_of(const std::string& name) const;
@@ -409,6 +410,26 @@ void JobReader::check_least_depth(const JobTable& table, const Operation& operat
     }
 }
 
+// Of contour_pocket: what only roughing uses is not passed over in silence.
+void JobReader::check_roughing(const JobTable& table, const Operation& operation) const
+{
+    const std::vector<Tool>& tools = operation.tools;
+    if (tools.size() > 2 || (tools.size() == 2 && tools[1].number != operation.tool.number)) {
+        table.refuse("tools", fmt::format("the first may rough, tool {} finishes: no other is used",
+                                          operation.tool.number));
+    }
+    if (operation.max_depth || !operation.layers.empty()) {
+        return;
+    }
+    const std::string why = "needs max_depth or layers: without them nothing is roughed";
+    if (operation.allowance > 0) {
+        table.refuse("allowance", why);
+    }
+    if (tools.front().number != operation.tool.number) {
+        table.refuse("tools", fmt::format("tool {} {}", tools.front().number, why));
+    }
+}
+
 void JobReader::check_strategy(const JobTable& table, const Operation& operation) const
 {
     const std::string& strategy = operation.strategy;
@@ -421,6 +442,7 @@ void JobReader::check_strategy(const JobTable& table, const Operation& operation
         need(operation.boundary.has_value(), "boundary", "the loop that bounds the pocket");
         need(operation.scallop.has_value(), "scallop", "the height of the ridges that may stay");
         check_least_depth(table, operation);
+        check_roughing(table, operation);
     } else if (strategy == "grid_pocket") {
         need(operation.boundary.has_value(), "boundary", "the loop that bounds the pocket");
         need(operation.grid_x > 0, "grid", "the size of its cells, [gx, gy]");

@@ -279,6 +279,16 @@ TEST(ContourPocket, RefusesWhatMakesNoSenseForTheTool)
     CHECK(says(refusal([](Operation& o) { o.max_depth = 1e-9; }), "layers of 8 mm, the limit is"));
 }
 
+TEST(ContourPocket, WarnsOfARoughingToolThatFitsNowhere)
+{
+    Operation operation = pocket();
+    operation.max_depth = 3.0;
+    operation.tools = {{2, ToolShape::kFlat, 30.0, 0.0}, operation.tool};
+    const std::vector<PlannedOperation> planned = plan_contour_pocket(job(), operation);
+    LONGS_EQUAL(1, planned.size());
+    CHECK(says(planned.back().stats.warnings.back(), "tool 2 of radius 30 mm fits nowhere"));
+}
+
 TEST(ContourPocket, WarnsThatItCutsAir)
 {
     Operation operation = pocket();

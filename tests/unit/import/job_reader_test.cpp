@@ -164,6 +164,23 @@ TEST(JobReader, RefusesALeastDepthThatNoLayerCanHave)
         refused(kHead + pocket("min_depth = 1\nlayers = [3, 3.5]\n")).c_str());
 }
 
+TEST(JobReader, RefusesRoughingThatAPocketWouldPassOver)
+{
+    const auto refusal = [&](const std::string& more) {
+        const std::string tools = "[[tool]]\nnumber = 4\nshape = \"flat\"\ndiameter = 9\n";
+        std::string head = kHead;
+        head.replace(head.find("[tool]"), 6, "[[tool]]");
+        return refused(head + tools + pocket("scallop = 0.4\n" + more));
+    };
+    STRCMP_CONTAINS("job.toml:23: operation 1: allowance: needs max_depth or layers",
+                    refusal("allowance = 0.3\n").c_str());
+    STRCMP_CONTAINS("tools: tool 4 needs max_depth or layers", refusal("tools = [4, 3]\n").c_str());
+    STRCMP_CONTAINS("tools: the first may rough, tool 3 finishes",
+                    refusal("tools = [3, 4]\nmax_depth = 2\n").c_str());
+    STRCMP_EQUAL("", refusal("tools = [4, 3]\nmax_depth = 2\nallowance = 0.3\n").c_str());
+    STRCMP_EQUAL("", refusal("tools = [4]\nlayers = [3]\n").c_str());
+}
+
 TEST(JobReader, RefusesAnUnknownKeyAndNamesTheNearest)
 {
     const std::string text = refused(kHead + pocket("scalop = 0.4\nscallop = 0.4\n"));
