@@ -66,12 +66,8 @@ std::array<Coverage::Corner, 4> Coverage::corners_of(const Cell& cell) const
             corner(cell.surface, cell.u0, cell.v1), corner(cell.surface, cell.u1, cell.v1)};
 }
 
-Coverage::Verdict Coverage::judge(const Cell& cell) const
+Coverage::Verdict Coverage::judge(const Cell& cell, const std::array<Corner, 4>& at) const
 {
-    if (certified_.model().outside_trims(cell.surface, {cell.u0, cell.v0}, {cell.u1, cell.v1})) {
-        return Verdict::kCovered;
-    }
-    const std::array<Corner, 4> at = corners_of(cell);
     const double width_u = cell.u1 - cell.u0;
     const double width_v = cell.v1 - cell.v0;
     std::array<double, 4> along_u{};
@@ -223,12 +219,13 @@ const TopMap& Coverage::tops() const
     return *tops_;
 }
 
-void Coverage::look_into(const Cell& cell, int depth)
+void Coverage::look_into(const Cell& cell, const std::array<Corner, 4>& at, int depth)
 {
-    if (overflowed_) {
+    if (overflowed_ ||
+        certified_.model().outside_trims(cell.surface, {cell.u0, cell.v0}, {cell.u1, cell.v1})) {
         return;
     }
-    const Verdict verdict = judge(cell);
+    const Verdict verdict = judge(cell, at);
     if (verdict == Verdict::kCovered) {
         return;
     }
@@ -244,11 +241,17 @@ void Coverage::look_into(const Cell& cell, int depth)
     Cell b = cell;
     if (verdict == Verdict::kHalveU) {
         a.u1 = b.u0 = 0.5 * (cell.u0 + cell.u1);
+        const Corner low = corner(cell.surface, a.u1, cell.v0);
+        const Corner high = corner(cell.surface, a.u1, cell.v1);
+        look_into(a, {at[0], low, at[2], high}, depth - 1);
+        look_into(b, {low, at[1], high, at[3]}, depth - 1);
     } else {
         a.v1 = b.v0 = 0.5 * (cell.v0 + cell.v1);
+        const Corner low = corner(cell.surface, cell.u0, a.v1);
+        const Corner high = corner(cell.surface, cell.u1, a.v1);
+        look_into(a, {at[0], at[1], low, high}, depth - 1);
+        look_into(b, {low, high, at[2], at[3]}, depth - 1);
     }
-    look_into(a, depth - 1);
-    look_into(b, depth - 1);
 }
 
 void Coverage::look_over(int surface)
@@ -273,7 +276,8 @@ void Coverage::look_over(int surface, Vec2d low, Vec2d high)
         knots_between(s.knots_v, std::max(low.y, s.v_begin()), std::min(high.y, s.v_end()));
     for (std::size_t i = 1; i < us.size(); ++i) {
         for (std::size_t j = 1; j < vs.size(); ++j) {
-            look_into({surface, us[i - 1], us[i], vs[j - 1], vs[j]}, kDeepest);
+            const Cell cell{surface, us[i - 1], us[i], vs[j - 1], vs[j]};
+            look_into(cell, corners_of(cell), kDeepest);
         }
     }
 }
@@ -396,7 +400,7 @@ void Coverage::close_gaps(const std::function<void(const Points&)>& cut)
             }
         }
         for (const Cell& cell : changed) {
-            look_into(cell, kDeepest / 4);
+            look_into(cell, corners_of(cell), kDeepest / 4);
         }
     }
     const auto met = [&](const Cell& cell) {

@@ -97,8 +97,9 @@ private:
     enum class Verdict : std::uint8_t { kCovered, kHalveU, kHalveV, kUncovered };
 
     Corner corner(int surface, double u, double v) const;
-    void look_into(const Cell& cell, int depth);
-    Verdict judge(const Cell& cell) const;
+    // at  its corners, as `corners_of` gives them
+    void look_into(const Cell& cell, const std::array<Corner, 4>& at, int depth);
+    Verdict judge(const Cell& cell, const std::array<Corner, 4>& at) const;
     bool place_covered(const Corner& at) const
     {
         return places_.covered(at.point.point, at.normal);
