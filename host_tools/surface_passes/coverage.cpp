@@ -15,6 +15,7 @@ constexpr double kLargest = 4;          // the same
 constexpr double kBorderCell = 0.03;    // the same across a border, where a ball reaches over it
 constexpr double kSteepCell = 0.1;      // the same where what stands is steep
 constexpr double kSteepShare = 4.0;     // of the scallop, between corners: steep
+constexpr double kNearShare = 0.7;      // of the scallop, at a place: beside it may be more
 constexpr int kRounds = 5;
 constexpr int kDeepest = 40;
 
@@ -303,9 +304,13 @@ std::optional<Vec3d> Coverage::better_tip(const Corner& at) const
     if (at.normal.z < kUprightNormal || hidden(at)) {
         return std::nullopt;
     }
-    const PlaceCoverage::Better better = places_.better_tip(at.point.point, at.normal);
+    const PlaceCoverage::Better better = places_.better_tip(at.point.point, at.normal, kNearShare);
     kept_off_ = kept_off_ || better.kept_off;
-    return better.tip;
+    if (better.left > scallop_) {
+        return better.tip;
+    }
+    nearly_bare_ = nearly_bare_ || better.tip;
+    return std::nullopt;
 }
 
 Points Coverage::trace(int surface, Place place, bool along_u) const
@@ -360,8 +365,10 @@ std::optional<Coverage::Place> Coverage::bare_place(const Cell& cell) const
     const auto on_border = [&](const Place& at) {
         return at.u == s.u_begin() || at.u == s.u_end() || at.v == s.v_begin() || at.v == s.v_end();
     };
+    nearly_bare_ = false;
     for (const Place& place : places_of(cell)) {
-        if (missing_tip(cell.surface, place.u, place.v, place.u == u || on_border(place))) {
+        const bool ask = place.u == u || nearly_bare_ || on_border(place);
+        if (missing_tip(cell.surface, place.u, place.v, ask)) {
             return place;
         }
     }

@@ -144,7 +144,8 @@ private:
     double most_left_{};
     double left_beside_edges_{};
     bool overflowed_{};
-    mutable bool kept_off_{};  // some better tip was none, since passes keep off edges
+    mutable bool nearly_bare_{};  // what some better tip would take off is nearly the scallop
+    mutable bool kept_off_{};     // some better tip was none, since passes keep off edges
     mutable std::vector<std::uint32_t> near_;
 };
 

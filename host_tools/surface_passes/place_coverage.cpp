@@ -53,27 +53,27 @@ bool PlaceCoverage::covered(Vec3d point, Vec3d normal, double share) const
                        [&](std::uint32_t move) { return swept_.removes(move, top, path_off_); });
 }
 
-PlaceCoverage::Better PlaceCoverage::better_tip(Vec3d point, Vec3d normal) const
+PlaceCoverage::Better PlaceCoverage::better_tip(Vec3d point, Vec3d normal, double share) const
 {
+    const double worth = scallop_ * share;
     const double cosine = normal.z;
     const SweptBalls::Lowest now = swept_.lowest(point.x, point.y);
-    if ((now.height - point.z) * cosine <= scallop_) {
+    if ((now.height - point.z) * cosine <= worth) {
         return {};
     }
-    const std::optional<LowestReach::Answer> best =
-        reach_.over(point, now.height - scallop_ / cosine);
-    if (!best || (now.height - best->height) * cosine <= scallop_) {
+    const std::optional<LowestReach::Answer> best = reach_.over(point, now.height - worth / cosine);
+    if (!best || (now.height - best->height) * cosine <= worth) {
         return {};
     }
     if (certified_.kept_off_edges({best->tip}).front() == best->tip) {
-        return {best->tip, false};
+        return {best->tip, (now.height - best->height) * cosine, false};
     }
     const std::optional<LowestReach::Answer> kept =
-        reach_.kept_off_edges(point, *best, now.height - scallop_ / cosine);
-    if (!kept || (now.height - kept->height) * cosine <= scallop_) {
-        return {std::nullopt, true};
+        reach_.kept_off_edges(point, *best, now.height - worth / cosine);
+    if (!kept || (now.height - kept->height) * cosine <= worth) {
+        return {std::nullopt, 0, true};
     }
-    return {kept->tip, false};
+    return {kept->tip, (now.height - kept->height) * cosine, false};
 }
 
 PlaceCoverage::Left PlaceCoverage::left_at(Vec3d point, Vec3d normal, double worth) const

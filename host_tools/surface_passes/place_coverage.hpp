@@ -60,12 +60,14 @@ public:
     bool covered(Vec3d point, Vec3d normal, double share = kPlaceShare) const;
 
     struct Better {
-        std::optional<Vec3d> tip;  // none where no tip takes more than the scallop off
+        std::optional<Vec3d> tip;  // none where no tip takes more than the share off
+        double left{};             // mm: what it takes off
         bool kept_off{};           // there is one, but passes keep off the edge beside it
     };
-    // Where the tool would stand lowest over the place, from where it does now.
+    // Where the tool would stand lowest over the place, if that takes off more than a share of the
+    // scallop.
     // Precondition: normal.z >= kUprightNormal
-    Better better_tip(Vec3d point, Vec3d normal) const;
+    Better better_tip(Vec3d point, Vec3d normal, double share = 1) const;
 
     struct Left {
         double reachable{};     // mm: over the best that passes can do
