@@ -47,9 +47,11 @@ void FloorCutter::enter(const Laid& cut, const CutSettings& settings)
     FloorPathSettings laying = cut.laying;
     const double tool = operation_.tool.radius;
     const double radius = std::min(0.6 * tool, pass.room - settings.first - 1e-3);
-    const bool short_pass = length(pass.path) < 6.0 * tool;
-    const bool helix =
-        settings.entry == EntryKind::kHelix || (settings.entry == EntryKind::kAuto && short_pass);
+    const double round = length(pass.path);
+    // A ramp round a pass that is hardly longer than a point would be a plunge.
+    const bool helix = settings.entry == EntryKind::kHelix ||
+                       (settings.entry == EntryKind::kAuto && round < 6.0 * tool) ||
+                       (settings.entry == EntryKind::kRamp && round < 0.5 * tool);
     const bool lines = !laying.arcs && !laying.nurbs;
     laying.arcs = laying.nurbs = false;
     const FloorPath path = lines ? cut.path : laid(pass.path, laying);
@@ -69,7 +71,7 @@ void FloorCutter::enter(const Laid& cut, const CutSettings& settings)
         heights.metal = std::max(heights.metal, around + kOverMetal);
         heights.rapid = std::max(heights.rapid, heights.metal + kRapidOver);
         const double end = moves_.enter_by_helix(
-            path.start, radius, length(pass.path) < radius, heights,
+            path.start, radius, round < radius, heights,
             [&](Vec2d at) { return std::max(floor_.drop(at).height + laying.raise, laying.level); },
             [&](Vec3d a, Vec3d b) { return floor_.gap(a, b); });
         heights = {end + kRapidOver, end};

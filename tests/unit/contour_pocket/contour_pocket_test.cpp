@@ -279,6 +279,20 @@ TEST(ContourPocket, RefusesWhatMakesNoSenseForTheTool)
     CHECK(says(refusal([](Operation& o) { o.max_depth = 1e-9; }), "layers of 8 mm, the limit is"));
 }
 
+TEST(ContourPocket, EntersByAHelixWhereTheInnermostLoopIsTooShortForARamp)
+{
+    for (int i = 0; i < 60; ++i) {
+        Operation operation = pocket();
+        operation.boundary = square_loop(30.0, 30.0, 12.0 + 0.1 * i);
+        operation.tool = {1, ToolShape::kFlat, 4.0, 0.0};
+        operation.entry = EntryKind::kRamp;
+        const OperationStats stats = plan_contour_pocket(job(), operation).back().stats;
+        for (const std::string& text : stats.warnings) {
+            CHECK(!says(text, "no room for a slope"));
+        }
+    }
+}
+
 TEST(ContourPocket, WarnsOfARoughingToolThatFitsNowhere)
 {
     Operation operation = pocket();
