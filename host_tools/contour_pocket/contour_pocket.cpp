@@ -409,11 +409,12 @@ std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operatio
                       operation.max_depth.value_or(kUnlimitedDepth));
     }
     CutDepth* const cut_depth = depth ? &*depth : nullptr;
-    FinishPlanner finish{job, operation, region, budget, cut_depth};
+    const RoughAndFinish shared = share_out(operation, budget);
+    FinishPlanner finish{job, operation, region, shared.finish, cut_depth};
     check_coverage(operation, region, finish.floor());
     std::vector<PlannedOperation> result;
     const std::optional<RoughResult> rough =
-        plan_rough_layers(job, operation, region, budget, cut_depth);
+        plan_rough_layers(job, operation, region, shared.rough, cut_depth);
     if (rough && !rough->operation.path.moves.empty()) {
         result.push_back(rough->operation);
     }

@@ -8,6 +8,8 @@
 #include <map>
 #include <optional>
 
+#include "host_tools/surface_offset/pattern_search.hpp"
+
 namespace cusp::host {
 
 namespace {
@@ -22,6 +24,7 @@ constexpr double kBeside = 0.35;        // of a step: how far beside its end the
 constexpr double kSame = 0.04;          // of the radius: how far along a line its places tell of it
 constexpr double kBesideSame = 0.005;   // of the radius: lines farther beside each other are two
 constexpr double kParallel = 0.9;       // cosine
+constexpr double kDimple = 6.0;         // half sides of the grid: farther off it is another's
 
 class LineTracer {
 public:
@@ -119,8 +122,12 @@ private:
     // A smooth valley as tight as the tool turns no more over that way.
     bool is_uneven(const Look& a, const Look& b) const
     {
-        const Bend found = bend(a, b);
-        return found.jump > search_.jump || found.turn > kTurn + distance(a.at, b.at) / radius_;
+        return bend(a, b).jump > search_.jump || is_tight(a, b);
+    }
+
+    bool is_tight(const Look& a, const Look& b) const
+    {
+        return bend(a, b).turn > kTurn + distance(a.at, b.at) / radius_;
     }
 
     // Where between two places a line passes, and the nearest ones on its sides.
@@ -236,6 +243,9 @@ private:
         constexpr int kMostLedges = 3;
         const std::optional<Crossing> found = crossing(a, b);
         if (!found) {
+            if (a && b && is_tight(*a, *b)) {
+                go_through_dimple(*a, *b);
+            }
             return;
         }
         start_at(found->point);
@@ -269,6 +279,60 @@ private:
         if (lines_.back().points.size() < 2) {
             lines_.pop_back();
         }
+    }
+
+    // A tool that sinks into a hole stands lowest at one place, from where no line leads on. The
+    // nearer the way from a to b passes it the tighter it turns, and smoothly. That place gets a
+    // straight way through it.
+    void go_through_dimple(const Look& a, const Look& b)
+    {
+        const double step = 0.5 * distance(a.at, b.at);
+        const Vec2d start = (a.at + b.at) * 0.5;
+        double lowest = std::min(a.rest.height, b.rest.height);
+        const auto lower = [&](Vec2d to) {
+            const auto there = distance(to, start) < kDimple * step ? look(to) : std::nullopt;
+            const bool found = there && there->rest.height < lowest;
+            lowest = found ? there->rest.height : lowest;
+            return found;
+        };
+        const Vec2d bottom = pattern_search(start, step, nearest_, lower);
+        const auto any = [](const Traced&) {
+            return true;
+        };
+        if (traced_near(bottom, traced_cell_, any) || !rises_all_round(bottom)) {
+            return;
+        }
+        std::vector<CreasePoint> way;
+        const auto add = [&](int k) {
+            const Vec2d at = bottom + Vec2d{k * kLongestStep * radius_, 0.0};
+            const bool stands = look(at).has_value();
+            if (stands) {
+                way.push_back({at, {}, false});
+            }
+            return stands;
+        };
+        constexpr int kSteps = 10;
+        for (int k = 0; k <= kSteps && add(-k); ++k) {
+        }
+        std::reverse(way.begin(), way.end());
+        for (int k = 1; k <= kSteps && add(k); ++k) {
+        }
+        lines_.push_back({std::move(way), false});
+        mark(bottom, bottom, lines_.size() - 1, 0, 0.0);
+    }
+
+    // Whether slopes turn there whichever way it is passed.
+    bool rises_all_round(Vec2d bottom) const
+    {
+        const double out = 0.2 * kGrid * radius_;
+        for (const Vec2d way : {Vec2d{out, 0.0}, Vec2d{0.0, out}}) {
+            const std::optional<Look> a = look(bottom - way);
+            const std::optional<Look> b = look(bottom + way);
+            if (!a || !b || bend(*a, *b).turn < kTurn) {
+                return false;
+            }
+        }
+        return true;
     }
 
     // The same place of the line, met square to it: by two more places beside.

@@ -1,5 +1,5 @@
 // Lines along which the height of the tool's tip jumps or its slope turns up: the feet of cliffs,
-// creases that the tool does not fit into.
+// creases that the tool does not fit into; and ways through the bottoms of dimples.
 #pragma once
 
 #include <functional>

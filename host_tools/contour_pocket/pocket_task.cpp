@@ -130,6 +130,24 @@ Budget make_budget(const Job& job, const Operation& operation)
     return budget;
 }
 
+RoughAndFinish share_out(const Operation& operation, const Budget& budget)
+{
+    constexpr double kNear = 0.2;  // of the room: smaller takes more moves to follow curves
+    const bool roughs = operation.max_depth || !operation.layers.empty();
+    const double near = std::max(kNear * budget.aside, kWrittenStep);
+    const double apart = 2.0 * kWrittenStep;  // ends are written to whole steps
+    const double rest = budget.aside - near - apart;
+    RoughAndFinish shared{budget, budget};
+    if (!roughs || operation.allowance > 0.0 || rest < near) {
+        return shared;
+    }
+    shared.rough.first = budget.first - budget.aside + near;
+    shared.rough.aside = near;
+    shared.finish.first = budget.first + budget.aside - rest;
+    shared.finish.aside = rest;
+    return shared;
+}
+
 Region2d make_region(const Operation& operation, double tolerance)
 {
     Region2d region;

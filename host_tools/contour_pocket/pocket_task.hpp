@@ -23,6 +23,16 @@ struct Budget {
 // Throws InputError where a value is missing or out of range.
 Budget make_budget(const Job& job, const Operation& operation);
 
+// Of an operation that roughs: the two share out how far moves may be beside the plan path.
+struct RoughAndFinish {
+    Budget rough;
+    Budget finish;
+};
+
+// Without an allowance both follow the walls as far as the tolerance lets them. The roughing takes
+// the near part of that: else the finish would take slivers off the walls at their full height.
+RoughAndFinish share_out(const Operation& operation, const Budget& budget);
+
 // The pocket seen from above; free curves within `tolerance` (mm). Throws InputError where loops
 // cross.
 Region2d make_region(const Operation& operation, double tolerance);

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 
+#include "host_tools/contour_pocket/pocket_task.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/test_jobs.hpp"
 
@@ -143,6 +144,24 @@ double deepest_first_cut(const std::vector<PlannedOperation>& planned, double to
         }
     }
     return deepest;
+}
+
+TEST(ContourPocket, TheFinishKeepsFartherOffTheWallsThanARoughingWithoutAllowance)
+{
+    for (const ToleranceSide side : {ToleranceSide::kOutside, ToleranceSide::kBoth}) {
+        Operation operation = pocket();
+        operation.tolerance_side = side;
+        operation.max_depth = 3.0;
+        const Budget whole = make_budget(job(), operation);
+        const auto [rough, finish] = share_out(operation, whole);
+        CHECK(rough.aside > 1e-4);
+        CHECK(rough.first + rough.aside < finish.first - finish.aside);
+        DOUBLES_EQUAL(whole.first - whole.aside, rough.first - rough.aside, 1e-12);
+        DOUBLES_EQUAL(whole.first + whole.aside, finish.first + finish.aside, 1e-12);
+        operation.allowance = 0.3;
+        DOUBLES_EQUAL(whole.first, share_out(operation, whole).rough.first, 0);
+        DOUBLES_EQUAL(whole.aside, share_out(operation, whole).finish.aside, 0);
+    }
 }
 
 TEST(ContourPocket, CutsInLayersWhereTheRoughingToolDoesNotFit)
