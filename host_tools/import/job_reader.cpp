@@ -7,7 +7,7 @@
 #include "host_tools/import/job.hpp"
 #include "host_tools/import/job_table.hpp"
 #include "host_tools/import/job_text.hpp"
-#include "host_tools/import/loop_shape.hpp"
+#include "host_tools/import/operation_check.hpp"
 #include "host_tools/import/owned_keys.hpp"
 #include "host_tools/import/path_ending.hpp"
 #include "host_tools/import/text_of_file.hpp"
@@ -55,9 +55,6 @@ private:
     void read_mesh_of(const std::string& path, Operation& operation);
     void read_surfaces_of(const std::string& path, Operation& operation);
     void read_parts(JobTable& table, Operation& operation);
-    void check_least_depth(const JobTable& table, const Operation& operation) const;
-    void check_roughing(const JobTable& table, const Operation& operation) const;
-    void check_strategy(const JobTable& table, const Operation& operation) const;
     const Tool& tool_numbered(const JobTable& table, const char* key, int number) const;
     std::string path_of(const std::string& name) const;
 
@@ -371,91 +368,6 @@ void JobReader::read_parts(JobTable& table, Operation& operation)
     }
 }
 
-void check_islands(const Operation& operation)
-{
-    constexpr double kChord = 1e-3;
-    if (!operation.boundary) {
-        return;
-    }
-    const auto outer = loop_polyline(*operation.boundary, kChord);
-    for (std::size_t i = 0; i < operation.islands.size(); ++i) {
-        const auto island = loop_polyline(operation.islands[i], kChord);
-        if (lies_outside(island, outer)) {
-            throw InputError(fmt::format(
-                "{}: the island lies outside the boundary {} at ({:g}, {:g}) mm",
-                operation.island_files[i], operation.boundary_file, island[0].x, island[0].y));
-        }
-    }
-}
-
-// Of the strategies that always finish: without layers there is but one depth of cut.
-void JobReader::check_least_depth(const JobTable& table, const Operation& operation) const
-{
-    if (!operation.min_depth) {
-        return;
-    }
-    if (!operation.max_depth && operation.layers.empty()) {
-        table.refuse("min_depth", "needs max_depth or layers: without them " + operation.strategy +
-                                      " cuts no layers");
-    }
-    constexpr double kRounding = 1e-6;  // mm
-    double above = 0;
-    for (const double depth : operation.layers) {
-        if (depth - above < *operation.min_depth - kRounding) {
-            table.refuse("layers", fmt::format("the layer down to {:g} mm is {:g} mm deep, less "
-                                               "than the min_depth of {:g} mm",
-                                               depth, depth - above, *operation.min_depth));
-        }
-        above = depth;
-    }
-}
-
-// Of contour_pocket: what only roughing uses is not passed over in silence.
-void JobReader::check_roughing(const JobTable& table, const Operation& operation) const
-{
-    const std::vector<Tool>& tools = operation.tools;
-    if (tools.size() > 2 || (tools.size() == 2 && tools[1].number != operation.tool.number)) {
-        table.refuse("tools", fmt::format("the first may rough, tool {} finishes: no other is used",
-                                          operation.tool.number));
-    }
-    if (operation.max_depth || !operation.layers.empty()) {
-        return;
-    }
-    const std::string why = "needs max_depth or layers: without them nothing is roughed";
-    if (operation.allowance > 0) {
-        table.refuse("allowance", why);
-    }
-    if (tools.front().number != operation.tool.number) {
-        table.refuse("tools", fmt::format("tool {} {}", tools.front().number, why));
-    }
-}
-
-void JobReader::check_strategy(const JobTable& table, const Operation& operation) const
-{
-    const std::string& strategy = operation.strategy;
-    const auto need = [&](bool there, const char* key, const char* what) {
-        if (!there) {
-            table.refuse(key, fmt::format("is missing: {} needs {}", strategy, what));
-        }
-    };
-    if (strategy == "contour_pocket") {
-        need(operation.boundary.has_value(), "boundary", "the loop that bounds the pocket");
-        need(operation.scallop.has_value(), "scallop", "the height of the ridges that may stay");
-        check_least_depth(table, operation);
-        check_roughing(table, operation);
-    } else if (strategy == "grid_pocket") {
-        need(operation.boundary.has_value(), "boundary", "the loop that bounds the pocket");
-        need(operation.grid_x > 0, "grid", "the size of its cells, [gx, gy]");
-        check_least_depth(table, operation);
-    } else if (strategy == "hull_rough") {
-        need(operation.max_depth.has_value(), "max_depth", "the depth of cut of a layer");
-    } else if (strategy == "parallel_planes") {
-        need(operation.step_over || operation.scallop, "step_over", "it or scallop");
-    } else {
-        need(operation.iso_distance || operation.scallop, "iso_distance", "it or scallop");
-    }
-}
-
 Operation JobReader::read_operation(const toml::table& entry, std::size_t index)
 {
     JobTable table{entry, file_, fmt::format("operation {}", index)};
@@ -473,8 +385,7 @@ Operation JobReader::read_operation(const toml::table& entry, std::size_t index)
     read_parts(table, operation);
     table.refuse_unknown_keys();
     refuse_keys_of_others(entry, table, operation.strategy);
-    check_strategy(table, operation);
-    check_islands(operation);
+    check_operation(table, operation);
     return operation;
 }
 

@@ -1,0 +1,105 @@
+// Strategy by strategy.
+#include "host_tools/import/operation_check.hpp"
+
+#include "host_tools/import/loop_shape.hpp"
+#include "host_tools/input_error/input_error.hpp"
+
+#include "fmt/format.h"
+
+namespace cusp::host {
+namespace {
+
+void check_islands(const Operation& operation)
+{
+    constexpr double kChord = 1e-3;
+    if (!operation.boundary) {
+        return;
+    }
+    const auto outer = loop_polyline(*operation.boundary, kChord);
+    for (std::size_t i = 0; i < operation.islands.size(); ++i) {
+        const auto island = loop_polyline(operation.islands[i], kChord);
+        if (lies_outside(island, outer)) {
+            throw InputError(fmt::format(
+                "{}: the island lies outside the boundary {} at ({:g}, {:g}) mm",
+                operation.island_files[i], operation.boundary_file, island[0].x, island[0].y));
+        }
+    }
+}
+
+// Of the strategies that always finish: without layers there is but one depth of cut.
+void check_least_depth(const JobTable& table, const Operation& operation)
+{
+    if (!operation.min_depth) {
+        return;
+    }
+    if (!operation.max_depth && operation.layers.empty()) {
+        table.refuse("min_depth", "needs max_depth or layers: without them " + operation.strategy +
+                                      " cuts no layers");
+    }
+    constexpr double kRounding = 1e-6;  // mm
+    double above = 0;
+    for (const double depth : operation.layers) {
+        if (depth - above < *operation.min_depth - kRounding) {
+            table.refuse("layers", fmt::format("the layer down to {:g} mm is {:g} mm deep, less "
+                                               "than the min_depth of {:g} mm",
+                                               depth, depth - above, *operation.min_depth));
+        }
+        above = depth;
+    }
+}
+
+// Of contour_pocket: what only roughing uses is not passed over in silence.
+void check_roughing(const JobTable& table, const Operation& operation)
+{
+    const std::vector<Tool>& tools = operation.tools;
+    if (tools.size() > 2 || (tools.size() == 2 && tools[1].number != operation.tool.number)) {
+        table.refuse("tools", fmt::format("the first may rough, tool {} finishes: no other is used",
+                                          operation.tool.number));
+    }
+    if (operation.max_depth || !operation.layers.empty()) {
+        return;
+    }
+    const std::string why = "needs max_depth or layers: without them nothing is roughed";
+    if (operation.allowance > 0) {
+        table.refuse("allowance", why);
+    }
+    if (tools.front().number != operation.tool.number) {
+        table.refuse("tools", fmt::format("tool {} {}", tools.front().number, why));
+    }
+}
+
+void check_strategy(const JobTable& table, const Operation& operation)
+{
+    const std::string& strategy = operation.strategy;
+    const auto need = [&](bool there, const char* key, const char* what) {
+        if (!there) {
+            table.refuse(key, fmt::format("is missing: {} needs {}", strategy, what));
+        }
+    };
+    if (strategy == "contour_pocket") {
+        need(operation.boundary.has_value(), "boundary", "the loop that bounds the pocket");
+        need(operation.scallop.has_value(), "scallop", "the height of the ridges that may stay");
+        check_least_depth(table, operation);
+        check_roughing(table, operation);
+    } else if (strategy == "grid_pocket") {
+        need(operation.boundary.has_value(), "boundary", "the loop that bounds the pocket");
+        need(operation.grid_x > 0, "grid", "the size of its cells, [gx, gy]");
+        check_least_depth(table, operation);
+    } else if (strategy == "hull_rough") {
+        need(operation.max_depth.has_value(), "max_depth", "the depth of cut of a layer");
+    } else if (strategy == "parallel_planes") {
+        need(operation.step_over || operation.scallop, "step_over", "it or scallop");
+    } else {
+        need(operation.iso_distance || operation.scallop, "iso_distance", "it or scallop");
+    }
+}
+
+}  // namespace
+
+void check_operation(const JobTable& table, const Operation& operation)
+{
+    check_strategy(table, operation);
+    check_islands(operation);
+}
+
+}  // namespace cusp::host
