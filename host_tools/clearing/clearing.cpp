@@ -338,7 +338,6 @@ void add_rings(const std::vector<Loop2d>& loops, PassList& list)
     for (std::size_t i = rings.size(); i-- > 0;) {
         if (parents[i] < 0) {
             stack.push_back(static_cast<int>(i));
-            ++list.region().islands;
         } else {
             inside[static_cast<std::size_t>(parents[i])].push_back(static_cast<int>(i));
         }

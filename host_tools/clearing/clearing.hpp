@@ -63,7 +63,6 @@ struct ClearedRegion {
     std::vector<ClearingPass> passes;  // in the order to cut
     int levels{};
     int leaves{};         // passes without one further inside
-    int islands{};        // rings cut by themselves
     double widest_gap{};  // largest step between two levels, mm
 };
 

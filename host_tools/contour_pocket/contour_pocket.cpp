@@ -251,8 +251,7 @@ private:
         for (const double level : heights) {
             settings.laying.level = level;
             settings.entry_heights = [&](double pass) {
-                const double metal = std::max(above, pass);
-                return EntryHeights{metal + 1.0, metal + 0.1};
+                return heights_over(std::max(above, pass));
             };
             cutter.cut(walls, settings);
             settings.skip_above = above = level;
@@ -282,7 +281,7 @@ private:
             const double metal = std::max(top, pass);
             // What roughing has left is met at the plunge feed: beside walls it stands full height.
             const double slope = roughed ? std::min(metal, pass + *roughed + 0.5) : metal;
-            return EntryHeights{metal + 1.0, slope + 0.1};
+            return EntryHeights{heights_over(metal).rapid, heights_over(slope).metal};
         };
         return settings;
     }

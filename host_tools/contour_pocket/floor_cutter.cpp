@@ -9,9 +9,6 @@ namespace cusp::host {
 
 namespace {
 
-constexpr double kOverMetal = 0.1;  // mm: where the plunge feed hands over to a slope
-constexpr double kRapidOver = 0.9;  // mm over that: where rapid moves end
-
 double lowest_of(const FloorPath& path)
 {
     double lowest = path.start.z;
@@ -59,22 +56,20 @@ void FloorCutter::enter(const Laid& cut, const CutSettings& settings)
     const Vec2d start = pass.path.front().start;
     const bool open = distance(start, pass.path.back().end) > 1e-9;
     if (depth_ != nullptr) {
-        const double metal = depth_->highest_at(start) + kOverMetal;
+        const EntryHeights over = heights_over(depth_->highest_at(start));
         // Open passes lie in metal that closed ones have cut.
-        heights.metal = open ? metal : std::max(heights.metal, metal);
-        heights.rapid = std::max(heights.rapid, heights.metal + kRapidOver);
+        heights.metal = open ? over.metal : heights.metal;
+        heights.raise_over(over);
     }
     const double around = helix ? metal_around(start, radius) : 0.0;
     // A helix reaches farther than the pass, where metal may stand that no pass has met.
     const bool shallow = depth_ == nullptr || around - path.start.z <= depth_->most();
     if (helix && radius > 0.2 * tool && shallow) {
-        heights.metal = std::max(heights.metal, around + kOverMetal);
-        heights.rapid = std::max(heights.rapid, heights.metal + kRapidOver);
-        const double end = moves_.enter_by_helix(
+        heights.raise_over(heights_over(around));
+        heights.metal = moves_.enter_by_helix(
             path.start, radius, round < radius, heights,
             [&](Vec2d at) { return std::max(floor_.drop(at).height + laying.raise, laying.level); },
             [&](Vec3d a, Vec3d b) { return floor_.gap(a, b); });
-        heights = {end + kRapidOver, end};
     }
     moves_.enter_along(path, heights, settings.entry == EntryKind::kPlunge);
 }
@@ -140,8 +135,7 @@ FloorCutter::Laid FloorCutter::cut_above(const Laid& deep,
         entering.laying.level = std::max(*level, settings.laying.level);
         entering.laying.nurbs = false;
         entering.entry_heights = [highest = depth_->highest(last.path)](double pass) {
-            const double metal = std::max(highest, pass);
-            return EntryHeights{metal + kOverMetal + kRapidOver, metal + kOverMetal};
+            return heights_over(std::max(highest, pass));
         };
         const Laid over = lay(flat, entering, true);
         if (i == 0) {

@@ -9,8 +9,10 @@ namespace cusp::host {
 
 namespace {
 
-constexpr double kSlope = 0.08;    // of ramps and helices: 4.6 degrees
-constexpr double kSettled = 0.03;  // mm over the pass: here the slope has met it
+constexpr double kOverMetal = 0.1;  // mm: where the plunge feed hands over to a slope
+constexpr double kRapidOver = 0.9;  // mm over that: where rapid moves end
+constexpr double kSlope = 0.08;     // of ramps and helices: 4.6 degrees
+constexpr double kSettled = 0.03;   // mm over the pass: here the slope has met it
 constexpr int kHelixSides = 48;
 constexpr int kMostPoints = 100000;  // of one entry: where a pass is too short for a slope
 
@@ -43,6 +45,17 @@ std::vector<Vec3d> to_and_fro(const std::vector<Vec3d>& pass, double way)
 }
 
 }  // namespace
+
+void EntryHeights::raise_over(const EntryHeights& other)
+{
+    rapid = std::max(rapid, other.rapid);
+    metal = std::max(metal, other.metal);
+}
+
+EntryHeights heights_over(double metal)
+{
+    return {metal + kOverMetal + kRapidOver, metal + kOverMetal};
+}
 
 ToolMove tool_move(MoveKind kind, const FloorMove& move)
 {

@@ -13,7 +13,12 @@ namespace cusp::host {
 struct EntryHeights {
     double rapid;
     double metal;
+
+    void raise_over(const EntryHeights& other);
 };
+
+// Over metal that stands up to z, mm.
+EntryHeights heights_over(double metal);
 
 ToolMove tool_move(MoveKind kind, const FloorMove& move);
 
@@ -29,9 +34,9 @@ public:
     void enter_along(const FloorPath& path, const EntryHeights& heights, bool plunge);
 
     // Down on a helix about the start of a pass, to somewhere over it; to the start itself where
-    // that is little lower, or `whole`. lowest(at) is the lowest the
-    // tip may stand there, gap(a, b) the room of a straight move, negative where it would cut too
-    // deep. Returns the height it ends at.
+    // that is little lower, or `whole`. lowest(at) is the lowest the tip may stand there, gap(a, b)
+    // the room of a straight move, negative where it would cut too deep. Returns the height it
+    // ends at.
     double enter_by_helix(Vec3d centre,
                           double radius,
                           bool whole,

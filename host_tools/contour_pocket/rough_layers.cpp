@@ -154,8 +154,7 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
         settings.laying.level = level;
         settings.entry_heights = [&](double pass) {
             // The same loops were cut there by the layer above.
-            const double metal = std::max(above, pass);
-            return EntryHeights{metal + 1.0, metal + 0.1};
+            return heights_over(std::max(above, pass));
         };
         cutter.cut(cleared, settings);
         settings.skip_above = above = level;
