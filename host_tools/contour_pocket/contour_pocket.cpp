@@ -86,7 +86,7 @@ public:
         ClearedRegion cleared = passes();
         const std::size_t loops = cleared.passes.size();
         add_cliff_passes(cleared);
-        FloorCutter cutter{operation_, floor_, moves_, depth_};
+        FloorCutter cutter{operation_, floor_, walls_, moves_, depth_};
         if (depth_ != nullptr) {
             depth_->begin(operation_.tool);
         }
@@ -101,12 +101,14 @@ public:
             const bool stands = operation_.allowance > 0.0 ||
                                 rough->operation.path.tool.number != operation_.tool.number;
             if (stands) {
-                cut_walls(cutter, cleared, settings.repeated, depths_beside(cleared, *rough));
+                settings.standing = {settings.repeated, job_.stock_top,
+                                     depths_beside(cleared, *rough)};
             }
         }
         settings.repeated.resize(loops, false);
         settings.repeated.resize(cleared.passes.size(), true);
         cutter.cut(cleared, settings);
+        cutter.end();
         PlannedOperation result;
         fill(result.stats, cleared, cutter.least_gap());
         describe(result.path, result.stats);
@@ -227,34 +229,6 @@ private:
                 path = flattened(path, settings.laying.aside, settings.laying.spacing,
                                  settings.laying.arcs);
             }
-        }
-    }
-
-    // What roughing left there stands to the top of the stock: it is cut in the same layers, or the
-    // finish would cut to its full depth.
-    void cut_walls(FloorCutter& cutter,
-                   const ClearedRegion& cleared,
-                   const std::vector<bool>& beside,
-                   const std::vector<double>& heights) const
-    {
-        ClearedRegion walls;
-        for (std::size_t i = 0; i < cleared.passes.size(); ++i) {
-            if (beside[i]) {
-                walls.passes.push_back(cleared.passes[i]);
-            }
-        }
-        CutSettings settings = cutting(std::nullopt);
-        settings.laying.nurbs = false;
-        settings.depth_share = 1.0;
-        settings.repeated.assign(walls.passes.size(), true);
-        double above = job_.stock_top;
-        for (const double level : heights) {
-            settings.laying.level = level;
-            settings.entry_heights = [&](double pass) {
-                return heights_over(std::max(above, pass));
-            };
-            cutter.cut(walls, settings);
-            settings.skip_above = above = level;
         }
     }
 

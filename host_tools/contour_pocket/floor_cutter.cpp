@@ -1,4 +1,4 @@
-// One pass after the other; a pass left out breaks the link to the next.
+// One pass after the other, the next from where the last one ends wherever there is a way.
 #include "host_tools/contour_pocket/floor_cutter.hpp"
 
 #include <algorithm>
@@ -8,6 +8,8 @@
 namespace cusp::host {
 
 namespace {
+
+constexpr double kSamePlace = kWrittenStep;  // paths are rounded to it
 
 double lowest_of(const FloorPath& path)
 {
@@ -25,6 +27,29 @@ double lowest_of(const FloorPath& path)
 EntryKind way_down(EntryKind entry)
 {
     return entry == EntryKind::kPlunge ? entry : EntryKind::kRamp;
+}
+
+bool is_open(const ClearingPass& pass)
+{
+    return distance(pass.path.front().start, pass.path.back().end) > 1e-9;
+}
+
+bool is_set(const std::vector<bool>& flags, std::size_t i) { return i < flags.size() && flags[i]; }
+
+// Whether the axis stays `least` mm off the walls all along the line.
+bool is_free(const RegionOffset& walls, const Edge& line, double least)
+{
+    constexpr double kSpacing = 0.05;
+    // A corner abreast of the middle between two places is that much farther from both.
+    const double abreast = std::hypot(least, 0.5 * kSpacing);
+    const int n = 1 + static_cast<int>(length(line) / kSpacing);
+    for (int i = 0; i <= n; ++i) {
+        const Vec2d p = point_on(line, static_cast<double>(i) / n);
+        if (walls.any_nearer(p, abreast) || !walls.contains(p)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 }  // namespace
@@ -45,16 +70,17 @@ void FloorCutter::enter(const Laid& cut, const CutSettings& settings)
     const double tool = operation_.tool.radius;
     const double radius = std::min(0.6 * tool, pass.room - settings.first - 1e-3);
     const double round = length(pass.path);
+    const Vec2d start = pass.path.front().start;
+    const bool stands = moves_.stands_over(cut.path.start);
     // A ramp round a pass that is hardly longer than a point would be a plunge.
-    const bool helix = settings.entry == EntryKind::kHelix ||
-                       (settings.entry == EntryKind::kAuto && round < 6.0 * tool) ||
-                       (settings.entry == EntryKind::kRamp && round < 0.5 * tool);
+    const bool helix = (settings.entry == EntryKind::kHelix && !stands) ||
+                       (settings.entry == EntryKind::kAuto && round < 6.0 * tool && !stands) ||
+                       (settings.entry != EntryKind::kPlunge && round < 0.5 * tool);
     const bool lines = !laying.arcs && !laying.nurbs;
     laying.arcs = laying.nurbs = false;
     const FloorPath path = lines ? cut.path : laid(pass.path, laying);
     EntryHeights heights = settings.entry_heights(path.start.z);
-    const Vec2d start = pass.path.front().start;
-    const bool open = distance(start, pass.path.back().end) > 1e-9;
+    const bool open = is_open(pass);
     if (depth_ != nullptr) {
         const EntryHeights over = heights_over(depth_->highest_at(start));
         // Open passes lie in metal that closed ones have cut.
@@ -111,8 +137,85 @@ bool FloorCutter::link(const Laid& laid_pass, const CutSettings& settings)
     return true;
 }
 
-// Cuts the pass at levels over itself, as low as the metal allows, until it is not too deep.
-// Returns the pass as it is to be cut then, from the same path in plan.
+// Above the metal that stands along the way, and above `above`; false where that is so long that up
+// and down again is no longer.
+bool FloorCutter::follow_over(const std::vector<Edge>& way,
+                              double above,
+                              const CutSettings& settings)
+{
+    constexpr double kLongest = 8.0;  // radii
+    if (depth_ == nullptr || way.empty() ||
+        length(way) > 2.0 * moves_.below_clearance() + kLongest * operation_.tool.radius) {
+        return false;
+    }
+    FloorPathSettings laying = settings.laying;
+    laying.nurbs = false;
+    laying.even = true;
+    const double metal = depth_->highest(laid(way, laying));
+    laying.level = heights_over(std::max({metal, above, moves_.place().z})).metal;
+    const FloorPath path = laid(way, laying);
+    least_gap_ = std::min(least_gap_, path.least_gap);
+    moves_.link(path);
+    return true;
+}
+
+// Straight to the start of the pass; false where a wall is in the way.
+bool FloorCutter::step_over(const Laid& laid_pass, const CutSettings& settings)
+{
+    const Vec2d from = in_plan(moves_.place());
+    const Edge way = line_edge(from, laid_pass.pass.path.front().start);
+    const bool entered = way_down(settings.entry) == settings.entry;
+    return (laid_pass.pass.start != PassStart::kEntry || entered) &&
+           is_free(walls_, way, settings.first - settings.laying.aside) &&
+           follow_over({way}, laid_pass.path.start.z, settings);
+}
+
+// From the end of one pass to the start of one before it: straight, or back along the links
+// between.
+void FloorCutter::go_back(const std::vector<ClearingPass>& passes,
+                          std::size_t from,
+                          std::size_t to,
+                          const CutSettings& settings)
+{
+    const Edge straight = line_edge(passes[from].path.back().end, passes[to].path.front().start);
+    std::vector<Edge> way;
+    if (is_free(walls_, straight, settings.first - settings.laying.aside)) {
+        way.push_back(straight);
+    } else {
+        for (std::size_t i = from; i > to; --i) {
+            const std::vector<Edge> back = reversed(passes[i].link);
+            way.insert(way.end(), back.begin(), back.end());
+        }
+    }
+    follow_over(way, -1e300, settings);
+}
+
+// By its link, where the tool stands before that and it does not cut too deep, else by an entry.
+void FloorCutter::begin(const Laid& laid_pass, const CutSettings& settings)
+{
+    const ClearingPass& pass = laid_pass.pass;
+    const bool at_link = pass.start == PassStart::kLink && moves_.is_down() &&
+                         distance(pass.link.front().start, in_plan(moves_.place())) < kSamePlace;
+    if (!at_link || !link(laid_pass, settings)) {
+        if (moves_.is_down() && !moves_.stands_over(laid_pass.path.start)) {
+            step_over(laid_pass, settings);
+        }
+        enter(laid_pass, settings);
+    }
+    least_gap_ = std::min(least_gap_, laid_pass.path.least_gap);
+    moves_.cut(laid_pass.path);
+    feel();
+}
+
+void FloorCutter::feel()
+{
+    if (depth_ != nullptr) {
+        depth_->feel(moves_.moves());
+    }
+}
+
+// Cuts the pass at levels over itself, as low as the metal allows, until it is not too deep; open
+// ones to and fro. Returns the pass as it is to be cut then, from the same path in plan.
 FloorCutter::Laid FloorCutter::cut_above(const Laid& deep,
                                          const CutSettings& settings,
                                          bool repeated)
@@ -123,70 +226,109 @@ FloorCutter::Laid FloorCutter::cut_above(const Laid& deep,
         flat.path = flattened(flat.path, settings.laying.aside, settings.laying.spacing,
                               settings.laying.arcs);
     }
-    const Laid last = lay(flat, settings, true);
+    Laid last = lay(flat, settings, true);
     CutSettings entering = settings;
-    entering.entry = way_down(settings.entry);
+    entering.laying.nurbs = false;
+    double before = 1e300;
     for (int i = 0; i < kMostCuts; ++i) {
-        depth_->feel(moves_.moves());
         const auto level = depth_->level_over(last.path, settings.depth_share);
-        if (!level || (i > 0 && *level > entering.laying.level - kWrittenStep)) {
+        if (!level || *level > before - kWrittenStep) {
             break;
         }
-        entering.laying.level = std::max(*level, settings.laying.level);
-        entering.laying.nurbs = false;
+        before = std::max(*level, settings.laying.level);
+        entering.laying.level = before;
         entering.entry_heights = [highest = depth_->highest(last.path)](double pass) {
             return heights_over(std::max(highest, pass));
         };
-        const Laid over = lay(flat, entering, true);
-        if (i == 0) {
-            moves_.retract();
+        begin(lay(flat, entering, true), entering);
+        entering.entry = way_down(settings.entry);
+        if (is_open(flat)) {
+            flat.path = reversed(flat.path);
+            last = lay(flat, settings, true);
         }
-        enter(over, entering);
-        least_gap_ = std::min(least_gap_, over.path.least_gap);
-        moves_.cut(over.path);
     }
     return last;
 }
 
+void FloorCutter::cut_pass(ClearingPass& pass, const CutSettings& settings, bool repeated)
+{
+    Laid now = lay(pass, settings, repeated);
+    if (lowest_of(now.path) >= settings.skip_above) {
+        return;
+    }
+    feel();
+    CutSettings entering = settings;
+    if (too_deep(now.path, settings)) {
+        now = cut_above(now, settings, repeated);
+        entering.entry = way_down(settings.entry);
+    }
+    begin(now, entering);
+    if (is_open(now.pass)) {
+        pass.path = reversed(now.pass.path);
+    }
+}
+
+// What roughing left beside these is cut level by level.
+void FloorCutter::cut_standing(std::vector<ClearingPass>& passes, const CutSettings& settings)
+{
+    CutSettings over = settings;
+    over.laying.nurbs = false;
+    over.depth_share = 1.0;
+    std::vector<double> lowest;
+    for (const ClearingPass& pass : passes) {
+        lowest.push_back(lowest_of(lay(pass, settings, true).path));
+    }
+    double above = settings.standing.top;
+    std::size_t last = 0;
+    for (const double level : settings.standing.heights) {
+        over.laying.level = level;
+        over.entry_heights = [above](double pass) {
+            return heights_over(std::max(above, pass));
+        };
+        for (std::size_t i = 0; i < passes.size(); ++i) {
+            if (lowest[i] < level - kWrittenStep) {
+                if (last > i) {
+                    go_back(passes, last, i, over);
+                }
+                cut_pass(passes[i], over, true);
+                over.entry = way_down(settings.entry);
+                last = i;
+            }
+        }
+        above = level;
+    }
+    if (last > 0) {
+        go_back(passes, last, 0, over);
+    }
+}
+
 void FloorCutter::cut(const ClearedRegion& cleared, const CutSettings& settings)
 {
-    bool cut_before = false;
-    Vec2d last{};
-    for (std::size_t i = 0; i < cleared.passes.size(); ++i) {
-        const bool repeated = i < settings.repeated.size() && settings.repeated[i];
-        Laid now = lay(cleared.passes[i], settings, repeated);
-        if (lowest_of(now.path) >= settings.skip_above) {
-            cut_before = false;
-            continue;
+    const std::size_t n = cleared.passes.size();
+    for (std::size_t first = 0, end = 0; first < n; first = end) {
+        end = first + 1;
+        const bool standing = is_set(settings.standing.passes, first);
+        while (standing && end < n && is_set(settings.standing.passes, end) &&
+               cleared.passes[end].start == PassStart::kLink) {
+            ++end;
         }
-        if (depth_ != nullptr) {
-            depth_->feel(moves_.moves());
+        const auto at = [&](std::size_t i) {
+            return cleared.passes.begin() + static_cast<std::ptrdiff_t>(i);
+        };
+        std::vector<ClearingPass> passes{at(first), at(end)};
+        if (standing) {
+            cut_standing(passes, settings);
         }
-        const bool layered = too_deep(now.path, settings);
-        if (layered) {
-            now = cut_above(now, settings, repeated);
+        for (std::size_t i = first; i < end; ++i) {
+            cut_pass(passes[i - first], settings, is_set(settings.repeated, i));
         }
-        least_gap_ = std::min(least_gap_, now.path.least_gap);
-        const ClearingPass& pass = now.pass;
-        const bool beside =
-            distance(pass.link.empty() ? Vec2d{} : pass.link.front().start, last) < 1e-6;
-        const bool may_link = !layered && pass.start == PassStart::kLink && cut_before && beside;
-        if (!may_link || !link(now, settings)) {
-            if (!layered) {
-                moves_.retract();
-            }
-            CutSettings entering = settings;
-            entering.entry = layered ? way_down(settings.entry) : settings.entry;
-            enter(now, entering);
-        }
-        moves_.cut(now.path);
-        cut_before = true;
-        last = pass.path.back().end;
     }
+}
+
+void FloorCutter::end()
+{
     moves_.retract();
-    if (depth_ != nullptr) {
-        depth_->feel(moves_.moves());
-    }
+    feel();
 }
 
 }  // namespace cusp::host

@@ -11,6 +11,16 @@
 
 namespace cusp::host {
 
+// What roughing left beside some passes stands to the top of the stock, thinner than the metal may
+// be known for.
+struct StandingBeside {
+    std::vector<bool> passes;  // which; empty: none
+    double top{};              // z of the stock
+    // z, downward: such passes are cut at these first, as far as they lie deeper; those that are
+    // linked to each other together.
+    std::vector<double> heights;
+};
+
 struct CutSettings {
     FloorPathSettings laying;
     EntryKind entry{EntryKind::kAuto};
@@ -19,6 +29,7 @@ struct CutSettings {
     double skip_above{1e300};
     // Which passes have paths that are cut at several heights (flattened()); empty: none.
     std::vector<bool> repeated;
+    StandingBeside standing;
     // Of the depth allowed: what a pass may cut as far as the metal is known.
     double depth_share{1.0};
     // Where entries start, from the height of the pass there.
@@ -27,18 +38,24 @@ struct CutSettings {
 
 class FloorCutter {
 public:
+    // walls  of the pocket
     // depth  where given, passes that would cut too deep are cut at levels over them first, and
-    //        entries start over the metal that stands
+    //        entries start over the metal that stands; passes that have no link are reached by
+    //        short ways above it
     FloorCutter(const Operation& operation,
                 const TipFloor& floor,
+                const RegionOffset& walls,
                 PocketMoves& moves,
                 CutDepth* depth)
-        : operation_{operation}, floor_{floor}, moves_{moves}, depth_{depth}
+        : operation_{operation}, floor_{floor}, walls_{walls}, moves_{moves}, depth_{depth}
     {
     }
 
-    // Throws InputError where a pass leaves the floor.
+    // Throws InputError where a pass leaves the floor. The tool stays where the last pass ends.
     void cut(const ClearedRegion& cleared, const CutSettings& settings);
+
+    // Takes the tool up from its last pass.
+    void end();
 
     // mm; 0, or negative by how much some move may cut into the floor.
     double least_gap() const { return least_gap_; }
@@ -53,13 +70,24 @@ private:
     Laid lay(const ClearingPass& pass, const CutSettings& settings, bool repeated);
     bool too_deep(const FloorPath& path, const CutSettings& settings) const;
     bool link(const Laid& laid, const CutSettings& settings);
-    Laid cut_above(const Laid& laid, const CutSettings& settings, bool repeated);
+    bool step_over(const Laid& laid, const CutSettings& settings);
+    bool follow_over(const std::vector<Edge>& way, double above, const CutSettings& settings);
+    void begin(const Laid& laid, const CutSettings& settings);
+    void go_back(const std::vector<ClearingPass>& passes,
+                 std::size_t from,
+                 std::size_t to,
+                 const CutSettings& settings);
+    void cut_standing(std::vector<ClearingPass>& passes, const CutSettings& settings);
+    void cut_pass(ClearingPass& pass, const CutSettings& settings, bool repeated);
+    Laid cut_above(const Laid& deep, const CutSettings& settings, bool repeated);
     FloorPath laid(const std::vector<Edge>& plan, const FloorPathSettings& laying);
     void enter(const Laid& cut, const CutSettings& settings);
+    void feel();
     double metal_around(Vec2d start, double radius) const;
 
     const Operation& operation_;
     const TipFloor& floor_;
+    const RegionOffset& walls_;
     PocketMoves& moves_;
     CutDepth* depth_;
     double least_gap_{0.0};

@@ -89,13 +89,22 @@ void PocketMoves::approach(Vec2d at, const EntryHeights& heights)
     line(MoveKind::kPlunge, {at.x, at.y, heights.metal});
 }
 
+bool PocketMoves::stands_over(Vec3d place) const
+{
+    return !moves_.empty() && plan_distance(at_, place) < 1e-6 && at_.z >= place.z &&
+           at_.z < clearance_;
+}
+
 void PocketMoves::enter_along(const FloorPath& path, const EntryHeights& heights, bool plunge)
 {
     double z = std::max(heights.metal, path.start.z);
-    const bool stands_over = !moves_.empty() && plan_distance(at_, path.start) < 1e-6 &&
-                             at_.z >= path.start.z && at_.z < heights.rapid;
-    if (stands_over) {
-        z = at_.z;
+    const bool stands = stands_over(path.start);
+    if (stands) {
+        if (at_.z > heights.rapid && at_.z > z) {
+            line(MoveKind::kRapid, {at_.x, at_.y, std::max(heights.rapid, z)});
+        }
+        z = std::min(z, at_.z);
+        line(MoveKind::kPlunge, {at_.x, at_.y, z});
     } else {
         approach({path.start.x, path.start.y}, {heights.rapid, z});
     }
@@ -105,7 +114,7 @@ void PocketMoves::enter_along(const FloorPath& path, const EntryHeights& heights
     }
     const double way = (z - path.start.z) / kSlope;
     const bool open = plan_distance(pass.front(), pass.back()) > 1e-6;
-    if (open || (stands_over && way < plan_length(pass))) {
+    if (open || (stands && way < plan_length(pass))) {
         pass = to_and_fro(pass, way);
     }
     const double round = plan_length(pass);

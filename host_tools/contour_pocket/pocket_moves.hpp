@@ -33,6 +33,15 @@ public:
     // straight over the start and below the heights.
     void enter_along(const FloorPath& path, const EntryHeights& heights, bool plunge);
 
+    Vec3d place() const { return at_; }
+
+    // Whether the tool stands somewhere below the clearance, and how far.
+    bool is_down() const { return below_clearance() > 0.0; }
+    double below_clearance() const { return moves_.empty() ? 0.0 : clearance_ - at_.z; }
+
+    // Whether the tool stands straight over the place or on it, below the clearance.
+    bool stands_over(Vec3d place) const;
+
     // Down on a helix about the start of a pass, to somewhere over it; to the start itself where
     // that is little lower, or `whole`. lowest(at) is the lowest the tip may stand there, gap(a, b)
     // the room of a straight move, negative where it would cut too deep. Returns the height it

@@ -143,7 +143,8 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     }
     settings.repeated.assign(cleared.passes.size(), true);
     PocketMoves moves{job.stock_top + job.clearance};
-    FloorCutter cutter{rough, floor, moves, cut_depth};
+    const RegionOffset walls{region};
+    FloorCutter cutter{rough, floor, walls, moves, cut_depth};
     if (cut_depth != nullptr) {
         cut_depth->begin(rough.tool);
     }
@@ -160,6 +161,7 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
         settings.skip_above = above = level;
         result.heights.push_back(level);
     }
+    cutter.end();
     warn_of_thin_layers(job, operation, result);
     const std::size_t layers = result.heights.size();
     result.operation.path.feed = job.feed;

@@ -149,8 +149,7 @@ double under(const MovesJudge& judge, const Surface& floor, double allowance)
 
 void check_moves(const RandomTask& task,
                  const PlannedOperation& planned,
-                 const MovesVerdict& verdict,
-                 bool layered)
+                 const MovesVerdict& verdict)
 {
     const Operation& operation = task.operation;
     const OperationStats& stats = planned.stats;
@@ -164,9 +163,7 @@ void check_moves(const RandomTask& task,
     LONGS_EQUAL(stats.retracts, verdict.retracts);
     LONGS_EQUAL(operation.islands.size(), counted(stats, "islands"));
     const double each = counted(stats, "leaves") + counted(stats, "islands");
-    if (!layered || stats.roughing) {
-        CHECK(stats.retracts <= each * std::max(1.0, counted(stats, "layers")));
-    }
+    CHECK(stats.retracts <= each * std::max(1.0, counted(stats, "layers")));
     CHECK(verdict.wrong_side <= 0.3 * (verdict.right_side + verdict.wrong_side) + 50.0);
     CHECK(verdict.deepest <= operation.max_depth.value_or(1e300) * 1.02 + 0.03);
 }
@@ -200,7 +197,7 @@ LinkCount judge_task(const RandomTask& task, const std::vector<PlannedOperation>
             tool.number, verdict.rapid_cut, verdict.plunged, verdict.entry_cut, verdict.deepest,
             verdict.retracts, counted(one.stats, "leaves"), counted(one.stats, "islands"),
             verdict.wrong_side, verdict.wrong_side + verdict.right_side);
-        check_moves(task, one, verdict, operation.max_depth.has_value());
+        check_moves(task, one, verdict);
         CHECK(verdict.nearest_wall >= tool.radius + allowance - past - kGrain);
         CHECK(under(judge, operation.floor.front(), allowance) <= past + 2 * kGrain);
     }
