@@ -6,6 +6,7 @@
 #include "tests/property/contour_pocket/moves_judge.hpp"
 #include "tests/property/offset/random_regions.hpp"
 #include "tests/support/property_cases.hpp"
+#include "tests/support/random_jobs.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"
@@ -48,23 +49,6 @@ Loop loop_of(const Contour& contour)
     return loop;
 }
 
-// Level, or bicubic with points that wander by up to 3 mm.
-Surface random_floor(Random& random, double depth, double wander)
-{
-    Surface s;
-    s.degree_u = s.degree_v = 3;
-    s.size_u = s.size_v = 5;
-    s.knots_u = s.knots_v = {0.0, 0.0, 0.0, 0.0, 0.5, 1.0, 1.0, 1.0, 1.0};
-    for (int i = 0; i < 5; ++i) {
-        for (int j = 0; j < 5; ++j) {
-            s.points.push_back(
-                {-80.0 + 40.0 * i, -80.0 + 40.0 * j, -depth + uniform(random, -1.0, 1.0) * wander});
-            s.weights.push_back(1.0);
-        }
-    }
-    return s;
-}
-
 Tool random_tool(Random& random, int number, double radius)
 {
     const auto shape = static_cast<ToolShape>(static_cast<int>(uniform(random, 0.0, 2.999)));
@@ -88,8 +72,9 @@ RandomTask random_task(Random& random)
     task.job.plunge_feed = 300;
     Operation& operation = task.operation;
     operation.strategy = "contour_pocket";
-    operation.floor = {
-        random_floor(random, uniform(random, 5.0, 10.0), one_of(2) * uniform(random, 0.5, 3.0))};
+    const double depth = uniform(random, 5.0, 10.0);
+    const double rough = one_of(2) * uniform(random, 0.5, 3.0);
+    operation.floor = {random_floor(random, {-80.0, -80.0, 80.0, 80.0}, -depth, rough)};
     operation.floor_files = {"floor"};
     operation.boundary = loop_of(task.region.contours.front());
     operation.boundary_file = "boundary";

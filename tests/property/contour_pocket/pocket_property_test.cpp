@@ -6,6 +6,7 @@
 #include "tests/property/contour_pocket/pocket_judge.hpp"
 #include "tests/property/offset/random_regions.hpp"
 #include "tests/support/property_cases.hpp"
+#include "tests/support/random_jobs.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"
@@ -42,22 +43,6 @@ Loop random_loop(Random& random, Vec2d centre, double radius, int corners)
     return loop;
 }
 
-// A bicubic floor over 100 x 100 mm whose control points wander by `rough` mm.
-Surface random_floor(Random& random, double rough)
-{
-    Surface s;
-    s.degree_u = s.degree_v = 3;
-    s.size_u = s.size_v = 5;
-    s.knots_u = s.knots_v = {0.0, 0.0, 0.0, 0.0, 0.5, 1.0, 1.0, 1.0, 1.0};
-    for (int i = 0; i < 5; ++i) {
-        for (int j = 0; j < 5; ++j) {
-            s.points.push_back({25.0 * i, 25.0 * j, -12.0 + uniform(random, -rough, rough)});
-            s.weights.push_back(uniform(random, 0.7, 1.4));
-        }
-    }
-    return s;
-}
-
 Region2d region_of(const Operation& operation)
 {
     Region2d region;
@@ -85,7 +70,8 @@ Operation random_operation(Random& random)
     while (true) {
         Operation operation;
         operation.strategy = "contour_pocket";
-        operation.floor = {random_floor(random, uniform(random, 1.0, 6.0))};
+        operation.floor = {
+            random_floor(random, {0.0, 0.0, 100.0, 100.0}, -12.0, uniform(random, 1.0, 6.0))};
         operation.floor_files = {"floor"};
         operation.boundary = random_loop(random, {50.0, 50.0}, 44.0, 6);
         operation.boundary_file = "boundary";
