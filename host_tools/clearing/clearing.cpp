@@ -6,8 +6,7 @@
 
 #include "host_tools/clearing/corner_spurs.hpp"
 #include "host_tools/clearing/cutting_order.hpp"
-#include "host_tools/clearing/link_along.hpp"
-#include "host_tools/offset/contour_fit.hpp"
+#include "host_tools/clearing/loop_links.hpp"
 
 namespace cusp::host {
 
@@ -185,62 +184,6 @@ std::vector<int> parents_of(const std::vector<Loop2d>& loops,
     return parents;
 }
 
-// Turns the loop so that it starts at the point of it nearest to `from`.
-void start_near(Contour& path, Vec2d from)
-{
-    std::size_t best = 0;
-    double least = 1e300;
-    for (std::size_t i = 0; i < path.size(); ++i) {
-        const double apart = distance_to(path[i], from);
-        if (apart < least) {
-            least = apart;
-            best = i;
-        }
-    }
-    const Edge edge = path[best];
-    const Vec2d p = nearest_on(edge, from);
-    std::rotate(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(best), path.end());
-    constexpr double kShortest = 1e-3;
-    if (distance(p, edge.start) < kShortest) {
-        return;
-    }
-    if (distance(p, edge.end) < kShortest) {
-        std::rotate(path.begin(), path.begin() + 1, path.end());
-        return;
-    }
-    path.front() = between(edge, p, edge.end);
-    path.push_back(between(edge, edge.start, p));
-}
-
-// The middle of the longest edge: an entry there has room on both sides.
-void start_at_longest(Contour& path)
-{
-    const auto longest =
-        std::max_element(path.begin(), path.end(),
-                         [](const Edge& a, const Edge& b) { return length(a) < length(b); });
-    start_near(path, point_on(*longest, 0.5));
-}
-
-// How near contours are changes by no more than the way between two places.
-bool free_path(const RegionOffset& offset, const std::vector<Edge>& path, double distance)
-{
-    constexpr double kSpacing = 0.1;
-    constexpr double kFar = 5.0;
-    for (const Edge& edge : path) {
-        const double whole = length(edge);
-        const int samples = 1 + static_cast<int>(whole / kSpacing);
-        for (int i = 0; i <= samples;) {
-            const Vec2d p = point_on(edge, static_cast<double>(i) / samples);
-            const double room = offset.nearest(p, distance + kFar) - (distance - 1e-5);
-            if (room < 0.0) {
-                return false;
-            }
-            i += 1 + static_cast<int>(room * samples / std::max(whole, kSpacing));
-        }
-    }
-    return true;
-}
-
 class PassList {
 public:
     PassList(const RegionOffset& offset, const ClearingSettings& settings)
@@ -265,7 +208,7 @@ public:
             start_at_longest(pass.path);
             region_.leaves += loop.outer ? 1 : 0;
         } else {
-            reach(pass, region_.passes.back().path);
+            link_to(pass, region_.passes.back().path, {offset_, settings_.first, settings_.step});
         }
         pass.room = offset_.clearance(pass.path.front().start);
         region_.levels = std::max(region_.levels, loop.level + 1);
@@ -275,49 +218,6 @@ public:
     ClearedRegion& region() { return region_; }
 
 private:
-    // From the end of the pass before, tangent to both where that is free, else straight to the
-    // nearest point, else along the pass before to where this one is near.
-    void reach(ClearingPass& pass, const Contour& before) const
-    {
-        const Vec2d from = before.front().start;
-        const Vec2d leaving = tangent_at_end(before.back());
-        // Steps that the link gains on its way over: fewer where the pass soon turns away.
-        for (const double ahead : {2.0, 1.4, 1.0, 0.7, 2.8}) {
-            start_near(pass.path, from + leaving * (ahead * pass.step));
-            const Vec2d to = pass.path.front().start;
-            const auto arcs = biarc_between(from, leaving, to, tangent_at_start(pass.path.front()));
-            const bool onward = dot(to - from, leaving) > 0.5 * ahead * pass.step;
-            if (arcs && onward && distance(from, to) < 4.0 * pass.step) {
-                pass.link = {arcs->front(), arcs->back()};
-                if (free_path(offset_, pass.link, settings_.first)) {
-                    break;
-                }
-                pass.link.clear();
-            }
-        }
-        if (pass.link.empty()) {
-            start_near(pass.path, from);
-            pass.link = {line_edge(from, pass.path.front().start)};
-        }
-        const bool near = length(pass.link) < 5.0 * settings_.step;
-        const bool linked =
-            (near && free_path(offset_, pass.link, settings_.first)) || reach_along(pass, before);
-        pass.start = linked ? PassStart::kLink : PassStart::kDrop;
-    }
-
-    bool reach_along(ClearingPass& pass, const Contour& before) const
-    {
-        constexpr double kFarthest = 1.5;  // of the step between neighbours
-        const std::vector<Edge> link = link_along(before, pass.path, kFarthest * pass.step);
-        if (link.empty() || !free_path(offset_, {link.back()}, settings_.first)) {
-            return false;
-        }
-        start_near(pass.path, link.back().end);
-        pass.link = link;
-        pass.link.back() = line_edge(link.back().start, pass.path.front().start);
-        return true;
-    }
-
     const RegionOffset& offset_;
     const ClearingSettings& settings_;
     ClearedRegion region_;

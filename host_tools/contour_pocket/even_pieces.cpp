@@ -12,6 +12,8 @@ namespace {
 // no machine stops at them.
 constexpr double kOffTangent = 0.03;  // mm
 constexpr double kBlunt = 0.45;       // degrees
+constexpr double kBluntest = 2.0;     // degrees: where pieces would be shorter than
+constexpr double kShortest = 0.05;    // mm: many of them in a tick hold a machine up, too
 constexpr double kMostPieces = 4096;  // of one edge
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
@@ -35,7 +37,9 @@ public:
         const double share = std::min(1.0, settings_.aside / edge_.radius);
         double angle = 2.0 * std::acos(1.0 - share);
         if (0.5 * edge_.radius * angle * angle < kOffTangent) {
-            angle = std::min(angle, kBlunt * kDegree);
+            const double blunt =
+                std::clamp(kShortest / edge_.radius, kBlunt * kDegree, kBluntest * kDegree);
+            angle = std::min(angle, blunt);
         }
         const double count = std::ceil(sweep(edge_) / angle);
         return static_cast<int>(std::clamp(count, 1.0, kMostPieces));

@@ -1,0 +1,24 @@
+// How a pass is reached from the end of the one before it.
+#pragma once
+
+#include "host_tools/clearing/clearing.hpp"
+#include "host_tools/offset/offset.hpp"
+
+namespace cusp::host {
+
+struct LinkRoom {
+    const RegionOffset& offset;
+    double first;  // mm: least distance of links from the contours
+    double step;   // mm: straight links are shorter than five of these
+};
+
+// Turns the path so that it starts in the middle of its longest edge: an entry there has room on
+// both sides.
+void start_at_longest(Contour& path);
+
+// Sets how the pass starts, its link and where on its path that ends: from the end of `before`,
+// tangent to both where that is free, else tangent to the pass, else straight to the nearest point,
+// else along `before` to where the pass is near.
+void link_to(ClearingPass& pass, const Contour& before, const LinkRoom& room);
+
+}  // namespace cusp::host
