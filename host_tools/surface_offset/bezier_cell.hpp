@@ -86,12 +86,14 @@ public:
         double u_begin, u_end, v_begin, v_end;
         // For the contact at any place x of the cell, n its upward normal, and any y of the
         // surroundings, w what lies between them in the domain:
-        //   (y - x)^2 >= nearness * metric(w),  2 n . (y - x) <= bend(w) + more * metric(w).
+        //   (y - x)^2 >= nearness * metric(w),  2 n . (y - x) <= bend(w) + more * metric(w),
+        //   (y - x).z^2 <= climb^2 * metric(w).
         // `more` is infinite where nothing is proved.
         QuadraticForm metric;
         QuadraticForm bend;
         double nearness;
         double more;
+        double climb;
         double top;  // nothing of the surroundings is higher
         // Patches that are nearer than `range` to a ball's centre at `centre`, over the middle of
         // the cell, or to anything straight above it.

@@ -8,7 +8,9 @@
 namespace cusp::host {
 namespace {
 
-constexpr double kCellSize = 0.4;       // radii
+constexpr double kLargestCell = 0.6;    // radii
+constexpr double kSmallestCell = 0.4;   // radii
+constexpr double kSpare = 0.03;         // of the metric: what a form of one end has over for both
 constexpr int kDeepest = 4;             // halvings of a way
 constexpr int kFootSteps = 4;           // of Newton's method
 constexpr double kFootSlack = 1e-5;     // mm off the normal
@@ -59,8 +61,8 @@ public:
         const BezierCell::Spread e = scaled_spread(cell);
         across_u_ = std::max(across_u_, in_plane(p.du - middle_.du) + e.ds);
         across_v_ = std::max(across_v_, in_plane(p.dv - middle_.dv) + e.dt);
-        off_u_ = std::max(off_u_, norm(p.du - middle_.du) + e.ds);
-        off_v_ = std::max(off_v_, norm(p.dv - middle_.dv) + e.dt);
+        climb_u_ = std::max(climb_u_, std::abs(p.du.z - middle_.du.z) + e.ds);
+        climb_v_ = std::max(climb_v_, std::abs(p.dv.z - middle_.dv.z) + e.dt);
         const auto bend = [&](Vec3d d, Vec3d from, double spread) {
             return std::abs(dot(d - from, normal_)) + spread;
         };
@@ -105,6 +107,8 @@ public:
                     dot(normal_, middle_.dvv)};
         box.nearness = (1 - shorter) * (1 - shorter);
         box.more = (std::max(uu, vv) + uv) / straight;
+        box.climb = std::hypot(normal_.x, normal_.y) +
+                    std::hypot(climb_u_ / long_u, climb_v_ / long_v) / std::sqrt(straight);
     }
 
 private:
@@ -115,8 +119,8 @@ private:
     Vec3d normal_;
     double across_u_{};
     double across_v_{};
-    double off_u_{};
-    double off_v_{};
+    double climb_u_{};
+    double climb_v_{};
     double bend_uu_{};
     double bend_uv_{};
     double bend_vv_{};
@@ -174,8 +178,8 @@ BezierCell::Surroundings find_surroundings(const SurfaceModel::State& state, con
     const SurfaceModel::State::Grid& grid = state.grids[static_cast<std::size_t>(cell.surface())];
     const auto [u_begin, u_end] = widened(grid.creases_u, cell.u_begin(), cell.u_end());
     const auto [v_begin, v_end] = widened(grid.creases_v, cell.v_begin(), cell.v_end());
-    BezierCell::Surroundings box{u_begin, u_end,     v_begin, v_end, {}, {},
-                                 0,       kInfinite, 0,       {},    {}, 0};
+    BezierCell::Surroundings box{u_begin,   u_end, v_begin, v_end, {}, {}, 0,
+                                 kInfinite, 0,     0,       {},    {}, 0};
     const auto first = [](const std::vector<double>& breaks, double at) {
         return static_cast<std::size_t>(std::upper_bound(breaks.begin() + 1, breaks.end(), at) -
                                         breaks.begin()) -
@@ -204,18 +208,69 @@ QuadraticForm rise_of(const BezierCell::Surroundings& near, double distance)
             share * near.metric.c - distance * near.bend.c};
 }
 
+// The most of one form in terms of another that is positive.
+double most_of(const QuadraticForm& p, const QuadraticForm& metric)
+{
+    const double det = metric.determinant();
+    const double mean = (metric.a * p.c - 2 * metric.b * p.b + metric.c * p.a) / (2 * det);
+    return mean + std::sqrt(std::max(0.0, mean * mean - p.determinant() / det));
+}
+
+QuadraticForm less(const QuadraticForm& p, const QuadraticForm& q, double times)
+{
+    return {p.a - times * q.a, p.b - times * q.b, p.c - times * q.c};
+}
+
 // A form that is nowhere above either: the first, less what it is over the second at most in terms
 // of the metric.
 QuadraticForm below_both(const QuadraticForm& p,
                          const QuadraticForm& q,
                          const QuadraticForm& metric)
 {
-    const QuadraticForm d{p.a - q.a, p.b - q.b, p.c - q.c};
-    const double det = metric.determinant();
-    const double mean = (metric.a * d.c - 2 * metric.b * d.b + metric.c * d.a) / (2 * det);
-    const double over =
-        std::max(0.0, mean + std::sqrt(std::max(0.0, mean * mean - d.determinant() / det)));
-    return {p.a - over * metric.a, p.b - over * metric.b, p.c - over * metric.c};
+    return less(p, metric, std::max(0.0, most_of(less(p, q, 1), metric)));
+}
+
+// Whether the shank keeps off what of the surroundings is higher than the centres.
+// contact  z in mm of the end that the surroundings are of
+// centre   z in mm of the lower centre
+// apart    mm, between the ends as the metric has it
+bool clears_shank(const QuadraticForm& rise,
+                  const BezierCell::Surroundings& near,
+                  double contact,
+                  double centre,
+                  double apart)
+{
+    const double over = near.top - centre;
+    if (over <= 0) {
+        return true;
+    }
+    // At the least so long is w for the lowest and the highest of these places.
+    const double low = (centre - contact) / near.climb - 0.5 * apart;
+    const double high = (near.top - contact) / near.climb - 0.5 * apart;
+    const double spare = -most_of(less({}, rise, 1), near.metric);
+    return low >= 0 && high >= 0 && spare * high * high >= over * over;
+}
+
+double size_of(const BezierCell& cell)
+{
+    return std::sqrt(std::max(square(cell.middle().du), square(cell.middle().dv)));
+}
+
+const BezierCell& half_at(const BezierCell& cell, const Contact& at)
+{
+    const auto [low, high] = cell.halves();
+    const bool above = low->u_end() < cell.u_end() ? at.u > low->u_end() : at.v > low->v_end();
+    return above ? *high : *low;
+}
+
+// Whether the bounds prove enough.
+bool holds(const BezierCell::Surroundings& near, const Contact& at)
+{
+    if (!std::isfinite(near.more)) {
+        return false;
+    }
+    const QuadraticForm rise = less(rise_of(near, at.distance), near.metric, kSpare);
+    return rise.never_negative() && clears_shank(rise, near, at.point.z, at.centre().z, 0);
 }
 
 }  // namespace
@@ -226,14 +281,17 @@ const BezierCell& RollingBall::cell_of(const Contact& at) const
         return *at.cell;
     }
     const BezierCell* cell = &state_.cell_at(at.surface, at.u, at.v);
-    const double most = kCellSize * kCellSize * radius_ * radius_;
-    while (square(cell->middle().du) > most || square(cell->middle().dv) > most) {
-        const auto [low, high] = cell->halves();
-        const bool above = low->u_end() < cell->u_end() ? at.u > low->u_end() : at.v > low->v_end();
-        cell = above ? high : low;
+    while (size_of(*cell) > kLargestCell * radius_) {
+        cell = &half_at(*cell, at);
     }
-    if (cell->surroundings() == nullptr) {
-        cell->set_surroundings(find_surroundings(state_, *cell));
+    for (;;) {
+        if (cell->surroundings() == nullptr) {
+            cell->set_surroundings(find_surroundings(state_, *cell));
+        }
+        if (size_of(*cell) <= kSmallestCell * radius_ || holds(*cell->surroundings(), at)) {
+            break;
+        }
+        cell = &half_at(*cell, at);
     }
     at.cell = cell;
     return *cell;
@@ -318,15 +376,20 @@ std::optional<QuadraticForm> RollingBall::near_rise(const Contact& a,
 {
     const BezierCell::Surroundings& near_a = *cell_a.surroundings();
     const BezierCell::Surroundings& near_b = *cell_b.surroundings();
-    if (a.surface != b.surface || !std::isfinite(near_a.more) || !std::isfinite(near_b.more) ||
-        std::max(near_a.top, near_b.top) > std::min(a.centre().z, b.centre().z)) {
+    if (a.surface != b.surface || !std::isfinite(near_a.more) || !std::isfinite(near_b.more)) {
         return std::nullopt;
     }
     QuadraticForm rise = rise_of(near_a, a.distance);
     if (&near_a != &near_b || a.distance != b.distance) {
         rise = below_both(rise, rise_of(near_b, b.distance), near_a.metric);
     }
-    return rise.never_negative() ? std::optional{rise} : std::nullopt;
+    const double lowest = std::min(a.centre().z, b.centre().z);
+    const auto clear = [&](const Contact& end, const BezierCell::Surroundings& near) {
+        const double apart = std::sqrt(near.metric(b.u - a.u, b.v - a.v));
+        return clears_shank(rise, near, end.point.z, lowest, apart);
+    };
+    const bool proved = rise.never_negative() && clear(a, near_a) && clear(b, near_b);
+    return proved ? std::optional{rise} : std::nullopt;
 }
 
 // The contact whose normal passes the middle between two centres.

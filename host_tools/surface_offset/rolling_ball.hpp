@@ -8,6 +8,11 @@
 //   to c', at the share t, the square of the distance is the mean of both ends' less
 //   t (1 - t) (c' - c)^2; and the mean of q(w) and q(w') is at least t (1 - t) q(w' - w), wherever
 //   y is. So no near place comes nearer than the root of d^2 - ((c' - c)^2 - q(w' - w)) / 4.
+//   For y higher than c that is the distance to the centre, not to the shank over it: the square
+//   of that is less by (y - c).z^2, and a way changes it no faster than the other. The means of
+//   both ends leave q(v), v what lies between y and the mean of x and x' in the domain: it is
+//   enough if that is at least the square of what y is above the lower centre. So far above it v
+//   is long, for (y - x).z is at most `climb` times the length of w.
 // - All else is looked at in boxes. What is far from both ends has to be farther than d by
 //   (c' - c)^2 / (8 d), for the least of the mean is at the middle. Where the ends have different
 //   surroundings, what is near one of them is at least d from that and has to be farther from the
@@ -63,7 +68,7 @@ private:
                                            const Contact& b,
                                            const BezierCell& cell_b) const;
     std::optional<Foot> foot_of_middle(const Contact& a, const Contact& b) const;
-    // The piece of a size the bounds are good for, with its surroundings known.
+    // The largest piece that the bounds are good for, with its surroundings known.
     const BezierCell& cell_of(const Contact& at) const;
     bool rest_is_far(const Contact& from, const BezierCell& cell, double margin) const;
     void find_patches(const Contact& from, const BezierCell& cell, double limit) const;

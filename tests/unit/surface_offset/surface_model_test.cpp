@@ -194,8 +194,12 @@ TEST(SurfaceModelDistance, OfARollingBallIsBoundedFromBelowOnRandomSurfaces)
     std::uniform_real_distribution<double> place{0.05, 2.95};
     std::uniform_real_distribution<double> step{-0.15, 0.15};
     int proved = 0;
-    for (int round = 0; round < 2; ++round) {
-        const SurfaceModel model{{random_surface(random)}};
+    for (const double steep : {1.0, 1.0, 2.0, 4.0}) {
+        Surface surface = random_surface(random);
+        for (Vec3d& p : surface.points) {
+            p.z *= steep;
+        }
+        const SurfaceModel model{{surface}};
         for (const double radius : {1.0, 3.0}) {
             const Tool ball{1, ToolShape::kBall, radius, radius};
             for (int k = 0; k < 40; ++k) {
