@@ -121,19 +121,22 @@ Vec2d ReachSearch::improved(Vec3d place, Vec2d at)
         if (under < 0) {
             return false;
         }
-        const double centre = best + std::sqrt(under);
+        const double depth = std::sqrt(under);
+        const double limit = best + depth;
+        double centre = -kNowhere;
         for (std::size_t i = 0; i < contacts_.size(); ++i) {
             const Vec3d c = contacts_[i];
             const double up = corner_square - square_off_flat(flat, to, c);
-            if (up >= 0 && (c.z >= centre || up >= square(centre - c.z))) {
+            const bool higher = up >= 0 && (c.z > centre || up > square(centre - c.z));
+            centre = higher ? c.z + std::sqrt(up) : centre;
+            if (centre >= limit) {
                 std::swap(contacts_[i], contacts_[i / 2]);
                 return false;
             }
         }
         // Rounding may have let it pass at the same height: no walk goes on for ever.
-        const double there = lowest_known(place, to);
-        const bool found = there < best;
-        best = std::min(best, there);
+        const bool found = centre - depth < best;
+        best = std::min(best, centre - depth);
         return found;
     };
     return pattern_search(at, pitch_, kFinest * pitch_, lower);

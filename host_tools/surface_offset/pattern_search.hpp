@@ -18,13 +18,14 @@ template <class Lower>
 Vec2d pattern_search(Vec2d at, double step, double finest, const Lower& lower)
 {
     constexpr int kDirections = 8;
-    constexpr double kEighth = 0.78539816339744831;  // of a turn, radians
+    constexpr double kEighth = 0.70710678118654752;  // of a turn: its sine and cosine
     constexpr double kTurn = 0.41;  // radians, so that no valley lies between all directions
     for (double turn = 0; step > finest; turn += kTurn) {
         bool moved = false;
+        Vec2d way{step * std::cos(turn), step * std::sin(turn)};
         for (int k = 0; k < kDirections && !moved; ++k) {
-            const double angle = turn + k * kEighth;
-            const Vec2d to{at.x + step * std::cos(angle), at.y + step * std::sin(angle)};
+            const Vec2d to{at.x + way.x, at.y + way.y};
+            way = {kEighth * (way.x - way.y), kEighth * (way.x + way.y)};
             moved = lower(to);
             at = moved ? to : at;
         }
