@@ -67,6 +67,11 @@ Json stats_of(const Verification& result)
     if (f.scallop_bound) {
         out["scallop_bound_mm"] = *f.scallop_bound;
         out["uncovered_share"] = rounded(f.uncovered_share);
+        if (f.thickest_left) {
+            const auto& [thickness, at] = *f.thickest_left;
+            out["left_thickness_mm"] = rounded(thickness);
+            out["left_thickness_at_mm"] = {rounded(at.x), rounded(at.y), rounded(at.z)};
+        }
     }
     out["broken"] = result.broken;
     return out;
@@ -116,8 +121,9 @@ void add_verify_command(CLI::App& app, Work& work)
     command->footer(
         "Gouge and scallop are measured square to the surface, in mm, whatever the job's units.\n"
         "Exit status 1 where a bound of the job does not hold: floor_tolerance (gouge),\n"
-        "plan_tolerance (walls), scallop (on 99 % of what the tools reach), or where a rapid move\n"
-        "cuts metal.");
+        "plan_tolerance (walls), scallop (on 99 % of what the tools reach; what stands on the "
+        "rest\n"
+        "may be no thicker than scallop and floor_tolerance), or where a rapid move cuts metal.");
     auto options = std::make_shared<VerifyOptions>();
     command->add_option("JOB", options->job, "job file (TOML)")->required();
     command->add_option("PROGRAM", options->program, "G-code")->required();

@@ -7,12 +7,14 @@
 
 #include "host_tools/verify/bands.hpp"
 #include "host_tools/verify/floor_reach.hpp"
+#include "host_tools/verify/metal_thickness.hpp"
 #include "host_tools/verify/reachable.hpp"
 
 namespace cusp::host {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kFlush = 1e-6;  // mm: files are not exact
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 double least_radius(const std::vector<Tool>& tools)
@@ -163,6 +165,41 @@ void settle_doubts(const FloorQuestion& q,
     });
 }
 
+// Where the thickest metal stands over what the tools reach.
+void find_thickest(const FloorQuestion& q,
+                   const Ideal& ideal,
+                   const std::vector<double>& clear,
+                   const std::vector<double>& left,
+                   VerifyFigures& figures)
+{
+    struct High {
+        std::size_t k;
+        double over;  // mm, upright
+    };
+    std::vector<High> all;
+    const double radius = least_radius(q.tools);
+    for (std::size_t k = 0; k < left.size(); ++k) {
+        if (left[k] > q.most_left && clear[k] >= radius) {
+            all.push_back({k, std::min(q.cut[k], q.top) - ideal.height[k]});
+        }
+    }
+    std::sort(all.begin(), all.end(), [](const High& a, const High& b) { return a.over > b.over; });
+    const MetalThickness metal{q.runs, q.top};
+    double most = q.most_left;
+    for (const High& high : all) {
+        if (high.over <= most) {
+            break;
+        }
+        const Vec3d place{q.grid.x(high.k / q.grid.ny, high.k % q.grid.ny),
+                          q.grid.y(high.k / q.grid.ny, high.k % q.grid.ny), ideal.height[high.k]};
+        const double thick = metal.at(place, high.over, most);
+        if (thick > most) {
+            most = thick;
+            figures.thickest_left = ThickestLeft{thick, place};
+        }
+    }
+}
+
 struct Sums {
     std::size_t part{};
     std::size_t unreachable{};
@@ -232,8 +269,9 @@ std::vector<double> judge_floor(const FloorQuestion& q, VerifyFigures& figures)
         if (!std::isfinite(ideal.height[k]) || !(clear[k] >= 0)) {
             continue;
         }
-        // where the part is as high as the stock, there is nothing to cut
-        const bool done = touched || ideal.height[k] >= q.top;
+        // where no more than may be left stands over the part at first, there is nothing to cut
+        const bool done =
+            touched || (q.top - ideal.height[k]) * part.cosine[k] <= q.scallop.value_or(kFlush);
         left[k] = done ? (q.cut[k] - ideal.height[k]) * part.cosine[k] : kFar;
         if (!reached) {
             wall_left = std::max(wall_left, left[k]);
@@ -252,6 +290,9 @@ std::vector<double> judge_floor(const FloorQuestion& q, VerifyFigures& figures)
         figures.wall_left_max = wall_left;
     }
     figures.scallop_bound = q.scallop;
+    if (q.scallop) {
+        find_thickest(q, ideal, clear, left, figures);
+    }
     fill_figures(sums, cells, figures);
     return left;
 }

@@ -8,6 +8,7 @@
 #include "host_tools/toolpath/toolpath.hpp"
 #include "host_tools/verify/height_grid.hpp"
 #include "host_tools/verify/part_heights.hpp"
+#include "host_tools/verify/stock.hpp"
 #include "host_tools/verify/verify.hpp"
 #include "host_tools/verify/wall_distance.hpp"
 
@@ -22,7 +23,9 @@ struct FloorQuestion {
     const std::vector<double>& cut;  // heights of the stock after cutting
     double top;                      // of the uncut stock
     std::optional<double> scallop;
-    double keep_off;  // mm: how far the path may have to stay off the floor
+    double keep_off;                         // mm: how far the path may have to stay off the floor
+    const std::vector<ToolPositions>& runs;  // of all tools, those that only rough, too
+    double most_left;                        // mm: metal thinner than this is not told apart
 };
 
 // Fills the figures of the floor. Returns what is left over what can be reached, per grid point:

@@ -19,6 +19,8 @@ constexpr double kDefaultSpacing = 0.1;
 constexpr double kMostCells = 4e6;
 // Deeper than slivers and rounding: a rapid move that cuts.
 constexpr double kRapidCutAllowed = 0.005;
+// mm: the chords of walls and the map of heights are this good.
+constexpr double kJudgement = 5e-4;
 // Share of the floor that may stand above the scallop bound: the corners between loops.
 constexpr double kUncoveredAllowed = 0.01;
 
@@ -175,6 +177,17 @@ std::optional<double> ball_gouge(const Scene& scene,
     return deepest;
 }
 
+// What may stand anywhere, and by how much the thickness of metal between positions may be wrong.
+double most_left(const Scene& scene, const std::vector<Tool>& tools, double spacing)
+{
+    double least = tools.front().radius;
+    for (const Tool& tool : tools) {
+        least = std::min(least, tool.corner_radius > 0 ? tool.corner_radius : tool.radius);
+    }
+    return scene.scallop.value_or(0) + scene.floor_tolerance + kJudgement +
+           spacing * spacing / (8 * least);
+}
+
 double wall_gouge(const std::vector<WallDistance>& walls,
                   const std::vector<ToolPositions>& runs,
                   double top)
@@ -195,8 +208,6 @@ double wall_gouge(const std::vector<WallDistance>& walls,
 
 void judge(const Scene& scene, Verification& result)
 {
-    // the chords of walls and the map of heights are this good
-    constexpr double kJudgement = 5e-4;
     const VerifyFigures& f = result.figures;
     const auto bound = [&](const char* name, std::optional<double> value, double limit) {
         if (value && !(*value <= limit)) {
@@ -209,6 +220,14 @@ void judge(const Scene& scene, Verification& result)
     bound("rapid_cut_max_mm", f.rapid_cut_max, kRapidCutAllowed);
     if (scene.scallop) {
         bound("uncovered_share", f.uncovered_share, kUncoveredAllowed);
+        if (f.thickest_left) {
+            const auto [thickness, at] = *f.thickest_left;
+            result.broken.push_back(
+                fmt::format("left_thickness_mm {:.4g} at x {:.3f} y {:.3f} z {:.3f} is over {:.4g} "
+                            "(scallop and "
+                            "floor_tolerance)",
+                            thickness, at.x, at.y, at.z, *scene.scallop + scene.floor_tolerance));
+        }
     }
 }
 
@@ -265,9 +284,10 @@ Verification verify(const Job& job,
         figures.wall_gouge_max = wall_gouge(walls, runs, job.stock_top);
     }
     figures.ball_gouge_max = ball_gouge(scene, runs, job.stock_top);
-    result.left = judge_floor({scene.surfaces, scene.mesh, tools, walls, result.grid,
-                               stock.heights(), job.stock_top, scene.scallop, scene.keep_off},
-                              figures);
+    result.left = judge_floor(
+        {scene.surfaces, scene.mesh, tools, walls, result.grid, stock.heights(), job.stock_top,
+         scene.scallop, scene.keep_off, runs, most_left(scene, tools, spacing)},
+        figures);
     judge(scene, result);
     return result;
 }

@@ -18,6 +18,12 @@ struct VerifySettings {
     std::optional<double> spacing;  // mm between tool positions; else 0.1, likewise
 };
 
+// Metal left over what the tools can reach.
+struct ThickestLeft {
+    double thickness;  // mm, the shortest way through it
+    Vec3d place;       // as low as the tools get there
+};
+
 // All in mm, square to the surface where a surface is meant.
 struct VerifyFigures {
     MoveCounts moves;
@@ -37,8 +43,9 @@ struct VerifyFigures {
     double scallop_max{};  // metal left above the surface, or above what the tools can reach
     double scallop_p99{};
     double scallop_mean{};
-    double left_volume{};      // mm^3
-    double uncovered_share{};  // left above the scallop bound
+    double left_volume{};                       // mm^3
+    std::optional<ThickestLeft> thickest_left;  // where it is more than scallop and tolerance
+    double uncovered_share{};                   // left above the scallop bound
 };
 
 struct Verification {
@@ -51,7 +58,9 @@ struct Verification {
 };
 
 // The bounds are those of the job: gouge by the floor tolerances, walls by the plan tolerances, the
-// scallop of the last operation that names one on 99 % of the floor; a rapid move cuts nothing.
+// scallop of the last operation that names one on 99 % of the floor, and metal no thicker than that
+// and the floor tolerance on all of it; a rapid move cuts nothing. Slivers beside cliffs may be
+// high, measured square to the floor, and yet thin.
 //
 // Errors: InputError where the program can't be read or names a tool that the job lacks.
 Verification verify(const Job& job,

@@ -193,6 +193,72 @@ TEST(Verify, KnowsHowLowABallSinksBetweenTwoRims)
     CHECK(!bad.broken.empty());
 }
 
+// As on the top face of a CAD part, which lies in the stock's but for rounding.
+TEST(Verify, AsksForNoCutWhereOnlyTheScallopStandsAtFirst)
+{
+    const std::string idle = "G21 G90\nG0 Z5\nG0 X0 Y0\nM30\n";
+    LONGS_EQUAL(0, verdict(idle, "[stock]\ntop = -4.9999\n").broken.size());
+    CHECK(!verdict(idle, "[stock]\ntop = -4.7\n").broken.empty());
+}
+
+// A pass that is lifted over 2.5 mm of its way: less than a hundredth of the floor.
+TEST(Verify, RefusesOnePlaceThatWasLeftOut)
+{
+    folder.with("plane.json", kPlane);
+    const Job job = read_job(folder.with("job.toml", kJob));
+    std::string program = passes(-5, 2);
+    const std::string row = "G1 Y8.0000 Z-5.0000 F1000\nG1 X30\n";
+    const std::size_t at = program.find(row);
+    CHECK(at != std::string::npos);
+    program.replace(at, row.size(), "G1 Y8 Z-5 F1000\nG1 X14\nG1 Z-3\nG1 X16.5\nG1 Z-5\nG1 X30\n");
+    const Verification result = verify(job, folder.with("p.ngc", program), settings, [](double) {});
+    CHECK(result.figures.uncovered_share < 0.01);
+    LONGS_EQUAL(1, result.broken.size());
+    STRCMP_CONTAINS("left_thickness_mm", result.broken.front().c_str());
+    STRCMP_CONTAINS("is over 0.2", result.broken.front().c_str());
+    CHECK(result.figures.thickest_left.has_value());
+    // the ball came within 1.25 mm of the middle of what was left out
+    DOUBLES_EQUAL(std::sqrt(9 + 1.25 * 1.25) - 3, result.figures.thickest_left->thickness, 0.03);
+    DOUBLES_EQUAL(15.25, result.figures.thickest_left->place.x, 0.3);
+    DOUBLES_EQUAL(8, result.figures.thickest_left->place.y, 0.8);
+    DOUBLES_EQUAL(-5, result.figures.thickest_left->place.z, 0.021);
+}
+
+// A path that keeps 0.01 mm farther off an upright wall than it has to leaves a sliver as high as
+// the wall. (That goes on beyond the floor, else the ball would come from there.)
+TEST(Verify, RefusesNoSliverThinnerThanTheTolerance)
+{
+    const auto level = [](int x0, int x1, int y0, int y1, int z) {
+        char text[400];
+        std::snprintf(text, sizeof text,
+                      R"({"degree_u": 1, "degree_v": 1, "size_u": 2, "size_v": 2,
+            "knotvector_u": [0, 0, 1, 1], "knotvector_v": [0, 0, 1, 1], "control_points": {
+            "points": [[%d, %d, %d], [%d, %d, %d], [%d, %d, %d], [%d, %d, %d]]}})",
+                      x0, y0, z, x0, y1, z, x1, y0, z, x1, y1, z);
+        return std::string{text};
+    };
+    folder.with("plane.json", R"({"shape": {"type": "surface", "count": 2, "data": [)" +
+                                  level(0, 15, 0, 20, -1) + "," + level(15, 30, 4, 16, -5) + "]}}");
+    const Job job = read_job(folder.with("job.toml", kJob));
+    std::string program = "G21 G90\nG0 Z5\n";
+    const auto pass = [&](double x, double z) {
+        char line[96];
+        std::snprintf(line, sizeof line, "G0 X%.3f Y-3\nG1 Z%.4f F1000\nG1 Y23\nG0 Z5\n", x, z);
+        program += line;
+    };
+    for (int k = 0; k <= 15; ++k) {
+        pass(k, -1);
+        pass(18.03 + 0.8 * k, -5);
+    }
+    for (double out = 0.5; out < 3; out += 0.25) {
+        pass(15 + out, -4 + std::sqrt(9 - out * out));
+    }
+    const Verification result =
+        verify(job, folder.with("p.ngc", program + "M30\n"), settings, [](double) {});
+    CHECK(result.figures.scallop_max > 0.5);
+    STRCMP_EQUAL("", result.broken.empty() ? "" : result.broken.front().c_str());
+}
+
 TEST(Verify, MeasuresTheScallopOfAWidePath)
 {
     const Verification result = verdict(passes(-5, 4));
