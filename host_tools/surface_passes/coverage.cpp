@@ -15,8 +15,7 @@ constexpr double kLargest = 4;          // the same
 constexpr double kBorderCell = 0.03;    // the same across a border, where a ball reaches over it
 constexpr double kSteepCell = 0.1;      // the same where what stands is steep
 constexpr double kSteepShare = 4.0;     // of the scallop, between corners: steep
-constexpr double kNearShare = 0.7;      // of the scallop, at a place: beside it may be more
-constexpr int kRounds = 5;
+constexpr double kGapCell = 0.125;      // the same where gaps are looked for, over places
 constexpr int kDeepest = 40;
 
 double largest(const std::array<double, 4>& of) { return *std::max_element(of.begin(), of.end()); }
@@ -67,6 +66,32 @@ std::array<Coverage::Corner, 4> Coverage::corners_of(const Cell& cell) const
             corner(cell.surface, cell.u0, cell.v1), corner(cell.surface, cell.u1, cell.v1)};
 }
 
+Coverage::Corner Coverage::middle_of(const Cell& cell) const
+{
+    return corner(cell.surface, 0.5 * (cell.u0 + cell.u1), 0.5 * (cell.v0 + cell.v1));
+}
+
+std::array<Coverage::Cell, 2> Coverage::halves_of(const Cell& cell, bool along_u)
+{
+    std::array<Cell, 2> out{cell, cell};
+    if (along_u) {
+        out[0].u1 = out[1].u0 = 0.5 * (cell.u0 + cell.u1);
+    } else {
+        out[0].v1 = out[1].v0 = 0.5 * (cell.v0 + cell.v1);
+    }
+    return out;
+}
+
+// mm, straight, from its first corner.
+std::array<double, 2> Coverage::sides_of(const Cell& cell) const
+{
+    const auto at = [&](double u, double v) {
+        return certified_.model().evaluate(cell.surface, u, v).point;
+    };
+    const Vec3d first = at(cell.u0, cell.v0);
+    return {norm(at(cell.u1, cell.v0) - first), norm(at(cell.u0, cell.v1) - first)};
+}
+
 Coverage::Verdict Coverage::judge(const Cell& cell, const std::array<Corner, 4>& at) const
 {
     const double width_u = cell.u1 - cell.u0;
@@ -95,7 +120,7 @@ Coverage::Verdict Coverage::judge(const Cell& cell, const std::array<Corner, 4>&
     const bool upright = least_z >= kSteepNormal;
     const double bend = upright ? turn / least_z : turn;
     const double less = path_off_ + largest(bow) + 0.5 * scallop_ * bend * bend;
-    Corner middle = corner(cell.surface, 0.5 * (cell.u0 + cell.u1), 0.5 * (cell.v0 + cell.v1));
+    const Corner middle = middle_of(cell);
     const Vec3d middle_top = raised(middle.point.point, middle.normal, scallop_,
                                     upright && middle.normal.z >= kSteepNormal);
     places_.swept().near(centre_under(middle_top, middle.normal, scallop_, radius_), near_);
@@ -142,8 +167,8 @@ Coverage::Verdict Coverage::judge(const Cell& cell, const std::array<Corner, 4>&
             return Verdict::kHalveU;
         }
     }
-    if (near_.empty() && std::max(long_u, long_v) < places_.step() && hidden(middle) &&
-        std::all_of(at.begin(), at.end(), [&](const Corner& c) { return hidden(c); })) {
+    if (near_.empty() && std::max(long_u, long_v) < places_.step() && lies_under_others(cell, at) &&
+        !outlined_above(at)) {
         return Verdict::kCovered;
     }
     return longer;
@@ -156,6 +181,19 @@ Coverage::Verdict Coverage::thinned(const Cell& cell,
                                     double long_u,
                                     double long_v) const
 {
+    const Verdict longer = long_u >= long_v ? Verdict::kHalveU : Verdict::kHalveV;
+    if (lies_under_others(cell, at)) {
+        if (!outlined_above(at)) {
+            return Verdict::kCovered;
+        }
+        if (std::max(long_u, long_v) > kGapCell * places_.step()) {
+            return longer;
+        }
+        // The other corners are those of cells beside it.
+        if (hidden(middle_of(cell)) && hidden(at.front())) {
+            return Verdict::kCovered;
+        }
+    }
     const Surface& s = surfaces_[static_cast<std::size_t>(cell.surface)];
     const double thin = kBorderCell * places_.step();
     if (long_u > thin && (cell.u0 == s.u_begin() || cell.u1 == s.u_end())) {
@@ -164,10 +202,7 @@ Coverage::Verdict Coverage::thinned(const Cell& cell,
     if (long_v > thin && (cell.v0 == s.v_begin() || cell.v1 == s.v_end())) {
         return Verdict::kHalveV;
     }
-    if (stands_steep(at)) {
-        return long_u >= long_v ? Verdict::kHalveU : Verdict::kHalveV;
-    }
-    return Verdict::kUncovered;
+    return stands_steep(at) ? longer : Verdict::kUncovered;
 }
 
 // Whether a cell is wide for one where some of the corners are trimmed away and others not, or far
@@ -207,17 +242,40 @@ bool Coverage::blocked_somewhere(const std::array<Corner, 4>& at) const
 // Whether the place is trimmed away or lies well under another surface.
 bool Coverage::hidden(const Corner& at) const
 {
-    const Vec3d p = at.point.point;
     return !certified_.model().inside_trims(at.surface, at.u, at.v) ||
-           tops().least_around(p.x, p.y) > p.z + kHidden + 2 * tops().pitch();
+           hidden_places().hidden(at.point.point, at.normal);
 }
 
-const TopMap& Coverage::tops() const
+// Whether a cell lies well under other surfaces, but for gaps between those. One that is trimmed
+// away in its middle may be there beside it.
+bool Coverage::lies_under_others(const Cell& cell, const std::array<Corner, 4>& at) const
 {
-    if (!tops_) {
-        tops_.emplace(surfaces_, certified_.model(), kBlockedCell * places_.step());
+    const HiddenPlaces& places = hidden_places();
+    const SurfaceModel& model = certified_.model();
+    const bool corners = std::all_of(at.begin(), at.end(), [&](const Corner& c) {
+        return places.under_others(c.point.point) || !model.inside_trims(c.surface, c.u, c.v);
+    });
+    if (!corners) {
+        return false;
     }
-    return *tops_;
+    const Corner middle = middle_of(cell);
+    return places.under_others(middle.point.point) &&
+           model.inside_trims(cell.surface, middle.u, middle.v);
+}
+
+// Whether some of a cell may be seen through a gap that misses its corners.
+bool Coverage::outlined_above(const std::array<Corner, 4>& at) const
+{
+    return hidden_places().outlined_above(
+        {at[0].point.point, at[1].point.point, at[2].point.point, at[3].point.point});
+}
+
+const HiddenPlaces& Coverage::hidden_places() const
+{
+    if (!hidden_places_) {
+        hidden_places_.emplace(surfaces_, certified_, kBlockedCell * places_.step());
+    }
+    return *hidden_places_;
 }
 
 void Coverage::look_into(const Cell& cell, const std::array<Corner, 4>& at, int depth)
@@ -238,16 +296,13 @@ void Coverage::look_into(const Cell& cell, const std::array<Corner, 4>& at, int 
         }
         return;
     }
-    Cell a = cell;
-    Cell b = cell;
+    const auto [a, b] = halves_of(cell, verdict == Verdict::kHalveU);
     if (verdict == Verdict::kHalveU) {
-        a.u1 = b.u0 = 0.5 * (cell.u0 + cell.u1);
         const Corner low = corner(cell.surface, a.u1, cell.v0);
         const Corner high = corner(cell.surface, a.u1, cell.v1);
         look_into(a, {at[0], low, at[2], high}, depth - 1);
         look_into(b, {low, at[1], high, at[3]}, depth - 1);
     } else {
-        a.v1 = b.v0 = 0.5 * (cell.v0 + cell.v1);
         const Corner low = corner(cell.surface, cell.u0, a.v1);
         const Corner high = corner(cell.surface, cell.u1, a.v1);
         look_into(a, {at[0], at[1], low, high}, depth - 1);
@@ -279,168 +334,6 @@ void Coverage::look_over(int surface, Vec2d low, Vec2d high)
         for (std::size_t j = 1; j < vs.size(); ++j) {
             const Cell cell{surface, us[i - 1], us[i], vs[j - 1], vs[j]};
             look_into(cell, corners_of(cell), kDeepest);
-        }
-    }
-}
-
-std::optional<Vec3d> Coverage::missing_tip(int surface,
-                                           double u,
-                                           double v,
-                                           bool where_blocked) const
-{
-    const Corner at = corner(surface, u, v);
-    if (!certified_.model().inside_trims(surface, u, v) || place_covered(at)) {
-        return std::nullopt;
-    }
-    if (stands_free(at)) {
-        return places_.touching_tip(at.point.point, at.normal);
-    }
-    return where_blocked ? better_tip(at) : std::nullopt;
-}
-
-std::optional<Vec3d> Coverage::better_tip(const Corner& at) const
-{
-    // On upright walls heights say nothing.
-    if (at.normal.z < kUprightNormal || hidden(at)) {
-        return std::nullopt;
-    }
-    const PlaceCoverage::Better better = places_.better_tip(at.point.point, at.normal, kNearShare);
-    kept_off_ = kept_off_ || better.kept_off;
-    if (better.left > scallop_) {
-        return better.tip;
-    }
-    nearly_bare_ = nearly_bare_ || better.tip;
-    return std::nullopt;
-}
-
-Points Coverage::trace(int surface, Place place, bool along_u) const
-{
-    const Surface& s = surfaces_[static_cast<std::size_t>(surface)];
-    const double begin = along_u ? s.u_begin() : s.v_begin();
-    const double end = along_u ? s.u_end() : s.v_end();
-    Points out;
-    for (const double sign : {-1.0, 1.0}) {
-        double at_u = place.u;
-        double at_v = place.v;
-        for (int k = 0; k < kMostTraced; ++k) {
-            const std::optional<Vec3d> tip = missing_tip(surface, at_u, at_v, true);
-            if (k == 0 && sign > 0) {
-                // the start is there already
-            } else if (tip) {
-                out.push_back(*tip);
-            } else {
-                break;
-            }
-            const SurfacePoint p = certified_.model().evaluate(surface, at_u, at_v);
-            const double speed = norm(along_u ? p.du : p.dv);
-            double& at = along_u ? at_u : at_v;
-            const double step =
-                std::min(kTraceStep * places_.step() / std::max(1e-9, speed), (end - begin) / 8);
-            const double next = std::clamp(at + sign * step, begin, end);
-            if (next == at) {
-                break;
-            }
-            at = next;
-        }
-        if (sign < 0) {
-            std::reverse(out.begin(), out.end());
-        }
-    }
-    return out;
-}
-
-// Its middle, then its corners.
-std::array<Coverage::Place, 5> Coverage::places_of(const Cell& cell) const
-{
-    return {Place{0.5 * (cell.u0 + cell.u1), 0.5 * (cell.v0 + cell.v1)}, Place{cell.u0, cell.v0},
-            Place{cell.u1, cell.v0}, Place{cell.u0, cell.v1}, Place{cell.u1, cell.v1}};
-}
-
-// A place of the cell that lacks a pass.
-std::optional<Coverage::Place> Coverage::bare_place(const Cell& cell) const
-{
-    const double u = 0.5 * (cell.u0 + cell.u1);
-    const Surface& s = surfaces_[static_cast<std::size_t>(cell.surface)];
-    // Beyond a border no other cell says what is left.
-    const auto on_border = [&](const Place& at) {
-        return at.u == s.u_begin() || at.u == s.u_end() || at.v == s.v_begin() || at.v == s.v_end();
-    };
-    nearly_bare_ = false;
-    for (const Place& place : places_of(cell)) {
-        const bool ask = place.u == u || nearly_bare_ || on_border(place);
-        if (missing_tip(cell.surface, place.u, place.v, ask)) {
-            return place;
-        }
-    }
-    return std::nullopt;
-}
-
-void Coverage::close_gaps(const std::function<void(const Points&)>& cut)
-{
-    std::vector<Cell> beside_edges;
-    for (int round = 0; round < kRounds && !gaps_.empty(); ++round) {
-        const std::vector<Cell> open = std::move(gaps_);
-        gaps_.clear();
-        std::vector<Cell> changed;
-        for (const Cell& cell : open) {
-            kept_off_ = false;
-            const std::optional<Place> place = bare_place(cell);
-            if (!place) {
-                if (kept_off_) {
-                    beside_edges.push_back(cell);
-                }
-                // Passes cut since may have made what stands steep.
-                const std::array<Corner, 4> at = corners_of(cell);
-                if (stands_steep(at)) {
-                    changed.push_back(cell);
-                }
-                continue;
-            }
-            changed.push_back(cell);
-            Points one = trace(cell.surface, *place, true);
-            Points other = trace(cell.surface, *place, false);
-            if (one.empty() || length_of(other) > length_of(one)) {
-                std::swap(one, other);
-            }
-            for (const Points& run : places_.runs_of(one)) {
-                cut(run);
-            }
-        }
-        for (const Cell& cell : changed) {
-            look_into(cell, corners_of(cell), kDeepest / 4);
-        }
-    }
-    const auto met = [&](const Cell& cell) {
-        kept_off_ = false;
-        const std::optional<Place> place = bare_place(cell);
-        if (place) {
-            most_left_ =
-                std::max(most_left_, reachable_left(corner(cell.surface, place->u, place->v), 0));
-        } else if (kept_off_) {
-            beside_edges.push_back(cell);
-        }
-        return !place;
-    };
-    gaps_.erase(std::remove_if(gaps_.begin(), gaps_.end(), met), gaps_.end());
-    measure_beside_edges(beside_edges);
-}
-
-double Coverage::reachable_left(const Corner& at, double worth)
-{
-    const PlaceCoverage::Left left = places_.left_at(at.point.point, at.normal, worth);
-    left_beside_edges_ = std::max(left_beside_edges_, left.beside_edges);
-    return left.reachable;
-}
-
-// Cells where nothing is left to do but by tips that passes are kept off.
-void Coverage::measure_beside_edges(const std::vector<Cell>& cells)
-{
-    for (const Cell& cell : cells) {
-        for (const Place& place : places_of(cell)) {
-            const Corner at = corner(cell.surface, place.u, place.v);
-            if (at.normal.z >= kUprightNormal && !hidden(at)) {
-                reachable_left(at, std::max(scallop_, left_beside_edges_));
-            }
         }
     }
 }

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "host_tools/surface_passes/hidden_places.hpp"
 #include "host_tools/surface_passes/place_coverage.hpp"
-#include "host_tools/surface_passes/top_map.hpp"
 
 namespace cusp::host {
 
@@ -112,7 +112,10 @@ private:
     bool stands_free(const Corner& at) const;
     bool blocked_somewhere(const std::array<Corner, 4>& at) const;
     bool hidden(const Corner& at) const;
-    const TopMap& tops() const;
+    bool lies_under_others(const Cell& cell, const std::array<Corner, 4>& at) const;
+    bool outlined_above(const std::array<Corner, 4>& at) const;
+    const HiddenPlaces& hidden_places() const;
+    bool in_narrow_gap(int surface, const Place& middle, const Place& corner_place) const;
     std::optional<Place> bare_place(const Cell& cell) const;
     // The tip that is missing at a place; none where nothing is, or the tool can't touch and
     // `where_blocked` is false.
@@ -121,6 +124,9 @@ private:
     std::array<Place, 5> places_of(const Cell& cell) const;
     double reachable_left(const Corner& at, double worth);
     std::array<Corner, 4> corners_of(const Cell& cell) const;
+    Corner middle_of(const Cell& cell) const;
+    static std::array<Cell, 2> halves_of(const Cell& cell, bool along_u);
+    std::array<double, 2> sides_of(const Cell& cell) const;
     double most_left_in(const std::vector<Cell>& cells);
     void measure_beside_edges(const std::vector<Cell>& cells);
     std::optional<Vec3d> tip_over_rim(int surface, Vec2d place) const;
@@ -139,13 +145,14 @@ private:
     PlaceCoverage places_;
     std::vector<Points> waiting_;  // passes given before the first look
     bool looked_{};
-    mutable std::optional<TopMap> tops_;  // many parts need none
+    mutable std::optional<HiddenPlaces> hidden_places_;  // many parts need none
     std::vector<Cell> gaps_;
     double most_left_{};
     double left_beside_edges_{};
     bool overflowed_{};
-    mutable bool nearly_bare_{};  // what some better tip would take off is nearly the scallop
-    mutable bool kept_off_{};     // some better tip was none, since passes keep off edges
+    mutable bool nearly_bare_{};    // what some better tip would take off is nearly the scallop
+    mutable double near_share_{1};  // of the scallop: nearly
+    mutable bool kept_off_{};       // some better tip was none, since passes keep off edges
     mutable std::vector<std::uint32_t> near_;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace cusp::host {
@@ -12,6 +13,8 @@ namespace {
 constexpr double kMostSquares = 4e6;
 constexpr std::size_t kMostSamples = 1000;  // of a patch, each way
 constexpr double kOpen = -std::numeric_limits<double>::infinity();
+
+enum class Facing : std::uint8_t { kUnknown, kTrimmed, kUp, kDown };
 
 // Bound of the lengths of a patch along u and v, by its control points.
 double longest_row(const Surface& s, bool along_u)
@@ -43,52 +46,98 @@ TopMap::TopMap(const std::vector<Surface>& surfaces, const SurfaceModel& model, 
     nx_ = static_cast<std::size_t>(size.x / pitch_) + 1;
     ny_ = static_cast<std::size_t>(size.y / pitch_) + 1;
     top_.assign(nx_ * ny_, kOpen);
+    outline_.assign(nx_ * ny_, kOpen);
     for (std::size_t number = 0; number < surfaces.size(); ++number) {
         for (const BezierPatch& patch : bezier_patches(surfaces[number])) {
-            const auto count = [&](bool along_u) {
-                const double parts = 2.0 * longest_row(patch.surface, along_u) / pitch_;
-                return std::min(kMostSamples, static_cast<std::size_t>(parts) + 2);
-            };
-            const std::size_t nu = count(true);
-            const std::size_t nv = count(false);
-            for (std::size_t i = 0; i <= nu; ++i) {
-                for (std::size_t j = 0; j <= nv; ++j) {
-                    const double s = static_cast<double>(i) / static_cast<double>(nu);
-                    const double t = static_cast<double>(j) / static_cast<double>(nv);
-                    const double u = patch.u_begin * (1 - s) + patch.u_end * s;
-                    const double v = patch.v_begin * (1 - t) + patch.v_end * t;
-                    const int surface = static_cast<int>(number);
-                    if (!model.inside_trims(surface, u, v)) {
-                        continue;
-                    }
-                    const Vec3d p = model.evaluate(surface, u, v).point;
-                    const std::size_t x = std::min(
-                        nx_ - 1, static_cast<std::size_t>(std::max(0.0, (p.x - x0_) / pitch_)));
-                    const std::size_t y = std::min(
-                        ny_ - 1, static_cast<std::size_t>(std::max(0.0, (p.y - y0_) / pitch_)));
-                    top_[x * ny_ + y] = std::max(top_[x * ny_ + y], p.z);
-                }
+            sample(surfaces[number], static_cast<int>(number), patch, model);
+        }
+    }
+}
+
+std::size_t TopMap::square_of(Vec3d p) const
+{
+    const auto along = [&](double at, std::size_t count) {
+        return std::min(count - 1, static_cast<std::size_t>(std::max(0.0, at / pitch_)));
+    };
+    return along(p.x - x0_, nx_) * ny_ + along(p.y - y0_, ny_);
+}
+
+// A sample at the end of its surface, or that differs from the last one beside it in being there,
+// or in the way it faces, tells of an outline.
+void TopMap::sample(const Surface& whole,
+                    int surface,
+                    const BezierPatch& patch,
+                    const SurfaceModel& model)
+{
+    const auto count = [&](bool along_u) {
+        const double parts = 2.0 * longest_row(patch.surface, along_u) / pitch_;
+        return std::min(kMostSamples, static_cast<std::size_t>(parts) + 2);
+    };
+    const std::size_t nu = count(true);
+    const std::size_t nv = count(false);
+    std::vector<Facing> last_row(nv + 1, Facing::kUnknown);
+    for (std::size_t i = 0; i <= nu; ++i) {
+        Facing last = Facing::kUnknown;
+        for (std::size_t j = 0; j <= nv; ++j) {
+            const double s = static_cast<double>(i) / static_cast<double>(nu);
+            const double t = static_cast<double>(j) / static_cast<double>(nv);
+            const double u = patch.u_begin * (1 - s) + patch.u_end * s;
+            const double v = patch.v_begin * (1 - t) + patch.v_end * t;
+            const SurfacePoint p = model.tangents(surface, u, v);
+            Facing here = cross(p.du, p.dv).z > 0 ? Facing::kUp : Facing::kDown;
+            if (!model.inside_trims(surface, u, v)) {
+                here = Facing::kTrimmed;
             }
+            const std::size_t square = square_of(p.point);
+            if (here != Facing::kTrimmed) {
+                top_[square] = std::max(top_[square], p.point.z);
+            }
+            const bool differs = (last != Facing::kUnknown && last != here) ||
+                                 (last_row[j] != Facing::kUnknown && last_row[j] != here);
+            const bool ends =
+                here != Facing::kTrimmed && (u == whole.u_begin() || u == whole.u_end() ||
+                                             v == whole.v_begin() || v == whole.v_end());
+            if (differs || ends) {
+                outline_[square] = std::max(outline_[square], p.point.z);
+            }
+            last = last_row[j] = here;
         }
     }
 }
 
 double TopMap::least_around(double x, double y) const
 {
+    const double at_x = std::floor((x - x0_) / pitch_);
+    const double at_y = std::floor((y - y0_) / pitch_);
+    if (!(at_x >= 1 && at_y >= 1 && at_x + 1 < static_cast<double>(nx_) &&
+          at_y + 1 < static_cast<double>(ny_))) {
+        return kOpen;
+    }
+    const double* first =
+        &top_[(static_cast<std::size_t>(at_x) - 1) * ny_ + static_cast<std::size_t>(at_y) - 1];
     double least = std::numeric_limits<double>::infinity();
-    for (int i = -1; i <= 1; ++i) {
-        for (int j = -1; j <= 1; ++j) {
-            const double at_x = std::floor((x - x0_) / pitch_) + i;
-            const double at_y = std::floor((y - y0_) / pitch_) + j;
-            if (at_x < 0 || at_y < 0 || at_x >= static_cast<double>(nx_) ||
-                at_y >= static_cast<double>(ny_)) {
-                return kOpen;
-            }
-            least = std::min(
-                least, top_[static_cast<std::size_t>(at_x) * ny_ + static_cast<std::size_t>(at_y)]);
-        }
+    for (int i = 0; i < 3; ++i, first += ny_) {
+        least = std::min({least, first[0], first[1], first[2]});
     }
     return least;
+}
+
+double TopMap::highest_outline(Vec2d low, Vec2d high) const
+{
+    const auto first = [&](double at, double begin) {
+        return static_cast<std::size_t>(std::max(0.0, std::floor((at - begin) / pitch_) - 1));
+    };
+    const auto end = [&](double at, double begin, std::size_t count) {
+        const double after = std::max(0.0, std::floor((at - begin) / pitch_) + 2);
+        return std::min(count, static_cast<std::size_t>(after));
+    };
+    double highest = kOpen;
+    for (std::size_t i = first(low.x, x0_); i < end(high.x, x0_, nx_); ++i) {
+        for (std::size_t j = first(low.y, y0_); j < end(high.y, y0_, ny_); ++j) {
+            highest = std::max(highest, outline_[i * ny_ + j]);
+        }
+    }
+    return highest;
 }
 
 double TopMap::drop(double x, double y, double radius) const

@@ -194,6 +194,24 @@ TEST(AdaptiveIsocurve, KeepsTheScallopBesideARimThatTheBallPassesOutside)
     }
 }
 
+TEST(AdaptiveIsocurve, KeepsTheScallopOverAGapThatAFloorIsSeenThrough)
+{
+    Job roof = job_for(open_roof(), "adaptive_isocurve");
+    Operation& finish = roof.operations.front();
+    finish.tool.radius = finish.tool.corner_radius = 3;
+    finish.scallop = 0.1;
+    for (const char direction : {'u', 'v'}) {
+        finish.direction = direction;
+        const auto planned = plan_adaptive_isocurve(roof, finish).front();
+        CHECK(planned.stats.scallop_bound_mm <= 0.1);
+        // A ball on both rims sinks between them: it may stand no higher than level with them.
+        const SweptBalls swept = swept_by(planned.path);
+        for (double y = 0.6; y < 3.5; y += 0.05) {
+            CHECK(swept.lowest(5, y).height <= -2.5 + 0.1);
+        }
+    }
+}
+
 TEST(AdaptiveIsocurve, BoundsWhatPassesOfAGivenDistanceLeaveBesideEdges)
 {
     // Two walls that meet in an edge under which no isocurve of either ends.

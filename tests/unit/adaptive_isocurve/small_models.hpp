@@ -122,6 +122,25 @@ inline Surface half_bowl()
     return s;
 }
 
+inline Surface plane(Vec3d low, Vec3d high_y, Vec3d high_x, Vec3d high)
+{
+    Surface s;
+    s.degree_u = s.degree_v = 1;
+    s.knots_u = s.knots_v = {0, 0, 1, 1};
+    s.size_u = s.size_v = 2;
+    s.points = {low, high_y, high_x, high};
+    s.weights.assign(4, 1.0);
+    return s;
+}
+
+// A roof, open by 0.6 mm along its ridge at x = 5, z = -2.5: through the gap a floor is seen.
+inline std::vector<Surface> open_roof()
+{
+    return {plane({0, 0, -4.7}, {0, 4, -4.7}, {4.7, 0, -2.5}, {4.7, 4, -2.5}),
+            plane({5.3, 0, -2.5}, {5.3, 4, -2.5}, {10, 0, -4.7}, {10, 4, -4.7}),
+            plane({1.4, 0.5, -6}, {1.4, 3.5, -6}, {9.4, 0.5, -6}, {9.4, 3.5, -6})};
+}
+
 inline Job job_for(std::vector<Surface> floor, const std::string& strategy)
 {
     Job job = plain_job();

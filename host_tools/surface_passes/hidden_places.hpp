@@ -1,0 +1,41 @@
+// Which places of a model no tool can come near from above, since other surfaces lie over them.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "host_tools/surface_passes/certified_pass.hpp"
+#include "host_tools/surface_passes/top_map.hpp"
+
+namespace cusp::host {
+
+// A map of heights tells most; beside the model's outlines, where there may be gaps narrower than
+// its squares, the model itself is asked.
+class HiddenPlaces {
+public:
+    // pitch  mm, of the map
+    HiddenPlaces(const std::vector<Surface>& surfaces,
+                 const CertifiedPasses& certified,
+                 double pitch);
+
+    // Whether the place lies well under some surface: by more than two squares of the map are wide.
+    // Gaps narrower than 0.02 mm count as closed.
+    //
+    //   normal  of the model there, unit, upward
+    bool hidden(Vec3d place, Vec3d normal) const;
+
+    // The same, but for gaps that are narrower than three squares of the map.
+    bool under_others(Vec3d place) const;
+
+    // Whether outlines of the model run over a part of a surface, given by its corners, well above
+    // it: what is hidden at all its corners may be seen between them.
+    bool outlined_above(const std::array<Vec3d, 4>& corners) const;
+
+private:
+    double roof_over(double z) const;
+
+    const CertifiedPasses& certified_;
+    TopMap tops_;
+};
+
+}  // namespace cusp::host
