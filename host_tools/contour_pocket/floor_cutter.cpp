@@ -9,6 +9,7 @@ namespace cusp::host {
 
 namespace {
 
+constexpr double kTurn = 6.283185307179586;
 constexpr double kSamePlace = kWrittenStep;  // paths are rounded to it
 
 double lowest_of(const FloorPath& path)
@@ -72,7 +73,8 @@ void FloorCutter::enter(const Laid& cut, const CutSettings& settings)
     const double round = length(pass.path);
     const Vec2d start = pass.path.front().start;
     const bool stands = moves_.stands_over(cut.path.start);
-    // A ramp round a pass that is hardly longer than a point would be a plunge.
+    // A ramp round a pass that is hardly longer than a point would be a plunge: a small helix is
+    // better, though it leaves more to the middle of the tool.
     const bool helix = (settings.entry == EntryKind::kHelix && !stands) ||
                        (settings.entry == EntryKind::kAuto && round < 6.0 * tool && !stands) ||
                        (settings.entry != EntryKind::kPlunge && round < 0.5 * tool);
@@ -90,7 +92,8 @@ void FloorCutter::enter(const Laid& cut, const CutSettings& settings)
     const double around = helix ? metal_around(start, radius) : 0.0;
     // A helix reaches farther than the pass, where metal may stand that no pass has met.
     const bool shallow = depth_ == nullptr || around - path.start.z <= depth_->most();
-    if (helix && radius > 0.2 * tool && shallow) {
+    const bool wide = radius > 0.2 * tool || (radius > 0.02 * tool && kTurn * radius > round);
+    if (helix && wide && shallow) {
         heights.raise_over(heights_over(around));
         heights.metal = moves_.enter_by_helix(
             path.start, radius, round < radius, heights,

@@ -9,10 +9,11 @@ namespace cusp::host {
 
 namespace {
 
-constexpr double kOverMetal = 0.1;  // mm: where the plunge feed hands over to a slope
-constexpr double kRapidOver = 0.9;  // mm over that: where rapid moves end
-constexpr double kSlope = 0.08;     // of ramps and helices: 4.6 degrees
-constexpr double kSettled = 0.03;   // mm over the pass: here the slope has met it
+constexpr double kOverMetal = 0.1;    // mm: where the plunge feed hands over to a slope
+constexpr double kRapidOver = 0.9;    // mm over that: where rapid moves end
+constexpr double kSlope = 0.08;       // of ramps and helices: 4.6 degrees
+constexpr double kSettled = 0.03;     // mm over the pass: here the slope has met it
+constexpr double kHardlyDeep = 0.15;  // mm straight down: what a helix leaves over the pass
 constexpr int kHelixSides = 48;
 constexpr int kMostPoints = 100000;  // of one entry: where a pass is too short for a slope
 
@@ -123,7 +124,7 @@ void PocketMoves::enter_along(const FloorPath& path, const EntryHeights& heights
     const double turns = (z - lowest) / std::max(kSlope * round, 1e-9);
     const bool steep = turns * static_cast<double>(pass.size()) > kMostPoints;
     if (plunge || steep) {
-        steep_plunges_ += plunge ? 0 : 1;
+        steep_plunges_ += plunge || z - path.start.z < kHardlyDeep ? 0 : 1;
         line(MoveKind::kPlunge, path.start);
         return;
     }

@@ -61,7 +61,7 @@ public:
     std::vector<ToolMove> take() { return std::move(moves_); }
     int retracts() const { return retracts_; }
     int points() const { return points_; }
-    // Entries that had no room for a slope.
+    // Entries that had no room for a slope and went down by more than a helix leaves.
     int steep_plunges() const { return steep_plunges_; }
 
 private:

@@ -312,6 +312,21 @@ TEST(ContourPocket, EntersByAHelixWhereTheInnermostLoopIsTooShortForARamp)
     }
 }
 
+TEST(ContourPocket, EntersByASmallHelixWhereThereIsNoRoomForAWideOne)
+{
+    for (int i = 0; i < 60; ++i) {
+        Operation operation = pocket();
+        operation.boundary = square_loop(30.0, 30.0, 4.4 + 0.005 * i);
+        operation.plan_tolerance = operation.floor_tolerance = 0.001;
+        operation.scallop = 0.004;
+        const OperationStats stats = plan_contour_pocket(job(), operation).back().stats;
+        for (const std::string& text : stats.warnings) {
+            if (says(text, "no room for a slope"))
+                CHECK(!says(text, "no room for a slope"));
+        }
+    }
+}
+
 TEST(ContourPocket, WarnsOfARoughingToolThatFitsNowhere)
 {
     Operation operation = pocket();
