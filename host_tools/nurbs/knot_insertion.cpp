@@ -155,11 +155,48 @@ std::vector<double> crease_knots(const std::vector<double>& knots, int degree, s
     return out;
 }
 
+// As `insert_to_degree` for each knot in order, but what lies behind a knot is taken over when its
+// turn comes, not moved on with each insertion before it.
 void insert_all_to_degree(ControlRows& rows)
 {
-    for (const double u : distinct_knots(rows.knots, rows.degree, rows.rows())) {
-        insert_to_degree(rows, u);
+    const auto p = static_cast<std::size_t>(rows.degree);
+    const auto width = static_cast<std::ptrdiff_t>(rows.width);
+    const std::vector<double> distinct = distinct_knots(rows.knots, rows.degree, rows.rows());
+    const ControlRows from = std::move(rows);
+    rows = {from.degree, {}, from.width, {}};
+    std::size_t knots_taken = 0;
+    auto next_row = from.points.begin();
+    const auto knot = [&](std::size_t k) {
+        return k < rows.knots.size() ? rows.knots[k]
+                                     : from.knots[knots_taken + k - rows.knots.size()];
+    };
+    for (const double u : distinct) {
+        for (; knots_taken < from.knots.size() && from.knots[knots_taken] <= u; ++knots_taken) {
+            rows.knots.push_back(from.knots[knots_taken]);
+        }
+        for (std::size_t s = multiplicity(rows.knots, u); s < p; ++s) {
+            const std::size_t last = rows.knots.size() - 1 - s;  // of the rows that change
+            for (; rows.points.size() < (last + 1) * rows.width; next_row += width) {
+                rows.points.insert(rows.points.end(), next_row, next_row + width);
+            }
+            const auto after = static_cast<std::ptrdiff_t>(last + 1) * width;
+            const std::vector<HomogeneousPoint> copy{rows.points.begin() + after - width,
+                                                     rows.points.begin() + after};
+            rows.points.insert(rows.points.begin() + after, copy.begin(), copy.end());
+            for (std::size_t i = last; i + p >= rows.knots.size(); --i) {
+                const double share = (u - knot(i)) / (knot(i + p) - knot(i));
+                HomogeneousPoint* row = rows.points.data() + i * rows.width;
+                for (std::size_t j = 0; j < rows.width; ++j) {
+                    row[j] = blend(*(row + j - rows.width), row[j], share);
+                }
+            }
+            rows.knots.push_back(u);
+        }
     }
+    rows.knots.insert(rows.knots.end(),
+                      from.knots.begin() + static_cast<std::ptrdiff_t>(knots_taken),
+                      from.knots.end());
+    rows.points.insert(rows.points.end(), next_row, from.points.end());
 }
 
 void clamp_ends(ControlRows& rows)

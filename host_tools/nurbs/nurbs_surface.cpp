@@ -8,24 +8,36 @@
 namespace cusp::host {
 namespace {
 
-// Rows of control points, blended by the functions of a basis at one parameter: the control points
-// of the isocurve there.
-Curve blended(const ControlRows& rows, double parameter, int degree, std::vector<double> knots)
+// The control points of an isocurve: rows of a surface's, blended by the functions of a basis at
+// one parameter.
+//
+// knots    across the isocurve, of `count` rows
+// place    place(row, k): where the surface keeps the k-th control point of a row
+// along    of the isocurve: degree, knots, and room for its points
+template <class Place>
+Curve blended(const Surface& surface,
+              const std::vector<double>& knots,
+              int degree,
+              int count,
+              double parameter,
+              ControlRows along,
+              const Place& place)
 {
     SplineBasis basis;
-    evaluate_basis(rows.knots, rows.degree, rows.rows(), parameter, false, basis);
-    ControlRows curve{degree, std::move(knots), 1, std::vector<HomogeneousPoint>(rows.width)};
-    for (std::size_t i = 0; i <= static_cast<std::size_t>(rows.degree); ++i) {
-        for (std::size_t j = 0; j < rows.width; ++j) {
-            const HomogeneousPoint& from = rows.points[(basis.first + i) * rows.width + j];
-            HomogeneousPoint& to = curve.points[j];
-            to.x += basis.value[i] * from.x;
-            to.y += basis.value[i] * from.y;
-            to.z += basis.value[i] * from.z;
-            to.w += basis.value[i] * from.w;
+    evaluate_basis(knots, degree, static_cast<std::size_t>(count), parameter, false, basis);
+    for (std::size_t i = 0; i <= static_cast<std::size_t>(degree); ++i) {
+        for (std::size_t k = 0; k < along.points.size(); ++k) {
+            const std::size_t at = place(basis.first + i, k);
+            const double share = basis.value[i];
+            const double weight = surface.weights[at];
+            HomogeneousPoint& to = along.points[k];
+            to.x += share * (surface.points[at].x * weight);
+            to.y += share * (surface.points[at].y * weight);
+            to.z += share * (surface.points[at].z * weight);
+            to.w += share * weight;
         }
     }
-    return to_curve(curve);
+    return to_curve(along);
 }
 
 std::vector<double> bezier_knots(int degree, double begin, double end)
@@ -206,12 +218,19 @@ std::vector<BezierPatch> bezier_patches(const Surface& surface)
 
 Curve isocurve_at_v(const Surface& surface, double v)
 {
-    return blended(control_rows_along_v(surface), v, surface.degree_u, surface.knots_u);
+    const auto size_v = static_cast<std::size_t>(surface.size_v);
+    const auto count = static_cast<std::size_t>(surface.size_u);
+    return blended(surface, surface.knots_v, surface.degree_v, surface.size_v, v,
+                   {surface.degree_u, surface.knots_u, 1, std::vector<HomogeneousPoint>(count)},
+                   [size_v](std::size_t row, std::size_t k) { return k * size_v + row; });
 }
 
 Curve isocurve_at_u(const Surface& surface, double u)
 {
-    return blended(control_rows_along_u(surface), u, surface.degree_v, surface.knots_v);
+    const auto size_v = static_cast<std::size_t>(surface.size_v);
+    return blended(surface, surface.knots_u, surface.degree_u, surface.size_u, u,
+                   {surface.degree_v, surface.knots_v, 1, std::vector<HomogeneousPoint>(size_v)},
+                   [size_v](std::size_t row, std::size_t k) { return row * size_v + k; });
 }
 
 }  // namespace cusp::host
