@@ -17,7 +17,7 @@ namespace cusp::host {
 namespace {
 
 constexpr int kSlopeLooks = 150;
-constexpr double kPlaneLooks = 1.0;  // mm
+constexpr double kPlaneLooks = 1 / 3.0;  // of what the tool reaches
 constexpr int kPlaneEndHalvings = 20;
 constexpr double kShortestPlaneRun = 1e-3;  // mm
 // Of the step on level ground: places that ask for less (75 degrees steep, or nearly as hollow as
@@ -191,7 +191,7 @@ private:
     {
         const double from = -reach_;
         const double to = dot(size_, along_) + reach_;
-        const int parts = static_cast<int>(std::ceil((to - from) / kPlaneLooks));
+        const int parts = static_cast<int>(std::ceil((to - from) / (kPlaneLooks * reach_)));
         double begin = from;
         double last = from;
         bool was_on = stands(from, t);

@@ -11,7 +11,8 @@ namespace cusp::host {
 namespace {
 
 constexpr int kDeepestHalving = 12;
-constexpr int kDropHalvings = 7;        // of 1 mm, over places where the tool may fall off
+constexpr double kDropPiece = 3.2;      // in widths of a dip as deep as the band
+constexpr int kDropHalvings = 7;        // of such a piece, where the tool may fall off
 constexpr double kSampleShare = 0.08;   // of the band, for what lies between samples
 constexpr double kEdgeMargin = 1.05;    // of the band
 constexpr double kShortestLine = 0.01;  // mm
@@ -276,19 +277,19 @@ Points CertifiedPasses::sample(const std::function<Vec3d(double)>& at,
 
 Points CertifiedPasses::sample_dropped(Vec3d a, Vec3d b, Feet* feet) const
 {
-    const double lower = std::min(a.z, b.z);
     FollowedBall ball{*this};
     std::map<double, Foot> foot_at;
     const auto tip = [&](double t) {
         const Vec3d p = a + (b - a) * t;
-        const std::optional<FollowedBall::Stand> found = ball.at(p.x, p.y);
+        const auto found = ball.at(p.x, p.y);
         if (feet != nullptr && found) {
             foot_at[t] = found->foot;
         }
-        return found ? found->tip : Vec3d{p.x, p.y, lower};
+        return found ? found->tip : Vec3d{p.x, p.y, std::min(a.z, b.z)};
     };
     const double length = std::hypot(b.x - a.x, b.y - a.y);
-    const int pieces = std::max(1, static_cast<int>(std::ceil(length / 1.0)));
+    const double dip = std::sqrt(8 * tool_.radius * band_.band);
+    const int pieces = std::max(1, static_cast<int>(std::ceil(length / (kDropPiece * dip))));
     std::vector<double> breaks;
     for (int k = 0; k <= pieces; ++k) {
         breaks.push_back(static_cast<double>(k) / pieces);

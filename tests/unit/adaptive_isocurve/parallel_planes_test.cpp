@@ -2,6 +2,7 @@
 #include "host_tools/adaptive_isocurve/parallel_planes.hpp"
 
 #include <cmath>
+#include <random>
 #include <vector>
 
 #include "CppUTest/TestHarness.h"
@@ -129,6 +130,36 @@ TEST(ParallelPlanes, RunOverTheTrianglesOfAMesh)
         CHECK((swept.lowest(in.x, in.y).height - in.z) / std::sqrt(1 + 1 + 0.25) <= 0.2);
     }
     DOUBLES_EQUAL(0, planned.stats.gouge_bound_mm, 1e-6);
+}
+
+// A part of metres took points a millimetre apart, one of a millimetre was looked at in two places.
+TEST(ParallelPlanes, TakeAsManyPointsHoweverLargeThePart)
+{
+    const auto planned_at = [](double scale) {
+        std::mt19937 random{7};
+        Surface s = bumps(random, 2);
+        for (Vec3d& p : s.points) {
+            p = p * scale;
+        }
+        Job job = job_for({s}, "parallel_planes");
+        job.clearance *= scale;
+        Operation& operation = job.operations.front();
+        operation.tool.radius *= scale;
+        operation.tool.corner_radius *= scale;
+        operation.scallop = *operation.scallop * scale;
+        operation.floor_tolerance *= scale;
+        operation.plan_tolerance *= scale;
+        return planes_over(job);
+    };
+    const PlannedOperation usual = planned_at(1);
+    const double length = count_of(usual, "pass_length_mm");
+    for (const double scale : {0.02, 100.0}) {
+        const PlannedOperation scaled = planned_at(scale);
+        LONGS_EQUAL(usual.stats.passes, scaled.stats.passes);
+        CHECK(scaled.stats.cl_points < 1.1 * usual.stats.cl_points);
+        CHECK(scaled.stats.cl_points > 0.9 * usual.stats.cl_points);
+        DOUBLES_EQUAL(length, count_of(scaled, "pass_length_mm") / scale, 0.002 * length);
+    }
 }
 
 TEST(ParallelPlanes, OverASpeckAreFew)
