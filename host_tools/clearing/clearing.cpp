@@ -7,6 +7,7 @@
 #include "host_tools/clearing/corner_spurs.hpp"
 #include "host_tools/clearing/cutting_order.hpp"
 #include "host_tools/clearing/loop_links.hpp"
+#include "host_tools/clearing/partial_loops.hpp"
 
 namespace cusp::host {
 
@@ -106,7 +107,61 @@ double draw_to_suit(NextLevel& inner,
     return good_left;
 }
 
-std::vector<Loop2d> make_levels(const RegionOffset& offset, const ClearingSettings& settings)
+// A level farther inward than `step`, and partial loops before it, where that makes the path
+// shorter.
+struct BehindPartialLoops {
+    NextLevel level;
+    std::vector<PartialLoop> loops;
+    double cost;   // mm of path a mm of depth
+    double saved;  // mm of path
+};
+
+std::optional<BehindPartialLoops> level_behind_partial_loops(const NextLevel& level,
+                                                             double step,
+                                                             const RegionOffset& offset,
+                                                             const ClearingSettings& settings,
+                                                             bool& tried)
+{
+    constexpr double kWorthIt = 0.9;
+    constexpr double kMany = 0.5;  // of the level's length: a nearer level may need fewer
+    constexpr double kNearer = 0.9;
+    constexpr int kRounds = 3;
+    double wide = settings.partial_step ? settings.partial_step(level.loops, step) : 0.0;
+    double whole = 0.0;
+    for (const Contour& contour : level.loops.contours) {
+        whole += length(contour);
+    }
+    std::optional<BehindPartialLoops> best;
+    for (int round = 0; round < kRounds && wide > step; ++round) {
+        NextLevel inner = next_level(offset, level.distance, std::min(wide, settings.step),
+                                     settings.cover_corners);
+        const double apart = inner.distance - level.distance;
+        if (apart <= step) {
+            break;
+        }
+        tried = true;
+        wide = kNearer * apart;
+        const double most = (best ? best->cost : kWorthIt * whole / step) * apart - whole;
+        auto partial = settings.partial_loops(
+            {level.loops, inner.loops, level.distance, inner.distance, offset}, most);
+        if (!partial) {
+            continue;
+        }
+        const double added = added_length(*partial);
+        const double cost = (whole + added) / apart;
+        best = BehindPartialLoops{std::move(inner), std::move(*partial), cost,
+                                  (whole / step - cost) * apart};
+        if (added < kMany * whole) {
+            break;
+        }
+    }
+    return best;
+}
+
+// Partial loops and what they save are the result's.
+std::vector<Loop2d> make_levels(const RegionOffset& offset,
+                                const ClearingSettings& settings,
+                                ClearedRegion& result)
 {
     std::vector<Loop2d> loops;
     const auto step_from = [&](const Region2d& level) {
@@ -123,9 +178,20 @@ std::vector<Loop2d> make_levels(const RegionOffset& offset, const ClearingSettin
         const double first = std::min(suited * step, std::max(step, 0.5 * settings.step));
         return next_level(offset, level.distance, first, settings.cover_corners);
     };
+    // Where partial loops were not worth it they seldom are a level on.
+    int next_try = 0;
+    int wait = 1;
     NextLevel level{settings.first, offset.at(settings.first)};
     double step = level.loops.contours.empty() ? 0.0 : step_from(level.loops);
     for (int k = 0; k < kMostLevels && !level.loops.contours.empty(); ++k) {
+        const auto add_level = [&](NextLevel& inner) {
+            for (Contour& contour : level.loops.contours) {
+                const bool outer = area(contour) > 0.0;
+                loops.push_back({std::move(contour), k, level.distance,
+                                 inner.distance - level.distance, outer});
+            }
+            level = std::move(inner);
+        };
         NextLevel inner = drawn_from(level, step);
         double inner_step = step;
         // The step must suit the loops on both of its sides. Loops that move by a fiftieth of it
@@ -144,18 +210,34 @@ std::vector<Loop2d> make_levels(const RegionOffset& offset, const ClearingSettin
                 break;
             }
         }
+        std::optional<BehindPartialLoops> far;
+        if (k >= next_try) {
+            bool tried = false;
+            far = level_behind_partial_loops(level, suited * step, offset, settings, tried);
+            wait = far ? 1 : (tried ? 2 * wait : wait);
+            next_try = k + (tried ? wait : 1);
+        }
+        if (far) {
+            if (far->loops.empty() && settings.left_between) {
+                suited = std::clamp((far->level.distance - level.distance) / step, kLeastSuited,
+                                    kMostSuited);
+            }
+            for (PartialLoop& loop : far->loops) {
+                loop.level = k;
+                result.partial.push_back(std::move(loop));
+            }
+            result.saved += far->saved;
+            add_level(far->level);
+            step = level.loops.contours.empty() ? 0.0 : step_from(level.loops);
+            continue;
+        }
         const double left = draw_to_suit(inner, level, offset, settings);
         if (left > 0.0 && !inner.by_corners) {
             const double drawn = (inner.distance - level.distance) / step;
             suited = std::clamp(drawn * std::min(1.0 / std::sqrt(left), kMostAgain), kLeastSuited,
                                 kMostSuited);
         }
-        for (Contour& contour : level.loops.contours) {
-            const bool outer = area(contour) > 0.0;
-            loops.push_back(
-                {std::move(contour), k, level.distance, inner.distance - level.distance, outer});
-        }
-        level = std::move(inner);
+        add_level(inner);
         step = inner_step;
     }
     return loops;
@@ -276,11 +358,12 @@ void add_trees(const std::vector<Loop2d>& loops, PassList& list)
 ClearedRegion clear_region(const Region2d& region, const ClearingSettings& settings)
 {
     const RegionOffset offset{region};
-    const std::vector<Loop2d> loops = make_levels(offset, settings);
     PassList list{offset, settings};
+    const std::vector<Loop2d> loops = make_levels(offset, settings, list.region());
     add_rings(loops, list);
     add_trees(loops, list);
     ClearedRegion result = std::move(list.region());
+    result.direction = settings.direction;
     for (const ClearingPass& pass : result.passes) {
         result.widest_gap = std::max(result.widest_gap, pass.step);
     }

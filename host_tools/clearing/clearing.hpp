@@ -9,6 +9,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "host_tools/import/job.hpp"
@@ -25,6 +26,14 @@ struct LevelStrip {
     const RegionOffset& walls;
 };
 
+// A part of a loop between two levels, or all of one.
+struct PartialLoop {
+    Contour path;    // runs as loops do: the region inward lies on its left
+    int level{};     // of the loop outside it, which it refines
+    double depth{};  // mm inward from that one
+    bool whole{};    // the path is closed
+};
+
 struct ClearingSettings {
     double
         first{};    // mm: distance of the outermost pass from the contours (tool radius, allowance)
@@ -34,6 +43,12 @@ struct ClearingSettings {
     // Where given, what stands between two levels as a share of what may: they are drawn nearer
     // together until it is at most 1, or apart, up to half of `step`, where it is less.
     std::function<double(const LevelStrip& strip)> left_between;
+    // Where given: how far inward the next level may lie if partial loops are made where that is
+    // too far, mm; 0 where whole loops, `step` mm apart, are no longer. And these partial loops; no
+    // value where they do not suffice or add more than `most` mm of path.
+    std::function<double(const Region2d& level, double step)> partial_step;
+    std::function<std::optional<std::vector<PartialLoop>>(const LevelStrip& strip, double most)>
+        partial_loops;
     CutDirection direction{CutDirection::kClimb};
     // Draws loops nearer together where corners, necks or the middle would else lie farther than
     // half a step from every pass.
@@ -43,6 +58,7 @@ struct ClearingSettings {
 enum class PassStart : std::uint8_t {
     kEntry,  // in uncut metal: needs a helix, a ramp or a plunge
     kDrop,   // beside metal already cut, after a retract
+    kHere,   // where the pass before ends
     kLink,   // by `link` from the end of the pass before, through metal it has cut or is to cut
 };
 
@@ -54,6 +70,7 @@ struct ClearingPass {
     // Tangent arcs where there is room, else a straight line; else along the pass before and over.
     std::vector<Edge> link;
     bool around_island{};
+    bool at_cliff{};
     double room{};  // mm: from the start of the path to the nearest contour
     // A rest of metal this wide may stand between this level and the next one inward, mm.
     double step{};
@@ -62,8 +79,11 @@ struct ClearingPass {
 struct ClearedRegion {
     std::vector<ClearingPass> passes;  // in the order to cut
     int levels{};
-    int leaves{};         // passes without one further inside
-    double widest_gap{};  // largest step between two levels, mm
+    int leaves{};                      // passes without one further inside
+    double widest_gap{};               // largest step between two levels, mm
+    std::vector<PartialLoop> partial;  // for put_in_partial_loops()
+    double saved{};                    // mm of path that partial loops save over whole ones, about
+    CutDirection direction{};
 };
 
 // More levels than these are not made.

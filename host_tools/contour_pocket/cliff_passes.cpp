@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "host_tools/contour_pocket/crease_lines.hpp"
 #include "host_tools/contour_pocket/pass_leavings.hpp"
@@ -14,6 +15,7 @@ namespace {
 constexpr double kAlong = 0.1;      // of the radius: between places that are looked at
 constexpr double kWorthOn = 3.0;    // radii: over shorter gaps a pass goes on
 constexpr double kFarthest = 4.0;   // of `off`
+constexpr double kFragment = 2.0;   // radii: shorter lines
 constexpr double kLifted = 0.02;    // of the radius: length of a pass that may lie high
 constexpr double kShortest = 1e-4;  // mm
 
@@ -23,8 +25,9 @@ public:
                   const TipFloor& floor,
                   const ClearedRegion& cleared,
                   const CliffSettings& settings)
-        : walls_{region}, floor_{floor}, leavings_{cleared, floor}, settings_{settings}
+        : walls_{region}, floor_{floor}, cleared_{cleared}, settings_{settings}
     {
+        leavings_.emplace(cleared, floor);
     }
 
     std::vector<ClearingPass> run()
@@ -36,9 +39,43 @@ public:
         };
         search.jump = std::max(0.25 * settings_.most, 2e-3);
         search.fine = 0.3 * settings_.laying.aside;
-        for (const CreaseLine& line : crease_lines(floor_, search)) {
+        std::vector<CreaseLine> lines = crease_lines(floor_, search);
+        if (settings_.fragments) {
+            follow(lines.begin(), lines.end());
+            return std::move(passes_);
+        }
+        const auto fragments =
+            std::stable_partition(lines.begin(), lines.end(), [&](const CreaseLine& line) {
+                return length_of(line) > kFragment * floor_.tool().radius;
+            });
+        follow(lines.begin(), fragments);
+        // Where the tip's height is all but upright its line is found in pieces, some beside others
+        // that have been followed.
+        ClearedRegion followed = cleared_;
+        followed.passes.insert(followed.passes.end(), passes_.begin(), passes_.end());
+        leavings_.emplace(followed, floor_);
+        jumps_count_ = false;
+        follow(fragments, lines.end());
+        return std::move(passes_);
+    }
+
+private:
+    using Line = std::vector<CreaseLine>::const_iterator;
+
+    static double length_of(const CreaseLine& line)
+    {
+        double sum = 0.0;
+        for (std::size_t i = 1; i < line.points.size(); ++i) {
+            sum += distance(line.points[i - 1].at, line.points[i].at);
+        }
+        return sum;
+    }
+
+    void follow(Line begin, Line end)
+    {
+        for (Line line = begin; line != end; ++line) {
             for (double off = settings_.off; off <= kFarthest * settings_.off; off *= 2.0) {
-                std::vector<ClearingPass> found = along(line, off);
+                std::vector<ClearingPass> found = along(*line, off);
                 const bool low = std::all_of(found.begin(), found.end(),
                                              [&](const ClearingPass& p) { return lies_low(p); });
                 if (low || off == kFarthest * settings_.off) {
@@ -47,10 +84,8 @@ public:
                 }
             }
         }
-        return std::move(passes_);
     }
 
-private:
     bool inside(Vec2d p) const
     {
         return !walls_.any_nearer(p, settings_.first) && walls_.contains(p);
@@ -89,7 +124,7 @@ private:
             }
             since += step;
             const bool again = since >= apart;
-            worth.push_back(point.jump || (again ? is_worth(p) : worth.back()));
+            worth.push_back((jumps_count_ && point.jump) || (again ? is_worth(p) : worth.back()));
             since = again ? 0.0 : since;
             path.push_back(p);
         }
@@ -115,7 +150,7 @@ private:
             for (int spoke = 0; spoke < (ring > 0.0 ? kSpokes : 1); ++spoke) {
                 const double angle = 6.28318530717958648 * spoke / kSpokes;
                 const Vec2d p = q + Vec2d{std::cos(angle), std::sin(angle)} * out;
-                if ((leavings_.height(p) - cut) * level > settings_.most) {
+                if ((leavings_->height(p) - cut) * level > settings_.most) {
                     return true;
                 }
             }
@@ -152,6 +187,7 @@ private:
         const auto close = [&] {
             if (!pass.path.empty()) {
                 pass.start = PassStart::kDrop;
+                pass.at_cliff = true;
                 pass.room = settings_.first;
                 passes.push_back(pass);
                 pass.path.clear();
@@ -174,7 +210,9 @@ private:
 
     RegionOffset walls_;
     const TipFloor& floor_;
-    PassLeavings leavings_;
+    const ClearedRegion& cleared_;
+    std::optional<PassLeavings> leavings_;
+    bool jumps_count_{true};  // whatever they leave
     const CliffSettings& settings_;
     std::vector<ClearingPass> passes_;
 };

@@ -11,9 +11,12 @@
 namespace cusp::host {
 
 struct CliffSettings {
-    double first{};            // mm: least distance of the tool's axis from the contours
-    double most{};             // mm: what may stay over the best that the tool reaches
-    double off{};              // mm: how far beside a jump passes run at least
+    double first{};  // mm: least distance of the tool's axis from the contours
+    double most{};   // mm: what may stay over the best that the tool reaches
+    double off{};    // mm: how far beside a jump passes run at least
+    // Short lines are followed whatever they leave: else only where long ones leave more than
+    // `most`.
+    bool fragments{true};
     FloorPathSettings laying;  // of passes; chords of a line keep within a third of its `aside`
 };
 

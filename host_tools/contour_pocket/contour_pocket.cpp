@@ -7,10 +7,13 @@
 #include <cmath>
 
 #include "host_tools/clearing/clearing.hpp"
+#include "host_tools/clearing/partial_loops.hpp"
 #include "host_tools/clearing/tip_floor.hpp"
+#include "host_tools/contour_pocket/cliff_detours.hpp"
 #include "host_tools/contour_pocket/cliff_passes.hpp"
 #include "host_tools/contour_pocket/floor_cutter.hpp"
 #include "host_tools/contour_pocket/level_interval.hpp"
+#include "host_tools/contour_pocket/partial_levels.hpp"
 #include "host_tools/contour_pocket/pocket_task.hpp"
 #include "host_tools/contour_pocket/rest_material.hpp"
 #include "host_tools/contour_pocket/rough_layers.hpp"
@@ -50,6 +53,22 @@ double highest_over(const Tool& tool, const Tool& other)
     return most;
 }
 
+// Whether partial loops are worth it, as shares of the path; entries count. With them more metal
+// stands at cliffs.
+constexpr double kDoubtful = 0.5;
+constexpr double kWorthIt = 0.97;
+constexpr double kWorthItAtCliffs = 0.8;
+constexpr double kEntrySlope = 0.08;
+
+double length_of(const ClearedRegion& cleared)
+{
+    double sum = added_length(cleared.partial);
+    for (const ClearingPass& pass : cleared.passes) {
+        sum += length(pass.path);
+    }
+    return sum;
+}
+
 // Such a floor has no cliffs.
 bool is_one_whole_surface(const Operation& operation)
 {
@@ -83,9 +102,11 @@ public:
     // rough: what has been cut before; null where the stock is whole.
     PlannedOperation plan(const RoughResult* rough)
     {
-        ClearedRegion cleared = passes();
+        ClearedRegion cleared = passes(rough == nullptr);
         const std::size_t loops = cleared.passes.size();
-        add_cliff_passes(cleared);
+        const std::vector<ClearingPass> cliffs = passes_at_cliffs(cleared);
+        loops_ = static_cast<int>(loops);
+        cliff_passes_ = static_cast<int>(cliffs.size());
         FloorCutter cutter{operation_, floor_, walls_, moves_, depth_};
         if (depth_ != nullptr) {
             depth_->begin(operation_.tool);
@@ -93,6 +114,7 @@ public:
         CutSettings settings =
             cutting(rough != nullptr ? std::optional{rough->left} : std::nullopt);
         if (rough != nullptr) {
+            cleared.passes.insert(cleared.passes.end(), cliffs.begin(), cliffs.end());
             settings.repeated = beside_roughing(cleared, *rough);
             // Loops of the roughing tool leave metal there, too.
             std::fill(settings.repeated.begin() + static_cast<std::ptrdiff_t>(loops),
@@ -105,8 +127,16 @@ public:
                                      depths_beside(cleared, *rough)};
             }
         }
-        settings.repeated.resize(loops, false);
-        settings.repeated.resize(cleared.passes.size(), true);
+        put_in_partial_loops(cleared);
+        if (cleared.saved > 0.0) {
+            add_cliff_detours(cleared, cliffs, walls_, budget_.first, operation_.tool.radius);
+        } else if (rough == nullptr) {
+            cleared.passes.insert(cleared.passes.end(), cliffs.begin(), cliffs.end());
+        }
+        settings.repeated.resize(cleared.passes.size(), false);
+        for (std::size_t i = 0; i < cleared.passes.size(); ++i) {
+            settings.repeated[i] = settings.repeated[i] || cleared.passes[i].at_cliff;
+        }
         cutter.cut(cleared, settings);
         cutter.end();
         PlannedOperation result;
@@ -117,7 +147,9 @@ public:
     }
 
 private:
-    ClearedRegion passes()
+    // partial: roughed pockets are finished in layers, too, where partial loops would be cut in
+    // each.
+    ClearedRegion passes(bool partial)
     {
         ClearingSettings settings;
         settings.first = budget_.first;
@@ -135,7 +167,26 @@ private:
                 return ridge_.share(strip);
             };
         }
+        if (corners && partial) {
+            settings.partial_step = [&](const Region2d& level, double step) {
+                return interval.with_partial_loops(level, step);
+            };
+            settings.partial_loops = [&](const LevelStrip& strip, double most) {
+                return partial_levels(strip, ridge_, operation_.tool.radius, most);
+            };
+        }
         ClearedRegion cleared = clear_region(region_, settings);
+        if (cleared.saved > 0.0 && cleared.saved < kDoubtful * length_of(cleared)) {
+            settings.partial_step = nullptr;
+            ClearedRegion by_loops = clear_region(region_, settings);
+            const double slope = (job_.stock_top - lowest_tip(by_loops, floor_)) / kEntrySlope;
+            const auto cost = [&](const ClearedRegion& c) {
+                return length_of(c) + slope * c.leaves;
+            };
+            if (cost(cleared) > (whole ? kWorthIt : kWorthItAtCliffs) * cost(by_loops)) {
+                cleared = std::move(by_loops);
+            }
+        }
         if (cleared.passes.empty()) {
             throw InputError(operation_.boundary_file + ": the tool of radius " +
                              number_text(operation_.tool.radius) +
@@ -150,21 +201,21 @@ private:
         return cleared;
     }
 
-    void add_cliff_passes(ClearedRegion& cleared)
+    std::vector<ClearingPass> passes_at_cliffs(const ClearedRegion& cleared) const
     {
         if (is_one_whole_surface(operation_)) {
-            return;
+            return {};
         }
+        ClearedRegion all = cleared;
+        put_in_partial_loops(all);
         CliffSettings settings;
         settings.first = budget_.first;
         settings.most = budget_.cusp;
         settings.laying = cutting(std::nullopt).laying;
         settings.laying.aside = repeated_aside(budget_.aside);
         settings.off = settings.laying.aside + budget_.accuracy;
-        for (ClearingPass& pass : cliff_passes(region_, floor_, cleared, settings)) {
-            cleared.passes.push_back(std::move(pass));
-            ++cliff_passes_;
-        }
+        settings.fragments = cleared.saved == 0.0;
+        return cliff_passes(region_, floor_, all, settings);
     }
 
     // Which passes meet metal that roughing did not reach: the allowance beside the walls, corners,
@@ -263,16 +314,18 @@ private:
     void fill(OperationStats& stats, const ClearedRegion& cleared, double gap) const
     {
         stats.strategy = operation_.strategy;
-        const int loops = static_cast<int>(cleared.passes.size()) - cliff_passes_;
-        stats.passes = static_cast<int>(cleared.passes.size());
+        stats.passes = loops_ + cliff_passes_;
         stats.levels = cleared.levels;
         stats.cl_points = moves_.points();
         stats.retracts = moves_.retracts();
         stats.gouge_bound_mm = std::max(0.0, -gap);
         stats.scallop_bound_mm = budget_.cusp + operation_.floor_tolerance;
-        stats.counts = {{"loops", static_cast<double>(loops)},
+        stats.counts = {{"loops", static_cast<double>(loops_)},
                         {"leaves", static_cast<double>(cleared.leaves)},
                         {"islands", static_cast<double>(operation_.islands.size())}};
+        if (!cleared.partial.empty()) {
+            stats.counts.emplace_back("partial_loops", static_cast<double>(cleared.partial.size()));
+        }
         if (cliff_passes_ > 0) {
             stats.counts.emplace_back("cliff_passes", static_cast<double>(cliff_passes_));
         }
@@ -362,6 +415,7 @@ private:
     StripRidge ridge_;
     PocketMoves moves_;
     CutDepth* depth_;
+    int loops_{0};
     int cliff_passes_{0};
 };
 

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kTurn = 6.283185307179586;
 constexpr double kSamePlace = kWrittenStep;  // paths are rounded to it
+constexpr double kBarelyOver = 0.03;         // mm over a pass: no slope is needed
 
 double lowest_of(const FloorPath& path)
 {
@@ -199,7 +200,11 @@ void FloorCutter::begin(const Laid& laid_pass, const CutSettings& settings)
     const ClearingPass& pass = laid_pass.pass;
     const bool at_link = pass.start == PassStart::kLink && moves_.is_down() &&
                          distance(pass.link.front().start, in_plan(moves_.place())) < kSamePlace;
-    if (!at_link || !link(laid_pass, settings)) {
+    const bool here =
+        pass.start == PassStart::kHere && moves_.is_down() &&
+        distance(in_plan(laid_pass.path.start), in_plan(moves_.place())) < kSamePlace &&
+        moves_.place().z < laid_pass.path.start.z + kBarelyOver;
+    if (!here && (!at_link || !link(laid_pass, settings))) {
         if (moves_.is_down() && !moves_.stands_over(laid_pass.path.start)) {
             step_over(laid_pass, settings);
         }

@@ -58,11 +58,13 @@ double least_interval(const Tool& tool, const Budget& budget)
 }
 
 // Neighbouring moves may stray from their paths, each its own way.
-double LevelInterval::found() const
+double LevelInterval::kept(double interval) const
 {
     const double stray = budget_.outside ? 2.0 * budget_.aside : 0.0;
-    return std::max(least_ - stray, least_interval(floor_.tool(), budget_));
+    return std::max(interval - stray, least_interval(floor_.tool(), budget_));
 }
+
+double LevelInterval::found() const { return kept(least_); }
 
 double LevelInterval::from(const Region2d& level, double proven)
 {
@@ -88,6 +90,50 @@ double LevelInterval::from(const Region2d& level, double proven)
         }
     }
     return found();
+}
+
+double LevelInterval::with_partial_loops(const Region2d& level, double step) const
+{
+    constexpr double kUneven = 0.7;
+    constexpr double kWorthIt = 0.85;
+    constexpr double kApart = 0.5;  // of the tool's radius
+    const Tool& tool = floor_.tool();
+    const double flat = path_interval(tool, budget_.cusp, 0.0, 0.0, 0.0);
+    if (step > kUneven * flat) {
+        return 0.0;
+    }
+    std::vector<double> intervals;
+    for (const Contour& contour : level.contours) {
+        double next = 0.0;  // mm along the edge
+        for (const Edge& edge : contour) {
+            const double whole = length(edge);
+            for (; next < whole; next += kApart * tool.radius) {
+                const Vec2d at = point_on(edge, next / whole);
+                const Vec2d inward = left_normal(tangent_on(edge, next / whole));
+                const double first = allowed(contact(at), inward);
+                const double half = allowed(contact(at + inward * (0.5 * first)), inward);
+                intervals.push_back(kept(std::min(first, half)));
+            }
+            next -= whole;
+        }
+    }
+    std::sort(intervals.begin(), intervals.end());
+    double best = 0.0;
+    double least_cost = kWorthIt / step;
+    for (int tenth = 1; tenth < 10 && !intervals.empty(); ++tenth) {
+        const double wide = intervals[intervals.size() * static_cast<std::size_t>(tenth) / 10];
+        double passes = 0.0;
+        for (const double interval : intervals) {
+            const double halvings = std::max(0.0, std::ceil(std::log2(wide / interval)));
+            passes += 1.0 + 2.0 * (std::exp2(halvings) - 1.0);
+        }
+        const double cost = passes / (static_cast<double>(intervals.size()) * wide);
+        if (cost < least_cost) {
+            least_cost = cost;
+            best = wide;
+        }
+    }
+    return best;
 }
 
 // To a fiftieth of the cusp.

@@ -35,6 +35,11 @@ public:
     //           soon as some place of the level allows hardly more: others could only allow less.
     double from(const Region2d& level, double proven = 0.0);
 
+    // How far inward the next level may lie, mm, so that the path is shortest if parts of the level
+    // that need less get partial loops in halves, quarters ... of that; 0 where that is not worth
+    // it over whole loops `step` apart. By the formula alone.
+    double with_partial_loops(const Region2d& level, double step) const;
+
 private:
     struct Sample {
         double share;  // of the edge
@@ -51,6 +56,7 @@ private:
                      Vec2d direction,
                      double apart) const;
     double by_ridge(Vec2d at, Vec2d direction, double most) const;
+    double kept(double interval) const;
     double found() const;
     void along(const Edge& edge);
     void around(Vec2d at);

@@ -105,15 +105,13 @@ double StripRidge::share(const LevelStrip& strip)
     if (step <= least_interval(floor_.tool(), budget_)) {
         return 0.0;
     }
-    places_ = std::clamp(static_cast<int>(step / (kFine * floor_.tool().radius)), 3, kPlaces);
+    by_stretches_ = false;
+    before_ = 0.0;
+    look_closely(step);
     segments_.clear();
     lay(strip.outer, step);
     lay(strip.inner, step);
     sort_segments(step);
-    // Neighbouring moves may stray from their paths, each its own way; a ridge grows as the square
-    // of their distance.
-    const double strayed = step / (step + 2.0 * budget_.aside);
-    strayed_ = strayed * strayed;
     double most = 0.0;
     for (const Contour& contour : strip.outer.contours) {
         Contour loop;
@@ -131,6 +129,15 @@ double StripRidge::share(const LevelStrip& strip)
         }
     }
     return most;
+}
+
+// Neighbouring moves may stray from their paths, each its own way; a ridge grows as the square of
+// their distance.
+void StripRidge::look_closely(double step)
+{
+    places_ = std::clamp(static_cast<int>(step / (kFine * floor_.tool().radius)), 3, kPlaces);
+    const double strayed = step / (step + 2.0 * budget_.aside);
+    strayed_ = strayed * strayed;
 }
 
 // Places without floor are refused when the path is laid.
@@ -254,8 +261,9 @@ double StripRidge::left(const Probe& probe) const
     if (probe.floor == TipFloor::kNothing) {
         return 0.0;
     }
-    return std::max(0.0, left_at(probe.touched, probe.at) - probe.floor) /
-           (probe.secant * strayed_ * allowed(probe.secant));
+    const double share = std::max(0.0, left_at(probe.touched, probe.at) - probe.floor) /
+                         (probe.secant * strayed_ * allowed(probe.secant));
+    return by_stretches_ && ball_ && share > 1.0 && clear_square_to(probe) ? 1.0 : share;
 }
 
 // The tool rests on both sides of a valley where the continuations of its heights meet, lower than
@@ -346,21 +354,23 @@ StripRidge::Way StripRidge::way(const Edge& edge, double along, const LevelStrip
 {
     constexpr double kSlack = 1e-6;
     const double step = strip.to - strip.from;
-    const Vec2d foot = point_on(edge, along);
     const Vec2d tangent = tangent_on(edge, along);
     const Vec2d inward = left_normal(tangent);
+    const Vec2d foot = point_on(edge, along) + inward * before_;
     const auto place = [&](double t) {
         return foot + inward * t;
     };
     const Vec2d last = place(step);
     const Box2d around{std::min(foot.x, last.x) - step, std::min(foot.y, last.y) - step,
                        std::max(foot.x, last.x) + step, std::max(foot.y, last.y) + step};
-    if (ball_ && 2.0 * proven(bounds_.near(around)) >= step) {
-        return {along, 0.0, 0.0};
-    }
     const auto nearest_here = [&](double t) {
         return !strip.walls.any_nearer(place(t), strip.from + t - kSlack);
     };
+    const bool part = before_ > 0.0;
+    if ((part && !nearest_here(0.0)) ||
+        (ball_ && 2.0 * proven(bounds_.near(around)) >= step && (!part || nearest_here(step)))) {
+        return {along, 0.0, 0.0};
+    }
     double end = step;
     if (!nearest_here(step)) {
         double good = 0.0;
@@ -410,7 +420,7 @@ StripRidge::Way StripRidge::way(const Edge& edge, double along, const LevelStrip
 }
 
 // Beside a corner ways end early, where they meet those from its other side.
-double StripRidge::ways_along(const Edge& edge, Corners corners, const LevelStrip& strip) const
+std::vector<double> StripRidge::places_along(const Edge& edge, Corners corners, double step) const
 {
     const double whole = length(edge);
     const int n = 1 + static_cast<int>(whole / apart_);
@@ -419,7 +429,7 @@ double StripRidge::ways_along(const Edge& edge, Corners corners, const LevelStri
         places.push_back(static_cast<double>(i) / n);
     }
     for (const double steps : {0.1, 0.2, 0.35, 0.5, 0.75, 1.0, 1.5}) {
-        const double along = steps * (strip.to - strip.from) / whole;
+        const double along = steps * step / whole;
         if (corners.before && along < 1.0) {
             places.push_back(along);
         }
@@ -428,6 +438,12 @@ double StripRidge::ways_along(const Edge& edge, Corners corners, const LevelStri
         }
     }
     std::sort(places.begin(), places.end());
+    return places;
+}
+
+double StripRidge::ways_along(const Edge& edge, Corners corners, const LevelStrip& strip) const
+{
+    const std::vector<double> places = places_along(edge, corners, strip.to - strip.from);
     Way last = way(edge, 0.0, strip);
     double most = last.share;
     for (std::size_t i = 1; i < places.size() && most < kEnough; ++i) {

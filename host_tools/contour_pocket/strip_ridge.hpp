@@ -45,6 +45,18 @@ public:
     // valley is bent tighter than it.
     bool reaches_floor(const Region2d& region) const;
 
+    // The same place by place, for partial loops. begin() takes the strip, add() paths that are cut
+    // between its levels, too. Then stretches() finds the parts of edges of the outer level from
+    // which ways inward meet more than may stand, `from` to `to` (mm) from the contours.
+    //
+    // Steep floors have more standing over them than square to them: here that counts.
+    void begin(const LevelStrip& strip);
+    void add(const std::vector<PartialLoop>& loops);
+    std::vector<Edge> stretches(const std::vector<Edge>& edges,
+                                const LevelStrip& strip,
+                                double from,
+                                double to);
+
 private:
     static constexpr int kPlaces = 8;  // on a way, at most
     struct Probe {
@@ -63,18 +75,22 @@ private:
         std::array<Probe, kPlaces + 1> probes{};
         int count{0};  // of them that were looked at
     };
+    void look_closely(double step);
     void lay(const Region2d& level, double step);
     void sort_segments(double cell);
     Way way(const Edge& edge, double along, const LevelStrip& strip) const;
     struct Corners {
         bool before, after;
     };
+    std::vector<double> places_along(const Edge& edge, Corners corners, double step) const;
     double ways_along(const Edge& edge, Corners corners, const LevelStrip& strip) const;
+    void stretches_on(const Edge& edge, const LevelStrip& strip, std::vector<Edge>& found) const;
     double between(const Edge& edge, const Way& a, const Way& b, const LevelStrip& strip) const;
     Vec2d inside_rim(Vec2d at, Vec2d touched) const;
     Probe probe(Vec2d at) const;
     double allowed(double secant) const;
     double left(const Probe& probe) const;
+    bool clear_square_to(const Probe& probe) const;
     struct Lowest {
         Vec2d at;
         double height;  // of the tip: z
@@ -95,7 +111,9 @@ private:
     const TipFloor& floor_;
     const Budget& budget_;
     bool ball_;
-    double apart_;  // mm between ways, at most
+    double apart_;        // mm between ways, at most
+    double before_{0.0};  // mm: from the edges that ways start from to the strip
+    bool by_stretches_{false};
     FloorBounds bounds_;
     std::vector<TipSegment> segments_;
     Box2d field_{};

@@ -1,0 +1,73 @@
+// Halves strips breadth first, so that every stretch is looked at with all coarser loops in place.
+#include "host_tools/contour_pocket/partial_levels.hpp"
+
+#include <cmath>
+
+#include "host_tools/clearing/corner_spurs.hpp"
+#include "host_tools/clearing/partial_loops.hpp"
+
+namespace cusp::host {
+
+namespace {
+
+// A part of the strip in which too much may stand, inward from `feet`.
+struct Part {
+    std::vector<Edge> feet;
+    double from;
+    double to;
+};
+
+}  // namespace
+
+std::optional<std::vector<PartialLoop>> partial_levels(const LevelStrip& strip,
+                                                       StripRidge& ridge,
+                                                       double radius,
+                                                       double most)
+{
+    constexpr double kOverlap = 0.02;  // of the tool's radius, besides half the strip's width
+    std::vector<Edge> edges;
+    std::vector<Edge> spurs;
+    for (const Contour& contour : strip.outer.contours) {
+        for (std::size_t e = 0; e < contour.size(); ++e) {
+            if (starts_spur(contour, e)) {
+                spurs.push_back(contour[e++]);
+            } else {
+                edges.push_back(contour[e]);
+            }
+        }
+    }
+    ridge.begin(strip);
+    std::vector<PartialLoop> found;
+    std::vector<Part> parts{{edges, strip.from, strip.to}};
+    while (!parts.empty()) {
+        std::vector<PartialLoop> added;
+        std::vector<Part> halves;
+        for (const Part& part : parts) {
+            std::vector<Edge> high = ridge.stretches(part.feet, strip, part.from, part.to);
+            if (high.empty()) {
+                continue;
+            }
+            const double middle = 0.5 * (part.from + part.to);
+            const double margin = 0.5 * (part.to - part.from) + kOverlap * radius;
+            const std::vector<PartialLoop> loops =
+                loops_over(high, strip.walls, strip.from, middle, margin);
+            added.insert(added.end(), loops.begin(), loops.end());
+            halves.push_back({high, part.from, middle});
+            halves.push_back({std::move(high), middle, part.to});
+        }
+        if (added_length(found) + added_length(added) > most) {
+            return {};
+        }
+        if (!added.empty()) {
+            ridge.add(added);
+            found.insert(found.end(), added.begin(), added.end());
+        }
+        parts = std::move(halves);
+    }
+    if (!ridge.stretches(spurs, strip, strip.from, strip.to).empty()) {
+        return {};
+    }
+    return found;
+}
+
+}  // namespace cusp::host
