@@ -12,7 +12,6 @@ namespace {
 constexpr int kMostDrops = 10;          // from a start
 constexpr std::size_t kMostStarts = 3;  // apart from each other
 constexpr double kApart = 0.3;          // radii
-constexpr double kAgrees = 3e-4;        // mm
 constexpr double kFinest = 1e-3;        // of the pitch
 
 double square(double a) { return a * a; }
@@ -26,12 +25,13 @@ double square_off_flat(double flat, Vec2d axis, Vec3d place)
 
 }  // namespace
 
-ReachSearch::ReachSearch(const Tool& tool, double keep_off, double pitch, Drop drop)
+ReachSearch::ReachSearch(const Tool& tool, double keep_off, double pitch, double agrees, Drop drop)
     : radius_{tool.radius},
       flat_{tool.radius - tool.corner_radius},
       corner_{tool.corner_radius},
       contact_corner_{tool.corner_radius + keep_off},
       pitch_{pitch},
+      agrees_{agrees},
       drop_{std::move(drop)}
 {
 }
@@ -158,7 +158,7 @@ void ReachSearch::improve_from(const Answer& start,
         const Vec2d to = improved(place, at);
         const double hoped = lowest_known(place, to);
         // The contacts know that this start leads no lower than what is known or asked for.
-        if (hoped > worth || hoped > best->height - kAgrees) {
+        if (hoped > worth || hoped > best->height - agrees_) {
             return;
         }
         const Rest rest = drop_(to.x, to.y);
@@ -168,7 +168,7 @@ void ReachSearch::improve_from(const Answer& start,
         const double height = height_under(rest.centre, place);
         take({rest.centre, height});
         contacts_.push_back(rest.contact);
-        if (height - hoped < kAgrees) {
+        if (height - hoped < agrees_) {
             return;
         }
         at = to;

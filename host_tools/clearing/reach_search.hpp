@@ -34,7 +34,8 @@ public:
     // tool      that cuts
     // keep_off  mm: how much larger all round the tool of `drop` is
     // pitch     mm, of the grid
-    ReachSearch(const Tool& tool, double keep_off, double pitch, Drop drop);
+    // agrees    mm: a search ends where drop and contacts differ by less; more than drops are high
+    ReachSearch(const Tool& tool, double keep_off, double pitch, double agrees, Drop drop);
 
     struct Answer {
         Vec3d centre;
@@ -72,6 +73,7 @@ private:
     double corner_;          // mm: the tool's corner radius
     double contact_corner_;  // mm: of the tool that is let down
     double pitch_;
+    double agrees_;
     Drop drop_;
     std::unordered_map<std::uint64_t, Rest> nodes_;
     std::vector<Vec3d> contacts_;  // near the place asked for

@@ -150,8 +150,13 @@ Coverage::Verdict Coverage::judge(const Cell& cell, const std::array<Corner, 4>&
         }
         return false;
     };
-    if (std::max(long_u, long_v) < kBlockedCell * places_.step() && blocked_somewhere(at)) {
-        return thinned(cell, at, long_u, long_v);
+    if (std::max(long_u, long_v) < kBlockedCell * places_.step()) {
+        if (blocked_somewhere(at)) {
+            return thinned(cell, at, long_u, long_v);
+        }
+    } else if (std::max(long_u, long_v) < kSettledCell * places_.step() &&
+               settled(cell, at, middle)) {
+        return Verdict::kCovered;
     }
     if (std::max(long_u, long_v) < kSmallest * places_.step()) {
         const bool each =
@@ -167,8 +172,8 @@ Coverage::Verdict Coverage::judge(const Cell& cell, const std::array<Corner, 4>&
             return Verdict::kHalveU;
         }
     }
-    if (near_.empty() && std::max(long_u, long_v) < places_.step() && lies_under_others(cell, at) &&
-        !outlined_above(at)) {
+    if (near_.empty() && std::max(long_u, long_v) < places_.step() &&
+        ((lies_under_others(cell, at) && !outlined_above(at)) || lies_under_itself(at, middle))) {
         return Verdict::kCovered;
     }
     return longer;
@@ -235,8 +240,25 @@ bool Coverage::stands_steep(const std::array<Corner, 4>& at) const
 // Whether some corner is bare because the tool can't touch it, or is trimmed away.
 bool Coverage::blocked_somewhere(const std::array<Corner, 4>& at) const
 {
-    return std::any_of(at.begin(), at.end(),
-                       [&](const Corner& c) { return !place_covered(c) && !stands_free(c); });
+    return std::any_of(at.begin(), at.end(), [&](const Corner& c) { return blocked(c); });
+}
+
+// Whether the tool can touch none of the cell and there is nothing to be done in it: away from
+// borders, where the ball gets the lower the nearer a place is, and from cliffs.
+bool Coverage::settled(const Cell& cell,
+                       const std::array<Corner, 4>& at,
+                       const Corner& middle) const
+{
+    const Surface& s = surfaces_[static_cast<std::size_t>(cell.surface)];
+    const auto inside = [&](const Corner& c) {
+        return c.normal.z >= kUprightNormal && certified_.model().inside_trims(c.surface, c.u, c.v);
+    };
+    return cell.u0 > s.u_begin() && cell.u1 < s.u_end() && cell.v0 > s.v_begin() &&
+           cell.v1 < s.v_end() && inside(middle) &&
+           std::all_of(at.begin(), at.end(),
+                       [&](const Corner& c) { return inside(c) && blocked(c); }) &&
+           !stands_steep(at) && !hidden(middle) &&
+           places_.settled(middle.point.point, middle.normal);
 }
 
 // Whether the place is trimmed away or lies well under another surface.
@@ -261,6 +283,16 @@ bool Coverage::lies_under_others(const Cell& cell, const std::array<Corner, 4>& 
     const Corner middle = middle_of(cell);
     return places.under_others(middle.point.point) &&
            model.inside_trims(cell.surface, middle.u, middle.v);
+}
+
+// Whether the cell's own surface, which is whole, lies over it: just under the equator of a ball.
+bool Coverage::lies_under_itself(const std::array<Corner, 4>& at, const Corner& middle) const
+{
+    const auto under = [&](const Corner& c) {
+        return hidden_places().under_itself(c.point.point, c.surface);
+    };
+    return surfaces_[static_cast<std::size_t>(middle.surface)].trims.empty() && under(middle) &&
+           std::all_of(at.begin(), at.end(), under);
 }
 
 // Whether some of a cell may be seen through a gap that misses its corners.

@@ -110,9 +110,12 @@ private:
                     double long_v) const;
     bool stands_steep(const std::array<Corner, 4>& at) const;
     bool stands_free(const Corner& at) const;
+    bool blocked(const Corner& at) const { return !place_covered(at) && !stands_free(at); }
     bool blocked_somewhere(const std::array<Corner, 4>& at) const;
+    bool settled(const Cell& cell, const std::array<Corner, 4>& at, const Corner& middle) const;
     bool hidden(const Corner& at) const;
     bool lies_under_others(const Cell& cell, const std::array<Corner, 4>& at) const;
+    bool lies_under_itself(const std::array<Corner, 4>& at, const Corner& middle) const;
     bool outlined_above(const std::array<Corner, 4>& at) const;
     const HiddenPlaces& hidden_places() const;
     bool in_narrow_gap(int surface, const Place& middle, const Place& corner_place) const;

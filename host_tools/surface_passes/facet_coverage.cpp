@@ -67,7 +67,8 @@ FacetCoverage::Verdict FacetCoverage::judge(const Cell& cell) const
         return Verdict::kCovered;
     }
     if (longest >= kBlockedCell * step()) {
-        return Verdict::kHalve;
+        return longest < kSettledCell * step() && settled(cell) ? Verdict::kSettled
+                                                                : Verdict::kHalve;
     }
     bool each = true;
     for (const Vec3d& corner : cell.corners) {
@@ -78,10 +79,25 @@ FacetCoverage::Verdict FacetCoverage::judge(const Cell& cell) const
             }
         }
     }
-    if (longest >= kSmallestFacet * step()) {
-        return Verdict::kHalve;
+    // Halves with a bare corner would be no less bare.
+    if (!each) {
+        return Verdict::kUncovered;
     }
-    return each ? Verdict::kCovered : Verdict::kUncovered;
+    return longest >= kSmallestFacet * step() ? Verdict::kHalve : Verdict::kCovered;
+}
+
+bool FacetCoverage::blocked(Vec3d corner, Vec3d normal) const
+{
+    return !covered(corner, normal, kPlaceShare) &&
+           !certified_.stands_free(places_.touching_tip(corner, normal));
+}
+
+bool FacetCoverage::settled(const Cell& cell) const
+{
+    const Vec3d middle = cell.middle();
+    return std::all_of(cell.corners.begin(), cell.corners.end(),
+                       [&](Vec3d corner) { return blocked(corner, cell.normal); }) &&
+           !hidden(middle) && places_.settled(middle, cell.normal);
 }
 
 // Whether what stands straight over the corners is no more than the scallop, square to the facet.
@@ -103,11 +119,13 @@ void FacetCoverage::look_into(const Cell& cell, int depth)
         return;
     }
     if (verdict != Verdict::kHalve || depth == 0) {
-        overflowed_ = gaps_.size() >= kMostGaps;
-        if (!overflowed_) {
-            gaps_.push_back(cell);
+        if (verdict != Verdict::kSettled) {
+            overflowed_ = gaps_.size() >= kMostGaps;
+            if (!overflowed_) {
+                gaps_.push_back(cell);
+            }
         }
-        if (verdict == Verdict::kBlocked && looking_over_) {
+        if ((verdict == Verdict::kBlocked || verdict == Verdict::kSettled) && looking_over_) {
             blocked_area_ += 0.5 * norm(cross(cell.corners[1] - cell.corners[0],
                                               cell.corners[2] - cell.corners[0]));
         }

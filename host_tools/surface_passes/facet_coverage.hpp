@@ -67,12 +67,15 @@ private:
 
         Vec3d middle() const { return (corners[0] + corners[1] + corners[2]) / 3.0; }
     };
-    enum class Verdict : std::uint8_t { kCovered, kHalve, kBlocked, kUncovered };
+    // kSettled: the tool can't touch it, and nothing is to be done.
+    enum class Verdict : std::uint8_t { kCovered, kHalve, kBlocked, kSettled, kUncovered };
 
     void look_into(const Cell& cell, int depth);
     Verdict judge(const Cell& cell) const;
     bool hidden(Vec3d point) const;
     bool low_enough(const Cell& cell) const;
+    bool blocked(Vec3d corner, Vec3d normal) const;
+    bool settled(const Cell& cell) const;
     std::optional<Place> bare_place(const Cell& cell) const;
     std::optional<Vec3d> missing_tip(const Place& at, bool where_blocked) const;
     Points trace(const Place& from, Vec3d way) const;

@@ -27,11 +27,16 @@ bool HiddenPlaces::under_others(Vec3d place) const
     return tops_.least_around(place.x, place.y) > roof_over(place.z);
 }
 
+bool HiddenPlaces::under_itself(Vec3d place, int surface) const
+{
+    return tops_.finds_over(place, kHidden, surface);
+}
+
 bool HiddenPlaces::hidden(Vec3d place, Vec3d normal) const
 {
     const Vec2d at{place.x, place.y};
     if (!under_others(place)) {
-        return false;
+        return tops_.finds_over(place, kHidden);
     }
     if (!(tops_.highest_outline(at, at) > roof_over(place.z))) {
         return true;

@@ -18,14 +18,17 @@ public:
                  const CertifiedPasses& certified,
                  double pitch);
 
-    // Whether the place lies well under some surface: by more than two squares of the map are wide.
-    // Gaps narrower than 0.02 mm count as closed.
+    // Whether the place lies under some surface, as far as that is found. Gaps narrower than 0.02
+    // mm count as closed.
     //
     //   normal  of the model there, unit, upward
     bool hidden(Vec3d place, Vec3d normal) const;
 
-    // The same, but for gaps that are narrower than three squares of the map.
+    // The same by more than two squares of the map are wide, but for gaps narrower than three.
     bool under_others(Vec3d place) const;
+
+    // Whether the surface that the place belongs to is found to lie over it, too.
+    bool under_itself(Vec3d place, int surface) const;
 
     // Whether outlines of the model run over a part of a surface, given by its corners, well above
     // it: what is hidden at all its corners may be seen between them.

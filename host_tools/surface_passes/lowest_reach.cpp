@@ -8,8 +8,7 @@
 namespace cusp::host {
 namespace {
 
-constexpr double kDropAccuracy = 1e-4;  // mm
-constexpr double kFinest = 1e-3;        // of the pitch
+constexpr double kFinest = 1e-3;  // of the pitch
 
 double square(double a) { return a * a; }
 
@@ -17,12 +16,15 @@ double square(double a) { return a * a; }
 
 LowestReach::LowestReach(const std::vector<Surface>& surfaces,
                          const CertifiedPasses& certified,
-                         double pitch)
+                         double pitch,
+                         double accuracy)
     : surfaces_{surfaces},
       certified_{certified},
+      accuracy_{accuracy},
       radius_{certified.tool().radius},
       contact_radius_{radius_ + certified.band().lift},
-      search_{certified.tool(), certified.band().lift, pitch, [this](double x, double y) {
+      search_{certified.tool(), certified.band().lift, pitch, 3 * accuracy,
+              [this](double x, double y) {
                   return dropped(x, y);
               }}
 {
@@ -37,7 +39,7 @@ ReachSearch::Rest LowestReach::dropped(double x, double y)
     }
     // Most models never ask.
     if (!floor_) {
-        floor_.emplace(surfaces_, certified_.lifted_tool(), kDropAccuracy);
+        floor_.emplace(surfaces_, certified_.lifted_tool(), accuracy_);
     }
     return rest_on(*floor_, x, y);
 }

@@ -11,15 +11,17 @@
 
 namespace cusp::host {
 
-// `ReachSearch` for passes: its drops are bounds from above, micrometres high; the answer's is
+// `ReachSearch` for passes: its drops are bounds from above, a little high; the answer's is
 // exact. A search, not a proof.
 class LowestReach {
 public:
     // surfaces  of the model that the passes are certified on; none: it is a mesh
     // pitch     mm, of the grid
+    // accuracy  mm: how high drops may be
     LowestReach(const std::vector<Surface>& surfaces,
                 const CertifiedPasses& certified,
-                double pitch);
+                double pitch,
+                double accuracy);
     LowestReach(const LowestReach&) = delete;
     LowestReach& operator=(const LowestReach&) = delete;
 
@@ -45,6 +47,7 @@ private:
     const std::vector<Surface>& surfaces_;
     const CertifiedPasses& certified_;
     std::optional<TipFloor> floor_;
+    double accuracy_;
     double radius_;
     double contact_radius_;  // mm: of a ball that touches what the tool stays `lift` off
     ReachSearch search_;

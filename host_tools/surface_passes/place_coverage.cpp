@@ -9,9 +9,14 @@ namespace {
 
 constexpr double kReachStep = 0.25;    // in steps between passes
 constexpr double kReachPitch = 0.125;  // radii, at least
-constexpr double kTraceApart = 0.3;    // in steps between passes, of tips that one line may join
-constexpr double kFarApart = 0.5;      // radii, of tips that one pass may join
-constexpr double kShortest = 1e-3;     // mm
+// How high drops may be: mm, but no less and no more than shares of the scallop. A part of metres
+// would be cut to millions of pieces otherwise.
+constexpr double kDropAccuracy = 1e-4;
+constexpr double kLeastDropShare = 0.001;
+constexpr double kMostDropShare = 0.005;
+constexpr double kTraceApart = 0.3;  // in steps between passes, of tips that one line may join
+constexpr double kFarApart = 0.5;    // radii, of tips that one pass may join
+constexpr double kShortest = 1e-3;   // mm
 
 }  // namespace
 
@@ -35,7 +40,8 @@ PlaceCoverage::PlaceCoverage(const std::vector<Surface>& surfaces,
       path_off_{path_off},
       step_{std::sqrt(8 * radius_ * scallop)},
       swept_{radius_, 0.6 * step_},
-      reach_{surfaces, certified, std::max(kReachStep * step_, kReachPitch * radius_)}
+      reach_{surfaces, certified, std::max(kReachStep * step_, kReachPitch * radius_),
+             std::clamp(kDropAccuracy, kLeastDropShare * scallop, kMostDropShare * scallop)}
 {
 }
 

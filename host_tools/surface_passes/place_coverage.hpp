@@ -27,6 +27,10 @@ constexpr double kUprightNormal = 0.05;
 constexpr double kPlaceShare = 0.98;
 // In steps between passes: a smallest cell where the tool can't touch.
 constexpr double kBlockedCell = 0.25;
+// The same where none of its corners can be touched and next to nothing could be taken off at its
+// middle; and how much that is, of the scallop.
+constexpr double kSettledCell = 0.5;
+constexpr double kSettledShare = 0.25;
 // In steps between passes: between places that a missing pass is traced by.
 constexpr double kTraceStep = 0.125;
 constexpr int kMostTraced = 4000;
@@ -68,6 +72,13 @@ public:
     // scallop.
     // Precondition: normal.z >= kUprightNormal
     Better better_tip(Vec3d point, Vec3d normal, double share = 1) const;
+
+    // Whether no tip would take off more than `kSettledShare`, those that passes keep off included.
+    bool settled(Vec3d point, Vec3d normal) const
+    {
+        const Better better = better_tip(point, normal, kSettledShare);
+        return !better.tip && !better.kept_off;
+    }
 
     struct Left {
         double reachable{};     // mm: over the best that passes can do

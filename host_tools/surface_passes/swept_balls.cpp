@@ -1,4 +1,4 @@
-// Moves are kept in squares seen from above.
+// Moves are kept in squares seen from above, squares in blocks; each knows how low its moves are.
 #include "host_tools/surface_passes/swept_balls.hpp"
 
 #include <algorithm>
@@ -9,6 +9,9 @@ namespace cusp::host {
 namespace {
 
 constexpr double kUprightWay = 1e-9;  // mm, seen from above
+// In squares: a move may cut the corner of one between the places where it was put down.
+constexpr double kCutCorner = 0.13;
+constexpr int kBlockBits = 3;
 
 double square_to_move(Vec3d p, const SweptBalls::Move& move)
 {
@@ -22,16 +25,24 @@ double square_to_move(Vec3d p, const SweptBalls::Move& move)
 
 }  // namespace
 
-SweptBalls::SweptBalls(double radius, double reach) : radius_{radius}, pitch_{reach} {}
+SweptBalls::SweptBalls(double radius, double reach) : radius_{radius}, pitch_{reach}
+{
+    static_assert(kBlock == 1 << kBlockBits);
+}
 
 std::int64_t SweptBalls::cell(double at) const
 {
     return static_cast<std::int64_t>(std::floor(at / pitch_));
 }
 
-SweptBalls::Key SweptBalls::key(std::int64_t i, std::int64_t j) const
+SweptBalls::Key SweptBalls::key(std::int64_t i, std::int64_t j)
 {
     return (static_cast<Key>(i) << 32) ^ (static_cast<Key>(j) & 0xffffffffU);
+}
+
+std::size_t SweptBalls::number_in_block(std::int64_t i, std::int64_t j)
+{
+    return static_cast<std::size_t>((i & (kBlock - 1)) * kBlock + (j & (kBlock - 1)));
 }
 
 void SweptBalls::add(const std::vector<Vec3d>& tips)
@@ -41,14 +52,20 @@ void SweptBalls::add(const std::vector<Vec3d>& tips)
         const Move move{tips[k - 1] + up, tips[k] + up};
         const std::uint32_t number = static_cast<std::uint32_t>(moves_.size());
         moves_.push_back(move);
+        const double low = std::min(move.from.z, move.to.z);
         const double length = std::hypot(move.to.x - move.from.x, move.to.y - move.from.y);
         const int parts = std::max(1, static_cast<int>(std::ceil(4 * length / pitch_)));
         for (int part = 0; part <= parts; ++part) {
             const Vec3d at =
                 move.from + (move.to - move.from) * (static_cast<double>(part) / parts);
-            std::vector<std::uint32_t>& here = cells_[key(cell(at.x), cell(at.y))];
-            if (here.empty() || here.back() != number) {
-                here.push_back(number);
+            const std::int64_t i = cell(at.x);
+            const std::int64_t j = cell(at.y);
+            Block& block = blocks_[key(i >> kBlockBits, j >> kBlockBits)];
+            Square& here = block.squares[number_in_block(i, j)];
+            if (here.moves.empty() || here.moves.back() != number) {
+                here.moves.push_back(number);
+                here.low = std::min(here.low, low);
+                block.low = std::min(block.low, low);
             }
         }
     }
@@ -57,16 +74,15 @@ void SweptBalls::add(const std::vector<Vec3d>& tips)
 void SweptBalls::near(Vec3d centre, std::vector<std::uint32_t>& out) const
 {
     out.clear();
-    // A move may cut the corner of a square between the places where it was put down.
-    const double reach = 1.13 * pitch_;
+    const double reach = (1 + kCutCorner) * pitch_;
     const std::int64_t j_end = cell(centre.y + reach);
     for (std::int64_t i = cell(centre.x - reach); i <= cell(centre.x + reach); ++i) {
         for (std::int64_t j = cell(centre.y - reach); j <= j_end; ++j) {
-            const auto found = cells_.find(key(i, j));
-            if (found == cells_.end()) {
+            const auto block = blocks_.find(key(i >> kBlockBits, j >> kBlockBits));
+            if (block == blocks_.end()) {
                 continue;
             }
-            for (const std::uint32_t number : found->second) {
+            for (const std::uint32_t number : block->second.squares[number_in_block(i, j)].moves) {
                 const Move& move = moves_[number];
                 const double low = std::min(move.from.z, move.to.z) - pitch_;
                 const double high = std::max(move.from.z, move.to.z) + pitch_;
@@ -109,30 +125,68 @@ std::optional<double> SweptBalls::lowest_share(const Move& move, double x, doubl
     return std::abs(at - along) <= reach ? std::optional{at / length} : std::nullopt;
 }
 
+void SweptBalls::try_move(std::uint32_t number, double x, double y, Lowest& best) const
+{
+    const Move& move = moves_[number];
+    if (std::min(move.from.z, move.to.z) - radius_ >= best.height) {
+        return;
+    }
+    if (const std::optional<double> share = lowest_share(move, x, y)) {
+        const Vec3d c = move.from + (move.to - move.from) * *share;
+        const double square = radius_ * radius_ - (c.x - x) * (c.x - x) - (c.y - y) * (c.y - y);
+        const double height = c.z - std::sqrt(std::max(0.0, square));
+        if (height < best.height) {
+            best = {height, c};
+            last_ = number;
+        }
+    }
+}
+
+// Whether centres over a square, none under `low`, may leave less than so much at a place.
+bool SweptBalls::may_be_lower(double low, Vec2d corner, double side, Vec2d at, double than) const
+{
+    const double slack = kCutCorner * pitch_;
+    const auto beside = [&](double begin, double place) {
+        return std::max(0.0, std::max(begin - slack - place, place - (begin + side + slack)));
+    };
+    const double x = beside(corner.x, at.x);
+    const double y = beside(corner.y, at.y);
+    const double square = radius_ * radius_ - x * x - y * y;
+    return square >= 0 && low - std::sqrt(square) < than;
+}
+
 SweptBalls::Lowest SweptBalls::lowest(double x, double y) const
 {
     Lowest best{std::numeric_limits<double>::infinity(), {}};
-    const auto try_move = [&](const Move& move) {
-        if (std::min(move.from.z, move.to.z) - radius_ >= best.height) {
-            return;
-        }
-        if (const std::optional<double> share = lowest_share(move, x, y)) {
-            const Vec3d c = move.from + (move.to - move.from) * *share;
-            const double square = radius_ * radius_ - (c.x - x) * (c.x - x) - (c.y - y) * (c.y - y);
-            const double height = c.z - std::sqrt(std::max(0.0, square));
-            if (height < best.height) {
-                best = {height, c};
+    if (moves_.empty()) {
+        return best;
+    }
+    try_move(last_, x, y, best);
+    const auto may = [&](double low, std::int64_t i, std::int64_t j, double squares) {
+        const Vec2d corner{static_cast<double>(i) * pitch_, static_cast<double>(j) * pitch_};
+        return may_be_lower(low, corner, squares * pitch_, {x, y}, best.height);
+    };
+    const auto look_into = [&](const Block& block, std::int64_t i0, std::int64_t j0) {
+        for (std::int64_t i = i0; i < i0 + kBlock; ++i) {
+            for (std::int64_t j = j0; j < j0 + kBlock; ++j) {
+                const Square& square = block.squares[number_in_block(i, j)];
+                if (may(square.low, i, j, 1)) {
+                    for (const std::uint32_t number : square.moves) {
+                        try_move(number, x, y, best);
+                    }
+                }
             }
         }
     };
-    const std::int64_t j_end = cell(y + radius_);
-    for (std::int64_t i = cell(x - radius_); i <= cell(x + radius_); ++i) {
-        for (std::int64_t j = cell(y - radius_); j <= j_end; ++j) {
-            const auto found = cells_.find(key(i, j));
-            if (found != cells_.end()) {
-                for (const std::uint32_t number : found->second) {
-                    try_move(moves_[number]);
-                }
+    const double reach = radius_ + kCutCorner * pitch_;
+    const std::int64_t i_end = cell(x + reach) >> kBlockBits;
+    const std::int64_t j_end = cell(y + reach) >> kBlockBits;
+    for (std::int64_t i = cell(x - reach) >> kBlockBits; i <= i_end; ++i) {
+        for (std::int64_t j = cell(y - reach) >> kBlockBits; j <= j_end; ++j) {
+            const auto block = blocks_.find(key(i, j));
+            if (block != blocks_.end() &&
+                may(block->second.low, i * kBlock, j * kBlock, static_cast<double>(kBlock))) {
+                look_into(block->second, i * kBlock, j * kBlock);
             }
         }
     }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -12,6 +13,8 @@
 namespace cusp::host {
 
 // Moves by the centres of the ball. What one removes, a ball swept along a line, is convex.
+//
+// Not for use by two threads at once.
 class SweptBalls {
 public:
     struct Move {
@@ -42,15 +45,28 @@ public:
 
 private:
     using Key = std::uint64_t;
+    static constexpr std::int64_t kBlock = 8;  // squares, each way
+    struct Square {
+        double low{std::numeric_limits<double>::infinity()};  // mm: least height of a centre
+        std::vector<std::uint32_t> moves;
+    };
+    struct Block {
+        double low{std::numeric_limits<double>::infinity()};
+        std::array<Square, kBlock * kBlock> squares;
+    };
     // Share of the move where the ball is lowest straight over (x, y); none where it misses.
     std::optional<double> lowest_share(const Move& move, double x, double y) const;
-    Key key(std::int64_t i, std::int64_t j) const;
+    void try_move(std::uint32_t number, double x, double y, Lowest& best) const;
+    bool may_be_lower(double low, Vec2d corner, double side, Vec2d at, double than) const;
+    static Key key(std::int64_t i, std::int64_t j);
+    static std::size_t number_in_block(std::int64_t i, std::int64_t j);
     std::int64_t cell(double at) const;
 
     double radius_;
     double pitch_;
     std::vector<Move> moves_;
-    std::unordered_map<Key, std::vector<std::uint32_t>> cells_;
+    std::unordered_map<Key, Block> blocks_;
+    mutable std::uint32_t last_{};  // the move that was lowest: mostly it is beside the place, too
 };
 
 }  // namespace cusp::host

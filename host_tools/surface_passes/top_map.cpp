@@ -39,13 +39,14 @@ double longest_row(const Surface& s, bool along_u)
 }  // namespace
 
 TopMap::TopMap(const std::vector<Surface>& surfaces, const SurfaceModel& model, double pitch)
-    : x0_{model.box_low().x}, y0_{model.box_low().y}
+    : model_{model}, x0_{model.box_low().x}, y0_{model.box_low().y}
 {
     const Vec3d size = model.box_high() - model.box_low();
     pitch_ = std::max(pitch, std::sqrt(size.x * size.y / kMostSquares));
     nx_ = static_cast<std::size_t>(size.x / pitch_) + 1;
     ny_ = static_cast<std::size_t>(size.y / pitch_) + 1;
     top_.assign(nx_ * ny_, kOpen);
+    places_.resize(nx_ * ny_);
     outline_.assign(nx_ * ny_, kOpen);
     for (std::size_t number = 0; number < surfaces.size(); ++number) {
         for (const BezierPatch& patch : bezier_patches(surfaces[number])) {
@@ -89,8 +90,9 @@ void TopMap::sample(const Surface& whole,
                 here = Facing::kTrimmed;
             }
             const std::size_t square = square_of(p.point);
-            if (here != Facing::kTrimmed) {
-                top_[square] = std::max(top_[square], p.point.z);
+            if (here != Facing::kTrimmed && p.point.z > top_[square]) {
+                top_[square] = p.point.z;
+                places_[square] = {static_cast<float>(u), static_cast<float>(v), surface};
             }
             const bool differs = (last != Facing::kUnknown && last != here) ||
                                  (last_row[j] != Facing::kUnknown && last_row[j] != here);
@@ -140,29 +142,36 @@ double TopMap::highest_outline(Vec2d low, Vec2d high) const
     return highest;
 }
 
-double TopMap::drop(double x, double y, double radius) const
+bool TopMap::finds_over(Vec3d place, double by, int surface) const
 {
-    const auto range = [&](double at, double first, std::size_t count) {
-        const double low = std::floor((at - radius - first) / pitch_);
-        const double high = std::floor((at + radius - first) / pitch_) + 1;
+    const double at_x = std::floor((place.x - x0_) / pitch_);
+    const double at_y = std::floor((place.y - y0_) / pitch_);
+    const auto ends = [](double at, std::size_t count) {
         const double most = static_cast<double>(count);
-        return std::array<std::size_t, 2>{static_cast<std::size_t>(std::clamp(low, 0.0, most)),
-                                          static_cast<std::size_t>(std::clamp(high, 0.0, most))};
+        return std::array<std::size_t, 2>{static_cast<std::size_t>(std::clamp(at - 1, 0.0, most)),
+                                          static_cast<std::size_t>(std::clamp(at + 2, 0.0, most))};
     };
-    const auto [i_begin, i_end] = range(x, x0_, nx_);
-    const auto [j_begin, j_end] = range(y, y0_, ny_);
-    double best = kOpen;
+    const auto [i_begin, i_end] = ends(at_x, nx_);
+    const auto [j_begin, j_end] = ends(at_y, ny_);
     for (std::size_t i = i_begin; i < i_end; ++i) {
-        const double dx = x0_ + (static_cast<double>(i) + 0.5) * pitch_ - x;
         for (std::size_t j = j_begin; j < j_end; ++j) {
-            const double dy = y0_ + (static_cast<double>(j) + 0.5) * pitch_ - y;
-            const double square = radius * radius - dx * dx - dy * dy;
-            if (square > 0) {
-                best = std::max(best, top_[i * ny_ + j] - radius + std::sqrt(square));
+            const std::size_t square = i * ny_ + j;
+            if (top_[square] <= place.z + by) {
+                continue;
+            }
+            const Place& from = places_[square];
+            if (surface >= 0 && from.surface != surface) {
+                continue;
+            }
+            const auto found =
+                model_.contact_under(place.x, place.y, from.surface, {from.u, from.v}, 0);
+            if (found && found->point.z > place.z + by &&
+                model_.inside_trims(found->surface, found->u, found->v)) {
+                return true;
             }
         }
     }
-    return best;
+    return false;
 }
 
 }  // namespace cusp::host

@@ -10,6 +10,8 @@
 namespace cusp::host {
 
 // Highest samples, two a square each way; a square that no sample falls into counts as open.
+//
+// The model must outlive it.
 class TopMap {
 public:
     // pitch  mm, side of the squares; made larger for parts of more than some million squares
@@ -20,8 +22,11 @@ public:
     // The highest outline in the squares of a box, and in those beside it: borders, edges of trims,
     // and where a surface turns from facing up to facing down. None: -infinity.
     double highest_outline(Vec2d low, Vec2d high) const;
-    // Height of the tip of a ball that rests on the samples.
-    double drop(double x, double y, double radius) const;
+    // Whether a place of the model straight over this one, higher by more than `by` (mm, at least
+    // 0), is found from the samples around it. Never where there is none.
+    //
+    // surface  that it has to belong to; -1: any
+    bool finds_over(Vec3d place, double by, int surface = -1) const;
     double pitch() const { return pitch_; }
 
 private:
@@ -31,12 +36,20 @@ private:
                 const SurfaceModel& model);
     std::size_t square_of(Vec3d p) const;
 
+    // Where the highest sample of a square is.
+    struct Place {
+        float u, v;
+        int surface;
+    };
+
+    const SurfaceModel& model_;
     double pitch_;
     double x0_;
     double y0_;
     std::size_t nx_;
     std::size_t ny_;
     std::vector<double> top_;
+    std::vector<Place> places_;
     std::vector<double> outline_;
 };
 

@@ -10,6 +10,7 @@ namespace {
 constexpr double kUnreached = ReachSearch::kNowhere;
 constexpr double kPitch = 0.125;        // radii, of the grid of drops
 constexpr double kDropAccuracy = 1e-4;  // mm
+constexpr double kAgrees = 3e-4;        // mm
 constexpr double kTouches = 1e-3;       // mm: nothing is lower than the floor
 
 }  // namespace
@@ -32,7 +33,7 @@ FloorReach::FloorReach(const std::vector<Surface>& surfaces,
     }
     for (Cutter& cutter : cutters_) {
         cutter.search.emplace(
-            cutter.tool, keep_off, kPitch * cutter.tool.radius,
+            cutter.tool, keep_off, kPitch * cutter.tool.radius, kAgrees,
             [this, &cutter](double x, double y) { return dropped(cutter, x, y); });
     }
 }

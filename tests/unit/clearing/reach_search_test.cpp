@@ -29,7 +29,7 @@ Surface facet(Vec3d a, Vec3d b, Vec3d c, Vec3d d)
 
 ReachSearch search_over(const TipFloor& floor, const Tool& tool, double keep_off)
 {
-    return {tool, keep_off, 0.125 * tool.radius, [&floor](double x, double y) {
+    return {tool, keep_off, 0.125 * tool.radius, 3e-4, [&floor](double x, double y) {
                 return rest_on(floor, x, y);
             }};
 }
@@ -76,7 +76,7 @@ TEST(ReachSearch, ATouchedPlaceTakesOneDropAtTheGuess)
     const Tool ball{1, ToolShape::kBall, 2.0, 2.0};
     const TipFloor floor{plane, ball, 1e-5};
     int drops = 0;
-    ReachSearch search{ball, 0, 0.25, [&](double x, double y) {
+    ReachSearch search{ball, 0, 0.25, 3e-4, [&](double x, double y) {
                            ++drops;
                            return rest_on(floor, x, y);
                        }};
