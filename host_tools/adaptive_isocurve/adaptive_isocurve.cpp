@@ -42,10 +42,16 @@ constexpr double kNearer = 0.9998;       // than the bound asks for
 constexpr double kShortestPiece = 1e-3;  // mm
 constexpr double kSameEdge = 0.1;        // in steps: edges nearer than this are one
 
+// Of the progress.
+constexpr double kPassesDone = 0.4;
+constexpr double kLookedDone = 0.5;
+constexpr double kGapsDone = 0.95;
+
 class IsocurvePlanner {
 public:
     IsocurvePlanner(const Job& job, const Operation& operation)
-        : operation_{operation},
+        : job_{job},
+          operation_{operation},
           work_{job, operation, surfaces_along_u(operation)},
           tracer_{work_.surfaces(), work_.certified()},
           tool_{operation.tool.radius, work_.outward()}
@@ -70,7 +76,9 @@ public:
         bool unseen = false;
         if (coverage_ && !(plain_ && whole_ && open_.empty())) {
             look_over_cells();
-            coverage_->close_gaps([&](const Points& pass) { add_pass(pass); });
+            coverage_->close_gaps(
+                [&](const Points& pass) { add_pass(pass); },
+                [&](double share) { report(kLookedDone + (kGapsDone - kLookedDone) * share); });
             bare = coverage_->uncovered();
             ridge_ = std::max(*operation_.scallop, coverage_->most_left());
             unseen = coverage_->overflowed();
@@ -86,6 +94,7 @@ public:
         for (std::size_t k = 0; coverage_ && k < work_.surfaces().size(); ++k) {
             coverage_->close_rims(static_cast<int>(k), [&](const Points& pass) { add_pass(pass); });
         }
+        report(kGapsDone);
         PlannedOperation planned = work_.finish(spacing_, ridge_);
         report_bare_places(planned.stats, bare, unseen);
         planned.stats.counts.emplace_back("isocurves", static_cast<double>(curves));
@@ -115,6 +124,11 @@ public:
     }
 
 private:
+    void report(double share) const
+    {
+        job_.report_progress(share, operation_.roughing ? kRoughingDone : 0);
+    }
+
     void report_left_beside_edges(OperationStats& stats) const
     {
         const double left = std::max(beside_edges_, coverage_ ? coverage_->left_beside_edges() : 0);
@@ -161,6 +175,8 @@ private:
         }
         cells_share_ = 1;
         for (std::size_t k = 0; k < surfaces.size(); ++k) {
+            const double share = static_cast<double>(k) / static_cast<double>(surfaces.size());
+            report(kPassesDone + (kLookedDone - kPassesDone) * share);
             coverage_->look_over(static_cast<int>(k));
         }
     }
@@ -265,6 +281,7 @@ private:
     {
         const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
         std::vector<DomainCurve> curves = curves_of(surface, complete);
+        const double passes_done = plain_ ? kGapsDone : kPassesDone;
         if (operation_.traversal == Traversal::kOneWay) {
             put_in_cutting_order(surface, curves);
         }
@@ -278,7 +295,11 @@ private:
         }
         bool trimmed = false;
         bool hopeful = s.trims.empty() && operation_.output == OutputForm::kLines;
+        std::size_t traced_curves = 0;
         for (const DomainCurve& curve : curves) {
+            const double share =
+                static_cast<double>(traced_curves++) / static_cast<double>(curves.size());
+            report(passes_done * (surface + share) / static_cast<double>(work_.surfaces().size()));
             if (hopeful && add_whole(curve)) {
                 continue;
             }
@@ -419,6 +440,7 @@ private:
                    kSame;
     }
 
+    const Job& job_;
     const Operation& operation_;
     SurfaceOperation work_;
     PassTracer tracer_;

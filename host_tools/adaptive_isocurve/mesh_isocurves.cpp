@@ -87,6 +87,11 @@ public:
     }
 
 private:
+    void report(double share) const
+    {
+        job_.report_progress(share, operation_.roughing ? kRoughingDone : 0);
+    }
+
     using Rest = SurfaceModel::MeshRest;
 
     Vec3d place(double s, double t) const { return origin_ + along_ * s + across_ * t; }
@@ -126,7 +131,7 @@ private:
             if (k > -beyond) {
                 strips.push_back({width_ * (k - 1) / rows, t, {whole()}});
             }
-            job_.report_progress(kRowsDone * (k + beyond) / (rows + 2 * beyond));
+            report(kRowsDone * (k + beyond) / (rows + 2 * beyond));
         }
         while (!strips.empty()) {
             std::vector<Strip> next;
@@ -135,7 +140,7 @@ private:
             }
             strips = std::move(next);
         }
-        job_.report_progress(kStripsDone);
+        report(kStripsDone);
     }
 
     void halve(const Strip& strip, std::vector<Strip>& out)

@@ -92,7 +92,7 @@ std::vector<PlannedOperation> plan_rough_levels(const Job& job, const Operation&
         operation.mesh.empty() ? SurfaceModel{operation.floor} : SurfaceModel{operation.mesh};
     check_height(job, operation, model);
     const RoughStock stock = stock_of(job, model, operation.allowance);
-    const double share = 1.0 / static_cast<double>(tools.size());
+    const double share = kRoughingDone / static_cast<double>(tools.size());
     RoughWork work{
         job, operation, model, stock, rough_depths(job, operation, tools, stock.top, stock.bottom),
         0.0, 0.0,       share};

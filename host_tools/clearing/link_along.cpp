@@ -5,7 +5,7 @@ namespace cusp::host {
 
 namespace {
 
-constexpr double kShortest = 1e-6;  // mm
+constexpr double kPoint = 1e-6;  // mm
 
 struct Crossing {
     std::size_t edge{};  // of the pass before
@@ -16,7 +16,7 @@ struct Crossing {
 };
 
 // Else a part of an arc could turn into all of it.
-bool has_length(Vec2d from, Vec2d to) { return distance(from, to) >= kShortest; }
+bool has_length(Vec2d from, Vec2d to) { return distance(from, to) >= kPoint; }
 
 // The parts of the pass up to the place, or from its end back to it.
 std::vector<Edge> part_of(const Contour& pass, const Crossing& crossing)

@@ -54,6 +54,7 @@ Plan plan_job(Job job, const MachineRates& rates)
         const auto begin = std::chrono::steady_clock::now();
         job.progress = ShareProgress{"planning", kQuiet};
         std::vector<PlannedOperation> planned = plan_operation(job, operation);
+        job.report_progress(1.0);
         const double seconds = seconds_since(begin) / static_cast<double>(planned.size());
         for (PlannedOperation& result : planned) {
             if (result.stats.planning_s <= 0) {

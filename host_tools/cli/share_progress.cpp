@@ -22,7 +22,7 @@ void ShareProgress::operator()(double share)
     const int steps = is_terminal_ ? kWidth : 4;
     const int now = static_cast<int>(share * steps);
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin_;
-    if (now == shown_ || (shown_ == 0 && spent.count() < quiet_s_)) {
+    if (now <= shown_ || (shown_ == 0 && spent.count() < quiet_s_)) {
         return;
     }
     shown_ = now;

@@ -12,12 +12,12 @@ namespace cusp::host {
 
 namespace {
 
-constexpr double kAlong = 0.1;      // of the radius: between places that are looked at
-constexpr double kWorthOn = 3.0;    // radii: over shorter gaps a pass goes on
-constexpr double kFarthest = 4.0;   // of `off`
-constexpr double kFragment = 2.0;   // radii: shorter lines
-constexpr double kLifted = 0.02;    // of the radius: length of a pass that may lie high
-constexpr double kShortest = 1e-4;  // mm
+constexpr double kAlong = 0.1;       // of the radius: between places that are looked at
+constexpr double kWorthOn = 3.0;     // radii: over shorter gaps a pass goes on
+constexpr double kFarthest = 4.0;    // of `off`
+constexpr double kFragment = 2.0;    // radii: shorter lines
+constexpr double kLifted = 0.02;     // of the radius: length of a pass that may lie high
+constexpr double kLeastStep = 1e-4;  // mm
 
 class CliffFollower {
 public:
@@ -119,7 +119,7 @@ private:
         for (const CreasePoint& point : line.points) {
             const Vec2d p = point.at + point.away * off;
             const double step = path.empty() ? 0.0 : distance(path.back(), p);
-            if (!inside(p) || (!path.empty() && step < kShortest)) {
+            if (!inside(p) || (!path.empty() && step < kLeastStep)) {
                 continue;
             }
             since += step;

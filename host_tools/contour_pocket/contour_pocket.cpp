@@ -58,7 +58,17 @@ double highest_over(const Tool& tool, const Tool& other)
 constexpr double kDoubtful = 0.5;
 constexpr double kWorthIt = 0.97;
 constexpr double kWorthItAtCliffs = 0.8;
-constexpr double kEntrySlope = 0.08;
+
+constexpr double kLevelsDone = 0.6;  // of the progress
+
+double area_of(const Region2d& region)
+{
+    double sum = 0.0;
+    for (const Contour& contour : region.contours) {
+        sum += area(contour);
+    }
+    return sum;
+}
 
 double length_of(const ClearedRegion& cleared)
 {
@@ -102,6 +112,7 @@ public:
     // rough: what has been cut before; null where the stock is whole.
     PlannedOperation plan(const RoughResult* rough)
     {
+        begun_ = rough != nullptr ? kRoughingDone : 0.0;
         ClearedRegion cleared = passes(rough == nullptr);
         const std::size_t loops = cleared.passes.size();
         const std::vector<ClearingPass> cliffs = passes_at_cliffs(cleared);
@@ -137,6 +148,9 @@ public:
         for (std::size_t i = 0; i < cleared.passes.size(); ++i) {
             settings.repeated[i] = settings.repeated[i] || cleared.passes[i].at_cliff;
         }
+        settings.progress = [&](double share) {
+            report(kLevelsDone + (1.0 - kLevelsDone) * share);
+        };
         cutter.cut(cleared, settings);
         cutter.end();
         PlannedOperation result;
@@ -147,6 +161,8 @@ public:
     }
 
 private:
+    void report(double share) const { job_.report_progress(share, begun_); }
+
     // partial: roughed pockets are finished in layers, too, where partial loops would be cut in
     // each.
     ClearedRegion passes(bool partial)
@@ -159,7 +175,8 @@ private:
         const bool corners = settings.cover_corners;
         const bool whole = is_one_whole_surface(operation_);
         LevelInterval interval{floor_, budget_, corners && !whole, !corners || !whole};
-        settings.step_from = [&](const Region2d& level) {
+        settings.step_from = [&, whole_area = area_of(region_)](const Region2d& level) {
+            report(kLevelsDone * (1.0 - area_of(level) / whole_area));
             return interval.from(level, corners && whole ? ridge_.proven_step(level) : 0.0);
         };
         if (corners && whole) {
@@ -415,6 +432,7 @@ private:
     StripRidge ridge_;
     PocketMoves moves_;
     CutDepth* depth_;
+    double begun_{0.0};  // of the progress
     int loops_{0};
     int cliff_passes_{0};
 };

@@ -10,11 +10,11 @@ namespace {
 
 // Where the corners of the chords leave the tangent by less than this, they are made so blunt that
 // no machine stops at them.
-constexpr double kOffTangent = 0.03;  // mm
-constexpr double kBlunt = 0.45;       // degrees
-constexpr double kBluntest = 2.0;     // degrees: where pieces would be shorter than
-constexpr double kShortest = 0.05;    // mm: many of them in a tick hold a machine up, too
-constexpr double kMostPieces = 4096;  // of one edge
+constexpr double kOffTangent = 0.03;     // mm
+constexpr double kBlunt = 0.45;          // degrees
+constexpr double kBluntest = 2.0;        // degrees: where pieces would be shorter than
+constexpr double kShortestPiece = 0.05;  // mm: many of them in a tick hold a machine up, too
+constexpr double kMostPieces = 4096;     // of one edge
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 class EdgePieces {
@@ -38,7 +38,7 @@ public:
         double angle = 2.0 * std::acos(1.0 - share);
         if (0.5 * edge_.radius * angle * angle < kOffTangent) {
             const double blunt =
-                std::clamp(kShortest / edge_.radius, kBlunt * kDegree, kBluntest * kDegree);
+                std::clamp(kShortestPiece / edge_.radius, kBlunt * kDegree, kBluntest * kDegree);
             angle = std::min(angle, blunt);
         }
         const double count = std::ceil(sweep(edge_) / angle);

@@ -9,7 +9,7 @@ namespace cusp::host {
 
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
+constexpr double kFullTurn = 6.283185307179586;
 constexpr double kSamePlace = kWrittenStep;  // paths are rounded to it
 constexpr double kBarelyOver = 0.03;         // mm over a pass: no slope is needed
 
@@ -93,7 +93,7 @@ void FloorCutter::enter(const Laid& cut, const CutSettings& settings)
     const double around = helix ? metal_around(start, radius) : 0.0;
     // A helix reaches farther than the pass, where metal may stand that no pass has met.
     const bool shallow = depth_ == nullptr || around - path.start.z <= depth_->most();
-    const bool wide = radius > 0.2 * tool || (radius > 0.02 * tool && kTurn * radius > round);
+    const bool wide = radius > 0.2 * tool || (radius > 0.02 * tool && kFullTurn * radius > round);
     if (helix && wide && shallow) {
         heights.raise_over(heights_over(around));
         heights.metal = moves_.enter_by_helix(
@@ -329,6 +329,9 @@ void FloorCutter::cut(const ClearedRegion& cleared, const CutSettings& settings)
         }
         for (std::size_t i = first; i < end; ++i) {
             cut_pass(passes[i - first], settings, is_set(settings.repeated, i));
+        }
+        if (settings.progress) {
+            settings.progress(static_cast<double>(end) / static_cast<double>(n));
         }
     }
 }

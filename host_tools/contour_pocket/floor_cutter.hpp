@@ -34,6 +34,8 @@ struct CutSettings {
     double depth_share{1.0};
     // Where entries start, from the height of the pass there.
     std::function<EntryHeights(double)> entry_heights;
+    // Where given, called with the share of the passes that is laid.
+    std::function<void(double)> progress;
 };
 
 class FloorCutter {

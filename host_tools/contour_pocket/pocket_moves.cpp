@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kOverMetal = 0.1;    // mm: where the plunge feed hands over to a slope
 constexpr double kRapidOver = 0.9;    // mm over that: where rapid moves end
-constexpr double kSlope = 0.08;       // of ramps and helices: 4.6 degrees
 constexpr double kSettled = 0.03;     // mm over the pass: here the slope has met it
 constexpr double kHardlyDeep = 0.15;  // mm straight down: what a helix leaves over the pass
 constexpr int kHelixSides = 48;
@@ -113,7 +112,7 @@ void PocketMoves::enter_along(const FloorPath& path, const EntryHeights& heights
     for (const FloorMove& move : path.moves) {
         pass.push_back(move.end);
     }
-    const double way = (z - path.start.z) / kSlope;
+    const double way = (z - path.start.z) / kEntrySlope;
     const bool open = plan_distance(pass.front(), pass.back()) > 1e-6;
     if (open || (stands && way < plan_length(pass))) {
         pass = to_and_fro(pass, way);
@@ -121,7 +120,7 @@ void PocketMoves::enter_along(const FloorPath& path, const EntryHeights& heights
     const double round = plan_length(pass);
     const double lowest =
         std::min_element(pass.begin(), pass.end(), [](Vec3d a, Vec3d b) { return a.z < b.z; })->z;
-    const double turns = (z - lowest) / std::max(kSlope * round, 1e-9);
+    const double turns = (z - lowest) / std::max(kEntrySlope * round, 1e-9);
     const bool steep = turns * static_cast<double>(pass.size()) > kMostPoints;
     if (plunge || steep) {
         steep_plunges_ += plunge || z - path.start.z < kHardlyDeep ? 0 : 1;
@@ -131,7 +130,7 @@ void PocketMoves::enter_along(const FloorPath& path, const EntryHeights& heights
     for (bool sloped = true; sloped && z > lowest;) {
         sloped = false;
         for (std::size_t i = 1; i < pass.size(); ++i) {
-            z -= kSlope * plan_distance(pass[i - 1], pass[i]);
+            z -= kEntrySlope * plan_distance(pass[i - 1], pass[i]);
             // No corner of the slope lies just over the pass.
             const bool over = z > pass[i].z + kSettled;
             sloped = sloped || over;
@@ -178,7 +177,7 @@ double PocketMoves::enter_by_helix(Vec3d centre,
         highest = std::max(highest, sides.back().z);
         deepest = std::min(deepest, sides.back().z);
     }
-    const double drop = kSlope * radius * 6.283185307179586 / kHelixSides;
+    const double drop = kEntrySlope * radius * 6.283185307179586 / kHelixSides;
     double z = std::max(heights.metal, highest);
     approach({sides.back().x, sides.back().y}, {std::max(heights.rapid, z + kRapidOver), z});
     for (std::size_t i = 0; z > deepest; i = (i + 1) % sides.size()) {

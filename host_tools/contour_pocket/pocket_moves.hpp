@@ -20,6 +20,9 @@ struct EntryHeights {
 // Over metal that stands up to z, mm.
 EntryHeights heights_over(double metal);
 
+// Of ramps and helices: 4.6 degrees.
+inline constexpr double kEntrySlope = 0.08;
+
 ToolMove tool_move(MoveKind kind, const FloorMove& move);
 
 class PocketMoves {

@@ -150,8 +150,11 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     }
     const double bottom = lowest_tip(cleared, floor) + operation.allowance;
     double above = job.stock_top;
-    for (const double level :
-         layer_heights(job, operation, bottom, std::max(0.1 * depth, depth - step.cusp))) {
+    const std::vector<double> heights =
+        layer_heights(job, operation, bottom, std::max(0.1 * depth, depth - step.cusp));
+    for (const double level : heights) {
+        const double layer = static_cast<double>(result.heights.size());
+        job.report_progress(kRoughingDone * layer / static_cast<double>(heights.size()));
         settings.laying.level = level;
         settings.entry_heights = [&](double pass) {
             // The same loops were cut there by the layer above.

@@ -51,7 +51,7 @@ void StripRidge::stretches_on(const Edge& edge,
                               const LevelStrip& strip,
                               std::vector<Edge>& found) const
 {
-    constexpr double kShortest = 1e-6;  // mm
+    constexpr double kPoint = 1e-6;  // mm
     // Under a flat foot steps stand over narrow places, between the ways.
     const double most = ball_ ? 1.0 : 0.85;
     const double step = strip.to - strip.from;
@@ -61,7 +61,7 @@ void StripRidge::stretches_on(const Edge& edge,
     const auto close = [&](double end) {
         const Vec2d a = point_on(edge, begin);
         const Vec2d b = point_on(edge, end);
-        if (begin >= 0.0 && distance(a, b) > kShortest) {
+        if (begin >= 0.0 && distance(a, b) > kPoint) {
             found.push_back(cusp::host::between(edge, a, b));
         }
         begin = -1.0;

@@ -69,6 +69,9 @@ struct Operation {
     std::optional<double> step_over;
 };
 
+// Of an operation's progress, where a finish follows.
+inline constexpr double kRoughingDone = 0.5;
+
 struct Job {
     std::string file;
     bool inch{false};  // of the G-code written; everything in this struct is mm
@@ -83,14 +86,15 @@ struct Job {
     std::optional<std::array<double, 2>> stock_y;
     std::vector<Operation> operations;
     std::vector<std::string> notes;  // what the readers left out or changed, in words
-    // Called by planners now and then with the share of an operation that is done, 0 to 1; may be
-    // empty.
+    // Called by planners now and then with the share of an operation that is done, 0 to 1, about;
+    // may be empty.
     std::function<void(double)> progress;
 
-    void report_progress(double share) const
+    // begun  the share that was done before the part that `share` is of
+    void report_progress(double share, double begun = 0.0) const
     {
         if (progress) {
-            progress(share);
+            progress(begun + (1.0 - begun) * share);
         }
     }
 };

@@ -46,7 +46,9 @@ public:
     bool overflowed() const { return overflowed_; }
 
     // Passes for what is not covered, each handed to `cut`, which must `add` what it makes of it.
-    void close_gaps(const std::function<void(const Points&)>& cut);
+    // progress  called with the share that is done, about
+    void close_gaps(const std::function<void(const Points&)>& cut,
+                    const std::function<void(double)>& progress);
 
     // Passes over the borders of one surface where it stands upright and open: what the path keeps
     // off such a wall is a sliver that no pass beside it can take down. Trimmed edges have none.

@@ -144,14 +144,20 @@ std::optional<Coverage::Place> Coverage::bare_place(const Cell& cell) const
     return std::nullopt;
 }
 
-void Coverage::close_gaps(const std::function<void(const Points&)>& cut)
+void Coverage::close_gaps(const std::function<void(const Points&)>& cut,
+                          const std::function<void(double)>& progress)
 {
     std::vector<Cell> beside_edges;
     for (int round = 0; round < kRounds && !gaps_.empty(); ++round) {
         const std::vector<Cell> open = std::move(gaps_);
         gaps_.clear();
         std::vector<Cell> changed;
+        std::size_t looked = 0;
         for (const Cell& cell : open) {
+            // A round has half the work of the one before.
+            const double rest =
+                1 - 0.5 * static_cast<double>(looked++) / static_cast<double>(open.size());
+            progress(1 - std::ldexp(rest, -round));
             kept_off_ = false;
             const std::optional<Place> place = bare_place(cell);
             if (!place) {

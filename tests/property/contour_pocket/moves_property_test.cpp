@@ -210,7 +210,9 @@ TEST(PocketMoves, EnterGentlyLinkThroughCutMetalAndKeepSideDepthAndAllowance)
         links.turned += some.turned;
     }
     std::printf("%d links, %d end on a corner\n", links.all, links.turned);
-    CHECK(links.turned <= 0.06 * links.all);
+    // Few pockets may have a few more of them.
+    constexpr double kFew = 4.0;
+    CHECK(links.turned <= 0.04 * links.all + kFew);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "host_tools/surface_offset/surface_model.hpp"
 #include "host_tools/surface_passes/swept_balls.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
+#include "tests/support/told_progress.hpp"
 #include "tests/unit/adaptive_isocurve/small_models.hpp"
 
 using namespace cusp;
@@ -148,12 +149,14 @@ TEST(AdaptiveIsocurve, CutsThePoleOfABowlOnce)
     made.operations.front().tool.radius = made.operations.front().tool.corner_radius = 3;
     made.operations.front().floor_tolerance = 0.1;
     made.operations.front().scallop = 0.2;
+    const test::ToldProgress progress{made};
     const auto planned = plan_adaptive_isocurve(made, made.operations.front());
     // The tip of the tool runs over a ball of radius 2, and once around over the rim.
     CHECK(measure(planned.front().path, {}).cut_length_mm < 130);
     CHECK(swept_by(planned.front().path).lowest(7.3, -4.1).height < -5.37 + 0.2);
     CHECK(planned.front().stats.scallop_bound_mm <= 0.2);
     DOUBLES_EQUAL(0, planned.front().stats.gouge_bound_mm, 1e-6);
+    CHECK(progress.rises(0.3));
 }
 
 TEST(AdaptiveIsocurve, KeepsTheScallopBesideARimThatTheBallPassesOutside)

@@ -7,6 +7,7 @@
 #include "host_tools/contour_pocket/pocket_task.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/test_jobs.hpp"
+#include "tests/support/told_progress.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"
@@ -120,6 +121,17 @@ TEST(ContourPocket, RoughsInLayersNoDeeperThanAskedFor)
     }
     CHECK(layers >= 4.0);
     CHECK(lowest_tip(planned.front().path) >= -8.0 + 0.2);
+}
+
+TEST(ContourPocket, TellsItsProgressThroughRoughingAndFinish)
+{
+    Operation operation = pocket();
+    operation.max_depth = 2.0;
+    operation.allowance = 0.2;
+    Job told = job();
+    const test::ToldProgress progress{told};
+    plan_contour_pocket(told, operation);
+    CHECK(progress.rises(0.3));
 }
 
 // How far cutting moves go down below all that came before at their place at most, looked at along
