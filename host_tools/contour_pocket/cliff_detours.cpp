@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "host_tools/contour_pocket/free_way.hpp"
 #include "host_tools/offset/edge_tree.hpp"
 
 namespace cusp::host {
@@ -49,9 +50,9 @@ class DetourPlaces {
 public:
     DetourPlaces(const ClearedRegion& cleared,
                  const RegionOffset& walls,
-                 double first,
+                 double least,
                  double radius)
-        : walls_{walls}, first_{first}, radius_{radius}, tree_{sorted(cleared)}
+        : walls_{walls}, least_{least}, radius_{radius}, tree_{sorted(cleared)}
     {
     }
 
@@ -67,7 +68,8 @@ public:
             const bool beside = place.apart < kBeside * radius_;
             const bool better = beside && best.apart < kBeside * radius_ ? place.pass > best.pass
                                                                          : place.apart < best.apart;
-            if (better && place.apart < radius_ && is_free(corner, place.at)) {
+            if (better && place.apart < radius_ &&
+                is_free(walls_, line_edge(corner, place.at), least_)) {
                 best = place;
             }
         }
@@ -95,21 +97,8 @@ private:
         return edges;
     }
 
-    bool is_free(Vec2d a, Vec2d b) const
-    {
-        constexpr double kSlack = 1e-5;  // mm
-        constexpr int kPlaces = 8;
-        for (int i = 1; i < kPlaces; ++i) {
-            if (walls_.any_nearer(a + (b - a) * (static_cast<double>(i) / kPlaces),
-                                  first_ - kSlack)) {
-                return false;
-            }
-        }
-        return true;
-    }
-
     const RegionOffset& walls_;
-    double first_;
+    double least_;
     double radius_;
     std::vector<Owner> owners_;
     EdgeTree tree_;
@@ -166,10 +155,10 @@ void divide(const ClearingPass& pass,
 void add_cliff_detours(ClearedRegion& cleared,
                        const std::vector<ClearingPass>& cliffs,
                        const RegionOffset& walls,
-                       double first,
+                       double least,
                        double radius)
 {
-    const DetourPlaces places{cleared, walls, first, radius};
+    const DetourPlaces places{cleared, walls, least, radius};
     std::vector<std::vector<CliffDetour>> detours(cleared.passes.size());
     std::vector<ClearingPass> alone;
     for (const ClearingPass& cliff : cliffs) {

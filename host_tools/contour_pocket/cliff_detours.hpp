@@ -13,11 +13,11 @@ namespace cusp::host {
 // there, and the way out and back lies between its parts (PassStart::kHere). What has no pass
 // within the radius comes last, by itself.
 //
-//   first  mm: least distance of the tool's axis from the contours
+//   least  mm: distance of the tool's axis from the contours on its way out
 void add_cliff_detours(ClearedRegion& cleared,
                        const std::vector<ClearingPass>& cliffs,
                        const RegionOffset& walls,
-                       double first,
+                       double least,
                        double radius);
 
 }  // namespace cusp::host

@@ -140,7 +140,8 @@ public:
         }
         put_in_partial_loops(cleared);
         if (cleared.saved > 0.0) {
-            add_cliff_detours(cleared, cliffs, walls_, budget_.first, operation_.tool.radius);
+            add_cliff_detours(cleared, cliffs, walls_, budget_.first - budget_.aside,
+                              operation_.tool.radius);
         } else if (rough == nullptr) {
             cleared.passes.insert(cleared.passes.end(), cliffs.begin(), cliffs.end());
         }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "host_tools/contour_pocket/free_way.hpp"
 #include "host_tools/contour_pocket/pocket_task.hpp"
 
 namespace cusp::host {
@@ -37,22 +38,6 @@ bool is_open(const ClearingPass& pass)
 }
 
 bool is_set(const std::vector<bool>& flags, std::size_t i) { return i < flags.size() && flags[i]; }
-
-// Whether the axis stays `least` mm off the walls all along the line.
-bool is_free(const RegionOffset& walls, const Edge& line, double least)
-{
-    constexpr double kSpacing = 0.05;
-    // A corner abreast of the middle between two places is that much farther from both.
-    const double abreast = std::hypot(least, 0.5 * kSpacing);
-    const int n = 1 + static_cast<int>(length(line) / kSpacing);
-    for (int i = 0; i <= n; ++i) {
-        const Vec2d p = point_on(line, static_cast<double>(i) / n);
-        if (walls.any_nearer(p, abreast) || !walls.contains(p)) {
-            return false;
-        }
-    }
-    return true;
-}
 
 }  // namespace
 

@@ -140,29 +140,73 @@ Ideal ideal_heights(const FloorQuestion& q, const PartHeights& part)
     return ideal;
 }
 
-// Where more than the scallop stands over the part, the height that is best there is looked for
-// itself: the grid's misses rims and crests between its points, and the lowest places of narrow
-// valleys.
+// Places inside the walls where more than the scallop stands over the part.
+std::vector<std::size_t> doubtful_places(const FloorQuestion& q,
+                                         const PartHeights& part,
+                                         const std::vector<double>& clear)
+{
+    std::vector<std::size_t> places;
+    const double radius = least_radius(q.tools);
+    for (std::size_t k = 0; k < q.grid.size(); ++k) {
+        if (std::isfinite(part.z[k]) && clear[k] >= radius &&
+            (q.cut[k] - part.z[k]) * part.cosine[k] > *q.scallop) {
+            places.push_back(k);
+        }
+    }
+    return places;
+}
+
+// At these the height that is best there is looked for itself: the grid's misses rims and crests
+// between its points, and the lowest places of narrow valleys. Returns at how many more than the
+// scallop stands over that.
+std::size_t settle(const FloorQuestion& q,
+                   const PartHeights& part,
+                   const std::vector<std::size_t>& places,
+                   Ideal& ideal)
+{
+    for_each_band(places.size(), [&](std::size_t begin, std::size_t end, std::size_t) {
+        FloorReach reach{q.surfaces, q.mesh, q.tools, q.walls, q.keep_off};
+        for (std::size_t n = begin; n < end; ++n) {
+            const std::size_t k = places[n];
+            const std::size_t i = k / q.grid.ny;
+            const std::size_t j = k % q.grid.ny;
+            const Vec3d normal{part.lean[k][0], part.lean[k][1], part.cosine[k]};
+            ideal.height[k] = reach.lowest_over({q.grid.x(i, j), q.grid.y(i, j), part.z[k]}, normal,
+                                                q.cut[k] - *q.scallop / part.cosine[k]);
+        }
+    });
+    return static_cast<std::size_t>(std::count_if(places.begin(), places.end(), [&](std::size_t k) {
+        return (q.cut[k] - ideal.height[k]) * part.cosine[k] > *q.scallop;
+    }));
+}
+
+// Of many doubtful places some are settled first: a program that left much everywhere is told by
+// them, and keeps the grid's heights at the others.
 void settle_doubts(const FloorQuestion& q,
                    const PartHeights& part,
                    const std::vector<double>& clear,
                    Ideal& ideal)
 {
-    const double radius = least_radius(q.tools);
-    for_each_band(q.grid.nx, [&](std::size_t begin, std::size_t end, std::size_t) {
-        FloorReach reach{q.surfaces, q.mesh, q.tools, q.walls, q.keep_off};
-        for (std::size_t k = q.grid.index(begin, 0); k < q.grid.index(end, 0); ++k) {
-            const double allowed = *q.scallop / part.cosine[k];
-            if (!std::isfinite(part.z[k]) || clear[k] < radius || q.cut[k] - part.z[k] <= allowed) {
-                continue;
-            }
-            const std::size_t i = k / q.grid.ny;
-            const std::size_t j = k % q.grid.ny;
-            const Vec3d normal{part.lean[k][0], part.lean[k][1], part.cosine[k]};
-            ideal.height[k] = reach.lowest_over({q.grid.x(i, j), q.grid.y(i, j), part.z[k]}, normal,
-                                                q.cut[k] - allowed);
-        }
-    });
+    constexpr std::size_t kMany = 40000;
+    constexpr std::size_t kFirst = 10000;
+    constexpr double kHopeless = 0.1;  // of the floor: ten times what is refused
+    std::vector<std::size_t> places = doubtful_places(q, part, clear);
+    if (places.size() <= kMany) {
+        settle(q, part, places, ideal);
+        return;
+    }
+    const std::size_t each = places.size() / kFirst;
+    std::vector<std::size_t> first;
+    std::vector<std::size_t> rest;
+    for (std::size_t n = 0; n < places.size(); ++n) {
+        (n % each == 0 ? first : rest).push_back(places[n]);
+    }
+    const double open = static_cast<double>(settle(q, part, first, ideal));
+    const double floor = static_cast<double>(
+        std::count_if(part.z.begin(), part.z.end(), [](double z) { return std::isfinite(z); }));
+    if (open * static_cast<double>(each) <= kHopeless * floor) {
+        settle(q, part, rest, ideal);
+    }
 }
 
 // Where the thickest metal stands over what the tools reach.

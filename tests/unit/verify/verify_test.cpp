@@ -90,6 +90,16 @@ TEST(Verify, MeasuresThePathThatIsTooLow)
     CHECK(!result.broken.empty());
 }
 
+// Of so many places not all are settled.
+TEST(Verify, TellsAProgramThatLeavesMuchEverywhere)
+{
+    settings.pitch = 0.07;
+    const Verification result = verdict(passes(-4.5, 1));
+    DOUBLES_EQUAL(1, result.figures.uncovered_share, 1e-6);
+    DOUBLES_EQUAL(0.5 + 3 - std::sqrt(9 - 0.25), result.figures.scallop_max, 1e-3);
+    LONGS_EQUAL(2, result.broken.size());
+}
+
 TEST(Verify, AllowsGougesBelowTheTolerance)
 {
     LONGS_EQUAL(0, verdict(passes(-5.01, 1)).broken.size());
