@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "host_tools/clearing/free_way.hpp"
 #include "host_tools/clearing/link_along.hpp"
 #include "host_tools/offset/contour_fit.hpp"
 
@@ -40,28 +41,6 @@ void start_near(Contour& path, Vec2d from)
     path.push_back(between(edge, edge.start, p));
 }
 
-// How near contours are changes by no more than the way between two places.
-bool free_path(const RegionOffset& offset, const std::vector<Edge>& path, double distance)
-{
-    constexpr double kFar = 5.0;
-    // Over a contour that is hardly kept off, places may lie on either side.
-    const bool either = distance < 0.1;
-    const double spacing = either ? 0.02 : 0.1;
-    for (const Edge& edge : path) {
-        const double whole = length(edge);
-        const int samples = 1 + static_cast<int>(whole / spacing);
-        for (int i = 0; i <= samples;) {
-            const Vec2d p = point_on(edge, static_cast<double>(i) / samples);
-            const double room = offset.nearest(p, distance + kFar) - (distance - 1e-5);
-            if (room < 0.0 || (either && !offset.contains(p))) {
-                return false;
-            }
-            i += 1 + static_cast<int>(room * samples / std::max(whole, spacing));
-        }
-    }
-    return true;
-}
-
 // `way` behind the start of the pass.
 Vec2d place_after(const Contour& pass, double way)
 {
@@ -87,7 +66,9 @@ public:
 private:
     bool is_free(const std::vector<Edge>& way) const
     {
-        return free_path(room_.offset, way, room_.first);
+        return std::all_of(way.begin(), way.end(), [&](const Edge& edge) {
+            return cusp::host::is_free(room_.offset, edge, room_.first);
+        });
     }
 
     // Every try splits an edge anew.

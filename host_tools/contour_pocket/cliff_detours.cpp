@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "host_tools/contour_pocket/free_way.hpp"
+#include "host_tools/clearing/free_way.hpp"
 #include "host_tools/offset/edge_tree.hpp"
 
 namespace cusp::host {

@@ -3,14 +3,14 @@
 
 #include <algorithm>
 
-#include "host_tools/contour_pocket/free_way.hpp"
+#include "firmware/base/math.hpp"
+#include "host_tools/clearing/free_way.hpp"
 #include "host_tools/contour_pocket/pocket_task.hpp"
 
 namespace cusp::host {
 
 namespace {
 
-constexpr double kFullTurn = 6.283185307179586;
 constexpr double kSamePlace = kWrittenStep;  // paths are rounded to it
 constexpr double kBarelyOver = 0.03;         // mm over a pass: no slope is needed
 
@@ -78,7 +78,7 @@ void FloorCutter::enter(const Laid& cut, const CutSettings& settings)
     const double around = helix ? metal_around(start, radius) : 0.0;
     // A helix reaches farther than the pass, where metal may stand that no pass has met.
     const bool shallow = depth_ == nullptr || around - path.start.z <= depth_->most();
-    const bool wide = radius > 0.2 * tool || (radius > 0.02 * tool && kFullTurn * radius > round);
+    const bool wide = radius > 0.2 * tool || (radius > 0.02 * tool && 2 * kPi * radius > round);
     if (helix && wide && shallow) {
         heights.raise_over(heights_over(around));
         heights.metal = moves_.enter_by_helix(
