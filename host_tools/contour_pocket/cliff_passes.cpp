@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "firmware/base/math.hpp"
 #include "host_tools/contour_pocket/crease_lines.hpp"
 #include "host_tools/contour_pocket/pass_leavings.hpp"
 
@@ -148,7 +149,7 @@ private:
             const double out = ring * tool.radius;
             const double cut = rest.height + profile_height(tool, out);
             for (int spoke = 0; spoke < (ring > 0.0 ? kSpokes : 1); ++spoke) {
-                const double angle = 6.28318530717958648 * spoke / kSpokes;
+                const double angle = 2 * kPi * spoke / kSpokes;
                 const Vec2d p = q + Vec2d{std::cos(angle), std::sin(angle)} * out;
                 if ((leavings_->height(p) - cut) * level > settings_.most) {
                     return true;

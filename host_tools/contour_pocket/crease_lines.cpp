@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 
+#include "firmware/base/math.hpp"
 #include "host_tools/surface_offset/pattern_search.hpp"
 
 namespace cusp::host {
@@ -355,7 +356,7 @@ private:
         constexpr int kPlaces = 24;
         std::vector<CreasePoint> found;
         const auto place = [&](int i) {
-            const double angle = 6.28318530717958648 * (i + 0.37) / kPlaces;
+            const double angle = 2 * kPi * (i + 0.37) / kPlaces;
             return look(centre + Vec2d{std::cos(angle), std::sin(angle)} * out);
         };
         std::optional<Look> last = place(0);

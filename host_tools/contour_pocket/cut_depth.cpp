@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/base/math.hpp"
 #include "host_tools/contour_pocket/pocket_moves.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
 
@@ -95,7 +96,7 @@ double CutDepth::highest_around(Vec2d centre, double radius) const
     constexpr int kPlaces = 32;
     double z = -1e300;
     for (int i = 0; i < kPlaces; ++i) {
-        const double angle = 6.28318530717958648 * i / kPlaces;
+        const double angle = 2 * kPi * i / kPlaces;
         z = std::max(z, highest_at(centre + Vec2d{std::cos(angle), std::sin(angle)} * radius));
     }
     return z;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/base/math.hpp"
+
 namespace cusp::host {
 
 namespace {
@@ -15,7 +17,7 @@ constexpr double kBlunt = 0.45;          // degrees
 constexpr double kBluntest = 2.0;        // degrees: where pieces would be shorter than
 constexpr double kShortestPiece = 0.05;  // mm: many of them in a tick hold a machine up, too
 constexpr double kMostPieces = 4096;     // of one edge
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kDegree = kPi / 180.0;
 
 class EdgePieces {
 public:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/base/math.hpp"
 #include "host_tools/contour_pocket/path_interval.hpp"
 
 namespace cusp::host {
@@ -268,7 +269,7 @@ void LevelInterval::around(Vec2d at)
     constexpr int kDirections = 12;
     const TipFloor::Contact here = contact(at);
     for (int i = 0; i < kDirections; ++i) {
-        const double angle = 6.28318530717958648 * i / kDirections;
+        const double angle = 2 * kPi * i / kDirections;
         across(at, here, {std::cos(angle), std::sin(angle)});
     }
 }

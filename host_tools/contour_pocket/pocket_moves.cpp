@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/base/math.hpp"
+
 namespace cusp::host {
 
 namespace {
@@ -171,13 +173,13 @@ double PocketMoves::enter_by_helix(Vec3d centre,
     double highest = centre.z;
     double deepest = 1e300;
     for (int i = 1; i <= kHelixSides; ++i) {
-        const double angle = 6.283185307179586 * i / kHelixSides;
+        const double angle = 2 * kPi * i / kHelixSides;
         const Vec2d at{centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)};
         sides.push_back({at.x, at.y, std::max(lowest(at) + kOver, centre.z)});
         highest = std::max(highest, sides.back().z);
         deepest = std::min(deepest, sides.back().z);
     }
-    const double drop = kEntrySlope * radius * 6.283185307179586 / kHelixSides;
+    const double drop = kEntrySlope * radius * 2 * kPi / kHelixSides;
     double z = std::max(heights.metal, highest);
     approach({sides.back().x, sides.back().y}, {std::max(heights.rapid, z + kRapidOver), z});
     for (std::size_t i = 0; z > deepest; i = (i + 1) % sides.size()) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "firmware/base/math.hpp"
 #include "host_tools/clearing/corner_spurs.hpp"
 #include "host_tools/contour_pocket/level_interval.hpp"
 #include "host_tools/contour_pocket/station_row.hpp"
@@ -105,8 +106,7 @@ double StripRidge::share(const LevelStrip& strip)
     if (step <= least_interval(floor_.tool(), budget_)) {
         return 0.0;
     }
-    by_stretches_ = false;
-    before_ = 0.0;
+    const Look look{strip, 0.0, step, false};
     look_closely(step);
     segments_.clear();
     lay(strip.outer, step);
@@ -125,7 +125,7 @@ double StripRidge::share(const LevelStrip& strip)
             const Edge& before = loop[(e + loop.size() - 1) % loop.size()];
             const Edge& after = loop[(e + 1) % loop.size()];
             const Corners corners{turns(before, loop[e]), turns(loop[e], after)};
-            most = std::max(most, ways_along(loop[e], corners, strip));
+            most = std::max(most, ways_along(loop[e], corners, look));
         }
     }
     return most;
@@ -256,14 +256,14 @@ double StripRidge::allowed(double secant) const
 }
 
 // Square to the floor, where the tool touches it; as a share of what may stand.
-double StripRidge::left(const Probe& probe) const
+double StripRidge::left(const Probe& probe, bool stretches) const
 {
     if (probe.floor == TipFloor::kNothing) {
         return 0.0;
     }
     const double share = std::max(0.0, left_at(probe.touched, probe.at) - probe.floor) /
                          (probe.secant * strayed_ * allowed(probe.secant));
-    return by_stretches_ && ball_ && share > 1.0 && clear_square_to(probe) ? 1.0 : share;
+    return stretches && ball_ && share > 1.0 && clear_square_to(probe) ? 1.0 : share;
 }
 
 // The tool rests on both sides of a valley where the continuations of its heights meet, lower than
@@ -328,7 +328,7 @@ double StripRidge::left_under_foot(const Probe& a, const Probe& b) const
     const double foot = kInside * (tool.radius - tool.corner_radius);
     double most = lowest.height;
     for (int i = 0; i <= kRound; ++i) {
-        const double angle = 6.28318530717958648 * i / kRound;
+        const double angle = 2 * kPi * i / kRound;
         const Vec2d way{std::cos(angle), std::sin(angle)};
         const Vec2d p = i < kRound ? lowest.at + way * foot : lowest.at;
         const double stands =
@@ -350,13 +350,13 @@ double StripRidge::left_beside(const Way& a, const Way& b) const
     return most;
 }
 
-StripRidge::Way StripRidge::way(const Edge& edge, double along, const LevelStrip& strip) const
+StripRidge::Way StripRidge::way(const Edge& edge, double along, const Look& look) const
 {
     constexpr double kSlack = 1e-6;
-    const double step = strip.to - strip.from;
+    const double step = look.step;
     const Vec2d tangent = tangent_on(edge, along);
     const Vec2d inward = left_normal(tangent);
-    const Vec2d foot = point_on(edge, along) + inward * before_;
+    const Vec2d foot = point_on(edge, along) + inward * look.foot;
     const auto place = [&](double t) {
         return foot + inward * t;
     };
@@ -364,9 +364,9 @@ StripRidge::Way StripRidge::way(const Edge& edge, double along, const LevelStrip
     const Box2d around{std::min(foot.x, last.x) - step, std::min(foot.y, last.y) - step,
                        std::max(foot.x, last.x) + step, std::max(foot.y, last.y) + step};
     const auto nearest_here = [&](double t) {
-        return !strip.walls.any_nearer(place(t), strip.from + t - kSlack);
+        return !look.strip.walls.any_nearer(place(t), look.strip.from + look.foot + t - kSlack);
     };
-    const bool part = before_ > 0.0;
+    const bool part = look.foot > 0.0;
     if ((part && !nearest_here(0.0)) ||
         (ball_ && 2.0 * proven(bounds_.near(around)) >= step && (!part || nearest_here(step)))) {
         return {along, 0.0, 0.0};
@@ -394,7 +394,7 @@ StripRidge::Way StripRidge::way(const Edge& edge, double along, const LevelStrip
         result.probes[static_cast<std::size_t>(i)] = here;
         result.count = i + 1;
         climb = i == 0 ? dot(here.gradient, tangent) : climb;
-        const double standing = left(here);
+        const double standing = left(here, look.stretches);
         found[static_cast<std::size_t>(i)] = standing;
         most = std::max(most, standing);
     }
@@ -441,24 +441,21 @@ std::vector<double> StripRidge::places_along(const Edge& edge, Corners corners, 
     return places;
 }
 
-double StripRidge::ways_along(const Edge& edge, Corners corners, const LevelStrip& strip) const
+double StripRidge::ways_along(const Edge& edge, Corners corners, const Look& look) const
 {
-    const std::vector<double> places = places_along(edge, corners, strip.to - strip.from);
-    Way last = way(edge, 0.0, strip);
+    const std::vector<double> places = places_along(edge, corners, look.step);
+    Way last = way(edge, 0.0, look);
     double most = last.share;
     for (std::size_t i = 1; i < places.size() && most < kEnough; ++i) {
-        const Way next = way(edge, places[i], strip);
+        const Way next = way(edge, places[i], look);
         most =
-            std::max({most, next.share, left_beside(last, next), between(edge, last, next, strip)});
+            std::max({most, next.share, left_beside(last, next), between(edge, last, next, look)});
         last = next;
     }
     return most;
 }
 
-double StripRidge::between(const Edge& edge,
-                           const Way& a,
-                           const Way& b,
-                           const LevelStrip& strip) const
+double StripRidge::between(const Edge& edge, const Way& a, const Way& b, const Look& look) const
 {
     constexpr double kNear = 0.6;
     constexpr double kEven = 0.1;
@@ -470,9 +467,8 @@ double StripRidge::between(const Edge& edge,
         (!uneven && !turns_level)) {
         return 0.0;
     }
-    const Way middle = way(edge, 0.5 * (a.along + b.along), strip);
-    return std::max(
-        {middle.share, between(edge, a, middle, strip), between(edge, middle, b, strip)});
+    const Way middle = way(edge, 0.5 * (a.along + b.along), look);
+    return std::max({middle.share, between(edge, a, middle, look), between(edge, middle, b, look)});
 }
 
 }  // namespace cusp::host

@@ -75,21 +75,29 @@ private:
         std::array<Probe, kPlaces + 1> probes{};
         int count{0};  // of them that were looked at
     };
+    // What ways are laid for: the strip, or with partial loops the part of it from `foot` mm off
+    // its outer level on.
+    struct Look {
+        const LevelStrip& strip;
+        double foot;
+        double step;     // mm: how long ways are
+        bool stretches;  // for partial loops
+    };
     void look_closely(double step);
     void lay(const Region2d& level, double step);
     void sort_segments(double cell);
-    Way way(const Edge& edge, double along, const LevelStrip& strip) const;
+    Way way(const Edge& edge, double along, const Look& look) const;
     struct Corners {
         bool before, after;
     };
     std::vector<double> places_along(const Edge& edge, Corners corners, double step) const;
-    double ways_along(const Edge& edge, Corners corners, const LevelStrip& strip) const;
-    void stretches_on(const Edge& edge, const LevelStrip& strip, std::vector<Edge>& found) const;
-    double between(const Edge& edge, const Way& a, const Way& b, const LevelStrip& strip) const;
+    double ways_along(const Edge& edge, Corners corners, const Look& look) const;
+    void stretches_on(const Edge& edge, const Look& look, std::vector<Edge>& found) const;
+    double between(const Edge& edge, const Way& a, const Way& b, const Look& look) const;
     Vec2d inside_rim(Vec2d at, Vec2d touched) const;
     Probe probe(Vec2d at) const;
     double allowed(double secant) const;
-    double left(const Probe& probe) const;
+    double left(const Probe& probe, bool stretches) const;
     bool clear_square_to(const Probe& probe) const;
     struct Lowest {
         Vec2d at;
@@ -111,9 +119,7 @@ private:
     const TipFloor& floor_;
     const Budget& budget_;
     bool ball_;
-    double apart_;        // mm between ways, at most
-    double before_{0.0};  // mm: from the edges that ways start from to the strip
-    bool by_stretches_{false};
+    double apart_;  // mm between ways, at most
     FloorBounds bounds_;
     std::vector<TipSegment> segments_;
     Box2d field_{};

@@ -36,27 +36,22 @@ std::vector<Edge> StripRidge::stretches(const std::vector<Edge>& edges,
     if (to - from <= least_interval(floor_.tool(), budget_)) {
         return {};
     }
-    by_stretches_ = true;
-    before_ = from - strip.from;
-    look_closely(to - from);
-    const LevelStrip part{strip.outer, strip.inner, from, to, strip.walls};
+    const Look look{strip, from - strip.from, to - from, true};
+    look_closely(look.step);
     std::vector<Edge> found;
     for (const Edge& edge : edges) {
-        stretches_on(edge, part, found);
+        stretches_on(edge, look, found);
     }
     return found;
 }
 
-void StripRidge::stretches_on(const Edge& edge,
-                              const LevelStrip& strip,
-                              std::vector<Edge>& found) const
+void StripRidge::stretches_on(const Edge& edge, const Look& look, std::vector<Edge>& found) const
 {
     constexpr double kPoint = 1e-6;  // mm
     // Under a flat foot steps stand over narrow places, between the ways.
     const double most = ball_ ? 1.0 : 0.85;
-    const double step = strip.to - strip.from;
-    const bool corners = before_ == 0.0;
-    const std::vector<double> places = places_along(edge, {corners, corners}, step);
+    const bool corners = look.foot == 0.0;
+    const std::vector<double> places = places_along(edge, {corners, corners}, look.step);
     double begin = -1.0;
     const auto close = [&](double end) {
         const Vec2d a = point_on(edge, begin);
@@ -66,11 +61,11 @@ void StripRidge::stretches_on(const Edge& edge,
         }
         begin = -1.0;
     };
-    Way last = way(edge, places.front(), strip);
+    Way last = way(edge, places.front(), look);
     for (std::size_t i = 1; i < places.size(); ++i) {
-        const Way next = way(edge, places[i], strip);
+        const Way next = way(edge, places[i], look);
         const double share = std::max(
-            {last.share, next.share, left_beside(last, next), between(edge, last, next, strip)});
+            {last.share, next.share, left_beside(last, next), between(edge, last, next, look)});
         if (share > most) {
             begin = begin < 0.0 ? places[i - 1] : begin;
         } else if (begin >= 0.0) {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <string_view>
 
+#include "firmware/base/math.hpp"
 #include "host_tools/import/dxf_drawing.hpp"
 #include "host_tools/import/nurbs_validity.hpp"
 #include "host_tools/input_error/input_error.hpp"
@@ -17,7 +18,6 @@
 namespace cusp::host {
 namespace {
 
-constexpr double kPi = 3.141592653589793;
 constexpr double kLeastLength = 1e-9;
 constexpr int kDeepestNesting = 16;
 // Blocks in blocks in arrays grow fast.

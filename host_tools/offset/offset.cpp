@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 
+#include "firmware/base/math.hpp"
 #include "host_tools/offset/edge_crossings.hpp"
 #include "host_tools/offset/piece_trim.hpp"
 #include "host_tools/offset/raw_offset.hpp"
@@ -293,7 +294,7 @@ std::optional<Region2d> joined(std::vector<Run>& runs)
 // Segments of arcs are no larger than half discs over their chords: mostly the chords tell.
 bool encloses_nothing(const Contour& contour)
 {
-    constexpr double kHalfPi = 1.5707963267948966;
+    constexpr double kHalfPi = 0.5 * kPi;
     double twice = 0.0;
     double segments = 0.0;
     double chords = 0.0;

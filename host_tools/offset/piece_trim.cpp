@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/base/math.hpp"
+
 namespace cusp::host {
 
 namespace {
@@ -12,7 +14,6 @@ namespace {
 constexpr double kNearerBy = 1e-5;  // mm: what is trimmed is nearer to the source by this at least
 constexpr int kSteps = 12;          // discs at one end
 constexpr int kDepth = 6;           // of halves
-constexpr double kPi = 3.14159265358979323846;
 
 // A piece by a parameter: length along a line, angle along an arc.
 class Track {

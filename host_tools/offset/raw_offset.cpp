@@ -1,6 +1,8 @@
 // Offsets edge by edge and closes outer corners with arcs about the corner.
 #include "host_tools/offset/raw_offset.hpp"
 
+#include "firmware/base/math.hpp"
+
 namespace cusp::host {
 
 namespace {
@@ -36,7 +38,7 @@ void add_corner(std::vector<RawPiece>& pieces,
         // Halfway round clockwise; for an exact reversal the sum of a and b says nothing.
         const Vec2d ahead = left_normal(a) * -1.0;
         const double turned = std::atan2(cross(b, a), dot(a, b));
-        const double half = 0.5 * (turned < 0.0 ? turned + 6.283185307179586 : turned);
+        const double half = 0.5 * (turned < 0.0 ? turned + 2 * kPi : turned);
         const Vec2d middle = corner + (a * std::cos(half) + ahead * std::sin(half)) * distance;
         pieces.push_back({{from, middle, corner, distance, -1}, true, false, origin});
         pieces.push_back({{middle, to, corner, distance, -1}, true, false, origin + 1});

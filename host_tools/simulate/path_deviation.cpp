@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include "firmware/base/math.hpp"
+
 namespace cusp::host {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 PathPlace nearest_on_segment(Vec3d point, Vec3d end)
 {

@@ -3,10 +3,12 @@
 
 #include <cmath>
 
+#include "firmware/base/math.hpp"
+
 namespace cusp::host {
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
+constexpr double kTurn = 2 * kPi;
 // Ends closer than this (mm) are the same point: a full turn.
 constexpr double kSamePoint = 1e-9;
 

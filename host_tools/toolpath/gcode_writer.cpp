@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "firmware/base/math.hpp"
 #include "host_tools/nurbs/knot_insertion.hpp"
 #include "host_tools/toolpath/arc_geometry.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
@@ -282,10 +283,9 @@ void ProgramWriter::arc(const ArcTo& to, const std::string& feed)
     const Vec3d start_mm{as_place((*at_)[0]), as_place((*at_)[1]), as_place((*at_)[2])};
     const ArcShape shape = arc_shape(start_mm, to);
     const bool same = (*at_)[axes[0]] == end[axes[0]] && (*at_)[axes[1]] == end[axes[1]];
-    constexpr double kHalfTurn = 3.141592653589793;
     const double sagitta =
-        shape.start_radius * (1 - std::cos(std::min(std::abs(shape.sweep), kHalfTurn) / 2));
-    if ((same && std::abs(shape.sweep) < kHalfTurn) || sagitta < kLeastSagitta) {
+        shape.start_radius * (1 - std::cos(std::min(std::abs(shape.sweep), kPi) / 2));
+    if ((same && std::abs(shape.sweep) < kPi) || sagitta < kLeastSagitta) {
         line("G1", to.end, feed);
         return;
     }

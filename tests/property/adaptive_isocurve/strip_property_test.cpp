@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/base/math.hpp"
 #include "host_tools/adaptive_isocurve/adaptive_isocurve.hpp"
 #include "host_tools/adaptive_isocurve/scallop_width.hpp"
 #include "tests/support/property_cases.hpp"
@@ -22,7 +23,6 @@ constexpr double kMost = 0.05;
 constexpr double kRadius = 3;
 constexpr double kTolerance = 0.3;  // of the scallop
 constexpr double kForRidges = 0.7;  // the same
-constexpr double kPi = 3.14159265358979323846;
 
 // Of a net over the unit square.
 Surface sheet(int degree, int size, const std::function<Vec3d(double, double)>& at)

@@ -5,6 +5,7 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "firmware/base/math.hpp"
 #include "host_tools/import/job.hpp"
 #include "host_tools/import/loop_shape.hpp"
 #include "tests/support/refusal.hpp"
@@ -14,8 +15,6 @@ using namespace cusp;
 using namespace cusp::host;
 
 namespace {
-
-constexpr double kPi = 3.141592653589793;
 
 std::string drawing(const std::string& entities)
 {
