@@ -152,11 +152,38 @@ void divide(const ClearingPass& pass,
 
 }  // namespace
 
-void add_cliff_detours(ClearedRegion& cleared,
-                       const std::vector<ClearingPass>& cliffs,
-                       const RegionOffset& walls,
-                       double least,
-                       double radius)
+void add_cliff_passes(ClearedRegion& cleared,
+                      const std::vector<ClearingPass>& cliffs,
+                      const Region2d& reach)
+{
+    // No part lies inside another: islands have no inside.
+    const auto part_of = [&](const ClearingPass& pass) {
+        return std::find_if(reach.contours.begin(), reach.contours.end(), [&](const Contour& c) {
+            return area(c) > 0.0 && surrounds(c, pass.path.front().start);
+        });
+    };
+    std::vector<std::vector<ClearingPass>> behind(cleared.passes.size());
+    for (const ClearingPass& cliff : cliffs) {
+        const auto part = part_of(cliff);
+        std::size_t last = cleared.passes.size() - 1;
+        while (last > 0 && part_of(cleared.passes[last]) != part) {
+            --last;
+        }
+        behind[last].push_back(cliff);
+    }
+    std::vector<ClearingPass> passes;
+    for (std::size_t i = 0; i < behind.size(); ++i) {
+        passes.push_back(cleared.passes[i]);
+        passes.insert(passes.end(), behind[i].begin(), behind[i].end());
+    }
+    cleared.passes = std::move(passes);
+}
+
+std::vector<ClearingPass> add_cliff_detours(ClearedRegion& cleared,
+                                            const std::vector<ClearingPass>& cliffs,
+                                            const RegionOffset& walls,
+                                            double least,
+                                            double radius)
 {
     const DetourPlaces places{cleared, walls, least, radius};
     std::vector<std::vector<CliffDetour>> detours(cleared.passes.size());
@@ -180,8 +207,8 @@ void add_cliff_detours(ClearedRegion& cleared,
             divide(cleared.passes[i], detours[i], passes);
         }
     }
-    passes.insert(passes.end(), alone.begin(), alone.end());
     cleared.passes = std::move(passes);
+    return alone;
 }
 
 }  // namespace cusp::host

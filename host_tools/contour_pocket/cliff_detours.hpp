@@ -5,19 +5,28 @@
 #include <vector>
 
 #include "host_tools/clearing/clearing.hpp"
+#include "host_tools/offset/offset.hpp"
 
 namespace cusp::host {
 
 // Adds the passes where they come nearest to one that is cut then: of the places within a tenth of
 // the tool's radius the one that is cut last, so that what lies beside is cut. That pass is divided
-// there, and the way out and back lies between its parts (PassStart::kHere). What has no pass
-// within the radius comes last, by itself.
+// there, and the way out and back lies between its parts (PassStart::kHere). Returns what has no
+// pass within the radius.
 //
 //   least  mm: distance of the tool's axis from the contours on its way out
-void add_cliff_detours(ClearedRegion& cleared,
-                       const std::vector<ClearingPass>& cliffs,
-                       const RegionOffset& walls,
-                       double least,
-                       double radius);
+std::vector<ClearingPass> add_cliff_detours(ClearedRegion& cleared,
+                                            const std::vector<ClearingPass>& cliffs,
+                                            const RegionOffset& walls,
+                                            double least,
+                                            double radius);
+
+// Adds the passes by themselves behind the last pass in their part of `reach`, so that there is a
+// way to them over metal that is cut.
+//
+//   reach  of the tool's axis: the walls' offset that has all passes inside
+void add_cliff_passes(ClearedRegion& cleared,
+                      const std::vector<ClearingPass>& cliffs,
+                      const Region2d& reach);
 
 }  // namespace cusp::host

@@ -114,23 +114,25 @@ public:
     {
         begun_ = rough != nullptr ? kRoughingDone : 0.0;
         ClearedRegion cleared = passes(rough == nullptr);
-        const std::size_t loops = cleared.passes.size();
-        const std::vector<ClearingPass> cliffs = passes_at_cliffs(cleared);
-        loops_ = static_cast<int>(loops);
+        std::vector<ClearingPass> cliffs = passes_at_cliffs(cleared);
+        loops_ = static_cast<int>(cleared.passes.size());
         cliff_passes_ = static_cast<int>(cliffs.size());
+        put_in_partial_loops(cleared);
+        if (cleared.saved > 0.0) {
+            cliffs = add_cliff_detours(cleared, cliffs, walls_, budget_.first - budget_.aside,
+                                       operation_.tool.radius);
+        }
+        add_cliff_passes(cleared, cliffs, reach_of(walls_, budget_.first));
         FloorCutter cutter{operation_, floor_, walls_, moves_, depth_};
         if (depth_ != nullptr) {
             depth_->begin(operation_.tool);
         }
         CutSettings settings =
             cutting(rough != nullptr ? std::optional{rough->left} : std::nullopt);
+        settings.repeated = at_cliffs(cleared);
         if (rough != nullptr) {
-            cleared.passes.insert(cleared.passes.end(), cliffs.begin(), cliffs.end());
             settings.repeated = beside_roughing(cleared, *rough);
-            // Loops of the roughing tool leave metal there, too.
-            std::fill(settings.repeated.begin() + static_cast<std::ptrdiff_t>(loops),
-                      settings.repeated.end(), true);
-            flatten(cleared, loops, settings);
+            flatten(cleared, settings);
             const bool stands = operation_.allowance > 0.0 ||
                                 rough->operation.path.tool.number != operation_.tool.number;
             if (stands) {
@@ -138,17 +140,7 @@ public:
                                      depths_beside(cleared, *rough)};
             }
         }
-        put_in_partial_loops(cleared);
-        if (cleared.saved > 0.0) {
-            add_cliff_detours(cleared, cliffs, walls_, budget_.first - budget_.aside,
-                              operation_.tool.radius);
-        } else if (rough == nullptr) {
-            cleared.passes.insert(cleared.passes.end(), cliffs.begin(), cliffs.end());
-        }
-        settings.repeated.resize(cleared.passes.size(), false);
-        for (std::size_t i = 0; i < cleared.passes.size(); ++i) {
-            settings.repeated[i] = settings.repeated[i] || cleared.passes[i].at_cliff;
-        }
+        settings.retracts = cleared.leaves + static_cast<int>(operation_.islands.size());
         settings.progress = [&](double share) {
             report(kLevelsDone + (1.0 - kLevelsDone) * share);
         };
@@ -236,8 +228,18 @@ private:
         return cliff_passes(region_, floor_, all, settings);
     }
 
+    static std::vector<bool> at_cliffs(const ClearedRegion& cleared)
+    {
+        std::vector<bool> result;
+        for (const ClearingPass& pass : cleared.passes) {
+            result.push_back(pass.at_cliff);
+        }
+        return result;
+    }
+
     // Which passes meet metal that roughing did not reach: the allowance beside the walls, corners,
-    // necks and valleys of the floor that its tool does not fit into.
+    // necks and valleys of the floor that its tool does not fit into. Loops of its tool leave metal
+    // at cliffs, too.
     std::vector<bool> beside_roughing(const ClearedRegion& cleared, const RoughResult& rough) const
     {
         const double radius = operation_.tool.radius;
@@ -261,7 +263,7 @@ private:
         };
         std::vector<bool> beside;
         for (const ClearingPass& pass : cleared.passes) {
-            beside.push_back(pass.level == 0);
+            beside.push_back(pass.level == 0 || pass.at_cliff);
             for (const Edge& edge : pass.path) {
                 const int n = 1 + static_cast<int>(length(edge) / (0.25 * radius));
                 for (int i = 0; i < n && !beside.back(); ++i) {
@@ -290,10 +292,10 @@ private:
     }
 
     // Passes along cliffs keep nearer to theirs as it is.
-    void flatten(ClearedRegion& cleared, std::size_t loops, const CutSettings& settings) const
+    void flatten(ClearedRegion& cleared, const CutSettings& settings) const
     {
-        for (std::size_t i = 0; i < loops; ++i) {
-            if (settings.repeated[i]) {
+        for (std::size_t i = 0; i < cleared.passes.size(); ++i) {
+            if (settings.repeated[i] && !cleared.passes[i].at_cliff) {
                 Contour& path = cleared.passes[i].path;
                 path = flattened(path, settings.laying.aside, settings.laying.spacing,
                                  settings.laying.arcs);

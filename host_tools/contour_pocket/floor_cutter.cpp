@@ -5,6 +5,7 @@
 
 #include "firmware/base/math.hpp"
 #include "host_tools/clearing/free_way.hpp"
+#include "host_tools/clearing/way_within.hpp"
 #include "host_tools/contour_pocket/pocket_task.hpp"
 
 namespace cusp::host {
@@ -40,6 +41,11 @@ bool is_open(const ClearingPass& pass)
 bool is_set(const std::vector<bool>& flags, std::size_t i) { return i < flags.size() && flags[i]; }
 
 }  // namespace
+
+Region2d reach_of(const RegionOffset& walls, double first)
+{
+    return walls.at(first - kWrittenStep);
+}
 
 FloorPath FloorCutter::laid(const std::vector<Edge>& plan, const FloorPathSettings& laying)
 {
@@ -126,37 +132,59 @@ bool FloorCutter::link(const Laid& laid_pass, const CutSettings& settings)
     return true;
 }
 
-// Above the metal that stands along the way, and above `above`; false where that is so long that up
-// and down again is no longer.
-bool FloorCutter::follow_over(const std::vector<Edge>& way,
+// Whether the way over the metal is no longer than up and down again.
+bool FloorCutter::is_worth_it(const std::vector<Edge>& way) const
+{
+    constexpr double kLongest = 8.0;  // radii
+    return depth_ != nullptr && !way.empty() &&
+           length(way) <= 2.0 * moves_.below_clearance() + kLongest * operation_.tool.radius;
+}
+
+// Above the metal that stands along the way, and above `above`.
+void FloorCutter::follow_over(const std::vector<Edge>& way,
                               double above,
                               const CutSettings& settings)
 {
-    constexpr double kLongest = 8.0;  // radii
-    if (depth_ == nullptr || way.empty() ||
-        length(way) > 2.0 * moves_.below_clearance() + kLongest * operation_.tool.radius) {
-        return false;
-    }
     FloorPathSettings laying = settings.laying;
     laying.nurbs = false;
     laying.even = true;
-    const double metal = depth_->highest(laid(way, laying));
+    const double metal = depth_ != nullptr ? depth_->highest(laid(way, laying))
+                                           : settings.entry_heights(above).metal;
     laying.level = heights_over(std::max({metal, above, moves_.place().z})).metal;
     const FloorPath path = laid(way, laying);
     least_gap_ = std::min(least_gap_, path.least_gap);
     moves_.link(path);
-    return true;
 }
 
-// Straight to the start of the pass; false where a wall is in the way.
+// Straight to the start of the pass; false where a wall is in the way, or it is far.
 bool FloorCutter::step_over(const Laid& laid_pass, const CutSettings& settings)
 {
     const Vec2d from = in_plan(moves_.place());
     const Edge way = line_edge(from, laid_pass.pass.path.front().start);
     const bool entered = way_down(settings.entry) == settings.entry;
-    return (laid_pass.pass.start != PassStart::kEntry || entered) &&
-           is_free(walls_, way, settings.first - settings.laying.aside) &&
-           follow_over({way}, laid_pass.path.start.z, settings);
+    if ((laid_pass.pass.start == PassStart::kEntry && !entered) || !is_worth_it({way}) ||
+        !is_free(walls_, way, settings.first - settings.laying.aside)) {
+        return false;
+    }
+    follow_over({way}, laid_pass.path.start.z, settings);
+    return true;
+}
+
+// As far as it is; false where there is no way.
+bool FloorCutter::go_round(const Laid& laid_pass, const CutSettings& settings)
+{
+    if (!reach_) {
+        reach_ = reach_of(walls_, settings.first);
+    }
+    const std::vector<Edge> way =
+        way_within(*reach_, in_plan(moves_.place()), laid_pass.pass.path.front().start);
+    if (way.empty()) {
+        return false;
+    }
+    CutSettings nearer = settings;
+    nearer.laying.aside = std::max(settings.laying.aside - kWrittenStep, kWrittenStep);
+    follow_over(way, laid_pass.path.start.z, nearer);
+    return true;
 }
 
 // From the end of one pass to the start of one before it: straight, or back along the links
@@ -176,7 +204,9 @@ void FloorCutter::go_back(const std::vector<ClearingPass>& passes,
             way.insert(way.end(), back.begin(), back.end());
         }
     }
-    follow_over(way, -1e300, settings);
+    if (is_worth_it(way)) {
+        follow_over(way, -1e300, settings);
+    }
 }
 
 // By its link, where the tool stands before that and it does not cut too deep, else by an entry.
@@ -186,12 +216,13 @@ void FloorCutter::begin(const Laid& laid_pass, const CutSettings& settings)
     const bool at_link = pass.start == PassStart::kLink && moves_.is_down() &&
                          distance(pass.link.front().start, in_plan(moves_.place())) < kSamePlace;
     const bool here =
-        pass.start == PassStart::kHere && moves_.is_down() &&
+        moves_.is_down() &&
         distance(in_plan(laid_pass.path.start), in_plan(moves_.place())) < kSamePlace &&
         moves_.place().z < laid_pass.path.start.z + kBarelyOver;
     if (!here && (!at_link || !link(laid_pass, settings))) {
-        if (moves_.is_down() && !moves_.stands_over(laid_pass.path.start)) {
-            step_over(laid_pass, settings);
+        if (moves_.is_down() && !moves_.stands_over(laid_pass.path.start) &&
+            !step_over(laid_pass, settings) && moves_.retracts() >= may_retract_) {
+            go_round(laid_pass, settings);
         }
         enter(laid_pass, settings);
     }
@@ -298,8 +329,15 @@ void FloorCutter::cut_standing(std::vector<ClearingPass>& passes, const CutSetti
 void FloorCutter::cut(const ClearedRegion& cleared, const CutSettings& settings)
 {
     const std::size_t n = cleared.passes.size();
+    const auto is_entry = [](const ClearingPass& pass) {
+        return pass.start == PassStart::kEntry;
+    };
+    may_retract_ =
+        settings.retracts - 1 -
+        static_cast<int>(std::count_if(cleared.passes.begin(), cleared.passes.end(), is_entry));
     for (std::size_t first = 0, end = 0; first < n; first = end) {
         end = first + 1;
+        may_retract_ += is_entry(cleared.passes[first]) ? 1 : 0;
         const bool standing = is_set(settings.standing.passes, first);
         while (standing && end < n && is_set(settings.standing.passes, end) &&
                cleared.passes[end].start == PassStart::kLink) {

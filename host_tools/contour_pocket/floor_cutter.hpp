@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "host_tools/clearing/clearing.hpp"
 #include "host_tools/contour_pocket/cut_depth.hpp"
@@ -32,11 +33,17 @@ struct CutSettings {
     StandingBeside standing;
     // Of the depth allowed: what a pass may cut as far as the metal is known.
     double depth_share{1.0};
+    // How often the tool may have gone up at the end, the last time included; no fewer than there
+    // are entries. So that these have theirs others are reached above the metal, however far.
+    int retracts{};
     // Where entries start, from the height of the pass there.
     std::function<EntryHeights(double)> entry_heights;
     // Where given, called with the share of the passes that is laid.
     std::function<void(double)> progress;
 };
+
+// Where the tool's axis may be that keeps `first` mm off the walls but for rounding.
+Region2d reach_of(const RegionOffset& walls, double first);
 
 class FloorCutter {
 public:
@@ -73,7 +80,9 @@ private:
     bool too_deep(const FloorPath& path, const CutSettings& settings) const;
     bool link(const Laid& laid, const CutSettings& settings);
     bool step_over(const Laid& laid, const CutSettings& settings);
-    bool follow_over(const std::vector<Edge>& way, double above, const CutSettings& settings);
+    bool go_round(const Laid& laid, const CutSettings& settings);
+    bool is_worth_it(const std::vector<Edge>& way) const;
+    void follow_over(const std::vector<Edge>& way, double above, const CutSettings& settings);
     void begin(const Laid& laid, const CutSettings& settings);
     void go_back(const std::vector<ClearingPass>& passes,
                  std::size_t from,
@@ -93,6 +102,8 @@ private:
     PocketMoves& moves_;
     CutDepth* depth_;
     double least_gap_{0.0};
+    int may_retract_{0};  // until now
+    std::optional<Region2d> reach_;
 };
 
 }  // namespace cusp::host

@@ -93,8 +93,7 @@ void PocketMoves::approach(Vec2d at, const EntryHeights& heights)
 
 bool PocketMoves::stands_over(Vec3d place) const
 {
-    return !moves_.empty() && plan_distance(at_, place) < 1e-6 && at_.z >= place.z &&
-           at_.z < clearance_;
+    return is_down() && plan_distance(at_, place) < 1e-6;
 }
 
 void PocketMoves::enter_along(const FloorPath& path, const EntryHeights& heights, bool plunge)
@@ -105,7 +104,7 @@ void PocketMoves::enter_along(const FloorPath& path, const EntryHeights& heights
         if (at_.z > heights.rapid && at_.z > z) {
             line(MoveKind::kRapid, {at_.x, at_.y, std::max(heights.rapid, z)});
         }
-        z = std::min(z, at_.z);
+        z = std::clamp(at_.z, path.start.z, z);
         line(MoveKind::kPlunge, {at_.x, at_.y, z});
     } else {
         approach({path.start.x, path.start.y}, {heights.rapid, z});
@@ -181,7 +180,13 @@ double PocketMoves::enter_by_helix(Vec3d centre,
     }
     const double drop = kEntrySlope * radius * 2 * kPi / kHelixSides;
     double z = std::max(heights.metal, highest);
-    approach({sides.back().x, sides.back().y}, {std::max(heights.rapid, z + kRapidOver), z});
+    const Vec3d first{sides.back().x, sides.back().y, std::max(z, at_.z)};
+    if (stands_over(centre)) {
+        line(MoveKind::kPlunge, {at_.x, at_.y, first.z});
+        plunge_over(first, gap);
+    } else {
+        approach({first.x, first.y}, {std::max(heights.rapid, z + kRapidOver), z});
+    }
     for (std::size_t i = 0; z > deepest; i = (i + 1) % sides.size()) {
         z -= drop;
         plunge_over({sides[i].x, sides[i].y, std::max(z, sides[i].z)}, gap);

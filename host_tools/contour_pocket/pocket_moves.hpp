@@ -32,8 +32,8 @@ public:
 
     // Down to the start of a pass of straight moves: round it again and again on a gentle slope
     // until it lies wholly at its depth, to and fro along the beginning of an open one or where
-    // that is shorter; straight down where `plunge`. From where the tool stands, where that is
-    // straight over the start and below the heights.
+    // that is shorter; straight down where `plunge`. From where the tool stands, where it
+    // stands over the start.
     void enter_along(const FloorPath& path, const EntryHeights& heights, bool plunge);
 
     Vec3d place() const { return at_; }
@@ -42,7 +42,7 @@ public:
     bool is_down() const { return below_clearance() > 0.0; }
     double below_clearance() const { return moves_.empty() ? 0.0 : clearance_ - at_.z; }
 
-    // Whether the tool stands straight over the place or on it, below the clearance.
+    // Whether the tool stands straight over the place, on it or under it, below the clearance.
     bool stands_over(Vec3d place) const;
 
     // Down on a helix about the start of a pass, to somewhere over it; to the start itself where

@@ -148,6 +148,7 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     if (cut_depth != nullptr) {
         cut_depth->begin(rough.tool);
     }
+    const int each = cleared.leaves + static_cast<int>(operation.islands.size());
     const double bottom = lowest_tip(cleared, floor) + operation.allowance;
     double above = job.stock_top;
     const std::vector<double> heights =
@@ -156,6 +157,7 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
         const double layer = static_cast<double>(result.heights.size());
         job.report_progress(kRoughingDone * layer / static_cast<double>(heights.size()));
         settings.laying.level = level;
+        settings.retracts += each;
         settings.entry_heights = [&](double pass) {
             // The same loops were cut there by the layer above.
             return heights_over(std::max(above, pass));

@@ -5,6 +5,7 @@
 #include "host_tools/contour_pocket/contour_pocket.hpp"
 #include "tests/property/contour_pocket/moves_judge.hpp"
 #include "tests/property/offset/random_regions.hpp"
+#include "tests/support/plates.hpp"
 #include "tests/support/property_cases.hpp"
 #include "tests/support/random_jobs.hpp"
 
@@ -102,6 +103,23 @@ RandomTask random_task(Random& random)
     return task;
 }
 
+// Plates in steps over the floor, some askew and beside walls, so that passes lie along cliffs.
+RandomTask random_task_with_cliffs(Random& random)
+{
+    RandomTask task = random_task(random);
+    Operation& operation = task.operation;
+    const double low = operation.floor.front().points.front().z;
+    const int plates = whole(random, 2, 4);
+    for (int i = 0; i < plates; ++i) {
+        const double angle = uniform(random, 0.0, 3.0);
+        operation.floor.push_back(
+            turned_plate({uniform(random, -45.0, 45.0), uniform(random, -45.0, 45.0)},
+                         {std::cos(angle), std::sin(angle)}, uniform(random, 10.0, 40.0),
+                         uniform(random, 5.0, 25.0), low + uniform(random, 0.5, 4.0)));
+    }
+    return task;
+}
+
 double counted(const OperationStats& stats, const char* name)
 {
     const auto found = std::find_if(stats.counts.begin(), stats.counts.end(),
@@ -132,6 +150,12 @@ double under(const MovesJudge& judge, const Surface& floor, double allowance)
     return most;
 }
 
+void check_retracts(const OperationStats& stats)
+{
+    const double each = counted(stats, "leaves") + counted(stats, "islands");
+    CHECK(stats.retracts <= each * std::max(1.0, counted(stats, "layers")));
+}
+
 void check_moves(const RandomTask& task,
                  const PlannedOperation& planned,
                  const MovesVerdict& verdict)
@@ -147,8 +171,7 @@ void check_moves(const RandomTask& task,
     }
     LONGS_EQUAL(stats.retracts, verdict.retracts);
     LONGS_EQUAL(operation.islands.size(), counted(stats, "islands"));
-    const double each = counted(stats, "leaves") + counted(stats, "islands");
-    CHECK(stats.retracts <= each * std::max(1.0, counted(stats, "layers")));
+    check_retracts(stats);
     CHECK(verdict.wrong_side <= 0.3 * (verdict.right_side + verdict.wrong_side) + 50.0);
     CHECK(verdict.deepest <= operation.max_depth.value_or(1e300) * 1.02 + 0.03);
 }
@@ -213,6 +236,43 @@ TEST(PocketMoves, EnterGentlyLinkThroughCutMetalAndKeepSideDepthAndAllowance)
     // Few pockets may have a few more of them.
     constexpr double kFew = 4.0;
     CHECK(links.turned <= 0.04 * links.all + kFew);
+}
+
+TEST(PocketMoves, TakeNoMoreRetractsForPassesAlongCliffs)
+{
+    constexpr unsigned kCliffSeed = 1991;
+    Random random{kCliffSeed};
+    for (int i = 0; i < property_cases(8); ++i) {
+        const RandomTask task = random_task_with_cliffs(random);
+        std::vector<PlannedOperation> planned;
+        try {
+            planned = plan_contour_pocket(task.job, task.operation);
+        } catch (const InputError& error) {
+            CHECK(std::string{error.what()}.find("fits nowhere") != std::string::npos);
+            continue;
+        }
+        const double smallest =
+            std::min(task.operation.tool.radius, task.operation.tools.front().radius);
+        const double largest =
+            std::max(task.operation.tool.radius, task.operation.tools.front().radius);
+        MovesJudge judge{task.region, task.job.stock_top, smallest, largest};
+        for (const PlannedOperation& one : planned) {
+            const MovesVerdict verdict =
+                judge.cut(one.path, task.job.stock_top + task.job.clearance,
+                          task.operation.direction_of_cut == CutDirection::kClimb);
+            std::printf(
+                "seed %u cliffs %d: %.0f passes along them, retracts %d of %.0f + %.0f, "
+                "rapid %.3f, deepest %.3f\n",
+                kCliffSeed, i, counted(one.stats, "cliff_passes"), verdict.retracts,
+                counted(one.stats, "leaves"), counted(one.stats, "islands"), verdict.rapid_cut,
+                verdict.deepest);
+            LONGS_EQUAL(one.stats.retracts, verdict.retracts);
+            check_retracts(one.stats);
+            CHECK(!verdict.low_rapid);
+            CHECK(verdict.rapid_cut <= 0.05);
+            CHECK(verdict.deepest <= task.operation.max_depth.value_or(1e300) * 1.02 + 0.03);
+        }
+    }
 }
 
 }  // namespace

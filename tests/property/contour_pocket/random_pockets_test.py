@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Plans random pockets and cuts them in memory: floors and walls are whole, no rapid move meets
-metal, no cut is deeper than the job allows, and no more stays.
+metal, no cut is deeper than the job allows, no more stays, and retracts are few.
 
 usage: random_pockets_test.py CUSP [CASES [FIRST_SEED]]
 
@@ -36,11 +36,15 @@ def limit(job, key):
 def fault(cusp, job, folder):
     """What is wrong with the planned pocket; "" where nothing is, None where it is refused."""
     program, figures = folder / "pocket.ngc", folder / "verify.json"
-    planned = call(cusp, "plan", job, "-o", program)
+    planned = call(cusp, "plan", job, "-o", program, "--stats", folder / "plan.json")
     if planned.returncode == 2 and any(word in planned.stderr for word in REFUSALS):
         return None
     if planned.returncode != 0:
         return f"plan: {planned.returncode} {planned.stderr[-300:]}"
+    for operation in json.loads((folder / "plan.json").read_text())["operations"]:
+        most = (operation["leaves"] + operation["islands"]) * operation.get("layers", 1)
+        if operation["retracts"] > most:
+            return f"retracts {operation['retracts']}, leaves and islands {most}"
     verified = call(cusp, "verify", job, program, "--stats", figures)
     if verified.returncode != 0:
         return f"verify: {(verified.stdout + verified.stderr)[-300:]}"
