@@ -56,9 +56,9 @@ StandingMetal::Range StandingMetal::range(
     return {place(low), std::min(place(high) + 1, count)};
 }
 
-double StandingMetal::touch(Vec2d at) const
+double StandingMetal::touch(Vec2d at, double share) const
 {
-    const double reach = std::sqrt(feeler_.reach);
+    const double reach = share * std::sqrt(feeler_.reach);
     const Range columns = range(at.x - reach, at.x + reach, origin_.x, pitch_, columns_);
     const Range rows = range(at.y - reach, at.y + reach, origin_.y, pitch_, rows_);
     double highest = kNoMetal;
@@ -69,7 +69,7 @@ double StandingMetal::touch(Vec2d at) const
             const double dy = origin_.y + static_cast<double>(j) * pitch_ - at.y;
             const double squared = dx * dx + dy * dy;
             const double z = static_cast<double>(heights[j]) - feeler_.at(squared);
-            highest = squared <= feeler_.reach && z > highest ? z : highest;
+            highest = squared <= reach * reach && z > highest ? z : highest;
         }
     }
     return highest - sliver_;

@@ -21,9 +21,9 @@ public:
     // From here on another tool cuts and feels.
     void use(const Tool& tool);
 
-    // The height at which a tip that comes down over `at` first touches metal; -1e300 where none
-    // stands.
-    double touch(Vec2d at) const;
+    // The height at which a tip that comes down over `at` first touches metal, with what of the
+    // tool is within that share of its radius; -1e300 where none stands.
+    double touch(Vec2d at, double share = 1.0) const;
 
     // Takes what the tool sweeps on a straight move. Returns the deepest that it cuts, mm.
     double cut(Vec3d from, Vec3d to) { return sweep(from, to, tool_); }

@@ -17,6 +17,7 @@
 #include "host_tools/contour_pocket/pocket_task.hpp"
 #include "host_tools/contour_pocket/rest_material.hpp"
 #include "host_tools/contour_pocket/rough_layers.hpp"
+#include "host_tools/contour_pocket/slow_descents.hpp"
 #include "host_tools/contour_pocket/strip_ridge.hpp"
 #include "host_tools/offset/offset.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
@@ -467,6 +468,7 @@ std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operatio
         result.push_back(rough->operation);
     }
     result.push_back(finish.plan(rough ? &*rough : nullptr));
+    slow_descents(result, job, box_of(region));
     if (rough && rough->operation.path.moves.empty()) {
         const Tool& tool = rough->operation.path.tool;
         result.back().stats.warnings.push_back(

@@ -107,6 +107,15 @@ private:
     {
         return {std::llround(p.x / grain_), std::llround(p.y / grain_), std::llround(p.z / grain_)};
     }
+    // Where the tool is, mm.
+    Vec3d place() const
+    {
+        const Place at = at_.value_or(Place{});
+        const auto mm = [&](std::size_t axis) {
+            return static_cast<double>(at[axis]) * grain_;
+        };
+        return {mm(0), mm(1), mm(2)};
+    }
     void add_coordinate(std::string& text, std::int64_t value) const;
     std::string coordinate(std::int64_t value) const
     {
@@ -277,11 +286,7 @@ void ProgramWriter::arc(const ArcTo& to, const std::string& feed)
 {
     const Place end = rounded(to.end);
     const auto axes = axes_of(to.plane);
-    const auto as_place = [&](std::int64_t v) {
-        return static_cast<double>(v) * grain_;
-    };
-    const Vec3d start_mm{as_place((*at_)[0]), as_place((*at_)[1]), as_place((*at_)[2])};
-    const ArcShape shape = arc_shape(start_mm, to);
+    const ArcShape shape = arc_shape(place(), to);
     const bool same = (*at_)[axes[0]] == end[axes[0]] && (*at_)[axes[1]] == end[axes[1]];
     const double sagitta =
         shape.start_radius * (1 - std::cos(std::min(std::abs(shape.sweep), kPi) / 2));
@@ -350,8 +355,7 @@ void ProgramWriter::move(const Toolpath& path, const ToolMove& move)
     }
     // a feed is spoken for only when a line is written, which a vanishing move is not
     const double before = feed_;
-    const std::string feed =
-        feed_word(move.kind == MoveKind::kPlunge ? path.plunge_feed : path.feed);
+    const std::string feed = feed_word(feed_of(path, move, place()));
     wrote_ = false;
     if (const auto* to = std::get_if<LineTo>(&move.shape)) {
         line("G1", to->end, feed);

@@ -25,7 +25,13 @@ struct Tool {
 double profile_height(const Tool& tool, double d);
 
 // One move of the tool tip; it starts where the one before ended.
-enum class MoveKind : std::uint8_t { kRapid, kPlunge, kCut, kLink };
+enum class MoveKind : std::uint8_t {
+    kRapid,
+    kPlunge,   // at the plunge feed
+    kCut,      // at the feed
+    kLink,     // at the feed
+    kDescent,  // a cut or a link down into metal: nowhere faster downward than the plunge feed
+};
 
 struct LineTo {
     Vec3d end;
@@ -53,7 +59,7 @@ struct ToolMove {
 // operation).
 struct Toolpath {
     Tool tool;
-    double feed{};         // mm/min, cuts and links
+    double feed{};         // mm/min, cuts and links; descents at most
     double plunge_feed{};  // mm/min
     double spindle{};      // rpm
     std::vector<ToolMove> moves;

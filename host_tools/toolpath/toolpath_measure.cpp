@@ -200,16 +200,6 @@ void count(const ToolMove& move, MoveCounts& counts)
     }
 }
 
-double feed_of(const Toolpath& path, MoveKind kind)
-{
-    constexpr double kSecondsPerMinute = 60.0;
-    constexpr double kUnbounded = 1e9;
-    if (kind == MoveKind::kRapid) {
-        return kUnbounded;
-    }
-    return (kind == MoveKind::kPlunge ? path.plunge_feed : path.feed) / kSecondsPerMinute;
-}
-
 void add_arc_points(const ArcShape& arc, double tolerance, std::vector<Vec3d>& out)
 {
     const double radius = std::max({arc.start_radius, arc.end_radius, tolerance});
@@ -292,8 +282,41 @@ std::vector<Vec3d> points_of(const ToolMove& move, Vec3d start, double tolerance
     return out;
 }
 
+double steepest_descent(const ToolMove& move, Vec3d start)
+{
+    constexpr double kChord = 1e-3;
+    const bool arc = std::holds_alternative<ArcTo>(move.shape);
+    double steepest = 0;
+    Vec3d at = start;
+    for (const Vec3d p : points_of(move, start, kChord)) {
+        const double way = norm(p - at);
+        steepest = way > 0 ? std::max(steepest, (at.z - p.z) / way) : steepest;
+        at = p;
+    }
+    if (!arc) {
+        return steepest;
+    }
+    // A helix is as steep all along, and its chords are a little shorter.
+    const ArcShape shape = arc_shape(start, std::get<ArcTo>(move.shape));
+    return shape.axes[2] == 2 ? std::max(0.0, -tangent_on(shape, 0.5).z) : steepest;
+}
+
+double feed_of(const Toolpath& path, const ToolMove& move, Vec3d start)
+{
+    if (move.kind == MoveKind::kRapid) {
+        return 0;
+    }
+    if (move.kind == MoveKind::kPlunge) {
+        return path.plunge_feed;
+    }
+    const double down = move.kind == MoveKind::kDescent ? steepest_descent(move, start) : 0;
+    return down * path.feed > path.plunge_feed ? path.plunge_feed / down : path.feed;
+}
+
 PathMeasure measure(const Toolpath& path, Vec3d start, const MachineRates& rates)
 {
+    constexpr double kSecondsPerMinute = 60.0;
+    constexpr double kUnbounded = 1e9;
     PathMeasure sum;
     std::vector<Stretch> stretches;
     Vec3d at = start;
@@ -304,7 +327,9 @@ PathMeasure measure(const Toolpath& path, Vec3d start, const MachineRates& rates
         (move.kind == MoveKind::kRapid ? sum.rapid_length_mm : sum.cut_length_mm) += g.length;
         sum.link_length_mm += move.kind == MoveKind::kLink ? g.length : 0;
         if (g.length > 0) {
-            stretches.push_back(stretch_of(g, feed_of(path, move.kind), rates));
+            const double feed = feed_of(path, move, at);
+            stretches.push_back(
+                stretch_of(g, feed > 0 ? feed / kSecondsPerMinute : kUnbounded, rates));
         }
         at = end_of(move);
     }

@@ -43,4 +43,11 @@ std::vector<Vec3d> points_of(const ToolMove& move, Vec3d start, double tolerance
 
 Vec3d end_of(const ToolMove& move);
 
+// Of a unit of way where the move from `start` goes down most steeply, how far it goes down: 0 to
+// 1. Curves are looked at along chords.
+double steepest_descent(const ToolMove& move, Vec3d start);
+
+// mm/min that the move is programmed with; 0 for rapids.
+double feed_of(const Toolpath& path, const ToolMove& move, Vec3d start);
+
 }  // namespace cusp::host

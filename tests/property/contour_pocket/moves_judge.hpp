@@ -17,6 +17,7 @@ struct MovesVerdict {
     bool low_rapid{};    // a rapid move below the clearance that is not straight up or down
     double plunged{};    // mm of metal under the middle of the tool on a way straight down
     double entry_cut{};  // mm, deepest there on slopes steeper than entries may be
+    double sunk{};       // mm there on ways down at more than the plunge feed
     double deepest{};    // mm of cut
     int retracts{};      // up to the clearance
     int links{};
@@ -48,9 +49,14 @@ public:
         MoveKind before = MoveKind::kRapid;
         for (std::size_t i = 0; i < path.moves.size(); ++i) {
             const ToolMove& move = path.moves[i];
+            const double feed = feed_of(path, move, at);
             for (const Vec3d p : points_of(move, at, 0.004)) {
                 if (i > 0) {
                     judge_places(path.tool, move.kind, at, p, clearance, climb, verdict);
+                    const double down = feed * (at.z - p.z);
+                    if (down > 1.01 * path.plunge_feed * norm(p - at)) {
+                        verdict.sunk = std::max(verdict.sunk, middle_);
+                    }
                 }
                 const Vec2d way{p.x - at.x, p.y - at.y};
                 at = p;
@@ -143,6 +149,7 @@ private:
                       bool climb,
                       MovesVerdict& verdict)
     {
+        middle_ = 0.0;
         constexpr double kSteepest = 0.1;  // entries' 0.08, and chords of it
         constexpr double kFelt = 0.05;     // mm
         const Vec3d way = to - from;
@@ -160,6 +167,7 @@ private:
             verdict.nearest_wall =
                 std::min(verdict.nearest_wall, distance_to(region_, {tip.x, tip.y}));
             const Bite bite = this->bite(tool, tip, way);
+            middle_ = std::max(middle_, bite.middle);
             verdict.deepest = std::max(verdict.deepest, bite.felt);
             if (kind == MoveKind::kRapid) {
                 verdict.rapid_cut = std::max(verdict.rapid_cut, bite.felt);
@@ -167,7 +175,8 @@ private:
                 verdict.plunged = std::max(verdict.plunged, bite.middle);
             } else if (kind == MoveKind::kPlunge && -way.z > kSteepest * level) {
                 verdict.entry_cut = std::max(verdict.entry_cut, bite.middle);
-            } else if (kind == MoveKind::kCut && bite.felt > kFelt) {
+            } else if ((kind == MoveKind::kCut || kind == MoveKind::kDescent) &&
+                       bite.felt > kFelt) {
                 add_sides(bite, climb, verdict);
             }
         }
@@ -191,6 +200,7 @@ private:
     int columns_{};
     int rows_{};
     std::vector<double> heights_;
+    double middle_{};  // what the last move cut under the middle of the tool, mm
 };
 
 }  // namespace cusp::host

@@ -238,9 +238,12 @@ TEST(PocketMoves, EnterGentlyLinkThroughCutMetalAndKeepSideDepthAndAllowance)
     CHECK(links.turned <= 0.04 * links.all + kFew);
 }
 
-TEST(PocketMoves, TakeNoMoreRetractsForPassesAlongCliffs)
+// They go over the edges of cliffs into what stands at their feet.
+TEST(PocketMoves, TakeNoMoreRetractsForCliffsAndGoDownThemNoFasterThanThePlungeFeed)
 {
     constexpr unsigned kCliffSeed = 1991;
+    constexpr double kRidge = 0.06;  // of the radius: what passes leave each other
+    int descents = 0;
     Random random{kCliffSeed};
     for (int i = 0; i < property_cases(8); ++i) {
         const RandomTask task = random_task_with_cliffs(random);
@@ -262,17 +265,22 @@ TEST(PocketMoves, TakeNoMoreRetractsForPassesAlongCliffs)
                           task.operation.direction_of_cut == CutDirection::kClimb);
             std::printf(
                 "seed %u cliffs %d: %.0f passes along them, retracts %d of %.0f + %.0f, "
-                "rapid %.3f, deepest %.3f\n",
+                "rapid %.3f, deepest %.3f, sunk %.3f\n",
                 kCliffSeed, i, counted(one.stats, "cliff_passes"), verdict.retracts,
                 counted(one.stats, "leaves"), counted(one.stats, "islands"), verdict.rapid_cut,
-                verdict.deepest);
+                verdict.deepest, verdict.sunk);
             LONGS_EQUAL(one.stats.retracts, verdict.retracts);
             check_retracts(one.stats);
             CHECK(!verdict.low_rapid);
             CHECK(verdict.rapid_cut <= 0.05);
+            CHECK(verdict.sunk <= kRidge * one.path.tool.radius);
+            descents += static_cast<int>(std::count_if(
+                one.path.moves.begin(), one.path.moves.end(),
+                [](const ToolMove& move) { return move.kind == MoveKind::kDescent; }));
             CHECK(verdict.deepest <= task.operation.max_depth.value_or(1e300) * 1.02 + 0.03);
         }
     }
+    CHECK(descents > 0);
 }
 
 }  // namespace

@@ -57,6 +57,24 @@ TEST(ToolpathMeasure, StopsAtCornersOnlyOnTheExactPath)
     DOUBLES_EQUAL(2 * (0.14 + 46.5 / 50), measure(path, {0, 0, 0}).estimated_s, 1e-9);
 }
 
+TEST(ToolpathMeasure, DescentsGoDownNoFasterThanThePlungeFeed)
+{
+    Toolpath path;
+    path.feed = 1200;
+    path.plunge_feed = 300;
+    const auto feed = [&](MoveKind kind, Vec3d end) {
+        return feed_of(path, {kind, LineTo{end}}, {0, 0, 0});
+    };
+    DOUBLES_EQUAL(1200, feed(MoveKind::kCut, {0, 0, -5}), 1e-9);
+    DOUBLES_EQUAL(300, feed(MoveKind::kDescent, {0, 0, -5}), 1e-9);
+    DOUBLES_EQUAL(500, feed(MoveKind::kDescent, {4, 0, -3}), 1e-9);
+    DOUBLES_EQUAL(1200, feed(MoveKind::kDescent, {4, 0, 3}), 1e-9);
+    DOUBLES_EQUAL(1200, feed(MoveKind::kDescent, {10, 0, -1}), 1e-9);
+    // Down by its radius on a half turn.
+    const ToolMove helix{MoveKind::kDescent, ArcTo{{-5, 0, -5}, {0, 0, 0}, ArcPlane::kXY, false}};
+    DOUBLES_EQUAL(300 * std::hypot(kPi, 1), feed_of(path, helix, {5, 0, 0}), 1e-6);
+}
+
 TEST(ToolpathMeasure, HelicesTravelAlongTheirAxis)
 {
     const ArcShape arc = arc_shape({5, 0, 0}, {{5, 0, -2}, {0, 0, 0}, ArcPlane::kXY, true});

@@ -1,0 +1,21 @@
+// Moves that go down into metal: over cliffs of the floor, down steep slopes.
+#pragma once
+
+#include <vector>
+
+#include "host_tools/import/job.hpp"
+#include "host_tools/offset/contour.hpp"
+#include "host_tools/toolpath/toolpath.hpp"
+
+namespace cusp::host {
+
+// Cuts and links that go down so steeply that at the feed they would go down faster than at the
+// plunge feed become descents where that is into metal: upright ones from a little over it on,
+// others as a whole. Metal no deeper than a twentieth of the tool's radius does not count: ridges
+// that passes leave each other. `tests/property/contour_pocket` judges it.
+//
+// operations  in the order to cut, in the stock of `job`
+// box         all places that their axes may reach
+void slow_descents(std::vector<PlannedOperation>& operations, const Job& job, const Box2d& box);
+
+}  // namespace cusp::host
