@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "host_tools/offset/contour.hpp"
@@ -26,11 +27,11 @@ public:
     double touch(Vec2d at, double share = 1.0) const;
 
     // Takes what the tool sweeps on a straight move. Returns the deepest that it cuts, mm.
-    double cut(Vec3d from, Vec3d to) { return sweep(from, to, tool_); }
+    double cut(Vec3d from, Vec3d to) { return sweep(from, to, false); }
 
     // As cut(), by a tool that is smaller by slivers: what it would only graze stays, to be felt by
     // the next move that meets it.
-    double cut_inside(Vec3d from, Vec3d to) { return sweep(from, to, feeler_); }
+    double cut_inside(Vec3d from, Vec3d to) { return sweep(from, to, true); }
 
 private:
     // The tool's lower side: a flat of radius `flat`, a corner around it.
@@ -43,6 +44,10 @@ private:
     struct Range {
         std::size_t begin;
         std::size_t end;
+    };
+    struct Position {
+        Vec3d tip;
+        bool inside;  // of cut_inside()
     };
 
     double spacing_{};
@@ -58,10 +63,14 @@ private:
     std::size_t rows_;
     double top_;
     std::vector<float> heights_;
+    std::optional<Position> last_;  // the places under it are cut
 
     static Range range(double low, double high, double origin, double pitch, std::size_t count);
-    double sweep(Vec3d from, Vec3d to, const Profile& taken);
-    double cut_at(Vec3d tip, const Profile& taken);
+    double sweep(Vec3d from, Vec3d to, bool inside);
+    void cut_at(const Position& position, double& deepest);
+    void cut_column(std::size_t column, Range rows, const Position& position, double& deepest);
+    Range maybe_lower(double x, Range rows, Vec3d tip) const;
+    Range under_last(double x, Range rows, Vec3d tip) const;
 };
 
 }  // namespace cusp::host
