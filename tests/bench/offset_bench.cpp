@@ -141,11 +141,8 @@ Surface wavy_floor(int spans)
     return floor;
 }
 
-void plan_replica(benchmark::State& state, std::vector<Surface> floor)
+Operation replica_over(std::vector<Surface> floor)
 {
-    Job job;
-    job.file = "suh-lee.toml";
-    job.clearance = 5.0;
     Operation operation;
     operation.strategy = "contour_pocket";
     operation.floor = std::move(floor);
@@ -154,17 +151,40 @@ void plan_replica(benchmark::State& state, std::vector<Surface> floor)
     operation.tool = {1, ToolShape::kBall, 6.0, 6.0};
     operation.scallop = 0.4;
     operation.plan_tolerance = operation.floor_tolerance = 0.02;
+    return operation;
+}
+
+void plan(benchmark::State& state, const Operation& operation)
+{
+    Job job;
+    job.file = "pocket.toml";
+    job.clearance = 5.0;
     for (auto _ : state) {
         benchmark::DoNotOptimize(plan_contour_pocket(job, operation));
     }
 }
 
-void plan_replica(benchmark::State& state) { plan_replica(state, read_surfaces(part("floor"))); }
+void plan_replica(benchmark::State& state)
+{
+    plan(state, replica_over(read_surfaces(part("floor"))));
+}
 BENCHMARK(plan_replica)->Unit(benchmark::kMillisecond);
+
+// Roughing in layers and the finish; most of it feels the metal that stands.
+void plan_in_layers(benchmark::State& state, ToolShape shape)
+{
+    Operation operation = replica_over(read_surfaces(part("floor")));
+    operation.tool = {1, shape, 6.0, shape == ToolShape::kBall ? 6.0 : 0.0};
+    operation.max_depth = 5.0;
+    operation.allowance = 0.5;
+    plan(state, operation);
+}
+BENCHMARK_CAPTURE(plan_in_layers, ball, ToolShape::kBall)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(plan_in_layers, flat, ToolShape::kFlat)->Unit(benchmark::kMillisecond);
 
 void plan_by_spans_of_the_floor(benchmark::State& state)
 {
-    plan_replica(state, {wavy_floor(static_cast<int>(state.range(0)))});
+    plan(state, replica_over({wavy_floor(static_cast<int>(state.range(0)))}));
 }
 BENCHMARK(plan_by_spans_of_the_floor)->Arg(1)->Arg(10)->Arg(100)->Unit(benchmark::kMillisecond);
 
@@ -192,12 +212,7 @@ void plan_by_number_of_curves(benchmark::State& state)
     operation.tool = {1, ToolShape::kBall, 6.0, 6.0};
     operation.scallop = 0.4;
     operation.plan_tolerance = operation.floor_tolerance = 0.02;
-    Job job;
-    job.file = "gear.toml";
-    job.clearance = 5.0;
-    for (auto _ : state) {
-        benchmark::DoNotOptimize(plan_contour_pocket(job, operation));
-    }
+    plan(state, operation);
     state.SetComplexityN(state.range(0));
 }
 BENCHMARK(plan_by_number_of_curves)
