@@ -63,7 +63,10 @@ enum class PassStart : std::uint8_t {
 };
 
 struct ClearingPass {
-    Contour path;       // closed; starts and ends at path.front().start
+    Contour path;  // closed; starts and ends at path.front().start
+    // Where not empty: cut in place of the path once that has been cut at all heights over it; the
+    // same start.
+    Contour last;
     int level{};        // 0: next to the contours
     double distance{};  // of the level from the contours, mm
     PassStart start{};

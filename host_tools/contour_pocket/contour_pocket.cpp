@@ -114,12 +114,12 @@ public:
     PlannedOperation plan(const RoughResult* rough)
     {
         begun_ = rough != nullptr ? kRoughingDone : 0.0;
-        ClearedRegion cleared = passes(rough == nullptr);
+        ClearedRegion cleared = passes();
         std::vector<ClearingPass> cliffs = passes_at_cliffs(cleared);
         loops_ = static_cast<int>(cleared.passes.size());
         cliff_passes_ = static_cast<int>(cliffs.size());
-        put_in_partial_loops(cleared);
-        if (cleared.saved > 0.0) {
+        if (rough == nullptr && cleared.saved > 0.0) {
+            put_in_partial_loops(cleared);
             cliffs = add_cliff_detours(cleared, cliffs, walls_, budget_.first - budget_.aside,
                                        operation_.tool.radius);
         }
@@ -134,6 +134,7 @@ public:
         if (rough != nullptr) {
             settings.repeated = beside_roughing(cleared, *rough);
             flatten(cleared, settings);
+            end_with_partial_loops(cleared);
             const bool stands = operation_.allowance > 0.0 ||
                                 rough->operation.path.tool.number != operation_.tool.number;
             if (stands) {
@@ -157,9 +158,7 @@ public:
 private:
     void report(double share) const { job_.report_progress(share, begun_); }
 
-    // partial: roughed pockets are finished in layers, too, where partial loops would be cut in
-    // each.
-    ClearedRegion passes(bool partial)
+    ClearedRegion passes()
     {
         ClearingSettings settings;
         settings.first = budget_.first;
@@ -178,7 +177,7 @@ private:
                 return ridge_.share(strip);
             };
         }
-        if (corners && partial) {
+        if (corners) {
             settings.partial_step = [&](const Region2d& level, double step) {
                 return interval.with_partial_loops(level, step);
             };
@@ -300,6 +299,19 @@ private:
                 Contour& path = cleared.passes[i].path;
                 path = flattened(path, settings.laying.aside, settings.laying.spacing,
                                  settings.laying.arcs);
+            }
+        }
+    }
+
+    // Only the loops themselves are cut at several heights.
+    static void end_with_partial_loops(ClearedRegion& cleared)
+    {
+        ClearedRegion last = cleared;
+        put_in_partial_loops(last);
+        for (std::size_t i = 0; i < cleared.passes.size(); ++i) {
+            ClearingPass& pass = cleared.passes[i];
+            if (last.passes[i].path.size() > pass.path.size()) {
+                pass.last = std::move(last.passes[i].path);
             }
         }
     }

@@ -292,6 +292,20 @@ void FloorCutter::cut_pass(ClearingPass& pass, const CutSettings& settings, bool
     }
 }
 
+// Its path as often as it is too deep, what comes last once.
+void FloorCutter::cut_last(ClearingPass& pass, const CutSettings& settings, bool repeated)
+{
+    if (!pass.last.empty()) {
+        feel();
+        const Laid deep = lay(pass, settings, repeated);
+        if (too_deep(deep.path, settings)) {
+            cut_above(deep, settings, repeated);
+        }
+        pass.path = pass.last;
+    }
+    cut_pass(pass, settings, repeated);
+}
+
 // What roughing left beside these is cut level by level.
 void FloorCutter::cut_standing(std::vector<ClearingPass>& passes, const CutSettings& settings)
 {
@@ -351,7 +365,7 @@ void FloorCutter::cut(const ClearedRegion& cleared, const CutSettings& settings)
             cut_standing(passes, settings);
         }
         for (std::size_t i = first; i < end; ++i) {
-            cut_pass(passes[i - first], settings, is_set(settings.repeated, i));
+            cut_last(passes[i - first], settings, is_set(settings.repeated, i));
         }
         if (settings.progress) {
             settings.progress(static_cast<double>(end) / static_cast<double>(n));

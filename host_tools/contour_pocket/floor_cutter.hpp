@@ -89,6 +89,7 @@ private:
                  std::size_t to,
                  const CutSettings& settings);
     void cut_standing(std::vector<ClearingPass>& passes, const CutSettings& settings);
+    void cut_last(ClearingPass& pass, const CutSettings& settings, bool repeated);
     void cut_pass(ClearingPass& pass, const CutSettings& settings, bool repeated);
     Laid cut_above(const Laid& deep, const CutSettings& settings, bool repeated);
     FloorPath laid(const std::vector<Edge>& plan, const FloorPathSettings& laying);

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "host_tools/contour_pocket/contour_pocket.hpp"
+#include "tests/property/contour_pocket/moves_judge.hpp"
 #include "tests/property/contour_pocket/pocket_judge.hpp"
 #include "tests/property/offset/random_regions.hpp"
 #include "tests/support/property_cases.hpp"
@@ -82,6 +83,21 @@ Operation random_steep_pocket(Random& random)
     return operation;
 }
 
+int partial_loops(const PlannedOperation& planned)
+{
+    const auto& counts = planned.stats.counts;
+    const auto found = std::find_if(counts.begin(), counts.end(), [](const auto& count) {
+        return count.first == "partial_loops";
+    });
+    return found == counts.end() ? 0 : static_cast<int>(found->second);
+}
+
+Region2d square_region()
+{
+    return {{{line_edge({-20.0, -20.0}, {20.0, -20.0}), line_edge({20.0, -20.0}, {20.0, 20.0}),
+              line_edge({20.0, 20.0}, {-20.0, 20.0}), line_edge({-20.0, 20.0}, {-20.0, -20.0})}}};
+}
+
 TEST_GROUP(PartialLoopsOnSteepHills){};
 
 TEST(PartialLoopsOnSteepHills, LeaveNothingOverTheScallop)
@@ -92,14 +108,9 @@ TEST(PartialLoopsOnSteepHills, LeaveNothingOverTheScallop)
     for (int i = 0; i < property_cases(3); ++i) {
         const Operation operation = random_steep_pocket(random);
         const PlannedOperation planned = planned_pocket(operation);
-        for (const auto& [name, count] : planned.stats.counts) {
-            partial += name == "partial_loops" ? static_cast<int>(count) : 0;
-        }
-        const Contour square{
-            line_edge({-20.0, -20.0}, {20.0, -20.0}), line_edge({20.0, -20.0}, {20.0, 20.0}),
-            line_edge({20.0, 20.0}, {-20.0, 20.0}), line_edge({-20.0, 20.0}, {-20.0, -20.0})};
+        partial += partial_loops(planned);
         const PocketVerdict verdict =
-            judge_pocket(operation.floor, {{square}}, planned.path, 1.0, 300);
+            judge_pocket(operation.floor, square_region(), planned.path, 1.0, 300);
         std::printf(
             "seed %u pocket %d: gouge %.4f left %.4f of %.4f, %d levels, %d partial loops\n", kSeed,
             i, verdict.floor_gouge, verdict.most_left, *operation.scallop, planned.stats.levels,
@@ -108,6 +119,45 @@ TEST(PartialLoopsOnSteepHills, LeaveNothingOverTheScallop)
         CHECK(verdict.most_left <= *operation.scallop + 1e-3);
         DOUBLES_EQUAL(0.0, verdict.uncut, 0.0);
         LONGS_EQUAL(1, planned.stats.retracts);
+    }
+    CHECK(partial > 0);
+}
+
+TEST(PartialLoopsOnSteepHills, AreCutOnceAndNoDeeperThanAllowedAfterRoughing)
+{
+    constexpr unsigned kSeed = 1995;
+    Random random{kSeed};
+    int partial = 0;
+    for (int i = 0; i < property_cases(2); ++i) {
+        Job job;
+        job.file = "job";
+        job.stock_top = 1.0;
+        job.clearance = 5.0;
+        Operation operation = random_steep_pocket(random);
+        operation.tools = {operation.tool};
+        operation.max_depth = uniform(random, 2.0, 4.0);
+        operation.allowance = i % 2 == 0 ? 0.0 : uniform(random, 0.1, 0.4);
+        const std::vector<PlannedOperation> planned = plan_contour_pocket(job, operation);
+        LONGS_EQUAL(2, planned.size());
+        const Region2d region = square_region();
+        MovesJudge moves{region, job.stock_top, operation.tool.radius, operation.tool.radius};
+        const double clearance = job.stock_top + job.clearance;
+        moves.cut(planned.front().path, clearance, true);
+        const MovesVerdict finish = moves.cut(planned.back().path, clearance, true);
+        const PocketVerdict verdict =
+            judge_pocket(operation.floor, region, planned.back().path, 1.0, 300);
+        partial += partial_loops(planned.back());
+        std::printf(
+            "seed %u layered %d: gouge %.4f left %.4f of %.4f, %d partial loops, deepest "
+            "%.3f of %.3f\n",
+            kSeed, i, verdict.floor_gouge, verdict.most_left, *operation.scallop,
+            partial_loops(planned.back()), finish.deepest, *operation.max_depth);
+        CHECK(verdict.floor_gouge <= 1e-6);
+        CHECK(verdict.most_left <= *operation.scallop + 1e-3);
+        DOUBLES_EQUAL(0.0, verdict.uncut, 0.0);
+        CHECK(finish.deepest <= *operation.max_depth * 1.02 + 0.03);
+        CHECK(finish.rapid_cut <= 0.05);
+        LONGS_EQUAL(1, planned.back().stats.retracts);
     }
     CHECK(partial > 0);
 }
