@@ -217,12 +217,6 @@ private:
     PlaneRest on_edges(const Piece& piece, Vec2d at) const;
     PlaneRest on_edges(
         const Rectangle& part, Vec2d slope, double here, double reach, Vec2d at) const;
-    // Of a tool on a straight edge.
-    struct EdgeRest {
-        double lift;   // of the tip over the edge's height at the tool's axis
-        double forth;  // along the edge: where it touches
-    };
-    EdgeRest on_edge(double slope, double away, double low, double high) const;
 
     Tool tool_;
     double accuracy_;

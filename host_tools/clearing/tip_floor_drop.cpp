@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/clearing/edge_rest.hpp"
 #include "host_tools/clearing/tip_floor.hpp"
 #include "host_tools/offset/contour.hpp"
 
@@ -16,82 +17,6 @@ double square_of(double x) { return x * x; }
 
 }  // namespace
 
-// The highest value of slope y - profile over y in [low, high], at the distance sqrt(away^2 + y^2)
-// from the tool's axis: how far a straight edge lifts the tip. The profile is convex, so the value
-// has one top; where it lies inside, false position finds it to nanometres in few steps, at most
-// forty.
-TipFloor::EdgeRest TipFloor::on_edge(double slope, double away, double low, double high) const
-{
-    const double r = tool_.radius;
-    const double c = tool_.corner_radius;
-    const double room = r * r - away * away;
-    if (room <= 0.0) {
-        return {kNothing, 0.0};
-    }
-    const double reach = std::sqrt(room);
-    low = std::max(low, -reach);
-    high = std::min(high, reach);
-    if (low > high) {
-        return {kNothing, 0.0};
-    }
-    const auto rest_at = [&](double y) {
-        const double out = std::max(0.0, std::sqrt(away * away + y * y) - (r - c));
-        return EdgeRest{slope * y - (c - std::sqrt(std::max(c * c - out * out, 0.0))), y};
-    };
-    const auto higher = [](EdgeRest one, EdgeRest other) {
-        return one.lift < other.lift ? other : one;
-    };
-    if (c == 0.0) {
-        return higher(rest_at(low), rest_at(high));
-    }
-    if (c == r) {
-        const double secant = std::sqrt(1.0 + slope * slope);
-        const double top = slope * reach / secant;
-        const double y = std::clamp(top, low, high);
-        return {
-            y == top ? reach * secant - c : slope * y - c + std::sqrt(std::max(room - y * y, 0.0)),
-            y};
-    }
-    // Positive where the value rises.
-    const auto rise = [&](double y) {
-        const double d = std::sqrt(away * away + y * y);
-        const double out = std::max(0.0, d - (r - c));
-        return slope * d * std::sqrt(std::max(c * c - out * out, 0.0)) - out * y;
-    };
-    double a = low;
-    double b = high;
-    double rise_a = rise(a);
-    double rise_b = rise(b);
-    if (rise_a <= 0.0 || rise_b >= 0.0) {
-        return higher(rest_at(low), rest_at(high));
-    }
-    // False position, where one end stays its weight is halved. The top is flat: a hundred
-    // thousandth of the radius off it misses its height by the square of that.
-    constexpr int kRounds = 40;
-    const double near = 1e-5 * r;
-    int stayed = 0;
-    for (int i = 0; i < kRounds && b - a > near; ++i) {
-        // Now and then by half, which no shape of the tool slows down.
-        const double share = i % 8 == 7 ? 0.5 : rise_a / (rise_a - rise_b);
-        const double y = a + share * (b - a);
-        const double here = rise(y);
-        if (std::abs(here) < 1e-6 * c * r) {
-            a = b = y;
-        } else if (here > 0.0) {
-            a = y;
-            rise_a = here;
-            rise_b *= stayed > 0 ? 0.5 : 1.0;
-            stayed = 1;
-        } else {
-            b = y;
-            rise_b = here;
-            rise_a *= stayed < 0 ? 0.5 : 1.0;
-            stayed = -1;
-        }
-    }
-    return higher(higher(rest_at(a), rest_at(b)), higher(rest_at(low), rest_at(high)));
-}
-
 // The highest rest of the tool on a plane above a rectangle; kNothing where the place at which the
 // tool touches the plane, `reach` slopes from its axis, lies inside. The tip's height is concave
 // over the rectangle: where its top lies outside, the best place inside is on an edge that faces
@@ -105,12 +30,12 @@ TipFloor::PlaneRest TipFloor::on_edges(
     PlaneRest best{kNothing, contact};
     if (contact.x < part.x0 || contact.x > part.x1) {
         const double x = (contact.x < part.x0 ? part.x0 : part.x1) - at.x;
-        const EdgeRest rest = on_edge(slope.y, x, part.y0 - at.y, part.y1 - at.y);
+        const EdgeRest rest = rest_on_edge(tool_, slope.y, x, part.y0 - at.y, part.y1 - at.y);
         best = {here + slope.x * x + rest.lift, at + Vec2d{x, rest.forth}};
     }
     if (contact.y < part.y0 || contact.y > part.y1) {
         const double y = (contact.y < part.y0 ? part.y0 : part.y1) - at.y;
-        const EdgeRest rest = on_edge(slope.x, y, part.x0 - at.x, part.x1 - at.x);
+        const EdgeRest rest = rest_on_edge(tool_, slope.x, y, part.x0 - at.x, part.x1 - at.x);
         const double height = here + slope.y * y + rest.lift;
         best = height > best.height ? PlaneRest{height, at + Vec2d{rest.forth, y}} : best;
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/clearing/edge_rest.hpp"
 #include "host_tools/clearing/tip_floor.hpp"
 #include "host_tools/offset/contour.hpp"
 
@@ -129,7 +130,7 @@ TipFloor::PlaneRest TipFloor::on_outline(const Piece& piece, Vec2d at) const
             const double away = side.outer - dot(at, side.across);
             const double forth = dot(at, along);
             const EdgeRest rest =
-                on_edge(dot(g, along), away, side.begin - forth, side.end - forth);
+                rest_on_edge(tool_, dot(g, along), away, side.begin - forth, side.end - forth);
             const double height = here + dot(g, side.across) * away + rest.lift;
             if (height > best.height) {
                 best = {height, at + side.across * away + along * rest.forth};

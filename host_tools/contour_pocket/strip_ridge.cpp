@@ -235,7 +235,7 @@ double StripRidge::left_at(Vec2d at, Vec2d near) const
                  cells_[static_cast<std::size_t>(row * columns_ + column)]) {
                 const TipSegment& s = segments_[k];
                 if (std::min(s.start.z, s.end.z) < least) {
-                    least = std::min(least, cut_over(floor_.tool(), s, at));
+                    least = std::min(least, cut_over(floor_.tool(), s, at, least));
                 }
             }
         }

@@ -15,7 +15,7 @@ struct TipSegment {
 inline constexpr double kNowhere = 1e300;
 
 // How low the tool, moved along the segment, cuts over the plan position: z, mm; kNowhere where it
-// does not get there.
-double cut_over(const Tool& tool, const TipSegment& segment, Vec2d at);
+// does not get there, or where it is known soon that it is not lower than `below`.
+double cut_over(const Tool& tool, const TipSegment& segment, Vec2d at, double below = kNowhere);
 
 }  // namespace cusp::host
