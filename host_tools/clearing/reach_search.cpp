@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/clearing/ball_directions.hpp"
 #include "host_tools/surface_offset/pattern_search.hpp"
 
 namespace cusp::host {
@@ -13,6 +14,12 @@ constexpr int kMostDrops = 10;          // from a start
 constexpr std::size_t kMostStarts = 3;  // apart from each other
 constexpr double kApart = 0.3;          // radii
 constexpr double kFinest = 1e-3;        // of the pitch
+// Where no walk leads lower.
+constexpr std::size_t kMostTriangles = 600;  // of directions that are looked at
+constexpr int kMostWalks = 10;               // to what the contacts known leave open
+constexpr int kMostTries = 40;               // drops for nothing but a contact
+constexpr std::size_t kMostRemembered = 64;  // contacts
+constexpr double kMoreGained = 0.25;         // of what is gained: worth another search
 
 double square(double a) { return a * a; }
 
@@ -56,9 +63,23 @@ const ReachSearch::Rest& ReachSearch::node(std::int64_t i, std::int64_t j)
 }
 
 // The contacts of all nodes are kept.
+void ReachSearch::remember(Vec3d contact)
+{
+    if (remembered_.size() < kMostRemembered) {
+        remembered_.push_back(contact);
+    } else {
+        remembered_[next_remembered_++ % kMostRemembered] = contact;
+    }
+}
+
 std::vector<ReachSearch::Answer> ReachSearch::starts_over(Vec3d place)
 {
     contacts_.clear();
+    for (const Vec3d& contact : remembered_) {
+        if (std::hypot(contact.x - place.x, contact.y - place.y) < 2 * radius_) {
+            contacts_.push_back(contact);
+        }
+    }
     std::vector<Answer> all;
     const auto cell = [&](double at) {
         return static_cast<std::int64_t>(std::floor(at / pitch_));
@@ -188,6 +209,56 @@ void ReachSearch::improve_by_drops(Vec3d place, Answer& best)
     pattern_search({best.centre.x, best.centre.y}, pitch_, kFinest * pitch_, lower);
 }
 
+// Walks from a few starts miss narrow ways between cliffs. The directions that no contact bars are
+// quartered, large parts first, and their middles are tried: whether the ball gets lower than a
+// height, and the first place found where it does.
+//
+// Precondition: the tool is a ball
+std::optional<ReachSearch::Answer> ReachSearch::lower_than(double height, Vec3d place, bool& proved)
+{
+    BallDirections directions{{place.x, place.y, height}, radius_, contact_corner_};
+    for (const Vec3d& contact : contacts_) {
+        directions.add(contact);
+    }
+    const auto whole = BallDirections::half_sphere();
+    std::vector<BallDirections::Triangle> open{whole.begin(), whole.end()};
+    int walks = 0;
+    int tries = 0;
+    for (std::size_t k = 0; k < open.size() && k < kMostTriangles; ++k) {
+        const BallDirections::Triangle triangle = open[k];
+        if (directions.bars(triangle)) {
+            continue;
+        }
+        const Vec3d middle = directions.centre(BallDirections::middle(triangle));
+        Vec2d at{middle.x, middle.y};
+        const bool open_middle = lowest_known(place, at) < height;
+        const double edge = norm(triangle[0] - triangle[1]);
+        // Among nodes too few contacts are known.
+        if (open_middle || (edge * radius_ < pitch_ && ++tries < kMostTries)) {
+            if (open_middle && ++walks < kMostWalks) {
+                at = improved(place, at);
+            }
+            const Rest rest = drop_(at.x, at.y);
+            if (std::isfinite(rest.centre.z)) {
+                const Answer there{rest.centre, height_under(rest.centre, place)};
+                contacts_.push_back(rest.contact);
+                remember(rest.contact);
+                if (there.height < height) {
+                    return there;
+                }
+                directions.add(rest.contact);
+                if (directions.bars(triangle)) {
+                    continue;
+                }
+            }
+        }
+        const auto parts = BallDirections::quarters(triangle);
+        open.insert(open.end(), parts.begin(), parts.end());
+    }
+    proved = open.size() <= kMostTriangles;
+    return std::nullopt;
+}
+
 std::optional<ReachSearch::Answer> ReachSearch::over(Vec3d place,
                                                      double worth,
                                                      double enough,
@@ -207,15 +278,36 @@ std::optional<ReachSearch::Answer> ReachSearch::over(Vec3d place,
     if (first && std::isfinite(first->height)) {
         starts.push_back(*first);
     }
+    const bool ball = flat_ == 0;
     std::optional<Answer> best;
+    // Mostly there is nothing better, and that is told at once.
+    if (ball && !starts.empty() &&
+        std::none_of(starts.begin(), starts.end(),
+                     [&](const Answer& start) { return start.height < worth; })) {
+        bool proved = false;
+        best = lower_than(worth - agrees_, place, proved);
+        if (!best && proved) {
+            return starts.front();
+        }
+    }
     for (const Answer& start : starts) {
         improve_from(start, place, worth, best);
         if (best->height <= enough) {
-            break;
+            return best;
         }
     }
-    if (best && corner_ == 0 && best->height > enough) {
+    if (best && corner_ == 0) {
         improve_by_drops(place, *best);
+    }
+    while (ball && best && best->height > enough && best->height < worth) {
+        const double gained = worth - best->height;
+        bool proved = false;
+        const auto lower =
+            lower_than(best->height - std::max(agrees_, kMoreGained * gained), place, proved);
+        if (!lower) {
+            break;
+        }
+        improve_from(*lower, place, worth, best);
     }
     return best;
 }

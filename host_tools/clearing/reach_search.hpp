@@ -17,9 +17,12 @@ namespace cusp::host {
 
 // Drops of the tool on a grid, made where first asked for, say where to begin. From there the
 // position is improved over all contacts found so far, which are the floor that the tool stands on,
-// dropped, and so on until drop and contacts agree (Kelley's way).
+// dropped, and so on until drop and contacts agree (Kelley's way). For a ball all directions from
+// which it may get lower are looked at, too: those that a contact bars are out (`BallDirections`),
+// the others are divided until all are, or something better is found.
 //
-// A search, not a proof: a better position may hide between the places of the grid.
+// Not quite a proof: the division ends after some hundred parts, and for other tools a better
+// position may hide between the places of the grid.
 class ReachSearch {
 public:
     // Where a tool that was let down comes to rest.
@@ -67,6 +70,9 @@ private:
     void improve_from(const Answer& start, Vec3d place, double worth, std::optional<Answer>& best);
 
     void improve_by_drops(Vec3d place, Answer& best);
+    // proved  set to whether none is found because there is none
+    std::optional<Answer> lower_than(double height, Vec3d place, bool& proved);
+    void remember(Vec3d contact);
 
     double radius_;
     double flat_;            // mm: radius of the tool's flat
@@ -76,7 +82,10 @@ private:
     double agrees_;
     Drop drop_;
     std::unordered_map<std::uint64_t, Rest> nodes_;
-    std::vector<Vec3d> contacts_;  // near the place asked for
+    std::vector<Vec3d> contacts_;    // near the place asked for
+    std::vector<Vec3d> remembered_;  // contacts between nodes, the last ones found: the next place
+                                     // asked for is mostly near
+    std::size_t next_remembered_{};
 };
 
 // The floor's tool let down on it. The contact is where the tool is stopped, as far above the

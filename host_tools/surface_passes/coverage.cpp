@@ -13,7 +13,7 @@ namespace {
 constexpr double kSmallest = 1.0 / 96;  // cells, in steps between passes
 constexpr double kLargest = 4;          // the same
 constexpr double kBorderCell = 0.03;    // the same across a border, where a ball reaches over it
-constexpr double kSteepCell = 0.1;      // the same where what stands is steep
+constexpr double kSteepCell = 0.04;     // the same where what stands is steep
 constexpr double kSteepShare = 4.0;     // of the scallop, between corners: steep
 constexpr double kGapCell = 0.125;      // the same where gaps are looked for, over places
 constexpr int kDeepest = 40;

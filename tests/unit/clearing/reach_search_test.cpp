@@ -126,3 +126,41 @@ TEST(ReachSearch, IsNoHigherThanTheBestOfManyPositions)
         }
     }
 }
+
+// A steep sheet between level ones: on it and beside its rims little but the ball's flank gets down
+// to a place.
+TEST(ReachSearch, FindsWhereOnlyTheFlankOfTheBallGetsLower)
+{
+    constexpr unsigned kSeed = 12;
+    constexpr double kMore = 0.03;
+    std::mt19937 random{kSeed};
+    const auto any = [&](double low, double high) {
+        return std::uniform_real_distribution<double>{low, high}(random);
+    };
+    const Tool ball{1, ToolShape::kBall, 3.0, 3.0};
+    for (int round = 0; round < 40; ++round) {
+        const double wide = any(0.5, 1.5);
+        const double rise = any(1, 4);
+        const double left = any(0, 1) < 0.5 ? 0 : rise;
+        const double right = rise - left;
+        const double low = any(-1, 1);
+        const double high = rise + any(-1, 1);
+        const std::vector<Surface> sheets{
+            facet({-6, 0, low + any(-0.5, 0.5)}, {-6, 8, low + any(-0.5, 0.5)}, {0, 0, low},
+                  {0, 8, low + any(-0.5, 0.5)}),
+            facet({0.1, 0, left}, {0.1, 8, left}, {wide, 0, right}, {wide, 8, right}),
+            facet({wide + 0.1, 0, high}, {wide + 0.1, 8, high + any(-0.5, 0.5)},
+                  {wide + 6, 0, high + any(-0.5, 0.5)}, {wide + 6, 8, high})};
+        const TipFloor floor{sheets, ball, 1e-4};
+        ReachSearch search = search_over(floor, ball, 0.006);
+        const double share = any(0, 1);
+        const Vec3d place{0.1 + share * (wide - 0.1), any(0, 1) < 0.5 ? 0 : any(0, 0.1),
+                          left + share * (right - left)};
+        const double worth = least_tried(floor, ball, place, 0.1) + kMore;
+        const auto answer = search.over(place, worth);
+        const std::string where =
+            "seed " + std::to_string(kSeed) + " round " + std::to_string(round) + ": " +
+            std::to_string(answer ? answer->height : 0) + " > " + std::to_string(worth);
+        CHECK_TEXT(answer && answer->height <= worth, where.c_str());
+    }
+}
