@@ -67,6 +67,9 @@ public:
                     verdict.turned += link && dot(along, unit(way)) < kCorner ? 1 : 0;
                     along = unit(way);
                     before = move.kind;
+                } else if (move.kind == MoveKind::kPlunge) {
+                    // What goes over the metal and straight down is no link, but an entry.
+                    before = move.kind;
                 }
             }
         }
