@@ -215,4 +215,16 @@ void put_in_partial_loops(ClearedRegion& cleared)
     }
 }
 
+void end_with_partial_loops(ClearedRegion& cleared)
+{
+    ClearedRegion last = cleared;
+    put_in_partial_loops(last);
+    for (std::size_t i = 0; i < cleared.passes.size(); ++i) {
+        ClearingPass& pass = cleared.passes[i];
+        if (last.passes[i].path.size() > pass.path.size()) {
+            pass.last = std::move(last.passes[i].path);
+        }
+    }
+}
+
 }  // namespace cusp::host

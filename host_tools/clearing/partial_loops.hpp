@@ -25,4 +25,7 @@ double added_length(const std::vector<PartialLoop>& loops);
 // their order.
 void put_in_partial_loops(ClearedRegion& cleared);
 
+// Leaves the passes' paths as they are: ClearingPass::last has the partial loops put in.
+void end_with_partial_loops(ClearedRegion& cleared);
+
 }  // namespace cusp::host

@@ -138,7 +138,7 @@ public:
             const bool stands = operation_.allowance > 0.0 ||
                                 rough->operation.path.tool.number != operation_.tool.number;
             if (stands) {
-                settings.standing = {settings.repeated, job_.stock_top,
+                settings.standing = {standing(cleared, settings.repeated), job_.stock_top,
                                      depths_beside(cleared, *rough)};
             }
         }
@@ -237,6 +237,15 @@ private:
         return result;
     }
 
+    // Passes along cliffs lie in metal that loops have cut down to where it is known.
+    std::vector<bool> standing(const ClearedRegion& cleared, std::vector<bool> beside) const
+    {
+        for (std::size_t i = 0; operation_.max_depth && i < beside.size(); ++i) {
+            beside[i] = beside[i] && !cleared.passes[i].at_cliff;
+        }
+        return beside;
+    }
+
     // Which passes meet metal that roughing did not reach: the allowance beside the walls, corners,
     // necks and valleys of the floor that its tool does not fit into. Loops of its tool leave metal
     // at cliffs, too.
@@ -299,19 +308,6 @@ private:
                 Contour& path = cleared.passes[i].path;
                 path = flattened(path, settings.laying.aside, settings.laying.spacing,
                                  settings.laying.arcs);
-            }
-        }
-    }
-
-    // Only the loops themselves are cut at several heights.
-    static void end_with_partial_loops(ClearedRegion& cleared)
-    {
-        ClearedRegion last = cleared;
-        put_in_partial_loops(last);
-        for (std::size_t i = 0; i < cleared.passes.size(); ++i) {
-            ClearingPass& pass = cleared.passes[i];
-            if (last.passes[i].path.size() > pass.path.size()) {
-                pass.last = std::move(last.passes[i].path);
             }
         }
     }
