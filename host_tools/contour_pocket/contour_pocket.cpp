@@ -8,6 +8,7 @@
 
 #include "host_tools/clearing/clearing.hpp"
 #include "host_tools/clearing/partial_loops.hpp"
+#include "host_tools/clearing/slow_descents.hpp"
 #include "host_tools/clearing/tip_floor.hpp"
 #include "host_tools/contour_pocket/cliff_detours.hpp"
 #include "host_tools/contour_pocket/cliff_passes.hpp"
@@ -17,7 +18,6 @@
 #include "host_tools/contour_pocket/pocket_task.hpp"
 #include "host_tools/contour_pocket/rest_material.hpp"
 #include "host_tools/contour_pocket/rough_layers.hpp"
-#include "host_tools/contour_pocket/slow_descents.hpp"
 #include "host_tools/contour_pocket/strip_ridge.hpp"
 #include "host_tools/offset/offset.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"

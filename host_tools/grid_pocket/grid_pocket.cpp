@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "host_tools/clearing/slow_descents.hpp"
 #include "host_tools/grid_pocket/grid_passes.hpp"
 #include "host_tools/grid_pocket/pocket_space.hpp"
 
@@ -168,10 +169,11 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
     warn_of_layers(job, planes, stats);
     warn_of_cliffs(pocket, stats);
     warn_of_entries(planner.moves(), operation, stats);
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
-    stats.planning_s = spent.count();
     std::vector<PlannedOperation> result;
     result.push_back(std::move(out));
+    slow_descents(result, job, box_of(walls.region));
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    result.back().stats.planning_s = spent.count();
     return result;
 }
 

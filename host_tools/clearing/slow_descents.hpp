@@ -1,4 +1,4 @@
-// Moves that go down into metal: over cliffs of the floor, down steep slopes.
+// Moves that go down into metal: over cliffs of a floor, down steep slopes.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,7 @@ namespace cusp::host {
 // Cuts and links that go down so steeply that at the feed they would go down faster than at the
 // plunge feed become descents where that is into metal: upright ones from a little over it on,
 // others as a whole. Metal no deeper than a twentieth of the tool's radius does not count: ridges
-// that passes leave each other. `tests/property/contour_pocket` judges it.
+// that passes leave each other. `moves_property_test` and `slow_descents_test` judge it.
 //
 // operations  in the order to cut, in the stock of `job`
 // box         all places that their axes may reach

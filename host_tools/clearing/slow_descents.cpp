@@ -1,5 +1,5 @@
 // Cuts the stock in memory, as far as the last move goes that is too steep.
-#include "host_tools/contour_pocket/slow_descents.hpp"
+#include "host_tools/clearing/slow_descents.hpp"
 
 #include <algorithm>
 #include <cmath>
