@@ -108,7 +108,7 @@ TipFloor::TipFloor(const std::vector<Surface>& surfaces, const Tool& tool, doubl
 // floor; where the next ones need it, it is halved again.
 void TipFloor::make_room() const
 {
-    constexpr std::size_t kMostHalves = 600000;  // some 0.3 GB
+    constexpr std::size_t kMostHalves = 100000;  // some 50 MB
     if (pieces_.size() < whole_.pieces.size() + kMostHalves) {
         return;
     }
