@@ -17,6 +17,7 @@ constexpr double kSteepCell = 0.04;     // the same where what stands is steep
 constexpr double kSteepShare = 4.0;     // of the scallop, between corners: steep
 constexpr double kGapCell = 0.125;      // the same where gaps are looked for, over places
 constexpr int kDeepest = 40;
+constexpr double kBorderSlack = 1e-6;  // of a surface's domain
 
 double largest(const std::array<double, 4>& of) { return *std::max_element(of.begin(), of.end()); }
 
@@ -51,6 +52,17 @@ Coverage::Corner Coverage::corner(int surface, double u, double v) const
     Corner out{surface, u, v, certified_.model().evaluate(surface, u, v), {}};
     out.normal = certified_.model().facing_up(surface, u, v, out.point);
     return out;
+}
+
+// Whether a place belongs to the surface. Trims that run along a border may miss it by rounding.
+bool Coverage::inside_trims(int surface, double u, double v) const
+{
+    const Surface& s = surfaces_[static_cast<std::size_t>(surface)];
+    const double slack_u = kBorderSlack * (s.u_end() - s.u_begin());
+    const double slack_v = kBorderSlack * (s.v_end() - s.v_begin());
+    return certified_.model().inside_trims(
+        surface, std::clamp(u, s.u_begin() + slack_u, s.u_end() - slack_u),
+        std::clamp(v, s.v_begin() + slack_v, s.v_end() - slack_v));
 }
 
 // Whether a ball can touch the place.
@@ -223,7 +235,7 @@ bool Coverage::stands_steep(const std::array<Corner, 4>& at) const
     double most = -least;
     int outside = 0;
     for (const Corner& c : at) {
-        if (!certified_.model().inside_trims(c.surface, c.u, c.v)) {
+        if (!inside_trims(c.surface, c.u, c.v)) {
             ++outside;
             continue;
         }
@@ -251,7 +263,7 @@ bool Coverage::settled(const Cell& cell,
 {
     const Surface& s = surfaces_[static_cast<std::size_t>(cell.surface)];
     const auto inside = [&](const Corner& c) {
-        return c.normal.z >= kUprightNormal && certified_.model().inside_trims(c.surface, c.u, c.v);
+        return c.normal.z >= kUprightNormal && inside_trims(c.surface, c.u, c.v);
     };
     return cell.u0 > s.u_begin() && cell.u1 < s.u_end() && cell.v0 > s.v_begin() &&
            cell.v1 < s.v_end() && inside(middle) &&
@@ -264,7 +276,7 @@ bool Coverage::settled(const Cell& cell,
 // Whether the place is trimmed away or lies well under another surface.
 bool Coverage::hidden(const Corner& at) const
 {
-    return !certified_.model().inside_trims(at.surface, at.u, at.v) ||
+    return !inside_trims(at.surface, at.u, at.v) ||
            hidden_places().hidden(at.point.point, at.normal);
 }
 
@@ -273,16 +285,15 @@ bool Coverage::hidden(const Corner& at) const
 bool Coverage::lies_under_others(const Cell& cell, const std::array<Corner, 4>& at) const
 {
     const HiddenPlaces& places = hidden_places();
-    const SurfaceModel& model = certified_.model();
     const bool corners = std::all_of(at.begin(), at.end(), [&](const Corner& c) {
-        return places.under_others(c.point.point) || !model.inside_trims(c.surface, c.u, c.v);
+        return places.under_others(c.point.point) || !inside_trims(c.surface, c.u, c.v);
     });
     if (!corners) {
         return false;
     }
     const Corner middle = middle_of(cell);
     return places.under_others(middle.point.point) &&
-           model.inside_trims(cell.surface, middle.u, middle.v);
+           inside_trims(cell.surface, middle.u, middle.v);
 }
 
 // Whether the cell's own surface, which is whole, lies over it: just under the equator of a ball.

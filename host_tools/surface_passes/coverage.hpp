@@ -99,6 +99,7 @@ private:
     enum class Verdict : std::uint8_t { kCovered, kHalveU, kHalveV, kUncovered };
 
     Corner corner(int surface, double u, double v) const;
+    bool inside_trims(int surface, double u, double v) const;
     // at  its corners, as `corners_of` gives them
     void look_into(const Cell& cell, const std::array<Corner, 4>& at, int depth);
     Verdict judge(const Cell& cell, const std::array<Corner, 4>& at) const;

@@ -22,7 +22,7 @@ std::optional<Vec3d> Coverage::missing_tip(int surface,
                                            bool where_blocked) const
 {
     const Corner at = corner(surface, u, v);
-    if (!certified_.model().inside_trims(surface, u, v)) {
+    if (!inside_trims(surface, u, v)) {
         return std::nullopt;
     }
     if (place_covered(at)) {

@@ -3,12 +3,17 @@
 
 #include <cmath>
 
+#include "firmware/base/math.hpp"
 #include "host_tools/surface_offset/pattern_search.hpp"
 
 namespace cusp::host {
 namespace {
 
 constexpr double kFinest = 1e-3;  // of the pitch
+// Away from the brink of a cliff.
+constexpr double kLeastOffBrink = 5e-4;  // mm
+constexpr double kMostOffBrink = 0.1;    // of the pitch
+constexpr int kWays = 8;
 
 double square(double a) { return a * a; }
 
@@ -53,11 +58,46 @@ std::optional<LowestReach::Answer> LowestReach::over(Vec3d place, double worth)
     if (best->height > worth) {
         return Answer{best->centre - Vec3d{0, 0, radius_}, best->height};
     }
-    const std::optional<Vec3d> tip = certified_.dropped(best->centre.x, best->centre.y);
+    const std::optional<Answer> exact = exact_over(place, best->centre.x, best->centre.y);
+    if (exact && exact->height > worth) {
+        const std::optional<Answer> off_brink = beside(place, best->centre, worth);
+        return off_brink ? off_brink : exact;
+    }
+    return exact;
+}
+
+std::optional<LowestReach::Answer> LowestReach::exact_over(Vec3d place, double x, double y) const
+{
+    const std::optional<Vec3d> tip = certified_.dropped(x, y);
     if (!tip) {
         return std::nullopt;
     }
     return Answer{*tip, search_.height_under(*tip + Vec3d{0, 0, radius_}, place)};
+}
+
+// The lowest position is often on the brink of a cliff that the ball just misses, and exactly
+// dropped it stands on top. A little away it is hardly higher.
+std::optional<LowestReach::Answer> LowestReach::beside(Vec3d place, Vec3d brink, double worth)
+{
+    for (double off = kLeastOffBrink; off < kMostOffBrink * search_.pitch(); off *= 2) {
+        std::optional<Answer> best;
+        for (int k = 0; k < kWays; ++k) {
+            const double turn = 2 * kPi * k / kWays;
+            const double x = brink.x + off * std::cos(turn);
+            const double y = brink.y + off * std::sin(turn);
+            if (search_.height_under(dropped(x, y).centre, place) > worth) {
+                continue;
+            }
+            const std::optional<Answer> there = exact_over(place, x, y);
+            if (there && there->height <= worth && (!best || there->height < best->height)) {
+                best = there;
+            }
+        }
+        if (best) {
+            return best;
+        }
+    }
+    return std::nullopt;
 }
 
 // What the tool leaves where it stands on the model and off its guarded edges.

@@ -41,6 +41,8 @@ public:
 
 private:
     ReachSearch::Rest dropped(double x, double y);
+    std::optional<Answer> exact_over(Vec3d place, double x, double y) const;
+    std::optional<Answer> beside(Vec3d place, Vec3d brink, double worth);
     std::optional<Answer> raised_over(Vec3d place, double x, double y, bool exact);
     void improve_raised(Vec3d place, Answer& best);
 
