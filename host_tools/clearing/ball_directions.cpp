@@ -18,18 +18,27 @@ BallDirections::BallDirections(Vec3d point, double radius, double contact_radius
 {
 }
 
-// Contacts that bar nothing are left out: most of the ground below.
-void BallDirections::add(Vec3d contact)
+BallDirections::Barrier BallDirections::barrier(std::size_t contact) const
 {
-    const Vec3d way = contact - point_;
+    const Vec3d way = contacts_[contact] - point_;
     const double least =
         (dot(way, way) + square(radius_) - square(contact_radius_)) / (2 * radius_);
+    return {way, std::max(0.0, least), contact};
+}
+
+// Contacts that bar nothing are left out: most of the ground below.
+std::size_t BallDirections::add(Vec3d contact)
+{
+    contacts_.push_back(contact);
+    const Barrier added = barrier(contacts_.size() - 1);
+    const Vec3d way = added.way;
     const double level = std::hypot(way.x, way.y);
     const double most = way.z > 0 ? norm(way) : level;
     const bool shank = way.z > 0 && level < radius_ + contact_radius_;
-    if (most > least || shank) {
-        barriers_.push_back({way, std::max(0.0, least)});
+    if (most > added.least || shank) {
+        barriers_.push_back(added);
     }
+    return added.contact;
 }
 
 std::array<BallDirections::Triangle, 4> BallDirections::half_sphere()
@@ -52,11 +61,11 @@ std::array<BallDirections::Triangle, 4> BallDirections::quarters(const Triangle&
 Vec3d BallDirections::middle(const Triangle& t) { return unit(t[0] + t[1] + t[2]); }
 
 // What lies under the upper half of a ball round the contact is convex; the triangle lies between
-// its corners and those stretched.
-bool BallDirections::bars_shank(const Barrier& barrier,
-                                const Triangle& triangle,
-                                double stretch) const
+// its corners and those stretched until the plane through them touches the sphere.
+bool BallDirections::bars_shank(const Barrier& barrier, const Triangle& triangle) const
 {
+    const Vec3d across = cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
+    const double stretch = norm(across) / std::abs(dot(across, triangle[0]));
     const auto under = [&](Vec3d centre) {
         const double room = square(contact_radius_) - square(centre.x - barrier.way.x) -
                             square(centre.y - barrier.way.y);
@@ -68,24 +77,31 @@ bool BallDirections::bars_shank(const Barrier& barrier,
     });
 }
 
-// The one that does is looked at first the next time: mostly the same few do.
-bool BallDirections::bars(const Triangle& t)
+bool BallDirections::bars(const Barrier& barrier, const Triangle& t) const
 {
-    const double lowest = radius_ * std::min({t[0].z, t[1].z, t[2].z});
-    const double stretch = 3 / norm(t[0] + t[1] + t[2]);
+    const auto passed = [&](Vec3d corner) {
+        return dot(corner, barrier.way) > barrier.least;
+    };
+    return (passed(t[0]) && passed(t[1]) && passed(t[2])) ||
+           (barrier.way.z > radius_ * std::min({t[0].z, t[1].z, t[2].z}) && bars_shank(barrier, t));
+}
+
+bool BallDirections::bars(std::size_t contact, const Triangle& triangle) const
+{
+    return bars(barrier(contact), triangle);
+}
+
+// The one that does is looked at first the next time: mostly the same few do.
+std::optional<std::size_t> BallDirections::barring(const Triangle& triangle)
+{
     for (std::size_t k = 0; k < barriers_.size(); ++k) {
-        const Barrier& barrier = barriers_[k];
-        const auto passed = [&](Vec3d corner) {
-            return dot(corner, barrier.way) > barrier.least;
-        };
-        const bool all = (passed(t[0]) && passed(t[1]) && passed(t[2])) ||
-                         (barrier.way.z > lowest && bars_shank(barrier, t, stretch));
-        if (all) {
+        if (bars(barriers_[k], triangle)) {
+            const std::size_t contact = barriers_[k].contact;
             std::swap(barriers_[k], barriers_[k / 2]);
-            return true;
+            return contact;
         }
     }
-    return false;
+    return std::nullopt;
 }
 
 }  // namespace cusp::host

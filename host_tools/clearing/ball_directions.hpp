@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "host_tools/nurbs/nurbs.hpp"
@@ -20,7 +22,9 @@ public:
     // contact_radius  mm, of the ball that touches the contacts; not less
     BallDirections(Vec3d point, double radius, double contact_radius);
 
-    void add(Vec3d contact);
+    // Returns the contact's number: from 0, one more each time.
+    std::size_t add(Vec3d contact);
+    Vec3d contact(std::size_t number) const { return contacts_[number]; }
 
     // Of unit vectors.
     using Triangle = std::array<Vec3d, 3>;
@@ -28,8 +32,11 @@ public:
     static std::array<Triangle, 4> quarters(const Triangle& triangle);
     static Vec3d middle(const Triangle& triangle);
 
-    // Whether some contact bars all of the triangle.
-    bool bars(const Triangle& triangle);
+    // Whether the contact bars all of the triangle.
+    bool bars(std::size_t contact, const Triangle& triangle) const;
+
+    // A contact that bars all of the triangle.
+    std::optional<std::size_t> barring(const Triangle& triangle);
 
     // Middle of a ball.
     Vec3d centre(Vec3d direction) const { return point_ + direction * radius_; }
@@ -38,12 +45,16 @@ private:
     struct Barrier {
         Vec3d way;     // from the point to the contact
         double least;  // mm: vectors that go farther along the way are barred
+        std::size_t contact;
     };
-    bool bars_shank(const Barrier& barrier, const Triangle& triangle, double stretch) const;
+    Barrier barrier(std::size_t contact) const;
+    bool bars(const Barrier& barrier, const Triangle& triangle) const;
+    bool bars_shank(const Barrier& barrier, const Triangle& triangle) const;
 
     Vec3d point_;
     double radius_;
     double contact_radius_;
+    std::vector<Vec3d> contacts_;
     std::vector<Barrier> barriers_;
 };
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host_tools/clearing/ball_directions.hpp"
 #include "host_tools/surface_offset/pattern_search.hpp"
 
 namespace cusp::host {
@@ -18,7 +17,9 @@ constexpr double kFinest = 1e-3;        // of the pitch
 constexpr std::size_t kMostTriangles = 600;  // of directions that are looked at
 constexpr int kMostWalks = 10;               // to what the contacts known leave open
 constexpr int kMostTries = 40;               // drops for nothing but a contact
-constexpr std::size_t kMostRemembered = 64;  // contacts
+constexpr double kBeside = 0.25;             // of a triangle's edge: as good as its middle
+constexpr int kMostHalvings = 12;            // of the pitch
+constexpr std::size_t kLongestProof = 1500;  // parts; longer ones have become too fine
 constexpr double kMoreGained = 0.25;         // of what is gained: worth another search
 
 double square(double a) { return a * a; }
@@ -49,41 +50,35 @@ double ReachSearch::height_under(Vec3d centre, Vec3d place) const
     return under < 0 ? kNowhere : centre.z - std::sqrt(under);
 }
 
-const ReachSearch::Rest& ReachSearch::node(std::int64_t i, std::int64_t j)
+// halvings  of the grid's pitch
+const ReachSearch::Rest& ReachSearch::node(int halvings, std::int64_t i, std::int64_t j)
 {
-    const std::uint64_t key =
-        (static_cast<std::uint64_t>(i) << 32) ^ (static_cast<std::uint64_t>(j) & 0xffffffffU);
+    const std::uint64_t key = key_of(halvings, i, j);
     const auto found = nodes_.find(key);
     if (found != nodes_.end()) {
         return found->second;
     }
+    const double pitch = std::ldexp(pitch_, -halvings);
     return nodes_
-        .emplace(key, drop_(static_cast<double>(i) * pitch_, static_cast<double>(j) * pitch_))
+        .emplace(key, drop_(static_cast<double>(i) * pitch, static_cast<double>(j) * pitch))
         .first->second;
 }
 
-// The contacts of all nodes are kept.
-void ReachSearch::remember(Vec3d contact)
+// Of a grid no coarser than a length.
+const ReachSearch::Rest& ReachSearch::node_near(double x, double y, double length)
 {
-    if (remembered_.size() < kMostRemembered) {
-        remembered_.push_back(contact);
-    } else {
-        remembered_[next_remembered_++ % kMostRemembered] = contact;
+    int halvings = 0;
+    while (halvings < kMostHalvings && std::ldexp(pitch_, -halvings) > length) {
+        ++halvings;
     }
+    const double pitch = std::ldexp(pitch_, -halvings);
+    return node(halvings, std::llround(x / pitch), std::llround(y / pitch));
 }
 
 std::vector<ReachSearch::Answer> ReachSearch::starts_over(Vec3d place)
 {
     contacts_.clear();
-    for (const Vec3d& contact : remembered_) {
-        if (std::hypot(contact.x - place.x, contact.y - place.y) < 2 * radius_) {
-            contacts_.push_back(contact);
-        }
-    }
     std::vector<Answer> all;
-    const auto cell = [&](double at) {
-        return static_cast<std::int64_t>(std::floor(at / pitch_));
-    };
     for (std::int64_t i = cell(place.x - radius_) + 1; i <= cell(place.x + radius_); ++i) {
         for (std::int64_t j = cell(place.y - radius_) + 1; j <= cell(place.y + radius_); ++j) {
             const double x = static_cast<double>(i) * pitch_;
@@ -91,7 +86,7 @@ std::vector<ReachSearch::Answer> ReachSearch::starts_over(Vec3d place)
             if (square_off_flat(flat_, {x, y}, place) > square(corner_)) {
                 continue;
             }
-            const Rest& at = node(i, j);
+            const Rest& at = node(0, i, j);
             if (std::isfinite(at.centre.z)) {
                 contacts_.push_back(at.contact);
                 all.push_back({at.centre, height_under(at.centre, place)});
@@ -209,54 +204,126 @@ void ReachSearch::improve_by_drops(Vec3d place, Answer& best)
     pattern_search({best.centre.x, best.centre.y}, pitch_, kFinest * pitch_, lower);
 }
 
+std::int64_t ReachSearch::cell(double at) const
+{
+    return static_cast<std::int64_t>(std::floor(at / pitch_));
+}
+
+std::uint64_t ReachSearch::key_of(int halvings, std::int64_t i, std::int64_t j)
+{
+    constexpr std::uint64_t kPlaces = (1U << 29) - 1;
+    return (static_cast<std::uint64_t>(halvings) << 58) ^
+           ((static_cast<std::uint64_t>(i) & kPlaces) << 29) ^
+           (static_cast<std::uint64_t>(j) & kPlaces);
+}
+
+// Contacts that bar nothing are left out.
+ReachSearch::Proof ReachSearch::proof_of(std::vector<Barred> barred,
+                                         const BallDirections& directions)
+{
+    Proof proof;
+    std::unordered_map<std::size_t, std::size_t> numbers;
+    for (Barred& part : barred) {
+        const auto [at, is_new] = numbers.try_emplace(part.contact, proof.contacts.size());
+        if (is_new) {
+            proof.contacts.push_back(directions.contact(part.contact));
+        }
+        part.contact = at->second;
+    }
+    proof.parts = std::move(barred);
+    return proof;
+}
+
 // Walks from a few starts miss narrow ways between cliffs. The directions that no contact bars are
 // quartered, large parts first, and their middles are tried: whether the ball gets lower than a
-// height, and the first place found where it does.
+// height, and the first place found where it does. What bars them is kept for the next place near:
+// mostly the same contacts bar the same directions there.
+//
+// exact  tries are made in the middles themselves, not in what was tried beside them
 //
 // Precondition: the tool is a ball
-std::optional<ReachSearch::Answer> ReachSearch::lower_than(double height, Vec3d place, bool& proved)
+std::optional<ReachSearch::Answer> ReachSearch::divided(double height,
+                                                        Vec3d place,
+                                                        bool exact,
+                                                        bool& proved)
 {
     BallDirections directions{{place.x, place.y, height}, radius_, contact_corner_};
+    Proof& last = proofs_[key_of(0, cell(place.x), cell(place.y))];
+    contacts_.insert(contacts_.begin(), last.contacts.begin(), last.contacts.end());
     for (const Vec3d& contact : contacts_) {
         directions.add(contact);
     }
-    const auto whole = BallDirections::half_sphere();
-    std::vector<BallDirections::Triangle> open{whole.begin(), whole.end()};
+    std::vector<Barred> barred;
+    std::vector<BallDirections::Triangle> open;
+    for (const Barred& part : last.parts) {
+        if (directions.bars(part.contact, part.triangle)) {
+            barred.push_back(part);
+        } else {
+            open.push_back(part.triangle);
+        }
+    }
+    if (last.parts.empty()) {
+        const auto whole = BallDirections::half_sphere();
+        open.assign(whole.begin(), whole.end());
+    }
+    const std::size_t most = open.size() + kMostTriangles;
     int walks = 0;
     int tries = 0;
-    for (std::size_t k = 0; k < open.size() && k < kMostTriangles; ++k) {
+    for (std::size_t k = 0; k < open.size() && k < most; ++k) {
         const BallDirections::Triangle triangle = open[k];
-        if (directions.bars(triangle)) {
+        if (const auto contact = directions.barring(triangle)) {
+            barred.push_back({triangle, *contact});
             continue;
         }
         const Vec3d middle = directions.centre(BallDirections::middle(triangle));
         Vec2d at{middle.x, middle.y};
         const bool open_middle = lowest_known(place, at) < height;
-        const double edge = norm(triangle[0] - triangle[1]);
-        // Among nodes too few contacts are known.
-        if (open_middle || (edge * radius_ < pitch_ && ++tries < kMostTries)) {
-            if (open_middle && ++walks < kMostWalks) {
-                at = improved(place, at);
+        const double edge = norm(triangle[0] - triangle[1]) * radius_;
+        std::optional<Answer> lower;
+        // Whether its contact bars the triangle.
+        const auto try_drop = [&](const Rest& rest) {
+            if (!std::isfinite(rest.centre.z)) {
+                return false;
             }
-            const Rest rest = drop_(at.x, at.y);
-            if (std::isfinite(rest.centre.z)) {
-                const Answer there{rest.centre, height_under(rest.centre, place)};
-                contacts_.push_back(rest.contact);
-                remember(rest.contact);
-                if (there.height < height) {
-                    return there;
-                }
-                directions.add(rest.contact);
-                if (directions.bars(triangle)) {
-                    continue;
-                }
+            const Answer there{rest.centre, height_under(rest.centre, place)};
+            lower = there.height < height ? std::optional{there} : std::nullopt;
+            contacts_.push_back(rest.contact);
+            const std::size_t contact = directions.add(rest.contact);
+            const bool bars = !lower && directions.bars(contact, triangle);
+            if (bars) {
+                barred.push_back({triangle, contact});
             }
+            return bars;
+        };
+        bool bars = false;
+        if (open_middle) {
+            at = ++walks < kMostWalks ? improved(place, at) : at;
+            bars = try_drop(drop_(at.x, at.y));
+        } else if (edge < pitch_ && ++tries < kMostTries) {
+            // Among nodes too few contacts are known. One beside the middle has mostly been found
+            // for another place.
+            bars = try_drop(exact ? drop_(at.x, at.y) : node_near(at.x, at.y, kBeside * edge));
+        }
+        if (lower) {
+            return lower;
+        }
+        if (bars) {
+            continue;
         }
         const auto parts = BallDirections::quarters(triangle);
         open.insert(open.end(), parts.begin(), parts.end());
     }
-    proved = open.size() <= kMostTriangles;
+    proved = open.size() <= most;
+    if (proved) {
+        last = barred.size() <= kLongestProof ? proof_of(std::move(barred), directions) : Proof{};
+    }
     return std::nullopt;
+}
+
+std::optional<ReachSearch::Answer> ReachSearch::lower_than(double height, Vec3d place, bool& proved)
+{
+    const std::optional<Answer> found = divided(height, place, false, proved);
+    return found || proved ? found : divided(height, place, true, proved);
 }
 
 std::optional<ReachSearch::Answer> ReachSearch::over(Vec3d place,

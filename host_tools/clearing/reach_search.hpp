@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "host_tools/clearing/ball_directions.hpp"
 #include "host_tools/clearing/tip_floor.hpp"
 #include "host_tools/nurbs/nurbs.hpp"
 #include "host_tools/toolpath/toolpath.hpp"
@@ -64,15 +65,30 @@ public:
     double pitch() const { return pitch_; }
 
 private:
-    const Rest& node(std::int64_t i, std::int64_t j);
+    // That no ball gets lower over a place: parts of all directions, and the contacts that bar
+    // them.
+    struct Barred {
+        BallDirections::Triangle triangle;
+        std::size_t contact;
+    };
+    struct Proof {
+        std::vector<Vec3d> contacts;
+        std::vector<Barred> parts;
+    };
+
+    std::int64_t cell(double at) const;
+    static std::uint64_t key_of(int halvings, std::int64_t i, std::int64_t j);
+    const Rest& node(int halvings, std::int64_t i, std::int64_t j);
+    const Rest& node_near(double x, double y, double length);
     double lowest_known(Vec3d place, Vec2d at) const;
     Vec2d improved(Vec3d place, Vec2d at);
     void improve_from(const Answer& start, Vec3d place, double worth, std::optional<Answer>& best);
 
     void improve_by_drops(Vec3d place, Answer& best);
+    std::optional<Answer> divided(double height, Vec3d place, bool exact, bool& proved);
     // proved  set to whether none is found because there is none
+    static Proof proof_of(std::vector<Barred> barred, const BallDirections& directions);
     std::optional<Answer> lower_than(double height, Vec3d place, bool& proved);
-    void remember(Vec3d contact);
 
     double radius_;
     double flat_;            // mm: radius of the tool's flat
@@ -82,10 +98,8 @@ private:
     double agrees_;
     Drop drop_;
     std::unordered_map<std::uint64_t, Rest> nodes_;
-    std::vector<Vec3d> contacts_;    // near the place asked for
-    std::vector<Vec3d> remembered_;  // contacts between nodes, the last ones found: the next place
-                                     // asked for is mostly near
-    std::size_t next_remembered_{};
+    std::vector<Vec3d> contacts_;                      // near the place asked for
+    std::unordered_map<std::uint64_t, Proof> proofs_;  // by square of the grid: the last one
 };
 
 // The floor's tool let down on it. The contact is where the tool is stopped, as far above the
