@@ -14,13 +14,15 @@ constexpr std::size_t kMostStarts = 3;  // apart from each other
 constexpr double kApart = 0.3;          // radii
 constexpr double kFinest = 1e-3;        // of the pitch
 // Where no walk leads lower.
-constexpr std::size_t kMostTriangles = 600;  // of directions that are looked at
-constexpr int kMostWalks = 10;               // to what the contacts known leave open
-constexpr int kMostTries = 40;               // drops for nothing but a contact
-constexpr double kBeside = 0.25;             // of a triangle's edge: as good as its middle
-constexpr int kMostHalvings = 12;            // of the pitch
-constexpr std::size_t kLongestProof = 1500;  // parts; longer ones have become too fine
-constexpr double kMoreGained = 0.25;         // of what is gained: worth another search
+constexpr std::size_t kMostTriangles = 600;    // of directions that are looked at
+constexpr int kMostWalks = 10;                 // to what the contacts known leave open
+constexpr int kMostTries = 40;                 // drops for nothing but a contact
+constexpr double kBeside = 0.25;               // of a triangle's edge: as good as its middle
+constexpr int kMostHalvings = 12;              // of the pitch
+constexpr std::size_t kLongestProof = 1500;    // parts; longer ones have become too fine
+constexpr std::size_t kMostParts = 1'000'000;  // of all proofs: 80 MB
+constexpr std::size_t kMostNodes = 1'000'000;  // 80 MB
+constexpr double kMoreGained = 0.25;           // of what is gained: worth another search
 
 double square(double a) { return a * a; }
 
@@ -57,6 +59,9 @@ const ReachSearch::Rest& ReachSearch::node(int halvings, std::int64_t i, std::in
     const auto found = nodes_.find(key);
     if (found != nodes_.end()) {
         return found->second;
+    }
+    if (nodes_.size() > kMostNodes) {
+        nodes_.clear();
     }
     const double pitch = std::ldexp(pitch_, -halvings);
     return nodes_
@@ -234,6 +239,17 @@ ReachSearch::Proof ReachSearch::proof_of(std::vector<Barred> barred,
     return proof;
 }
 
+void ReachSearch::keep(Vec3d place, Proof proof)
+{
+    if (parts_ > kMostParts) {
+        proofs_.clear();
+        parts_ = 0;
+    }
+    Proof& last = proofs_[key_of(0, cell(place.x), cell(place.y))];
+    parts_ = parts_ - last.parts.size() + proof.parts.size();
+    last = std::move(proof);
+}
+
 // Walks from a few starts miss narrow ways between cliffs. The directions that no contact bars are
 // quartered, large parts first, and their middles are tried: whether the ball gets lower than a
 // height, and the first place found where it does. What bars them is kept for the next place near:
@@ -248,7 +264,7 @@ std::optional<ReachSearch::Answer> ReachSearch::divided(double height,
                                                         bool& proved)
 {
     BallDirections directions{{place.x, place.y, height}, radius_, contact_corner_};
-    Proof& last = proofs_[key_of(0, cell(place.x), cell(place.y))];
+    const Proof& last = proofs_[key_of(0, cell(place.x), cell(place.y))];
     contacts_.insert(contacts_.begin(), last.contacts.begin(), last.contacts.end());
     for (const Vec3d& contact : contacts_) {
         directions.add(contact);
@@ -315,7 +331,8 @@ std::optional<ReachSearch::Answer> ReachSearch::divided(double height,
     }
     proved = open.size() <= most;
     if (proved) {
-        last = barred.size() <= kLongestProof ? proof_of(std::move(barred), directions) : Proof{};
+        keep(place,
+             barred.size() <= kLongestProof ? proof_of(std::move(barred), directions) : Proof{});
     }
     return std::nullopt;
 }

@@ -85,10 +85,11 @@ private:
     void improve_from(const Answer& start, Vec3d place, double worth, std::optional<Answer>& best);
 
     void improve_by_drops(Vec3d place, Answer& best);
-    std::optional<Answer> divided(double height, Vec3d place, bool exact, bool& proved);
     // proved  set to whether none is found because there is none
-    static Proof proof_of(std::vector<Barred> barred, const BallDirections& directions);
     std::optional<Answer> lower_than(double height, Vec3d place, bool& proved);
+    std::optional<Answer> divided(double height, Vec3d place, bool exact, bool& proved);
+    static Proof proof_of(std::vector<Barred> barred, const BallDirections& directions);
+    void keep(Vec3d place, Proof proof);
 
     double radius_;
     double flat_;            // mm: radius of the tool's flat
@@ -100,6 +101,7 @@ private:
     std::unordered_map<std::uint64_t, Rest> nodes_;
     std::vector<Vec3d> contacts_;                      // near the place asked for
     std::unordered_map<std::uint64_t, Proof> proofs_;  // by square of the grid: the last one
+    std::size_t parts_{};                              // of all proofs
 };
 
 // The floor's tool let down on it. The contact is where the tool is stopped, as far above the
