@@ -33,27 +33,43 @@ Vec3d pulled_inside(Vec3d p, const Surface& s)
     return near || off_u * norm(at.du) + off_v * norm(at.dv) <= kNearPole ? inside : p;
 }
 
-// Towards a pole the control points of a converted curve swing far out, the curve hardly: there it
-// becomes chords.
+// How far the place lies outside, as a share of the domain.
+double outside(Vec3d p, const Surface& s)
+{
+    const double off_u = std::max({0.0, s.u_begin() - p.x, p.x - s.u_end()});
+    const double off_v = std::max({0.0, s.v_begin() - p.y, p.y - s.v_end()});
+    return std::max(off_u / (s.u_end() - s.u_begin()), off_v / (s.v_end() - s.v_begin()));
+}
+
+// Control points of a curve inside may lie outside: only what is as far out as the curve itself is
+// moved. Towards a pole the control points of a converted curve swing far out, the curve hardly:
+// there it becomes chords.
 void pull_inside(Curve& curve, const Surface& s)
 {
+    constexpr int kChords = 256;
+    constexpr double kInside = 1e-6;   // of the domain: rounding
+    constexpr double kAsFarOut = 2.0;  // times
+    std::vector<Vec3d> places;
+    double most = 0;
+    for (int k = 0; k <= kChords; ++k) {
+        const double t = static_cast<double>(k) / kChords;
+        places.push_back(point_at(curve, curve.domain_begin() * (1 - t) + curve.domain_end() * t));
+        most = std::max(most, outside(places.back(), s));
+    }
     Curve pulled = curve;
     for (Vec3d& p : pulled.points) {
-        p = pulled_inside(p, s);
+        p = outside(p, s) <= std::max(kInside, kAsFarOut * most) ? pulled_inside(p, s) : p;
     }
-    if (std::all_of(pulled.points.begin(), pulled.points.end(),
-                    [&](Vec3d p) { return lies_inside(p, s); })) {
+    if (most <= kInside || std::all_of(pulled.points.begin(), pulled.points.end(),
+                                       [&](Vec3d p) { return lies_inside(p, s); })) {
         curve = pulled;
         return;
     }
-    constexpr int kChords = 256;
     Curve chords{1, {0}, {}, {}};
     for (int k = 0; k <= kChords; ++k) {
-        const double t = static_cast<double>(k) / kChords;
-        chords.points.push_back(pulled_inside(
-            point_at(curve, curve.domain_begin() * (1 - t) + curve.domain_end() * t), s));
+        chords.points.push_back(pulled_inside(places[static_cast<std::size_t>(k)], s));
         chords.weights.push_back(1);
-        chords.knots.push_back(t);
+        chords.knots.push_back(static_cast<double>(k) / kChords);
     }
     chords.knots.push_back(1);
     curve = chords;

@@ -1,8 +1,10 @@
 // STEP and IGES: written by Open CASCADE, read back.
 #include "host_tools/import/cad_surfaces.hpp"
 
+#include <algorithm>
 #include <cmath>
 
+#include "opencascade/BRepAlgoAPI_Common.hxx"
 #include "opencascade/BRepAlgoAPI_Cut.hxx"
 #include "opencascade/BRepAlgoAPI_Fuse.hxx"
 #include "opencascade/BRepBuilderAPI_MakeFace.hxx"
@@ -180,6 +182,30 @@ TEST(CadSurfaces, OfABallFusedIntoABlockAreWholeOrRefused)
         }
     }
     CHECK(read >= 5);
+}
+
+// The arc's control point lies 0.098 mm outside the face, the arc inside.
+TEST(CadSurfaces, KeepAnArcThatReachesTheFacesOutermostPlace)
+{
+    constexpr double kRadius = 10;
+    constexpr double kHalf = 1.39173100960065;  // radius times the sine of 8 degrees
+    const TopoDS_Shape part =
+        BRepAlgoAPI_Common(
+            BRepPrimAPI_MakeCylinder(gp_Ax2(gp_Pnt(0, 0, -5), gp_Dir(0, 0, 1)), kRadius, 5).Shape(),
+            BRepPrimAPI_MakeBox(gp_Pnt(-kHalf, 5, -5), gp_Pnt(kHalf, 20, 0)).Shape())
+            .Shape();
+    const std::vector<Surface> surfaces = read_surfaces(step(part));
+    LONGS_EQUAL(1, surfaces.size());
+    const Surface& top = surfaces.front();
+    double highest = 0;
+    for (const std::vector<Curve>& loop : top.trims) {
+        for (const Vec2d p : loop_polyline(loop, 1e-5)) {
+            const Vec3d at = point_at(top, p.x, p.y);
+            highest = std::max(highest, at.y);
+            CHECK(at.y < 9 || std::abs(std::hypot(at.x, at.y) - kRadius) < 1e-4);
+        }
+    }
+    DOUBLES_EQUAL(kRadius, highest, 1e-4);
 }
 
 TEST(CadSurfaces, KeepAFreeFormFaceAndItsShape)
