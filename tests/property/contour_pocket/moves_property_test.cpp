@@ -212,6 +212,17 @@ LinkCount judge_task(const RandomTask& task, const std::vector<PlannedOperation>
     return links;
 }
 
+// Nothing where the tool fits nowhere.
+std::vector<PlannedOperation> planned_or_too_narrow(const RandomTask& task)
+{
+    try {
+        return plan_contour_pocket(task.job, task.operation);
+    } catch (const InputError& error) {
+        CHECK(std::string{error.what()}.find("fits nowhere") != std::string::npos);
+        return {};
+    }
+}
+
 TEST_GROUP(PocketMoves){};
 
 TEST(PocketMoves, EnterGentlyLinkThroughCutMetalAndKeepSideDepthAndAllowance)
@@ -221,13 +232,7 @@ TEST(PocketMoves, EnterGentlyLinkThroughCutMetalAndKeepSideDepthAndAllowance)
     for (int i = 0; i < property_cases(6); ++i) {
         const RandomTask task = random_task(random);
         std::printf("seed %u pocket %d\n", kSeed, i);
-        std::vector<PlannedOperation> planned;
-        try {
-            planned = plan_contour_pocket(task.job, task.operation);
-        } catch (const InputError& error) {
-            CHECK(std::string{error.what()}.find("fits nowhere") != std::string::npos);
-            continue;
-        }
+        const std::vector<PlannedOperation> planned = planned_or_too_narrow(task);
         const LinkCount some = judge_task(task, planned);
         links.all += some.all;
         links.turned += some.turned;
@@ -247,13 +252,7 @@ TEST(PocketMoves, TakeNoMoreRetractsForCliffsAndGoDownThemNoFasterThanThePlungeF
     Random random{kCliffSeed};
     for (int i = 0; i < property_cases(8); ++i) {
         const RandomTask task = random_task_with_cliffs(random);
-        std::vector<PlannedOperation> planned;
-        try {
-            planned = plan_contour_pocket(task.job, task.operation);
-        } catch (const InputError& error) {
-            CHECK(std::string{error.what()}.find("fits nowhere") != std::string::npos);
-            continue;
-        }
+        const std::vector<PlannedOperation> planned = planned_or_too_narrow(task);
         const double smallest =
             std::min(task.operation.tool.radius, task.operation.tools.front().radius);
         const double largest =
