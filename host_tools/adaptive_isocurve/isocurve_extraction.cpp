@@ -52,6 +52,16 @@ public:
         return sum;
     }
 
+    // At least |S_v| anywhere.
+    double most() const
+    {
+        double most = 0;
+        for (const Cell& cell : cells_) {
+            most = std::max(most, cell.speed);
+        }
+        return most;
+    }
+
 private:
     struct Cell {
         double u_begin;
@@ -76,6 +86,18 @@ private:
 
     std::vector<Cell> cells_;
 };
+
+// Whether the way across a strip may be long, though its sides are near enough at each u: round a
+// closed surface the first curve is the last.
+bool folds(const CrossSpeed& speed,
+           double u_begin,
+           double u_end,
+           double v_begin,
+           double v_end,
+           double distance)
+{
+    return speed.most_length(u_begin, u_end, v_begin, v_end) >= 2 * distance;
+}
 
 class Extraction {
 public:
@@ -110,12 +132,6 @@ private:
         out_.push_back(isocurve(number_, v, u_begin, u_end));
     }
 
-    // A range that is near enough at each u, yet whose way across may be long.
-    bool folds(const Isocurve& a, const Isocurve& b, double begin, double end) const
-    {
-        return speed_.most_length(begin, end, a.v, b.v) >= 2 * distance_;
-    }
-
     void fill(const Isocurve& a, const Isocurve& b, double begin, double end, int depth)
     {
         if (depth > kDeepestHalving) {
@@ -125,7 +141,7 @@ private:
         const double middle = 0.5 * (a.v + b.v);
         Isocurve between{middle, {}};
         for (const ParameterRange& range : sign_ranges(excess, begin, end)) {
-            if (!range.positive && !folds(a, b, range.begin, range.end)) {
+            if (!range.positive && !folds(speed_, range.begin, range.end, a.v, b.v, distance_)) {
                 continue;
             }
             if (between.curve.points.empty()) {
@@ -157,10 +173,17 @@ bool surely_within(const Curve& a, const Curve& b, double distance)
     return true;
 }
 
-bool within(const Surface& surface, int strips, double distance)
+bool within(const Surface& surface, const CrossSpeed& speed, int strips, double distance)
 {
     const double v0 = surface.v_begin();
     const double width = (surface.v_end() - v0) / strips;
+    const bool slow = width * speed.most() < 2 * distance;
+    for (int k = 0; k < strips && !slow; ++k) {
+        if (folds(speed, surface.u_begin(), surface.u_end(), v0 + k * width, v0 + (k + 1) * width,
+                  distance)) {
+            return false;
+        }
+    }
     const bool plain = std::all_of(surface.weights.begin(), surface.weights.end(),
                                    [](double weight) { return weight == 1; });
     Curve last = isocurve_at_v(surface, v0);
@@ -188,18 +211,20 @@ std::vector<DomainCurve> adaptive_isocurves(const Surface& surface, int number, 
 
 std::vector<DomainCurve> complete_isocurves(const Surface& surface, int number, double distance)
 {
-    const double across = CrossSpeed{surface}.most_length(surface.u_begin(), surface.u_end(),
-                                                          surface.v_begin(), surface.v_end());
+    const CrossSpeed speed{surface};
+    const double across =
+        speed.most_length(surface.u_begin(), surface.u_end(), surface.v_begin(), surface.v_end());
     // The mean way across bounds the fewest from neither side; start low, then bisect.
     int few = 0;
-    int enough = std::max(1, static_cast<int>(across / distance / 4));
-    while (enough < kMostComplete && !within(surface, enough, distance)) {
+    int enough =
+        std::max(1, static_cast<int>(std::min<double>(kMostComplete, across / distance / 4)));
+    while (enough < kMostComplete && !within(surface, speed, enough, distance)) {
         few = enough;
         enough *= 2;
     }
     while (enough - few > 1) {
         const int middle = few + (enough - few) / 2;
-        (within(surface, middle, distance) ? enough : few) = middle;
+        (within(surface, speed, middle, distance) ? enough : few) = middle;
     }
     std::vector<DomainCurve> out;
     const double v0 = surface.v_begin();

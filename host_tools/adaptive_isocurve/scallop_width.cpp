@@ -38,6 +38,10 @@ CrossSection cross_section_at(const SurfacePoint& p)
     if (at_pole(p.du, p)) {
         return cross_section_at_pole(p);
     }
+    // All curves meet: there is no way across.
+    if (at_pole(p.dv, p)) {
+        return {0, std::sqrt(dot(p.dv, p.dv))};
+    }
     const double e = dot(p.du, p.du);
     const Vec3d normal = upward_normal(p);
     if (dot(normal, normal) == 0) {

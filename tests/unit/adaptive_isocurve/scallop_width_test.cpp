@@ -56,3 +56,17 @@ TEST(ScallopWidth, OfABallIsTheSameAtItsPole)
     DOUBLES_EQUAL(-1 / kRadius, section.curvature, 1e-12);
     DOUBLES_EQUAL(kRadius, section.speed, 1e-12);
 }
+
+// And S_v where the poles are the ends of the curves.
+TEST(ScallopWidth, KnowsNoCurvatureWhereAllCurvesMeet)
+{
+    constexpr double kRadius = 12;
+    SurfacePoint pole;
+    pole.point = {0, 0, kRadius};
+    pole.du = {kRadius, 0, 0};
+    pole.dv = {3e-16, -7e-16, 1e-16};
+    pole.duu = {0, 0, -kRadius};
+    pole.duv = {0, kRadius, 0};
+    pole.dvv = {-7e-16, -3e-16, 1e-16};
+    DOUBLES_EQUAL(0, cross_section_at(pole).curvature, 0);
+}
