@@ -7,7 +7,7 @@
 #include <optional>
 #include <utility>
 
-#include "host_tools/adaptive_isocurve/cell_chains.hpp"
+#include "host_tools/surface_offset/cell_chains.hpp"
 
 namespace cusp::host {
 namespace {

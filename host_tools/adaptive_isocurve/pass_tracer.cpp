@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include "host_tools/adaptive_isocurve/cell_chains.hpp"
 #include "host_tools/adaptive_isocurve/dense_tips.hpp"
+#include "host_tools/surface_offset/cell_chains.hpp"
 
 namespace cusp::host {
 namespace {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "host_tools/adaptive_isocurve/level_rougher.hpp"
+#include "host_tools/adaptive_isocurve/surface_operation.hpp"
 #include "host_tools/input_error/input_error.hpp"
 
 #include "fmt/format.h"
@@ -60,18 +61,6 @@ void check(const Job& job, const Operation& operation, const std::vector<Tool>& 
     }
 }
 
-void check_height(const Job& job, const Operation& operation, const SurfaceModel& model)
-{
-    const double clearance = job.stock_top + job.clearance;
-    if (model.box_high().z > clearance) {
-        throw InputError(
-            fmt::format("{}: the part rises to z = {:g} mm, over the clearance "
-                        "height of {:g} mm: rapid moves would hit it",
-                        operation.floor_files.empty() ? job.file : operation.floor_files.front(),
-                        model.box_high().z, clearance));
-    }
-}
-
 std::string names_of(const std::vector<Tool>& tools)
 {
     std::string out;
@@ -90,7 +79,7 @@ std::vector<PlannedOperation> plan_rough_levels(const Job& job, const Operation&
     check(job, operation, tools);
     const SurfaceModel model =
         operation.mesh.empty() ? SurfaceModel{operation.floor} : SurfaceModel{operation.mesh};
-    check_height(job, operation, model);
+    check_clearance(job, operation, model);
     const RoughStock stock = stock_of(job, model, operation.allowance);
     const double share = kRoughingDone / static_cast<double>(tools.size());
     RoughWork work{

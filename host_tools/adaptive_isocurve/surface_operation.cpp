@@ -24,6 +24,20 @@ std::string file_of(const Operation& operation)
 
 }  // namespace
 
+void check_clearance(const Job& job, const Operation& operation, const SurfaceModel& model)
+{
+    const double clearance = job.stock_top + job.clearance;
+    if (model.box_high().z <= clearance) {
+        return;
+    }
+    if (const double top = model.highest(); top > clearance) {
+        throw InputError(
+            fmt::format("{}: the part rises to z = {:.6g} mm, over the clearance height of {:g} mm "
+                        "(stock top {:g} + clearance {:g}): rapid moves would hit it",
+                        file_of(operation), top, clearance, job.stock_top, job.clearance));
+    }
+}
+
 SurfaceOperation::SurfaceOperation(const Job& job,
                                    const Operation& operation,
                                    std::vector<Surface> surfaces)
@@ -34,13 +48,7 @@ SurfaceOperation::SurfaceOperation(const Job& job,
     check_surfaces();
     model_ = surfaces_.empty() ? std::make_unique<SurfaceModel>(operation.mesh)
                                : std::make_unique<SurfaceModel>(surfaces_);
-    const double top = job.stock_top + job.clearance;
-    if (model_->box_high().z > top) {
-        throw InputError(fmt::format(
-            "{}: the part rises to z = {:g} mm, over the clearance height of {:g} mm "
-            "(stock top {:g} + clearance {:g}): rapid moves would hit it",
-            file_of(operation), model_->box_high().z, top, job.stock_top, job.clearance));
-    }
+    check_clearance(job, operation, *model_);
     certified_ = std::make_unique<CertifiedPasses>(
         *model_, operation.tool,
         make_pass_band(operation.floor_tolerance,

@@ -13,6 +13,9 @@
 
 namespace cusp::host {
 
+// Error: the model is higher than rapid moves are made.
+void check_clearance(const Job& job, const Operation& operation, const SurfaceModel& model);
+
 class SurfaceOperation {
 public:
     // surfaces  none: the operation's mesh, on which a tolerance is one-sided always

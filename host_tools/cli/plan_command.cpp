@@ -209,8 +209,25 @@ void add_plan_command(CLI::App& app, Work& work)
     auto* command = app.add_subcommand("plan", "plan the operations of a job and write G-code");
     command->footer(
         "Strategies: contour_pocket, adaptive_isocurve, grid_pocket, hull_rough; for comparison\n"
-        "complete_isocurves and parallel_planes. The job file names parts, tools, tolerances.\n"
-        "Statistics are in mm and s, whatever the job's units.");
+        "complete_isocurves and parallel_planes. Statistics are in mm and s, whatever the job's\n"
+        "units.\n\n"
+        "A job, all of whose keys docs/job_file.md tells:\n"
+        "  units = \"mm\"\n"
+        "  [tool]\n"
+        "  shape = \"ball\"                  # \"flat\", \"bull\"\n"
+        "  diameter = 6.0\n"
+        "  [cutting]\n"
+        "  feed = 1200.0                   # a minute\n"
+        "  [stock]\n"
+        "  top = 0.0\n"
+        "  [[operation]]\n"
+        "  strategy = \"adaptive_isocurve\"\n"
+        "  floor = [\"part.step\"]           # .json, .step, .igs, .stl\n"
+        "  scallop = 0.02                  # tolerance included\n"
+        "  floor_tolerance = 0.01\n"
+        "  output = \"arcs\"                 # \"lines\", \"nurbs\"\n"
+        "Pockets (contour_pocket, grid_pocket) add boundary = \"outline.dxf\", islands = [...];\n"
+        "layers are asked for by max_depth.");
     auto options = std::make_shared<PlanOptions>();
     command->add_option("JOB", options->job, "job file (TOML)")->required();
     command->add_option("-o,--output", options->output, "G-code to write")->required();

@@ -29,6 +29,8 @@ struct Operation {
     std::string strategy;
     std::vector<Surface> floor;
     std::vector<std::string> floor_files;
+    // Of bodies that the floor was intersected with: `floor` is what is left.
+    std::vector<std::string> intersect_files;
     // adaptive_isocurve, where all of the floor is STL: its triangles, and no `floor`.
     std::vector<std::array<Vec3d, 3>> mesh;
     std::optional<Loop> boundary;

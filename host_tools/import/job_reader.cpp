@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <tuple>
 
 #include "host_tools/import/job.hpp"
 #include "host_tools/import/job_table.hpp"
@@ -11,6 +12,8 @@
 #include "host_tools/import/owned_keys.hpp"
 #include "host_tools/import/path_ending.hpp"
 #include "host_tools/import/text_of_file.hpp"
+#include "host_tools/import/trim_loops.hpp"
+#include "host_tools/surface_offset/model_intersection.hpp"
 
 #include "fmt/format.h"
 
@@ -53,7 +56,8 @@ private:
     void read_grid(JobTable& table, Operation& operation);
     bool takes_mesh(const Operation& operation, const std::vector<std::string>& floor) const;
     void read_mesh_of(const std::string& path, Operation& operation);
-    void read_surfaces_of(const std::string& path, Operation& operation);
+    const std::vector<Surface>& surfaces_of(const std::string& path, double floor_tolerance);
+    void intersect(JobTable& table, const std::vector<std::string>& bodies, Operation& operation);
     void read_parts(JobTable& table, Operation& operation);
     const Tool& tool_numbered(const JobTable& table, const char* key, int number) const;
     std::string path_of(const std::string& name) const;
@@ -75,6 +79,9 @@ private:
     std::map<std::string, Loop> loops_;
     std::map<std::pair<std::string, double>, std::vector<Surface>> surfaces_;  // by tolerance, too
     std::map<std::string, std::vector<std::array<Vec3d, 3>>> meshes_;
+    // By the files of the floor, those it was intersected with, and the tolerance.
+    using Names = std::vector<std::string>;
+    std::map<std::tuple<Names, Names, double>, std::vector<Surface>> intersections_;
 };
 
 std::string JobReader::path_of(const std::string& name) const
@@ -324,33 +331,73 @@ void JobReader::read_mesh_of(const std::string& path, Operation& operation)
     operation.mesh.insert(operation.mesh.end(), meshes_[path].begin(), meshes_[path].end());
 }
 
-void JobReader::read_surfaces_of(const std::string& path, Operation& operation)
+const std::vector<Surface>& JobReader::surfaces_of(const std::string& path, double floor_tolerance)
 {
     // half of what the floor may be off goes to a mesh's height field
-    const double tolerance = path_ending(path) == ".stl" ? operation.floor_tolerance / 2 : 0;
+    const double tolerance = path_ending(path) == ".stl" ? floor_tolerance / 2 : 0;
     const auto [found, is_new] = surfaces_.try_emplace({path, tolerance});
     std::vector<Surface>& surfaces = found->second;
     if (is_new) {
         surfaces = read_surfaces(path, unit_, tolerance, &job_.notes);
     }
-    operation.floor.insert(operation.floor.end(), surfaces.begin(), surfaces.end());
+    return surfaces;
+}
+
+// What is left of the floor under every one of `bodies`.
+void JobReader::intersect(JobTable& table,
+                          const std::vector<std::string>& bodies,
+                          Operation& operation)
+{
+    for (const std::string& name : bodies) {
+        operation.intersect_files.push_back(path_of(name));
+    }
+    const auto [found, is_new] = intersections_.try_emplace(
+        {operation.floor_files, operation.intersect_files, operation.floor_tolerance});
+    std::vector<Surface>& floor = found->second;
+    if (is_new) {
+        std::vector<std::vector<Surface>> models{operation.floor};
+        for (const std::string& file : operation.intersect_files) {
+            models.push_back(surfaces_of(file, operation.floor_tolerance));
+        }
+        floor = intersection_of(models);
+        for (Surface& surface : floor) {
+            std::vector<Curve> trims;
+            for (const std::vector<Curve>& loop : surface.trims) {
+                trims.insert(trims.end(), loop.begin(), loop.end());
+            }
+            surface.trims = trim_loops(trims, surface, file_ + ": intersect");
+        }
+    }
+    if (floor.empty()) {
+        table.refuse("intersect",
+                     "leaves nothing of the floor: seen from above they lie beside "
+                     "each other");
+    }
+    operation.floor = floor;
 }
 
 void JobReader::read_parts(JobTable& table, Operation& operation)
 {
     const std::vector<std::string> floor =
         table.texts("floor").value_or(std::vector<std::string>{});
-    const bool mesh = takes_mesh(operation, floor);
+    const std::vector<std::string> bodies =
+        table.texts("intersect").value_or(std::vector<std::string>{});
+    const bool mesh = bodies.empty() && takes_mesh(operation, floor);
     for (const std::string& name : floor) {
         operation.floor_files.push_back(path_of(name));
         if (mesh) {
             read_mesh_of(operation.floor_files.back(), operation);
         } else {
-            read_surfaces_of(operation.floor_files.back(), operation);
+            const std::vector<Surface>& surfaces =
+                surfaces_of(operation.floor_files.back(), operation.floor_tolerance);
+            operation.floor.insert(operation.floor.end(), surfaces.begin(), surfaces.end());
         }
     }
     if (operation.floor.empty() && operation.mesh.empty()) {
         table.refuse("floor", "is missing: files with the surfaces to cut");
+    }
+    if (!bodies.empty()) {
+        intersect(table, bodies, operation);
     }
     const auto loop = [&](const std::string& path) {
         if (loops_.count(path) == 0) {

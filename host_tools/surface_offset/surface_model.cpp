@@ -183,6 +183,16 @@ std::optional<SurfaceModel::MeshTop> SurfaceModel::top_of_mesh(double x, double 
 Vec3d SurfaceModel::box_low() const { return state_->low; }
 Vec3d SurfaceModel::box_high() const { return state_->high; }
 
+double SurfaceModel::highest() const
+{
+    // it can't but rest on the highest place
+    Tool wide;
+    wide.shape = ToolShape::kFlat;
+    wide.radius = norm(state_->high - state_->low);
+    const Vec3d middle = 0.5 * (state_->low + state_->high);
+    return drop(wide, middle.x, middle.y).value_or(state_->low.z);
+}
+
 bool SurfaceModel::inside_trims(int surface, double u, double v) const
 {
     return state_->regions[static_cast<std::size_t>(surface)].inside(u, v);

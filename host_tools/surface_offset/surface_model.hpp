@@ -153,8 +153,12 @@ public:
     };
     std::optional<MeshTop> top_of_mesh(double x, double y) const;
 
+    // Of the control points.
     Vec3d box_low() const;
     Vec3d box_high() const;
+
+    // Height of the highest place, what trims cut off not counted; as accurate as a drop.
+    double highest() const;
 
     // Drops the cells that queries have cut so far: they are cut again where they are needed. For
     // long series of queries at new places, each of which would stay. No `Contact` from before and

@@ -38,15 +38,16 @@ struct Scene {
 Scene scene_of(const Job& job)
 {
     Scene scene;
-    std::set<std::vector<std::string>> floors;
-    std::set<std::vector<std::string>> meshes;
+    using Files = std::vector<std::string>;
+    std::set<std::pair<Files, Files>> floors;
+    std::set<Files> meshes;
     std::set<std::string> loops;
     for (const Operation& operation : job.operations) {
         if (!operation.mesh.empty()) {
             if (meshes.insert(operation.floor_files).second) {
                 scene.mesh.insert(scene.mesh.end(), operation.mesh.begin(), operation.mesh.end());
             }
-        } else if (floors.insert(operation.floor_files).second) {
+        } else if (floors.insert({operation.floor_files, operation.intersect_files}).second) {
             scene.surfaces.insert(scene.surfaces.end(), operation.floor.begin(),
                                   operation.floor.end());
         }

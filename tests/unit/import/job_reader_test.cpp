@@ -1,4 +1,5 @@
 // Job files: every key, its default, its range.
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 
@@ -72,6 +73,40 @@ TEST(JobReader, IsocurvesAndPlanesTakeAMeshItselfOtherStrategiesTheSurfacesOverI
     LONGS_EQUAL(1, operation("parallel_planes").mesh.size());
     LONGS_EQUAL(0, operation("complete_isocurves").mesh.size());
     LONGS_EQUAL(1, operation("complete_isocurves").floor.size());
+}
+
+TEST(JobReader, IntersectsTheFloor)
+{
+    const std::string hills =
+        "[[operation]]\nstrategy = \"adaptive_isocurve\"\nscallop = 0.4\n"
+        "floor = [\"" +
+        kParts + "sine-hills.json\"]\n";
+    const Operation whole = read(kHead + hills).operations[0];
+    const Operation cut =
+        read(kHead + hills + "intersect = \"" + kParts + "dome-lid.json\"\n").operations[0];
+    CHECK(whole.intersect_files.empty());
+    LONGS_EQUAL(1, cut.intersect_files.size());
+    // the lid comes last, and something is cut off it
+    CHECK(!cut.floor.back().trims.empty());
+    LONGS_EQUAL(2, cut.floor.back().degree_u);
+    const auto is_trimmed = [](const Surface& s) {
+        return !s.trims.empty();
+    };
+    CHECK(std::count_if(cut.floor.begin(), cut.floor.end(), is_trimmed) >
+          std::count_if(whole.floor.begin(), whole.floor.end(), is_trimmed));
+}
+
+TEST(JobReader, RefusesAnIntersectionThatLeavesNothing)
+{
+    folder.with("apart.json",
+                R"({"shape": {"type": "surface", "count": 1, "data": [{"degree_u": 1, "degree_v": 1,
+        "size_u": 2, "size_v": 2, "knotvector_u": [0, 0, 1, 1], "knotvector_v": [0, 0, 1, 1],
+        "control_points": {"points": [[900, 0, 0], [900, 9, 0], [909, 0, 0], [909, 9, 0]]}}]}})");
+    const std::string text = refused(kHead + pocket("intersect = [\"apart.json\"]\n"));
+    STRCMP_CONTAINS("operation 1", text.c_str());
+    STRCMP_CONTAINS("intersect: leaves nothing of the floor", text.c_str());
+    STRCMP_CONTAINS("missing.json",
+                    refused(kHead + pocket("intersect = [\"missing.json\"]\n")).c_str());
 }
 
 TEST(JobReader, ReadsTheDemo)

@@ -264,6 +264,31 @@ TEST(SurfaceModelDrop, OfABullToolTouchesWithItsCorner)
     DOUBLES_EQUAL(10 + 2 + std::sqrt(2.0) - 1, *model.drop(kBull, 10, 10), 1e-4);
 }
 
+TEST(SurfaceModelDrop, HighestPlaceIsOfTheSurfaceNotOfItsControlPoints)
+{
+    const SurfaceModel round{{quarter_cylinder(), plane(0.2)}};
+    DOUBLES_EQUAL(10, round.highest(), 1e-5);
+    std::mt19937 random{5};
+    const SurfaceModel wavy{{random_surface(random)}};
+    double dense = -1e9;
+    for (int i = 0; i <= 600; ++i) {
+        for (int j = 0; j <= 600; ++j) {
+            dense = std::max(dense, wavy.evaluate(0, 0.005 * i, 0.005 * j).point.z);
+        }
+    }
+    DOUBLES_EQUAL(dense, wavy.highest(), 1e-3);
+    CHECK(wavy.highest() >= dense - 1e-5);
+    CHECK(wavy.box_high().z > dense + 0.5);
+}
+
+TEST(SurfaceModelDrop, HighestPlaceIsNotOfWhatIsTrimmedAway)
+{
+    Surface slope = plane(1);
+    slope.trims = {{side({0, 0, 0}, {.5, 0, 0}), side({.5, 0, 0}, {.5, 1, 0}),
+                    side({.5, 1, 0}, {0, 1, 0}), side({0, 1, 0}, {0, 0, 0})}};
+    DOUBLES_EQUAL(10, SurfaceModel{{slope}}.highest(), 1e-3);
+}
+
 TEST(SurfaceModelDrop, MissesBesideTheModel)
 {
     const SurfaceModel model{{plane(0)}};

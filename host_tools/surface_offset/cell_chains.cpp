@@ -1,5 +1,5 @@
 // Open chains first, from where one cell only knows the side.
-#include "host_tools/adaptive_isocurve/cell_chains.hpp"
+#include "host_tools/surface_offset/cell_chains.hpp"
 
 #include <algorithm>
 #include <set>

@@ -1,0 +1,161 @@
+// Heights of the other models are those of a ball hardly larger than a point let down on them.
+#include "host_tools/surface_offset/model_intersection.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "host_tools/surface_offset/domain_outline.hpp"
+#include "host_tools/surface_offset/surface_model.hpp"
+#include "host_tools/surface_offset/trim_region.hpp"
+
+namespace cusp::host {
+namespace {
+
+constexpr double kProbeRadius = 1e-6;  // mm
+// mm: what is higher by less counts as the same height; more than drops are wrong by.
+constexpr double kSameHeight = 1e-5;
+
+class Top {
+public:
+    explicit Top(const std::vector<Surface>& model) : model_{model}
+    {
+        probe_.shape = ToolShape::kBall;
+        probe_.radius = kProbeRadius;
+        probe_.corner_radius = kProbeRadius;
+    }
+
+    // None beside the model.
+    std::optional<double> at(double x, double y) const
+    {
+        last_ = model_.drop(probe_, x, y, last_);
+        return last_;
+    }
+
+private:
+    SurfaceModel model_;
+    Tool probe_;
+    mutable std::optional<double> last_;  // a guess for the next one
+};
+
+class Intersection {
+public:
+    Intersection(const std::vector<std::vector<Surface>>& models, double edge_error)
+        : models_{models}, edge_error_{edge_error}
+    {
+        for (const std::vector<Surface>& model : models) {
+            tops_.push_back(std::make_unique<Top>(model));
+        }
+    }
+
+    std::vector<Surface> surfaces() const
+    {
+        std::vector<Surface> out;
+        for (std::size_t m = 0; m < models_.size(); ++m) {
+            for (const Surface& surface : models_[m]) {
+                if (std::optional<Surface> part = part_of(surface, m)) {
+                    out.push_back(std::move(*part));
+                }
+            }
+        }
+        return out;
+    }
+
+private:
+    // How far below the other models a place is; -infinity beside one of them.
+    double below_others(Vec3d p, std::size_t own) const
+    {
+        double least = kInfinite;
+        for (std::size_t m = 0; m < tops_.size(); ++m) {
+            if (m != own) {
+                const std::optional<double> top = tops_[m]->at(p.x, p.y);
+                if (!top) {
+                    return -kInfinite;
+                }
+                least = std::min(least, *top - p.z + kSameHeight);
+            }
+        }
+        return least;
+    }
+
+    std::optional<Surface> part_of(const Surface& surface, std::size_t own) const
+    {
+        const TrimRegion region{surface, edge_error_};
+        const auto below = [&](Vec2d p) {
+            return below_others(point_at(surface, p.x, p.y), own);
+        };
+        if (is_whole(surface, region, below)) {
+            return surface;
+        }
+        const auto loops = domain_outline(
+            surface,
+            [&](Vec2d p) {
+                return region.trimmed() && !region.inside(p.x, p.y) ? -kInfinite : below(p);
+            },
+            edge_error_);
+        if (loops.empty()) {
+            return std::nullopt;
+        }
+        Surface part = surface;
+        part.trims.clear();
+        for (const std::vector<Vec2d>& loop : loops) {
+            part.trims.push_back({polyline(loop)});
+        }
+        return part;
+    }
+
+    // Whether nothing of it is cut off, inside or along its edges.
+    template <class Below>
+    static bool is_whole(const Surface& surface, const TrimRegion& region, const Below& below)
+    {
+        const DomainLooks looks = looks_over(surface);
+        const Vec2d low{surface.u_begin(), surface.v_begin()};
+        const Vec2d size{surface.u_end() - low.x, surface.v_end() - low.y};
+        for (int i = 0; i <= looks.u; ++i) {
+            for (int j = 0; j <= looks.v; ++j) {
+                const Vec2d p{low.x + size.x * i / looks.u, low.y + size.y * j / looks.v};
+                if ((!region.trimmed() || region.inside(p.x, p.y)) && below(p) < 0) {
+                    return false;
+                }
+            }
+        }
+        for (const std::vector<Vec2d>& loop : region.loops()) {
+            for (const Vec2d p : loop) {
+                if (below(p) < 0) {
+                    return false;
+                }
+            }
+        }
+        return true;
+    }
+
+    static Curve polyline(const std::vector<Vec2d>& loop)
+    {
+        Curve curve;
+        curve.degree = 1;
+        curve.knots.push_back(0);
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            curve.points.push_back({loop[i].x, loop[i].y, 0});
+            curve.weights.push_back(1);
+            curve.knots.push_back(static_cast<double>(i));
+        }
+        curve.knots.push_back(curve.knots.back());
+        return curve;
+    }
+
+    const std::vector<std::vector<Surface>>& models_;
+    double edge_error_;
+    std::vector<std::unique_ptr<Top>> tops_;
+};
+
+}  // namespace
+
+std::vector<Surface> intersection_of(const std::vector<std::vector<Surface>>& models,
+                                     double edge_error)
+{
+    return Intersection{models, edge_error}.surfaces();
+}
+
+}  // namespace cusp::host
