@@ -11,7 +11,7 @@ namespace cusp::host {
 namespace {
 
 constexpr double kPiece = 0.02;      // radii
-constexpr double kSquare = 0.25;     // radii
+constexpr double kSquare = 0.5;      // radii
 constexpr int kLooks = 8;            // between knots: for a length
 constexpr int kMostPieces = 4000;    // the same
 constexpr double kAside = 1e-6;      // of the domain: which side of a crease is meant
@@ -21,6 +21,8 @@ constexpr double kTrimShare = 0.05;  // of the depth, between the edge of a trim
 constexpr int kMostPlaces = 2000;    // of a move
 constexpr int kMostPushes = 3;       // off edges that meet
 constexpr double kRaised = 1e-7;     // mm
+constexpr double kBeyond = 0.4;      // of that
+constexpr int kHalved = 4;           // steps: one of them halves the bounds
 
 Vec3d nearest_on(Vec3d p, Vec3d a, Vec3d b)
 {
@@ -152,6 +154,7 @@ void EdgeGuard::add(const Piece& piece)
 {
     const std::uint32_t number = static_cast<std::uint32_t>(pieces_.size());
     pieces_.push_back(piece);
+    longest_ = std::max(longest_, 0.5 * norm(piece.to - piece.from));
     const Vec3d middle = (piece.from + piece.to) * 0.5;
     cells_[key(cell(middle.x), cell(middle.y))].push_back(number);
 }
@@ -170,7 +173,7 @@ std::uint64_t EdgeGuard::key(std::int64_t i, std::int64_t j) const
 template <class Look>
 void EdgeGuard::look_round(Vec3d centre, double around, const Look& look) const
 {
-    around += kSquare * radius_;
+    around += longest_;
     const std::int64_t j_end = cell(centre.y + around);
     for (std::int64_t i = cell(centre.x - around); i <= cell(centre.x + around); ++i) {
         for (std::int64_t j = cell(centre.y - around); j <= j_end; ++j) {
@@ -185,18 +188,26 @@ void EdgeGuard::look_round(Vec3d centre, double around, const Look& look) const
     }
 }
 
-// How much farther off the piece the ball has to be, to take off no more with `margin` to spare.
-double EdgeGuard::lacking(const Piece& piece, Vec3d centre, double margin) const
+// None where the ball, with `margin` to spare, does not come near to the piece.
+std::optional<EdgeGuard::Lack> EdgeGuard::lacking(const Piece& piece,
+                                                  Vec3d centre,
+                                                  double margin) const
 {
+    const double limit = radius_ + margin;
+    const double x = centre.x - piece.from.x;
+    const double y = centre.y - piece.from.y;
+    const double far = limit + 2 * longest_;
+    if (x * x + y * y > far * far || centre.z - piece.from.z > far) {
+        return std::nullopt;
+    }
     const Vec3d way = way_off(centre, piece.from, piece.to);
     const double distance = norm(way);
-    const double limit = radius_ + margin;
     if (distance >= limit || distance <= 0) {
-        return 0;
+        return std::nullopt;
     }
-    const double up = std::max(kLeastUp, way.z / distance);
-    const double depth = deepest_ * up / std::max(kLeastUp, piece.upright);
-    return limit - depth - distance;
+    const double faster = deepest_ / std::max(kLeastUp, piece.upright);
+    const double depth = faster * std::max(kLeastUp, way.z / distance);
+    return Lack{limit - depth - distance, way, distance, faster};
 }
 
 // The way off the edge where most is missing; nothing where none lacks `margin`.
@@ -205,37 +216,60 @@ Vec3d EdgeGuard::missing(Vec3d centre, double margin) const
     double most = 0;
     Vec3d out;
     look_round(centre, radius_ + margin, [&](const Piece& piece) {
-        const double lack = lacking(piece, centre, margin);
-        if (lack > most) {
-            const Vec3d way = way_off(centre, piece.from, piece.to);
-            most = lack;
-            out = way * (most / norm(way));
+        const std::optional<Lack> lack = lacking(piece, centre, margin);
+        if (lack && lack->amount > most) {
+            most = lack->amount;
+            out = lack->way * (most / lack->distance);
         }
     });
     return out;
 }
 
-Vec3d EdgeGuard::raised(Vec3d tip, double band) const
+// z where a centre that lacks something lacks nothing any more: Newton's way, aimed a little beyond
+// so as to close in from both sides.
+double EdgeGuard::free_height(const Piece& piece, Vec3d centre, Lack lack, double margin) const
 {
-    Vec3d centre = tip + Vec3d{0, 0, radius_};
-    bool again = true;
-    for (int k = 0; k < kMostPushes && again; ++k) {
-        again = false;
-        look_round(centre, radius_ + band, [&](const Piece& piece) {
-            if (lacking(piece, centre, band) <= 0) {
-                return;
-            }
-            again = true;
-            double low = centre.z;
-            double free = std::max(piece.from.z, piece.to.z) + radius_ + band;
-            while (free - low > kRaised) {
-                centre.z = 0.5 * (low + free);
-                (lacking(piece, centre, band) > 0 ? low : free) = centre.z;
-            }
-            centre.z = free;
-        });
+    double low = centre.z;
+    double free = std::max(piece.from.z, piece.to.z) + radius_ + margin;
+    for (int k = 1; free - low > kRaised; ++k) {
+        const double up = lack.way.z / lack.distance;
+        const double depth = up > kLeastUp ? lack.faster * (1 - up * up) / lack.distance : 0.0;
+        const double beyond = lack.amount > 0 ? kBeyond * kRaised : -kBeyond * kRaised;
+        const double next = centre.z + lack.amount / (up + depth) + beyond;
+        const bool aimed = k % kHalved != 0 && low < next && next < free;
+        centre.z = aimed ? next : 0.5 * (low + free);
+        const std::optional<Lack> there = lacking(piece, centre, margin);
+        (there && there->amount > 0 ? low : free) = centre.z;
+        lack = there.value_or(Lack{0, lack.way, lack.distance, lack.faster});
     }
-    return centre - Vec3d{0, 0, radius_};
+    return free;
+}
+
+// A ball of its radius rolls within what an edge bars: distance + depth is constant where it ends.
+EdgeGuard::Raised EdgeGuard::raised(Vec3d tip, double band) const
+{
+    const Vec3d up{0, 0, 1};
+    Vec3d centre = tip + up * radius_;
+    const Piece* last = nullptr;
+    look_round(centre, radius_ + band, [&](const Piece& piece) {
+        const std::optional<Lack> lack = lacking(piece, centre, band);
+        if (lack && lack->amount > 0) {
+            centre.z = free_height(piece, centre, *lack, band);
+            last = &piece;
+        }
+    });
+    if (last == nullptr) {
+        return {tip, std::nullopt};
+    }
+    Vec3d out = way_off(centre, last->from, last->to);
+    const double distance = norm(out);
+    const double share = out.z / distance;
+    const double faster = deepest_ / std::max(kLeastUp, last->upright);
+    out = out / distance;
+    if (share > kLeastUp) {
+        out = out * (1 - faster * share / distance) + up * (faster / distance);
+    }
+    return {centre - up * radius_, centre - out * (radius_ / norm(out))};
 }
 
 Vec3d EdgeGuard::moved_off(Vec3d tip, double band) const

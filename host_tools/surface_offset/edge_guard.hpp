@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -27,8 +28,14 @@ public:
     // more, with places between where it has to bend; unchanged where nothing has to move.
     std::vector<Vec3d> kept_off(const std::vector<Vec3d>& tips, double band) const;
 
-    // The tip, raised where it has to be so that no place within `band` of it takes off more.
-    Vec3d raised(Vec3d tip, double band) const;
+    // A tip that was raised where it had to be so that no place within `band` of it takes off more.
+    struct Raised {
+        Vec3d tip;
+        // Middle of a ball of the tool's radius that the tool's middle may not enter, and touches
+        // now; none where nothing had to be raised. Right but for edges of all but upright faces.
+        std::optional<Vec3d> barrier;
+    };
+    Raised raised(Vec3d tip, double band) const;
 
     // Whether a straight move of the tip takes nowhere more off a face at its edge.
     bool spares(Vec3d from, Vec3d to) const;
@@ -43,6 +50,13 @@ private:
         Vec3d to;
         double upright;  // z of the face's normal, the larger of its ends
     };
+    // How much farther off a piece the ball has to be, to take off no more.
+    struct Lack {
+        double amount;    // mm; none where not positive
+        Vec3d way;        // from the piece to the centre, or level where that is lower
+        double distance;  // mm, along it
+        double faster;    // mm: how the depth allowed grows with the way's share upward
+    };
     Vec3d moved_off(Vec3d tip, double band) const;
     // Returns whether some place had to move.
     bool append_moved(Vec3d from, Vec3d to, double band, std::vector<Vec3d>& out) const;
@@ -52,7 +66,8 @@ private:
     void add(const Piece& piece);
     template <class Look>
     void look_round(Vec3d centre, double around, const Look& look) const;
-    double lacking(const Piece& piece, Vec3d centre, double margin) const;
+    std::optional<Lack> lacking(const Piece& piece, Vec3d centre, double margin) const;
+    double free_height(const Piece& piece, Vec3d centre, Lack lack, double margin) const;
     Vec3d missing(Vec3d centre, double margin) const;
     std::uint64_t key(std::int64_t i, std::int64_t j) const;
     std::int64_t cell(double at) const;
@@ -61,6 +76,7 @@ private:
     double deepest_;
     double step_;          // mm: between places of a move looked at
     double edge_error_{};  // mm: between an edge and its pieces
+    double longest_{};     // mm, of half a piece
     std::vector<Piece> pieces_;
     std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
 };

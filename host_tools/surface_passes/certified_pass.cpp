@@ -185,9 +185,10 @@ Points CertifiedPasses::kept_off_edges(const Points& dense) const
     return edges_ ? edges_->kept_off(dense, kEdgeMargin * band_.band) : dense;
 }
 
-Vec3d CertifiedPasses::raised_off_edges(Vec3d tip) const
+EdgeGuard::Raised CertifiedPasses::raised_off_edges(Vec3d tip) const
 {
-    return edges_ ? edges_->raised(tip, kEdgeMargin * band_.band) : tip;
+    return edges_ ? edges_->raised(tip, kEdgeMargin * band_.band)
+                  : EdgeGuard::Raised{tip, std::nullopt};
 }
 
 bool CertifiedPasses::spares_edges(Vec3d a, Vec3d b) const

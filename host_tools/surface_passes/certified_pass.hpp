@@ -47,7 +47,7 @@ public:
     Points kept_off_edges(const Points& dense) const;
 
     // The tip, raised so far that it is not moved off guarded edges.
-    Vec3d raised_off_edges(Vec3d tip) const;
+    EdgeGuard::Raised raised_off_edges(Vec3d tip) const;
 
     // Whether a straight move cuts into no guarded edge from beside.
     bool spares_edges(Vec3d a, Vec3d b) const;

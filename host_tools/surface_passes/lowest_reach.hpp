@@ -2,6 +2,7 @@
 // concave edges and under overhangs.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -35,16 +36,23 @@ public:
     // None where the tool can't stand over the place.
     std::optional<Answer> over(Vec3d place, double worth);
 
-    // The same for a tool that keeps off guarded edges as passes do, starting from `over`'s answer
-    // that does not; none where no tip is found that leaves less than `worth`.
-    std::optional<Answer> kept_off_edges(Vec3d place, const Answer& from, double worth);
+    // The same for a tool that keeps off guarded edges as passes do; none where no tip is found
+    // that leaves less than `worth`.
+    //
+    // near  `over`'s answer, that does not
+    std::optional<Answer> kept_off_edges(Vec3d place, const Answer& near, double worth);
 
 private:
-    ReachSearch::Rest dropped(double x, double y);
-    std::optional<Answer> exact_over(Vec3d place, double x, double y) const;
-    std::optional<Answer> beside(Vec3d place, Vec3d brink, double worth);
-    std::optional<Answer> raised_over(Vec3d place, double x, double y, bool exact);
-    void improve_raised(Vec3d place, Answer& best);
+    // Of the tool that keeps off guarded edges, or does not.
+    enum class Edges : std::uint8_t { kMet, kKeptOff };
+
+    ReachSearch::Rest dropped(double x, double y, Edges edges);
+    std::optional<Answer> exact_over(Vec3d place, double x, double y, Edges edges) const;
+    std::optional<Answer> beside(Vec3d place, Vec3d brink, double worth, Edges edges);
+    std::optional<Answer> exactly(const ReachSearch::Answer& found,
+                                  Vec3d place,
+                                  double worth,
+                                  Edges edges);
 
     const std::vector<Surface>& surfaces_;
     const CertifiedPasses& certified_;
@@ -53,6 +61,7 @@ private:
     double radius_;
     double contact_radius_;  // mm: of a ball that touches what the tool stays `lift` off
     ReachSearch search_;
+    ReachSearch kept_off_;
 };
 
 }  // namespace cusp::host

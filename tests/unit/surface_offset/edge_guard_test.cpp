@@ -86,7 +86,7 @@ TEST(EdgeGuard, KeepsTheShankOffARimOverTheBall)
                 CHECK(kept.x <= -kRadius - 0.99 * kBand);
                 DOUBLES_EQUAL(tip, kept.z, 1e-9);
             }
-            CHECK(guard.raised(from, kBand).z + kRadius > 0);
+            CHECK(guard.raised(from, kBand).tip.z + kRadius > 0);
         }
     }
 }
@@ -97,7 +97,7 @@ TEST(EdgeGuard, RaisesTheBallBesideTheRimUntilItNeedsNoPush)
     for (const double beside : {0.3, 1.0, 1.95, 1.999, 2.001}) {
         const double dip = std::max(0.0, std::pow(kRadius - kDeepest, 2) - beside * beside);
         const Vec3d tip{-beside, 5, std::sqrt(dip) - kRadius};
-        const Vec3d raised = guard.raised(tip, kBand);
+        const Vec3d raised = guard.raised(tip, kBand).tip;
         CHECK(raised.x == tip.x && raised.y == tip.y && raised.z >= tip.z);
         DOUBLES_EQUAL(0, norm(guard.kept_off({raised}, kBand).front() - raised), 1e-6);
         // No higher than it has to be.
@@ -107,7 +107,25 @@ TEST(EdgeGuard, RaisesTheBallBesideTheRimUntilItNeedsNoPush)
         }
     }
     const Vec3d over{1, 5, 0};
-    CHECK(guard.raised(over, kBand) == over);
+    CHECK(guard.raised(over, kBand).tip == over);
+}
+
+TEST(EdgeGuard, KeepsTheBallOutOfTheBarrierThatRaisedIt)
+{
+    const EdgeGuard guard{{plate()}, kRadius, kDeepest};
+    for (const double beside : {0.3, 1.0, 1.95}) {
+        const EdgeGuard::Raised raised = guard.raised({-beside, 5, -kRadius}, kBand);
+        CHECK(raised.barrier.has_value());
+        const Vec3d middle = raised.tip + Vec3d{0, 0, kRadius};
+        DOUBLES_EQUAL(kRadius, norm(middle - *raised.barrier), 1e-9);
+        for (int k = 0; k < 64; ++k) {
+            const Vec3d out{std::cos(0.7 * k), std::sin(0.7 * k), std::cos(0.4 * k)};
+            const Vec3d inside = *raised.barrier + out * ((kRadius - 1e-6) / norm(out));
+            const Vec3d tip = inside - Vec3d{0, 0, kRadius};
+            CHECK(guard.raised(tip, kBand).barrier.has_value());
+        }
+    }
+    CHECK(!guard.raised({1, 5, 0}, kBand).barrier.has_value());
 }
 
 TEST(EdgeGuard, TellsHowDeepAMoveCutsIntoTheRim)
