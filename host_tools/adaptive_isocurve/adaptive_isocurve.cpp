@@ -428,7 +428,7 @@ private:
         std::vector<std::uint32_t> moves;
         edges_->near(centre, moves);
         return std::any_of(moves.begin(), moves.end(),
-                           [&](std::uint32_t move) { return edges_->removes(move, centre, 0); });
+                           [&](std::uint32_t move) { return edges_->passes_near(move, centre); });
     }
 
     bool reaches_ends(const DomainCurve& curve, const Points& piece) const

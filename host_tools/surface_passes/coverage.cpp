@@ -166,6 +166,9 @@ Coverage::Verdict Coverage::judge(const Cell& cell, const std::array<Corner, 4>&
         if (blocked_somewhere(at)) {
             return thinned(cell, at, long_u, long_v);
         }
+        if (bare(at)) {
+            return Verdict::kUncovered;
+        }
     } else if (std::max(long_u, long_v) < kSettledCell * places_.step() &&
                settled(cell, at, middle)) {
         return Verdict::kCovered;
@@ -253,6 +256,15 @@ bool Coverage::stands_steep(const std::array<Corner, 4>& at) const
 bool Coverage::blocked_somewhere(const std::array<Corner, 4>& at) const
 {
     return std::any_of(at.begin(), at.end(), [&](const Corner& c) { return blocked(c); });
+}
+
+// Whether nothing has been at any of the corners, which the tool can touch: cut there before cells
+// are halved.
+bool Coverage::bare(const std::array<Corner, 4>& at) const
+{
+    return std::all_of(at.begin(), at.end(), [&](const Corner& c) {
+        return inside_trims(c.surface, c.u, c.v) && !place_covered(c) && stands_free(c);
+    });
 }
 
 // Whether the tool can touch none of the cell and there is nothing to be done in it: away from

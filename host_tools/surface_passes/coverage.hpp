@@ -114,6 +114,7 @@ private:
     bool stands_steep(const std::array<Corner, 4>& at) const;
     bool stands_free(const Corner& at) const;
     bool blocked(const Corner& at) const { return !place_covered(at) && !stands_free(at); }
+    bool bare(const std::array<Corner, 4>& at) const;
     bool blocked_somewhere(const std::array<Corner, 4>& at) const;
     bool settled(const Cell& cell, const std::array<Corner, 4>& at, const Corner& middle) const;
     bool hidden(const Corner& at) const;

@@ -23,6 +23,25 @@ double square_to_move(Vec3d p, const SweptBalls::Move& move)
     return dot(rest, rest);
 }
 
+// The same to the move and all that lies straight above it.
+bool lies_within(double square_radius, Vec3d p, const SweptBalls::Move& move)
+{
+    if (square_to_move(p, move) <= square_radius) {
+        return true;
+    }
+    if (p.z <= std::min(move.from.z, move.to.z)) {
+        return false;
+    }
+    const Vec3d d = move.to - move.from;
+    const Vec3d off = p - move.from;
+    const double level = d.x * d.x + d.y * d.y;
+    const double t = level > 0 ? std::clamp((off.x * d.x + off.y * d.y) / level, 0.0, 1.0) : 0;
+    const double low = level > 0 ? move.from.z + d.z * t : std::min(move.from.z, move.to.z);
+    const double x = off.x - d.x * t;
+    const double y = off.y - d.y * t;
+    return p.z >= low && x * x + y * y <= square_radius;
+}
+
 }  // namespace
 
 SweptBalls::SweptBalls(double radius, double reach) : radius_{radius}, pitch_{reach}
@@ -98,7 +117,12 @@ void SweptBalls::near(Vec3d centre, std::vector<std::uint32_t>& out) const
 bool SweptBalls::removes(std::uint32_t move, Vec3d point, double less) const
 {
     const double radius = radius_ - less;
-    return radius > 0 && square_to_move(point, moves_[move]) <= radius * radius;
+    return radius > 0 && lies_within(radius * radius, point, moves_[move]);
+}
+
+bool SweptBalls::passes_near(std::uint32_t move, Vec3d point) const
+{
+    return square_to_move(point, moves_[move]) <= radius_ * radius_;
 }
 
 // The lower side of a ball swept along a line is a tilted cylinder's, cut off at the ends. Seen in

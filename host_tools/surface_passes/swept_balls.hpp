@@ -12,7 +12,8 @@
 
 namespace cusp::host {
 
-// Moves by the centres of the ball. What one removes, a ball swept along a line, is convex.
+// Moves by the centres of the ball. What one removes, a ball and its shank swept along a line, is
+// convex.
 //
 // Not for use by two threads at once.
 class SweptBalls {
@@ -32,8 +33,11 @@ public:
     // The numbers of all moves that pass within `reach` of the centre, and some more.
     void near(Vec3d centre, std::vector<std::uint32_t>& out) const;
 
-    // Whether the point lies in what the move removes, by a ball that is smaller by `less`.
+    // Whether the point lies in what the move removes, by a tool that is smaller by `less`.
     bool removes(std::uint32_t move, Vec3d point, double less) const;
+
+    // Whether the ball itself comes to the point.
+    bool passes_near(std::uint32_t move, Vec3d point) const;
 
     // The lowest point that all moves leave free of metal straight above (x, y), and the centre of
     // the ball that does; height is infinite where there is none.

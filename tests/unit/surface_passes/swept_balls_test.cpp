@@ -75,3 +75,25 @@ TEST(SweptBalls, LeaveNothingFreeBesideThem)
     DOUBLES_EQUAL(1, swept.lowest(5, 0).height, 1e-12);
     DOUBLES_EQUAL(3, swept.lowest(5, 2).height, 1e-6);
 }
+
+// Over a wall the metal that may stand straight above a place is beside the shank, not the ball.
+TEST(SweptBalls, RemoveWhatTheShankPasses)
+{
+    constexpr unsigned kSeed = 70;
+    std::mt19937 random{kSeed};
+    std::uniform_real_distribution<double> at{-4, 4};
+    int removed = 0;
+    for (int k = 0; k < 300; ++k) {
+        const std::vector<Vec3d> tips{{at(random), at(random), at(random)},
+                                      {at(random), at(random), at(random)}};
+        SweptBalls swept{kRadius, 0.5};
+        swept.add(tips);
+        const Vec3d p{at(random), at(random), at(random) + 2};
+        const double lowest = swept.lowest(p.x, p.y).height;
+        if (std::abs(p.z - lowest) > 1e-6) {
+            CHECK_EQUAL(p.z > lowest, swept.removes(0, p, 0));
+            removed += p.z > lowest ? 1 : 0;
+        }
+    }
+    CHECK(removed > 50);
+}
