@@ -1,44 +1,36 @@
-// Heights of the other models are those of a ball hardly larger than a point let down on them.
+// What a place may not be over is the highest place of each other model there.
 #include "host_tools/surface_offset/model_intersection.hpp"
 
 #include <algorithm>
 #include <cstddef>
-#include <memory>
 #include <optional>
 #include <utility>
 
 #include "host_tools/surface_offset/domain_outline.hpp"
-#include "host_tools/surface_offset/surface_model.hpp"
+#include "host_tools/surface_offset/height_over.hpp"
 #include "host_tools/surface_offset/trim_region.hpp"
 
 namespace cusp::host {
 namespace {
 
-constexpr double kProbeRadius = 1e-6;  // mm
-// mm: what is higher by less counts as the same height; more than drops are wrong by.
+// mm: what is higher by less counts as the same height.
 constexpr double kSameHeight = 1e-5;
+// mm: a body is that much wider, so that bodies may share an edge.
+constexpr double kSameEdge = 2e-4;
 
-class Top {
-public:
-    explicit Top(const std::vector<Surface>& model) : model_{model}
-    {
-        probe_.shape = ToolShape::kBall;
-        probe_.radius = kProbeRadius;
-        probe_.corner_radius = kProbeRadius;
+// Of a model; none beside it.
+std::optional<double> top_at(const HeightOver& model, Vec3d p)
+{
+    if (const auto top = model.at(p.x, p.y)) {
+        return top;
     }
-
-    // None beside the model.
-    std::optional<double> at(double x, double y) const
-    {
-        last_ = model_.drop(probe_, x, y, last_);
-        return last_;
+    std::optional<double> highest;
+    for (int k = 0; k < 9; ++k) {
+        const auto top = model.at(p.x + (k / 3 - 1) * kSameEdge, p.y + (k % 3 - 1) * kSameEdge);
+        highest = top ? std::max(highest.value_or(*top), *top) : highest;
     }
-
-private:
-    SurfaceModel model_;
-    Tool probe_;
-    mutable std::optional<double> last_;  // a guess for the next one
-};
+    return highest;
+}
 
 class Intersection {
 public:
@@ -46,7 +38,7 @@ public:
         : models_{models}, edge_error_{edge_error}
     {
         for (const std::vector<Surface>& model : models) {
-            tops_.push_back(std::make_unique<Top>(model));
+            tops_.emplace_back(model, edge_error);
         }
     }
 
@@ -70,7 +62,7 @@ private:
         double least = kInfinite;
         for (std::size_t m = 0; m < tops_.size(); ++m) {
             if (m != own) {
-                const std::optional<double> top = tops_[m]->at(p.x, p.y);
+                const std::optional<double> top = top_at(tops_[m], p);
                 if (!top) {
                     return -kInfinite;
                 }
@@ -147,7 +139,7 @@ private:
 
     const std::vector<std::vector<Surface>>& models_;
     double edge_error_;
-    std::vector<std::unique_ptr<Top>> tops_;
+    std::vector<HeightOver> tops_;
 };
 
 }  // namespace

@@ -9,7 +9,8 @@ namespace cusp::host {
 
 // What bounds the body that lies below every one of the models, seen from above: of each surface
 // the part that is nowhere higher than the other models. A model is the union of its surfaces; it
-// has no body where none of them lies.
+// has no body where none of them lies, seen from above, but is 2e-4 mm wider, so that bodies may
+// share an edge.
 //
 // Source: Elber & Cohen 1993, section 3: the offset of an intersection is free of concave corners,
 // and what the offsets of both leave is what the offset of the trimmed surfaces leaves.
