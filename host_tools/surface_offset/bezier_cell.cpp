@@ -311,6 +311,10 @@ std::array<const BezierCell*, 2> BezierCell::halves() const
             half[k]->u_end_ = across_u && k == 0 ? u_middle : u_end_;
             half[k]->v_begin_ = !across_u && k == 1 ? v_middle : v_begin_;
             half[k]->v_end_ = !across_u && k == 0 ? v_middle : v_end_;
+            half[k]->first_u_ = first_u_ && !(across_u && k == 1);
+            half[k]->last_u_ = last_u_ && !(across_u && k == 0);
+            half[k]->first_v_ = first_v_ && (across_u || k == 0);
+            half[k]->last_v_ = last_v_ && (across_u || k == 1);
             half[k]->trim_ = trim_ == Trim::kCut ? Trim::kUnknown : trim_;
         }
         const std::size_t lines = across_u ? count_t_ : count_s_;

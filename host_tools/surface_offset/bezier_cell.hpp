@@ -48,6 +48,9 @@ public:
     double u_end() const { return u_end_; }
     double v_begin() const { return v_begin_; }
     double v_end() const { return v_end_; }
+    // Whether the cell reaches the patch's first or last u, or v.
+    bool ends_in_u() const { return first_u_ || last_u_; }
+    bool ends_in_v() const { return first_v_ || last_v_; }
 
     Vec3d low() const { return low_; }
     Vec3d high() const { return high_; }
@@ -128,6 +131,10 @@ private:
     double u_end_{};
     double v_begin_{};
     double v_end_{};
+    bool first_u_{true};
+    bool last_u_{true};
+    bool first_v_{true};
+    bool last_v_{true};
     Vec3d low_;
     Vec3d high_;
     SurfacePoint middle_;

@@ -101,6 +101,21 @@ double least_curvature(const ToolCore& core, const BezierCell& cell)
     return least_eigenvalue(middle) - std::max(ss, tt) - st;
 }
 
+// Whether no place of the cell is the surface's nearest but on edges that cut it: everywhere the
+// way to the core leans to one side, along the borders of the patch too.
+bool leans(const ToolCore& core, const BezierCell& cell)
+{
+    const SurfacePoint& m = cell.middle();
+    const BezierCell::Spread& e = cell.spread();
+    const Vec3d r = core.reach(m.point);
+    const double reach = norm(r);
+    const bool along_u =
+        std::abs(dot(r, m.du)) > e.point * (norm(m.du) + e.ds) + reach * e.ds && !cell.ends_in_u();
+    const bool along_v =
+        std::abs(dot(r, m.dv)) > e.point * (norm(m.dv) + e.dt) + reach * e.dt && !cell.ends_in_v();
+    return along_u || along_v;
+}
+
 // Newton's method on the unit square for half the squared distance.
 struct CellMinimum {
     double s{0.5};
@@ -353,7 +368,8 @@ private:
             }
             return;
         }
-        if (at_least >= found_) {
+        // Edges are looked at themselves.
+        if (at_least >= found_ || (cell.trim() == BezierCell::Trim::kCut && leans(core_, cell))) {
             return;
         }
         if (cell.spread().point < kLeastCell) {

@@ -176,6 +176,48 @@ TEST(SurfaceModelDistance, PassesThroughATrimmedHole)
     DOUBLES_EQUAL(-2, model.clearance(kBall, {2, 2, 1 - 3.0}, 10).distance, 1e-6);
 }
 
+// Below the hole's rim and over it, near the middle too, where all of the rim is about as far.
+TEST(SurfaceModelDistance, AgreesWithDenseSamplesRoundATrimmedHole)
+{
+    constexpr unsigned kSeed = 5;
+    std::printf("seed %u ", kSeed);
+    std::mt19937 random{kSeed};
+    const SurfaceModel model{{holed_sheet(0.2)}};
+    std::vector<Vec3d> samples;
+    constexpr int kSamples = 400;
+    for (int i = 0; i <= kSamples; ++i) {
+        for (int j = 0; j <= kSamples; ++j) {
+            const double u = static_cast<double>(i) / kSamples;
+            const double v = static_cast<double>(j) / kSamples;
+            if (std::hypot(u - 0.5, v - 0.5) >= 0.2) {
+                samples.push_back(model.evaluate(0, u, v).point);
+            }
+        }
+    }
+    for (int k = 0; k < 10 * kSamples; ++k) {
+        samples.push_back(
+            model.evaluate(0, 0.5 + 0.2 * std::cos(k), 0.5 + 0.2 * std::sin(k)).point);
+    }
+    constexpr double kApart = 0.12;
+    for (int turn = 0; turn < 120; ++turn) {
+        const Tool& tool = turn % 3 == 0 ? kFlat : turn % 3 == 1 ? kBull : kBall;
+        const double round = turn % 2 == 0 ? 0.2 : 6;
+        std::uniform_real_distribution<double> at{15 - round, 15 + round};
+        std::uniform_real_distribution<double> height{-2, 7};
+        const Vec3d tip{at(random), at(random), height(random)};
+        double dense = 1e9;
+        for (const Vec3d& p : samples) {
+            const double out = std::max(
+                0.0, std::hypot(p.x - tip.x, p.y - tip.y) - tool.radius + tool.corner_radius);
+            const double down = std::min(0.0, p.z - tip.z - tool.corner_radius);
+            dense = std::min(dense, std::hypot(out, down) - tool.corner_radius);
+        }
+        const double exact = model.clearance(tool, tip, 100).distance;
+        CHECK(exact <= dense + 1e-4);
+        CHECK(exact >= dense - kApart);
+    }
+}
+
 TEST(SurfaceModelDistance, AlongAMoveIsBoundedFromBelow)
 {
     const SurfaceModel model{{plane(0)}};
