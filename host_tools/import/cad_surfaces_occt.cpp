@@ -395,6 +395,13 @@ bool looks_up(const Surface& s, double outwards)
     return false;
 }
 
+double area_of(const TopoDS_Shape& shape)
+{
+    GProp_GProps properties;
+    BRepGProp::SurfaceProperties(shape, properties);
+    return properties.Mass();
+}
+
 std::vector<Surface> surfaces_of(const std::string& file, Repairs repairs)
 {
     const TopoDS_Shape shape = read_shape(file, repairs);
@@ -413,6 +420,10 @@ std::vector<Surface> surfaces_of(const std::string& file, Repairs repairs)
         const TopoDS_Shape converted =
             BRepBuilderAPI_NurbsConvert{faces[i].face.Oriented(TopAbs_FORWARD), true}.Shape();
         const TopoDS_Face face = TopoDS::Face(converted.Oriented(TopAbs_FORWARD));
+        // Sewing has turned such a face, too: it would seem to look down.
+        if (area_of(face) < 0) {
+            throw InputError(place + ": its edges run round it the wrong way");
+        }
         Surface surface = surface_of(face);
         const double outwards = faces[i].face.Orientation() == TopAbs_REVERSED ? -1.0 : 1.0;
         if (faces[i].solid && !looks_up(surface, outwards)) {
@@ -427,13 +438,6 @@ std::vector<Surface> surfaces_of(const std::string& file, Repairs repairs)
         throw InputError(file + ": no face looks up: is z the tool's axis?");
     }
     return surfaces;
-}
-
-double area_of(const TopoDS_Shape& shape)
-{
-    GProp_GProps properties;
-    BRepGProp::SurfaceProperties(shape, properties);
-    return properties.Mass();
 }
 
 // A file whose wires do need turning is read again with all repairs, unless those lose some of it.

@@ -8,9 +8,12 @@
 #include "opencascade/BRepAlgoAPI_Cut.hxx"
 #include "opencascade/BRepAlgoAPI_Fuse.hxx"
 #include "opencascade/BRepBuilderAPI_MakeFace.hxx"
+#include "opencascade/BRepGProp.hxx"
 #include "opencascade/BRepPrimAPI_MakeBox.hxx"
 #include "opencascade/BRepPrimAPI_MakeCylinder.hxx"
 #include "opencascade/BRepPrimAPI_MakeSphere.hxx"
+#include "opencascade/BRep_Builder.hxx"
+#include "opencascade/GProp_GProps.hxx"
 #include "opencascade/GeomAPI_PointsToBSplineSurface.hxx"
 #include "opencascade/Geom_BSplineSurface.hxx"
 #include "opencascade/IGESControl_Controller.hxx"
@@ -19,6 +22,8 @@
 #include "opencascade/STEPControl_Controller.hxx"
 #include "opencascade/STEPControl_Writer.hxx"
 #include "opencascade/TColgp_Array2OfPnt.hxx"
+#include "opencascade/TopExp_Explorer.hxx"
+#include "opencascade/TopoDS_Compound.hxx"
 #include "opencascade/gp_Ax2.hxx"
 // CppUTest's macros come last
 #include "CppUTest/TestHarness.h"
@@ -152,6 +157,29 @@ TEST(CadSurfaces, OfASolidInIgesAreThoseThatLookUp) { check_block(iges(block(), 
 TEST(CadSurfaces, OfLooseIgesFacesThatCloseAVolumeAreThoseThatLookUp)
 {
     check_block(iges(block(), false));
+}
+
+// As Open CASCADE's fillets may come: sewing turns such a face over to match its neighbours.
+TEST(CadSurfaces, OfAFaceWhoseEdgesRunTheWrongWayRoundAreNotLeftOut)
+{
+    const TopoDS_Shape part = block();
+    const BRep_Builder builder;
+    TopoDS_Compound all;
+    builder.MakeCompound(all);
+    for (TopExp_Explorer at{part, TopAbs_FACE}; at.More(); at.Next()) {
+        GProp_GProps middle;
+        BRepGProp::SurfaceProperties(at.Current(), middle);
+        if (middle.CentreOfMass().Z() < -1e-6) {
+            builder.Add(all, at.Current());
+            continue;
+        }
+        TopoDS_Shape turned = at.Current().EmptyCopied();
+        for (TopExp_Explorer wires{at.Current(), TopAbs_WIRE}; wires.More(); wires.Next()) {
+            builder.Add(turned, wires.Current().Reversed());
+        }
+        builder.Add(all, turned);
+    }
+    check_block(iges(all, false));
 }
 
 // The ball's lower half hangs out beside the block, its pole sometimes on a corner of the face:
