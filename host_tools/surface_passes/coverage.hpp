@@ -32,7 +32,7 @@ public:
              const CertifiedPasses& certified,
              double scallop,
              double path_off,
-             std::size_t most_gaps = 200000);
+             std::size_t most_gaps = 1000000);
 
     // A pass that will be cut, by its tips.
     void add(const Points& tips);
