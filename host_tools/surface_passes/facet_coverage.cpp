@@ -15,6 +15,9 @@ constexpr int kFacetRounds = 5;
 constexpr int kFacetHalvings = 60;
 constexpr std::size_t kMostGaps = 300000;
 
+// Exactly on a side of a cell the neighbour's normal counts as much.
+Vec3d place_beside(Vec3d corner, Vec3d middle) { return corner + (middle - corner) * 1e-3; }
+
 }  // namespace
 
 FacetCoverage::FacetCoverage(const std::vector<std::array<Vec3d, 3>>& triangles,
@@ -119,15 +122,18 @@ void FacetCoverage::look_into(const Cell& cell, int depth)
         return;
     }
     if (verdict != Verdict::kHalve || depth == 0) {
-        if (verdict != Verdict::kSettled) {
-            overflowed_ = gaps_.size() >= kMostGaps;
-            if (!overflowed_) {
-                gaps_.push_back(cell);
-            }
-        }
         if ((verdict == Verdict::kBlocked || verdict == Verdict::kSettled) && looking_over_) {
             blocked_area_ += 0.5 * norm(cross(cell.corners[1] - cell.corners[0],
                                               cell.corners[2] - cell.corners[0]));
+        }
+        // Mostly nothing is to be done where the tool can't touch, and rough ground has no end of
+        // such cells.
+        if (verdict == Verdict::kSettled || (verdict == Verdict::kBlocked && !may_be_bare(cell))) {
+            return;
+        }
+        overflowed_ = gaps_.size() >= kMostGaps;
+        if (!overflowed_) {
+            gaps_.push_back(cell);
         }
         return;
     }
@@ -179,13 +185,31 @@ std::optional<FacetCoverage::Place> FacetCoverage::bare_place(const Cell& cell) 
         return middle;
     }
     for (const Vec3d& corner : cell.corners) {
-        // Exactly on a side the neighbour's normal counts as much.
-        const Place place{corner + (middle.point - corner) * 1e-3, cell.normal};
+        const Place place{place_beside(corner, middle.point), cell.normal};
         if (missing_tip(place, false)) {
             return place;
         }
     }
     return std::nullopt;
+}
+
+// As `bare_place`, but told at once: true where it would have to be searched for.
+bool FacetCoverage::may_be_bare(const Cell& cell) const
+{
+    const Vec3d middle = cell.middle();
+    const auto stays = [&](Vec3d at) {
+        return covered(at, cell.normal, kPlaceShare) || hidden(at);
+    };
+    const auto touched = [&](Vec3d at) {
+        return certified_.stands_free(places_.touching_tip(at, cell.normal));
+    };
+    if (!stays(middle) && (touched(middle) || !places_.nothing_better(middle, cell.normal))) {
+        return true;
+    }
+    return std::any_of(cell.corners.begin(), cell.corners.end(), [&](Vec3d corner) {
+        const Vec3d at = place_beside(corner, middle);
+        return !stays(at) && touched(at);
+    });
 }
 
 // From place to place of the mesh as seen from above, both ways, as far as tips are missing.

@@ -77,6 +77,7 @@ private:
     bool blocked(Vec3d corner, Vec3d normal) const;
     bool settled(const Cell& cell) const;
     std::optional<Place> bare_place(const Cell& cell) const;
+    bool may_be_bare(const Cell& cell) const;
     std::optional<Vec3d> missing_tip(const Place& at, bool where_blocked) const;
     Points trace(const Place& from, Vec3d way) const;
 

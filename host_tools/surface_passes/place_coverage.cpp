@@ -14,6 +14,7 @@ constexpr double kReachPitch = 0.125;  // radii, at least
 constexpr double kDropAccuracy = 1e-4;
 constexpr double kLeastDropShare = 0.001;
 constexpr double kMostDropShare = 0.005;
+constexpr double kAgrees = 3;        // of the accuracy of drops: what searches tell apart
 constexpr double kTraceApart = 0.3;  // in steps between passes, of tips that one line may join
 constexpr double kFarApart = 0.5;    // radii, of tips that one pass may join
 constexpr double kShortest = 1e-3;   // mm
@@ -40,9 +41,12 @@ PlaceCoverage::PlaceCoverage(const std::vector<Surface>& surfaces,
       path_off_{path_off},
       step_{std::sqrt(8 * radius_ * scallop)},
       swept_{radius_, 0.6 * step_},
-      reach_{surfaces, certified, std::max(kReachStep * step_, kReachPitch * radius_),
-             std::clamp(kDropAccuracy, kLeastDropShare * scallop, kMostDropShare * scallop)}
+      accuracy_{std::clamp(kDropAccuracy, kLeastDropShare * scallop, kMostDropShare * scallop)},
+      reach_{surfaces, certified, std::max(kReachStep * step_, kReachPitch * radius_), accuracy_}
 {
+    if (surfaces.empty()) {
+        lower_ball_.emplace(certified, std::max(kReachStep * step_, kReachPitch * radius_));
+    }
 }
 
 Vec3d PlaceCoverage::touching_tip(Vec3d point, Vec3d normal) const
@@ -59,14 +63,31 @@ bool PlaceCoverage::covered(Vec3d point, Vec3d normal, double share) const
                        [&](std::uint32_t move) { return swept_.removes(move, top, path_off_); });
 }
 
-PlaceCoverage::Better PlaceCoverage::better_tip(Vec3d point, Vec3d normal, double share) const
+// What is told at once of whether a ball takes off more than a share of the scallop, by what
+// searches tell apart.
+LowerBall::Answer PlaceCoverage::told_at_once(Vec3d point,
+                                              Vec3d normal,
+                                              double share,
+                                              const SweptBalls::Lowest& now) const
+{
+    const double worth = scallop_ * share / normal.z;
+    if (now.height - point.z <= worth) {
+        return LowerBall::Answer::kNone;
+    }
+    if (!lower_ball_ || !std::isfinite(now.height)) {
+        return LowerBall::Answer::kUnknown;
+    }
+    return lower_ball_->over({point.x, point.y, now.height - worth - kAgrees * accuracy_},
+                             now.centre);
+}
+
+PlaceCoverage::Better PlaceCoverage::searched(Vec3d point,
+                                              Vec3d normal,
+                                              double share,
+                                              const SweptBalls::Lowest& now) const
 {
     const double worth = scallop_ * share;
     const double cosine = normal.z;
-    const SweptBalls::Lowest now = swept_.lowest(point.x, point.y);
-    if ((now.height - point.z) * cosine <= worth) {
-        return {};
-    }
     const std::optional<LowestReach::Answer> best = reach_.over(point, now.height - worth / cosine);
     if (!best || (now.height - best->height) * cosine <= worth) {
         return {};
@@ -80,6 +101,31 @@ PlaceCoverage::Better PlaceCoverage::better_tip(Vec3d point, Vec3d normal, doubl
         return {std::nullopt, 0, true};
     }
     return {kept->tip, (now.height - kept->height) * cosine, false};
+}
+
+PlaceCoverage::Better PlaceCoverage::better_tip(Vec3d point, Vec3d normal, double share) const
+{
+    const SweptBalls::Lowest now = swept_.lowest(point.x, point.y);
+    return told_at_once(point, normal, share, now) == LowerBall::Answer::kNone
+               ? Better{}
+               : searched(point, normal, share, now);
+}
+
+bool PlaceCoverage::nothing_better(Vec3d point, Vec3d normal) const
+{
+    return told_at_once(point, normal, 1, swept_.lowest(point.x, point.y)) ==
+           LowerBall::Answer::kNone;
+}
+
+bool PlaceCoverage::settled(Vec3d point, Vec3d normal) const
+{
+    const SweptBalls::Lowest now = swept_.lowest(point.x, point.y);
+    const LowerBall::Answer told = told_at_once(point, normal, kSettledShare, now);
+    if (told != LowerBall::Answer::kUnknown) {
+        return told == LowerBall::Answer::kNone;
+    }
+    const Better better = searched(point, normal, kSettledShare, now);
+    return !better.tip && !better.kept_off;
 }
 
 PlaceCoverage::Left PlaceCoverage::left_at(Vec3d point, Vec3d normal, double worth) const

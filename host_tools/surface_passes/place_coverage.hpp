@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host_tools/surface_passes/certified_pass.hpp"
+#include "host_tools/surface_passes/lower_ball.hpp"
 #include "host_tools/surface_passes/lowest_reach.hpp"
 #include "host_tools/surface_passes/swept_balls.hpp"
 
@@ -73,12 +74,11 @@ public:
     // Precondition: normal.z >= kUprightNormal
     Better better_tip(Vec3d point, Vec3d normal, double share = 1) const;
 
+    // Whether it is told at once that `better_tip` has none. False says nothing.
+    bool nothing_better(Vec3d point, Vec3d normal) const;
+
     // Whether no tip would take off more than `kSettledShare`, those that passes keep off included.
-    bool settled(Vec3d point, Vec3d normal) const
-    {
-        const Better better = better_tip(point, normal, kSettledShare);
-        return !better.tip && !better.kept_off;
-    }
+    bool settled(Vec3d point, Vec3d normal) const;
 
     struct Left {
         double reachable{};     // mm: over the best that passes can do
@@ -94,13 +94,21 @@ public:
     std::vector<Points> runs_of(const Points& tips) const;
 
 private:
+    LowerBall::Answer told_at_once(Vec3d point,
+                                   Vec3d normal,
+                                   double share,
+                                   const SweptBalls::Lowest& now) const;
+    Better searched(Vec3d point, Vec3d normal, double share, const SweptBalls::Lowest& now) const;
+
     const CertifiedPasses& certified_;
     double radius_;
     double scallop_;
     double path_off_;
     double step_;
     SweptBalls swept_;
+    double accuracy_;  // mm: how high drops may be
     mutable LowestReach reach_;
+    mutable std::optional<LowerBall> lower_ball_;  // over a mesh
     mutable std::vector<std::uint32_t> near_;
 };
 
