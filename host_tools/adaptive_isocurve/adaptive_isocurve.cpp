@@ -300,6 +300,7 @@ private:
             const double share =
                 static_cast<double>(traced_curves++) / static_cast<double>(curves.size());
             report(passes_done * (surface + share) / static_cast<double>(work_.surfaces().size()));
+            work_.model().forget_many_cells();
             if (hopeful && add_whole(curve)) {
                 continue;
             }

@@ -15,6 +15,7 @@ constexpr double kLookSpacing = 1.0;  // mm between places where freedom is look
 constexpr int kLeastLooks = 4;
 constexpr int kEdgeHalvings = 22;
 constexpr int kEdgeDeepest = 6;
+constexpr double kEdgeFound = 0.01;  // of the band: how far an edge may be from where it is found
 constexpr double kShortestPiece = 1e-3;  // mm
 constexpr std::size_t kMostLooks = 500;
 
@@ -171,8 +172,10 @@ std::vector<Points> PassTracer::free_region_edges(int surface, double spacing) c
         }
         Points dense{edge_tip(surface, sides.front())};
         for (std::size_t k = 1; k < sides.size(); ++k) {
-            const Points piece = edge_points(surface, sides[k - 1], sides[k]);
+            const Vec3d next = edge_tip(surface, sides[k]);
+            const Points piece = edge_points(surface, sides[k - 1], sides[k], dense.back(), next);
             dense.insert(dense.end(), piece.begin() + 1, piece.end());
+            model.forget_many_cells();
         }
         if (length_of(dense) > kShortestPiece) {
             out.push_back(std::move(dense));
@@ -189,7 +192,10 @@ Vec3d PassTracer::edge_tip(int surface, const EdgeSide& side) const
     const auto place = [&](double share) {
         return side.free + (side.blocked - side.free) * share;
     };
-    for (int turn = 0; turn < kEdgeHalvings; ++turn) {
+    const double found = kEdgeFound * certified_.band().band;
+    double apart =
+        norm(tip(surface, side.blocked.x, side.blocked.y) - tip(surface, side.free.x, side.free.y));
+    for (int turn = 0; turn < kEdgeHalvings && apart > found; ++turn, apart *= 0.5) {
         const double middle = 0.5 * (inside + outside);
         const Vec2d at = place(middle);
         (free_at(surface, at.x, at.y) ? inside : outside) = middle;
@@ -200,10 +206,9 @@ Vec3d PassTracer::edge_tip(int surface, const EdgeSide& side) const
 
 // Between two places the edge is looked for on ways between theirs. Drops would stand on the brink
 // where the edge is one of an overhang.
-Points PassTracer::edge_points(int surface, const EdgeSide& from, const EdgeSide& to) const
+Points PassTracer::edge_points(
+    int surface, const EdgeSide& from, const EdgeSide& to, Vec3d a, Vec3d b) const
 {
-    const Vec3d a = edge_tip(surface, from);
-    const Vec3d b = edge_tip(surface, to);
     const auto middle_is_free = [&] {
         const Vec2d at = (from.free + to.free) * 0.5;
         return free_at(surface, at.x, at.y);
@@ -213,8 +218,10 @@ Points PassTracer::edge_points(int surface, const EdgeSide& from, const EdgeSide
     }
     return certified_.sample(
         [&](double t) {
-            return edge_tip(surface, {from.free * (1 - t) + to.free * t,
-                                      from.blocked * (1 - t) + to.blocked * t});
+            return t == 0   ? a
+                   : t == 1 ? b
+                            : edge_tip(surface, {from.free * (1 - t) + to.free * t,
+                                                 from.blocked * (1 - t) + to.blocked * t});
         },
         {0, 1}, kEdgeDeepest);
 }

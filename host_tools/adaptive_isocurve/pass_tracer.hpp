@@ -57,7 +57,9 @@ private:
         Vec2d blocked;
     };
     Vec3d edge_tip(int surface, const EdgeSide& side) const;
-    Points edge_points(int surface, const EdgeSide& from, const EdgeSide& to) const;
+    // From the tip of one side's edge to the other's.
+    Points edge_points(
+        int surface, const EdgeSide& from, const EdgeSide& to, Vec3d a, Vec3d b) const;
     TracedPiece along(const DomainCurve& curve, double from, double to) const;
 
     const std::vector<Surface>& surfaces_;

@@ -176,8 +176,9 @@ void halve(const T* from, T* lower, T* upper, std::size_t count, std::size_t str
 
 }  // namespace
 
-BezierCell::BezierCell(const BezierPatch& patch, int surface)
+BezierCell::BezierCell(const BezierPatch& patch, int surface, std::size_t* made)
     : surface_{surface},
+      made_{made},
       count_s_{static_cast<std::size_t>(patch.surface.size_u)},
       count_t_{static_cast<std::size_t>(patch.surface.size_v)},
       points_{patch.surface.points},
@@ -301,6 +302,7 @@ std::array<const BezierCell*, 2> BezierCell::halves() const
         for (std::size_t k = 0; k < 2; ++k) {
             half[k].reset(new BezierCell);
             half[k]->surface_ = surface_;
+            half[k]->made_ = made_;
             half[k]->count_s_ = count_s_;
             half[k]->count_t_ = count_t_;
             half[k]->points_.resize(points_.size());
@@ -333,6 +335,9 @@ std::array<const BezierCell*, 2> BezierCell::halves() const
         half[1]->find_bounds();
         halves_[0] = std::move(half[0]);
         halves_[1] = std::move(half[1]);
+        if (made_ != nullptr) {
+            *made_ += 2;
+        }
     }
     return {halves_[0].get(), halves_[1].get()};
 }

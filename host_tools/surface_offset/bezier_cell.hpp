@@ -24,7 +24,9 @@ struct QuadraticForm {
 class BezierCell {
 public:
     // A patch with one span each way, as `bezier_patches` makes them.
-    BezierCell(const BezierPatch& patch, int surface);
+    //
+    // made  counts the halves made of it and of those, if given; must outlive it
+    BezierCell(const BezierPatch& patch, int surface, std::size_t* made = nullptr);
 
     int surface() const { return surface_; }
     // Point and derivatives by the local parameters, each in [0, 1].
@@ -123,6 +125,7 @@ private:
     Vec3d control(std::size_t i, std::size_t j) const;
 
     int surface_{};
+    std::size_t* made_{};
     std::size_t count_s_{};
     std::size_t count_t_{};
     std::vector<Vec3d> points_;    // times the weight

@@ -27,6 +27,7 @@ struct BoxTree {
 BoxTree make_box_tree(const std::vector<std::array<Vec3d, 2>>& boxes);
 
 struct SurfaceModel::State {
+    std::size_t halves{};  // of the cells, and of those
     std::vector<std::unique_ptr<BezierCell>> cells;
     std::vector<TrimRegion> regions;
     std::vector<std::array<Vec3d, 2>> edges;

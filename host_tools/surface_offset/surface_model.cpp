@@ -21,13 +21,14 @@ constexpr double kSlowShare = 0.75;
 constexpr double kTouching = 1e-9;   // mm
 constexpr double kDropSlack = 5e-7;  // mm above the least height
 constexpr double kDiscDropSlack = 2e-5;
+constexpr std::size_t kMostHalves = 500'000;  // 0.5 GB
 
 void add_cells(const Surface& surface, int number, SurfaceModel::State& state)
 {
     SurfaceModel::State::Grid grid;
     grid.first = state.cells.size();
     for (const BezierPatch& patch : bezier_patches(surface)) {
-        state.cells.push_back(std::make_unique<BezierCell>(patch, number));
+        state.cells.push_back(std::make_unique<BezierCell>(patch, number, &state.halves));
         if (grid.u.empty() || patch.u_begin > grid.u.back()) {
             grid.u.push_back(patch.u_begin);
         }
@@ -251,6 +252,14 @@ void SurfaceModel::forget_cells() const
     state_->last_cell = nullptr;
     for (const std::unique_ptr<BezierCell>& cell : state_->cells) {
         cell->forget();
+    }
+    state_->halves = 0;
+}
+
+void SurfaceModel::forget_many_cells() const
+{
+    if (state_->halves > kMostHalves) {
+        forget_cells();
     }
 }
 

@@ -164,6 +164,8 @@ public:
     // long series of queries at new places, each of which would stay. No `Contact` from before and
     // no `SurfaceCut` may be used after.
     void forget_cells() const;
+    // The same where they are many: between queries of any long series.
+    void forget_many_cells() const;
 
     // Whether (u, v) lies in the trimmed domain of the surface.
     bool inside_trims(int surface, double u, double v) const;

@@ -409,6 +409,9 @@ Points CertifiedPasses::fit_lines(const Points& dense, const Feet& feet)
     std::size_t from = 0;
     std::size_t guess = 4;
     while (from + 1 < dense.size()) {
+        if (!last) {  // a contact knows its cell
+            model_.forget_many_cells();
+        }
         const std::size_t to = chord_end(dense, from, guess);
         guess = (to - from) / 2;
         std::optional<Contact> next;

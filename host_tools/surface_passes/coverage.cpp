@@ -388,6 +388,7 @@ void Coverage::look_over(int surface, Vec2d low, Vec2d high)
     for (std::size_t i = 1; i < us.size(); ++i) {
         for (std::size_t j = 1; j < vs.size(); ++j) {
             const Cell cell{surface, us[i - 1], us[i], vs[j - 1], vs[j]};
+            certified_.model().forget_many_cells();
             look_into(cell, corners_of(cell), kDeepest);
         }
     }

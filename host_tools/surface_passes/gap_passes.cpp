@@ -159,6 +159,7 @@ void Coverage::close_gaps(const std::function<void(const Points&)>& cut,
                 1 - 0.5 * static_cast<double>(looked++) / static_cast<double>(open.size());
             progress(1 - std::ldexp(rest, -round));
             kept_off_ = false;
+            certified_.model().forget_many_cells();
             const std::optional<Place> place = bare_place(cell);
             if (!place) {
                 if (kept_off_) {
