@@ -14,15 +14,15 @@ constexpr std::size_t kMostStarts = 3;  // apart from each other
 constexpr double kApart = 0.3;          // radii
 constexpr double kFinest = 1e-3;        // of the pitch
 // Where no walk leads lower.
-constexpr std::size_t kMostTriangles = 600;    // of directions that are looked at
-constexpr int kMostWalks = 10;                 // to what the contacts known leave open
-constexpr int kMostTries = 40;                 // drops for nothing but a contact
-constexpr double kBeside = 0.25;               // of a triangle's edge: as good as its middle
-constexpr int kMostHalvings = 8;               // of the pitch: key_of() tells 2^21 pitches apart
-constexpr std::size_t kLongestProof = 1500;    // parts; longer ones have become too fine
-constexpr std::size_t kMostParts = 1'000'000;  // of all proofs: 80 MB
-constexpr std::size_t kMostNodes = 1'000'000;  // 80 MB
-constexpr double kMoreGained = 0.25;           // of what is gained: worth another search
+constexpr std::size_t kMostTriangles = 600;  // of directions that are looked at
+constexpr int kMostWalks = 10;               // to what the contacts known leave open
+constexpr int kMostTries = 40;               // drops for nothing but a contact
+constexpr double kBeside = 0.25;             // of a triangle's edge: as good as its middle
+constexpr int kMostHalvings = 8;             // of the pitch: key_of() tells 2^21 pitches apart
+constexpr std::size_t kLongestProof = 1500;  // parts; longer ones have become too fine
+constexpr std::size_t kMostParts = 200'000;  // of all proofs: 16 MB
+constexpr std::size_t kMostNodes = 200'000;  // 16 MB
+constexpr double kMoreGained = 0.25;         // of what is gained: worth another search
 
 double square(double a) { return a * a; }
 

@@ -164,8 +164,9 @@ std::size_t settle(const FloorQuestion& q,
                    const std::vector<std::size_t>& places,
                    Ideal& ideal)
 {
+    const FloorSamples samples{q.grid, part.z};
     for_each_band(places.size(), [&](std::size_t begin, std::size_t end, std::size_t) {
-        FloorReach reach{q.surfaces, q.mesh, q.tools, q.walls, q.keep_off};
+        FloorReach reach{q.surfaces, q.mesh, q.tools, q.walls, samples, q.keep_off};
         for (std::size_t n = begin; n < end; ++n) {
             const std::size_t k = places[n];
             const std::size_t i = k / q.grid.ny;

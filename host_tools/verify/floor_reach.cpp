@@ -12,6 +12,10 @@ constexpr double kPitch = 0.125;        // radii, of the grid of drops
 constexpr double kDropAccuracy = 1e-4;  // mm
 constexpr double kAgrees = 3e-4;        // mm
 constexpr double kTouches = 1e-3;       // mm: nothing is lower than the floor
+// Beside cliffs, which samples say little of: places in a row where they were no help, and how
+// often they are asked from there on.
+constexpr int kInVain = 4;
+constexpr int kAgain = 8;
 
 }  // namespace
 
@@ -19,8 +23,9 @@ FloorReach::FloorReach(const std::vector<Surface>& surfaces,
                        const std::vector<std::array<Vec3d, 3>>& mesh,
                        const std::vector<Tool>& tools,
                        const std::vector<WallDistance>& walls,
+                       const FloorSamples& samples,
                        double keep_off)
-    : surfaces_{surfaces}, mesh_{mesh}, walls_{walls}, keep_off_{keep_off}
+    : surfaces_{surfaces}, mesh_{mesh}, walls_{walls}, samples_{samples}, keep_off_{keep_off}
 {
     for (const Tool& tool : tools) {
         Tool kept_off = tool;
@@ -29,22 +34,39 @@ FloorReach::FloorReach(const std::vector<Surface>& surfaces,
         if (kept_off.shape == ToolShape::kFlat && keep_off > 0) {
             kept_off.shape = ToolShape::kBull;
         }
-        cutters_.push_back({tool, kept_off, {}, {}});
+        cutters_.push_back({tool, kept_off, {}, {}, {}, 0, 0});
     }
     for (Cutter& cutter : cutters_) {
+        const double pitch = kPitch * cutter.tool.radius;
         cutter.search.emplace(
-            cutter.tool, keep_off, kPitch * cutter.tool.radius, kAgrees,
+            cutter.tool, keep_off, pitch, kAgrees,
             [this, &cutter](double x, double y) { return dropped(cutter, x, y); });
+        if (cutter.tool.shape == ToolShape::kBall) {
+            cutter.on_samples.emplace(
+                cutter.tool, keep_off, pitch, kAgrees,
+                [this, &cutter](double x, double y) { return dropped_on_samples(cutter, x, y); });
+        }
     }
+}
+
+bool FloorReach::within_walls(const Cutter& cutter, double x, double y) const
+{
+    return std::none_of(walls_.begin(), walls_.end(), [&](const WallDistance& wall) {
+        return wall.at(x, y) < cutter.tool.radius;
+    });
+}
+
+ReachSearch::Rest FloorReach::dropped_on_samples(const Cutter& cutter, double x, double y) const
+{
+    return within_walls(cutter, x, y) ? samples_.rest(cutter.kept_off.radius, x, y)
+                                      : ReachSearch::Rest{{x, y, kUnreached}, {}};
 }
 
 ReachSearch::Rest FloorReach::dropped(Cutter& cutter, double x, double y)
 {
     ReachSearch::Rest rest{{x, y, kUnreached}, {}};
-    for (const WallDistance& wall : walls_) {
-        if (wall.at(x, y) < cutter.tool.radius) {
-            return rest;
-        }
+    if (!within_walls(cutter, x, y)) {
+        return rest;
     }
     if (!surfaces_.empty()) {
         if (!cutter.floor) {
@@ -78,7 +100,19 @@ double FloorReach::lowest_over(Vec3d place, Vec3d normal, double worth)
         const double out = cutter.kept_off.corner_radius + (level > 0 ? flat / level : 0.0);
         const Vec2d touching{place.x + out * normal.x, place.y + out * normal.y};
         const double touched = place.z + kTouches + (1 / std::max(normal.z, 0.05)) * keep_off_;
-        const auto answer = cutter.search->over(place, std::min(worth, lowest), touched, touching);
+        const double lower = std::min(worth, lowest);
+        if (cutter.on_samples && (cutter.in_vain < kInVain || ++cutter.skipped % kAgain == 0)) {
+            // The first position that gets lower is enough to ask the floor itself.
+            const double enough = std::nextafter(lower, -kUnreached);
+            const auto hoped = cutter.on_samples->over(place, lower, enough, touching);
+            if (hoped && hoped->height >= lower) {
+                cutter.in_vain = 0;
+                lowest = std::min(lowest, hoped->height);
+                continue;
+            }
+            ++cutter.in_vain;
+        }
+        const auto answer = cutter.search->over(place, lower, touched, touching);
         if (answer) {
             lowest = std::min(lowest, answer->height);
         }
