@@ -41,10 +41,12 @@ double float_at(const std::string& bytes, std::size_t at)
     return static_cast<double>(value);
 }
 
-void check_coordinate(double value, std::size_t axis, const std::string& place)
+// place()  where it stands, in words
+template <class Place>
+void check_coordinate(double value, std::size_t axis, const Place& place)
 {
     if (!(std::abs(value) <= kLargestCoordinate)) {  // also refuses what is no number
-        throw InputError(fmt::format("{}: a corner has {} = {} mm, the limit is {:g}", place,
+        throw InputError(fmt::format("{}: a corner has {} = {} mm, the limit is {:g}", place(),
                                      kAxes[axis], value, kLargestCoordinate));
     }
 }
@@ -71,6 +73,7 @@ Facets read_binary(const std::string& bytes, double unit, const std::string& fil
                         file, count, kHead + count * kFacet, bytes.size()));
     }
     Facets facets;
+    facets.triangles.reserve(count);
     for (std::size_t k = 0; k < count; ++k) {
         std::array<Vec3d, 3> corners;
         for (std::size_t c = 0; c < 3; ++c) {
@@ -78,7 +81,8 @@ Facets read_binary(const std::string& bytes, double unit, const std::string& fil
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 xyz[axis] =
                     unit * float_at(bytes, kHead + k * kFacet + kNormal + 12 * c + 4 * axis);
-                check_coordinate(xyz[axis], axis, fmt::format("{}: facet {}", file, k + 1));
+                check_coordinate(xyz[axis], axis,
+                                 [&] { return fmt::format("{}: facet {}", file, k + 1); });
             }
             corners[c] = {xyz[0], xyz[1], xyz[2]};
         }
@@ -154,7 +158,7 @@ std::array<Vec3d, 3> read_facet(Words& words, double unit)
         std::array<double, 3> xyz{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             xyz[axis] = unit * words.number();
-            check_coordinate(xyz[axis], axis, words.place());
+            check_coordinate(xyz[axis], axis, [&] { return words.place(); });
         }
         corner = {xyz[0], xyz[1], xyz[2]};
     }

@@ -45,10 +45,6 @@ Facet::Facet(const std::array<Vec3d, 3>& at) : corners{at}
 {
     const Vec3d across = cross(at[1] - at[0], at[2] - at[0]);
     normal = across / (across.z < 0 ? -norm(across) : norm(across));
-    for (unsigned k = 0; k < 3; ++k) {
-        low[k] = std::min({at[0][k], at[1][k], at[2][k]});
-        high[k] = std::max({at[0][k], at[1][k], at[2][k]});
-    }
 }
 
 bool Facet::holds(Vec3d p) const

@@ -17,8 +17,6 @@ struct Facet {
 
     std::array<Vec3d, 3> corners;
     Vec3d normal;  // unit, never downward
-    Vec3d low;
-    Vec3d high;
 };
 
 // Distance from the core of a tool to a facet and the nearest point of it, `place`. Exact for a

@@ -22,7 +22,7 @@ void look_at_facets(const SurfaceModel::State& state,
     };
     std::array<Waiting, 128> stack;
     std::size_t count = 0;
-    if (!state.tree.nodes.empty()) {
+    if (!state.facets.empty()) {
         stack[count++] = {kInfinite, 0};
     }
     while (count > 0) {
@@ -32,9 +32,10 @@ void look_at_facets(const SurfaceModel::State& state,
         }
         const BoxTree::Node& node = state.tree.nodes[static_cast<std::size_t>(next.node)];
         if (node.child[0] < 0) {
-            const std::size_t item = static_cast<std::size_t>(-node.child[0] - 1);
-            if (item >= state.cells.size() + state.edges.size()) {
-                best = std::max(best, look(item - state.cells.size() - state.edges.size()));
+            const std::size_t first = static_cast<std::size_t>(-node.child[0] - 1);
+            const std::size_t end = first + static_cast<std::size_t>(node.child[1]);
+            for (std::size_t facet = first; facet < end; ++facet) {
+                best = std::max(best, look(facet));
             }
             continue;
         }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -17,14 +18,20 @@ struct BoxTree {
     struct Node {
         Vec3d low;
         Vec3d high;
-        // Children; a leaf has child[0] < 0 and holds item -child[0] - 1.
+        // Children; a leaf has child[0] < 0 and holds child[1] items from -child[0] - 1 on.
         std::array<int, 2> child;
     };
     std::vector<Node> nodes;  // the first is the top
 };
 
-// Over boxes given by their corners; items keep their numbers.
+// Over boxes given by their corners; items keep their numbers, one a leaf.
 BoxTree make_box_tree(const std::vector<std::array<Vec3d, 2>>& boxes);
+
+// Over triangles, some a leaf.
+//
+// order  set to the triangles' numbers as the tree's items are in order
+BoxTree make_facet_tree(const std::vector<std::array<Vec3d, 3>>& triangles,
+                        std::vector<std::uint32_t>& order);
 
 struct SurfaceModel::State {
     std::size_t halves{};  // of the cells, and of those
@@ -33,8 +40,8 @@ struct SurfaceModel::State {
     std::vector<std::array<Vec3d, 2>> edges;
     std::vector<int> edge_surface;
     double edge_error{};
-    std::vector<Facet> facets;
-    BoxTree tree;  // cells first, then edges, then facets
+    std::vector<Facet> facets;  // as the tree has them in order
+    BoxTree tree;               // of cells first, then edges; or of facets
     Vec3d low;
     Vec3d high;
     // To find the cell of a parameter pair: breaks of u and v and the first cell, per surface.

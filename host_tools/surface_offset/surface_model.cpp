@@ -143,12 +143,12 @@ SurfaceModel::SurfaceModel(const std::vector<Surface>& surfaces, double edge_err
 SurfaceModel::SurfaceModel(const std::vector<std::array<Vec3d, 3>>& triangles)
     : state_{std::make_unique<State>()}
 {
-    std::vector<std::array<Vec3d, 2>> boxes;
-    for (const auto& corners : triangles) {
-        state_->facets.emplace_back(corners);
-        boxes.push_back({state_->facets.back().low, state_->facets.back().high});
+    std::vector<std::uint32_t> order;
+    state_->tree = make_facet_tree(triangles, order);
+    state_->facets.reserve(order.size());
+    for (const std::uint32_t number : order) {
+        state_->facets.emplace_back(triangles[number]);
     }
-    state_->tree = make_box_tree(boxes);
     if (!state_->tree.nodes.empty()) {
         state_->low = state_->tree.nodes.front().low;
         state_->high = state_->tree.nodes.front().high;
