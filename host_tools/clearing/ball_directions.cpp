@@ -64,17 +64,22 @@ Vec3d BallDirections::middle(const Triangle& t) { return unit(t[0] + t[1] + t[2]
 // its corners and those stretched until the plane through them touches the sphere.
 bool BallDirections::bars_shank(const Barrier& barrier, const Triangle& triangle) const
 {
-    const Vec3d across = cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
-    const double stretch = norm(across) / std::abs(dot(across, triangle[0]));
     const auto under = [&](Vec3d centre) {
         const double room = square(contact_radius_) - square(centre.x - barrier.way.x) -
                             square(centre.y - barrier.way.y);
         const double over = centre.z - barrier.way.z;
         return room > 0 && (over <= 0 || square(over) < room);
     };
-    return std::all_of(triangle.begin(), triangle.end(), [&](Vec3d corner) {
-        return under(corner * radius_) && under(corner * (radius_ * stretch));
-    });
+    // Mostly a corner is not.
+    for (const Vec3d& corner : triangle) {
+        if (!under(corner * radius_)) {
+            return false;
+        }
+    }
+    const Vec3d across = cross(triangle[1] - triangle[0], triangle[2] - triangle[0]);
+    const double stretch = norm(across) / std::abs(dot(across, triangle[0]));
+    return std::all_of(triangle.begin(), triangle.end(),
+                       [&](Vec3d corner) { return under(corner * (radius_ * stretch)); });
 }
 
 bool BallDirections::bars(const Barrier& barrier, const Triangle& t) const
