@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include "host_tools/import/job.hpp"
 #include "host_tools/import/job_table.hpp"
@@ -460,7 +461,7 @@ Job JobReader::read()
     for (std::size_t i = 0; i < operations.size(); ++i) {
         job_.operations.push_back(read_operation(*operations[i], i + 1));
     }
-    return job_;
+    return std::move(job_);  // meshes are large
 }
 
 }  // namespace
