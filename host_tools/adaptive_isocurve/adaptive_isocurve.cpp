@@ -29,6 +29,12 @@ namespace cusp::host {
 namespace {
 
 constexpr int kRidgeLooks = 200;
+// Of a ridge, for what passes bend between places that are compared: cells over what would be open
+// cost more than passes that much nearer.
+constexpr double kSpared = 0.99;
+// Of the domain: where more is open, passes are laid anew by ridges that follow them, which takes
+// twice as long.
+constexpr double kOpenShare = 0.01;
 constexpr int kCurvatureLooks = 60;
 // Of what the scallop leaves for the ridge: the rest is for bends of passes along their way.
 constexpr double kRidgeShare = 0.99;
@@ -162,11 +168,7 @@ private:
     void look_over_cells()
     {
         const std::vector<Surface>& surfaces = work_.surfaces();
-        const double area = (surfaces.front().u_end() - surfaces.front().u_begin()) *
-                            (surfaces.front().v_end() - surfaces.front().v_begin());
-        for (const Ridges::Strip& strip : open_) {
-            cells_share_ += (strip.u1 - strip.u0) * (strip.v1 - strip.v0) / area;
-        }
+        cells_share_ = share_of(open_, surfaces.front());
         if (plain_ && whole_ && cells_share_ < 1) {
             for (const Ridges::Strip& strip : open_) {
                 coverage_->look_over(0, {strip.u0, strip.v0}, {strip.u1, strip.v1});
@@ -217,7 +219,7 @@ private:
         return least;
     }
 
-    std::vector<DomainCurve> curves_of(int surface, bool complete)
+    std::vector<DomainCurve> curves_of(int surface, bool complete, bool follow)
     {
         const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
         if (complete) {
@@ -235,8 +237,11 @@ private:
         }
         const double scallop = *operation_.scallop;
         Ridges ridges{work_.model(), surface, tool_};
-        const double allowed = scallop - tool_.outward;
+        const double allowed = kSpared * (scallop - tool_.outward);
         const StripJudge judge = [&](double u, CurvePlace low, CurvePlace high, double enough) {
+            if (!follow) {
+                low.curve = high.curve = nullptr;
+            }
             const double ridge =
                 ridges.between(u, low, high, tool_.outward + enough * enough * allowed);
             const double over = (ridge - tool_.outward) / allowed;
@@ -277,10 +282,33 @@ private:
         return curves;
     }
 
+    Ridges::Highest highest_between(int surface, const std::vector<DomainCurve>& curves) const
+    {
+        const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
+        return Ridges{work_.model(), surface, tool_}.highest(
+            curves, s.u_begin(), s.u_end(), kRidgeLooks,
+            coverage_ ? *operation_.scallop : std::numeric_limits<double>::infinity());
+    }
+
+    // Of the domain.
+    static double share_of(const std::vector<Ridges::Strip>& strips, const Surface& s)
+    {
+        double area = 0;
+        for (const Ridges::Strip& strip : strips) {
+            area += (strip.u1 - strip.u0) * (strip.v1 - strip.v0);
+        }
+        return area / ((s.u_end() - s.u_begin()) * (s.v_end() - s.v_begin()));
+    }
+
     std::size_t add_surface(int surface, bool complete)
     {
         const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
-        std::vector<DomainCurve> curves = curves_of(surface, complete);
+        std::vector<DomainCurve> curves = curves_of(surface, complete, false);
+        Ridges::Highest highest = highest_between(surface, curves);
+        if (share_of(highest.open, s) > kOpenShare) {
+            curves = curves_of(surface, complete, true);
+            highest = highest_between(surface, curves);
+        }
         const double passes_done = plain_ ? kGapsDone : kPassesDone;
         if (operation_.traversal == Traversal::kOneWay) {
             put_in_cutting_order(surface, curves);
@@ -324,9 +352,6 @@ private:
         if (trimmed) {
             add_edges(surface);
         }
-        const Ridges::Highest highest = Ridges{work_.model(), surface, tool_}.highest(
-            curves, s.u_begin(), s.u_end(), kRidgeLooks,
-            coverage_ ? *operation_.scallop : std::numeric_limits<double>::infinity());
         ridge_ = std::max(ridge_, highest.ridge);
         open_ = highest.open;
         return curves.size();

@@ -50,7 +50,7 @@ CurvePlace DomainCurve::place_at(double at) const
 {
     if (u.size() == 2) {
         const double t = std::clamp((at - u[0]) / (u[1] - u[0]), 0.0, 1.0);
-        return {v[0] + t * (v[1] - v[0]), chord_slope(*this, 0)};
+        return {v[0] + t * (v[1] - v[0]), chord_slope(*this, 0), nullptr};
     }
     const std::size_t k = span_of(u, at);
     const double h = u[k + 1] - u[k];
@@ -60,7 +60,8 @@ CurvePlace DomainCurve::place_at(double at) const
     const double rise = v[k + 1] - v[k];
     const double bend = 3 * rise - 2 * m0 - m1;
     const double turn = m0 + m1 - 2 * rise;
-    return {v[k] + t * (m0 + t * (bend + t * turn)), (m0 + t * (2 * bend + 3 * t * turn)) / h};
+    return {v[k] + t * (m0 + t * (bend + t * turn)), (m0 + t * (2 * bend + 3 * t * turn)) / h,
+            nullptr};
 }
 
 std::vector<CurvePlace> places_at(const std::vector<DomainCurve>& curves, double u)
@@ -69,6 +70,7 @@ std::vector<CurvePlace> places_at(const std::vector<DomainCurve>& curves, double
     for (const DomainCurve& curve : curves) {
         if (curve.u.front() <= u && u <= curve.u.back()) {
             out.push_back(curve.place_at(u));
+            out.back().curve = &curve;
         }
     }
     std::sort(out.begin(), out.end(),

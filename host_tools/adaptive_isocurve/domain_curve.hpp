@@ -5,10 +5,13 @@
 
 namespace cusp::host {
 
+struct DomainCurve;
+
 // A curve at some u: where it is and how it goes on.
 struct CurvePlace {
     double v{};
-    double slope{};  // of v by u
+    double slope{};                     // of v by u
+    const DomainCurve* curve{nullptr};  // null: not known
 };
 
 // v over increasing u, at least two nodes; between nodes a cubic. Two nodes of equal v: an
@@ -23,7 +26,7 @@ struct DomainCurve {
     CurvePlace place_at(double at) const;
 };
 
-// All curves that pass u, in order of v.
+// All curves that pass u, in order of v; the places know their curves.
 std::vector<CurvePlace> places_at(const std::vector<DomainCurve>& curves, double u);
 
 DomainCurve isocurve(int surface, double v, double u_begin, double u_end);

@@ -15,36 +15,77 @@ constexpr int kTurns = 8;
 constexpr double kBeside = 0.01;  // of the way to the neighbour
 constexpr double kLeastShare = 0.1;
 constexpr double kToldApart = 0.995;
+constexpr int kFollowed = 3;  // times along a pass
+// Of the radius times what is left: so far on, squared, a pass as tight as the ball is off its
+// tangent by a hundredth of what is left.
+constexpr double kStraight = 0.02;
 
-}  // namespace
-
-Ridges::Sweep Ridges::sweep_at(CurvePlace place, double towards)
+// How far on a line from `q` along `n` meets a ball about the origin first.
+double entry(Vec3d q, Vec3d n, double radius)
 {
-    const SurfacePoint p = cut_->at(place.v);
-    Vec3d normal = upward_normal(p);
-    // Rounding decides which side of a level normal is up: the surface beside it tells.
-    if (normal.z < kLevelNormal &&
-        dot(normal, upward_normal(cut_->at(place.v + kBeside * (towards - place.v)))) < 0) {
-        normal = -normal;
-    }
-    const Vec3d along = p.du + p.dv * place.slope;
-    return {place, p.point + normal * (tool_.radius + tool_.outward),
-            along / std::max(1e-300, norm(along))};
-}
-
-// What it leaves over the point along its normal.
-double Ridges::Sweep::left(Vec3d p, Vec3d normal, double radius) const
-{
-    Vec3d q = p - centre;
-    q = q - tangent * dot(q, tangent);
-    const Vec3d n = normal - tangent * dot(normal, tangent);
     const double a = dot(n, n);
     const double b = dot(q, n);
     const double square = b * b - a * (dot(q, q) - radius * radius);
-    if (square < 0 || a == 0) {
-        return kUnreached;
+    return square < 0 || a == 0 ? kUnreached : (-b - std::sqrt(square)) / a;
+}
+
+}  // namespace
+
+Ridges::Sweep Ridges::sweep_at(double u, CurvePlace place, double towards)
+{
+    const SurfacePoint p =
+        u == u_ ? cut_->bends_at(place.v) : model_.evaluate(surface_, u, place.v);
+    Vec3d normal = upward_normal(p);
+    // Rounding decides which side of a level normal is up: the surface beside it tells.
+    if (normal.z < kLevelNormal &&
+        dot(normal, upward_normal(model_.tangents(surface_, u,
+                                                  place.v + kBeside * (towards - place.v)))) < 0) {
+        normal = -normal;
     }
-    return (-b - std::sqrt(square)) / a;
+    // the centre turns away from the tangent of the surface where that is twisted
+    const double distance = tool_.radius + tool_.outward;
+    const auto [by_u, by_v] = centre_slopes(p, normal, distance);
+    Vec3d along = by_u + by_v * place.slope;
+    if (!std::isfinite(norm(along))) {
+        along = p.du + p.dv * place.slope;  // at a pole
+    }
+    const double rate = std::max(1e-300, norm(along));
+    return {place, u, p.point + normal * distance, along / rate, rate};
+}
+
+Ridges::Left Ridges::left_by(const Sweep& sweep, Vec3d p, Vec3d normal) const
+{
+    const Vec3d arm = p - sweep.centre;
+    const double along = dot(arm, sweep.tangent);
+    const double rise = dot(normal, sweep.tangent);
+    const double height =
+        entry(arm - sweep.tangent * along, normal - sweep.tangent * rise, tool_.radius);
+    return {height, along + (std::isfinite(height) ? height * rise : 0.0)};
+}
+
+bool Ridges::counts_as_straight(const Left& left) const
+{
+    const double height = std::isfinite(left.height) ? left.height : tool_.radius;
+    return left.ahead * left.ahead <= kStraight * tool_.radius * height;
+}
+
+// Moves the sweep along its pass to where it is nearest, or to the end.
+double Ridges::left_by_pass(Sweep& sweep, double towards, Vec3d p, Vec3d normal)
+{
+    const DomainCurve& curve = *sweep.place.curve;
+    Left left = left_by(sweep, p, normal);
+    for (int k = 0; k < kFollowed && !counts_as_straight(left); ++k) {
+        const double u =
+            std::clamp(sweep.u + left.ahead / sweep.rate, curve.u.front(), curve.u.back());
+        if (u == sweep.u) {
+            return entry(p - sweep.centre, normal, tool_.radius);
+        }
+        CurvePlace place = curve.place_at(u);
+        place.curve = &curve;
+        sweep = sweep_at(u, place, towards);
+        left = left_by(sweep, p, normal);
+    }
+    return left.height;
 }
 
 double Ridges::between(double u, CurvePlace low_place, CurvePlace high_place, double enough)
@@ -56,24 +97,42 @@ double Ridges::between(double u, CurvePlace low_place, CurvePlace high_place, do
     }
     const bool known =
         last_ && last_->place.v == low_place.v && last_->place.slope == low_place.slope;
-    const Sweep low = known ? *last_ : sweep_at(low_place, high_place.v);
-    const Sweep high = sweep_at(high_place, low_place.v);
+    const Sweep low = known ? *last_ : sweep_at(u, low_place, high_place.v);
+    const Sweep high = sweep_at(u, high_place, low_place.v);
     last_ = high;
-    double from = low_place.v;
-    double to = high_place.v;
+    const double straight = balanced(low, high, enough, false);
+    if (low_place.curve == nullptr || high_place.curve == nullptr) {
+        return straight;
+    }
+    const SurfacePoint p = cut_->at(low_place.v + share_ * (high_place.v - low_place.v));
+    const Vec3d normal = upward_normal(p);
+    const bool alike = counts_as_straight(left_by(low, p.point, normal)) &&
+                       counts_as_straight(left_by(high, p.point, normal));
+    return alike ? straight : balanced(low, high, enough, true);
+}
+
+// Where both leave the same.
+double Ridges::balanced(Sweep low, Sweep high, double enough, bool follow)
+{
+    const double begin = low.place.v;
+    const double end = high.place.v;
+    const double width = end - begin;
+    double from = begin;
+    double to = end;
     double bound = kUnreached;
-    const double width = to - from;
     double v = from + share_ * width;
     for (int turn = 0; turn < kTurns; ++turn) {
         const SurfacePoint p = cut_->at(v);
         const Vec3d normal = upward_normal(p);
-        const double by_low = low.left(p.point, normal, tool_.radius);
-        const double by_high = high.left(p.point, normal, tool_.radius);
+        const double by_low =
+            follow ? left_by_pass(low, end, p.point, normal) : left_by(low, p.point, normal).height;
+        const double by_high = follow ? left_by_pass(high, begin, p.point, normal)
+                                      : left_by(high, p.point, normal).height;
         bound = std::min(bound, std::max(by_low, by_high));
         const double excess = by_low - by_high;
         if (bound <= enough || excess == 0 || std::abs(excess) < 0.002 * bound) {
             if (width > 0) {
-                share_ = std::clamp((v - low_place.v) / width, kLeastShare, 1 - kLeastShare);
+                share_ = std::clamp((v - begin) / width, kLeastShare, 1 - kLeastShare);
             }
             break;
         }

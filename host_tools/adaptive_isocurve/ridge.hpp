@@ -25,7 +25,8 @@ public:
     }
 
     // Height of what is left at u between two passes, square to the surface; infinity where the
-    // ball of neither pass reaches. Both passes count as straight along their tangents there.
+    // ball of neither pass reaches. The ball's centre counts as moving straight as it does at u;
+    // where the place knows its curve, as at that place of the curve which is nearest.
     //
     // Returns a bound: never below the ridge where the way across is shorter than the ball is wide.
     // The first that is no more than `enough` will do.
@@ -52,13 +53,22 @@ private:
     // A ball that moves straight.
     struct Sweep {
         CurvePlace place;
+        double u;
         Vec3d centre;
         Vec3d tangent;
-
-        double left(Vec3d p, Vec3d normal, double radius) const;
+        double rate;  // mm of the way by u
+    };
+    // What a ball leaves over a point along its normal, and how far on along the way it is nearest.
+    struct Left {
+        double height;
+        double ahead;  // mm
     };
     // towards  v of the neighbour
-    Sweep sweep_at(CurvePlace place, double towards);
+    Sweep sweep_at(double u, CurvePlace place, double towards);
+    Left left_by(const Sweep& sweep, Vec3d p, Vec3d normal) const;
+    bool counts_as_straight(const Left& left) const;
+    double left_by_pass(Sweep& sweep, double towards, Vec3d p, Vec3d normal);
+    double balanced(Sweep low, Sweep high, double enough, bool follow);
 
     const SurfaceModel& model_;
     int surface_;

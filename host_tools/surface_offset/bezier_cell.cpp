@@ -93,16 +93,13 @@ Vec3d weighted(const std::array<double, 3 * Count>& row, const std::array<double
     return sum;
 }
 
-// Rows are summed as plain numbers, so that the compiler takes several at once.
+// At one s, as curves of t: the control points of the value and of its derivatives by s. Rows are
+// summed as plain numbers, so that the compiler takes several at once.
 template <std::size_t CountS, std::size_t CountT>
-SurfacePoint polynomial_at(const Vec3d* points, double s, double t)
+void reduce_to_curves(const Vec3d* points, double s, double* value, double* first, double* second)
 {
     static_assert(sizeof(Vec3d) == 3 * sizeof(double));
     const auto bs = fixed_basis(std::integral_constant<std::size_t, CountS>{}, s);
-    const auto bt = fixed_basis(std::integral_constant<std::size_t, CountT>{}, t);
-    std::array<double, 3 * CountT> value;
-    std::array<double, 3 * CountT> first;
-    std::array<double, 3 * CountT> second;
     const double* control = &points->x;
     for (std::size_t k = 0; k < 3 * CountT; ++k) {
         double sum = 0;
@@ -118,12 +115,31 @@ SurfacePoint polynomial_at(const Vec3d* points, double s, double t)
         first[k] = sum_first;
         second[k] = sum_second;
     }
-    return {weighted<CountT>(value, bt.value), weighted<CountT>(first, bt.value),
-            weighted<CountT>(value, bt.first), weighted<CountT>(second, bt.value),
-            weighted<CountT>(first, bt.first), weighted<CountT>(value, bt.second)};
 }
 
-// At one s, as a curve of t: its control points, and those of its derivative by s.
+template <std::size_t Count>
+SurfacePoint on_curves(const std::array<double, 3 * Count>& value,
+                       const std::array<double, 3 * Count>& first,
+                       const std::array<double, 3 * Count>& second,
+                       double t)
+{
+    const auto bt = fixed_basis(std::integral_constant<std::size_t, Count>{}, t);
+    return {weighted<Count>(value, bt.value), weighted<Count>(first, bt.value),
+            weighted<Count>(value, bt.first), weighted<Count>(second, bt.value),
+            weighted<Count>(first, bt.first), weighted<Count>(value, bt.second)};
+}
+
+template <std::size_t CountS, std::size_t CountT>
+SurfacePoint polynomial_at(const Vec3d* points, double s, double t)
+{
+    std::array<double, 3 * CountT> value;
+    std::array<double, 3 * CountT> first;
+    std::array<double, 3 * CountT> second;
+    reduce_to_curves<CountS, CountT>(points, s, value.data(), first.data(), second.data());
+    return on_curves<CountT>(value, first, second, t);
+}
+
+// The same without second derivatives.
 template <std::size_t CountS, std::size_t CountT>
 void reduce_to_curve(const Vec3d* points, double s, double* value, double* first)
 {
@@ -228,7 +244,8 @@ bool BezierCell::cut_at(double s, Curve4& out) const
     if (!weights_.empty() || count_s_ != 4 || count_t_ != 4) {
         return false;
     }
-    reduce_to_curve<4, 4>(points_.data(), s, out.value.data(), out.along_s.data());
+    reduce_to_curves<4, 4>(points_.data(), s, out.value.data(), out.along_s.data(),
+                           out.along_ss.data());
     return true;
 }
 
@@ -241,6 +258,11 @@ SurfacePoint BezierCell::on_cut(const Curve4& cut, double t)
             {},
             {},
             {}};
+}
+
+SurfacePoint BezierCell::bends_on_cut(const Curve4& cut, double t)
+{
+    return on_curves<4>(cut.value, cut.along_s, cut.along_ss, t);
 }
 
 // Of the degree count_s - 1 by count_t - 1.

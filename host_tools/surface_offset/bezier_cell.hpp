@@ -38,11 +38,14 @@ public:
     struct Curve4 {
         std::array<double, 12> value;
         std::array<double, 12> along_s;
+        std::array<double, 12> along_ss;
     };
     // False for cells of other degrees, and rational ones.
     bool cut_at(double s, Curve4& out) const;
     // Point and first derivatives.
     static SurfacePoint on_cut(const Curve4& cut, double t);
+    // Second derivatives, too.
+    static SurfacePoint bends_on_cut(const Curve4& cut, double t);
 
     double u(double s) const { return u_begin_ + s * (u_end_ - u_begin_); }
     double v(double t) const { return v_begin_ + t * (v_end_ - v_begin_); }

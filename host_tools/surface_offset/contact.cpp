@@ -13,7 +13,8 @@ constexpr int kUnderSteps = 8;         // of Newton's method
 constexpr double kUnderSlack = 1e-10;  // mm in plan
 constexpr double kLeastLean = 1e-9;    // of a unit: below that the offset stands upright in plan
 
-// Derivatives of the centre of a ball over a place, by u and by v.
+}  // namespace
+
 std::pair<Vec3d, Vec3d> centre_slopes(const SurfacePoint& p, Vec3d normal, double distance)
 {
     const Vec3d n = cross(p.du, p.dv);
@@ -24,8 +25,6 @@ std::pair<Vec3d, Vec3d> centre_slopes(const SurfacePoint& p, Vec3d normal, doubl
     return {slope(p.du, cross(p.duu, p.dv) + cross(p.du, p.duv)),
             slope(p.dv, cross(p.duv, p.dv) + cross(p.du, p.dvv))};
 }
-
-}  // namespace
 
 Contact SurfaceModel::contact(int surface, double u, double v, double distance) const
 {

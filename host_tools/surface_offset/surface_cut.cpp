@@ -52,4 +52,20 @@ SurfacePoint SurfaceCut::at(double v)
     return p;
 }
 
+SurfacePoint SurfaceCut::bends_at(double v)
+{
+    const Piece& piece = piece_at(v);
+    if (!piece.bicubic) {
+        return model_.evaluate(surface_, u_, v);
+    }
+    const double share = (v - piece.cell->v_begin()) * piece.per_v;
+    SurfacePoint p = BezierCell::bends_on_cut(piece.cut, std::clamp(share, 0.0, 1.0));
+    p.du = p.du * piece.per_u;
+    p.dv = p.dv * piece.per_v;
+    p.duu = p.duu * (piece.per_u * piece.per_u);
+    p.duv = p.duv * (piece.per_u * piece.per_v);
+    p.dvv = p.dvv * (piece.per_v * piece.per_v);
+    return p;
+}
+
 }  // namespace cusp::host

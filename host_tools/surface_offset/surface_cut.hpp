@@ -14,6 +14,8 @@ public:
 
     // Point and first derivatives by u and v, as `SurfaceModel::tangents`.
     SurfacePoint at(double v);
+    // Second derivatives, too, as `SurfaceModel::evaluate`.
+    SurfacePoint bends_at(double v);
 
 private:
     struct Piece {

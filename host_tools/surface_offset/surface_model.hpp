@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "host_tools/nurbs/nurbs.hpp"
@@ -46,6 +47,9 @@ struct Contact {
 
     Vec3d centre() const { return point + normal * distance; }
 };
+
+// Derivatives of that centre by u and by v. `p` is the surface there, second derivatives included.
+std::pair<Vec3d, Vec3d> centre_slopes(const SurfacePoint& p, Vec3d normal, double distance);
 
 // The tool is the whole rotating body: its end as `Tool` describes it and a cylindrical shank
 // above, so a surface that overhangs the tool is seen, too. Model and tool meet from any side: a
