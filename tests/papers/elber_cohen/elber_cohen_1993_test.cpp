@@ -6,6 +6,7 @@
 
 #include "host_tools/adaptive_isocurve/isocurve_extraction.hpp"
 #include "host_tools/import/job.hpp"
+#include "tests/support/tube.hpp"
 
 using namespace cusp;
 using namespace cusp::host;
@@ -32,28 +33,6 @@ double length_on(const Surface& surface, const std::vector<DomainCurve>& curves)
         }
     }
     return sum;
-}
-
-// A tube: both boundaries of v are the same circle's start.
-Surface closed_surface()
-{
-    Surface s;
-    s.degree_u = 1;
-    s.degree_v = 2;
-    s.knots_u = {0, 0, 1, 1};
-    s.knots_v = {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4};
-    s.size_u = 2;
-    s.size_v = 9;
-    const double w = std::sqrt(0.5);
-    const double ring[9][3] = {{1, 0, 1},   {1, 1, w},  {0, 1, 1},  {-1, 1, w}, {-1, 0, 1},
-                               {-1, -1, w}, {0, -1, 1}, {1, -1, w}, {1, 0, 1}};
-    for (int i = 0; i < 2; ++i) {
-        for (const auto& p : ring) {
-            s.points.push_back({10 * p[0], 30.0 * i, 10 * p[1]});
-            s.weights.push_back(p[2]);
-        }
-    }
-    return s;
 }
 
 }  // namespace
@@ -102,7 +81,7 @@ TEST(ElberCohen1993, NeighboursAreWithinDelta)
 
 TEST(ElberCohen1993, AClosedSurfaceIsCoveredThoughItsBoundariesCoincide)
 {
-    const auto curves = adaptive_isocurves(closed_surface(), 0, 5);
+    const auto curves = adaptive_isocurves(tube(10, 30, true), 0, 5);
     // Once round is 62.8 mm: at least 13 curves, at most twice as dense and both boundaries.
     CHECK(curves.size() >= 13);
     CHECK(curves.size() <= 34);

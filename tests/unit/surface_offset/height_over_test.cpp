@@ -5,6 +5,7 @@
 #include <random>
 
 #include "tests/support/holed_sheet.hpp"
+#include "tests/support/tube.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"
@@ -15,40 +16,13 @@ namespace {
 constexpr double kEdgeError = 1e-4;  // mm
 constexpr double kRadius = 10;
 
-// A whole circle of radius 10 about the y axis, 30 long: seen from above twice, upright at x = 10.
-Surface tube()
-{
-    Surface s;
-    s.degree_u = 2;
-    s.degree_v = 1;
-    s.knots_u = {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4};
-    s.knots_v = {0, 0, 1, 1};
-    s.size_u = 9;
-    s.size_v = 2;
-    constexpr double kWay[][2] = {{1, 1},  {0, 1},  {-1, 1}, {-1, 0}, {-1, -1},
-                                  {0, -1}, {1, -1}, {1, 0},  {1, 1}};
-    for (int i = 0; i < 9; ++i) {
-        for (int j = 0; j < 2; ++j) {
-            s.points.push_back({kRadius * kWay[i][0], 30.0 * j, kRadius * kWay[i][1]});
-            s.weights.push_back(i % 2 == 1 ? 1 : std::sqrt(0.5));
-        }
-    }
-    // corners of the square are off the circle: begin on it
-    for (std::size_t k = 0; k < 18; ++k) {
-        const std::size_t next = (k / 2 + 1) % 8;
-        s.points[k] = {kRadius * kWay[next][0], s.points[k].y, kRadius * kWay[next][1]};
-        s.weights[k] = next % 2 == 1 ? 1 : std::sqrt(0.5);
-    }
-    return s;
-}
-
 }  // namespace
 
 TEST_GROUP(HeightOver){};
 
 TEST(HeightOver, IsTheUpperOfTwoSheets)
 {
-    const HeightOver heights{{tube()}, kEdgeError};
+    const HeightOver heights{{tube(kRadius, 30, true)}, kEdgeError};
     std::mt19937 random{1};
     std::uniform_real_distribution<double> x{-kRadius, kRadius};
     std::uniform_real_distribution<double> y{0, 30};
@@ -62,7 +36,7 @@ TEST(HeightOver, IsTheUpperOfTwoSheets)
 
 TEST(HeightOver, IsFoundBesideTheSilhouette)
 {
-    const HeightOver heights{{tube()}, kEdgeError};
+    const HeightOver heights{{tube(kRadius, 30, true)}, kEdgeError};
     for (double beside = 1e-2; beside > 1e-5; beside *= 0.5) {
         const double at = kRadius - beside;
         const auto height = heights.at(at, 12.3);
