@@ -29,8 +29,8 @@ namespace cusp::host {
 namespace {
 
 constexpr int kRidgeLooks = 200;
-// Of a ridge, for what passes bend between places that are compared: cells over what would be open
-// cost more than passes that much nearer.
+// Of a ridge on one smooth surface, for what passes bend between places that are compared: cells
+// over what would be open cost more than passes that much nearer.
 constexpr double kSpared = 0.99;
 // Of the domain: where more is open, passes are laid anew by ridges that follow them, which takes
 // twice as long.
@@ -237,7 +237,7 @@ private:
         }
         const double scallop = *operation_.scallop;
         Ridges ridges{work_.model(), surface, tool_};
-        const double allowed = kSpared * (scallop - tool_.outward);
+        const double allowed = (plain_ ? kSpared : 1.0) * (scallop - tool_.outward);
         const StripJudge judge = [&](double u, CurvePlace low, CurvePlace high, double enough) {
             if (!follow) {
                 low.curve = high.curve = nullptr;
@@ -305,7 +305,7 @@ private:
         const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
         std::vector<DomainCurve> curves = curves_of(surface, complete, false);
         Ridges::Highest highest = highest_between(surface, curves);
-        if (share_of(highest.open, s) > kOpenShare) {
+        if (plain_ && share_of(highest.open, s) > kOpenShare) {
             curves = curves_of(surface, complete, true);
             highest = highest_between(surface, curves);
         }
