@@ -15,7 +15,7 @@ constexpr int kTurns = 8;
 constexpr double kBeside = 0.01;  // of the way to the neighbour
 constexpr double kLeastShare = 0.1;
 constexpr double kToldApart = 0.995;
-constexpr int kFollowed = 3;  // times along a pass
+constexpr int kFollowed = 4;  // times along a pass
 // Of the radius times what is left: so far on, squared, a pass as tight as the ball is off its
 // tangent by a hundredth of what is left.
 constexpr double kStraight = 0.02;
@@ -69,23 +69,28 @@ bool Ridges::counts_as_straight(const Left& left) const
     return left.ahead * left.ahead <= kStraight * tool_.radius * height;
 }
 
-// Moves the sweep along its pass to where it is nearest, or to the end.
+// Moves the sweep along its pass to where it is nearest, or to the end. Where that does not settle,
+// in bends, what the balls leave that were come by.
 double Ridges::left_by_pass(Sweep& sweep, double towards, Vec3d p, Vec3d normal)
 {
     const DomainCurve& curve = *sweep.place.curve;
-    Left left = left_by(sweep, p, normal);
-    for (int k = 0; k < kFollowed && !counts_as_straight(left); ++k) {
+    double least = kUnreached;
+    for (int k = 0; k <= kFollowed; ++k) {
+        const Left left = left_by(sweep, p, normal);
+        if (counts_as_straight(left)) {
+            return std::min(least, left.height);
+        }
+        least = std::min(least, entry(p - sweep.centre, normal, tool_.radius));
         const double u =
             std::clamp(sweep.u + left.ahead / sweep.rate, curve.u.front(), curve.u.back());
         if (u == sweep.u) {
-            return entry(p - sweep.centre, normal, tool_.radius);
+            break;
         }
         CurvePlace place = curve.place_at(u);
         place.curve = &curve;
         sweep = sweep_at(u, place, towards);
-        left = left_by(sweep, p, normal);
     }
-    return left.height;
+    return least;
 }
 
 double Ridges::between(double u, CurvePlace low_place, CurvePlace high_place, double enough)
