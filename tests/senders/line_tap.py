@@ -8,6 +8,7 @@ import collections
 import os
 import re
 import select
+import termios
 import threading
 import time
 import tty
@@ -142,7 +143,7 @@ class LineTap:
                     time.sleep(0.001)
                     continue
                 self.controller = os.open(self.controller_name, os.O_RDWR | os.O_NOCTTY)
-                tty.setraw(self.controller)
+                tty.setraw(self.controller, termios.TCSANOW)  # as in port.py
             elif not self.has_sender():
                 os.close(self.controller)
                 self.controller = -1

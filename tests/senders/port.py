@@ -17,7 +17,8 @@ class Port:
             self.descriptor = self.socket.fileno()
         else:
             self.descriptor = os.open(name, os.O_RDWR | os.O_NOCTTY)
-            tty.setraw(self.descriptor)
+            # TCSAFLUSH, the default, now and then drops the greeting
+            tty.setraw(self.descriptor, termios.TCSANOW)
         self.buffer = b""
         self.lines = []
 
