@@ -14,7 +14,7 @@ constexpr std::size_t kBins = 128;    // along each side of the box
 constexpr double kBeyond = 0.25;      // of a piece's size: its edges are not straight
 constexpr int kMostSteps = 20;
 constexpr double kMeet = 1e-7;      // mm
-constexpr double kUpright = 1e-3;   // of the cosine: too steep to start from
+constexpr double kTooSteep = 1e-3;  // of the cosine: too steep to start from
 constexpr double kSingular = 1e-9;  // the same: no step can be made
 
 // The cosine of the slope, with its sign: which side of the surface is seen from above.
@@ -83,8 +83,8 @@ void HeightOver::add_pieces(std::size_t patch, double width)
                 const double v = bezier.v_begin() + (j + 0.5 * static_cast<double>(k % 3)) * step_v;
                 const SurfacePoint s = derivatives_at(bezier, u, v);
                 const double cosine = facing(s);
-                up += cosine > kUpright ? 1 : cosine < -kUpright ? -1 : 0;
-                piece.samples[k] = {u, v, s.point, std::abs(cosine) > kUpright};
+                up += cosine > kTooSteep ? 1 : cosine < -kTooSteep ? -1 : 0;
+                piece.samples[k] = {u, v, s.point, std::abs(cosine) > kTooSteep};
                 piece.low = {std::min(piece.low.x, s.point.x), std::min(piece.low.y, s.point.y)};
                 piece.high = {std::max(piece.high.x, s.point.x), std::max(piece.high.y, s.point.y)};
             }

@@ -2,36 +2,17 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "host_tools/surface_offset/bezier_cell.hpp"
+#include "host_tools/surface_offset/box_tree.hpp"
 #include "host_tools/surface_offset/facet_distance.hpp"
 #include "host_tools/surface_offset/surface_model.hpp"
 #include "host_tools/surface_offset/tool_core.hpp"
 #include "host_tools/surface_offset/trim_region.hpp"
 
 namespace cusp::host {
-
-struct BoxTree {
-    struct Node {
-        Vec3d low;
-        Vec3d high;
-        // Children; a leaf has child[0] < 0 and holds child[1] items from -child[0] - 1 on.
-        std::array<int, 2> child;
-    };
-    std::vector<Node> nodes;  // the first is the top
-};
-
-// Over boxes given by their corners; items keep their numbers, one a leaf.
-BoxTree make_box_tree(const std::vector<std::array<Vec3d, 2>>& boxes);
-
-// Over triangles, some a leaf.
-//
-// order  set to the triangles' numbers as the tree's items are in order
-BoxTree make_facet_tree(const std::vector<std::array<Vec3d, 3>>& triangles,
-                        std::vector<std::uint32_t>& order);
 
 struct SurfaceModel::State {
     std::size_t halves{};  // of the cells, and of those
