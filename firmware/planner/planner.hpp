@@ -4,8 +4,7 @@
 // interpolator reads the queue from the servo tick; only raising of speeds happens under its eyes.
 //
 //   Move -> runs of short lines to arcs (line_smoother) -> corners to curves (corner_blender)
-//        -> blocks (block_maker) -> joints and
-//   limits (joint, speed_limit)
+//        -> blocks (block_maker) -> joints and limits (joint, speed_limit)
 //        -> intervals (interval_builder) -> envelope (look_ahead)
 #pragma once
 

@@ -15,11 +15,9 @@ namespace cusp::hal {
 // PulsePlayer plays pulse frames back to back, one a millisecond, exactly two in flight.
 //
 //   try_play(frame)  takes over a copy of the frame and returns true, or returns false at once
-//   where
-//                    two frames are in flight already. Context: servo tick. Bounded time.
+//                    where two frames are in flight already. Context: servo tick. Bounded time.
 //   underrun()       whether a frame was missing while motion went on: steps are low, and the
-//   player
-//                    plays nothing more until clear_underrun(). Context: any.
+//                    player plays nothing more until clear_underrun(). Context: any.
 //   clear_underrun() Context: main loop.
 template <class T>
 constexpr bool is_pulse_player()
@@ -79,8 +77,7 @@ constexpr bool is_panel()
 //   sector_size()                 bytes in each of the two sectors; a multiple of 4.
 //   read(sector, offset, bytes)   offset and size within the sector; erased bytes are 0xFF.
 //   write(sector, offset, bytes)  false where the write failed; offset and size multiples of 4;
-//   only
-//                                 erased bytes may be written.
+//                                 only erased bytes may be written.
 //   erase(sector)                 false where it failed.
 template <class T>
 constexpr bool is_settings_store()

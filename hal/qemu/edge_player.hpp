@@ -3,8 +3,7 @@
 // Each interrupt writes one edge to the port's set/reset register, as the DMA of the real board
 // would, and notes its tick and the levels of the six lines in the trace. Two paces:
 //   stretched  the interrupt asks for the next one itself: the run takes the time it takes, the
-//   trace
-//              tells the ticks; a frame that is missing is waited for
+//              trace tells the ticks; a frame that is missing is waited for
 //   real       timer 2 makes each edge due at its tick; a frame that is missing is an underrun
 #pragma once
 

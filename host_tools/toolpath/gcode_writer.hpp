@@ -22,7 +22,7 @@ struct ProgramForm {
 // centre of an arc is chosen after its ends are rounded: its radii differ by at most 0.0005 mm.
 // Arcs and moves too small for the rounding become lines or vanish.
 //
-// What the program looks like is PRODUCT.md's contract: header comment; G17 G20/G21 G40 G49 G54 G80
+// The form of the program: header comment; G17 G20/G21 G40 G49 G54 G80
 // G90 G94; `G0 Z` alone; the operations, tools changed by M5, T, M0; retract, M5, M30.
 void write_program(std::ostream& out,
                    const ProgramForm& form,

@@ -55,8 +55,7 @@ struct ToolMove {
 };
 
 // The moves of one operation with one tool, millimetres, from the clearance height and back to it.
-// The first move is a rapid; `start` is where it comes from in x and y (unknown for the first
-// operation).
+// The first move is a rapid.
 struct Toolpath {
     Tool tool;
     double feed{};         // mm/min, cuts and links; descents at most
@@ -66,11 +65,11 @@ struct Toolpath {
     std::vector<std::string> comments;  // header lines: strategy and bounds
 };
 
-// What every planner reports; planners add their own counts (PRODUCT.md, "What cusp plan reports").
+// What every planner reports; planners add their own counts.
 struct OperationStats {
     std::string strategy;
-    bool roughing{
-        false};  // what it leaves is for another operation: its scallop bound is no promise
+    // What it leaves is for another operation: its scallop bound is no promise.
+    bool roughing{false};
     int passes{};
     int levels{};
     int cl_points{};

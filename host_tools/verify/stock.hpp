@@ -32,8 +32,7 @@ public:
     // takes between them.
     //
     // spacing  mm between positions: depths are felt with a tool that is smaller by what the
-    // slivers
-    //          between two positions can be high
+    //          slivers between two positions can be high
     CutFigures cut(const ToolPositions& positions, double spacing, const Progress& progress);
 
     const std::vector<double>& heights() const { return heights_; }
