@@ -59,7 +59,7 @@ float speed_under(float end, float slope, float distance, float greatest) noexce
 void PathServo::reset(std::uint32_t filter) noexcept
 {
     filter_ = filter;
-    look_out_ = LookOut{};
+    speed_window_ = MinSpeedWindow{};
     offset_ = 0;
     position_ = 0;
     travelled_.store(0, std::memory_order_relaxed);
@@ -167,12 +167,12 @@ float PathServo::coasting_speed(float wanted, const OverrideFactors& factors) no
     const auto ticks = static_cast<float>(filter_ + 2);
     const auto travel = static_cast<std::uint64_t>(wanted * kPathUnitsPerTick * ticks);
     const std::uint32_t begin = queue_.interval_begin();
-    if (!look_out_.started() ||
-        queue_.take_changed_from() - begin <= look_out_.interval() - begin ||
-        look_out_.interval() - begin > planner::kIntervalCount) {
-        look_out_.restart(begin, position_ - offset_ + queue_.interval(begin).length);
+    if (!speed_window_.started() ||
+        queue_.take_changed_from() - begin <= speed_window_.interval() - begin ||
+        speed_window_.interval() - begin > planner::kIntervalCount) {
+        speed_window_.restart(begin, position_ - offset_ + queue_.interval(begin).length);
     }
-    const float least = look_out_.least_between(queue_, position_, position_ + travel, factors);
+    const float least = speed_window_.least_between(queue_, position_, position_ + travel, factors);
     if (least >= wanted * wanted) {
         return wanted;
     }

@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "firmware/interpolator/box_filter.hpp"
-#include "firmware/interpolator/look_out.hpp"
+#include "firmware/interpolator/min_speed_window.hpp"
 #include "firmware/planner/path_queue.hpp"
 
 namespace cusp::interpolator {
@@ -56,7 +56,7 @@ private:
 
     planner::PathQueue& queue_;
     std::uint32_t filter_{1};  // length of the path filter, ticks
-    LookOut look_out_;
+    MinSpeedWindow speed_window_;
     std::uint32_t offset_{0};      // path units into the first interval
     std::uint64_t position_{0};    // path units since the reset
     float speed_{0};               // mm/s

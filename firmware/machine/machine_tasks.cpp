@@ -79,7 +79,7 @@ bool Machine::perform(const path::Move& move) noexcept
     if (state_ == State::kCheck) {
         return true;
     }
-    if (!motion_.has_room()) {
+    if (!motion_.make_room()) {
         return false;
     }
     path::Move numbered = move;
@@ -98,7 +98,7 @@ bool Machine::perform(const gcode::Probe& probe) noexcept
     if (state_ == State::kCheck) {
         return true;
     }
-    if (!wait_settled() || !motion_.has_room()) {
+    if (!wait_settled() || !motion_.make_room()) {
         return false;
     }
     const bool on = (motion_.inputs().raw() & kProbe) != 0;

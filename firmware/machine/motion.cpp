@@ -54,7 +54,7 @@ void Motion::work(bool more_waits) noexcept
 {
     if (!planner_.empty()) {
         const bool late = open_ && !more_waits && ticks() != last_push_tick_;
-        late ? planner_.hurry() : static_cast<void>(planner_.has_room());
+        late ? planner_.flush_if_short() : static_cast<void>(planner_.make_room());
     }
     // A sender that waits for each answer needs a moment to send the next line.
     constexpr std::uint32_t kPatienceTicks = 5;

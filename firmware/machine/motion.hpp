@@ -31,8 +31,9 @@ public:
 
     // Main loop.
 
-    bool has_room() noexcept { return planner_.has_room(); }
-    // Precondition: has_room() and move.start == tail().
+    // See Planner::make_room().
+    bool make_room() noexcept { return planner_.make_room(); }
+    // Precondition: make_room() returned true, and move.start == tail().
     void push(const path::Move& move) noexcept;
     // No move follows for now.
     void close() noexcept;

@@ -66,7 +66,8 @@ std::uint32_t fraction(const Block& block, std::uint32_t offset) noexcept;
 // 4 nm on curves. Context: servo tick.
 PathOffset position_at(const Block& block, std::uint32_t offset) noexcept;
 
-// Direction and curvature vector of the block at one of its ends, for the joint with its neighbour.
+// Direction and curvature vector of the block at one of its ends, for the junction with its
+// neighbour.
 struct EndGeometry {
     Vec3f tangent;    // dP/ds
     Vec3f curvature;  // d2P/ds2, 1/mm

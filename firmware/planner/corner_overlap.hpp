@@ -22,7 +22,7 @@ struct CornerOverlap {
 // One side of a corner.
 struct CornerSide {
     EndGeometry end;  // at the corner
-    float length;     // mm, of lines and arcs without a joint
+    float length;     // mm, of lines and arcs without a junction
 };
 
 // The last ticks before a stop only brake and the first after it only speed up (PathServo). While

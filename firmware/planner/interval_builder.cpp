@@ -107,14 +107,14 @@ void IntervalBuilder::append(std::uint32_t length, const Allowance& allowance, b
     carry(feed_reach, feed);
 }
 
-void IntervalBuilder::add_joint(const JointShare& joint, float distance) noexcept
+void IntervalBuilder::add_junction(const JunctionShare& junction, float distance) noexcept
 {
     Allowance allowance = kAllowsAll;
-    allowance.cap = joint.speed * joint.speed;
-    allowance.jerk_left = {1.0F - joint.jerk_at_rest, 1.0F - joint.jerk};
-    allowance.acceleration_left = 1.0F - joint.acceleration;
-    spread_back(joint.speed * reach_.joint + distance, allowance);
-    carry(joint.speed * reach_.joint - distance, allowance);
+    allowance.cap = junction.speed * junction.speed;
+    allowance.jerk_left = {1.0F - junction.jerk_at_rest, 1.0F - junction.jerk};
+    allowance.acceleration_left = 1.0F - junction.acceleration;
+    spread_back(junction.speed * reach_.junction + distance, allowance);
+    carry(junction.speed * reach_.junction - distance, allowance);
 }
 
 void IntervalBuilder::spread_back(float distance, const Allowance& allowance) noexcept
@@ -224,7 +224,7 @@ void IntervalBuilder::stop(const CornerOverlap& overlap) noexcept
 void IntervalBuilder::publish(bool queue_full) noexcept
 {
     const auto hold_back =
-        static_cast<std::uint64_t>((reach_.joint + reach_.feed) * kTimeUnitsPerSecond);
+        static_cast<std::uint64_t>((reach_.junction + reach_.feed) * kTimeUnitsPerSecond);
     if (queue_full && queue_.published() == queue_.interval_begin() &&
         pending_time_ < 2 * hold_back) {
         // The whole queue is shorter than the reach: pass it more slowly.

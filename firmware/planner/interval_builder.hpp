@@ -8,7 +8,7 @@
 
 #include "firmware/base/static_vector.hpp"
 #include "firmware/planner/corner_overlap.hpp"
-#include "firmware/planner/joint.hpp"
+#include "firmware/planner/junction.hpp"
 #include "firmware/planner/path_queue.hpp"
 
 namespace cusp::planner {
@@ -17,11 +17,11 @@ class IntervalBuilder {
 public:
     explicit IntervalBuilder(PathQueue& queue) noexcept : queue_{queue} {}
 
-    // Greatest travel times, s, over which limits, feeds and joints are spread.
+    // Greatest travel times, s, over which limits, feeds and junctions are spread.
     struct Reach {
         float limit;
         float feed;
-        float joint;
+        float junction;
     };
     void set_reach(const Reach& reach) noexcept { reach_ = reach; }
 
@@ -31,8 +31,8 @@ public:
     // Adds a stretch at the end of the path.
     void append(std::uint32_t length, const Allowance& allowance, bool rapid) noexcept;
 
-    // Spreads what a joint demands, `distance` mm before the end of the path so far.
-    void add_joint(const JointShare& joint, float distance) noexcept;
+    // Spreads what a junction demands, `distance` mm before the end of the path so far.
+    void add_junction(const JunctionShare& junction, float distance) noexcept;
 
     // The path stops at its end: all of it may be published, and no limit is spread over the stop.
     void stop(const CornerOverlap& overlap) noexcept;

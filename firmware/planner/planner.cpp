@@ -12,12 +12,12 @@ namespace {
 
 // A change of direction above this is a corner: the exact path stops there. 0.5 degrees.
 constexpr float kCornerTurn = 0.00872665F;
-// Slower than this, passing a joint takes longer than stopping at it.
-constexpr float kLeastJointSpeed = 1.5F;  // mm/s
-// What a joint may take of the axes' acceleration and jerk; the rest is for the curves around it.
-// Near a joint that stands alone speed hardly changes; in dense runs it must.
-constexpr float kLoneJointShare = 0.98F;
-constexpr float kDenseJointShare = 0.8F;
+// Slower than this, passing a junction takes longer than stopping at it.
+constexpr float kLeastJunctionSpeed = 1.5F;  // mm/s
+// What a junction may take of the axes' acceleration and jerk; the rest is for the curves around
+// it. Near a junction that stands alone speed hardly changes; in dense runs it must.
+constexpr float kLoneJunctionShare = 0.98F;
+constexpr float kDenseJunctionShare = 0.8F;
 // Keeps rounding of set points and speeds below the limits; and, of one tick's braking, what
 // PathServo may brake harder near a stop where the slopes of neighbouring intervals differ.
 constexpr float kRoundingMargin = 0.0004F;
@@ -33,7 +33,7 @@ constexpr float kExactDeviation = 0.0009F;
 constexpr float kFilterShareOfTolerance = 0.45F;
 // And by which a corner may be cut, but for what the path has departed.
 constexpr float kCornerShareOfTolerance = 0.985F;
-// A joint that takes less of the axes' jerk is none.
+// A junction that takes less of the axes' jerk is none.
 constexpr float kNegligible = 1e-3F;
 
 constexpr float kMostTicks = 12.0F;
@@ -59,14 +59,14 @@ float filter_window(AxisFilter filter) noexcept
     return static_cast<float>(filter.first + filter.second) * kServoTick;
 }
 
-// Whether the bounds that a joint was made with hold for the stretch too, within a hundredth.
-bool reckons_with(const Joint& joint, const PathDerivatives& stretch) noexcept
+// Whether the bounds that a junction was made with hold for the stretch too, within a hundredth.
+bool is_covered_by(const Junction& junction, const PathDerivatives& stretch) noexcept
 {
     constexpr float kSlack = 1.01F;
     bool all = true;
     for (unsigned i = 0; i < 3; ++i) {
-        all = all && stretch.second[i] <= kSlack * joint.second[i] &&
-              stretch.third[i] <= kSlack * joint.third[i];
+        all = all && stretch.second[i] <= kSlack * junction.second[i] &&
+              stretch.third[i] <= kSlack * junction.third[i];
     }
     return all;
 }
@@ -126,7 +126,7 @@ void Planner::reset(Position at) noexcept
     smoother_.clear();
     blender_.clear();
     waiting_.reset();
-    joints_.clear();
+    junctions_.clear();
     bends_.clear();
     end_.reset();
     end_length_ = 0;
@@ -134,7 +134,7 @@ void Planner::reset(Position at) noexcept
     tail_ = at;
 }
 
-bool Planner::has_room() noexcept
+bool Planner::make_room() noexcept
 {
     work();
     return !waiting_ && !smoother_.full();
@@ -160,11 +160,11 @@ void Planner::close() noexcept
     work();
 }
 
-void Planner::hurry() noexcept
+void Planner::flush_if_short() noexcept
 {
-    hurried_ = path_is_short();
+    flushing_ = path_is_short();
     work();
-    hurried_ = false;
+    flushing_ = false;
 }
 
 bool Planner::empty() const noexcept
@@ -204,7 +204,7 @@ bool Planner::next_smoothed(path::Move& move) noexcept
 {
     using Patience = LineSmoother::Patience;
     const bool ends = waiting_.has_value() || close_requested_;
-    const Patience patience = hurried_ ? Patience::kShort : Patience::kFull;
+    const Patience patience = flushing_ ? Patience::kShort : Patience::kFull;
     if (smoother_.next(ends ? Patience::kNone : patience, move)) {
         return true;
     }
@@ -257,7 +257,7 @@ void Planner::work() noexcept
     }
     const bool all_done = maker_.done() && !waiting_ && smoother_.empty() && blender_.empty();
     if (all_done && close_requested_) {
-        stop({});
+        end_in_stop({});
         close_requested_ = false;
         changed = true;
     }
@@ -291,78 +291,78 @@ void Planner::join(const EndGeometry& after,
 {
     const float fastest = std::min(end_speed_, greatest_speed(of_first, block.rapid));
     const float window = filter_window(end_filter_);
-    const Joint joint =
-        make_joint(*end_, after, larger(behind(fastest * window), first.derivatives));
-    if (joint.turn > kCornerTurn || end_filter_ != block.filter) {
-        stop(overlap_at_corner(after, block));
+    const Junction junction =
+        make_junction(*end_, after, larger(bounds_behind(fastest * window), first.derivatives));
+    if (junction.turn > kCornerTurn || end_filter_ != block.filter) {
+        end_in_stop(overlap_at_corner(after, block));
         return;
     }
-    const JointShare share = share_of(joint, joints_.size(), 0.0F, fastest);
-    if (share.speed < kLeastJointSpeed) {
-        stop({});
+    const JunctionShare share = share_of(junction, junctions_.size(), 0.0F, fastest);
+    if (share.speed < kLeastJunctionSpeed) {
+        end_in_stop({});
         return;
     }
     if (share.jerk >= kNegligible) {
         end_length_ = 0;
-        remember(joint, share.speed);
+        add_recent(junction, share.speed);
     }
-    builder_.add_joint(share, 0.0F);
+    builder_.add_junction(share, 0.0F);
 }
 
-// What a joint takes, `distance` mm back, together with the `earlier` oldest ones.
-JointShare Planner::share_of(const Joint& joint,
-                             std::size_t earlier,
-                             float distance,
-                             float fastest) const noexcept
+// What a junction takes, `distance` mm back, together with the `earlier` oldest ones.
+JunctionShare Planner::share_of(const Junction& junction,
+                                std::size_t earlier,
+                                float distance,
+                                float fastest) const noexcept
 {
-    JointShare share =
-        joint_share(joint, limits_, end_filter_, kLoneJointShare, fastest, choice_.deviation);
-    // Joints within one window of the axis filters add up.
+    JunctionShare share = junction_share(junction, limits_, end_filter_, kLoneJunctionShare,
+                                         fastest, choice_.deviation);
+    // Junctions within one window of the axis filters add up.
     const float window = filter_window(end_filter_);
-    Joint sum = joint;
+    Junction sum = junction;
     for (std::size_t i = earlier;
-         i-- > 0 && joints_[i].distance - distance < share.speed * window;) {
-        sum = together(sum, joints_[i].joint);
-        share = joint_share(sum, limits_, end_filter_, kDenseJointShare, share.speed,
-                            choice_.deviation);
+         i-- > 0 && junctions_[i].distance - distance < share.speed * window;) {
+        sum = combined(sum, junctions_[i].junction);
+        share = junction_share(sum, limits_, end_filter_, kDenseJunctionShare, share.speed,
+                               choice_.deviation);
     }
     return share;
 }
 
-void Planner::remember(const Joint& joint, float speed) noexcept
+void Planner::add_recent(const Junction& junction, float speed) noexcept
 {
-    if (joints_.full()) {
-        for (std::size_t i = 1; i < joints_.size(); ++i) {
-            joints_[i - 1] = joints_[i];
+    if (junctions_.full()) {
+        for (std::size_t i = 1; i < junctions_.size(); ++i) {
+            junctions_[i - 1] = junctions_[i];
         }
-        joints_.pop_back();
+        junctions_.pop_back();
     }
-    (void)joints_.try_push_back({joint, speed, 0.0F});
+    (void)junctions_.try_push_back({junction, speed, 0.0F});
 }
 
-// A stretch is to be added that takes more of the limits than a joint, within one window of the
+// A stretch is to be added that takes more of the limits than a junction, within one window of the
 // axis filters before it, reckoned with.
-void Planner::mind_joints(const PathDerivatives& coming) noexcept
+void Planner::apply_junction_limits(const PathDerivatives& coming) noexcept
 {
     const float window = filter_window(end_filter_);
-    for (std::size_t i = joints_.size(); i-- > 0;) {
-        RecentJoint& recent = joints_[i];
+    for (std::size_t i = junctions_.size(); i-- > 0;) {
+        RecentJunction& recent = junctions_[i];
         if (recent.distance >= recent.speed * window) {
             continue;
         }
-        if (reckons_with(recent.joint, coming)) {
+        if (is_covered_by(recent.junction, coming)) {
             continue;
         }
-        recent.joint.second = larger(recent.joint.second, coming.second);
-        recent.joint.third = larger(recent.joint.third, coming.third);
-        const JointShare share = share_of(recent.joint, i, recent.distance, recent.speed);
+        recent.junction.second = larger(recent.junction.second, coming.second);
+        recent.junction.third = larger(recent.junction.third, coming.third);
+        const JunctionShare share = share_of(recent.junction, i, recent.distance, recent.speed);
         recent.speed = share.speed;
-        builder_.add_joint(share, recent.distance);
+        builder_.add_junction(share, recent.distance);
     }
 }
 
 // Bounds over the last `distance` mm of the path.
-PathDerivatives Planner::behind(float distance) const noexcept
+PathDerivatives Planner::bounds_behind(float distance) const noexcept
 {
     PathDerivatives bounds{};
     for (const RecentBend& bend : bends_) {
@@ -374,9 +374,9 @@ PathDerivatives Planner::behind(float distance) const noexcept
 }
 
 // The path has grown by a stretch.
-void Planner::travel(const PathDerivatives& passed, float length) noexcept
+void Planner::age_bounds(const PathDerivatives& passed, float length) noexcept
 {
-    for (RecentJoint& recent : joints_) {
+    for (RecentJunction& recent : junctions_) {
         recent.distance += length;
     }
     for (RecentBend& bend : bends_) {
@@ -415,9 +415,10 @@ void Planner::add_stretches(const Block& block,
         const Stretch part = i == 0 ? first : stretch(block, i);
         if (part.end > done) {
             const Allowance of_part = i == 0 ? of_first : allowance_of(block, part);
-            mind_joints(part.derivatives);
+            apply_junction_limits(part.derivatives);
             builder_.append(part.end - done, of_part, block.rapid);
-            travel(part.derivatives, static_cast<float>(part.end - done) / kPathUnitsPerMillimetre);
+            age_bounds(part.derivatives,
+                       static_cast<float>(part.end - done) / kPathUnitsPerMillimetre);
             end_speed_ = greatest_speed(of_part, block.rapid);
             done = part.end;
         }
@@ -438,10 +439,10 @@ CornerOverlap Planner::overlap_at_corner(const EndGeometry& after,
                           block.filter, deviation);
 }
 
-void Planner::stop(const CornerOverlap& overlap) noexcept
+void Planner::end_in_stop(const CornerOverlap& overlap) noexcept
 {
     builder_.stop(overlap);
-    joints_.clear();
+    junctions_.clear();
     bends_.clear();
     end_.reset();
     end_length_ = 0;

@@ -1,10 +1,11 @@
 // The planner: moves become blocks with geometry, speed limits and an always feasible way to stop.
 //
-// Main loop side: push() a Move when has_room(); close() when no further move is at hand. The
-// interpolator reads the queue from the servo tick; only raising of speeds happens under its eyes.
+// Main loop side: push() a Move where make_room() says that one is taken; close() when no further
+// move is at hand. The interpolator reads the queue from the servo tick; while it reads, speeds are
+// only raised.
 //
 //   Move -> runs of short lines to arcs (line_smoother) -> corners to curves (corner_blender)
-//        -> blocks (block_maker) -> joints and limits (joint, speed_limit)
+//        -> blocks (block_maker) -> junctions and limits (junction, speed_limit)
 //        -> intervals (interval_builder) -> envelope (look_ahead)
 #pragma once
 
@@ -16,7 +17,7 @@
 #include "firmware/planner/block_maker.hpp"
 #include "firmware/planner/corner_blender.hpp"
 #include "firmware/planner/interval_builder.hpp"
-#include "firmware/planner/joint.hpp"
+#include "firmware/planner/junction.hpp"
 #include "firmware/planner/line_smoother.hpp"
 #include "firmware/planner/path_queue.hpp"
 
@@ -39,16 +40,17 @@ public:
     // Forgets all moves; the next starts at `at`. The interpolator must be reset with it.
     void reset(Position at) noexcept;
 
-    // Whether push() takes a move. Works on the move before, as far as there is room for its
-    // blocks.
-    bool has_room() noexcept;
+    // Works on the moves so far, as far as there is room for their blocks. Returns whether push()
+    // takes another one.
+    bool make_room() noexcept;
 
-    // Precondition: has_room() and move.start == tail(). A move of no length is dropped.
+    // Precondition: make_room() returned true, and move.start == tail(). A move of no length is
+    // dropped.
     void push(const path::Move& move) noexcept;
 
     // The next move is late: where the path could be over soon, plan what is known of a run of
     // lines instead of waiting for longer arcs.
-    void hurry() noexcept;
+    void flush_if_short() noexcept;
 
     // No move follows for now: the path stops at its end.
     void close() noexcept;
@@ -87,23 +89,23 @@ private:
     void add_stretches(const Block& block,
                        const Stretch& first,
                        const Allowance& of_first) noexcept;
-    JointShare share_of(const Joint& joint,
-                        std::size_t earlier,
-                        float distance,
-                        float fastest) const noexcept;
-    void remember(const Joint& joint, float speed) noexcept;
-    void mind_joints(const PathDerivatives& coming) noexcept;
-    PathDerivatives behind(float distance) const noexcept;
-    void travel(const PathDerivatives& passed, float length) noexcept;
-    void stop(const CornerOverlap& overlap) noexcept;
+    JunctionShare share_of(const Junction& junction,
+                           std::size_t earlier,
+                           float distance,
+                           float fastest) const noexcept;
+    void add_recent(const Junction& junction, float speed) noexcept;
+    void apply_junction_limits(const PathDerivatives& coming) noexcept;
+    PathDerivatives bounds_behind(float distance) const noexcept;
+    void age_bounds(const PathDerivatives& passed, float length) noexcept;
+    void end_in_stop(const CornerOverlap& overlap) noexcept;
     CornerOverlap overlap_at_corner(const EndGeometry& after, const Block& block) const noexcept;
 
-    struct RecentJoint {
-        Joint joint;
+    struct RecentJunction {
+        Junction junction;
         float speed;     // mm/s, that it may be passed at
         float distance;  // mm, back from the end of the path
     };
-    static constexpr std::size_t kRecentJoints = 16;
+    static constexpr std::size_t kRecentJunctions = 16;
     // Bounds over a bent stretch of the path so far.
     struct RecentBend {
         PathDerivatives derivatives;
@@ -125,15 +127,15 @@ private:
     FilterChoice choice_{};              // for it
     std::optional<path::Move> waiting_;  // until the run of lines before it is done
     bool close_requested_{false};
-    bool hurried_{false};
+    bool flushing_{false};
     // The end of the path so far, where it does not stop there.
     std::optional<EndGeometry> end_;
     AxisFilter end_filter_{};
-    float end_length_{0};  // mm, without a joint
+    float end_length_{0};  // mm, without a junction
     float end_left_{0};    // mm, what its path leaves of the tolerance
     float end_speed_{0};   // mm/s, the most that its last stretch allows
     // Since the path stopped last, the newest at the back.
-    StaticVector<RecentJoint, kRecentJoints> joints_;
+    StaticVector<RecentJunction, kRecentJunctions> junctions_;
     StaticVector<RecentBend, kRecentBends> bends_;
 };
 

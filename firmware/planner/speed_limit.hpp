@@ -56,8 +56,8 @@ struct Allowance {
     float feed;               // squared programmed feed
     Line by_acceleration;     // mm/s^2 along the path, by the axes' acceleration
     Line by_jerk;             // mm/s^2 along the path, by the axes' jerk
-    Line jerk_left;           // share of the jerk that joints leave
-    float acceleration_left;  // share of the acceleration that joints leave
+    Line jerk_left;           // share of the jerk that junctions leave
+    float acceleration_left;  // share of the acceleration that junctions leave
 };
 
 inline constexpr float kUnlimited = 1e30F;

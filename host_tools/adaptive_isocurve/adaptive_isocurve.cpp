@@ -9,24 +9,46 @@
 #include <numeric>
 #include <optional>
 
-#include "host_tools/adaptive_isocurve/even_spacing.hpp"
+#include "host_tools/adaptive_isocurve/equal_scallop_passes.hpp"
 #include "host_tools/adaptive_isocurve/isocurve_extraction.hpp"
 #include "host_tools/adaptive_isocurve/isocurve_floor.hpp"
+#include "host_tools/adaptive_isocurve/isocurve_scallop.hpp"
+#include "host_tools/adaptive_isocurve/isocurve_spacing_bound.hpp"
+#include "host_tools/adaptive_isocurve/isocurve_stepover.hpp"
 #include "host_tools/adaptive_isocurve/mesh_isocurves.hpp"
-#include "host_tools/adaptive_isocurve/neighbour_bound.hpp"
-#include "host_tools/adaptive_isocurve/pass_tracer.hpp"
+#include "host_tools/adaptive_isocurve/offset_curve_trimmer.hpp"
 #include "host_tools/adaptive_isocurve/proved_scallop.hpp"
-#include "host_tools/adaptive_isocurve/ridge.hpp"
-#include "host_tools/adaptive_isocurve/rough_levels.hpp"
-#include "host_tools/adaptive_isocurve/scallop_width.hpp"
 #include "host_tools/adaptive_isocurve/surface_operation.hpp"
+#include "host_tools/adaptive_isocurve/waterline_roughing.hpp"
+#include "host_tools/finishing/scallop_check.hpp"
 #include "host_tools/input_error/input_error.hpp"
-#include "host_tools/surface_offset/offset_surface.hpp"
-#include "host_tools/surface_passes/coverage.hpp"
+#include "host_tools/part_model/offset_surface.hpp"
 
 #include "fmt/format.h"
 
-namespace cusp::host {
+namespace cusp::adaptive_isocurve {
+
+using finishing::CcParameterList;
+using finishing::length_of;
+using finishing::Points;
+using finishing::ScallopCheck;
+using finishing::SweptVolume;
+using finishing::ToleranceBand;
+using job::CutDirection;
+using job::Job;
+using job::kRoughingDone;
+using job::Operation;
+using job::OutputForm;
+using job::Traversal;
+using nurbs::Curve;
+using nurbs::Surface;
+using nurbs::SurfacePoint;
+using part_model::OffsetRequest;
+using part_model::OffsetSurface;
+using part_model::SurfaceCut;
+using toolpath::OperationStats;
+using toolpath::PlannedOperation;
+
 namespace {
 
 constexpr int kRidgeLooks = 200;
@@ -60,15 +82,15 @@ public:
         : job_{job},
           operation_{operation},
           work_{job, operation, surfaces_along_u(operation)},
-          tracer_{work_.surfaces(), work_.certified()},
+          tracer_{work_.surfaces(), work_.path_fitter()},
           tool_{operation.tool.radius, work_.outward()}
     {
         const std::vector<Surface>& surfaces = work_.surfaces();
         plain_ = surfaces.size() == 1 && is_plain(surfaces.front());
-        ridge_share_ = plain_ ? kRidgeShare : kProvedShare;
+        scallop_share_ = plain_ ? kRidgeShare : kProvedShare;
         if (operation.scallop && !operation.iso_distance) {
-            coverage_.emplace(work_.surfaces(), work_.certified(), *operation.scallop,
-                              work_.path_off());
+            scallop_check_.emplace(work_.surfaces(), work_.path_fitter(), *operation.scallop,
+                                   work_.path_off());
         }
     }
 
@@ -79,33 +101,34 @@ public:
             curves += add_surface(static_cast<int>(k), complete);
         }
         whole_ = whole_ && !work_.moved_off_edges();
-        std::size_t bare = 0;
+        std::size_t uncovered = 0;
         bool unseen = false;
-        if (coverage_ && !(plain_ && whole_ && open_.empty())) {
+        if (scallop_check_ && !(plain_ && whole_ && open_.empty())) {
             look_over_cells();
-            coverage_->close_gaps(
+            scallop_check_->add_missing_passes(
                 [&](const Points& pass) { add_pass(pass); },
                 [&](double share) { report(kLookedDone + (kGapsDone - kLookedDone) * share); });
-            bare = coverage_->uncovered();
-            ridge_ = std::max(*operation_.scallop, coverage_->most_left());
-            unseen = coverage_->overflowed();
-            ridge_ = unseen ? operation_.tool.radius : ridge_;
+            uncovered = scallop_check_->uncovered();
+            scallop_ = std::max(*operation_.scallop, scallop_check_->most_left());
+            unseen = scallop_check_->overflowed();
+            scallop_ = unseen ? operation_.tool.radius : scallop_;
         }
-        if (!coverage_) {
+        if (!scallop_check_) {
             const ProvedScallop proved =
-                proved_scallop(work_.surfaces(), work_.certified(), work_.path_off(), cut_,
-                               {ridge_, spacing_, operation_.tool.radius, work_.outward()});
-            ridge_ = proved.bound;
+                proved_scallop(work_.surfaces(), work_.path_fitter(), work_.path_off(), cut_,
+                               {scallop_, spacing_, operation_.tool.radius, work_.outward()});
+            scallop_ = proved.bound;
             beside_edges_ = proved.beside_edges;
         }
-        for (std::size_t k = 0; coverage_ && k < work_.surfaces().size(); ++k) {
-            coverage_->close_rims(static_cast<int>(k), [&](const Points& pass) { add_pass(pass); });
+        for (std::size_t k = 0; scallop_check_ && k < work_.surfaces().size(); ++k) {
+            scallop_check_->add_rim_passes(static_cast<int>(k),
+                                           [&](const Points& pass) { add_pass(pass); });
         }
         report(kGapsDone);
-        PlannedOperation planned = work_.finish(spacing_, ridge_);
-        report_bare_places(planned.stats, bare, unseen);
+        PlannedOperation planned = work_.finish(spacing_, scallop_);
+        report_uncovered_points(planned.stats, uncovered, unseen);
         planned.stats.counts.emplace_back("isocurves", static_cast<double>(curves));
-        if (coverage_) {
+        if (scallop_check_) {
             planned.stats.counts.emplace_back("cells_share", cells_share_);
         }
         report_left_beside_edges(planned.stats);
@@ -138,8 +161,9 @@ private:
 
     void report_left_beside_edges(OperationStats& stats) const
     {
-        const double left = std::max(beside_edges_, coverage_ ? coverage_->left_beside_edges() : 0);
-        if (left > ridge_) {
+        const double left =
+            std::max(beside_edges_, scallop_check_ ? scallop_check_->left_beside_edges() : 0);
+        if (left > scallop_) {
             stats.counts.emplace_back("left_beside_edges_mm", left);
             stats.warnings.push_back(fmt::format(
                 "up to {:.3f} mm stands beside rims and creases, in slivers about as thin as the "
@@ -151,15 +175,15 @@ private:
 
     void add_pass(const Points& dense,
                   const std::optional<Curve>& exact = std::nullopt,
-                  const Feet& feet = {})
+                  const CcParameterList& cc_parameters = {})
     {
-        remember(work_.add_pass(dense, exact, feet));
+        remember(work_.add_pass(dense, exact, cc_parameters));
     }
 
     void remember(const Points& points)
     {
-        if (coverage_) {
-            coverage_->add(points);
+        if (scallop_check_) {
+            scallop_check_->add(points);
         } else {
             cut_.push_back(points);
         }
@@ -171,8 +195,8 @@ private:
         const std::vector<Surface>& surfaces = work_.surfaces();
         cells_share_ = share_of(open_, surfaces.front());
         if (plain_ && whole_ && cells_share_ < 1) {
-            for (const Ridges::Strip& strip : open_) {
-                coverage_->look_over(0, {strip.u0, strip.v0}, {strip.u1, strip.v1});
+            for (const IsocurveScallop::Strip& strip : open_) {
+                scallop_check_->check(0, {strip.u0, strip.v0}, {strip.u1, strip.v1});
             }
             return;
         }
@@ -180,7 +204,7 @@ private:
         for (std::size_t k = 0; k < surfaces.size(); ++k) {
             const double share = static_cast<double>(k) / static_cast<double>(surfaces.size());
             report(kPassesDone + (kLookedDone - kPassesDone) * share);
-            coverage_->look_over(static_cast<int>(k));
+            scallop_check_->check(static_cast<int>(k));
         }
     }
 
@@ -194,11 +218,11 @@ private:
     // Steps for which the ridge has the height asked for, less what the tolerance takes.
     StepDensity density() const
     {
-        const double ridge = ridge_share_ * (*operation_.scallop - work_.outward());
+        const double scallop_height = scallop_share_ * (*operation_.scallop - work_.outward());
         const double radius = operation_.tool.radius;
-        return [ridge, radius](const SurfacePoint& p) {
+        return [scallop_height, radius](const SurfacePoint& p) {
             const CrossSection section = cross_section_at(p);
-            return section.speed / scallop_width(radius, ridge, section.curvature);
+            return section.speed / isocurve_stepover(radius, scallop_height, section.curvature);
         };
     }
 
@@ -206,15 +230,15 @@ private:
     double least_step(int surface) const
     {
         const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
-        const double ridge = ridge_share_ * (*operation_.scallop - work_.outward());
+        const double scallop_height = scallop_share_ * (*operation_.scallop - work_.outward());
         double least = 2 * operation_.tool.radius;
         for (int i = 0; i <= kCurvatureLooks; ++i) {
             for (int j = 0; j <= kCurvatureLooks; ++j) {
                 const SurfacePoint p = work_.model().evaluate(
                     surface, s.u_begin() + (s.u_end() - s.u_begin()) * i / kCurvatureLooks,
                     s.v_begin() + (s.v_end() - s.v_begin()) * j / kCurvatureLooks);
-                least = std::min(least, scallop_width(operation_.tool.radius, ridge,
-                                                      cross_section_at(p).curvature));
+                least = std::min(least, isocurve_stepover(operation_.tool.radius, scallop_height,
+                                                          cross_section_at(p).curvature));
             }
         }
         return least;
@@ -237,25 +261,25 @@ private:
             return adaptive_isocurves(s, surface, *operation_.iso_distance);
         }
         const double scallop = *operation_.scallop;
-        Ridges ridges{work_.model(), surface, tool_};
+        IsocurveScallop scallops{work_.model(), surface, tool_};
         const double allowed = (plain_ ? kSpared : 1.0) * (scallop - tool_.outward);
-        const StripJudge judge = [&](double u, CurvePlace low, CurvePlace high, double enough) {
+        const StripJudge judge = [&](double u, CurvePlace low, CurvePlace high, double sufficient) {
             if (!follow) {
                 low.curve = high.curve = nullptr;
             }
-            const double ridge =
-                ridges.between(u, low, high, tool_.outward + enough * enough * allowed);
-            const double over = (ridge - tool_.outward) / allowed;
+            const double scallop_height =
+                scallops.between(u, low, high, tool_.outward + sufficient * sufficient * allowed);
+            const double over = (scallop_height - tool_.outward) / allowed;
             return std::min(1.5, std::sqrt(std::max(0.0, over)));
         };
-        return even_passes(s, surface, at, density(), judge).curves;
+        return equal_scallop_passes(s, surface, at, density(), judge).curves;
     }
 
     // Even passes, nearer to each other by what the bound everywhere asks for.
     std::vector<DomainCurve> neighbours_within(double delta, int surface, const SurfaceFunction& at)
     {
         const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
-        const NeighbourBound bound{s, work_.model(), surface};
+        const IsocurveSpacingBound bound{s, work_.model(), surface};
         std::vector<DomainCurve> curves;
         std::optional<SurfaceCut> cut;
         double cut_at = 0;
@@ -272,7 +296,7 @@ private:
                 }
                 return norm(cut->at(high.v).point - cut->at(low.v).point) / asked;
             };
-            curves = even_passes(s, surface, at, steps, judge).curves;
+            curves = equal_scallop_passes(s, surface, at, steps, judge).curves;
             apart = bound.over(curves, delta);
             if (apart <= delta) {
                 break;
@@ -283,19 +307,20 @@ private:
         return curves;
     }
 
-    Ridges::Highest highest_between(int surface, const std::vector<DomainCurve>& curves) const
+    IsocurveScallop::Highest highest_between(int surface,
+                                             const std::vector<DomainCurve>& curves) const
     {
         const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
-        return Ridges{work_.model(), surface, tool_}.highest(
+        return IsocurveScallop{work_.model(), surface, tool_}.highest(
             curves, s.u_begin(), s.u_end(), kRidgeLooks,
-            coverage_ ? *operation_.scallop : std::numeric_limits<double>::infinity());
+            scallop_check_ ? *operation_.scallop : std::numeric_limits<double>::infinity());
     }
 
     // Of the domain.
-    static double share_of(const std::vector<Ridges::Strip>& strips, const Surface& s)
+    static double share_of(const std::vector<IsocurveScallop::Strip>& strips, const Surface& s)
     {
         double area = 0;
-        for (const Ridges::Strip& strip : strips) {
+        for (const IsocurveScallop::Strip& strip : strips) {
             area += (strip.u1 - strip.u0) * (strip.v1 - strip.v0);
         }
         return area / ((s.u_end() - s.u_begin()) * (s.v_end() - s.v_begin()));
@@ -305,7 +330,7 @@ private:
     {
         const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
         std::vector<DomainCurve> curves = curves_of(surface, complete, false);
-        Ridges::Highest highest = highest_between(surface, curves);
+        IsocurveScallop::Highest highest = highest_between(surface, curves);
         if (plain_ && share_of(highest.open, s) > kOpenShare) {
             curves = curves_of(surface, complete, true);
             highest = highest_between(surface, curves);
@@ -316,9 +341,9 @@ private:
         }
         std::optional<OffsetSurface> offset;
         if (operation_.output == OutputForm::kNurbs) {
-            const PassBand& band = work_.certified().band();
-            offset.emplace(
-                s, OffsetRequest{operation_.tool.radius + band.lift, kOffsetShare * band.band});
+            const ToleranceBand& band = work_.path_fitter().band();
+            offset.emplace(s, OffsetRequest{operation_.tool.radius + band.offset,
+                                            kOffsetShare * band.half_width});
             offset_error_ = std::max(offset_error_, offset->error_bound());
             offset_points_ += offset->control_points();
         }
@@ -343,17 +368,17 @@ private:
                 const std::optional<Curve> exact =
                     offset ? tip_isocurve(*offset, curve, piece) : std::nullopt;
                 exact_curves_ += exact ? 1 : 0;
-                add_pass(piece.points, exact, piece.feet);
+                add_pass(piece.points, exact, piece.cc_parameters);
             }
         }
         whole_ = whole_ && !trimmed;
         spacing_ = operation_.iso_distance
                        ? *operation_.iso_distance
-                       : scallop_width(operation_.tool.radius, *operation_.scallop, 0);
+                       : isocurve_stepover(operation_.tool.radius, *operation_.scallop, 0);
         if (trimmed) {
             add_edges(surface);
         }
-        ridge_ = std::max(ridge_, highest.ridge);
+        scallop_ = std::max(scallop_, highest.scallop_height);
         open_ = highest.open;
         return curves.size();
     }
@@ -365,7 +390,8 @@ private:
         if (length_of(piece.points) < kShortestPiece) {
             return true;  // along a pole
         }
-        const std::optional<Points> points = work_.add_free_pass(piece.points, piece.feet);
+        const std::optional<Points> points =
+            work_.add_clear_pass(piece.points, piece.cc_parameters);
         if (points) {
             remember(*points);
         }
@@ -422,7 +448,7 @@ private:
         if (!edges_) {
             edges_.emplace(near, std::max(near, 0.25 * operation_.tool.radius));
         }
-        const std::vector<Points> found = tracer_.free_region_edges(surface, 0.7 * spacing_);
+        const std::vector<Points> found = tracer_.clear_region_edges(surface, 0.7 * spacing_);
         for (const Points& edge : found) {
             Points run;
             for (const Vec3d& tip : edge) {
@@ -470,21 +496,21 @@ private:
     const Job& job_;
     const Operation& operation_;
     SurfaceOperation work_;
-    PassTracer tracer_;
-    RidgeTool tool_;
-    std::optional<Coverage> coverage_;
-    std::vector<Points> cut_;          // where there is no coverage
-    std::optional<SweptBalls> edges_;  // of free parts, as thin balls
-    bool whole_{true};                 // all passes run from end to end
+    OffsetCurveTrimmer tracer_;
+    ScallopTool tool_;
+    std::optional<ScallopCheck> scallop_check_;
+    std::vector<Points> cut_;           // where there is no coverage
+    std::optional<SweptVolume> edges_;  // of free parts, as thin balls
+    bool whole_{true};                  // all passes run from end to end
     // One smooth surface: where all its passes are whole, the ridges between them are all there is.
     bool plain_{};
-    double ridge_share_{};
+    double scallop_share_{};
     double spacing_{};
     double apart_{};  // mm: the bound of neighbours at equal u, by iso_distance
-    double ridge_{};
-    std::vector<Ridges::Strip> open_;  // of one smooth surface, where they leave too much
-    double cells_share_{};             // of the surfaces' domains, that cells were asked about
-    double beside_edges_{};            // mm: left there where there is no coverage
+    double scallop_{};
+    std::vector<IsocurveScallop::Strip> open_;  // of one smooth surface, where they leave too much
+    double cells_share_{};   // of the surfaces' domains, that cells were asked about
+    double beside_edges_{};  // mm: left there where there is no coverage
     int unreached_{};
     int exact_curves_{};
     double offset_error_{};
@@ -501,7 +527,7 @@ std::vector<PlannedOperation> plan(const Job& job, const Operation& operation, b
         planner.emplace(job, operation);
     }
     if (operation.roughing) {
-        out = plan_rough_levels(job, operation);
+        out = plan_waterline_roughing(job, operation);
     }
     const auto begin = std::chrono::steady_clock::now();
     out.push_back(mesh ? plan_mesh_isocurves(job, operation) : planner->plan(complete));
@@ -522,4 +548,4 @@ std::vector<PlannedOperation> plan_complete_isocurves(const Job& job, const Oper
     return plan(job, operation, true);
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::adaptive_isocurve

@@ -7,7 +7,11 @@
 #include <map>
 #include <utility>
 
-namespace cusp::host {
+namespace cusp::adaptive_isocurve {
+
+using finishing::GougeFreePathFitter;
+using finishing::Points;
+
 namespace {
 
 constexpr std::size_t kNodes = 6;
@@ -70,16 +74,16 @@ private:
 
 }  // namespace
 
-DenseTips dense_tips(const CertifiedPasses& certified,
+DenseTips dense_tips(const GougeFreePathFitter& path_fitter,
                      const std::function<Vec3d(double)>& at,
                      const std::vector<double>& breaks)
 {
     DenseTips out;
     if (breaks.size() < kNodes) {
-        out.points = certified.sample(at, breaks, kDeepest, &out.u);
+        out.points = path_fitter.sample(at, breaks, kDeepest, &out.u);
         return out;
     }
-    const double band = certified.band().band;
+    const double band = path_fitter.band().half_width;
     Points nodes;
     for (const double u : breaks) {
         nodes.push_back(at(u));
@@ -109,7 +113,7 @@ DenseTips dense_tips(const CertifiedPasses& certified,
         const std::size_t parts = static_cast<std::size_t>(std::ceil(std::sqrt(sag))) + 1;
         if (!smooth[span] || parts > kMost) {
             std::vector<double> exact_u;
-            const Points exact = certified.sample(at, {from, to}, kDeepest, &exact_u);
+            const Points exact = path_fitter.sample(at, {from, to}, kDeepest, &exact_u);
             out.points.insert(out.points.end(), exact.begin() + 1, exact.end());
             out.u.insert(out.u.end(), exact_u.begin() + 1, exact_u.end());
             continue;
@@ -127,4 +131,4 @@ DenseTips dense_tips(const CertifiedPasses& certified,
     return out;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::adaptive_isocurve

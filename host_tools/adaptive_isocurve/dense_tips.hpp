@@ -5,22 +5,22 @@
 #include <vector>
 
 #include "host_tools/adaptive_isocurve/domain_curve.hpp"
-#include "host_tools/surface_passes/certified_pass.hpp"
+#include "host_tools/finishing/gouge_free_path.hpp"
 
-namespace cusp::host {
+namespace cusp::adaptive_isocurve {
 
 struct DenseTips {
-    Points points;
+    finishing::Points points;
     std::vector<double> u;
 };
 
-// Tips along a function of u as `CertifiedPasses::sample` gives them, most of them by quintic
+// Tips along a function of u as `GougeFreePathFitter::sample` gives them, most of them by quintic
 // interpolation: right to a fiftieth of the band. It is checked against the tip in the middle
 // between every two breaks; where it is off, tips there are exact.
 //
 // breaks  even
-DenseTips dense_tips(const CertifiedPasses& certified,
+DenseTips dense_tips(const finishing::GougeFreePathFitter& path_fitter,
                      const std::function<Vec3d(double)>& at,
                      const std::vector<double>& breaks);
 
-}  // namespace cusp::host
+}  // namespace cusp::adaptive_isocurve

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace cusp::host {
+namespace cusp::adaptive_isocurve {
 namespace {
 
 double chord_slope(const DomainCurve& c, std::size_t k)
@@ -83,4 +83,4 @@ DomainCurve isocurve(int surface, double v, double u_begin, double u_end)
     return {surface, {u_begin, u_end}, {v, v}};
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::adaptive_isocurve

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace cusp::host {
+namespace cusp::adaptive_isocurve {
 
 struct DomainCurve;
 
@@ -31,4 +31,4 @@ std::vector<CurvePlace> places_at(const std::vector<DomainCurve>& curves, double
 
 DomainCurve isocurve(int surface, double v, double u_begin, double u_end);
 
-}  // namespace cusp::host
+}  // namespace cusp::adaptive_isocurve

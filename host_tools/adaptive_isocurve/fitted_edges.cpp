@@ -6,7 +6,12 @@
 
 #include "firmware/segmenter/arc_fitter.hpp"
 
-namespace cusp::host {
+namespace cusp::adaptive_isocurve {
+
+using offset::arc_edge;
+using offset::Edge;
+using offset::line_edge;
+
 namespace {
 
 constexpr std::size_t kMostVertices = 2000;  // that one move replaces
@@ -70,4 +75,4 @@ std::vector<Edge> fitted_edges(const std::vector<Edge>& edges, double tolerance,
     return out;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::adaptive_isocurve

@@ -5,10 +5,12 @@
 
 #include "host_tools/offset/contour.hpp"
 
-namespace cusp::host {
+namespace cusp::adaptive_isocurve {
 
 // The edges as few lines and arcs (lines alone where not `arcs`), within the tolerance, mm, on
 // either side; their ends stay.
-std::vector<Edge> fitted_edges(const std::vector<Edge>& edges, double tolerance, bool arcs);
+std::vector<offset::Edge> fitted_edges(const std::vector<offset::Edge>& edges,
+                                       double tolerance,
+                                       bool arcs);
 
-}  // namespace cusp::host
+}  // namespace cusp::adaptive_isocurve

@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cusp::host {
+namespace cusp::adaptive_isocurve {
+
+using nurbs::Curve;
+
 namespace {
 
 using Coefficients = std::vector<double>;
@@ -184,4 +187,4 @@ std::vector<ParameterRange> sign_ranges(const ScalarSpline& spline, double begin
     return out;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::adaptive_isocurve

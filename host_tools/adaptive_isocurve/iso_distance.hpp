@@ -6,7 +6,7 @@
 
 #include "host_tools/nurbs/nurbs.hpp"
 
-namespace cusp::host {
+namespace cusp::adaptive_isocurve {
 
 // A polynomial on [begin, end] by its Bernstein coefficients.
 struct BernsteinPiece {
@@ -23,7 +23,7 @@ using ScalarSpline = std::vector<BernsteinPiece>;
 // of one surface have.
 //
 // Source: Elber & Cohen 1993, equation (1); products as in [10] there.
-ScalarSpline distance_excess(const Curve& a, const Curve& b, double limit);
+ScalarSpline distance_excess(const nurbs::Curve& a, const nurbs::Curve& b, double limit);
 
 struct ParameterRange {
     double begin{};
@@ -35,4 +35,4 @@ struct ParameterRange {
 // counts as not positive. The roots are right to 1e-12 of the domain.
 std::vector<ParameterRange> sign_ranges(const ScalarSpline& spline, double begin, double end);
 
-}  // namespace cusp::host
+}  // namespace cusp::adaptive_isocurve

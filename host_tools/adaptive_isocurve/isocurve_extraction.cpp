@@ -5,9 +5,15 @@
 #include <cmath>
 
 #include "host_tools/adaptive_isocurve/iso_distance.hpp"
-#include "host_tools/surface_offset/bezier_cell.hpp"
+#include "host_tools/part_model/bezier_cell.hpp"
 
-namespace cusp::host {
+namespace cusp::adaptive_isocurve {
+
+using nurbs::BezierPatch;
+using nurbs::Curve;
+using nurbs::Surface;
+using part_model::BezierCell;
+
 namespace {
 
 constexpr int kDeepestHalving = 24;
@@ -216,23 +222,24 @@ std::vector<DomainCurve> complete_isocurves(const Surface& surface, int number, 
         speed.most_length(surface.u_begin(), surface.u_end(), surface.v_begin(), surface.v_end());
     // The mean way across bounds the fewest from neither side; start low, then bisect.
     int few = 0;
-    int enough =
+    int sufficient =
         std::max(1, static_cast<int>(std::min<double>(kMostComplete, across / distance / 4)));
-    while (enough < kMostComplete && !within(surface, speed, enough, distance)) {
-        few = enough;
-        enough *= 2;
+    while (sufficient < kMostComplete && !within(surface, speed, sufficient, distance)) {
+        few = sufficient;
+        sufficient *= 2;
     }
-    while (enough - few > 1) {
-        const int middle = few + (enough - few) / 2;
-        (within(surface, speed, middle, distance) ? enough : few) = middle;
+    while (sufficient - few > 1) {
+        const int middle = few + (sufficient - few) / 2;
+        (within(surface, speed, middle, distance) ? sufficient : few) = middle;
     }
     std::vector<DomainCurve> out;
     const double v0 = surface.v_begin();
-    for (int k = 0; k <= enough; ++k) {
-        const double v = k == enough ? surface.v_end() : v0 + (surface.v_end() - v0) * k / enough;
+    for (int k = 0; k <= sufficient; ++k) {
+        const double v =
+            k == sufficient ? surface.v_end() : v0 + (surface.v_end() - v0) * k / sufficient;
         out.push_back(isocurve(number, v, surface.u_begin(), surface.u_end()));
     }
     return out;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::adaptive_isocurve

@@ -6,7 +6,7 @@
 #include "host_tools/adaptive_isocurve/domain_curve.hpp"
 #include "host_tools/nurbs/nurbs.hpp"
 
-namespace cusp::host {
+namespace cusp::adaptive_isocurve {
 
 // Sub-isocurves at constant v that cover the surface.
 //
@@ -21,10 +21,14 @@ namespace cusp::host {
 //
 // Source: Elber & Cohen 1993, algorithm 1. As printed it returns no curve at all: the middle curve
 // is never added. Here each middle curve and the two boundaries are.
-std::vector<DomainCurve> adaptive_isocurves(const Surface& surface, int number, double distance);
+std::vector<DomainCurve> adaptive_isocurves(const nurbs::Surface& surface,
+                                            int number,
+                                            double distance);
 
 // Isocurves over the whole of u, equally spaced in v, the fewest for which neighbours are within
 // `distance`.
-std::vector<DomainCurve> complete_isocurves(const Surface& surface, int number, double distance);
+std::vector<DomainCurve> complete_isocurves(const nurbs::Surface& surface,
+                                            int number,
+                                            double distance);
 
-}  // namespace cusp::host
+}  // namespace cusp::adaptive_isocurve

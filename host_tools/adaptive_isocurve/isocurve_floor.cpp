@@ -4,13 +4,21 @@
 #include <algorithm>
 #include <limits>
 
-#include "host_tools/adaptive_isocurve/scallop_width.hpp"
+#include "host_tools/adaptive_isocurve/isocurve_stepover.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/nurbs/knot_insertion.hpp"
 
 #include "fmt/format.h"
 
-namespace cusp::host {
+namespace cusp::adaptive_isocurve {
+
+using job::Job;
+using job::Operation;
+using nurbs::crease_knots;
+using nurbs::Curve;
+using nurbs::Surface;
+using nurbs::SurfacePoint;
+
 namespace {
 
 constexpr int kFloorLooks = 60;
@@ -112,7 +120,7 @@ void check_spacing(const Job& job, const Operation& operation)
                         *operation.scallop, operation.tool.radius));
     }
     if (operation.scallop && !operation.iso_distance) {
-        const double apart = scallop_width(operation.tool.radius, *operation.scallop, 0);
+        const double apart = isocurve_stepover(operation.tool.radius, *operation.scallop, 0);
         if (size > kMostPasses * apart) {
             throw InputError(fmt::format(
                 "{}: scallop is {:g} mm, that is passes {:.3g} mm apart on level ground; over a "
@@ -148,4 +156,4 @@ bool is_plain(const Surface& s)
     return least > 0.02 * most;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::adaptive_isocurve

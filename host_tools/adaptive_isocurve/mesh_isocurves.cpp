@@ -6,14 +6,24 @@
 #include <optional>
 #include <utility>
 
-#include "host_tools/adaptive_isocurve/mesh_creases.hpp"
-#include "host_tools/adaptive_isocurve/scallop_width.hpp"
+#include "host_tools/adaptive_isocurve/isocurve_stepover.hpp"
+#include "host_tools/adaptive_isocurve/mesh_pencil_curves.hpp"
 #include "host_tools/adaptive_isocurve/surface_operation.hpp"
-#include "host_tools/surface_passes/facet_coverage.hpp"
+#include "host_tools/finishing/mesh_scallop_check.hpp"
 
 #include "fmt/format.h"
 
-namespace cusp::host {
+namespace cusp::adaptive_isocurve {
+
+using finishing::kUprightNormal;
+using finishing::MeshScallopCheck;
+using finishing::Points;
+using job::Job;
+using job::kRoughingDone;
+using job::Operation;
+using part_model::PartModel;
+using toolpath::PlannedOperation;
+
 namespace {
 
 constexpr double kRowShare = 0.9;        // of the distance that level ground allows
@@ -57,9 +67,9 @@ public:
         : job_{job},
           operation_{operation},
           work_{job, operation, {}},
-          radius_{work_.certified().lifted_tool().radius},
+          radius_{work_.path_fitter().offset_tool().radius},
           scallop_{scallop_of(operation, work_.outward())},
-          coverage_{operation.mesh, work_.certified(), scallop_, work_.path_off()}
+          scallop_check_{operation.mesh, work_.path_fitter(), scallop_, work_.path_off()}
     {
         const Vec3d low = work_.model().box_low();
         const Vec3d high = work_.model().box_high();
@@ -70,7 +80,7 @@ public:
         origin_ = {low.x, low.y, 0};
         length_ = dot(high - low, along_);
         width_ = dot(high - low, across_);
-        row_ = kRowShare * scallop_width(operation.tool.radius, scallop_ - work_.outward(), 0);
+        row_ = kRowShare * isocurve_stepover(operation.tool.radius, scallop_ - work_.outward(), 0);
         if (operation.iso_distance) {
             row_ = std::min(row_, 0.999 * *operation.iso_distance);
         }
@@ -80,9 +90,9 @@ public:
     PlannedOperation plan()
     {
         add_rows();
-        add_creases();
-        coverage_.look_over();
-        coverage_.close_gaps([&](const Points& tips) { add_pass(tips); });
+        add_pencil_passes();
+        scallop_check_.check();
+        scallop_check_.add_missing_passes([&](const Points& tips) { add_pass(tips); });
         return finished();
     }
 
@@ -92,17 +102,17 @@ private:
         job_.report_progress(share, operation_.roughing ? kRoughingDone : 0);
     }
 
-    using Rest = SurfaceModel::MeshRest;
+    using Dropped = PartModel::DroppedBall;
 
     Vec3d place(double s, double t) const { return origin_ + along_ * s + across_ * t; }
 
     Range whole() const { return {-radius_, length_ + radius_}; }
 
-    std::optional<Rest> rest(double s, double t) const
+    std::optional<Dropped> drop_at(double s, double t) const
     {
         const Vec3d at = place(s, t);
-        std::optional<Rest> found = work_.model().rest_on_mesh(at.x, at.y, radius_);
-        if (found && !work_.model().top_of_mesh(at.x, at.y) && !stands_on(*found, s, t)) {
+        std::optional<Dropped> found = work_.model().drop_ball(at.x, at.y, radius_);
+        if (found && !work_.model().height_at(at.x, at.y) && !is_on(*found, s, t)) {
             return std::nullopt;
         }
         return found;
@@ -110,14 +120,14 @@ private:
 
     // Beside the mesh, where it only rolls off its rim, or stands beside a wall, nothing is to be
     // cut.
-    bool stands_on(const Rest& at, double s, double t) const
+    bool is_on(const Dropped& at, double s, double t) const
     {
         const double facing = dot(at.centre - at.point, at.normal) / radius_;
         const bool outside = s < 0 || s > length_ || t < 0 || t > width_;
         return outside ? facing >= kOutside && at.normal.z >= kUprightNormal : facing >= kFacing;
     }
 
-    void add_pass(const Points& tips) { coverage_.add(work_.add_pass(tips)); }
+    void add_pass(const Points& tips) { scallop_check_.add(work_.add_pass(tips)); }
 
     void add_rows()
     {
@@ -183,20 +193,20 @@ private:
 
     bool is_missing(double s, const Strip& strip) const
     {
-        const std::optional<Rest> here = rest(s, 0.5 * (strip.low + strip.high));
+        const std::optional<Dropped> here = drop_at(s, 0.5 * (strip.low + strip.high));
         if (!here) {
             return false;
         }
-        return !coverage_.covered(here->point, (here->centre - here->point) / radius_,
-                                  kMiddleShare) ||
+        return !scallop_check_.is_covered(here->point, (here->centre - here->point) / radius_,
+                                          kMiddleShare) ||
                (operation_.iso_distance && too_far_apart(s, strip));
     }
 
     // Where the height of the tip, or the place it touches, jumps, no distance is small enough.
     bool too_far_apart(double s, const Strip& strip) const
     {
-        const std::optional<Rest> low = rest(s, strip.low);
-        const std::optional<Rest> high = rest(s, strip.high);
+        const std::optional<Dropped> low = drop_at(s, strip.low);
+        const std::optional<Dropped> high = drop_at(s, strip.high);
         const double delta = *operation_.iso_distance;
         const auto far = [&](Vec3d a, Vec3d b) {
             const double way = norm(b - a);
@@ -214,7 +224,7 @@ private:
         double last = range.from;
         for (int k = 0; k <= looks; ++k) {
             const double s = range.from + (range.to - range.from) * k / looks;
-            const bool on = rest(s, t).has_value();
+            const bool on = drop_at(s, t).has_value();
             if (on && !was_on) {
                 begin = k > 0 ? edge(last, s, t) : s;
             } else if (!on && was_on) {
@@ -232,7 +242,7 @@ private:
     {
         for (int turn = 0; turn < kRowEndHalvings; ++turn) {
             const double middle = 0.5 * (off + on);
-            (rest(middle, t) ? on : off) = middle;
+            (drop_at(middle, t) ? on : off) = middle;
         }
         return on;
     }
@@ -240,14 +250,14 @@ private:
     void cut_run(const Range& run, double t)
     {
         if (run.to - run.from > kShortestRun) {
-            add_pass(work_.certified().sample_dropped(place(run.from, t), place(run.to, t)));
+            add_pass(work_.path_fitter().sample_dropped(place(run.from, t), place(run.to, t)));
             ++curves_;
         }
     }
 
-    void add_creases()
+    void add_pencil_passes()
     {
-        for (const Points& crease : mesh_creases(work_.certified(), look_)) {
+        for (const Points& crease : mesh_pencil_curves(work_.path_fitter(), look_)) {
             add_pass(crease);
         }
     }
@@ -255,16 +265,16 @@ private:
     PlannedOperation finished()
     {
         const double radius = operation_.tool.radius;
-        const bool unseen = coverage_.overflowed();
+        const bool unseen = scallop_check_.overflowed();
         PlannedOperation planned =
-            work_.finish(row_, unseen ? radius : std::max(scallop_, coverage_.most_left()));
-        report_bare_places(planned.stats, coverage_.uncovered(), unseen);
+            work_.finish(row_, unseen ? radius : std::max(scallop_, scallop_check_.most_left()));
+        report_uncovered_points(planned.stats, scallop_check_.uncovered(), unseen);
         constexpr double kShown = 1e-2;  // mm2
-        if (coverage_.blocked_area() > kShown) {
+        if (scallop_check_.blocked_area() > kShown) {
             planned.stats.warnings.push_back(fmt::format(
                 "on {:.3g} mm2 the ball does not touch the mesh (feet of walls, concave edges, "
                 "undercuts, valleys narrower than the ball): metal is left standing there",
-                coverage_.blocked_area()));
+                scallop_check_.blocked_area()));
         }
         planned.stats.counts.emplace_back("isocurves", curves_);
         planned.stats.counts.emplace_back("triangles", static_cast<double>(operation_.mesh.size()));
@@ -276,7 +286,7 @@ private:
     SurfaceOperation work_;
     double radius_;
     double scallop_;
-    FacetCoverage coverage_;
+    MeshScallopCheck scallop_check_;
     Vec3d along_{1, 0, 0};
     Vec3d across_{0, 1, 0};
     Vec3d origin_;
@@ -294,4 +304,4 @@ PlannedOperation plan_mesh_isocurves(const Job& job, const Operation& operation)
     return MeshPlanner{job, operation}.plan();
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::adaptive_isocurve

@@ -3,15 +3,16 @@
 
 #include <vector>
 
-#include "host_tools/import/job.hpp"
+#include "host_tools/job/job.hpp"
 
-namespace cusp::host {
+namespace cusp::adaptive_isocurve {
 
-// Algorithm 1 of Elber and Cohen on the offset of the mesh, which is exact: a ball let down on the
+// Algorithm 1 of Elber and Cohen on the offset of the mesh, which is exact: a ball dropped on the
 // triangles. Isocurves run along x (`direction` "v": along y); where two neighbours leave more than
 // the scallop under the way in the middle, that part of it is added, and so on. Passes along
-// `mesh_creases()` follow, and what `FacetCoverage` finds bare. `operation.mesh` holds the
+// `mesh_pencil_curves()` follow, and what `MeshScallopCheck` finds bare. `operation.mesh` holds the
 // triangles.
-PlannedOperation plan_mesh_isocurves(const Job& job, const Operation& operation);
+toolpath::PlannedOperation plan_mesh_isocurves(const job::Job& job,
+                                               const job::Operation& operation);
 
-}  // namespace cusp::host
+}  // namespace cusp::adaptive_isocurve

@@ -5,15 +5,26 @@
 #include <chrono>
 #include <cmath>
 
-#include "host_tools/adaptive_isocurve/scallop_width.hpp"
+#include "host_tools/adaptive_isocurve/isocurve_stepover.hpp"
 #include "host_tools/adaptive_isocurve/surface_operation.hpp"
+#include "host_tools/finishing/contact_tracker.hpp"
+#include "host_tools/finishing/scallop_check.hpp"
 #include "host_tools/input_error/input_error.hpp"
-#include "host_tools/surface_passes/coverage.hpp"
-#include "host_tools/surface_passes/followed_ball.hpp"
 
 #include "fmt/format.h"
 
-namespace cusp::host {
+namespace cusp::adaptive_isocurve {
+
+using finishing::CcParameterList;
+using finishing::ContactTracker;
+using finishing::Points;
+using finishing::ScallopCheck;
+using job::Job;
+using job::Operation;
+using nurbs::Surface;
+using nurbs::SurfacePoint;
+using toolpath::PlannedOperation;
+
 namespace {
 
 constexpr int kSlopeLooks = 150;
@@ -36,7 +47,10 @@ Vec3d along_slope(Vec3d across, Vec3d normal) { return across - normal * dot(acr
 
 // Spacing of planes for the ridge at one place: that of the ball's centres, seen in plan across the
 // planes. `across` is a horizontal unit. None where the surface has no normal to tell.
-std::optional<double> plane_step(const SurfacePoint& p, Vec3d across, double radius, double ridge)
+std::optional<double> plane_step(const SurfacePoint& p,
+                                 Vec3d across,
+                                 double radius,
+                                 double scallop_height)
 {
     const Vec3d normal = upward_normal(p);
     const double e = dot(p.du, p.du);
@@ -57,7 +71,8 @@ std::optional<double> plane_step(const SurfacePoint& p, Vec3d across, double rad
     const double curvature =
         dot(normal, p.duu * (a * a) + p.duv * (2 * a * b) + p.dvv * (b * b)) / square;
     // Contacts lie that far apart, centres nearer in hollows and farther over hills.
-    const double apart = scallop_width(radius, ridge, curvature) * (1 - radius * curvature);
+    const double apart =
+        isocurve_stepover(radius, scallop_height, curvature) * (1 - radius * curvature);
     return std::clamp(apart, 0.0, 2 * radius) * std::sqrt(square);
 }
 
@@ -67,13 +82,13 @@ public:
         : job_{job},
           operation_{operation},
           work_{job, operation, operation.floor},
-          ball_{work_.certified()}
+          ball_{work_.path_fitter()}
     {
         across_ = operation.direction == 'u' ? Vec3d{0, 1, 0} : Vec3d{1, 0, 0};
         along_ = {across_.y, across_.x, 0};
         low_ = work_.model().box_low();
         size_ = work_.model().box_high() - low_;
-        reach_ = work_.certified().lifted_tool().radius;
+        reach_ = work_.path_fitter().offset_tool().radius;
     }
 
     PlannedOperation plan()
@@ -127,25 +142,25 @@ private:
         if (!operation_.scallop || operation_.step_over || work_.surfaces().empty() || steep_) {
             return false;
         }
-        Coverage cells{work_.surfaces(), work_.certified(), *operation_.scallop, work_.path_off(),
-                       kMostBare};
+        ScallopCheck cells{work_.surfaces(), work_.path_fitter(), *operation_.scallop,
+                           work_.path_off(), kMostBare};
         for (const Points& pass : cut_) {
             cells.add(pass);
         }
         for (std::size_t k = 0; k < work_.surfaces().size() && !cells.overflowed(); ++k) {
-            cells.look_over(static_cast<int>(k));
+            cells.check(static_cast<int>(k));
         }
         if (cells.overflowed()) {
             return false;
         }
-        const Coverage::Unproved unproved = cells.unproved();
+        const ScallopCheck::Unproved unproved = cells.unproved();
         return unproved.parts.empty() && unproved.blocked_left <= *operation_.scallop;
     }
 
     double step_for_scallop()
     {
-        const double ridge = kPlaneRidgeShare * (*operation_.scallop - work_.outward());
-        const double level = scallop_width(operation_.tool.radius, ridge, 0);
+        const double scallop_height = kPlaneRidgeShare * (*operation_.scallop - work_.outward());
+        const double level = isocurve_stepover(operation_.tool.radius, scallop_height, 0);
         double least = level;
         const auto ask = [&](double step) {
             steep_ = steep_ || step < kLeastPlaneShare * level;
@@ -163,7 +178,7 @@ private:
                     const double v = s.v_begin() + (s.v_end() - s.v_begin()) * j / kSlopeLooks;
                     const int surface = static_cast<int>(k);
                     if (const auto step = plane_step(work_.model().evaluate(surface, u, v), across_,
-                                                     operation_.tool.radius, ridge);
+                                                     operation_.tool.radius, scallop_height);
                         step && work_.model().inside_trims(surface, u, v)) {
                         ask(*step);
                     }
@@ -175,12 +190,12 @@ private:
 
     Vec3d place(double s, double t) const { return low_ + along_ * s + across_ * t; }
 
-    // Whether the tool let down there meets the model. Beyond its box it may lean over the rim by a
+    // Whether the tool dropped there meets the model. Beyond its box it may lean over the rim by a
     // step: the last pass before is less than one from it.
-    bool stands(double s, double t)
+    bool is_clear(double s, double t)
     {
         const Vec3d at = place(s, t);
-        const std::optional<FollowedBall::Stand> found = ball_.at(at.x, at.y);
+        const std::optional<ContactTracker::BallPosition> found = ball_.at(at.x, at.y);
         const bool over_box =
             s >= 0 && s <= dot(size_, along_) && t >= 0 && t <= dot(size_, across_);
         return found && (over_box || found->facing >= least_facing_);
@@ -194,10 +209,10 @@ private:
         const int parts = static_cast<int>(std::ceil((to - from) / (kPlaneLooks * reach_)));
         double begin = from;
         double last = from;
-        bool was_on = stands(from, t);
+        bool was_on = is_clear(from, t);
         for (int k = 1; k <= parts; ++k) {
             const double s = from + (to - from) * k / parts;
-            const bool on = stands(s, t);
+            const bool on = is_clear(s, t);
             if (on && !was_on) {
                 begin = last_off(last, s, t);
             } else if (!on && was_on) {
@@ -215,7 +230,7 @@ private:
     {
         for (int turn = 0; turn < kPlaneEndHalvings; ++turn) {
             const double middle = 0.5 * (off + on);
-            (stands(middle, t) ? on : off) = middle;
+            (is_clear(middle, t) ? on : off) = middle;
         }
         return on;
     }
@@ -223,17 +238,17 @@ private:
     void add_run(double from, double to, double t)
     {
         if (to - from > kShortestPlaneRun) {
-            Feet feet;
+            CcParameterList cc_parameters;
             const Points dense =
-                work_.certified().sample_dropped(place(from, t), place(to, t), &feet);
-            cut_.push_back(work_.add_pass(dense, std::nullopt, feet));
+                work_.path_fitter().sample_dropped(place(from, t), place(to, t), &cc_parameters);
+            cut_.push_back(work_.add_pass(dense, std::nullopt, cc_parameters));
         }
     }
 
     const Job& job_;
     const Operation& operation_;
     SurfaceOperation work_;
-    FollowedBall ball_;
+    ContactTracker ball_;
     Vec3d across_;
     Vec3d along_;
     Vec3d low_;
@@ -276,4 +291,4 @@ std::vector<PlannedOperation> plan_parallel_planes(const Job& job, const Operati
     return {std::move(planned)};
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::adaptive_isocurve

@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "host_tools/import/job.hpp"
+#include "host_tools/job/job.hpp"
 #include "host_tools/toolpath/toolpath.hpp"
 
-namespace cusp::host {
+namespace cusp::adaptive_isocurve {
 
 // Passes along x (direction "u") or y ("v") over the upper side of all surfaces, or of a mesh, and
 // beyond its rims where the ball stands there; `step_over` apart, without it as far apart as the
@@ -16,6 +16,7 @@ namespace cusp::host {
 //
 // Errors: InputError as `SurfaceOperation`; neither step_over nor scallop given; more than 20 000
 // planes.
-std::vector<PlannedOperation> plan_parallel_planes(const Job& job, const Operation& operation);
+std::vector<toolpath::PlannedOperation> plan_parallel_planes(const job::Job& job,
+                                                             const job::Operation& operation);
 
-}  // namespace cusp::host
+}  // namespace cusp::adaptive_isocurve

@@ -4,9 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host_tools/surface_passes/coverage.hpp"
+#include "host_tools/finishing/scallop_check.hpp"
 
-namespace cusp::host {
+namespace cusp::adaptive_isocurve {
+
+using finishing::GougeFreePathFitter;
+using finishing::Points;
+using finishing::ScallopCheck;
+using nurbs::Surface;
+
 namespace {
 
 // Cells that passes of a given distance leave bare.
@@ -15,9 +21,9 @@ constexpr double kProvedMore = 1.04;     // cells need some room over the ridges
 constexpr double kBetweenPlaces = 1.25;  // what may stand between places measured in them
 constexpr double kMoreExpected = 1.06;   // at first
 
-std::vector<Coverage::Part> whole_domains(const std::vector<Surface>& surfaces)
+std::vector<ScallopCheck::Part> whole_domains(const std::vector<Surface>& surfaces)
 {
-    std::vector<Coverage::Part> parts;
+    std::vector<ScallopCheck::Part> parts;
     for (std::size_t k = 0; k < surfaces.size(); ++k) {
         const Surface& s = surfaces[k];
         parts.push_back({static_cast<int>(k), {s.u_begin(), s.v_begin()}, {s.u_end(), s.v_end()}});
@@ -27,8 +33,8 @@ std::vector<Coverage::Part> whole_domains(const std::vector<Surface>& surfaces)
 
 double first_bound(const ScallopGuess& guess)
 {
-    if (guess.ridge > 0 && std::isfinite(guess.ridge)) {
-        return kProvedMore * guess.ridge;
+    if (guess.scallop_height > 0 && std::isfinite(guess.scallop_height)) {
+        return kProvedMore * guess.scallop_height;
     }
     const double half = 0.5 * std::min(guess.spacing, guess.radius);
     return guess.outward + guess.radius - std::sqrt(guess.radius * guess.radius - half * half);
@@ -37,7 +43,7 @@ double first_bound(const ScallopGuess& guess)
 }  // namespace
 
 ProvedScallop proved_scallop(const std::vector<Surface>& surfaces,
-                             const CertifiedPasses& certified,
+                             const GougeFreePathFitter& path_fitter,
                              double path_off,
                              const std::vector<Points>& cut,
                              const ScallopGuess& guess)
@@ -46,14 +52,14 @@ ProvedScallop proved_scallop(const std::vector<Surface>& surfaces,
     double blocked = 0;
     double beside_edges = 0;
     double more = kMoreExpected;
-    std::vector<Coverage::Part> parts = whole_domains(surfaces);
+    std::vector<ScallopCheck::Part> parts = whole_domains(surfaces);
     while (bound < guess.radius) {
-        Coverage cells{surfaces, certified, bound, path_off, kMostMeasured};
+        ScallopCheck cells{surfaces, path_fitter, bound, path_off, kMostMeasured};
         for (const Points& pass : cut) {
             cells.add(pass);
         }
-        for (const Coverage::Part& part : parts) {
-            cells.look_over(part.surface, part.low, part.high);
+        for (const ScallopCheck::Part& part : parts) {
+            cells.check(part.surface, part.low, part.high);
         }
         if (cells.overflowed()) {
             // More is left than was expected, perhaps far more.
@@ -61,7 +67,7 @@ ProvedScallop proved_scallop(const std::vector<Surface>& surfaces,
             more *= more;
             continue;
         }
-        const Coverage::Unproved unproved = cells.unproved();
+        const ScallopCheck::Unproved unproved = cells.unproved();
         blocked = std::max(blocked, unproved.blocked_left);
         beside_edges = std::max(beside_edges, cells.left_beside_edges());
         if (unproved.parts.empty()) {
@@ -74,4 +80,4 @@ ProvedScallop proved_scallop(const std::vector<Surface>& surfaces,
     return {guess.radius, beside_edges};
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::adaptive_isocurve

@@ -2,16 +2,16 @@
 // one.
 #pragma once
 
-#include "host_tools/surface_passes/certified_pass.hpp"
+#include "host_tools/finishing/gouge_free_path.hpp"
 
-namespace cusp::host {
+namespace cusp::adaptive_isocurve {
 
 // What the search for a bound begins with, all in mm.
 struct ScallopGuess {
-    double ridge;    // between neighbours, where that is known; else 0 or infinite
-    double spacing;  // of neighbours
-    double radius;   // of the ball
-    double outward;  // how far passes may stay above the surface
+    double scallop_height;  // between neighbours, where that is known; else 0 or infinite
+    double spacing;         // of neighbours
+    double radius;          // of the ball
+    double outward;         // how far passes may stay above the surface
 };
 
 struct ProvedScallop {
@@ -24,10 +24,10 @@ struct ProvedScallop {
 //
 // path_off  mm: how far the path that is cut may be from the passes given
 // cut       all passes, by their tips
-ProvedScallop proved_scallop(const std::vector<Surface>& surfaces,
-                             const CertifiedPasses& certified,
+ProvedScallop proved_scallop(const std::vector<nurbs::Surface>& surfaces,
+                             const finishing::GougeFreePathFitter& path_fitter,
                              double path_off,
-                             const std::vector<Points>& cut,
+                             const std::vector<finishing::Points>& cut,
                              const ScallopGuess& guess);
 
-}  // namespace cusp::host
+}  // namespace cusp::adaptive_isocurve

@@ -9,11 +9,16 @@
 
 #include "fmt/format.h"
 
-namespace cusp::host {
+namespace cusp::adaptive_isocurve {
+
+using job::Job;
+using job::Operation;
+using toolpath::Tool;
+
 namespace {
 
 constexpr double kWritten = 2e-3;  // mm: what rounding of two levels in the program may take
-constexpr double kMostLevels = 1e4;
+constexpr double kMaxRings = 1e4;
 constexpr double kSame = 1e-9;         // mm
 constexpr double kRidgeOfDepth = 0.2;  // ridges of round corners are kept to this share of a level
 constexpr double kLeastRidge = 0.02;   // the same where depths leave them no more
@@ -72,13 +77,13 @@ std::vector<double> given_levels(const Job& job,
 
 }  // namespace
 
-StepOver step_over(const Tool& tool, double ridge)
+PassSpacing pass_spacing(const Tool& tool, double scallop_height)
 {
     const double corner = tool.corner_radius;
-    const double low = std::min(ridge, 0.15 * corner);
+    const double low = std::min(scallop_height, 0.15 * corner);
     const double round = 2.0 * std::sqrt(low * (2.0 * corner - low));
     const double flat = 1.2 * (tool.radius - corner);
-    return flat > round ? StepOver{flat, 0.0} : StepOver{round, low};
+    return flat > round ? PassSpacing{flat, 0.0} : PassSpacing{round, low};
 }
 
 RoughDepths rough_depths(const Job& job,
@@ -104,8 +109,8 @@ RoughDepths rough_depths(const Job& job,
     out.heights = given_levels(job, operation, top, bottom);
     double thickest = 0;
     if (out.heights.empty()) {
-        const auto levels = [&](double ridges) {
-            const double step = std::max(0.5 * depth, depth - ridges - kWritten);
+        const auto levels = [&](double scallops) {
+            const double step = std::max(0.5 * depth, depth - scallops - kWritten);
             return std::max(1.0, std::ceil(deep / step - kSame));
         };
         double count = levels(wanted);
@@ -113,10 +118,10 @@ RoughDepths rough_depths(const Job& job,
             count = std::max(levels(least),
                              std::min(count, std::floor(deep / *operation.min_depth + kSame)));
         }
-        if (count > kMostLevels) {
+        if (count > kMaxRings) {
             refuse(job, fmt::format("max_depth makes {:.0f} levels of a stock {:g} mm high, more "
                                     "than {:g}",
-                                    count, deep, kMostLevels));
+                                    count, deep, kMaxRings));
         }
         for (double k = 1; k <= count; ++k) {
             out.heights.push_back(top - deep * k / count);
@@ -132,10 +137,10 @@ RoughDepths rough_depths(const Job& job,
     // Only depths that the job names are limits for the ridges, too.
     const double left =
         operation.max_depth || operation.layers.empty() ? depth - kWritten - thickest : wanted;
-    const double ridges = std::max(least, std::min(wanted, left));
-    out.ridge = ridges / rests;
-    out.rest = ridges - out.ridge;
+    const double scallops = std::max(least, std::min(wanted, left));
+    out.scallop_height = scallops / rests;
+    out.rest_height = scallops - out.scallop_height;
     return out;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::adaptive_isocurve

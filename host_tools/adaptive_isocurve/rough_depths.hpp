@@ -3,24 +3,24 @@
 
 #include <vector>
 
-#include "host_tools/import/job.hpp"
+#include "host_tools/job/job.hpp"
 
-namespace cusp::host {
+namespace cusp::adaptive_isocurve {
 
 struct RoughDepths {
     std::vector<double> heights;  // z of the tip, level by level, falling
-    double ridge{};               // mm: what passes of one cutter may leave between them
-    double rest{};      // mm over its own underside that a cutter after another one leaves uncut
-    double thinnest{};  // mm: the level of least depth
+    double scallop_height{};      // mm: what passes of one cutter may leave between them
+    double rest_height{};  // mm over its own underside that a cutter after another one leaves uncut
+    double thinnest{};     // mm: the level of least depth
 };
 
-struct StepOver {
-    double across;  // mm between passes
-    double ridge;   // mm left between them, at most what was asked for
+struct PassSpacing {
+    double stepover;        // mm between passes
+    double scallop_height;  // mm left between them, at most what was asked for
 };
 
 // A flat part clears all it covers; round corners leave ridges.
-StepOver step_over(const Tool& tool, double ridge);
+PassSpacing pass_spacing(const toolpath::Tool& tool, double scallop_height);
 
 // Levels from `top` down to `bottom` (z): as few as max_depth allows, each as deep as the others,
 // or where the job's `layers` lie. No cut is deeper than max_depth (default: the least radius), the
@@ -31,10 +31,10 @@ StepOver step_over(const Tool& tool, double ridge);
 //
 // Errors: InputError where max_depth is no depth or makes too many levels, or `layers` go below the
 // bottom, deeper than max_depth or less deep than min_depth; where nothing is to be roughed.
-RoughDepths rough_depths(const Job& job,
-                         const Operation& operation,
-                         const std::vector<Tool>& tools,
+RoughDepths rough_depths(const job::Job& job,
+                         const job::Operation& operation,
+                         const std::vector<toolpath::Tool>& tools,
                          double top,
                          double bottom);
 
-}  // namespace cusp::host
+}  // namespace cusp::adaptive_isocurve

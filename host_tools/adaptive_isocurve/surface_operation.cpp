@@ -9,7 +9,32 @@
 
 #include "fmt/format.h"
 
-namespace cusp::host {
+namespace cusp::adaptive_isocurve {
+
+using finishing::CcParameterList;
+using finishing::GougeFreePathFitter;
+using finishing::LinkedPasses;
+using finishing::LinkRules;
+using finishing::make_tolerance_band;
+using finishing::Points;
+using finishing::SurfacePass;
+using job::Job;
+using job::Operation;
+using job::OutputForm;
+using job::ToleranceSide;
+using job::Traversal;
+using nurbs::Curve;
+using nurbs::Surface;
+using nurbs::SurfacePoint;
+using part_model::PartModel;
+using toolpath::MoveKind;
+using toolpath::NurbsTo;
+using toolpath::OperationStats;
+using toolpath::PlannedOperation;
+using toolpath::Tool;
+using toolpath::ToolMove;
+using toolpath::ToolShape;
+
 namespace {
 
 constexpr double kOverStock = 1.0;   // mm over uncut metal where rapids end
@@ -24,7 +49,7 @@ std::string file_of(const Operation& operation)
 
 }  // namespace
 
-void check_clearance(const Job& job, const Operation& operation, const SurfaceModel& model)
+void check_clearance(const Job& job, const Operation& operation, const PartModel& model)
 {
     const double clearance = job.stock_top + job.clearance;
     if (model.box_high().z <= clearance) {
@@ -46,14 +71,15 @@ SurfaceOperation::SurfaceOperation(const Job& job,
     check_tool();
     check_form();
     check_surfaces();
-    model_ = surfaces_.empty() ? std::make_unique<SurfaceModel>(operation.mesh)
-                               : std::make_unique<SurfaceModel>(surfaces_);
+    model_ = surfaces_.empty() ? std::make_unique<PartModel>(operation.mesh)
+                               : std::make_unique<PartModel>(surfaces_);
     check_clearance(job, operation, *model_);
-    certified_ = std::make_unique<CertifiedPasses>(
+    path_fitter_ = std::make_unique<GougeFreePathFitter>(
         *model_, operation.tool,
-        make_pass_band(operation.floor_tolerance,
-                       surfaces_.empty() || operation.tolerance_side == ToleranceSide::kOutside));
-    certified_->guard_edges(surfaces_);
+        make_tolerance_band(
+            operation.floor_tolerance,
+            surfaces_.empty() || operation.tolerance_side == ToleranceSide::kOutside));
+    path_fitter_->check_edge_gouges(surfaces_);
 }
 
 // Keys without effect are refused, never left out silently.
@@ -144,28 +170,28 @@ void SurfaceOperation::check_surfaces()
 
 double SurfaceOperation::outward() const
 {
-    return certified_->band().lift + certified_->band().band;
+    return path_fitter_->band().offset + path_fitter_->band().half_width;
 }
 
-double SurfaceOperation::ridge_allowed() const { return operation_.scallop.value_or(0); }
+double SurfaceOperation::allowed_scallop() const { return operation_.scallop.value_or(0); }
 
 Points SurfaceOperation::add_pass(const Points& wanted,
                                   const std::optional<Curve>& exact,
-                                  const Feet& feet)
+                                  const CcParameterList& cc_parameters)
 {
-    const Points dense = certified_->kept_off_edges(wanted);
+    const Points dense = path_fitter_->moved_clear_of_edges(wanted);
     const bool moved = dense != wanted;
     moved_off_edges_ = moved_off_edges_ || moved;
     SurfacePass pass;
     if (operation_.output == OutputForm::kNurbs) {
-        pass.curve = !moved && exact && certified_->nurbs_is_free(*exact)
+        pass.curve = !moved && exact && path_fitter_->is_nurbs_clear(*exact)
                          ? exact
-                         : certified_->fit_nurbs(dense);
+                         : path_fitter_->fit_nurbs(dense);
     }
     if (operation_.output == OutputForm::kArcs) {
         pass.points = dense;
-        pass.points.front() = certified_->lifted_free(dense.front());
-        pass.moves = certified_->fit_arcs(pass.points);
+        pass.points.front() = path_fitter_->raised_clear(dense.front());
+        pass.moves = path_fitter_->fit_arcs(pass.points);
         if (pass.moves.empty()) {
             return {};
         }
@@ -175,7 +201,7 @@ Points SurfaceOperation::add_pass(const Points& wanted,
         pass.points.front() = pass.curve->points.front();
         pass.points.back() = pass.curve->points.back();
     } else {
-        pass.points = certified_->fit_lines(dense, moved ? Feet{} : feet);
+        pass.points = path_fitter_->fit_lines(dense, moved ? CcParameterList{} : cc_parameters);
     }
     if (pass.points.size() < 2) {
         return {};
@@ -185,12 +211,14 @@ Points SurfaceOperation::add_pass(const Points& wanted,
     return points;
 }
 
-std::optional<Points> SurfaceOperation::add_free_pass(const Points& dense, const Feet& feet)
+std::optional<Points> SurfaceOperation::add_clear_pass(const Points& dense,
+                                                       const CcParameterList& cc_parameters)
 {
-    if (operation_.output != OutputForm::kLines || certified_->kept_off_edges(dense) != dense) {
+    if (operation_.output != OutputForm::kLines ||
+        path_fitter_->moved_clear_of_edges(dense) != dense) {
         return std::nullopt;
     }
-    std::optional<Points> points = certified_->fit_free_lines(dense, feet);
+    std::optional<Points> points = path_fitter_->fit_clear_lines(dense, cc_parameters);
     if (points) {
         SurfacePass pass;
         pass.points = *points;
@@ -218,7 +246,8 @@ Points SurfaceOperation::path_of(const SurfacePass& pass) const
 
 double SurfaceOperation::path_off() const
 {
-    return operation_.output == OutputForm::kLines ? 0 : kChordShare * certified_->band().band;
+    return operation_.output == OutputForm::kLines ? 0
+                                                   : kChordShare * path_fitter_->band().half_width;
 }
 
 PlannedOperation SurfaceOperation::finish(double spacing, double scallop_bound)
@@ -236,12 +265,12 @@ PlannedOperation SurfaceOperation::finish(double spacing, double scallop_bound)
     PlannedOperation planned;
     OperationStats& stats = planned.stats;
     stats.passes = static_cast<int>(passes_.size());
-    LinkedPasses linked = link_passes(std::move(passes_), rules, *certified_);
+    LinkedPasses linked = link_passes(std::move(passes_), rules, *path_fitter_);
     stats.strategy = operation_.strategy;
     stats.levels = 1;
     stats.cl_points = linked.points;
     stats.retracts = linked.retracts;
-    stats.gouge_bound_mm = std::max(0.0, -certified_->least_clearance());
+    stats.gouge_bound_mm = std::max(0.0, -path_fitter_->least_clearance());
     stats.scallop_bound_mm = scallop_bound;
     stats.counts = {{"pass_length_mm", linked.cut_length}, {"link_length_mm", linked.link_length}};
     if (upright_ > 0) {
@@ -259,10 +288,11 @@ PlannedOperation SurfaceOperation::finish(double spacing, double scallop_bound)
     return planned;
 }
 
-void report_bare_places(OperationStats& stats, std::size_t bare, bool unseen)
+void report_uncovered_points(OperationStats& stats, std::size_t uncovered, bool unseen)
 {
-    if (bare > 0) {
-        stats.warnings.push_back(fmt::format("{} places may keep more than the scallop", bare));
+    if (uncovered > 0) {
+        stats.warnings.push_back(
+            fmt::format("{} places may keep more than the scallop", uncovered));
     }
     if (unseen) {
         stats.warnings.push_back(
@@ -271,4 +301,4 @@ void report_bare_places(OperationStats& stats, std::size_t bare, bool unseen)
     }
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::adaptive_isocurve

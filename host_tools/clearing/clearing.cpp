@@ -4,12 +4,21 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host_tools/clearing/corner_spurs.hpp"
+#include "host_tools/clearing/corner_cleanup.hpp"
 #include "host_tools/clearing/cutting_order.hpp"
 #include "host_tools/clearing/loop_links.hpp"
 #include "host_tools/clearing/partial_loops.hpp"
 
-namespace cusp::host {
+namespace cusp::clearing {
+
+using job::CutDirection;
+using offset::area;
+using offset::Contour;
+using offset::length;
+using offset::Region2d;
+using offset::RegionOffset;
+using offset::reversed;
+using offset::surrounds;
 
 namespace {
 
@@ -25,13 +34,13 @@ struct Loop2d {
 
 // The next level inward: a whole step where spurs into the corners leave nothing between, else the
 // farthest share of it where they do.
-struct NextLevel {
+struct NextRing {
     double distance;
     Region2d loops;
     bool by_corners{};  // a farther one would leave something in corners
 };
 
-NextLevel next_level(const RegionOffset& offset, double distance, double step, bool cover)
+NextRing next_level(const RegionOffset& offset, double distance, double step, bool cover)
 {
     if (!cover) {
         return {distance + step, offset.at(distance + step)};
@@ -39,8 +48,8 @@ NextLevel next_level(const RegionOffset& offset, double distance, double step, b
     const double reach = kShare * step;
     const Region2d rest = offset.at(distance + reach);
     const auto at_share = [&](double share) {
-        return with_corner_spurs(offset.at(distance + share * step), rest, offset,
-                                 {distance, reach, share * step - reach});
+        return with_corner_cleanup(offset.at(distance + share * step), rest, offset,
+                                   {distance, reach, share * step - reach});
     };
     constexpr double kWhole = 2.0 * kShare;
     auto best = rest.contours.empty() ? Region2d{} : at_share(kWhole);
@@ -65,8 +74,8 @@ NextLevel next_level(const RegionOffset& offset, double distance, double step, b
 
 // Draws the inner level nearer until little enough stays between, or farther off, where less stays
 // than may. Returns what stays as a share of what may; 0 where that is not asked.
-double draw_to_suit(NextLevel& inner,
-                    const NextLevel& level,
+double draw_to_suit(NextRing& inner,
+                    const NextRing& level,
                     const RegionOffset& offset,
                     const ClearingSettings& settings)
 {
@@ -76,13 +85,13 @@ double draw_to_suit(NextLevel& inner,
     constexpr double kLeast = 0.5;
     constexpr double kLittle = 0.85;  // of what may stay
     constexpr double kWider = 0.97;
-    const double widest = 0.5 * settings.step;
-    std::optional<NextLevel> good;
+    const double widest = 0.5 * settings.stepover;
+    std::optional<NextRing> good;
     double good_left = 0.0;
     double bad = 1e300;
-    for (int round = 0; settings.left_between && round < kRounds; ++round) {
+    for (int round = 0; settings.scallop_share_between && round < kRounds; ++round) {
         const double step = inner.distance - level.distance;
-        const double left = settings.left_between(
+        const double left = settings.scallop_share_between(
             {level.loops, inner.loops, level.distance, inner.distance, offset});
         const double most = round == 0 ? kMost : kMostAgain;
         double share = std::clamp(kMost / std::sqrt(left), kLeast, most);
@@ -107,16 +116,16 @@ double draw_to_suit(NextLevel& inner,
     return good_left;
 }
 
-// A level farther inward than `step`, and partial loops before it, where that makes the path
+// A level farther inward than `stepover`, and partial loops before it, where that makes the path
 // shorter.
 struct BehindPartialLoops {
-    NextLevel level;
+    NextRing level;
     std::vector<PartialLoop> loops;
     double cost;   // mm of path a mm of depth
     double saved;  // mm of path
 };
 
-std::optional<BehindPartialLoops> level_behind_partial_loops(const NextLevel& level,
+std::optional<BehindPartialLoops> level_behind_partial_loops(const NextRing& level,
                                                              double step,
                                                              const RegionOffset& offset,
                                                              const ClearingSettings& settings,
@@ -126,15 +135,15 @@ std::optional<BehindPartialLoops> level_behind_partial_loops(const NextLevel& le
     constexpr double kMany = 0.5;  // of the level's length: a nearer level may need fewer
     constexpr double kNearer = 0.9;
     constexpr int kRounds = 3;
-    double wide = settings.partial_step ? settings.partial_step(level.loops, step) : 0.0;
+    double wide = settings.partial_stepover ? settings.partial_stepover(level.loops, step) : 0.0;
     double whole = 0.0;
     for (const Contour& contour : level.loops.contours) {
         whole += length(contour);
     }
     std::optional<BehindPartialLoops> best;
     for (int round = 0; round < kRounds && wide > step; ++round) {
-        NextLevel inner = next_level(offset, level.distance, std::min(wide, settings.step),
-                                     settings.cover_corners);
+        NextRing inner = next_level(offset, level.distance, std::min(wide, settings.stepover),
+                                    settings.cover_corners);
         const double apart = inner.distance - level.distance;
         if (apart <= step) {
             break;
@@ -165,8 +174,9 @@ std::vector<Loop2d> make_levels(const RegionOffset& offset,
 {
     std::vector<Loop2d> loops;
     const auto step_from = [&](const Region2d& level) {
-        const double asked = settings.step_from ? settings.step_from(level) : settings.step;
-        return std::min(asked, settings.step);
+        const double asked =
+            settings.stepover_from ? settings.stepover_from(level) : settings.stepover;
+        return std::min(asked, settings.stepover);
     };
     // What makes a level lie nearer or farther than asked seldom ends with it: the next one is
     // first drawn where that much would have suited the last one.
@@ -174,17 +184,17 @@ std::vector<Loop2d> make_levels(const RegionOffset& offset,
     constexpr double kLeastSuited = 0.1;
     constexpr double kMostSuited = 2.0;
     double suited = 1.0;
-    const auto drawn_from = [&](const NextLevel& level, double step) {
-        const double first = std::min(suited * step, std::max(step, 0.5 * settings.step));
+    const auto drawn_from = [&](const NextRing& level, double step) {
+        const double first = std::min(suited * step, std::max(step, 0.5 * settings.stepover));
         return next_level(offset, level.distance, first, settings.cover_corners);
     };
     // Where partial loops were not worth it they seldom are a level on.
     int next_try = 0;
     int wait = 1;
-    NextLevel level{settings.first, offset.at(settings.first)};
+    NextRing level{settings.wall_clearance, offset.at(settings.wall_clearance)};
     double step = level.loops.contours.empty() ? 0.0 : step_from(level.loops);
-    for (int k = 0; k < kMostLevels && !level.loops.contours.empty(); ++k) {
-        const auto add_level = [&](NextLevel& inner) {
+    for (int k = 0; k < kMaxRings && !level.loops.contours.empty(); ++k) {
+        const auto add_level = [&](NextRing& inner) {
             for (Contour& contour : level.loops.contours) {
                 const bool outer = area(contour) > 0.0;
                 loops.push_back({std::move(contour), k, level.distance,
@@ -192,7 +202,7 @@ std::vector<Loop2d> make_levels(const RegionOffset& offset,
             }
             level = std::move(inner);
         };
-        NextLevel inner = drawn_from(level, step);
+        NextRing inner = drawn_from(level, step);
         double inner_step = step;
         // The step must suit the loops on both of its sides. Loops that move by a fiftieth of it
         // are not looked at again: a thousandth is taken off for that.
@@ -218,12 +228,12 @@ std::vector<Loop2d> make_levels(const RegionOffset& offset,
             next_try = k + (tried ? wait : 1);
         }
         if (far) {
-            if (far->loops.empty() && settings.left_between) {
+            if (far->loops.empty() && settings.scallop_share_between) {
                 suited = std::clamp((far->level.distance - level.distance) / step, kLeastSuited,
                                     kMostSuited);
             }
             for (PartialLoop& loop : far->loops) {
-                loop.level = k;
+                loop.ring = k;
                 result.partial.push_back(std::move(loop));
             }
             result.saved += far->saved;
@@ -279,10 +289,10 @@ public:
     {
         ClearingPass pass;
         pass.path = loop.path;
-        pass.level = loop.level;
-        pass.distance = loop.distance;
+        pass.ring = loop.level;
+        pass.offset = loop.distance;
         pass.around_island = !loop.outer;
-        pass.step = loop.step;
+        pass.stepover = loop.step;
         if (settings_.direction == CutDirection::kConventional) {
             pass.path = reversed(pass.path);
         }
@@ -290,10 +300,11 @@ public:
             start_at_longest(pass.path);
             region_.leaves += loop.outer ? 1 : 0;
         } else {
-            link_to(pass, region_.passes.back().path, {offset_, settings_.first, settings_.step});
+            link_to(pass, region_.passes.back().path,
+                    {offset_, settings_.wall_clearance, settings_.stepover});
         }
-        pass.room = offset_.clearance(pass.path.front().start);
-        region_.levels = std::max(region_.levels, loop.level + 1);
+        pass.wall_distance = offset_.clearance(pass.path.front().start);
+        region_.rings = std::max(region_.rings, loop.level + 1);
         region_.passes.push_back(std::move(pass));
     }
 
@@ -365,9 +376,9 @@ ClearedRegion clear_region(const Region2d& region, const ClearingSettings& setti
     ClearedRegion result = std::move(list.region());
     result.direction = settings.direction;
     for (const ClearingPass& pass : result.passes) {
-        result.widest_gap = std::max(result.widest_gap, pass.step);
+        result.widest_gap = std::max(result.widest_gap, pass.stepover);
     }
     return result;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::clearing

@@ -12,87 +12,87 @@
 #include <optional>
 #include <vector>
 
-#include "host_tools/import/job.hpp"
+#include "host_tools/job/job.hpp"
 #include "host_tools/offset/offset.hpp"
 
-namespace cusp::host {
+namespace cusp::clearing {
 
 // What lies between two neighbouring levels of loops.
-struct LevelStrip {
-    const Region2d& outer;
-    const Region2d& inner;  // empty where the outer one is the last
-    double from;            // mm: distance of the outer one from the contours
-    double to;              // mm: of the inner one
-    const RegionOffset& walls;
+struct LoopStrip {
+    const offset::Region2d& outer;
+    const offset::Region2d& inner;  // empty where the outer one is the last
+    double from;                    // mm: distance of the outer one from the contours
+    double to;                      // mm: of the inner one
+    const offset::RegionOffset& walls;
 };
 
 // A part of a loop between two levels, or all of one.
 struct PartialLoop {
-    Contour path;    // runs as loops do: the region inward lies on its left
-    int level{};     // of the loop outside it, which it refines
-    double depth{};  // mm inward from that one
-    bool whole{};    // the path is closed
+    offset::Contour path;  // runs as loops do: the region inward lies on its left
+    int ring{};            // of the loop outside it, which it refines
+    double depth{};        // mm inward from that one
+    bool whole{};          // the path is closed
 };
 
 struct ClearingSettings {
-    double
-        first{};    // mm: distance of the outermost pass from the contours (tool radius, allowance)
-    double step{};  // mm: largest distance between passes
-    // Where given, the largest distance inward from a level of loops; `step` bounds it.
-    std::function<double(const Region2d& level)> step_from;
+    // mm: distance of the outermost pass from the contours (tool radius, allowance)
+    double wall_clearance{};
+    double stepover{};  // mm: largest distance between passes
+    // Where given, the largest distance inward from a level of loops; `stepover` bounds it.
+    std::function<double(const offset::Region2d& level)> stepover_from;
     // Where given, what stands between two levels as a share of what may: they are drawn nearer
-    // together until it is at most 1, or apart, up to half of `step`, where it is less.
-    std::function<double(const LevelStrip& strip)> left_between;
+    // together until it is at most 1, or apart, up to half of `stepover`, where it is less.
+    std::function<double(const LoopStrip& strip)> scallop_share_between;
     // Where given: how far inward the next level may lie if partial loops are made where that is
-    // too far, mm; 0 where whole loops, `step` mm apart, are no longer. And these partial loops; no
-    // value where they do not suffice or add more than `most` mm of path.
-    std::function<double(const Region2d& level, double step)> partial_step;
-    std::function<std::optional<std::vector<PartialLoop>>(const LevelStrip& strip, double most)>
+    // too far, mm; 0 where whole loops, `stepover` mm apart, are no longer. And these partial
+    // loops; no value where they do not suffice or add more than `most` mm of path.
+    std::function<double(const offset::Region2d& level, double step)> partial_stepover;
+    std::function<std::optional<std::vector<PartialLoop>>(const LoopStrip& strip, double most)>
         partial_loops;
-    CutDirection direction{CutDirection::kClimb};
+    job::CutDirection direction{job::CutDirection::kClimb};
     // Draws loops nearer together where corners, necks or the middle would else lie farther than
     // half a step from every pass.
     bool cover_corners{true};
 };
 
 enum class PassStart : std::uint8_t {
-    kEntry,  // in uncut metal: needs a helix, a ramp or a plunge
-    kDrop,   // beside metal already cut, after a retract
-    kHere,   // where the pass before ends
-    kLink,   // by `link` from the end of the pass before, through metal it has cut or is to cut
+    kPlungeEntry,     // in uncut metal: needs a helix, a ramp or a plunge
+    kRetractAndDrop,  // beside metal already cut, after a retract
+    kContinue,        // where the pass before ends
+    kLink,  // by `link` from the end of the pass before, through metal it has cut or is to cut
 };
 
 struct ClearingPass {
-    Contour path;  // closed; starts and ends at path.front().start
+    offset::Contour path;  // closed; starts and ends at path.front().start
     // Where not empty: cut in place of the path once that has been cut at all heights over it; the
     // same start.
-    Contour last;
-    int level{};        // 0: next to the contours
-    double distance{};  // of the level from the contours, mm
+    offset::Contour final_path;
+    int ring{};       // 0: next to the contours
+    double offset{};  // of the level from the contours, mm
     PassStart start{};
     // Tangent arcs where there is room, else a straight line; else along the pass before and over.
-    std::vector<Edge> link;
+    std::vector<offset::Edge> link;
     bool around_island{};
-    bool at_cliff{};
-    double room{};  // mm: from the start of the path to the nearest contour
+    bool is_pencil{};
+    double wall_distance{};  // mm: from the start of the path to the nearest contour
     // A rest of metal this wide may stand between this level and the next one inward, mm.
-    double step{};
+    double stepover{};
 };
 
 struct ClearedRegion {
     std::vector<ClearingPass> passes;  // in the order to cut
-    int levels{};
+    int rings{};
     int leaves{};                      // passes without one further inside
     double widest_gap{};               // largest step between two levels, mm
     std::vector<PartialLoop> partial;  // for put_in_partial_loops()
     double saved{};                    // mm of path that partial loops save over whole ones, about
-    CutDirection direction{};
+    job::CutDirection direction{};
 };
 
 // More levels than these are not made.
-inline constexpr int kMostLevels = 20000;
+inline constexpr int kMaxRings = 20000;
 
 // Passes for the region that is left of its contours. Empty where the tool does not fit anywhere.
-ClearedRegion clear_region(const Region2d& region, const ClearingSettings& settings);
+ClearedRegion clear_region(const offset::Region2d& region, const ClearingSettings& settings);
 
-}  // namespace cusp::host
+}  // namespace cusp::clearing

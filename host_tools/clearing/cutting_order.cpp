@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace cusp::host {
+namespace cusp::clearing {
 
 namespace {
 
@@ -53,4 +53,4 @@ std::vector<int> cutting_order(const std::vector<int>& parents)
     return order;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::clearing

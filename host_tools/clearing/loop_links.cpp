@@ -3,11 +3,18 @@
 
 #include <algorithm>
 
-#include "host_tools/clearing/free_way.hpp"
-#include "host_tools/clearing/link_along.hpp"
+#include "host_tools/clearing/clear_path.hpp"
+#include "host_tools/clearing/link_along_pass.hpp"
 #include "host_tools/offset/contour_fit.hpp"
 
-namespace cusp::host {
+namespace cusp::clearing {
+
+using offset::biarc_between;
+using offset::Contour;
+using offset::distance;
+using offset::Edge;
+using offset::length;
+using offset::line_edge;
 
 namespace {
 
@@ -56,7 +63,7 @@ Vec2d place_after(const Contour& pass, double way)
 
 class Linker {
 public:
-    Linker(ClearingPass& pass, const Contour& before, const LinkRoom& room)
+    Linker(ClearingPass& pass, const Contour& before, const LinkSpace& room)
         : pass_{pass}, whole_{pass.path}, before_{before}, room_{room}
     {
     }
@@ -67,7 +74,7 @@ private:
     bool is_free(const std::vector<Edge>& way) const
     {
         return std::all_of(way.begin(), way.end(), [&](const Edge& edge) {
-            return cusp::host::is_free(room_.offset, edge, room_.first);
+            return cusp::clearing::is_path_clear(room_.offset, edge, room_.wall_clearance);
         });
     }
 
@@ -84,9 +91,9 @@ private:
         const Vec2d from = before_.front().start;
         const Vec2d leaving = tangent_at_end(before_.back());
         for (const double ahead : kAhead) {
-            start_near_to(from + leaving * (ahead * pass_.step));
+            start_near_to(from + leaving * (ahead * pass_.stepover));
             const Vec2d to = pass_.path.front().start;
-            const bool onward = dot(to - from, leaving) > 0.5 * ahead * pass_.step;
+            const bool onward = dot(to - from, leaving) > 0.5 * ahead * pass_.stepover;
             if (onward && go_over(leaving)) {
                 return true;
             }
@@ -101,7 +108,7 @@ private:
         start_near_to(from);
         const Contour nearest = pass_.path;
         for (const double ahead : kAhead) {
-            start_near_to(place_after(nearest, ahead * pass_.step));
+            start_near_to(place_after(nearest, ahead * pass_.stepover));
             const Vec2d over = pass_.path.front().start - from;
             const Vec2d arriving = tangent_at_start(pass_.path.front());
             const double along = dot(over, arriving);
@@ -120,7 +127,7 @@ private:
         const Vec2d from = before_.front().start;
         const Edge& onto = pass_.path.front();
         const auto arcs = biarc_between(from, leaving, onto.start, tangent_at_start(onto));
-        if (!arcs || distance(from, onto.start) >= kLongest * pass_.step) {
+        if (!arcs || distance(from, onto.start) >= kLongest * pass_.stepover) {
             return false;
         }
         pass_.link = {arcs->front(), arcs->back()};
@@ -133,13 +140,14 @@ private:
         const Vec2d from = before_.front().start;
         start_near_to(from);
         pass_.link = {line_edge(from, pass_.path.front().start)};
-        return length(pass_.link) < kLongest * room_.step && is_free(pass_.link);
+        return length(pass_.link) < kLongest * room_.stepover && is_free(pass_.link);
     }
 
     bool reach_along()
     {
         constexpr double kFarthest = 1.5;  // of the step between neighbours
-        const std::vector<Edge> link = link_along(before_, pass_.path, kFarthest * pass_.step);
+        const std::vector<Edge> link =
+            link_along_pass(before_, pass_.path, kFarthest * pass_.stepover);
         if (link.empty() || !is_free({link.back()})) {
             return false;
         }
@@ -152,7 +160,7 @@ private:
     ClearingPass& pass_;
     const Contour whole_;
     const Contour& before_;
-    const LinkRoom& room_;
+    const LinkSpace& room_;
 };
 
 }  // namespace
@@ -165,9 +173,9 @@ void start_at_longest(Contour& path)
     start_near(path, point_on(*longest, 0.5));
 }
 
-void link_to(ClearingPass& pass, const Contour& before, const LinkRoom& room)
+void link_to(ClearingPass& pass, const Contour& before, const LinkSpace& room)
 {
-    pass.start = Linker{pass, before, room}.run() ? PassStart::kLink : PassStart::kDrop;
+    pass.start = Linker{pass, before, room}.run() ? PassStart::kLink : PassStart::kRetractAndDrop;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::clearing

@@ -4,21 +4,21 @@
 #include "host_tools/clearing/clearing.hpp"
 #include "host_tools/offset/offset.hpp"
 
-namespace cusp::host {
+namespace cusp::clearing {
 
-struct LinkRoom {
-    const RegionOffset& offset;
-    double first;  // mm: least distance of links from the contours
-    double step;   // mm: straight links are shorter than five of these
+struct LinkSpace {
+    const offset::RegionOffset& offset;
+    double wall_clearance;  // mm: least distance of links from the contours
+    double stepover;        // mm: straight links are shorter than five of these
 };
 
 // Turns the path so that it starts in the middle of its longest edge: an entry there has room on
 // both sides.
-void start_at_longest(Contour& path);
+void start_at_longest(offset::Contour& path);
 
 // Sets how the pass starts, its link and where on its path that ends: from the end of `before`,
 // tangent to both where that is free, else tangent to the pass, else straight to the nearest point,
 // else along `before` to where the pass is near.
-void link_to(ClearingPass& pass, const Contour& before, const LinkRoom& room);
+void link_to(ClearingPass& pass, const offset::Contour& before, const LinkSpace& room);
 
-}  // namespace cusp::host
+}  // namespace cusp::clearing

@@ -4,7 +4,18 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cusp::host {
+namespace cusp::clearing {
+
+using job::CutDirection;
+using offset::Contour;
+using offset::distance;
+using offset::Edge;
+using offset::EdgeTree;
+using offset::left_normal;
+using offset::length;
+using offset::line_edge;
+using offset::RegionOffset;
+using offset::reversed;
 
 namespace {
 
@@ -194,7 +205,7 @@ void put_in_partial_loops(ClearedRegion& cleared)
         for (std::size_t i = 0; i < cleared.passes.size(); ++i) {
             const ClearingPass& pass = cleared.passes[i];
             for (std::size_t e = 0;
-                 !pass.at_cliff && pass.level == loop.level && e < pass.path.size(); ++e) {
+                 !pass.is_pencil && pass.ring == loop.ring && e < pass.path.size(); ++e) {
                 const double apart = distance_to(pass.path[e], place);
                 if (apart < least) {
                     least = apart;
@@ -222,9 +233,9 @@ void end_with_partial_loops(ClearedRegion& cleared)
     for (std::size_t i = 0; i < cleared.passes.size(); ++i) {
         ClearingPass& pass = cleared.passes[i];
         if (last.passes[i].path.size() > pass.path.size()) {
-            pass.last = std::move(last.passes[i].path);
+            pass.final_path = std::move(last.passes[i].path);
         }
     }
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::clearing

@@ -6,13 +6,13 @@
 
 #include "host_tools/clearing/clearing.hpp"
 
-namespace cusp::host {
+namespace cusp::clearing {
 
 // The stretches of a level at `distance` (mm) from the contours that lie straight inward from a
 // place no farther than `margin` (mm) from `feet` on the level at `outer`. Stretches that are
 // longer than half of their loop become the whole loop.
-std::vector<PartialLoop> loops_over(const std::vector<Edge>& feet,
-                                    const RegionOffset& walls,
+std::vector<PartialLoop> loops_over(const std::vector<offset::Edge>& feet,
+                                    const offset::RegionOffset& walls,
                                     double outer,
                                     double distance,
                                     double margin);
@@ -28,4 +28,4 @@ void put_in_partial_loops(ClearedRegion& cleared);
 // Leaves the passes' paths as they are: ClearingPass::last has the partial loops put in.
 void end_with_partial_loops(ClearedRegion& cleared);
 
-}  // namespace cusp::host
+}  // namespace cusp::clearing

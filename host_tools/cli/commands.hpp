@@ -5,7 +5,7 @@
 
 #include "CLI/App.hpp"
 
-namespace cusp::host {
+namespace cusp::cli {
 
 // Exit statuses, the same for every command.
 enum ExitStatus : int {
@@ -28,4 +28,4 @@ void add_sim_command(CLI::App& app, Work& work);
 void add_stream_command(CLI::App& app, Work& work);
 void add_settings_command(CLI::App& app, Work& work);
 
-}  // namespace cusp::host
+}  // namespace cusp::cli

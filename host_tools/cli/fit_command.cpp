@@ -7,15 +7,21 @@
 
 #include "host_tools/cli/commands.hpp"
 #include "host_tools/cli/share_progress.hpp"
-#include "host_tools/fit/fit_program.hpp"
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/program_fit/fit_program.hpp"
 #include "host_tools/simulate/text_file.hpp"
 
 #include "CLI/CLI.hpp"
 #include "fmt/format.h"
 #include "nlohmann/json.hpp"
 
-namespace cusp::host {
+namespace cusp::cli {
+
+using program_fit::fit_program;
+using program_fit::FitReport;
+using program_fit::FittedProgram;
+using simulate::write_text;
+
 namespace {
 
 struct FitOptions {
@@ -98,4 +104,4 @@ void add_fit_command(CLI::App& app, Work& work)
     });
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::cli

@@ -3,7 +3,7 @@
 
 #include <csignal>
 
-namespace cusp::host {
+namespace cusp::cli {
 namespace {
 
 std::atomic<int> interruptions{0};
@@ -20,4 +20,4 @@ const std::atomic<int>& count_interruptions()
     return interruptions;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::cli

@@ -3,9 +3,9 @@
 
 #include <atomic>
 
-namespace cusp::host {
+namespace cusp::cli {
 
 // From the first call on SIGINT and SIGTERM only count here.
 const std::atomic<int>& count_interruptions();
 
-}  // namespace cusp::host
+}  // namespace cusp::cli

@@ -12,7 +12,7 @@
 
 namespace {
 
-using namespace cusp::host;
+using namespace cusp::cli;
 
 constexpr const char* kDescription =
     "From a sculptured surface to stepper pulses: plan tool paths over NURBS parts, run them\n"

@@ -9,8 +9,9 @@
 #include "host_tools/cli/commands.hpp"
 #include "host_tools/cli/share_progress.hpp"
 #include "host_tools/cli/strategies.hpp"
-#include "host_tools/import/job.hpp"
+#include "host_tools/import/import.hpp"
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/job/job.hpp"
 #include "host_tools/simulate/text_file.hpp"
 #include "host_tools/toolpath/gcode_writer.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
@@ -19,7 +20,19 @@
 #include "fmt/format.h"
 #include "nlohmann/json.hpp"
 
-namespace cusp::host {
+namespace cusp::cli {
+
+using import::read_job;
+using job::Job;
+using job::Operation;
+using simulate::write_text;
+using toolpath::MachineRates;
+using toolpath::MoveCounts;
+using toolpath::OperationStats;
+using toolpath::PathMeasure;
+using toolpath::PlannedOperation;
+using toolpath::ProgramForm;
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -245,4 +258,4 @@ void add_plan_command(CLI::App& app, Work& work)
     });
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::cli

@@ -5,7 +5,9 @@
 #include "host_tools/cli/commands.hpp"
 #include "host_tools/simulate/settings_file.hpp"
 
-namespace cusp::host {
+namespace cusp::cli {
+
+using simulate::settings_text;
 
 void add_settings_command(CLI::App& app, Work& work)
 {
@@ -22,4 +24,4 @@ void add_settings_command(CLI::App& app, Work& work)
     });
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::cli

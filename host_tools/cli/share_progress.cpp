@@ -6,7 +6,7 @@
 
 #include "fmt/format.h"
 
-namespace cusp::host {
+namespace cusp::cli {
 
 ShareProgress::ShareProgress(std::string what, double quiet_s)
     : what_{std::move(what)},
@@ -36,4 +36,4 @@ void ShareProgress::operator()(double share)
     std::fflush(stderr);
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::cli

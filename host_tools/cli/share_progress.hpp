@@ -4,7 +4,7 @@
 #include <chrono>
 #include <string>
 
-namespace cusp::host {
+namespace cusp::cli {
 
 class ShareProgress {
 public:
@@ -22,4 +22,4 @@ private:
     int shown_{0};
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::cli

@@ -16,7 +16,20 @@
 #include "host_tools/simulate/text_file.hpp"
 #include "host_tools/simulate/virtual_controller.hpp"
 
-namespace cusp::host {
+namespace cusp::cli {
+
+using simulate::input_named;
+using simulate::parse_line_faults;
+using simulate::ProgramMoveCounts;
+using simulate::read_script;
+using simulate::read_settings_file;
+using simulate::ServeOptions;
+using simulate::SimulationError;
+using simulate::SimulationOptions;
+using simulate::SimulationProgress;
+using simulate::SimulationResult;
+using simulate::write_text;
+
 namespace {
 
 struct SimArguments {
@@ -105,7 +118,7 @@ int run_program(const SimArguments& arguments)
     if (on_terminal) {
         options.progress = show_progress;
     }
-    const SimulationResult result = simulate(arguments.program, options);
+    const SimulationResult result = simulate::simulate(arguments.program, options);
     if (on_terminal) {
         fmt::print(stderr, "\r\x1b[K");
     }
@@ -261,4 +274,4 @@ void add_sim_command(CLI::App& app, Work& work)
     });
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::cli

@@ -9,7 +9,18 @@
 #include "host_tools/grid_pocket/grid_pocket.hpp"
 #include "host_tools/hull_rough/hull_rough.hpp"
 
-namespace cusp::host {
+namespace cusp::cli {
+
+using adaptive_isocurve::plan_adaptive_isocurve;
+using adaptive_isocurve::plan_complete_isocurves;
+using adaptive_isocurve::plan_parallel_planes;
+using contour_pocket::plan_contour_pocket;
+using grid_pocket::plan_grid_pocket;
+using hull_rough::plan_hull_rough;
+using job::Job;
+using job::Operation;
+using toolpath::PlannedOperation;
+
 namespace {
 
 struct Strategy {
@@ -39,4 +50,4 @@ std::vector<PlannedOperation> plan_operation(const Job& job, const Operation& op
                      "\" is not part of this build");
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::cli

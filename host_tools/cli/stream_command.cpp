@@ -17,7 +17,30 @@
 #include "host_tools/stream/time_table.hpp"
 #include "host_tools/stream/transfer_record.hpp"
 
-namespace cusp::host {
+namespace cusp::cli {
+
+using dialect::ProgramLines;
+using simulate::read_settings_file;
+using stream::Approach;
+using stream::ControllerFacts;
+using stream::drop_record;
+using stream::Keyboard;
+using stream::open_transport;
+using stream::ProgressDisplay;
+using stream::read_record;
+using stream::record_file;
+using stream::ResumePoint;
+using stream::Streamer;
+using stream::StreamKey;
+using stream::StreamOptions;
+using stream::StreamOutcome;
+using stream::StreamProgress;
+using stream::StreamReport;
+using stream::StreamResume;
+using stream::StreamWatcher;
+using stream::TimeTable;
+using stream::TransferRecord;
+
 namespace {
 
 struct StreamArguments {
@@ -269,4 +292,4 @@ void add_stream_command(CLI::App& app, Work& work)
     });
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::cli

@@ -5,7 +5,8 @@
 
 #include "host_tools/cli/commands.hpp"
 #include "host_tools/cli/share_progress.hpp"
-#include "host_tools/import/job.hpp"
+#include "host_tools/import/import.hpp"
+#include "host_tools/job/job.hpp"
 #include "host_tools/report/pictures.hpp"
 #include "host_tools/simulate/text_file.hpp"
 #include "host_tools/verify/verify.hpp"
@@ -14,7 +15,17 @@
 #include "fmt/format.h"
 #include "nlohmann/json.hpp"
 
-namespace cusp::host {
+namespace cusp::cli {
+
+using import::read_job;
+using job::Job;
+using report::left_picture;
+using report::path_picture;
+using simulate::write_text;
+using verify::Verification;
+using verify::VerifyFigures;
+using verify::VerifySettings;
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -87,7 +98,8 @@ int run_verify(const VerifyOptions& options)
     if (options.spacing > 0) {
         settings.spacing = options.spacing;
     }
-    const Verification result = verify(job, options.program, settings, ShareProgress{"cutting"});
+    const Verification result =
+        verify::verify(job, options.program, settings, ShareProgress{"cutting"});
     const Json stats = stats_of(result);
     for (const auto& [name, value] : stats.items()) {
         if (name != "broken") {
@@ -146,4 +158,4 @@ void add_verify_command(CLI::App& app, Work& work)
     });
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::cli

@@ -8,21 +8,46 @@
 
 #include "host_tools/clearing/clearing.hpp"
 #include "host_tools/clearing/partial_loops.hpp"
-#include "host_tools/clearing/slow_descents.hpp"
-#include "host_tools/clearing/tip_floor.hpp"
-#include "host_tools/contour_pocket/cliff_detours.hpp"
-#include "host_tools/contour_pocket/cliff_passes.hpp"
-#include "host_tools/contour_pocket/floor_cutter.hpp"
-#include "host_tools/contour_pocket/level_interval.hpp"
+#include "host_tools/clearing/plunge_feed_limit.hpp"
+#include "host_tools/contour_pocket/loop_scallop.hpp"
+#include "host_tools/contour_pocket/loop_spacing.hpp"
 #include "host_tools/contour_pocket/partial_levels.hpp"
+#include "host_tools/contour_pocket/pencil_detours.hpp"
+#include "host_tools/contour_pocket/pencil_passes.hpp"
+#include "host_tools/contour_pocket/pocket_path_writer.hpp"
 #include "host_tools/contour_pocket/pocket_task.hpp"
-#include "host_tools/contour_pocket/rest_material.hpp"
 #include "host_tools/contour_pocket/rough_layers.hpp"
-#include "host_tools/contour_pocket/strip_ridge.hpp"
+#include "host_tools/contour_pocket/uncut_regions.hpp"
+#include "host_tools/drop_cutter/drop_cutter.hpp"
 #include "host_tools/offset/offset.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
 
-namespace cusp::host {
+namespace cusp::contour_pocket {
+
+using clearing::ClearedRegion;
+using clearing::ClearingPass;
+using clearing::ClearingSettings;
+using clearing::kMaxRings;
+using clearing::limit_plunge_feed;
+using clearing::LoopStrip;
+using drop_cutter::DropCutter;
+using job::Job;
+using job::kRoughingDone;
+using job::Operation;
+using job::OutputForm;
+using offset::area;
+using offset::Contour;
+using offset::Edge;
+using offset::EdgeTree;
+using offset::length;
+using offset::Region2d;
+using offset::RegionOffset;
+using toolpath::MoveKind;
+using toolpath::OperationStats;
+using toolpath::PlannedOperation;
+using toolpath::Tool;
+using toolpath::ToolMove;
+using toolpath::Toolpath;
 
 namespace {
 
@@ -91,46 +116,47 @@ public:
     FinishPlanner(const Job& job,
                   const Operation& operation,
                   const Region2d& region,
-                  const Budget& budget,
-                  CutDepth* depth)
+                  const ToleranceSplit& tolerances,
+                  AxialDepthTracker* depth)
         : job_{job},
           operation_{operation},
           region_{region},
-          budget_{budget},
+          tolerances_{tolerances},
           walls_{region},
-          floor_{operation.floor, operation.tool, budget.accuracy},
-          ridge_{floor_, operation.floor, budget_},
+          floor_{operation.floor, operation.tool, tolerances.accuracy},
+          loop_scallop_{floor_, operation.floor, tolerances_},
           moves_{job.stock_top + job.clearance},
           depth_{depth}
     {
-        if (!budget.outside) {
-            floor_.guard_edges(operation.floor_tolerance);
+        if (!tolerances.one_sided) {
+            floor_.check_edge_gouges(operation.floor_tolerance);
         }
     }
 
-    const TipFloor& floor() const { return floor_; }
+    const DropCutter& floor() const { return floor_; }
 
     // rough: what has been cut before; null where the stock is whole.
     PlannedOperation plan(const RoughResult* rough)
     {
         begun_ = rough != nullptr ? kRoughingDone : 0.0;
         ClearedRegion cleared = passes();
-        std::vector<ClearingPass> cliffs = passes_at_cliffs(cleared);
+        std::vector<ClearingPass> pencils = find_pencil_passes(cleared);
         loops_ = static_cast<int>(cleared.passes.size());
-        cliff_passes_ = static_cast<int>(cliffs.size());
+        pencil_passes_ = static_cast<int>(pencils.size());
         if (rough == nullptr && cleared.saved > 0.0) {
             put_in_partial_loops(cleared);
-            cliffs = add_cliff_detours(cleared, cliffs, walls_, budget_.first - budget_.aside,
-                                       operation_.tool.radius);
+            pencils = add_pencil_detours(cleared, pencils, walls_,
+                                         tolerances_.wall_clearance - tolerances_.plan_tolerance,
+                                         operation_.tool.radius);
         }
-        add_cliff_passes(cleared, cliffs, reach_of(walls_, budget_.first));
-        FloorCutter cutter{operation_, floor_, walls_, moves_, depth_};
+        add_pencil_passes(cleared, pencils, reach_of(walls_, tolerances_.wall_clearance));
+        PocketPathWriter cutter{operation_, floor_, walls_, moves_, depth_};
         if (depth_ != nullptr) {
             depth_->begin(operation_.tool);
         }
         CutSettings settings =
             cutting(rough != nullptr ? std::optional{rough->left} : std::nullopt);
-        settings.repeated = at_cliffs(cleared);
+        settings.repeated = pencil_settings(cleared);
         if (rough != nullptr) {
             settings.repeated = beside_roughing(cleared, *rough);
             flatten(cleared, settings);
@@ -138,8 +164,8 @@ public:
             const bool stands = operation_.allowance > 0.0 ||
                                 rough->operation.path.tool.number != operation_.tool.number;
             if (stands) {
-                settings.standing = {standing(cleared, settings.repeated), job_.stock_top,
-                                     depths_beside(cleared, *rough)};
+                settings.stock_beside = {stock_beside(cleared, settings.repeated), job_.stock_top,
+                                         depths_beside(cleared, *rough)};
             }
         }
         settings.retracts = cleared.leaves + static_cast<int>(operation_.islands.size());
@@ -149,7 +175,7 @@ public:
         cutter.cut(cleared, settings);
         cutter.end();
         PlannedOperation result;
-        fill(result.stats, cleared, cutter.least_gap());
+        fill(result.stats, cleared, cutter.least_clearance());
         describe(result.path, result.stats);
         result.path.moves = moves_.take();
         return result;
@@ -161,33 +187,34 @@ private:
     ClearedRegion passes()
     {
         ClearingSettings settings;
-        settings.first = budget_.first;
-        settings.step = 2.0 * operation_.tool.radius;
+        settings.wall_clearance = tolerances_.wall_clearance;
+        settings.stepover = 2.0 * operation_.tool.radius;
         settings.direction = operation_.direction_of_cut;
         settings.cover_corners = *operation_.scallop > operation_.floor_tolerance;
         const bool corners = settings.cover_corners;
         const bool whole = is_one_whole_surface(operation_);
-        LevelInterval interval{floor_, budget_, corners && !whole, !corners || !whole};
-        settings.step_from = [&, whole_area = area_of(region_)](const Region2d& level) {
+        LoopSpacing interval{floor_, tolerances_, corners && !whole, !corners || !whole};
+        settings.stepover_from = [&, whole_area = area_of(region_)](const Region2d& level) {
             report(kLevelsDone * (1.0 - area_of(level) / whole_area));
-            return interval.from(level, corners && whole ? ridge_.proven_step(level) : 0.0);
+            return interval.stepover_from(
+                level, corners && whole ? loop_scallop_.proven_stepover(level) : 0.0);
         };
         if (corners && whole) {
-            settings.left_between = [&](const LevelStrip& strip) {
-                return ridge_.share(strip);
+            settings.scallop_share_between = [&](const LoopStrip& strip) {
+                return loop_scallop_.relative_scallop(strip);
             };
         }
         if (corners) {
-            settings.partial_step = [&](const Region2d& level, double step) {
+            settings.partial_stepover = [&](const Region2d& level, double step) {
                 return interval.with_partial_loops(level, step);
             };
-            settings.partial_loops = [&](const LevelStrip& strip, double most) {
-                return partial_levels(strip, ridge_, operation_.tool.radius, most);
+            settings.partial_loops = [&](const LoopStrip& strip, double most) {
+                return partial_levels(strip, loop_scallop_, operation_.tool.radius, most);
             };
         }
         ClearedRegion cleared = clear_region(region_, settings);
         if (cleared.saved > 0.0 && cleared.saved < kDoubtful * length_of(cleared)) {
-            settings.partial_step = nullptr;
+            settings.partial_stepover = nullptr;
             ClearedRegion by_loops = clear_region(region_, settings);
             const double slope = (job_.stock_top - lowest_tip(by_loops, floor_)) / kEntrySlope;
             const auto cost = [&](const ClearedRegion& c) {
@@ -202,46 +229,46 @@ private:
                              number_text(operation_.tool.radius) +
                              " mm fits nowhere into the pocket");
         }
-        if (cleared.levels >= kMostLevels) {
+        if (cleared.rings >= kMaxRings) {
             throw InputError(operation_text(job_, operation_) + "scallop " +
                              number_text(*operation_.scallop) + " mm makes " +
-                             number_text(cleared.levels) + " levels of loops, the limit is " +
-                             number_text(kMostLevels - 1));
+                             number_text(cleared.rings) + " levels of loops, the limit is " +
+                             number_text(kMaxRings - 1));
         }
         return cleared;
     }
 
-    std::vector<ClearingPass> passes_at_cliffs(const ClearedRegion& cleared) const
+    std::vector<ClearingPass> find_pencil_passes(const ClearedRegion& cleared) const
     {
         if (is_one_whole_surface(operation_)) {
             return {};
         }
         ClearedRegion all = cleared;
         put_in_partial_loops(all);
-        CliffSettings settings;
-        settings.first = budget_.first;
-        settings.most = budget_.cusp;
-        settings.laying = cutting(std::nullopt).laying;
-        settings.laying.aside = repeated_aside(budget_.aside);
-        settings.off = settings.laying.aside + budget_.accuracy;
+        PencilSettings settings;
+        settings.wall_clearance = tolerances_.wall_clearance;
+        settings.max_uncut = tolerances_.scallop_height;
+        settings.path_settings = cutting(std::nullopt).path_settings;
+        settings.path_settings.plan_tolerance = repeated_plan_tolerance(tolerances_.plan_tolerance);
+        settings.distance = settings.path_settings.plan_tolerance + tolerances_.accuracy;
         settings.fragments = cleared.saved == 0.0;
-        return cliff_passes(region_, floor_, all, settings);
+        return pencil_passes(region_, floor_, all, settings);
     }
 
-    static std::vector<bool> at_cliffs(const ClearedRegion& cleared)
+    static std::vector<bool> pencil_settings(const ClearedRegion& cleared)
     {
         std::vector<bool> result;
         for (const ClearingPass& pass : cleared.passes) {
-            result.push_back(pass.at_cliff);
+            result.push_back(pass.is_pencil);
         }
         return result;
     }
 
     // Passes along cliffs lie in metal that loops have cut down to where it is known.
-    std::vector<bool> standing(const ClearedRegion& cleared, std::vector<bool> beside) const
+    std::vector<bool> stock_beside(const ClearedRegion& cleared, std::vector<bool> beside) const
     {
         for (std::size_t i = 0; operation_.max_depth && i < beside.size(); ++i) {
-            beside[i] = beside[i] && !cleared.passes[i].at_cliff;
+            beside[i] = beside[i] && !cleared.passes[i].is_pencil;
         }
         return beside;
     }
@@ -254,25 +281,25 @@ private:
         const double radius = operation_.tool.radius;
         const Tool& tool = rough.operation.path.tool;
         const double larger = tool.radius - radius;
-        const EdgeTree centres{edges_of(walls_.at(rough.first))};
-        const TipFloor roughed_floor{operation_.floor, tool, budget_.accuracy};
+        const EdgeTree centres{edges_of(walls_.at(rough.wall_clearance))};
+        const DropCutter roughed_floor{operation_.floor, tool, tolerances_.accuracy};
         const double depth = layer_depth(operation_);
         const double higher = rough.left + highest_over(tool, operation_.tool);
         const double slack = 0.02 * radius;
         const auto fits = [&](Vec2d p) {
-            if (walls_.clearance(p) >= rough.first - std::min(larger, 0.0)) {
+            if (walls_.clearance(p) >= rough.wall_clearance - std::min(larger, 0.0)) {
                 return true;
             }
             return larger > 0.0 && centres.any_nearer(p, larger);
         };
         const double bottom = rough.heights.empty() ? job_.stock_top : rough.heights.back();
         const auto roughed = [&](Vec2d p) {
-            const double left = std::max(roughed_floor.drop(p, slack).height, bottom) + higher;
-            return fits(p) && left < floor_.drop(p, slack).height + depth;
+            const double left = std::max(roughed_floor.drop(p, slack).z, bottom) + higher;
+            return fits(p) && left < floor_.drop(p, slack).z + depth;
         };
         std::vector<bool> beside;
         for (const ClearingPass& pass : cleared.passes) {
-            beside.push_back(pass.level == 0 || pass.at_cliff);
+            beside.push_back(pass.ring == 0 || pass.is_pencil);
             for (const Edge& edge : pass.path) {
                 const int n = 1 + static_cast<int>(length(edge) / (0.25 * radius));
                 for (int i = 0; i < n && !beside.back(); ++i) {
@@ -304,10 +331,10 @@ private:
     void flatten(ClearedRegion& cleared, const CutSettings& settings) const
     {
         for (std::size_t i = 0; i < cleared.passes.size(); ++i) {
-            if (settings.repeated[i] && !cleared.passes[i].at_cliff) {
+            if (settings.repeated[i] && !cleared.passes[i].is_pencil) {
                 Contour& path = cleared.passes[i].path;
-                path = flattened(path, settings.laying.aside, settings.laying.spacing,
-                                 settings.laying.arcs);
+                path = flattened(path, settings.path_settings.plan_tolerance,
+                                 settings.path_settings.spacing, settings.path_settings.arcs);
             }
         }
     }
@@ -316,18 +343,19 @@ private:
     {
         const double radius = operation_.tool.radius;
         CutSettings settings;
-        settings.laying.aside = budget_.aside;
-        settings.laying.above = budget_.above;
-        settings.laying.lift = budget_.outside;
-        settings.laying.cushion = budget_.accuracy;
-        settings.laying.spacing =
-            std::clamp(std::sqrt(3.0 * radius * budget_.above), 0.05 * radius, radius);
+        settings.path_settings.plan_tolerance = tolerances_.plan_tolerance;
+        settings.path_settings.height_tolerance = tolerances_.height_tolerance;
+        settings.path_settings.one_sided = tolerances_.one_sided;
+        settings.path_settings.clearance_reserve = tolerances_.accuracy;
+        settings.path_settings.spacing = std::clamp(
+            std::sqrt(3.0 * radius * tolerances_.height_tolerance), 0.05 * radius, radius);
         // As good as lookups are.
-        settings.laying.told = ridge_.told_length(region_, 0.5 * budget_.accuracy);
-        settings.laying.arcs = operation_.output != OutputForm::kLines;
-        settings.laying.nurbs = operation_.output == OutputForm::kNurbs;
+        settings.path_settings.lookup_spacing =
+            loop_scallop_.lookup_spacing(region_, 0.5 * tolerances_.accuracy);
+        settings.path_settings.arcs = operation_.output != OutputForm::kLines;
+        settings.path_settings.nurbs = operation_.output == OutputForm::kNurbs;
         settings.entry = operation_.entry;
-        settings.first = budget_.first;
+        settings.wall_clearance = tolerances_.wall_clearance;
         // What roughing leaves between its loops on a slope is deepest where it is narrowest.
         settings.depth_share = 0.7;
         const double top = job_.stock_top;
@@ -335,33 +363,33 @@ private:
             const double metal = std::max(top, pass);
             // What roughing has left is met at the plunge feed: beside walls it stands full height.
             const double slope = roughed ? std::min(metal, pass + *roughed + 0.5) : metal;
-            return EntryHeights{heights_over(metal).rapid, heights_over(slope).metal};
+            return EntryHeights{heights_over(metal).rapid, heights_over(slope).stock_top};
         };
         return settings;
     }
 
-    void fill(OperationStats& stats, const ClearedRegion& cleared, double gap) const
+    void fill(OperationStats& stats, const ClearedRegion& cleared, double clearance) const
     {
         stats.strategy = operation_.strategy;
-        stats.passes = loops_ + cliff_passes_;
-        stats.levels = cleared.levels;
+        stats.passes = loops_ + pencil_passes_;
+        stats.levels = cleared.rings;
         stats.cl_points = moves_.points();
         stats.retracts = moves_.retracts();
-        stats.gouge_bound_mm = std::max(0.0, -gap);
-        stats.scallop_bound_mm = budget_.cusp + operation_.floor_tolerance;
+        stats.gouge_bound_mm = std::max(0.0, -clearance);
+        stats.scallop_bound_mm = tolerances_.scallop_height + operation_.floor_tolerance;
         stats.counts = {{"loops", static_cast<double>(loops_)},
                         {"leaves", static_cast<double>(cleared.leaves)},
                         {"islands", static_cast<double>(operation_.islands.size())}};
         if (!cleared.partial.empty()) {
             stats.counts.emplace_back("partial_loops", static_cast<double>(cleared.partial.size()));
         }
-        if (cliff_passes_ > 0) {
-            stats.counts.emplace_back("cliff_passes", static_cast<double>(cliff_passes_));
+        if (pencil_passes_ > 0) {
+            stats.counts.emplace_back("cliff_passes", static_cast<double>(pencil_passes_));
         }
         report_plunges(moves_.steep_plunges(), stats);
         report_air(stats);
         report_depth(stats);
-        report_rest(stats);
+        report_uncut(stats);
     }
 
     void report_air(OperationStats& stats) const
@@ -378,38 +406,40 @@ private:
     void report_depth(OperationStats& stats) const
     {
         constexpr double kFelt = 0.02;  // mm: no deeper than slivers are
-        if (depth_ == nullptr || depth_->most() == kUnlimitedDepth) {
+        if (depth_ == nullptr || depth_->max_depth() == kUnlimitedDepth) {
             return;
         }
         stats.counts.emplace_back("deepest_cut_mm", depth_->deepest());
-        if (depth_->deepest() > depth_->most() + kFelt) {
+        if (depth_->deepest() > depth_->max_depth() + kFelt) {
             stats.warnings.push_back("a cut is " + number_text(depth_->deepest()) +
                                      " mm deep, over the max_depth of " +
-                                     number_text(depth_->most()) + " mm");
+                                     number_text(depth_->max_depth()) + " mm");
         }
     }
 
     // Where the tool does not reach, and how much stays there.
-    void report_rest(OperationStats& stats) const
+    void report_uncut(OperationStats& stats) const
     {
         constexpr std::size_t kNamed = 5;
-        const Region2d centres = walls_.at(budget_.first);
+        const Region2d centres = walls_.at(tolerances_.wall_clearance);
         const double least = std::max(*operation_.scallop, 0.02 * operation_.tool.radius);
-        const std::vector<RestPlace> places =
-            rest_material(walls_, centres, operation_.floor, floor_,
-                          {budget_.first, job_.stock_top, least, !ridge_.reaches_floor(region_)});
+        const std::vector<UncutRegion> places =
+            uncut_regions(walls_, centres, operation_.floor, floor_,
+                          {tolerances_.wall_clearance, job_.stock_top, least,
+                           !loop_scallop_.reaches_floor(region_)});
         double volume = 0.0;
         double height = 0.0;
-        for (const RestPlace& place : places) {
+        for (const UncutRegion& place : places) {
             volume += place.volume;
             height = std::max(height, place.height);
         }
-        stats.counts.emplace_back("rest_area_mm2", unswept_area(region_, centres, budget_.first));
+        stats.counts.emplace_back("rest_area_mm2",
+                                  unswept_area(region_, centres, tolerances_.wall_clearance));
         stats.counts.emplace_back("rest_places", static_cast<double>(places.size()));
         stats.counts.emplace_back("rest_volume_mm3", volume);
         stats.counts.emplace_back("rest_height_max_mm", height);
         for (std::size_t i = 0; i < std::min(kNamed, places.size()); ++i) {
-            const RestPlace& place = places[i];
+            const UncutRegion& place = places[i];
             stats.warnings.push_back(
                 "the tool does not reach " +
                 std::string{place.at_walls ? "between walls" : "a valley"} + " at (" +
@@ -438,15 +468,15 @@ private:
     const Job& job_;
     const Operation& operation_;
     const Region2d& region_;
-    const Budget& budget_;
+    const ToleranceSplit& tolerances_;
     RegionOffset walls_;
-    TipFloor floor_;
-    StripRidge ridge_;
-    PocketMoves moves_;
-    CutDepth* depth_;
+    DropCutter floor_;
+    LoopScallop loop_scallop_;
+    PocketToolpathWriter moves_;
+    AxialDepthTracker* depth_;
     double begun_{0.0};  // of the progress
     int loops_{0};
-    int cliff_passes_{0};
+    int pencil_passes_{0};
 };
 
 }  // namespace
@@ -454,10 +484,10 @@ private:
 std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operation& operation)
 {
     const auto begin = std::chrono::steady_clock::now();
-    const Budget budget = make_budget(job, operation);
-    const Region2d region = make_region(operation, budget.fit);
-    check_work(job, operation, region, budget);
-    std::optional<CutDepth> depth;
+    const ToleranceSplit tolerances = split_tolerances(job, operation);
+    const Region2d region = make_region(operation, tolerances.fit);
+    check_work(job, operation, region, tolerances);
+    std::optional<AxialDepthTracker> depth;
     // Entries beside cliffs of the floor and beside what roughing left need to know the metal.
     if (operation.max_depth || !operation.layers.empty() || !is_one_whole_surface(operation)) {
         const Tool& rougher = operation.tools.empty() ? operation.tool : operation.tools.front();
@@ -465,8 +495,8 @@ std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operatio
         depth.emplace(box_of(region), finer ? rougher : operation.tool, job.stock_top,
                       operation.max_depth.value_or(kUnlimitedDepth));
     }
-    CutDepth* const cut_depth = depth ? &*depth : nullptr;
-    const RoughAndFinish shared = share_out(operation, budget);
+    AxialDepthTracker* const cut_depth = depth ? &*depth : nullptr;
+    const RoughAndFinish shared = split_between_rough_and_finish(operation, tolerances);
     FinishPlanner finish{job, operation, region, shared.finish, cut_depth};
     check_coverage(operation, region, finish.floor());
     std::vector<PlannedOperation> result;
@@ -476,7 +506,7 @@ std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operatio
         result.push_back(rough->operation);
     }
     result.push_back(finish.plan(rough ? &*rough : nullptr));
-    slow_descents(result, job, box_of(region));
+    limit_plunge_feed(result, job, box_of(region));
     if (rough && rough->operation.path.moves.empty()) {
         const Tool& tool = rough->operation.path.tool;
         result.back().stats.warnings.push_back(
@@ -490,4 +520,4 @@ std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operatio
     return result;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::contour_pocket

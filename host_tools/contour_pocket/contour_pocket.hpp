@@ -6,16 +6,17 @@
 
 #include <vector>
 
-#include "host_tools/import/job.hpp"
+#include "host_tools/job/job.hpp"
 #include "host_tools/toolpath/toolpath.hpp"
 
-namespace cusp::host {
+namespace cusp::contour_pocket {
 
 // Plans the operation. With tolerance_side "outside" the path never lies below the floor or through
 // a wall: every straight move carries a computed lower bound of its gap to the floor.
 //
 // Throws InputError for a missing boundary or floor, crossing contours, a tool too large for the
 // pocket, tolerances out of range and a floor that does not cover the pocket.
-std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operation& operation);
+std::vector<toolpath::PlannedOperation> plan_contour_pocket(const job::Job& job,
+                                                            const job::Operation& operation);
 
-}  // namespace cusp::host
+}  // namespace cusp::contour_pocket

@@ -6,7 +6,7 @@
 
 #include "host_tools/contour_pocket/tolerance_chain.hpp"
 
-namespace cusp::host {
+namespace cusp::contour_pocket {
 
 // False in a build without Eigen: fit_cubic() then never finds a curve.
 bool nurbs_fit_available();
@@ -14,9 +14,9 @@ bool nurbs_fit_available();
 // The curve with the fewest control points found that starts and ends at the first and last station
 // (at half of the band) and passes every station within `aside` in plan and [low, high] over its
 // height; no value where half as many control points as stations do not suffice.
-std::optional<Curve> fit_cubic(const std::vector<Station>& stations,
-                               double aside,
-                               double low,
-                               double high);
+std::optional<nurbs::Curve> fit_cubic(const std::vector<Station>& stations,
+                                      double aside,
+                                      double low,
+                                      double high);
 
-}  // namespace cusp::host
+}  // namespace cusp::contour_pocket

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "host_tools/contour_pocket/floor_path.hpp"
+#include "host_tools/contour_pocket/cl_path.hpp"
 #include "host_tools/contour_pocket/nurbs_fit.hpp"
 
 // Eigen's headers are not written for our warnings.
@@ -17,7 +17,10 @@
 #include <Eigen/Sparse>
 #pragma GCC diagnostic pop
 
-namespace cusp::host {
+namespace cusp::contour_pocket {
+
+using nurbs::Curve;
+using offset::left_normal;
 
 namespace {
 
@@ -213,4 +216,4 @@ std::optional<Curve> fit_cubic(const std::vector<Station>& stations,
     return best;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::contour_pocket

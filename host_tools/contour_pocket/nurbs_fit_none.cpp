@@ -1,13 +1,13 @@
 // The build without Eigen: no curves are fitted.
 #include "host_tools/contour_pocket/nurbs_fit.hpp"
 
-namespace cusp::host {
+namespace cusp::contour_pocket {
 
 bool nurbs_fit_available() { return false; }
 
-std::optional<Curve> fit_cubic(const std::vector<Station>&, double, double, double)
+std::optional<nurbs::Curve> fit_cubic(const std::vector<Station>&, double, double, double)
 {
     return std::nullopt;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::contour_pocket

@@ -3,10 +3,17 @@
 
 #include <cmath>
 
-#include "host_tools/clearing/corner_spurs.hpp"
+#include "host_tools/clearing/corner_cleanup.hpp"
 #include "host_tools/clearing/partial_loops.hpp"
 
-namespace cusp::host {
+namespace cusp::contour_pocket {
+
+using clearing::loops_over;
+using clearing::LoopStrip;
+using clearing::PartialLoop;
+using clearing::starts_cleanup_spur;
+using offset::Contour;
+using offset::Edge;
 
 namespace {
 
@@ -19,8 +26,8 @@ struct Part {
 
 }  // namespace
 
-std::optional<std::vector<PartialLoop>> partial_levels(const LevelStrip& strip,
-                                                       StripRidge& ridge,
+std::optional<std::vector<PartialLoop>> partial_levels(const LoopStrip& strip,
+                                                       LoopScallop& loop_scallop,
                                                        double radius,
                                                        double most)
 {
@@ -29,21 +36,21 @@ std::optional<std::vector<PartialLoop>> partial_levels(const LevelStrip& strip,
     std::vector<Edge> spurs;
     for (const Contour& contour : strip.outer.contours) {
         for (std::size_t e = 0; e < contour.size(); ++e) {
-            if (starts_spur(contour, e)) {
+            if (starts_cleanup_spur(contour, e)) {
                 spurs.push_back(contour[e++]);
             } else {
                 edges.push_back(contour[e]);
             }
         }
     }
-    ridge.begin(strip);
+    loop_scallop.begin(strip);
     std::vector<PartialLoop> found;
     std::vector<Part> parts{{edges, strip.from, strip.to}};
     while (!parts.empty()) {
         std::vector<PartialLoop> added;
         std::vector<Part> halves;
         for (const Part& part : parts) {
-            std::vector<Edge> high = ridge.stretches(part.feet, strip, part.from, part.to);
+            std::vector<Edge> high = loop_scallop.stretches(part.feet, strip, part.from, part.to);
             if (high.empty()) {
                 continue;
             }
@@ -59,15 +66,15 @@ std::optional<std::vector<PartialLoop>> partial_levels(const LevelStrip& strip,
             return {};
         }
         if (!added.empty()) {
-            ridge.add(added);
+            loop_scallop.add(added);
             found.insert(found.end(), added.begin(), added.end());
         }
         parts = std::move(halves);
     }
-    if (!ridge.stretches(spurs, strip, strip.from, strip.to).empty()) {
+    if (!loop_scallop.stretches(spurs, strip, strip.from, strip.to).empty()) {
         return {};
     }
     return found;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::contour_pocket

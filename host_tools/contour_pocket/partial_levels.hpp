@@ -5,17 +5,17 @@
 #include <vector>
 
 #include "host_tools/clearing/clearing.hpp"
-#include "host_tools/contour_pocket/strip_ridge.hpp"
+#include "host_tools/contour_pocket/loop_scallop.hpp"
 
-namespace cusp::host {
+namespace cusp::contour_pocket {
 
 // Loops halfway between the levels over the stretches where too much stands, so again in both
-// halves, until nowhere more stands than may (StripRidge::stretches()) or passes lie as near as
-// they ever do (least_interval()). No value where too much stands beside a spur into a corner, or
+// halves, until nowhere more stands than may (LoopScallop::stretches()) or passes lie as near as
+// they ever do (least_stepover()). No value where too much stands beside a spur into a corner, or
 // where the loops add more than `most` mm of path.
-std::optional<std::vector<PartialLoop>> partial_levels(const LevelStrip& strip,
-                                                       StripRidge& ridge,
-                                                       double radius,
-                                                       double most);
+std::optional<std::vector<clearing::PartialLoop>> partial_levels(const clearing::LoopStrip& strip,
+                                                                 LoopScallop& loop_scallop,
+                                                                 double radius,
+                                                                 double most);
 
-}  // namespace cusp::host
+}  // namespace cusp::contour_pocket

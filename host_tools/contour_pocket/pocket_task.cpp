@@ -5,13 +5,30 @@
 #include <cmath>
 #include <cstdio>
 
-#include "host_tools/clearing/floor_coverage.hpp"
-#include "host_tools/contour_pocket/floor_path.hpp"
+#include "host_tools/contour_pocket/cl_path.hpp"
 #include "host_tools/contour_pocket/nurbs_fit.hpp"
+#include "host_tools/drop_cutter/floor_coverage.hpp"
 #include "host_tools/offset/contour_fit.hpp"
 #include "host_tools/offset/region_check.hpp"
 
-namespace cusp::host {
+namespace cusp::contour_pocket {
+
+using drop_cutter::DropCutter;
+using job::Job;
+using job::Loop;
+using job::Operation;
+using job::OutputForm;
+using job::ToleranceSide;
+using nurbs::Surface;
+using offset::area;
+using offset::Contour;
+using offset::fit_contour;
+using offset::Region2d;
+using offset::RegionFault;
+using offset::RegionFaultKind;
+using offset::reversed;
+using toolpath::OperationStats;
+using toolpath::Tool;
 
 namespace {
 
@@ -82,7 +99,7 @@ void report_plunges(int plunges, OperationStats& stats)
     }
 }
 
-Budget make_budget(const Job& job, const Operation& operation)
+ToleranceSplit split_tolerances(const Job& job, const Operation& operation)
 {
     const double radius = operation.tool.radius;
     if (operation.floor.empty()) {
@@ -105,46 +122,50 @@ Budget make_budget(const Job& job, const Operation& operation)
     if (operation.allowance != 0.0) {
         check_range(job, operation, "allowance", operation.allowance, 1.0);
     }
-    Budget budget;
-    budget.outside = operation.tolerance_side == ToleranceSide::kOutside;
-    budget.fit = 0.1 * operation.plan_tolerance;
-    budget.accuracy = std::min(0.1 * operation.floor_tolerance, 5e-3);
-    budget.above = operation.floor_tolerance - 2.0 * budget.accuracy;
+    ToleranceSplit tolerances;
+    tolerances.one_sided = operation.tolerance_side == ToleranceSide::kOutside;
+    tolerances.fit = 0.1 * operation.plan_tolerance;
+    tolerances.accuracy = std::min(0.1 * operation.floor_tolerance, 5e-3);
+    tolerances.height_tolerance = operation.floor_tolerance - 2.0 * tolerances.accuracy;
     // Passes may lie closer or wider by what the plan tolerance lets them wander.
-    budget.cusp = *operation.scallop - operation.floor_tolerance;
-    if (budget.outside) {
-        if (budget.cusp <= 0.0) {
+    tolerances.scallop_height = *operation.scallop - operation.floor_tolerance;
+    if (tolerances.one_sided) {
+        if (tolerances.scallop_height <= 0.0) {
             throw InputError(operation_text(job, operation) + "scallop " +
                              number_text(*operation.scallop) + " mm is not above floor_tolerance " +
                              number_text(operation.floor_tolerance) +
                              " mm, which it includes with tolerance_side \"outside\"");
         }
-        budget.aside = 0.5 * (operation.plan_tolerance - budget.fit) - kWrittenStep;
-        budget.first = radius + budget.fit + budget.aside + 2.0 * kWrittenStep;
+        tolerances.plan_tolerance =
+            0.5 * (operation.plan_tolerance - tolerances.fit) - kWrittenStep;
+        tolerances.wall_clearance =
+            radius + tolerances.fit + tolerances.plan_tolerance + 2.0 * kWrittenStep;
     } else {
-        budget.cusp = budget.cusp > 0.0 ? budget.cusp : *operation.scallop;
-        budget.aside = operation.plan_tolerance - budget.fit;
-        budget.first = radius;
+        tolerances.scallop_height =
+            tolerances.scallop_height > 0.0 ? tolerances.scallop_height : *operation.scallop;
+        tolerances.plan_tolerance = operation.plan_tolerance - tolerances.fit;
+        tolerances.wall_clearance = radius;
     }
-    budget.aside = std::max(budget.aside, kWrittenStep);
-    return budget;
+    tolerances.plan_tolerance = std::max(tolerances.plan_tolerance, kWrittenStep);
+    return tolerances;
 }
 
-RoughAndFinish share_out(const Operation& operation, const Budget& budget)
+RoughAndFinish split_between_rough_and_finish(const Operation& operation,
+                                              const ToleranceSplit& tolerances)
 {
     constexpr double kNear = 0.2;  // of the room: smaller takes more moves to follow curves
     const bool roughs = operation.max_depth || !operation.layers.empty();
-    const double near = std::max(kNear * budget.aside, kWrittenStep);
+    const double near = std::max(kNear * tolerances.plan_tolerance, kWrittenStep);
     const double apart = 2.0 * kWrittenStep;  // ends are written to whole steps
-    const double rest = budget.aside - near - apart;
-    RoughAndFinish shared{budget, budget};
+    const double rest = tolerances.plan_tolerance - near - apart;
+    RoughAndFinish shared{tolerances, tolerances};
     if (!roughs || operation.allowance > 0.0 || rest < near) {
         return shared;
     }
-    shared.rough.first = budget.first - budget.aside + near;
-    shared.rough.aside = near;
-    shared.finish.first = budget.first + budget.aside - rest;
-    shared.finish.aside = rest;
+    shared.rough.wall_clearance = tolerances.wall_clearance - tolerances.plan_tolerance + near;
+    shared.rough.plan_tolerance = near;
+    shared.finish.wall_clearance = tolerances.wall_clearance + tolerances.plan_tolerance - rest;
+    shared.finish.plan_tolerance = rest;
     return shared;
 }
 
@@ -169,7 +190,7 @@ Region2d make_region(const Operation& operation, double tolerance)
 void check_work(const Job& job,
                 const Operation& operation,
                 const Region2d& region,
-                const Budget& budget)
+                const ToleranceSplit& tolerances)
 {
     const Tool& tool = operation.tool;
     double lowest = job.stock_top;
@@ -193,7 +214,8 @@ void check_work(const Job& job,
     }
     const double round = 2.0 * tool.corner_radius;
     const double across = 2.0 * (tool.radius - tool.corner_radius) +
-                          2.0 * std::sqrt(std::max(0.0, budget.cusp * (round - budget.cusp)));
+                          2.0 * std::sqrt(std::max(0.0, tolerances.scallop_height *
+                                                            (round - tolerances.scallop_height)));
     const double way = room / std::min(across, 2.0 * tool.radius);
     if (way > kMostWay * tool.radius) {
         throw InputError(operation.boundary_file + ": the pocket of " + number_text(room) +
@@ -216,9 +238,10 @@ int layer_count(const Job& job, const Operation& operation, double deep, double 
     return std::max(1, static_cast<int>(count));
 }
 
-void check_coverage(const Operation& operation, const Region2d& region, const TipFloor& floor)
+void check_coverage(const Operation& operation, const Region2d& region, const DropCutter& floor)
 {
-    if (const auto place = uncovered_place(region, floor, operation.floor, operation.tool.radius)) {
+    if (const auto place =
+            point_without_floor(region, floor, operation.floor, operation.tool.radius)) {
         refuse_uncovered(operation, *place);
     }
 }
@@ -230,4 +253,4 @@ void refuse_uncovered(const Operation& operation, Vec2d p)
     throw InputError(file + ": the floor does not cover the pocket at " + place_text(p) + " mm");
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::contour_pocket

@@ -5,15 +5,29 @@
 #include <chrono>
 #include <cmath>
 
-#include "host_tools/contour_pocket/floor_cutter.hpp"
+#include "host_tools/contour_pocket/pocket_path_writer.hpp"
 
-namespace cusp::host {
+namespace cusp::contour_pocket {
+
+using clearing::ClearedRegion;
+using clearing::ClearingPass;
+using clearing::ClearingSettings;
+using drop_cutter::DropCutter;
+using job::Job;
+using job::kRoughingDone;
+using job::Operation;
+using job::OutputForm;
+using offset::Edge;
+using offset::Region2d;
+using offset::RegionOffset;
+using toolpath::OperationStats;
+using toolpath::Tool;
 
 namespace {
 
 struct RoughStep {
-    double across;  // mm between loops
-    double cusp;    // mm left between them
+    double across;          // mm between loops
+    double scallop_height;  // mm left between them
 };
 
 // A ball's ridges are kept to a fifth of the depth of cut, so that the next layer is not much
@@ -22,9 +36,10 @@ RoughStep rough_step(const Tool& tool, double depth)
 {
     const double c = tool.corner_radius;
     const double flat = 1.2 * (tool.radius - c);
-    const double cusp = std::min(0.2 * depth, 0.13 * c);
-    const double round = 2.0 * std::sqrt(std::max(0.0, cusp * (2.0 * c - cusp)));
-    return {std::max(flat, std::min(round, c)), flat > round ? 0.0 : cusp};
+    const double scallop_height = std::min(0.2 * depth, 0.13 * c);
+    const double round =
+        2.0 * std::sqrt(std::max(0.0, scallop_height * (2.0 * c - scallop_height)));
+    return {std::max(flat, std::min(round, c)), flat > round ? 0.0 : scallop_height};
 }
 
 std::vector<double> layer_heights(const Job& job,
@@ -83,7 +98,7 @@ double layer_depth(const Operation& operation)
     return deepest;
 }
 
-double lowest_tip(const ClearedRegion& cleared, const TipFloor& floor)
+double lowest_tip(const ClearedRegion& cleared, const DropCutter& floor)
 {
     double lowest = 1e300;
     for (const ClearingPass& pass : cleared.passes) {
@@ -91,7 +106,7 @@ double lowest_tip(const ClearedRegion& cleared, const TipFloor& floor)
             const int n = 1 + static_cast<int>(length(edge) / floor.tool().radius);
             for (int i = 0; i < n; ++i) {
                 const Vec2d p = point_on(edge, static_cast<double>(i) / n);
-                lowest = std::min(lowest, floor.drop(p).height);
+                lowest = std::min(lowest, floor.drop(p).z);
             }
         }
     }
@@ -101,8 +116,8 @@ double lowest_tip(const ClearedRegion& cleared, const TipFloor& floor)
 std::optional<RoughResult> plan_rough_layers(const Job& job,
                                              const Operation& operation,
                                              const Region2d& region,
-                                             const Budget& budget,
-                                             CutDepth* cut_depth)
+                                             const ToleranceSplit& tolerances,
+                                             AxialDepthTracker* cut_depth)
 {
     if (!operation.max_depth && operation.layers.empty()) {
         return std::nullopt;
@@ -112,39 +127,41 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     rough.tool = operation.tools.empty() ? operation.tool : operation.tools.front();
     const double depth = operation.max_depth.value_or(rough.tool.radius);
     const RoughStep step = rough_step(rough.tool, depth);
-    TipFloor floor{operation.floor, rough.tool, budget.accuracy};
-    if (!budget.outside) {
-        floor.guard_edges(operation.floor_tolerance);
+    DropCutter floor{operation.floor, rough.tool, tolerances.accuracy};
+    if (!tolerances.one_sided) {
+        floor.check_edge_gouges(operation.floor_tolerance);
     }
     ClearingSettings clearing;
-    clearing.first = budget.first - operation.tool.radius + rough.tool.radius + operation.allowance;
-    clearing.step = step.across;
+    clearing.wall_clearance =
+        tolerances.wall_clearance - operation.tool.radius + rough.tool.radius + operation.allowance;
+    clearing.stepover = step.across;
     clearing.direction = operation.direction_of_cut;
     ClearedRegion cleared = clear_region(region, clearing);
     RoughResult result;
-    result.first = clearing.first;
-    result.left = operation.allowance + step.cusp;
+    result.wall_clearance = clearing.wall_clearance;
+    result.left = operation.allowance + step.scallop_height;
     result.operation.path.tool = rough.tool;
     if (cleared.passes.empty()) {
         return result;
     }
     CutSettings settings;
     settings.entry = operation.entry;
-    settings.first = clearing.first;
-    settings.laying.aside = budget.aside;
-    settings.laying.above = std::max(budget.above, 0.1 * operation.allowance);
-    settings.laying.cushion = budget.accuracy;
-    settings.laying.raise = operation.allowance;
-    settings.laying.spacing = 0.2 * rough.tool.radius;
-    settings.laying.arcs = operation.output != OutputForm::kLines;
+    settings.wall_clearance = clearing.wall_clearance;
+    settings.path_settings.plan_tolerance = tolerances.plan_tolerance;
+    settings.path_settings.height_tolerance =
+        std::max(tolerances.height_tolerance, 0.1 * operation.allowance);
+    settings.path_settings.clearance_reserve = tolerances.accuracy;
+    settings.path_settings.allowance = operation.allowance;
+    settings.path_settings.spacing = 0.2 * rough.tool.radius;
+    settings.path_settings.arcs = operation.output != OutputForm::kLines;
     for (ClearingPass& pass : cleared.passes) {
-        pass.path = flattened(pass.path, settings.laying.aside, settings.laying.spacing,
-                              settings.laying.arcs);
+        pass.path = flattened(pass.path, settings.path_settings.plan_tolerance,
+                              settings.path_settings.spacing, settings.path_settings.arcs);
     }
     settings.repeated.assign(cleared.passes.size(), true);
-    PocketMoves moves{job.stock_top + job.clearance};
+    PocketToolpathWriter moves{job.stock_top + job.clearance};
     const RegionOffset walls{region};
-    FloorCutter cutter{rough, floor, walls, moves, cut_depth};
+    PocketPathWriter cutter{rough, floor, walls, moves, cut_depth};
     if (cut_depth != nullptr) {
         cut_depth->begin(rough.tool);
     }
@@ -152,11 +169,11 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     const double bottom = lowest_tip(cleared, floor) + operation.allowance;
     double above = job.stock_top;
     const std::vector<double> heights =
-        layer_heights(job, operation, bottom, std::max(0.1 * depth, depth - step.cusp));
+        layer_heights(job, operation, bottom, std::max(0.1 * depth, depth - step.scallop_height));
     for (const double level : heights) {
         const double layer = static_cast<double>(result.heights.size());
         job.report_progress(kRoughingDone * layer / static_cast<double>(heights.size()));
-        settings.laying.level = level;
+        settings.path_settings.min_z = level;
         settings.retracts += each;
         settings.entry_heights = [&](double pass) {
             // The same loops were cut there by the layer above.
@@ -179,10 +196,10 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     stats.strategy = operation.strategy;
     stats.roughing = true;
     stats.passes = static_cast<int>(cleared.passes.size());
-    stats.levels = cleared.levels;
+    stats.levels = cleared.rings;
     stats.cl_points = moves.points();
     stats.retracts = moves.retracts();
-    stats.gouge_bound_mm = std::max(0.0, -cutter.least_gap());
+    stats.gouge_bound_mm = std::max(0.0, -cutter.least_clearance());
     stats.scallop_bound_mm = result.left;
     stats.counts = {{"layers", static_cast<double>(layers)},
                     {"loops", static_cast<double>(cleared.passes.size())},
@@ -195,4 +212,4 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     return result;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::contour_pocket

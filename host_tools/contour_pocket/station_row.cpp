@@ -5,17 +5,23 @@
 #include <array>
 #include <cmath>
 
-#include "host_tools/clearing/corner_spurs.hpp"
+#include "host_tools/clearing/corner_cleanup.hpp"
 
-namespace cusp::host {
+namespace cusp::contour_pocket {
+
+using clearing::starts_cleanup_spur;
+using drop_cutter::DropCutter;
+using offset::Edge;
+using offset::left_normal;
+using offset::unit;
 
 namespace {
 
-constexpr double kClosest = 2e-3;    // mm between stations: they are not halved further
-constexpr double kSmooth = 0.999;    // cosine of 2.6 degrees
-constexpr std::size_t kStretch = 6;  // stations that two lookups may tell on any floor
-constexpr double kTurned = 1.0;      // radians: where they tell more
-constexpr double kTold = 0.06;       // of the height allowed: how well they must
+constexpr double kClosest = 2e-3;      // mm between stations: they are not halved further
+constexpr double kSmooth = 0.999;      // cosine of 2.6 degrees
+constexpr std::size_t kStretch = 6;    // stations that two lookups may tell on any floor
+constexpr double kTurned = 1.0;        // radians: where they tell more
+constexpr double kLookupShare = 0.06;  // of the height allowed: how well they must
 
 // The unit tangent where an edge passes the point.
 Vec2d way_of(const Edge& edge, Vec2d at)
@@ -66,7 +72,7 @@ struct Stop {
 
 class RowBuilder {
 public:
-    RowBuilder(const TipFloor* floor, const StationSpacing& spacing)
+    RowBuilder(const DropCutter* floor, const StationSpacing& spacing)
         : floor_{floor}, spacing_{spacing}
     {
     }
@@ -98,13 +104,14 @@ private:
             const Edge& edge = plan[e];
             // Both visits of a spur are to meet at one point: a corner micrometres beside the
             // path's other visit would be no place that anyone could tell from it.
-            if (starts_spur(plan, e) || (e > 1 && starts_spur(plan, e - 2))) {
+            if (starts_cleanup_spur(plan, e) || (e > 1 && starts_cleanup_spur(plan, e - 2))) {
                 (stops_.empty() ? starts_exact_ : stops_.back().exact) = true;
             }
             const double bend = edge.turn == 0 ? 0.0 : edge.turn / edge.radius;
             const double step =
-                edge.turn == 0 ? spacing_.along
-                               : std::min(spacing_.along, std::sqrt(edge.radius * spacing_.aside));
+                edge.turn == 0
+                    ? spacing_.along
+                    : std::min(spacing_.along, std::sqrt(edge.radius * spacing_.plan_tolerance));
             const double whole = length(edge);
             const int n = std::max(1, static_cast<int>(std::ceil(whole / step)));
             EvenPoints points{edge, whole, n};
@@ -129,8 +136,9 @@ private:
             const Stop& next = stops_[last + 1];
             turned += std::abs(next.bend) * (next.along - stops_[last].along);
             const double along = next.along - begin_of(first);
-            const bool told = along < 2.0 * (spacing_.told - spacing_.along) && turned < kTurned;
-            if (last + 1 >= first + kStretch && !told) {
+            const bool lookup_spacing =
+                along < 2.0 * (spacing_.lookup_spacing - spacing_.along) && turned < kTurned;
+            if (last + 1 >= first + kStretch && !lookup_spacing) {
                 break;
             }
             ++last;
@@ -145,11 +153,11 @@ private:
         if (floor_ == nullptr) {
             return {at, 0.0, {}, bend};
         }
-        const TipFloor::Rest rest = floor_->drop(at);
-        if (rest.height == TipFloor::kNothing) {
+        const DropCutter::ClPoint rest = floor_->drop(at);
+        if (rest.z == DropCutter::kNoSurface) {
             row_.missing = at;
         }
-        return {at, rest.height, rest.gradient, bend};
+        return {at, rest.z, rest.slope, bend};
     }
 
     // A station with its place and direction along the plan.
@@ -200,8 +208,9 @@ private:
             return;
         }
         const std::size_t half = halfway(first, last);
-        const double told = between(start, known.end, stops_[half]).height;
-        const bool even = std::abs(told - known.middle.station.height) <= kTold * spacing_.height &&
+        const double lookup_spacing = between(start, known.end, stops_[half]).height;
+        const bool even = std::abs(lookup_spacing - known.middle.station.height) <=
+                              kLookupShare * spacing_.height &&
                           interpolate(first, half, last, {start, known.middle, known.end});
         if (!even && last - first >= kStretch) {
             fill_half(start, first, half, known.middle);
@@ -301,9 +310,9 @@ private:
         }
         if ((to - from) * whole < kClosest) {
             // A cliff: no move may start to climb before it.
-            const bool cliff = jump(last, next) >= 0.5 * spacing_.height;
-            row_.stations.back().exact = row_.stations.back().exact || cliff;
-            next.exact = next.exact || cliff;
+            const bool pencil = jump(last, next) >= 0.5 * spacing_.height;
+            row_.stations.back().exact = row_.stations.back().exact || pencil;
+            next.exact = next.exact || pencil;
             return;
         }
         const double middle = 0.5 * (from + to);
@@ -313,7 +322,7 @@ private:
         halve(edge, whole, middle, to, next);
     }
 
-    const TipFloor* floor_;
+    const DropCutter* floor_;
     const StationSpacing& spacing_;
     std::vector<Stop> stops_;  // after the first station
     bool starts_exact_{};
@@ -323,10 +332,10 @@ private:
 }  // namespace
 
 StationRow stations_along(const std::vector<Edge>& plan,
-                          const TipFloor* floor,
+                          const DropCutter* floor,
                           const StationSpacing& spacing)
 {
     return RowBuilder{floor, spacing}.run(plan);
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::contour_pocket

@@ -5,17 +5,17 @@
 #include <optional>
 #include <vector>
 
-#include "host_tools/clearing/tip_floor.hpp"
 #include "host_tools/contour_pocket/tolerance_chain.hpp"
+#include "host_tools/drop_cutter/drop_cutter.hpp"
 
-namespace cusp::host {
+namespace cusp::contour_pocket {
 
 struct StationSpacing {
-    double along;   // mm between stations at most
-    double aside;   // mm: chords of arcs keep within an eighth of it
-    double height;  // mm: chords of the floor keep within a twentieth of it
-    bool sparse;    // where the floor is smooth most stations are interpolated, to a tenth of it
-    double told{};  // mm: between lookups no farther apart nothing hides; 0: not known
+    double along;           // mm between stations at most
+    double plan_tolerance;  // mm: chords of arcs keep within an eighth of it
+    double height;          // mm: chords of the floor keep within a twentieth of it
+    bool sparse;  // where the floor is smooth most stations are interpolated, to a tenth of it
+    double lookup_spacing{};  // mm: between lookups no farther apart nothing hides; 0: not known
 };
 
 struct StationRow {
@@ -29,8 +29,8 @@ struct StationRow {
 // its bottom.
 //
 // floor  null: a level floor at z = 0
-StationRow stations_along(const std::vector<Edge>& plan,
-                          const TipFloor* floor,
+StationRow stations_along(const std::vector<offset::Edge>& plan,
+                          const drop_cutter::DropCutter* floor,
                           const StationSpacing& spacing);
 
-}  // namespace cusp::host
+}  // namespace cusp::contour_pocket

@@ -4,9 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host_tools/clearing/edge_rest.hpp"
+#include "host_tools/drop_cutter/edge_contact.hpp"
 
-namespace cusp::host {
+namespace cusp::contour_pocket {
+
+using drop_cutter::drop_on_edge;
+using drop_cutter::EdgeContact;
+using drop_cutter::kNoContact;
+using offset::distance;
+using toolpath::Tool;
 
 double cut_over(const Tool& tool, const TipSegment& segment, Vec2d at, double below)
 {
@@ -21,12 +27,12 @@ double cut_over(const Tool& tool, const TipSegment& segment, Vec2d at, double be
     const double away = std::abs(cross(way, at - a));
     const double lowest = std::min(segment.start.z, segment.end.z);
     if (away >= tool.radius || lowest + profile_height(tool, away) >= below) {
-        return kNowhere;
+        return kNotReached;
     }
     const double slope = (segment.end.z - segment.start.z) / whole;
     // The place lifts a tool that comes past as an edge would that falls away from it.
-    const EdgeRest rest = rest_on_edge(tool, -slope, away, -along, whole - along);
-    return rest.lift > kNoRest ? segment.start.z + slope * along - rest.lift : kNowhere;
+    const EdgeContact rest = drop_on_edge(tool, -slope, away, -along, whole - along);
+    return rest.lift > kNoContact ? segment.start.z + slope * along - rest.lift : kNotReached;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::contour_pocket

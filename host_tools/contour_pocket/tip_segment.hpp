@@ -4,7 +4,7 @@
 #include "host_tools/offset/contour.hpp"
 #include "host_tools/toolpath/toolpath.hpp"
 
-namespace cusp::host {
+namespace cusp::contour_pocket {
 
 // A straight piece of a path of the tip.
 struct TipSegment {
@@ -12,10 +12,13 @@ struct TipSegment {
     Vec3d end;
 };
 
-inline constexpr double kNowhere = 1e300;
+inline constexpr double kNotReached = 1e300;
 
 // How low the tool, moved along the segment, cuts over the plan position: z, mm; kNowhere where it
 // does not get there, or where it is known soon that it is not lower than `below`.
-double cut_over(const Tool& tool, const TipSegment& segment, Vec2d at, double below = kNowhere);
+double cut_over(const toolpath::Tool& tool,
+                const TipSegment& segment,
+                Vec2d at,
+                double below = kNotReached);
 
-}  // namespace cusp::host
+}  // namespace cusp::contour_pocket

@@ -5,7 +5,10 @@
 #include <cmath>
 #include <optional>
 
-namespace cusp::host {
+namespace cusp::contour_pocket {
+
+using offset::left_normal;
+using offset::unit;
 
 namespace {
 
@@ -107,7 +110,7 @@ private:
 
     struct Reach {
         std::size_t station;
-        FloorMove move;
+        ClMove move;
     };
 
     bool ends_home(std::size_t j) const { return fixed_end_ && j == last_; }
@@ -333,4 +336,4 @@ Chain chain_through(const std::vector<Station>& stations,
     return ChainBuilder{stations, aside, low, high, arcs, closed}.run();
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::contour_pocket

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "host_tools/contour_pocket/floor_path.hpp"
+#include "host_tools/contour_pocket/cl_path.hpp"
 
-namespace cusp::host {
+namespace cusp::contour_pocket {
 
 // A place on the plan path with the lowest height of the tip there.
 struct Station {
@@ -18,7 +18,7 @@ struct Station {
 
 struct Chain {
     Vec3d start;
-    std::vector<FloorMove> moves;
+    std::vector<ClMove> moves;
 };
 
 // Goes from station to station by the longest move that passes every station within `aside` in plan
@@ -33,4 +33,4 @@ Chain chain_through(const std::vector<Station>& stations,
                     bool arcs,
                     bool closed);
 
-}  // namespace cusp::host
+}  // namespace cusp::contour_pocket

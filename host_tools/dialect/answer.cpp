@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cstdlib>
 
-namespace cusp::host {
+namespace cusp::dialect {
 namespace {
 
 std::optional<int> whole_number(std::string_view text)
@@ -187,4 +187,4 @@ Answer parse_answer(std::string_view line)
 std::string_view error_text(int code) { return text_at(kErrors, code); }
 std::string_view alarm_text(int code) { return text_at(kAlarms, code); }
 
-}  // namespace cusp::host
+}  // namespace cusp::dialect

@@ -8,7 +8,7 @@
 
 #include "firmware/base/vec.hpp"
 
-namespace cusp::host {
+namespace cusp::dialect {
 
 // A status report `<State[:sub]|MPos:...|...>`. What it does not say is absent.
 struct ControllerStatus {
@@ -47,4 +47,4 @@ Answer parse_answer(std::string_view line);
 std::string_view error_text(int code);
 std::string_view alarm_text(int code);
 
-}  // namespace cusp::host
+}  // namespace cusp::dialect

@@ -5,7 +5,7 @@
 #include <deque>
 #include <optional>
 
-namespace cusp::host {
+namespace cusp::dialect {
 
 // Grbl answers each line once, in order, when it takes the line out of its buffer: counting the
 // characters of the unanswered lines keeps the buffer full and never overfull.
@@ -61,4 +61,4 @@ private:
     std::deque<Line> lines_;
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::dialect

@@ -8,7 +8,7 @@
 
 #include "host_tools/input_error/input_error.hpp"
 
-namespace cusp::host {
+namespace cusp::dialect {
 namespace {
 
 constexpr std::size_t kLongestLine = 1 << 16;
@@ -70,4 +70,4 @@ int LineSource::take()
     return character;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::dialect

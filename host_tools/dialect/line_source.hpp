@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace cusp::host {
+namespace cusp::dialect {
 
 class LineSource {
 public:
@@ -36,4 +36,4 @@ private:
     bool after_return_{false};
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::dialect

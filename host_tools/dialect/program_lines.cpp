@@ -1,7 +1,7 @@
 // Stripping of comments.
 #include "host_tools/dialect/program_lines.hpp"
 
-namespace cusp::host {
+namespace cusp::dialect {
 namespace {
 
 constexpr std::size_t kMostDigits = 7;  // of a line number, as Grbl has it
@@ -12,24 +12,25 @@ bool is_digit(char character) { return character >= '0' && character <= '9'; }
 
 }  // namespace
 
-std::string numbered_line(std::string_view bare, std::uint64_t number)
+std::string numbered_line(std::string_view uncovered, std::uint64_t number)
 {
-    const std::string as_it_is{bare};
-    if (bare.empty() || bare.front() == '$' || number > kMostNumber) {
+    const std::string as_it_is{uncovered};
+    if (uncovered.empty() || uncovered.front() == '$' || number > kMostNumber) {
         return as_it_is;
     }
     std::string words;
-    for (std::size_t i = 0; i < bare.size(); ++i) {
-        if (bare[i] != 'N' && bare[i] != 'n') {
-            words.push_back(bare[i]);
+    for (std::size_t i = 0; i < uncovered.size(); ++i) {
+        if (uncovered[i] != 'N' && uncovered[i] != 'n') {
+            words.push_back(uncovered[i]);
             continue;
         }
         std::size_t digits = 0;
-        while (i + 1 + digits < bare.size() && is_digit(bare[i + 1 + digits])) {
+        while (i + 1 + digits < uncovered.size() && is_digit(uncovered[i + 1 + digits])) {
             ++digits;
         }
         const std::size_t end = i + 1 + digits;
-        if (digits == 0 || digits > kMostDigits || (end < bare.size() && bare[end] == '.')) {
+        if (digits == 0 || digits > kMostDigits ||
+            (end < uncovered.size() && uncovered[end] == '.')) {
             return as_it_is;
         }
         i += digits;
@@ -44,7 +45,7 @@ std::string bare_line(std::string_view line)
     if (first != std::string_view::npos && line[first] == '$') {
         return std::string{line.substr(first)};
     }
-    std::string bare;
+    std::string uncovered;
     bool in_comment = false;
     for (const char character : line) {
         if (in_comment) {
@@ -54,21 +55,21 @@ std::string bare_line(std::string_view line)
         } else if (character == ';') {
             break;
         } else if (character != ' ' && character != '\t') {
-            bare.push_back(character);
+            uncovered.push_back(character);
         }
     }
-    return bare == "%" ? std::string{} : bare;
+    return uncovered == "%" ? std::string{} : uncovered;
 }
 
 std::optional<ProgramLine> ProgramLines::next()
 {
     while (const auto line = source_.next()) {
-        std::string bare = bare_line(*line);
-        if (!bare.empty()) {
-            return ProgramLine{source_.line_number(), std::move(bare)};
+        std::string uncovered = bare_line(*line);
+        if (!uncovered.empty()) {
+            return ProgramLine{source_.line_number(), std::move(uncovered)};
         }
     }
     return std::nullopt;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::dialect

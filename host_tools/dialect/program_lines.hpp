@@ -8,14 +8,14 @@
 
 #include "host_tools/dialect/line_source.hpp"
 
-namespace cusp::host {
+namespace cusp::dialect {
 
 // What is left of a line without comments, blanks and the % of tapes; $ commands are left alone.
 std::string bare_line(std::string_view line);
 
 // The same line with `number` as its only line number, so that the controller's reports name the
 // line of the file. $ commands and lines whose own number is malformed are left alone.
-std::string numbered_line(std::string_view bare, std::uint64_t number);
+std::string numbered_line(std::string_view uncovered, std::uint64_t number);
 
 struct ProgramLine {
     std::uint64_t number;  // in the file, from 1
@@ -37,4 +37,4 @@ private:
     LineSource source_;
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::dialect

@@ -5,7 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cusp::host {
+namespace cusp::grid_pocket {
+
+using offset::Box2d;
+using offset::RegionOffset;
+
 namespace {
 
 // Whole cells that cover `length`; a last one of less than a millionth is rounding.
@@ -40,4 +44,4 @@ std::size_t CellGrid::count_inside() const
     return static_cast<std::size_t>(std::count(inside_.begin(), inside_.end(), std::uint8_t{1}));
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::grid_pocket

@@ -8,7 +8,7 @@
 
 #include "host_tools/offset/offset.hpp"
 
-namespace cusp::host {
+namespace cusp::grid_pocket {
 
 struct Cell {
     int column{};
@@ -22,7 +22,7 @@ class CellGrid {
 public:
     // Cells of gx by gy mm from the least corner of the pocket's box; a cell is inside when its
     // centre lies in the region at least `radius` mm from every wall (to 1e-6 mm).
-    CellGrid(const RegionOffset& pocket, double gx, double gy, double radius);
+    CellGrid(const offset::RegionOffset& pocket, double gx, double gy, double radius);
 
     int columns() const { return columns_; }
     int rows() const { return rows_; }
@@ -65,4 +65,4 @@ private:
     std::vector<std::uint8_t> inside_;
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::grid_pocket

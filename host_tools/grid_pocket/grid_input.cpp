@@ -5,11 +5,27 @@
 #include <cmath>
 #include <cstdio>
 
-#include "host_tools/clearing/floor_coverage.hpp"
+#include "host_tools/drop_cutter/floor_coverage.hpp"
 #include "host_tools/offset/contour_fit.hpp"
 #include "host_tools/offset/region_check.hpp"
 
-namespace cusp::host {
+namespace cusp::grid_pocket {
+
+using drop_cutter::DropCutter;
+using job::Job;
+using job::Loop;
+using job::Operation;
+using job::OutputForm;
+using nurbs::Curve;
+using offset::area;
+using offset::Contour;
+using offset::fit_contour;
+using offset::Region2d;
+using offset::RegionFault;
+using offset::RegionFaultKind;
+using offset::reversed;
+using toolpath::Tool;
+
 namespace {
 
 constexpr double kInch = 25.4;
@@ -161,8 +177,9 @@ PocketWalls pocket_walls(const Job& job, const Operation& operation)
 
 void check_grid_floor(const Job& job, const Operation& operation, const Region2d& region)
 {
-    const TipFloor floor{operation.floor, operation.tool, 0.01};
-    if (const auto at = uncovered_place(region, floor, operation.floor, operation.tool.radius)) {
+    const DropCutter floor{operation.floor, operation.tool, 0.01};
+    if (const auto at =
+            point_without_floor(region, floor, operation.floor, operation.tool.radius)) {
         const std::string file =
             operation.floor_files.empty() ? "floor" : operation.floor_files.front();
         refuse_grid_pocket(job, file + ": the floor does not cover the pocket at x " +
@@ -170,4 +187,4 @@ void check_grid_floor(const Job& job, const Operation& operation, const Region2d
     }
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::grid_pocket

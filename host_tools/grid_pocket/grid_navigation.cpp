@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-namespace cusp::host {
+namespace cusp::grid_pocket {
 namespace {
 
 struct Heading {
@@ -336,4 +336,4 @@ Navigation reversed(Navigation navigation)
     return navigation;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::grid_pocket

@@ -8,7 +8,7 @@
 
 #include "host_tools/grid_pocket/cell_grid.hpp"
 
-namespace cusp::host {
+namespace cusp::grid_pocket {
 
 enum class StepKind : std::uint8_t {
     kEnter,      // the cutter is lifted over
@@ -53,4 +53,4 @@ Navigation navigate(const CellGrid& grid, const NavigationRules& rules);
 // The way the paper machines it: from the last cell to the first.
 Navigation reversed(Navigation navigation);
 
-}  // namespace cusp::host
+}  // namespace cusp::grid_pocket

@@ -7,7 +7,18 @@
 #include "firmware/base/math.hpp"
 #include "host_tools/grid_pocket/zigzag_runs.hpp"
 
-namespace cusp::host {
+namespace cusp::grid_pocket {
+
+using job::CutDirection;
+using job::Operation;
+using offset::Box2d;
+using offset::Contour;
+using offset::Edge;
+using offset::reversed;
+using toolpath::MoveKind;
+using toolpath::Tool;
+using toolpath::Toolpath;
+
 namespace {
 
 // Points along the edge after its start. Chords of an arc stay on the pocket's side of it: inside
@@ -39,7 +50,7 @@ GridPasses::GridPasses(PocketSpace& pocket, Toolpath& path)
       path_{path},
       moves_{path, pocket.job.stock_top + pocket.job.clearance, pocket.operation.entry,
              pocket.operation.tool.radius, pocket.operation.max_depth.value_or(1e300)},
-      metal_(pocket.grid.size(), static_cast<float>(pocket.job.stock_top))
+      stock_tops_(pocket.grid.size(), static_cast<float>(pocket.job.stock_top))
 {
     const Operation& operation = pocket.operation;
     if (operation.max_depth || !operation.layers.empty()) {
@@ -55,11 +66,11 @@ void GridPasses::finish()
 {
     moves_.retract();
     if (depth_) {
-        depth_->feel_moves();
+        depth_->track_moves();
     }
 }
 
-void GridPasses::follow(FloorFollower& floor, const std::vector<Vec2d>& corners)
+void GridPasses::follow(ClPathFitter& floor, const std::vector<Vec2d>& corners)
 {
     if (depth_) {
         depth_->follow(floor, corners, circle_over(floor));
@@ -68,15 +79,15 @@ void GridPasses::follow(FloorFollower& floor, const std::vector<Vec2d>& corners)
     }
 }
 
-void GridPasses::enter(FloorFollower& floor,
+void GridPasses::enter(ClPathFitter& floor,
                        const std::vector<Vec2d>& corners,
-                       double metal,
+                       double stock_top,
                        bool link)
 {
     if (depth_) {
-        depth_->enter(floor, corners, metal, link, circle_over(floor));
+        depth_->enter(floor, corners, stock_top, link, circle_over(floor));
     } else {
-        moves_.enter(floor, corners, metal, link, circle_over(floor));
+        moves_.enter(floor, corners, stock_top, link, circle_over(floor));
     }
 }
 
@@ -92,11 +103,11 @@ void GridPasses::layer(double plane)
     pocket_.add_ways(rules);
     const Navigation navigation = reversed(navigate(pocket_.grid, rules));
     count(navigation);
-    FloorFollower floor = pocket_.rough.above(plane);
+    ClPathFitter floor = pocket_.rough.above(plane);
     follow_navigation(navigation, floor);
     for (const NavigationStep& step : navigation.steps) {
         const std::size_t cell = pocket_.grid.index(step.cell);
-        metal_[cell] = static_cast<float>(std::max(plane, pocket_.rough_heights[cell]));
+        stock_tops_[cell] = static_cast<float>(std::max(plane, pocket_.rough_heights[cell]));
     }
     wall_level(above, floor);
     pocket_.finish.add_bound(floor.gouge_bound() - pocket_.operation.allowance);
@@ -109,7 +120,7 @@ void GridPasses::main_path(const Navigation& navigation)
     main_moves_ = follow_navigation(navigation, pocket_.finish);
 }
 
-std::size_t GridPasses::follow_navigation(const Navigation& navigation, FloorFollower& floor)
+std::size_t GridPasses::follow_navigation(const Navigation& navigation, ClPathFitter& floor)
 {
     std::size_t cut = 0;
     for (std::size_t i = 0; i < navigation.steps.size();) {
@@ -125,7 +136,7 @@ std::size_t GridPasses::follow_navigation(const Navigation& navigation, FloorFol
                 corners.push_back(pocket_.grid.centre(navigation.steps[end].cell));
             }
         }
-        begin_run(corners, metal_at(navigation.steps[i].cell), floor);
+        begin_run(corners, stock_top_at(navigation.steps[i].cell), floor);
         const std::size_t before = path_.moves.size();
         follow(floor, corners);
         cut += path_.moves.size() - before;
@@ -134,9 +145,9 @@ std::size_t GridPasses::follow_navigation(const Navigation& navigation, FloorFol
     return cut;
 }
 
-void GridPasses::begin_run(const std::vector<Vec2d>& corners, double metal, FloorFollower& floor)
+void GridPasses::begin_run(const std::vector<Vec2d>& corners, double stock_top, ClPathFitter& floor)
 {
-    const double over = std::max(metal, metal_under(corners.front()));
+    const double over = std::max(stock_top, stock_top_under(corners.front()));
     enter(floor, corners, over, can_link(corners.front()));
 }
 
@@ -198,7 +209,7 @@ bool GridPasses::straight(const Navigation& navigation, std::size_t i)
     return b.column - a.column == c.column - b.column && b.row - a.row == c.row - b.row;
 }
 
-double GridPasses::metal_under(Vec2d at) const
+double GridPasses::stock_top_under(Vec2d at) const
 {
     const CellGrid& grid = pocket_.grid;
     const Tool& tool = pocket_.operation.tool;
@@ -206,7 +217,7 @@ double GridPasses::metal_under(Vec2d at) const
     const double half = std::hypot(grid.gx(), grid.gy()) / 2;
     const double corner = tool.corner_radius;
     const double in = std::min(half, corner);
-    const double ridge = corner - std::sqrt(corner * corner - in * in);
+    const double scallop_height = corner - std::sqrt(corner * corner - in * in);
     const Cell middle = grid.nearest(at);
     const int columns = static_cast<int>((tool.radius + half) / grid.gx()) + 1;
     const int rows = static_cast<int>((tool.radius + half) / grid.gy()) + 1;
@@ -216,7 +227,8 @@ double GridPasses::metal_under(Vec2d at) const
             const Cell c{middle.column + i, middle.row + j};
             const double away = std::max(0.0, norm(grid.centre(c) - at) - half);
             if (grid.inside(c) && away < tool.radius) {
-                most = std::max(most, metal_at(c) + ridge - profile_height(tool, away));
+                most =
+                    std::max(most, stock_top_at(c) + scallop_height - profile_height(tool, away));
             }
         }
     }
@@ -225,13 +237,13 @@ double GridPasses::metal_under(Vec2d at) const
 
 bool GridPasses::can_link(Vec2d to) const
 {
-    if (last_plane_ > pocket_.job.stock_top || moves_.lifted()) {
+    if (last_plane_ > pocket_.job.stock_top || moves_.is_retracted()) {
         return false;
     }
     const Vec3d from{here().x, here().y, last_plane_};
     const Vec3d end{to.x, to.y, last_plane_};
     return norm(end - from) < 8 * pocket_.operation.tool.radius && cut_along(from, end) &&
-           pocket_.clear(here(), to) && pocket_.rough.clearance(from, end, 0) >= -1e-6;
+           pocket_.clear(here(), to) && pocket_.rough.move_clearance(from, end, 0) >= -1e-6;
 }
 
 bool GridPasses::cut_along(Vec3d from, Vec3d to) const
@@ -241,7 +253,7 @@ bool GridPasses::cut_along(Vec3d from, Vec3d to) const
     for (int i = 0; i <= count; ++i) {
         const Vec3d p = from + (to - from) * (static_cast<double>(i) / count);
         const Cell c = pocket_.grid.nearest({p.x, p.y});
-        if (!pocket_.grid.inside(c) || metal_at(c) > last_plane_ + 1e-3) {
+        if (!pocket_.grid.inside(c) || stock_top_at(c) > last_plane_ + 1e-3) {
             return false;
         }
     }
@@ -284,7 +296,7 @@ std::vector<Vec2d> GridPasses::wall_corners(const Contour& loop) const
     return corners;
 }
 
-bool GridPasses::follow_arc(FloorFollower& floor, const Edge& arc)
+bool GridPasses::follow_arc(ClPathFitter& floor, const Edge& arc)
 {
     std::vector<Vec2d> corners{arc.start};
     append_points(arc, corners);
@@ -298,7 +310,7 @@ Vec2d GridPasses::here() const
     return {at.x, at.y};
 }
 
-GridMoves::CircleFloor GridPasses::circle_over(const FloorFollower& floor) const
+GridToolpathWriter::CircleFloor GridPasses::circle_over(const ClPathFitter& floor) const
 {
     return [this, &floor](Vec2d centre, double radius) -> std::optional<double> {
         constexpr int kSides = 16;
@@ -322,7 +334,8 @@ GridMoves::CircleFloor GridPasses::circle_over(const FloorFollower& floor) const
             for (int i = 0; i < kSides; ++i) {
                 const Vec2d a = at(i);
                 const Vec2d b = at(i + 1);
-                least = std::min(least, floor.clearance({a.x, a.y, z}, {b.x, b.y, z}, 2 * sagitta));
+                least = std::min(least,
+                                 floor.move_clearance({a.x, a.y, z}, {b.x, b.y, z}, 2 * sagitta));
             }
             // A flat end's room ends at 0: it stands higher by what the sagitta takes on a slope.
             const double needed = floor.has_flat_end() ? 0.0 : 2 * sagitta;
@@ -339,7 +352,7 @@ void GridPasses::approach(const std::vector<Vec2d>& corners)
 {
     const Vec2d start = corners.front();
     const double longest = std::max(8 * pocket_.operation.tool.radius, 2 * pocket_.job.clearance);
-    if (moves_.tip().started() && !moves_.lifted() && norm(start - here()) < longest &&
+    if (moves_.tip().started() && !moves_.is_retracted() && norm(start - here()) < longest &&
         pocket_.clear(here(), start)) {
         follow(pocket_.finish, {here(), start});
         return;
@@ -366,7 +379,7 @@ void GridPasses::approach(const std::vector<Vec2d>& corners)
     enter(pocket_.finish, corners, pocket_.job.stock_top, false);
 }
 
-void GridPasses::wall_level(double above, FloorFollower& floor)
+void GridPasses::wall_level(double above, ClPathFitter& floor)
 {
     for (const Contour& contour : pocket_.centres.contours) {
         std::vector<Vec2d> run;
@@ -399,13 +412,13 @@ double GridPasses::height_or(Vec2d at) const
     return pocket_.rough.height(at).value_or(pocket_.model->box_low().z);
 }
 
-void GridPasses::cut_level(std::vector<Vec2d>& run, double above, FloorFollower& floor)
+void GridPasses::cut_level(std::vector<Vec2d>& run, double above, ClPathFitter& floor)
 {
     if (run.size() > 1) {
         const double longest =
             std::max(8 * pocket_.operation.tool.radius, 2 * pocket_.job.clearance);
-        if (moves_.tip().started() && !moves_.lifted() && norm(run.front() - here()) < longest &&
-            pocket_.clear(here(), run.front())) {
+        if (moves_.tip().started() && !moves_.is_retracted() &&
+            norm(run.front() - here()) < longest && pocket_.clear(here(), run.front())) {
             follow(floor, {here(), run.front()});
         } else {
             begin_run(run, above, floor);
@@ -416,4 +429,4 @@ void GridPasses::cut_level(std::vector<Vec2d>& run, double above, FloorFollower&
     run.clear();
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::grid_pocket

@@ -4,16 +4,16 @@
 #include <optional>
 #include <vector>
 
-#include "host_tools/grid_pocket/depth_limit.hpp"
-#include "host_tools/grid_pocket/grid_moves.hpp"
+#include "host_tools/grid_pocket/depth_limiter.hpp"
+#include "host_tools/grid_pocket/grid_toolpath_writer.hpp"
 #include "host_tools/grid_pocket/pocket_space.hpp"
 
-namespace cusp::host {
+namespace cusp::grid_pocket {
 
 class GridPasses {
 public:
     // Both outlive this; `pocket.rough_heights` are needed for layers only.
-    GridPasses(PocketSpace& pocket, Toolpath& path);
+    GridPasses(PocketSpace& pocket, toolpath::Toolpath& path);
 
     // One rough layer: the navigation over the cells that the floor leaves free, then the wall.
     void layer(double plane);
@@ -35,7 +35,7 @@ public:
     int passes() const { return passes_; }
     int steps() const { return steps_; }
     int retracts() const { return moves_.retracts(); }
-    const GridMoves& moves() const { return moves_; }
+    const GridToolpathWriter& moves() const { return moves_; }
     // mm: none where everything is cut in one layer.
     std::optional<double> deepest_cut() const
     {
@@ -46,10 +46,10 @@ public:
 
 private:
     PocketSpace& pocket_;
-    Toolpath& path_;
-    GridMoves moves_;
-    std::optional<DepthLimit> depth_;  // for pockets in layers
-    std::vector<float> metal_;         // top of what stands over each cell
+    toolpath::Toolpath& path_;
+    GridToolpathWriter moves_;
+    std::optional<DepthLimiter> depth_;  // for pockets in layers
+    std::vector<float> stock_tops_;      // top of what stands over each cell
     double last_plane_{1e300};
     std::size_t main_moves_{0};
     int backtracks_{0};
@@ -58,38 +58,41 @@ private:
     int passes_{0};
     int steps_{0};
 
-    double metal_at(Cell c) const { return static_cast<double>(metal_[pocket_.grid.index(c)]); }
+    double stock_top_at(Cell c) const
+    {
+        return static_cast<double>(stock_tops_[pocket_.grid.index(c)]);
+    }
     // Top of what may stand under the tool at a place, less the height of its lower side.
-    double metal_under(Vec2d at) const;
+    double stock_top_under(Vec2d at) const;
     void count(const Navigation& navigation);
     // True where the steps before and after `i` go the same way, one cell each.
     static bool straight(const Navigation& navigation, std::size_t i);
     // Returns the number of moves that cut.
-    std::size_t follow_navigation(const Navigation& navigation, FloorFollower& floor);
-    void follow(FloorFollower& floor, const std::vector<Vec2d>& corners);
-    void enter(FloorFollower& floor, const std::vector<Vec2d>& corners, double metal, bool link);
-    void begin_run(const std::vector<Vec2d>& corners, double metal, FloorFollower& floor);
+    std::size_t follow_navigation(const Navigation& navigation, ClPathFitter& floor);
+    void follow(ClPathFitter& floor, const std::vector<Vec2d>& corners);
+    void enter(ClPathFitter& floor, const std::vector<Vec2d>& corners, double stock_top, bool link);
+    void begin_run(const std::vector<Vec2d>& corners, double stock_top, ClPathFitter& floor);
     // Whether a straight move at the height of the layer above leads there: what the floor leaves
     // free at that height has been cut, but for ridges between tracks.
     bool can_link(Vec2d to) const;
     // Whether the layer above has visited every cell under the move.
     bool cut_along(Vec3d from, Vec3d to) const;
     // The pass along the wall, from the place that is nearest.
-    Contour wall_loop(const Contour& contour) const;
+    offset::Contour wall_loop(const offset::Contour& contour) const;
     // Points along an edge of such a loop, after its start.
-    void append_points(const Edge& edge, std::vector<Vec2d>& corners) const;
-    std::vector<Vec2d> wall_corners(const Contour& loop) const;
-    bool follow_arc(FloorFollower& floor, const Edge& arc);
+    void append_points(const offset::Edge& edge, std::vector<Vec2d>& corners) const;
+    std::vector<Vec2d> wall_corners(const offset::Contour& loop) const;
+    bool follow_arc(ClPathFitter& floor, const offset::Edge& arc);
     Vec2d here() const;
     // For helices over what `floor` leaves.
-    GridMoves::CircleFloor circle_over(const FloorFollower& floor) const;
+    GridToolpathWriter::CircleFloor circle_over(const ClPathFitter& floor) const;
     // To the first corner: along the floor where the way is clear, else down at a cell beside it,
     // which the main path has cut.
     void approach(const std::vector<Vec2d>& corners);
     // Along the wall where its rough floor lies below `above`.
-    void wall_level(double above, FloorFollower& floor);
-    void cut_level(std::vector<Vec2d>& run, double above, FloorFollower& floor);
+    void wall_level(double above, ClPathFitter& floor);
+    void cut_level(std::vector<Vec2d>& run, double above, ClPathFitter& floor);
     double height_or(Vec2d at) const;
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::grid_pocket

@@ -6,11 +6,19 @@
 #include <string>
 #include <utility>
 
-#include "host_tools/clearing/slow_descents.hpp"
+#include "host_tools/clearing/plunge_feed_limit.hpp"
 #include "host_tools/grid_pocket/grid_passes.hpp"
 #include "host_tools/grid_pocket/pocket_space.hpp"
 
-namespace cusp::host {
+namespace cusp::grid_pocket {
+
+using clearing::limit_plunge_feed;
+using job::EntryKind;
+using job::Job;
+using job::Operation;
+using toolpath::OperationStats;
+using toolpath::PlannedOperation;
+
 namespace {
 
 constexpr double kDepthRounding = 1e-3;  // mm
@@ -74,7 +82,9 @@ void warn_of_depth(const Job& job,
     }
 }
 
-void warn_of_entries(const GridMoves& moves, const Operation& operation, OperationStats& stats)
+void warn_of_entries(const GridToolpathWriter& moves,
+                     const Operation& operation,
+                     OperationStats& stats)
 {
     if (moves.plunges() > 0 && operation.entry != EntryKind::kPlunge) {
         stats.warnings.push_back(std::to_string(moves.plunges()) +
@@ -171,10 +181,10 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
     warn_of_entries(planner.moves(), operation, stats);
     std::vector<PlannedOperation> result;
     result.push_back(std::move(out));
-    slow_descents(result, job, box_of(walls.region));
+    limit_plunge_feed(result, job, box_of(walls.region));
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     result.back().stats.planning_s = spent.count();
     return result;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::grid_pocket

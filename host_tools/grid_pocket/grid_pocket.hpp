@@ -8,10 +8,10 @@
 
 #include <vector>
 
-#include "host_tools/import/job.hpp"
+#include "host_tools/job/job.hpp"
 #include "host_tools/toolpath/toolpath.hpp"
 
-namespace cusp::host {
+namespace cusp::grid_pocket {
 
 // Plans the operation in the paper's order: layers 1 to N, P (the navigation from its end to its
 // start), W (the wall), N (zigzags along x, then y). Reports cells, backtracks, roughness and
@@ -20,6 +20,7 @@ namespace cusp::host {
 // Errors: InputError where the grid, the walls, the floor or the roughness can't be used; one for
 // the roughness names the grid that would do. Source: Choi, Cho & Kim, "A unified rough and finish
 // cut algorithm for NC machining of free form pockets with general polygon".
-std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& operation);
+std::vector<toolpath::PlannedOperation> plan_grid_pocket(const job::Job& job,
+                                                         const job::Operation& operation);
 
-}  // namespace cusp::host
+}  // namespace cusp::grid_pocket

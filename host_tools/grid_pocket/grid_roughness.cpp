@@ -8,7 +8,10 @@
 
 #include "firmware/base/math.hpp"
 
-namespace cusp::host {
+namespace cusp::grid_pocket {
+
+using toolpath::Tool;
+
 namespace {
 
 // Exact heights that one look at the roughness may ask for.
@@ -476,4 +479,4 @@ double grid_roughness(const CellGrid& grid,
     return between * most;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::grid_pocket

@@ -9,7 +9,7 @@
 #include "host_tools/grid_pocket/cell_grid.hpp"
 #include "host_tools/toolpath/toolpath.hpp"
 
-namespace cusp::host {
+namespace cusp::grid_pocket {
 
 // Which sides between neighbouring cells the cutter runs along, either way.
 class Tracks {
@@ -51,6 +51,6 @@ struct TipSurface {
 double grid_roughness(const CellGrid& grid,
                       const TipSurface& surface,
                       const Tracks& tracks,
-                      const Tool& tool);
+                      const toolpath::Tool& tool);
 
-}  // namespace cusp::host
+}  // namespace cusp::grid_pocket

@@ -7,7 +7,16 @@
 #include <limits>
 #include <utility>
 
-namespace cusp::host {
+namespace cusp::grid_pocket {
+
+using job::Job;
+using job::Operation;
+using job::OutputForm;
+using job::ToleranceSide;
+using offset::Contour;
+using offset::Edge;
+using part_model::PartModel;
+
 namespace {
 
 constexpr double kHeightsShare = 0.15;  // of the time of a plan
@@ -54,7 +63,7 @@ double ridge_over_tracks(const Operation& operation)
 }
 
 // The half with the larger step is halved until it is too short to be a slope.
-Cliff steepest_between(const FloorFollower& floor, Vec2d a, Vec2d b)
+Cliff steepest_between(const ClPathFitter& floor, Vec2d a, Vec2d b)
 {
     constexpr double kNoSlope = 0.01;  // mm
     double za = floor.start_height(a);
@@ -110,7 +119,7 @@ PocketSpace::PocketSpace(const Job& j, const Operation& o, const PocketWalls& po
       centres{walls.at(kept + kWallRounding)},
       centre_edges{edges_of(centres)},
       grid{walls, o.grid_x, o.grid_y, kept},
-      model{std::make_shared<SurfaceModel>(o.floor)},
+      model{std::make_shared<PartModel>(o.floor)},
       finish{o.floor, model, o.tool, 0, follow_settings(o)},
       rough{o.floor, model, o.tool, o.allowance, follow_settings(o)}
 {
@@ -151,7 +160,7 @@ void PocketSpace::add_ways(NavigationRules& rules) const
     }
 }
 
-std::vector<double> heights_over(const PocketSpace& pocket, const FloorFollower& follower)
+std::vector<double> heights_over(const PocketSpace& pocket, const ClPathFitter& follower)
 {
     std::vector<double> out(pocket.grid.size(), kNoHeight);
     for (std::size_t i = 0; i < out.size(); ++i) {
@@ -255,12 +264,12 @@ LayerPlanes layer_planes(const PocketSpace& pocket)
     } else if (operation.max_depth) {
         // A layer leaves ridges between its tracks and stays over the floor by its tolerance, and
         // the finish meets the allowance: all add to the next depth of cut.
-        const double ridge = ridge_over_tracks(operation);
+        const double scallop_height = ridge_over_tracks(operation);
         const FollowSettings follow = follow_settings(operation);
         const double over = band_height(follow) * (follow.both_sides ? 2 : 1);
         // With min_depth the extra passes that keep to max_depth may be more.
         const double step =
-            std::max({*operation.max_depth - ridge - over - operation.allowance,
+            std::max({*operation.max_depth - scallop_height - over - operation.allowance,
                       *operation.max_depth * kLeastStep, operation.min_depth.value_or(0)});
         if ((pocket.job.stock_top - lowest) / step > 1e4) {
             refuse_grid_pocket(pocket.job, "max_depth " +
@@ -278,4 +287,4 @@ LayerPlanes layer_planes(const PocketSpace& pocket)
     return {std::move(planes), left_out, lowest};
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::grid_pocket

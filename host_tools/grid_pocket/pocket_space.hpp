@@ -5,35 +5,35 @@
 #include <optional>
 #include <vector>
 
-#include "host_tools/grid_pocket/floor_follower.hpp"
+#include "host_tools/grid_pocket/cl_path_fitter.hpp"
 #include "host_tools/grid_pocket/grid_input.hpp"
 #include "host_tools/grid_pocket/grid_navigation.hpp"
 #include "host_tools/grid_pocket/grid_roughness.hpp"
 
-namespace cusp::host {
+namespace cusp::grid_pocket {
 
 // Beyond the radius, mm, so that G-code rounded to its last digit still keeps it.
 constexpr double kWallRounding = 5e-4;
 
 // How the operation's tolerances and output bound the moves over the floor.
-FollowSettings follow_settings(const Operation& operation);
+FollowSettings follow_settings(const job::Operation& operation);
 
 // Everything about the pocket that the passes share.
 struct PocketSpace {
-    const Job& job;
-    const Operation& operation;
+    const job::Job& job;
+    const job::Operation& operation;
     double kept;  // mm from the axis to the walls
-    RegionOffset walls;
-    Region2d centres;  // where the pass along the walls runs
-    EdgeTree centre_edges;
+    offset::RegionOffset walls;
+    offset::Region2d centres;  // where the pass along the walls runs
+    offset::EdgeTree centre_edges;
     CellGrid grid;
-    std::shared_ptr<const SurfaceModel> model;
-    FloorFollower finish;
-    FloorFollower rough;          // leaves the allowance
+    std::shared_ptr<const part_model::PartModel> model;
+    ClPathFitter finish;
+    ClPathFitter rough;           // leaves the allowance
     std::vector<double> heights;  // finish heights over cells
     std::vector<double> rough_heights;
 
-    PocketSpace(const Job& j, const Operation& o, const PocketWalls& pocket);
+    PocketSpace(const job::Job& j, const job::Operation& o, const PocketWalls& pocket);
 
     // The place of the pass along the walls nearest to a point. Precondition: there is such a pass.
     Vec2d on_wall_pass(Vec2d p) const;
@@ -47,7 +47,7 @@ struct PocketSpace {
 };
 
 // Heights of the tip over all cells inside, NaN elsewhere. Errors: InputError where no floor lies.
-std::vector<double> heights_over(const PocketSpace& pocket, const FloorFollower& follower);
+std::vector<double> heights_over(const PocketSpace& pocket, const ClPathFitter& follower);
 
 // All cells, in the order they are machined.
 Navigation finish_navigation(const PocketSpace& pocket);
@@ -78,4 +78,4 @@ struct LayerPlanes {
 // it.
 LayerPlanes layer_planes(const PocketSpace& pocket);
 
-}  // namespace cusp::host
+}  // namespace cusp::grid_pocket

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace cusp::host {
+namespace cusp::grid_pocket {
 std::vector<ProfilePoint> fit_chords(const std::vector<BandPoint>& band, double z)
 {
     std::vector<ProfilePoint> out{{band.front().s, z}};
@@ -34,4 +34,4 @@ std::vector<ProfilePoint> fit_chords(const std::vector<BandPoint>& band, double 
     return out;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::grid_pocket

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-namespace cusp::host {
+namespace cusp::grid_pocket {
 
 // Where the tip may be at one place of the run.
 struct BandPoint {
@@ -23,4 +23,4 @@ struct ProfilePoint {
 // band. O(n).
 std::vector<ProfilePoint> fit_chords(const std::vector<BandPoint>& band, double z);
 
-}  // namespace cusp::host
+}  // namespace cusp::grid_pocket

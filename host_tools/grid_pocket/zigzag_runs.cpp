@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-namespace cusp::host {
+namespace cusp::grid_pocket {
 namespace {
 
 Cell at(char axis, int line, int place)
@@ -136,4 +136,4 @@ std::vector<GridRun> zigzag_runs(const CellGrid& grid,
     return PickUp{gather(grid, axis, tracks, clear), axis}.order();
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::grid_pocket

@@ -7,7 +7,7 @@
 
 #include "host_tools/grid_pocket/grid_roughness.hpp"
 
-namespace cusp::host {
+namespace cusp::grid_pocket {
 
 struct GridRun {
     Cell first;
@@ -22,4 +22,4 @@ std::vector<GridRun> zigzag_runs(const CellGrid& grid,
                                  Tracks& tracks,
                                  const std::function<bool(Cell, Cell)>& clear);
 
-}  // namespace cusp::host
+}  // namespace cusp::grid_pocket

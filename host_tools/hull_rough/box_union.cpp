@@ -8,7 +8,7 @@
 #include <map>
 #include <tuple>
 
-namespace cusp::host {
+namespace cusp::hull_rough {
 namespace {
 
 struct Event {
@@ -205,4 +205,4 @@ std::vector<std::vector<Vec2d>> union_outline(const std::vector<Rectangle>& boxe
     return loops;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::hull_rough

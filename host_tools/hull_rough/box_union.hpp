@@ -6,7 +6,7 @@
 
 #include "host_tools/nurbs/nurbs.hpp"
 
-namespace cusp::host {
+namespace cusp::hull_rough {
 
 struct Rectangle {
     double x_min{};
@@ -24,4 +24,4 @@ double union_area(const std::vector<Rectangle>& boxes, const Rectangle& window);
 // Rectangles without area are left out.
 std::vector<std::vector<Vec2d>> union_outline(const std::vector<Rectangle>& boxes);
 
-}  // namespace cusp::host
+}  // namespace cusp::hull_rough

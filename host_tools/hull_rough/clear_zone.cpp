@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace cusp::host {
+namespace cusp::hull_rough {
 namespace {
 
 double distance(Vec2d p, const Rectangle& box)
@@ -129,4 +129,4 @@ bool ClearZone::room(Vec2d point, double extra) const
     return inside_field(point) && distance_holds(point, point, radius_ + extra);
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::hull_rough

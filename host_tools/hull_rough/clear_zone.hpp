@@ -6,7 +6,7 @@
 
 #include "host_tools/hull_rough/box_union.hpp"
 
-namespace cusp::host {
+namespace cusp::hull_rough {
 
 struct Interval {
     double begin{};
@@ -41,8 +41,8 @@ public:
 private:
     Rectangle field_;
     double radius_;
-    std::vector<std::vector<Rectangle>>
-        rows_;  // boxes by the rows, 2 radii high, that they reach into
+    // boxes by the rows, 2 radii high, that they reach into
+    std::vector<std::vector<Rectangle>> rows_;
 
     bool distance_holds(Vec2d a, Vec2d b, double distance) const;
     bool inside_field(Vec2d p) const;
@@ -52,4 +52,4 @@ private:
 // Distance between the segment and the rectangle; 0 where they meet.
 double distance(Vec2d a, Vec2d b, const Rectangle& box);
 
-}  // namespace cusp::host
+}  // namespace cusp::hull_rough

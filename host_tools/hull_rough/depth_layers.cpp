@@ -9,7 +9,7 @@
 #include <map>
 #include <utility>
 
-namespace cusp::host {
+namespace cusp::hull_rough {
 namespace {
 
 // Tops nearer than this are one plane; far below any depth of cut, far above rounding.
@@ -274,4 +274,4 @@ std::vector<double> least_leftover_planes(const LayerPlan& plan, DepthLimits lim
     return planes;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::hull_rough

@@ -5,17 +5,17 @@
 
 #include "host_tools/hull_rough/hull_patch.hpp"
 
-namespace cusp::host {
+namespace cusp::hull_rough {
 
 struct DepthLimits {
     double most{};  // mm, > 0: no layer is thicker
-    double
-        least{};  // mm, 0 <= least <= most: thinner layers are merged where the limit above allows
+    // mm, 0 <= least <= most: thinner layers are merged where the limit above allows
+    double least{};
 };
 
 struct LayerPlan {
-    std::vector<double>
-        planes;  // z, descending; planes[i] is the top of layer i, the last the bottom
+    // z, descending; planes[i] is the top of layer i, the last the bottom
+    std::vector<double> planes;
     std::vector<HullPatch> patches;  // the input, quartered where a layer was too thick
     int raw_layers{};                // before any was split or merged
     int split_layers{};              // after splitting, before merging
@@ -37,4 +37,4 @@ LayerPlan depth_layers(std::vector<HullPatch> patches,
 // where the limits allow no others.
 std::vector<double> least_leftover_planes(const LayerPlan& plan, DepthLimits limits);
 
-}  // namespace cusp::host
+}  // namespace cusp::hull_rough

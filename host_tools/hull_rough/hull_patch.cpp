@@ -4,7 +4,12 @@
 #include <algorithm>
 #include <utility>
 
-namespace cusp::host {
+namespace cusp::hull_rough {
+
+using nurbs::BezierPatch;
+using nurbs::Surface;
+using part_model::TrimRegion;
+
 namespace {
 
 struct Homogeneous {
@@ -222,4 +227,4 @@ std::vector<Rectangle> boxes_above(const std::vector<HullPatch>& patches, double
     return out;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::hull_rough

@@ -8,9 +8,9 @@
 
 #include "host_tools/hull_rough/box_union.hpp"
 #include "host_tools/nurbs/nurbs.hpp"
-#include "host_tools/surface_offset/trim_region.hpp"
+#include "host_tools/part_model/trim_region.hpp"
 
-namespace cusp::host {
+namespace cusp::hull_rough {
 
 // One Bezier patch by its control points alone; weights are positive, so the hull property holds.
 struct HullPatch {
@@ -20,8 +20,9 @@ struct HullPatch {
     std::vector<double> weights;
     double bottom{};  // least and greatest z of the control points
     double top{};
-    std::shared_ptr<const TrimRegion> trims{};  // none where no edge of its surface crosses it
-    std::array<double, 2> u{};                  // the patch in its surface's domain
+    // none where no edge of its surface crosses it
+    std::shared_ptr<const part_model::TrimRegion> trims{};
+    std::array<double, 2> u{};  // the patch in its surface's domain
     std::array<double, 2> v{};
 };
 
@@ -31,7 +32,7 @@ constexpr double kTrimError = 5e-4;
 
 // The Bezier patches of all surfaces. Patches that are trimmed away are left out; those that an
 // edge crosses are quartered up to four times, and the quarters that are trimmed away left out.
-std::vector<HullPatch> hull_patches(const std::vector<Surface>& surfaces);
+std::vector<HullPatch> hull_patches(const std::vector<nurbs::Surface>& surfaces);
 
 // The quarters of a patch, by de Casteljau at the middle of both parameters, without those that are
 // trimmed away.
@@ -49,4 +50,4 @@ std::optional<Rectangle> plan_box_above(const HullPatch& patch, double plane);
 // each patch whose top is above the plane. Boxes for a lower plane cover those for a higher one.
 std::vector<Rectangle> boxes_above(const std::vector<HullPatch>& patches, double plane, int levels);
 
-}  // namespace cusp::host
+}  // namespace cusp::hull_rough

@@ -9,7 +9,17 @@
 
 #include "host_tools/hull_rough/roughing.hpp"
 
-namespace cusp::host {
+namespace cusp::hull_rough {
+
+using job::Job;
+using job::Operation;
+using job::OutputForm;
+using job::Traversal;
+using nurbs::Surface;
+using toolpath::PlannedOperation;
+using toolpath::Tool;
+using toolpath::ToolShape;
+
 namespace {
 
 // A change by hand on a small mill; only the choice of cutters uses it.
@@ -75,10 +85,10 @@ DepthLimits depth_limits(const Job& job, const Operation& operation, const Tool&
 }
 
 // Width that the cutter clears but for ridges of this height, which a round corner leaves.
-double cleared_width(const Tool& tool, double ridge)
+double cleared_width(const Tool& tool, double scallop_height)
 {
     const double corner = tool.shape == ToolShape::kFlat ? 0.0 : tool.corner_radius;
-    const double height = std::min(corner, ridge);
+    const double height = std::min(corner, scallop_height);
     return 2 * (tool.radius - corner + std::sqrt(height * (2 * corner - height)));
 }
 
@@ -245,4 +255,4 @@ std::vector<PlannedOperation> plan_hull_rough(const Job& job, const Operation& o
     return out;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::hull_rough

@@ -10,10 +10,10 @@
 
 #include <vector>
 
-#include "host_tools/import/job.hpp"
+#include "host_tools/job/job.hpp"
 #include "host_tools/toolpath/toolpath.hpp"
 
-namespace cusp::host {
+namespace cusp::hull_rough {
 
 // Plans the operation: one result for each run of layers with the same cutter, from the top down.
 // Reports layers, patches, boxes, islands and what the choice of cutters saves.
@@ -21,6 +21,7 @@ namespace cusp::host {
 // Errors: InputError where a limit of depth, the overlap, the output form or the cutters can't be
 // used. Source: Chuang & Pan, "Rough cut tool path planning for B-spline surfaces using convex hull
 // boxes".
-std::vector<PlannedOperation> plan_hull_rough(const Job& job, const Operation& operation);
+std::vector<toolpath::PlannedOperation> plan_hull_rough(const job::Job& job,
+                                                        const job::Operation& operation);
 
-}  // namespace cusp::host
+}  // namespace cusp::hull_rough

@@ -10,7 +10,24 @@
 #include "host_tools/clearing/clearing.hpp"
 #include "host_tools/offset/edge_tree.hpp"
 
-namespace cusp::host {
+namespace cusp::hull_rough {
+
+using clearing::ClearingPass;
+using clearing::ClearingSettings;
+using clearing::LayerRun;
+using clearing::PassStart;
+using job::CutDirection;
+using offset::area;
+using offset::Box2d;
+using offset::Contour;
+using offset::Edge;
+using offset::EdgeTree;
+using offset::length;
+using offset::line_edge;
+using offset::Region2d;
+using offset::RegionOffset;
+using offset::reversed;
+
 namespace {
 
 Rectangle grown_box(const Rectangle& box, double by)
@@ -58,7 +75,7 @@ std::vector<Edge> edges_of(const Chain& chain)
     return out;
 }
 
-// The contour begun anew at a point on its edge `first`.
+// The contour begun anew at a point on its edge `wall_clearance`.
 std::vector<Edge> begun_at(const Contour& contour, std::size_t first, Vec2d point)
 {
     std::vector<Edge> out;
@@ -116,13 +133,13 @@ private:
     std::optional<EdgeTree> tree_;
 };
 
-std::vector<LevelRun> outline_runs(const std::vector<Contour>& outlines,
-                                   const std::vector<LevelRun>& lines,
+std::vector<LayerRun> outline_runs(const std::vector<Contour>& outlines,
+                                   const std::vector<LayerRun>& lines,
                                    bool climb)
 {
-    std::vector<LevelRun> out;
+    std::vector<LayerRun> out;
     Beginnings beginnings{outlines};
-    for (const LevelRun& run : lines) {
+    for (const LayerRun& run : lines) {
         for (const Edge& edge : run.edges) {
             beginnings.offer(edge.start);
             beginnings.offer(edge.end);
@@ -130,7 +147,7 @@ std::vector<LevelRun> outline_runs(const std::vector<Contour>& outlines,
     }
     for (std::size_t i = 0; i < outlines.size(); ++i) {
         const auto& begin = beginnings.of(i);
-        LevelRun run{begin ? begun_at(outlines[i], begin->first, begin->second) : outlines[i],
+        LayerRun run{begin ? begun_at(outlines[i], begin->first, begin->second) : outlines[i],
                      begin.has_value()};
         // The contour has the free region on its left, the island on its right: climb with a
         // spindle that turns clockwise.
@@ -143,7 +160,7 @@ std::vector<LevelRun> outline_runs(const std::vector<Contour>& outlines,
 }
 
 // Next the run whose start is nearest; lines may be cut either way.
-std::vector<LevelRun> in_near_order(std::vector<LevelRun> runs, bool either_way)
+std::vector<LayerRun> in_near_order(std::vector<LayerRun> runs, bool either_way)
 {
     // Quadratic: beyond this many the order of the lines, which is near too, stays.
     constexpr std::size_t kMost = 2000;
@@ -172,10 +189,10 @@ std::vector<LevelRun> in_near_order(std::vector<LevelRun> runs, bool either_way)
     return runs;
 }
 
-double length_of(const std::vector<LevelRun>& runs)
+double length_of(const std::vector<LayerRun>& runs)
 {
     double sum = 0;
-    for (const LevelRun& run : runs) {
+    for (const LayerRun& run : runs) {
         sum += length(Contour{run.edges});
     }
     return sum;
@@ -221,15 +238,15 @@ bool keeps_clear(const std::vector<Edge>& path, const ClearZone& zone, double to
 
 // Loops parallel to the outlines, in the order of the project's pockets; linked ones make one run.
 // Loops on the border of the field run outside the stock and are left out.
-std::vector<LevelRun> parallel_runs(const Region2d& region,
+std::vector<LayerRun> parallel_runs(const Region2d& region,
                                     const ClearZone& zone,
                                     const LayerSettings& settings)
 {
     ClearingSettings clearing;
-    clearing.first = zone.radius();
-    clearing.step = settings.step;
+    clearing.wall_clearance = zone.radius();
+    clearing.stepover = settings.step;
     clearing.direction = settings.direction;
-    std::vector<LevelRun> out;
+    std::vector<LayerRun> out;
     bool linked = false;  // the pass before was cut, so that a link from it is one
     for (const ClearingPass& pass : clear_region(region, clearing).passes) {
         const bool inside = !on_border(pass.path, zone.field());
@@ -249,15 +266,15 @@ std::vector<LevelRun> parallel_runs(const Region2d& region,
     return out;
 }
 
-std::vector<LevelRun> zigzag_runs(const ClearZone& zone,
+std::vector<LayerRun> zigzag_runs(const ClearZone& zone,
                                   const Rectangle& stock,
                                   const LayerSettings& settings)
 {
     ZigzagLayout layout = zigzag_layout(stock.y_min, stock.y_max, settings.step);
     layout.one_way = settings.one_way;
-    std::vector<LevelRun> out;
+    std::vector<LayerRun> out;
     for (const Chain& chain : zigzag_chains(zone, layout)) {
-        LevelRun run{edges_of(chain), false};
+        LayerRun run{edges_of(chain), false};
         if (!run.edges.empty()) {
             out.push_back(std::move(run));
         }
@@ -294,13 +311,13 @@ LayerClearing clear_layer(const std::vector<Rectangle>& boxes,
     if (settings.contour) {
         out.runs = parallel_runs(region, *out.zone, settings);
         // Offsets have no proof of their own: each pass is checked against the boxes.
-        out.by_contours = std::all_of(out.runs.begin(), out.runs.end(), [&](const LevelRun& run) {
+        out.by_contours = std::all_of(out.runs.begin(), out.runs.end(), [&](const LayerRun& run) {
             return keeps_clear(run.edges, *out.zone, settings.tolerance);
         });
     }
     const auto proven_runs = [&] {
-        std::vector<LevelRun> runs = zigzag_runs(*out.zone, stock, settings);
-        std::vector<LevelRun> around = in_near_order(
+        std::vector<LayerRun> runs = zigzag_runs(*out.zone, stock, settings);
+        std::vector<LayerRun> around = in_near_order(
             outline_runs(outlines, runs, settings.direction == CutDirection::kClimb), false);
         runs.insert(runs.end(), around.begin(), around.end());
         return runs;
@@ -308,34 +325,34 @@ LayerClearing clear_layer(const std::vector<Rectangle>& boxes,
     if (!out.by_contours) {
         out.runs = proven_runs();
     }
-    BareSpots bare = bare_spots(out.runs, *out.centres, settings.clears, stock);
-    if (!bare.squares.empty() && out.by_contours) {
-        out.closed_area = bare.area;
-        const std::vector<LevelRun> rest =
-            in_near_order(runs_near(proven_runs(), bare, settings.clears), false);
+    UncoveredSpots uncovered = uncovered_spots(out.runs, *out.centres, settings.clears, stock);
+    if (!uncovered.squares.empty() && out.by_contours) {
+        out.closed_area = uncovered.area;
+        const std::vector<LayerRun> rest =
+            in_near_order(runs_near(proven_runs(), uncovered, settings.clears), false);
         out.runs.insert(out.runs.end(), rest.begin(), rest.end());
-        bare = bare_spots(out.runs, *out.centres, settings.clears, stock);
+        uncovered = uncovered_spots(out.runs, *out.centres, settings.clears, stock);
     }
-    out.left = std::move(bare);
+    out.left = std::move(uncovered);
     out.length = length_of(out.runs);
     return out;
 }
 
-std::vector<LevelRun> rest_runs(const LayerClearing& clearing,
-                                double radius,
-                                const std::vector<ClearedBy>& before)
+std::vector<LayerRun> uncut_runs(const LayerClearing& clearing,
+                                 double radius,
+                                 const std::vector<ClearedBy>& before)
 {
     // A point is done where the places of a cutter before are so near. Between looked-at points the
     // distance changes by no more than the way between them.
     const double step = radius / 16;
     const auto done_by = [&](const ClearedBy& by, Vec2d from, Vec2d to) {
-        const double least = step / 2 - by.nested;
+        const double least = step / 2 - by.rest_offset;
         return by.clearing->centres->clearance(from) >= least &&
                by.clearing->centres->clearance(to) >= least;
     };
-    std::vector<LevelRun> out;
-    for (const LevelRun& run : clearing.runs) {
-        LevelRun part;
+    std::vector<LayerRun> out;
+    for (const LayerRun& run : clearing.runs) {
+        LayerRun part;
         bool done_before = false;
         for (const Edge& edge : run.edges) {
             const int pieces = std::max(1, static_cast<int>(std::ceil(length(edge) / step)));
@@ -346,7 +363,7 @@ std::vector<LevelRun> rest_runs(const LayerClearing& clearing,
                     std::any_of(before.begin(), before.end(),
                                 [&](const ClearedBy& by) { return done_by(by, from, to); });
                 if (!done && part.edges.empty()) {
-                    part.starts_in_cut_metal = done_before;
+                    part.starts_in_cleared_stock = done_before;
                 }
                 if (!done) {
                     part.edges.push_back(between(edge, from, to));
@@ -364,4 +381,4 @@ std::vector<LevelRun> rest_runs(const LayerClearing& clearing,
     return out;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::hull_rough

@@ -8,7 +8,14 @@
 
 #include "host_tools/offset/edge_tree.hpp"
 
-namespace cusp::host {
+namespace cusp::hull_rough {
+
+using clearing::LayerRun;
+using offset::Edge;
+using offset::EdgeTree;
+using offset::line_edge;
+using offset::RegionOffset;
+
 namespace {
 
 constexpr double kSmallestSquare = 1.0 / 64;  // of the reach
@@ -16,10 +23,10 @@ constexpr double kSmallestSquare = 1.0 / 64;  // of the reach
 // The outermost of what can be reached lies beside the outlines, which are runs themselves.
 constexpr double kReachLooked = 0.97;  // of the reach
 
-std::vector<Edge> edges_of(const std::vector<LevelRun>& runs)
+std::vector<Edge> edges_of(const std::vector<LayerRun>& runs)
 {
     std::vector<Edge> out;
-    for (const LevelRun& run : runs) {
+    for (const LayerRun& run : runs) {
         out.insert(out.end(), run.edges.begin(), run.edges.end());
     }
     return out;
@@ -40,12 +47,12 @@ std::array<Vec2d, 4> corners_of(const Square& square)
 
 class Search {
 public:
-    Search(const std::vector<LevelRun>& runs, const RegionOffset& centres, double reach)
+    Search(const std::vector<LayerRun>& runs, const RegionOffset& centres, double reach)
         : edges_{edges_of(runs)}, tree_{edges_}, centres_{centres}, reach_{reach}
     {
     }
 
-    BareSpots over(const Rectangle& window)
+    UncoveredSpots over(const Rectangle& window)
     {
         const double side = reach_ * 2;
         for (double x = window.x_min + side / 2; x - side / 2 < window.x_max; x += side) {
@@ -63,7 +70,7 @@ private:
     const RegionOffset& centres_;
     double reach_;
     std::vector<Square> stack_;
-    BareSpots found_;
+    UncoveredSpots found_;
 
     void empty_stack(const Rectangle& window)
     {
@@ -155,31 +162,31 @@ private:
 
 }  // namespace
 
-BareSpots bare_spots(const std::vector<LevelRun>& runs,
-                     const RegionOffset& centres,
-                     double reach,
-                     const Rectangle& window)
+UncoveredSpots uncovered_spots(const std::vector<LayerRun>& runs,
+                               const RegionOffset& centres,
+                               double reach,
+                               const Rectangle& window)
 {
     return Search{runs, centres, reach}.over(window);
 }
 
-std::vector<LevelRun> runs_near(const std::vector<LevelRun>& runs,
-                                const BareSpots& bare,
+std::vector<LayerRun> runs_near(const std::vector<LayerRun>& runs,
+                                const UncoveredSpots& uncovered,
                                 double reach)
 {
     std::vector<Edge> diagonals;
-    for (const Rectangle& s : bare.squares) {
+    for (const Rectangle& s : uncovered.squares) {
         diagonals.push_back(line_edge({s.x_min, s.y_min}, {s.x_max, s.y_max}));
     }
     const EdgeTree squares{diagonals};
-    std::vector<LevelRun> out;
-    LevelRun part;
+    std::vector<LayerRun> out;
+    LayerRun part;
     const auto close_part = [&] {
         if (!part.edges.empty()) {
             out.push_back(std::exchange(part, {}));
         }
     };
-    for (const LevelRun& run : runs) {
+    for (const LayerRun& run : runs) {
         for (const Edge& edge : run.edges) {
             const int pieces = 1 + static_cast<int>(length(edge) / reach);
             Vec2d from = edge.start;
@@ -200,4 +207,4 @@ std::vector<LevelRun> runs_near(const std::vector<LevelRun>& runs,
     return out;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::hull_rough

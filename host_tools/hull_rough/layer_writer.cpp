@@ -2,11 +2,22 @@
 #include <algorithm>
 #include <utility>
 
-#include "host_tools/clearing/level_moves.hpp"
-#include "host_tools/clearing/nested_tools.hpp"
+#include "host_tools/clearing/layer_toolpath_writer.hpp"
+#include "host_tools/clearing/rest_between_tools.hpp"
 #include "host_tools/hull_rough/roughing.hpp"
 
-namespace cusp::host {
+namespace cusp::hull_rough {
+
+using clearing::LayerRun;
+using clearing::LayerSpace;
+using clearing::LayerToolpathWriter;
+using clearing::leaves_no_rest;
+using clearing::rest_offset_between_tools;
+using job::OutputForm;
+using toolpath::PlannedOperation;
+using toolpath::Tool;
+using toolpath::Toolpath;
+
 namespace {
 
 // The cutters that have cleared each layer so far, in order. What the first leaves is known to the
@@ -29,21 +40,21 @@ public:
 
     // What the cutters before left of a layer, so that this one can work below it. Returns false
     // where they left nothing.
-    bool clear_rest(std::size_t layer, const std::vector<std::size_t>& before)
+    bool clear_uncut(std::size_t layer, const std::vector<std::size_t>& before)
     {
         const Tool& tool = work_.tools[tool_];
         std::vector<ClearedBy> cleared;
         for (std::size_t i = 0; i < before.size(); ++i) {
             const Tool& other = work_.tools[before[i]];
-            const double ridge = i == 0 ? work_.rest_ridge(layer) : 0.0;
-            if (before[i] == tool_ || leaves_nothing_for(other, tool, ridge)) {
+            const double scallop_height = i == 0 ? work_.rest_ridge(layer) : 0.0;
+            if (before[i] == tool_ || leaves_no_rest(other, tool, scallop_height)) {
                 return false;
             }
-            if (const auto nested = nested_reach(other, tool, ridge)) {
+            if (const auto nested = rest_offset_between_tools(other, tool, scallop_height)) {
                 cleared.push_back({&work_.clearings[layer][before[i]], *nested});
             }
         }
-        add(rest_runs(work_.clearings[layer][tool_], tool.radius, cleared), layer);
+        add(uncut_runs(work_.clearings[layer][tool_], tool.radius, cleared), layer);
         return true;
     }
 
@@ -66,21 +77,21 @@ private:
     const Roughing& work_;
     std::size_t tool_;
     Toolpath path_;
-    LevelMoves moves_;
+    LayerToolpathWriter moves_;
     int passes_{0};
 
-    static LevelMoves::Settings settings(const Roughing& work)
+    static LayerToolpathWriter::Settings settings(const Roughing& work)
     {
         return {std::max(work.stock.top, work.job.stock_top) + work.job.clearance,
                 work.operation.entry, work.operation.output == OutputForm::kArcs,
                 std::max(work.operation.plan_tolerance, kLeastTolerance) / 2};
     }
 
-    void add(const std::vector<LevelRun>& runs, std::size_t layer)
+    void add(const std::vector<LayerRun>& runs, std::size_t layer)
     {
         const ClearZone& zone = *work_.clearings[layer][tool_].zone;
         LayerSpace space{work_.top(layer), work_.bottom(layer), zone.radius(), {}, {}, {}};
-        space.room = [&zone](Vec2d place, double extra) {
+        space.has_room = [&zone](Vec2d place, double extra) {
             return zone.room(place, extra);
         };
         space.beside_stock = [&](Vec2d place) {
@@ -91,8 +102,9 @@ private:
                 return work_.clearings[layer - 1][tool_].zone->clear(from, to);
             };
         }
-        space.ridge = std::max(work_.left_over(layer), layer > 0 ? work_.left_over(layer - 1) : 0);
-        for (const LevelRun& run : runs) {
+        space.scallop_height =
+            std::max(work_.left_over(layer), layer > 0 ? work_.left_over(layer - 1) : 0);
+        for (const LayerRun& run : runs) {
             moves_.add(run, space);
             ++passes_;
         }
@@ -110,7 +122,7 @@ std::vector<PlannedOperation> write_layers(const Roughing& work)
         const std::size_t tool = of_layer[first];
         GroupWriter writer{work, tool};
         for (std::size_t layer = 0; layer < first; ++layer) {
-            if (writer.clear_rest(layer, cutters[layer])) {
+            if (writer.clear_uncut(layer, cutters[layer])) {
                 cutters[layer].push_back(tool);
             }
         }
@@ -126,4 +138,4 @@ std::vector<PlannedOperation> write_layers(const Roughing& work)
     return out;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::hull_rough

@@ -7,7 +7,13 @@
 #include "firmware/base/math.hpp"
 #include "host_tools/hull_rough/roughing.hpp"
 
-namespace cusp::host {
+namespace cusp::hull_rough {
+
+using job::EntryKind;
+using toolpath::OperationStats;
+using toolpath::PlannedOperation;
+using toolpath::Tool;
+
 namespace {
 
 // What the cutter meets at most: how deep, how wide, and on its way in.
@@ -124,4 +130,4 @@ void add_report(const Roughing& work, std::vector<PlannedOperation>& out, double
     }
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::hull_rough

@@ -7,10 +7,10 @@
 #include "host_tools/hull_rough/depth_layers.hpp"
 #include "host_tools/hull_rough/layer_clearing.hpp"
 #include "host_tools/hull_rough/tool_choice.hpp"
-#include "host_tools/import/job.hpp"
+#include "host_tools/job/job.hpp"
 #include "host_tools/toolpath/toolpath.hpp"
 
-namespace cusp::host {
+namespace cusp::hull_rough {
 
 // Chords on rounded corners keep this much, mm, so that G-code rounded to a micrometre still does.
 constexpr double kLeastTolerance = 2e-3;
@@ -26,9 +26,9 @@ struct StockBox {
 
 // Everything about one operation that its steps share.
 struct Roughing {
-    const Job& job;
-    const Operation& operation;
-    std::vector<Tool> tools;  // largest first
+    const job::Job& job;
+    const job::Operation& operation;
+    std::vector<toolpath::Tool> tools;  // largest first
     StockBox stock;
     LayerPlan plan;
     double most_depth;                                  // mm: of a layer
@@ -53,7 +53,7 @@ struct Roughing {
     bool round() const
     {
         return std::any_of(tools.begin(), tools.end(),
-                           [](const Tool& t) { return t.corner_radius > 0; });
+                           [](const toolpath::Tool& t) { return t.corner_radius > 0; });
     }
 
     // How much of a ridge one cutter may leave that another counts as cleared; the rest of the
@@ -77,16 +77,16 @@ struct Roughing {
 };
 
 // How the cutter clears the layer: steps that leave no higher ridges than the layer may have.
-LayerSettings layer_settings(const Roughing& work, std::size_t layer, const Tool& tool);
+LayerSettings layer_settings(const Roughing& work, std::size_t layer, const toolpath::Tool& tool);
 
 // Writes all layers with the cutters chosen: one result for each run of layers with the same
 // cutter.
-std::vector<PlannedOperation> write_layers(const Roughing& work);
+std::vector<toolpath::PlannedOperation> write_layers(const Roughing& work);
 
 // Adds the statistics, warnings and comments to all results. seconds: that planning took.
-void add_report(const Roughing& work, std::vector<PlannedOperation>& out, double seconds);
+void add_report(const Roughing& work, std::vector<toolpath::PlannedOperation>& out, double seconds);
 
 // A number for people, without idle zeros.
 std::string plain_number(double value);
 
-}  // namespace cusp::host
+}  // namespace cusp::hull_rough

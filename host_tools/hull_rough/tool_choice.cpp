@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace cusp::host {
+namespace cusp::hull_rough {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -58,4 +58,4 @@ ToolChoice choose_tools(const std::vector<std::vector<ToolOffer>>& offers, doubl
     return choice;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::hull_rough

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace cusp::host {
+namespace cusp::hull_rough {
 
 struct ToolOffer {
     double seconds{};       // to clear the layer
@@ -25,4 +25,4 @@ struct ToolChoice {
 constexpr double kLeastShare = 0.99;
 ToolChoice choose_tools(const std::vector<std::vector<ToolOffer>>& offers, double change_seconds);
 
-}  // namespace cusp::host
+}  // namespace cusp::hull_rough

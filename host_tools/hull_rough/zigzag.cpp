@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <optional>
 
-namespace cusp::host {
+namespace cusp::hull_rough {
 namespace {
 
 struct OpenChain {
@@ -112,4 +112,4 @@ std::vector<Chain> zigzag_chains(const ClearZone& zone, const ZigzagLayout& layo
     return builder.take();
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::hull_rough

@@ -5,7 +5,7 @@
 
 #include "host_tools/hull_rough/clear_zone.hpp"
 
-namespace cusp::host {
+namespace cusp::hull_rough {
 
 // A run of the cutter that never leaves the zone: consecutive points are joined by clear straight
 // moves.
@@ -26,4 +26,4 @@ ZigzagLayout zigzag_layout(double y_min, double y_max, double step);
 // next line. Every stretch is in exactly one chain.
 std::vector<Chain> zigzag_chains(const ClearZone& zone, const ZigzagLayout& layout);
 
-}  // namespace cusp::host
+}  // namespace cusp::hull_rough

@@ -8,7 +8,9 @@
 
 #include "fmt/format.h"
 
-namespace cusp::host {
+namespace cusp::import {
+
+using nurbs::Surface;
 
 std::vector<Surface> read_cad_surfaces(const std::string& file)
 {
@@ -30,4 +32,4 @@ std::vector<Surface> read_cad_surfaces(const std::string& file)
     return surfaces;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::import

@@ -9,7 +9,7 @@
 
 #include "host_tools/nurbs/nurbs.hpp"
 
-namespace cusp::host {
+namespace cusp::import {
 
 // The unit is the file's own; the result is in mm. Analytic faces become rational B-splines,
 // exactly; their edges' curves in (u, v) are Open CASCADE's. Faces of solids that look nowhere up
@@ -18,10 +18,10 @@ namespace cusp::host {
 //
 // Errors: InputError with the file and the reason: no such file, no STEP or IGES, no face that
 // looks up, trims that contradict each other, no libcusp_cad.so.
-std::vector<Surface> read_cad_surfaces(const std::string& file);
+std::vector<nurbs::Surface> read_cad_surfaces(const std::string& file);
 
-}  // namespace cusp::host
+}  // namespace cusp::import
 
 // The door of libcusp_cad.so. Its other calls are answered by the program that loads it.
 extern "C" void cusp_read_cad_surfaces(const std::string& file,
-                                       std::vector<cusp::host::Surface>& surfaces);
+                                       std::vector<cusp::nurbs::Surface>& surfaces);

@@ -9,13 +9,13 @@
 #include <unistd.h>
 
 #include "host_tools/import/cad_surfaces.hpp"
-#include "host_tools/import/loop_shape.hpp"
 #include "host_tools/import/nurbs_validity.hpp"
 #include "host_tools/import/path_ending.hpp"
-#include "host_tools/import/text_of_file.hpp"
 #include "host_tools/import/trim_loops.hpp"
 #include "host_tools/import/trim_repair.hpp"
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/input_error/text_of_file.hpp"
+#include "host_tools/job/loop_shape.hpp"
 #include "host_tools/nurbs/knot_insertion.hpp"
 
 #include "fmt/format.h"
@@ -53,7 +53,14 @@
 #include "opencascade/XSAlgo_AlgoContainer.hxx"
 #include "opencascade/XSControl_WorkSession.hxx"
 
-namespace cusp::host {
+namespace cusp::import {
+
+using job::loop_polyline;
+using job::signed_area;
+using nurbs::Curve;
+using nurbs::Surface;
+using nurbs::SurfacePoint;
+
 namespace {
 
 // Normals below this rise stand upright.
@@ -457,15 +464,15 @@ std::vector<Surface> surfaces_with_fewest_repairs(const std::string& file)
 }
 
 }  // namespace
-}  // namespace cusp::host
+}  // namespace cusp::import
 
 extern "C" void cusp_read_cad_surfaces(const std::string& file,
-                                       std::vector<cusp::host::Surface>& surfaces)
+                                       std::vector<cusp::nurbs::Surface>& surfaces)
 {
     try {
-        surfaces = cusp::host::surfaces_with_fewest_repairs(file);
+        surfaces = cusp::import::surfaces_with_fewest_repairs(file);
     } catch (const Standard_Failure& failure) {
-        throw cusp::host::InputError(
+        throw cusp::InputError(
             fmt::format("{}: Open CASCADE gave up: {}", file, failure.GetMessageString()));
     }
 }

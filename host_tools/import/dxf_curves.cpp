@@ -15,7 +15,10 @@
 
 #include "fmt/format.h"
 
-namespace cusp::host {
+namespace cusp::import {
+
+using nurbs::Curve;
+
 namespace {
 
 constexpr double kLeastLength = 1e-9;
@@ -416,4 +419,4 @@ std::vector<Curve> read_dxf_curves(const std::string& file,
     return CurveMaker{drawing, layer}.read();
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::import

@@ -8,7 +8,7 @@
 
 #include "host_tools/nurbs/nurbs.hpp"
 
-namespace cusp::host {
+namespace cusp::import {
 
 // millimetres  of one unit of the drawing, unless its $INSUNITS says millimetres or inches itself
 //              (other units are what drawing programs write unasked)
@@ -20,12 +20,12 @@ namespace cusp::host {
 // Errors: InputError with the line of the file: no DXF, an unknown block, blocks more than 16 deep,
 // broken numbers, an entity of another kind (hatches, text and dimensions are skipped), a mesh, a
 // spline without control points.
-std::vector<Curve> read_dxf_curves(const std::string& file,
-                                   double millimetres,
-                                   const std::string& layer = "");
+std::vector<nurbs::Curve> read_dxf_curves(const std::string& file,
+                                          double millimetres,
+                                          const std::string& layer = "");
 
 // The arc about `centre` from an angle on, counter-clockwise for a positive sweep, radians.
 // Precondition: radius > 0, 0 < |sweep| <= 2 pi.
-Curve arc_curve(Vec2d centre, double radius, double start, double sweep);
+nurbs::Curve arc_curve(Vec2d centre, double radius, double start, double sweep);
 
-}  // namespace cusp::host
+}  // namespace cusp::import

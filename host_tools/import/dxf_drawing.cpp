@@ -5,12 +5,12 @@
 #include <charconv>
 #include <cmath>
 
-#include "host_tools/import/text_of_file.hpp"
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/input_error/text_of_file.hpp"
 
 #include "fmt/format.h"
 
-namespace cusp::host {
+namespace cusp::import {
 namespace {
 
 std::string_view trimmed(std::string_view text)
@@ -214,4 +214,4 @@ std::vector<double> DxfDrawing::values(const DxfEntity& entity, int code) const
     return out;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::import

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-namespace cusp::host {
+namespace cusp::import {
 
 struct DxfGroup {
     int code;
@@ -75,4 +75,4 @@ private:
     std::vector<DxfEntity> entities_;
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::import

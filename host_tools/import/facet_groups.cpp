@@ -9,9 +9,13 @@
 #include <unordered_map>
 #include <utility>
 
-#include "host_tools/import/loop_shape.hpp"
+#include "host_tools/job/loop_shape.hpp"
 
-namespace cusp::host {
+namespace cusp::import {
+
+using job::crossing_of;
+using job::signed_area;
+
 namespace {
 
 using Triangle = std::array<Vec3d, 3>;
@@ -354,4 +358,4 @@ std::optional<std::vector<FacetGroup>> facet_groups(const Facets& facets)
     return out;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::import

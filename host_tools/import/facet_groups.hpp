@@ -7,7 +7,7 @@
 #include "host_tools/import/stl_facets.hpp"
 #include "host_tools/nurbs/nurbs.hpp"
 
-namespace cusp::host {
+namespace cusp::import {
 
 struct FacetGroup {
     Facets facets;
@@ -23,4 +23,4 @@ struct FacetGroup {
 // themselves, more than 200 groups.
 std::optional<std::vector<FacetGroup>> facet_groups(const Facets& facets);
 
-}  // namespace cusp::host
+}  // namespace cusp::import

@@ -4,15 +4,19 @@
 #include <cmath>
 
 #include "host_tools/import/nurbs_validity.hpp"
-#include "host_tools/import/text_of_file.hpp"
 #include "host_tools/import/trim_loops.hpp"
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/input_error/text_of_file.hpp"
 #include "host_tools/nurbs/knot_insertion.hpp"
 
 #include "fmt/format.h"
 #include "nlohmann/json.hpp"
 
-namespace cusp::host {
+namespace cusp::import {
+
+using nurbs::Curve;
+using nurbs::Surface;
+
 namespace {
 
 using Json = nlohmann::json;
@@ -223,4 +227,4 @@ std::vector<Curve> read_json_curves(const std::string& file, double millimetres)
     return curves;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::import

@@ -6,13 +6,13 @@
 
 #include "host_tools/nurbs/nurbs.hpp"
 
-namespace cusp::host {
+namespace cusp::import {
 
 // millimetres  of one unit of the file: 1 or 25.4
 //
 // Returns valid shapes with clamped ends (nurbs_validity.hpp), surfaces with their trims.
 // Errors: InputError naming file, shape, quantity, value and limit.
-std::vector<Surface> read_json_surfaces(const std::string& file, double millimetres);
-std::vector<Curve> read_json_curves(const std::string& file, double millimetres);
+std::vector<nurbs::Surface> read_json_surfaces(const std::string& file, double millimetres);
+std::vector<nurbs::Curve> read_json_curves(const std::string& file, double millimetres);
 
-}  // namespace cusp::host
+}  // namespace cusp::import

@@ -7,7 +7,10 @@
 
 #include "host_tools/nurbs/knot_insertion.hpp"
 
-namespace cusp::host {
+namespace cusp::import {
+
+using nurbs::Surface;
+
 namespace {
 
 using Triangle = std::array<Vec3d, 3>;
@@ -377,15 +380,15 @@ Field::Missing Field::missing() const
 void Field::lift(double tolerance)
 {
     const Missing most = missing();
-    const std::vector<double>& felt = goes_on_ ? most.square : most.up;
+    const std::vector<double>& tracked = goes_on_ ? most.square : most.up;
     std::vector<double> lifted = controls_;
     std::size_t loose = 0;
     for (int i = 0; i < nx_; ++i) {
         for (int j = 0; j < ny_; ++j) {
             const auto cell = static_cast<std::size_t>(i * ny_ + j);
             const double add = most.up[cell];
-            most_lift_ = std::max(most_lift_, felt[cell]);
-            loose += felt[cell] > tolerance ? 1U : 0U;
+            most_lift_ = std::max(most_lift_, tracked[cell]);
+            loose += tracked[cell] > tolerance ? 1U : 0U;
             for (int k = i - 1; k <= i + 2; ++k) {
                 for (int m = j - 1; m <= j + 2; ++m) {
                     double& z = lifted[place(k, m)];
@@ -478,4 +481,4 @@ HeightField height_patch(const Facets& facets, double tolerance)
 
 double overhang_area(const Facets& facets) { return overhang(facets, box_of(facets).z0); }
 
-}  // namespace cusp::host
+}  // namespace cusp::import

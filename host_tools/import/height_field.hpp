@@ -4,12 +4,12 @@
 #include "host_tools/import/stl_facets.hpp"
 #include "host_tools/nurbs/nurbs.hpp"
 
-namespace cusp::host {
+namespace cusp::import {
 
 struct HeightField {
     // Bicubic over the mesh's box in x and y; u runs along x, v along y, both in mm. Nowhere below
     // the mesh, so what clears it clears the mesh.
-    Surface surface;
+    nurbs::Surface surface;
     double cell{};           // mm between knots
     double lift{};           // mm: bound of what was added to the smooth fit, anywhere
     double loose_share{};    // of the cells, where more than the tolerance was added: steps, edges
@@ -35,4 +35,4 @@ HeightField height_patch(const Facets& facets, double tolerance);
 // mm^2, seen from below: facets that look down over the mesh's base.
 double overhang_area(const Facets& facets);
 
-}  // namespace cusp::host
+}  // namespace cusp::import

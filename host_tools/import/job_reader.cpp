@@ -6,19 +6,35 @@
 #include <tuple>
 #include <utility>
 
-#include "host_tools/import/job.hpp"
+#include "host_tools/import/import.hpp"
 #include "host_tools/import/job_table.hpp"
 #include "host_tools/import/job_text.hpp"
 #include "host_tools/import/operation_check.hpp"
 #include "host_tools/import/owned_keys.hpp"
 #include "host_tools/import/path_ending.hpp"
-#include "host_tools/import/text_of_file.hpp"
 #include "host_tools/import/trim_loops.hpp"
-#include "host_tools/surface_offset/model_intersection.hpp"
+#include "host_tools/input_error/text_of_file.hpp"
+#include "host_tools/job/job.hpp"
+#include "host_tools/part_model/model_intersection.hpp"
 
 #include "fmt/format.h"
 
-namespace cusp::host {
+namespace cusp::import {
+
+using job::CutDirection;
+using job::EntryKind;
+using job::Job;
+using job::Loop;
+using job::Operation;
+using job::OutputForm;
+using job::ToleranceSide;
+using job::Traversal;
+using nurbs::Curve;
+using nurbs::Surface;
+using part_model::intersection_of;
+using toolpath::Tool;
+using toolpath::ToolShape;
+
 namespace {
 
 constexpr double kMillimetresPerInch = 25.4;
@@ -468,4 +484,4 @@ Job JobReader::read()
 
 Job read_job(const std::string& file) { return JobReader{file}.read(); }
 
-}  // namespace cusp::host
+}  // namespace cusp::import

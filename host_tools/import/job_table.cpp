@@ -9,7 +9,7 @@
 #include "fmt/format.h"
 #include "fmt/ranges.h"
 
-namespace cusp::host {
+namespace cusp::import {
 namespace {
 
 // Letters to insert, remove or replace to make one word of the other.
@@ -217,4 +217,4 @@ void JobTable::refuse_unknown_keys() const
     }
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::import

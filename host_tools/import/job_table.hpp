@@ -10,7 +10,7 @@
 #define TOML_ASSERT(condition) static_cast<void>(0)
 #include "toml++/toml.h"
 
-namespace cusp::host {
+namespace cusp::import {
 
 // Which numbers a key may hold.
 struct Range {
@@ -60,4 +60,4 @@ private:
     std::vector<std::string> asked_;
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::import

@@ -8,7 +8,7 @@
 
 #include "fmt/format.h"
 
-namespace cusp::host {
+namespace cusp::import {
 namespace {
 
 constexpr std::string_view kByteOrderMark{"\xEF\xBB\xBF"};
@@ -58,4 +58,4 @@ void check_plain_text(const std::string& text, const std::string& file)
     }
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::import

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace cusp::host {
+namespace cusp::import {
 
 // Letters beyond ASCII belong into strings and comments only: in TOML no key or value has others,
 // and toml++ 3.3 runs into a place it calls unreachable where one follows a value.
@@ -11,4 +11,4 @@ namespace cusp::host {
 // Throws InputError with the line. A byte order mark at the start is no letter.
 void check_plain_text(const std::string& text, const std::string& file);
 
-}  // namespace cusp::host
+}  // namespace cusp::import

@@ -8,9 +8,16 @@
 
 #include "host_tools/import/facet_groups.hpp"
 #include "host_tools/import/height_field.hpp"
-#include "host_tools/import/loop_shape.hpp"
+#include "host_tools/job/loop_shape.hpp"
 
-namespace cusp::host {
+namespace cusp::import {
+
+using job::Loop;
+using job::loop_polyline;
+using job::signed_area;
+using nurbs::Curve;
+using nurbs::Surface;
+
 namespace {
 
 constexpr double kPlane = 1e-3;  // mm off a plane, at most, and a tenth of the tolerance
@@ -167,4 +174,4 @@ std::optional<MeshPatches> mesh_patches(const Facets& facets, double tolerance)
     return out;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::import

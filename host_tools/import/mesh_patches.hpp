@@ -7,10 +7,10 @@
 #include "host_tools/import/stl_facets.hpp"
 #include "host_tools/nurbs/nurbs.hpp"
 
-namespace cusp::host {
+namespace cusp::import {
 
 struct MeshPatches {
-    std::vector<Surface> surfaces;
+    std::vector<nurbs::Surface> surfaces;
     double cell{};         // mm between knots of the coarsest curved one; 0: all are plane
     double lift{};         // mm: bound of what was added along the normal
     double loose_share{};  // of the cells of curved ones, where that is more than the tolerance
@@ -26,4 +26,4 @@ struct MeshPatches {
 // None where facet_groups() finds none: height_field() takes any mesh.
 std::optional<MeshPatches> mesh_patches(const Facets& facets, double tolerance);
 
-}  // namespace cusp::host
+}  // namespace cusp::import

@@ -10,7 +10,15 @@
 
 #include "fmt/format.h"
 
-namespace cusp::host {
+namespace cusp::import {
+
+using nurbs::Curve;
+using nurbs::distinct_knots;
+using nurbs::kMaximumDegree;
+using nurbs::multiplicity;
+using nurbs::Surface;
+using nurbs::SurfacePoint;
+
 namespace {
 
 // One parameter direction: names are "" for a curve, "_u" or "_v" for a surface.
@@ -177,4 +185,4 @@ void check_surface(const Surface& surface, const std::string& place)
     }
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::import

@@ -6,7 +6,7 @@
 
 #include "host_tools/nurbs/nurbs.hpp"
 
-namespace cusp::host {
+namespace cusp::import {
 
 // Coordinates beyond this, in mm, are refused: no machine is that large, and doubles keep
 // nanometres up to there.
@@ -23,7 +23,7 @@ void merge_close_knots(std::vector<double>& knots);
 
 // Both throw InputError that starts with `place` (file and which curve or surface) and names the
 // quantity, its value and its limit.
-void check_curve(const Curve& curve, const std::string& place);
-void check_surface(const Surface& surface, const std::string& place);
+void check_curve(const nurbs::Curve& curve, const std::string& place);
+void check_surface(const nurbs::Surface& surface, const std::string& place);
 
-}  // namespace cusp::host
+}  // namespace cusp::import

@@ -1,12 +1,18 @@
 // Strategy by strategy.
 #include "host_tools/import/operation_check.hpp"
 
-#include "host_tools/import/loop_shape.hpp"
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/job/loop_shape.hpp"
 
 #include "fmt/format.h"
 
-namespace cusp::host {
+namespace cusp::import {
+
+using job::lies_outside;
+using job::loop_polyline;
+using job::Operation;
+using toolpath::Tool;
+
 namespace {
 
 void check_islands(const Operation& operation)
@@ -102,4 +108,4 @@ void check_operation(const JobTable& table, const Operation& operation)
     check_islands(operation);
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::import

@@ -5,7 +5,7 @@
 
 #include "fmt/format.h"
 
-namespace cusp::host {
+namespace cusp::import {
 namespace {
 
 // Keys that only some strategies know; all others know every key that is not listed.
@@ -45,4 +45,4 @@ void refuse_keys_of_others(const toml::table& entry,
     }
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::import

@@ -5,11 +5,11 @@
 
 #include "host_tools/import/job_table.hpp"
 
-namespace cusp::host {
+namespace cusp::import {
 
 // Throws InputError where the operation has a key that its strategy does not know.
 void refuse_keys_of_others(const toml::table& entry,
                            const JobTable& table,
                            const std::string& strategy);
 
-}  // namespace cusp::host
+}  // namespace cusp::import

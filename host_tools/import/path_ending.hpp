@@ -3,9 +3,9 @@
 
 #include <string>
 
-namespace cusp::host {
+namespace cusp::import {
 
 // With its dot, in small letters: ".step"; "" where there is none.
 std::string path_ending(const std::string& file);
 
-}  // namespace cusp::host
+}  // namespace cusp::import

@@ -1,11 +1,7 @@
 // Geometry files by their ending, and text files.
 #include <algorithm>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -13,44 +9,28 @@
 #include "host_tools/import/dxf_curves.hpp"
 #include "host_tools/import/geometry_json.hpp"
 #include "host_tools/import/height_field.hpp"
-#include "host_tools/import/job.hpp"
-#include "host_tools/import/loop_shape.hpp"
+#include "host_tools/import/import.hpp"
 #include "host_tools/import/mesh_patches.hpp"
 #include "host_tools/import/nurbs_validity.hpp"
 #include "host_tools/import/path_ending.hpp"
 #include "host_tools/import/stl_facets.hpp"
-#include "host_tools/import/text_of_file.hpp"
+#include "host_tools/job/job.hpp"
+#include "host_tools/job/loop_shape.hpp"
 
 #include "fmt/format.h"
 
-namespace cusp::host {
+namespace cusp::import {
+
+using job::closed_loop;
+using job::Loop;
+using nurbs::Surface;
+
 std::string path_ending(const std::string& file)
 {
     std::string ending = std::filesystem::path(file).extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return ending;
-}
-
-std::string text_of_file(const std::string& file)
-{
-    if (std::filesystem::is_directory(file)) {
-        throw InputError(file + ": is a folder");
-    }
-    errno = 0;
-    std::ifstream in(file, std::ios::binary);
-    // Large parts: read once, without a copy; what tells no size is read all the same.
-    std::string text;
-    std::error_code unknown;
-    const std::uintmax_t size = std::filesystem::file_size(file, unknown);
-    text.resize(unknown ? 0 : static_cast<std::size_t>(size));
-    in.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, in.gcount())));
-    text.append(std::istreambuf_iterator<char>{in}, {});
-    if (!in && errno != 0) {
-        throw InputError(fmt::format("{}: can't be read: {}", file, std::strerror(errno)));
-    }
-    return text;
 }
 
 namespace {
@@ -186,4 +166,4 @@ Loop read_loop(const std::string& name, double millimetres)
         fmt::format("{}: loops are read from .json and .dxf, not from \"{}\"", file, ending));
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::import

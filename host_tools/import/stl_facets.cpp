@@ -10,12 +10,12 @@
 #include <string_view>
 
 #include "host_tools/import/nurbs_validity.hpp"
-#include "host_tools/import/text_of_file.hpp"
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/input_error/text_of_file.hpp"
 
 #include "fmt/format.h"
 
-namespace cusp::host {
+namespace cusp::import {
 namespace {
 
 constexpr std::size_t kHead = 84;
@@ -243,4 +243,4 @@ Facets read_stl(const std::string& file, double millimetres)
     return facets;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::import

@@ -8,7 +8,7 @@
 
 #include "firmware/base/vec.hpp"
 
-namespace cusp::host {
+namespace cusp::import {
 
 struct Facets {
     std::vector<std::array<Vec3d, 3>> triangles;  // mm, corners in the file's order
@@ -21,4 +21,4 @@ struct Facets {
 // a coordinate that is no finite number or beyond kLargestCoordinate, no facet with an area.
 Facets read_stl(const std::string& file, double millimetres);
 
-}  // namespace cusp::host
+}  // namespace cusp::import

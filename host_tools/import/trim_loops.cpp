@@ -4,12 +4,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host_tools/import/loop_shape.hpp"
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/job/loop_shape.hpp"
 
 #include "fmt/format.h"
 
-namespace cusp::host {
+namespace cusp::import {
+
+using job::chained;
+using job::crossing_of;
+using job::encloses;
+using job::Loop;
+using job::loop_polyline;
+using job::signed_area;
+using nurbs::Curve;
+using nurbs::Surface;
+
 namespace {
 
 // Gaps and excursions up to this share of the domain's larger side are rounding of the file.
@@ -164,4 +174,4 @@ std::vector<std::vector<Curve>> trim_loops(const std::vector<Curve>& curves,
     return loops;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::import

@@ -6,7 +6,7 @@
 
 #include "host_tools/nurbs/nurbs.hpp"
 
-namespace cusp::host {
+namespace cusp::import {
 
 // curves  in order, as the file lists them; each closed alone or with those after it. Their
 //         direction says what stays: outer loops counter-clockwise, holes clockwise.
@@ -15,8 +15,8 @@ namespace cusp::host {
 // the outer loop.
 // Errors: an open loop, one that leaves the domain, loops that cross, loops whose directions
 // contradict their nesting.
-std::vector<std::vector<Curve>> trim_loops(const std::vector<Curve>& curves,
-                                           const Surface& surface,
-                                           const std::string& place);
+std::vector<std::vector<nurbs::Curve>> trim_loops(const std::vector<nurbs::Curve>& curves,
+                                                  const nurbs::Surface& surface,
+                                                  const std::string& place);
 
-}  // namespace cusp::host
+}  // namespace cusp::import

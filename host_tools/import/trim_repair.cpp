@@ -4,7 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cusp::host {
+namespace cusp::import {
+
+using nurbs::Curve;
+using nurbs::Surface;
+using nurbs::SurfacePoint;
+
 namespace {
 
 // Ends of neighbouring edges this near in (u, v), as a share of the domain, are the same vertex:
@@ -112,4 +117,4 @@ void bridge_poles(std::vector<Curve>& loop, const Surface& s)
     }
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::import

@@ -5,13 +5,13 @@
 
 #include "host_tools/nurbs/nurbs.hpp"
 
-namespace cusp::host {
+namespace cusp::import {
 
 // Points just outside the domain are moved into it, ends that nearly meet together.
-void tidy(std::vector<Curve>& loop, const Surface& surface);
+void tidy(std::vector<nurbs::Curve>& loop, const nurbs::Surface& surface);
 
 // Where a pole closes the loop the edge there has no length, and after the conversion no true
 // parameters either: a line along the pole's side of the domain takes its place.
-void bridge_poles(std::vector<Curve>& loop, const Surface& surface);
+void bridge_poles(std::vector<nurbs::Curve>& loop, const nurbs::Surface& surface);
 
-}  // namespace cusp::host
+}  // namespace cusp::import

@@ -6,7 +6,12 @@
 
 #include "host_tools/nurbs/knot_insertion.hpp"
 
-namespace cusp::host {
+namespace cusp::import {
+
+using nurbs::distinct_knots;
+using nurbs::Surface;
+using nurbs::SurfacePoint;
+
 namespace {
 
 constexpr double kTurn = 0.27;  // radians within a span
@@ -78,4 +83,4 @@ Surface with_turning_knots(const Surface& s)
     return with_knots(s, more_u, more_v);
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::import

@@ -5,10 +5,10 @@
 
 #include "host_tools/nurbs/nurbs.hpp"
 
-namespace cusp::host {
+namespace cusp::import {
 
 // The same surface; between two knots its normal turns by about 15 degrees at most along each
 // parameter, or the span has been cut as often as makes sense.
-Surface with_turning_knots(const Surface& surface);
+nurbs::Surface with_turning_knots(const nurbs::Surface& surface);
 
-}  // namespace cusp::host
+}  // namespace cusp::import

@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-namespace cusp::host {
+namespace cusp {
 
 // Input that can't be used: exit status 2. The text names file, line or key, quantity, value and
 // limit.
@@ -12,4 +12,4 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-}  // namespace cusp::host
+}  // namespace cusp

@@ -5,7 +5,7 @@
 
 #include "host_tools/nurbs/spline_basis.hpp"
 
-namespace cusp::host {
+namespace cusp::nurbs {
 namespace {
 
 HomogeneousPoint homogeneous(Vec3d p, double w) { return {p.x * w, p.y * w, p.z * w, w}; }
@@ -273,4 +273,4 @@ Surface with_knots(const Surface& surface,
     return out;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::nurbs

@@ -6,7 +6,7 @@
 
 #include "host_tools/nurbs/nurbs.hpp"
 
-namespace cusp::host {
+namespace cusp::nurbs {
 
 struct HomogeneousPoint {
     double x, y, z, w;  // x, y, z carry the factor w
@@ -62,4 +62,4 @@ void insert_all_to_degree(ControlRows& rows);
 // Cuts the rows to their domain: knots of multiplicity degree + 1 at both ends, the same shape.
 void clamp_ends(ControlRows& rows);
 
-}  // namespace cusp::host
+}  // namespace cusp::nurbs

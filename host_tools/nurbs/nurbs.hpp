@@ -4,29 +4,12 @@
 
 #include <array>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 #include "firmware/base/vec.hpp"
+#include "host_tools/nurbs/plan_vector.hpp"
 
-namespace cusp::host {
-
-inline constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
-struct Vec2d {
-    double x{};
-    double y{};
-    friend Vec2d operator+(Vec2d a, Vec2d b) { return {a.x + b.x, a.y + b.y}; }
-    friend Vec2d operator-(Vec2d a, Vec2d b) { return {a.x - b.x, a.y - b.y}; }
-    friend Vec2d operator*(Vec2d a, double k) { return {a.x * k, a.y * k}; }
-    friend Vec2d operator*(double k, Vec2d a) { return a * k; }
-};
-
-inline double dot(Vec2d a, Vec2d b) { return a.x * b.x + a.y * b.y; }
-inline double cross(Vec2d a, Vec2d b) { return a.x * b.y - a.y * b.x; }
-double norm(Vec2d a);
-// Seen from above.
-inline Vec2d in_plan(Vec3d p) { return {p.x, p.y}; }
+namespace cusp::nurbs {
 
 // A rational B-spline curve. Invariants (checked by the reader in host_tools/import, assumed here):
 // degree >= 1, points.size() == weights.size() >= degree + 1, knots.size() == points.size() +
@@ -112,4 +95,4 @@ std::vector<BezierPatch> bezier_patches(const Surface& surface);
 Curve isocurve_at_v(const Surface& surface, double v);
 Curve isocurve_at_u(const Surface& surface, double u);
 
-}  // namespace cusp::host
+}  // namespace cusp::nurbs

@@ -6,7 +6,7 @@
 #include "host_tools/nurbs/nurbs.hpp"
 #include "host_tools/nurbs/spline_basis.hpp"
 
-namespace cusp::host {
+namespace cusp::nurbs {
 namespace {
 
 std::vector<double> clamped_knots(int degree, double begin, double end)
@@ -17,8 +17,6 @@ std::vector<double> clamped_knots(int degree, double begin, double end)
 }
 
 }  // namespace
-
-double norm(Vec2d a) { return std::sqrt(dot(a, a)); }
 
 Vec3d point_at(const Curve& curve, double u)
 {
@@ -111,4 +109,4 @@ Curve reversed(const Curve& curve)
     return back;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::nurbs

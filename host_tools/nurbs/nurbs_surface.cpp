@@ -5,7 +5,7 @@
 #include "host_tools/nurbs/nurbs.hpp"
 #include "host_tools/nurbs/spline_basis.hpp"
 
-namespace cusp::host {
+namespace cusp::nurbs {
 namespace {
 
 // The control points of an isocurve: rows of a surface's, blended by the functions of a basis at
@@ -233,4 +233,4 @@ Curve isocurve_at_u(const Surface& surface, double u)
                    [size_v](std::size_t row, std::size_t k) { return row * size_v + k; });
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::nurbs

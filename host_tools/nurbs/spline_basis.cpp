@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace cusp::host {
+namespace cusp::nurbs {
 namespace {
 
 using Row = SplineBasis::Row;
@@ -87,4 +87,4 @@ void evaluate_basis(const std::vector<double>& knots,
     derive(knot, p, slope, basis.second_derivative);
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::nurbs

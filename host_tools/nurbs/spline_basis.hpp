@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace cusp::host {
+namespace cusp::nurbs {
 
 // Curves and surfaces of a higher degree are refused by the reader.
 inline constexpr int kMaximumDegree = 25;
@@ -36,4 +36,4 @@ void evaluate_basis(const std::vector<double>& knots,
                     bool derivatives,
                     SplineBasis& basis);
 
-}  // namespace cusp::host
+}  // namespace cusp::nurbs

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace cusp::host {
+namespace cusp::offset {
 
 namespace {
 
@@ -257,4 +257,4 @@ std::vector<RegionPart> connected_parts(const Region2d& region)
     return parts;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::offset

@@ -6,7 +6,7 @@
 
 #include "host_tools/nurbs/nurbs.hpp"
 
-namespace cusp::host {
+namespace cusp::offset {
 
 // A line or an arc. turn: 0 straight, +1 counter-clockwise (centre on the left), -1 clockwise.
 // An arc sweeps less than half a turn, so its points are ordered along its chord.
@@ -105,4 +105,4 @@ struct RegionPart {
 // The connected parts of a region.
 std::vector<RegionPart> connected_parts(const Region2d& region);
 
-}  // namespace cusp::host
+}  // namespace cusp::offset

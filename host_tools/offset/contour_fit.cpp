@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <optional>
 
-namespace cusp::host {
+namespace cusp::offset {
+
+using nurbs::Curve;
+using nurbs::CurvePoint;
 
 namespace {
 
@@ -235,4 +238,4 @@ Contour fit_contour(const std::vector<Curve>& loop, double tolerance)
     return closed_up(contour);
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::offset

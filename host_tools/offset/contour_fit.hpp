@@ -7,13 +7,13 @@
 
 #include "host_tools/offset/contour.hpp"
 
-namespace cusp::host {
+namespace cusp::offset {
 
 // Edges from the curve's start to its end, joined with a common tangent inside the curve.
 //
 //   tolerance  mm, > 0: largest distance of the edges from a free curve. Curves that are circles or
 //              lines to 1e-8 mm are taken as such.
-std::vector<Edge> fit_edges(const Curve& curve, double tolerance);
+std::vector<Edge> fit_edges(const nurbs::Curve& curve, double tolerance);
 
 // Two arcs from one point to another that leave and arrive with the given unit tangents; no value
 // where the tangents point away from the way between.
@@ -24,6 +24,6 @@ std::optional<std::array<Edge, 2>> biarc_between(Vec2d from,
 
 // The closed contour of a loop of curves in order. Gaps of up to 1e-3 mm (what the reader accepts)
 // are closed by moving ends.
-Contour fit_contour(const std::vector<Curve>& loop, double tolerance);
+Contour fit_contour(const std::vector<nurbs::Curve>& loop, double tolerance);
 
-}  // namespace cusp::host
+}  // namespace cusp::offset

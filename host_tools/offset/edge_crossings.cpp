@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace cusp::host {
+namespace cusp::offset {
 
 namespace {
 
@@ -127,4 +127,4 @@ Crossings crossings(const Edge& a, const Edge& b, double slack)
     return of_arcs(a, b, slack);
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::offset

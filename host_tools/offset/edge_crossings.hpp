@@ -4,11 +4,11 @@
 #include "firmware/base/static_vector.hpp"
 #include "host_tools/offset/contour.hpp"
 
-namespace cusp::host {
+namespace cusp::offset {
 
 // Points common to both edges: crossings and touches, or, where the edges run over each other, the
 // ends of the common part. `slack` (mm) is how far beyond an end a crossing still counts.
 using Crossings = StaticVector<Vec2d, 4>;
 Crossings crossings(const Edge& a, const Edge& b, double slack);
 
-}  // namespace cusp::host
+}  // namespace cusp::offset

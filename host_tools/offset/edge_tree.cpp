@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace cusp::host {
+namespace cusp::offset {
 
 namespace {
 
@@ -177,4 +177,4 @@ EdgeTree::Nearest EdgeTree::nearest_edge(Vec2d point) const
     return {best, nearest_on(edges_[at], point), index_[at]};
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::offset

@@ -7,7 +7,7 @@
 
 #include "host_tools/offset/contour.hpp"
 
-namespace cusp::host {
+namespace cusp::offset {
 
 class EdgeTree {
 public:
@@ -22,8 +22,8 @@ public:
     double nearest(Vec2d point, double limit) const;
 
     // True where the edges run around the point an odd number of times: for the contours of a
-    // region, where it belongs to the region. As cusp::host::contains(), in O(log n + edges to its
-    // right).
+    // region, where it belongs to the region. As cusp::offset::contains(), in O(log n + edges to
+    // its right).
     bool surrounds(Vec2d point) const;
 
     struct Nearest {
@@ -96,4 +96,4 @@ void EdgeTree::visit_sorted(const Box2d& box, Visit visit) const
     }
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::offset

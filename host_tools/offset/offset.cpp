@@ -13,7 +13,7 @@
 #include "host_tools/offset/piece_trim.hpp"
 #include "host_tools/offset/raw_offset.hpp"
 
-namespace cusp::host {
+namespace cusp::offset {
 
 namespace {
 
@@ -366,7 +366,7 @@ KeptRuns kept_runs(const Region2d& source,
     std::vector<std::uint32_t> looked_at;
     for (const RawPiece& piece : pieces) {
         // Of a short one all may be less than a run holds.
-        if (cusp::host::distance(piece.edge.start, piece.edge.end) > kSameVertex) {
+        if (cusp::offset::distance(piece.edge.start, piece.edge.end) > kSameVertex) {
             looked_at.push_back(piece.origin);
         }
     }
@@ -384,7 +384,7 @@ KeptRuns kept_runs(const Region2d& source,
         }
         const double reach = distance - kNearer;
         const Vec2d middle = middle_of(run);
-        if (!nearer || cusp::host::distance(middle, *nearer) >= reach) {
+        if (!nearer || cusp::offset::distance(middle, *nearer) >= reach) {
             nearer = tree.some_nearer(middle, reach);
         }
         return nearer.has_value();
@@ -465,4 +465,4 @@ Region2d grown(const Region2d& region, double distance)
     return result;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::offset

@@ -11,7 +11,7 @@
 #include "host_tools/offset/contour.hpp"
 #include "host_tools/offset/edge_tree.hpp"
 
-namespace cusp::host {
+namespace cusp::offset {
 
 class RegionOffset {
 public:
@@ -51,4 +51,4 @@ private:
 // The region grown by `distance` (mm, > 0), corners rounded.
 Region2d grown(const Region2d& region, double distance);
 
-}  // namespace cusp::host
+}  // namespace cusp::offset

@@ -7,7 +7,7 @@
 
 #include "firmware/base/math.hpp"
 
-namespace cusp::host {
+namespace cusp::offset {
 
 namespace {
 
@@ -186,4 +186,4 @@ std::vector<RawPiece> trimmed(const std::vector<RawPiece>& pieces,
     return result;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::offset

@@ -5,7 +5,7 @@
 #include "host_tools/offset/edge_tree.hpp"
 #include "host_tools/offset/raw_offset.hpp"
 
-namespace cusp::host {
+namespace cusp::offset {
 
 // The pieces without most of their parts that lie nearer than `distance` (mm) to an edge of the
 // source, whose tree is given. Only what is nearer by 1e-5 mm goes, so every place where a piece
@@ -18,4 +18,4 @@ std::vector<RawPiece> trimmed(const std::vector<RawPiece>& pieces,
                               const EdgeTree& source,
                               double distance);
 
-}  // namespace cusp::host
+}  // namespace cusp::offset

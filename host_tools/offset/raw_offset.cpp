@@ -3,7 +3,7 @@
 
 #include "firmware/base/math.hpp"
 
-namespace cusp::host {
+namespace cusp::offset {
 
 namespace {
 
@@ -83,7 +83,7 @@ private:
         const Vec2d entering = tangent_at_start(next);
         const Vec2d end = edge.end + left_normal(leaving) * distance_;
         const Vec2d onward = next.start + left_normal(entering) * distance_;
-        const bool smooth = cusp::host::distance(end, onward) < kSamePoint;
+        const bool smooth = cusp::offset::distance(end, onward) < kSamePoint;
         const double bend = cross(leaving, entering);
         const bool corner = !smooth && (bend < 0.0 || dot(leaving, entering) < -0.9999);
         const bool next_lost = fate_of(next, distance_) == Fate::kLost;
@@ -166,4 +166,4 @@ std::vector<RawPiece> living_pieces(std::vector<RawPiece> pieces,
     return pieces;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::offset

@@ -5,7 +5,7 @@
 
 #include "host_tools/offset/contour.hpp"
 
-namespace cusp::host {
+namespace cusp::offset {
 
 struct RawPiece {
     Edge edge;
@@ -30,4 +30,4 @@ std::vector<RawPiece> living_pieces(std::vector<RawPiece> pieces,
                                     const std::vector<double>& gone,
                                     double distance);
 
-}  // namespace cusp::host
+}  // namespace cusp::offset

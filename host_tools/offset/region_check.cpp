@@ -6,7 +6,7 @@
 #include "host_tools/offset/edge_crossings.hpp"
 #include "host_tools/offset/edge_tree.hpp"
 
-namespace cusp::host {
+namespace cusp::offset {
 
 namespace {
 
@@ -125,4 +125,4 @@ std::optional<RegionFault> find_fault(const Region2d& region)
     return find_stray_hole(region);
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::offset

@@ -6,7 +6,7 @@
 
 #include "host_tools/offset/contour.hpp"
 
-namespace cusp::host {
+namespace cusp::offset {
 
 enum class RegionFaultKind : std::uint8_t {
     kNoLength,       // an edge of contours[first] at `where` is shorter than 1e-7 mm
@@ -27,4 +27,4 @@ struct RegionFault {
 // Contours that only touch in a point are no fault.
 std::optional<RegionFault> find_fault(const Region2d& region);
 
-}  // namespace cusp::host
+}  // namespace cusp::offset

@@ -7,7 +7,7 @@
 
 #include "fmt/format.h"
 
-namespace cusp::host {
+namespace cusp::report {
 namespace {
 
 struct Colour {
@@ -69,4 +69,4 @@ std::string scale_bar(
     return out;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::report

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace cusp::host {
+namespace cusp::report {
 
 // Steps of the scale: few enough that neighbours merge in the picture.
 inline constexpr int kColourSteps = 32;
@@ -20,4 +20,4 @@ int step_of(double value, double low, double high);
 std::string scale_bar(
     double x, double y, double height, double low, double high, const std::string& title);
 
-}  // namespace cusp::host
+}  // namespace cusp::report

@@ -7,7 +7,12 @@
 #include "host_tools/report/picture_frame.hpp"
 #include "host_tools/report/pictures.hpp"
 
-namespace cusp::host {
+namespace cusp::report {
+
+using job::Job;
+using verify::HeightGrid;
+using verify::Verification;
+
 namespace {
 
 constexpr int kNothing = -1;
@@ -104,4 +109,4 @@ std::string left_picture(const Job& job, const Verification& result)
     return out + "</svg>\n";
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::report

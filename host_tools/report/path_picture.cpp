@@ -8,7 +8,16 @@
 #include "host_tools/report/pictures.hpp"
 #include "host_tools/verify/part_heights.hpp"
 
-namespace cusp::host {
+namespace cusp::report {
+
+using job::Job;
+using job::Operation;
+using nurbs::Surface;
+using verify::append_points;
+using verify::part_box;
+using verify::PartBox;
+using verify::Program;
+
 namespace {
 
 constexpr double kSpacing = 0.5;  // mm along arcs and curves
@@ -119,4 +128,4 @@ std::string path_picture(const Job& job, const Program& program)
     return out + "</svg>\n";
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::report

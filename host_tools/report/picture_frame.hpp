@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <string>
 
-#include "host_tools/import/job.hpp"
-#include "host_tools/import/loop_shape.hpp"
+#include "host_tools/job/job.hpp"
+#include "host_tools/job/loop_shape.hpp"
 
 #include "fmt/format.h"
 
-namespace cusp::host {
+namespace cusp::report {
 
 // Room for the scale beside the picture, as a share of its height.
 inline constexpr double kScaleRoom = 0.28;
@@ -39,20 +39,20 @@ struct PictureFrame {
 };
 
 // The walls of all operations as closed lines.
-inline std::string walls(const Job& job, const PictureFrame& frame)
+inline std::string walls(const job::Job& job, const PictureFrame& frame)
 {
     constexpr double kChord = 0.01;
     std::string out;
-    const auto add = [&](const Loop& loop) {
+    const auto add = [&](const job::Loop& loop) {
         out += fmt::format(
             "<polyline fill=\"none\" stroke=\"black\" stroke-width=\"{:.3f}\" points=\"",
             2 * frame.line());
-        for (const Vec2d p : loop_polyline(loop, kChord)) {
+        for (const Vec2d p : job::loop_polyline(loop, kChord)) {
             out += fmt::format("{:.3f},{:.3f} ", p.x, frame.flipped(p.y));
         }
         out += "\"/>\n";
     };
-    for (const Operation& operation : job.operations) {
+    for (const job::Operation& operation : job.operations) {
         if (operation.boundary) {
             add(*operation.boundary);
         }
@@ -61,4 +61,4 @@ inline std::string walls(const Job& job, const PictureFrame& frame)
     return out;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::report

@@ -3,15 +3,15 @@
 
 #include <string>
 
-#include "host_tools/import/job.hpp"
+#include "host_tools/job/job.hpp"
 #include "host_tools/verify/verify.hpp"
 
-namespace cusp::host {
+namespace cusp::report {
 
 // The path over the walls of the part: cuts coloured by height, rapid moves dashed.
-std::string path_picture(const Job& job, const Program& program);
+std::string path_picture(const job::Job& job, const verify::Program& program);
 
 // What is left over the floor: a map of colours with its scale; black where nothing was cut.
-std::string left_picture(const Job& job, const Verification& result);
+std::string left_picture(const job::Job& job, const verify::Verification& result);
 
-}  // namespace cusp::host
+}  // namespace cusp::report

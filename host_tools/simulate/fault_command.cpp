@@ -7,7 +7,7 @@
 
 #include "firmware/base/panel.hpp"
 
-namespace cusp::host {
+namespace cusp::simulate {
 namespace {
 
 std::optional<double> number_in(std::string_view text)
@@ -158,4 +158,4 @@ std::uint16_t input_named(std::string_view name)
     return 0;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::simulate

@@ -8,7 +8,7 @@
 
 #include "hal/sim/faulty_line.hpp"
 
-namespace cusp::host {
+namespace cusp::simulate {
 
 enum class FaultKind : std::uint8_t {
     kUnplug,         // unplug
@@ -42,4 +42,4 @@ std::optional<hal::LineFaults> parse_line_faults(std::string_view text);
 // The bit of InputBit that an input's name means; 0 where there is none of this name.
 std::uint16_t input_named(std::string_view name);
 
-}  // namespace cusp::host
+}  // namespace cusp::simulate

@@ -6,7 +6,7 @@
 #include "firmware/machine/settings_log.hpp"
 #include "firmware/machine/stored_state.hpp"
 
-namespace cusp::host {
+namespace cusp::simulate {
 
 using machine::Setting;
 
@@ -48,4 +48,4 @@ bool store_settings(const machine::Settings& settings, hal::SimulatedStore& stor
     return log.append(std::as_const(state).bytes());
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::simulate

@@ -6,7 +6,7 @@
 
 #include "firmware/base/pulse_frame.hpp"
 
-namespace cusp::host {
+namespace cusp::simulate {
 namespace {
 
 constexpr double kTicks = kServoTicksPerSecond;
@@ -72,4 +72,4 @@ std::uint64_t MotionStatistics::moving_ticks() const
     return first_moving_ == 0 ? 0 : last_moving_ - first_moving_ + 1;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::simulate

@@ -8,7 +8,7 @@
 
 #include "firmware/base/math.hpp"
 
-namespace cusp::host {
+namespace cusp::simulate {
 namespace {
 
 PathPlace nearest_on_segment(Vec3d point, Vec3d end)
@@ -216,4 +216,4 @@ void PathDeviation::add_set_point(Position set_point)
     }
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::simulate

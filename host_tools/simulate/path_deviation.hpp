@@ -9,7 +9,7 @@
 
 #include "firmware/path/move.hpp"
 
-namespace cusp::host {
+namespace cusp::simulate {
 
 // The place on a move that is nearest to a point.
 struct PathPlace {
@@ -55,4 +55,4 @@ private:
     std::uint32_t line_{0};
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::simulate

@@ -8,7 +8,7 @@
 #include "firmware/gcode/interpreter.hpp"
 #include "host_tools/simulate/path_deviation.hpp"
 
-namespace cusp::host {
+namespace cusp::simulate {
 
 struct ProgramMoveCounts {
     std::uint64_t rapid{0};
@@ -57,4 +57,4 @@ private:
     PathDeviation deviation_;
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::simulate

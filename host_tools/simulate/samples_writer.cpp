@@ -3,7 +3,7 @@
 
 #include "firmware/base/axis.hpp"
 
-namespace cusp::host {
+namespace cusp::simulate {
 
 SamplesWriter::SamplesWriter(const std::string& file) : file_{file}
 {
@@ -20,4 +20,4 @@ void SamplesWriter::write(std::uint64_t microseconds, Position at)
     file_.write('\n');
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::simulate

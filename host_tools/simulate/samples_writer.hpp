@@ -7,7 +7,7 @@
 #include "firmware/base/vec.hpp"
 #include "host_tools/simulate/text_file.hpp"
 
-namespace cusp::host {
+namespace cusp::simulate {
 
 // Rows `t_us,x_nm,y_nm,z_nm`: where the machine is at t_us on the clock of the pulse trace.
 class SamplesWriter {
@@ -22,4 +22,4 @@ private:
     TextFile file_;
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::simulate

@@ -7,7 +7,7 @@
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/simulate/simulation.hpp"
 
-namespace cusp::host {
+namespace cusp::simulate {
 
 std::vector<ScriptedByte> read_script(const std::string& file)
 {
@@ -37,4 +37,4 @@ std::vector<ScriptedByte> read_script(const std::string& file)
     return script;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::simulate

@@ -6,7 +6,7 @@
 
 #include "host_tools/input_error/input_error.hpp"
 
-namespace cusp::host {
+namespace cusp::simulate {
 namespace {
 
 // Answers beyond this are lost where nobody reads them, as on a wire.
@@ -136,4 +136,4 @@ std::string SerialEnd::name() const
     return listener_ ? "port " + std::to_string(listener_->port()) : pty_link_;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::simulate

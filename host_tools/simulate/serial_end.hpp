@@ -9,7 +9,7 @@
 #include "hal/posix/descriptor_link.hpp"
 #include "hal/posix/endpoints.hpp"
 
-namespace cusp::host {
+namespace cusp::simulate {
 
 class SerialEnd {
 public:
@@ -49,4 +49,4 @@ private:
     bool plugged_{true};
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::simulate

@@ -11,7 +11,10 @@
 #include "host_tools/dialect/line_source.hpp"
 #include "host_tools/input_error/input_error.hpp"
 
-namespace cusp::host {
+namespace cusp::simulate {
+
+using dialect::LineSource;
+
 namespace {
 
 using machine::Settings;
@@ -158,4 +161,4 @@ std::vector<std::string> settings_commands(const Settings& settings)
     return commands;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::simulate

@@ -6,7 +6,7 @@
 
 #include "firmware/machine/settings.hpp"
 
-namespace cusp::host {
+namespace cusp::simulate {
 
 // The default settings with what the file says. Blank lines, and text after the value in
 // parentheses or after ';' or '#', are passed over.
@@ -21,4 +21,4 @@ std::string settings_text(const machine::Settings& settings);
 // The lines `$N=v`, without line ends, that turn the defaults into these settings.
 std::vector<std::string> settings_commands(const machine::Settings& settings);
 
-}  // namespace cusp::host
+}  // namespace cusp::simulate

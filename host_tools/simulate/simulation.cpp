@@ -15,7 +15,17 @@
 #include "host_tools/simulate/samples_writer.hpp"
 #include "host_tools/simulate/vcd_writer.hpp"
 
-namespace cusp::host {
+namespace cusp::simulate {
+
+using dialect::alarm_text;
+using dialect::Answer;
+using dialect::AnswerKind;
+using dialect::bare_line;
+using dialect::error_text;
+using dialect::LineSource;
+using dialect::numbered_line;
+using dialect::parse_answer;
+
 namespace {
 
 using board_sim::SimulatedController;
@@ -278,11 +288,11 @@ private:
                 no_more_lines_ = true;
                 break;
             }
-            const std::string bare = bare_line(*line);
-            if (bare.empty()) {
+            const std::string uncovered = bare_line(*line);
+            if (uncovered.empty()) {
                 continue;
             }
-            const std::string numbered = numbered_line(bare, source_.line_number());
+            const std::string numbered = numbered_line(uncovered, source_.line_number());
             effects_ = shadow.read(numbered, source_.line_number());
             no_more_lines_ = effects_.ends_program;
             if (effects_.pauses) {
@@ -383,4 +393,4 @@ SimulationResult simulate(const std::string& program_file, const SimulationOptio
     return std::make_unique<Simulation>(program_file, options)->run();
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::simulate

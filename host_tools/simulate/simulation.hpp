@@ -15,7 +15,7 @@
 #include "host_tools/simulate/motion_statistics.hpp"
 #include "host_tools/simulate/program_shadow.hpp"
 
-namespace cusp::host {
+namespace cusp::simulate {
 
 // How far a run is; called some ten times a second.
 struct SimulationProgress {
@@ -90,4 +90,4 @@ SimulationResult simulate(const std::string& program_file, const SimulationOptio
 // The result as JSON, one key a figure.
 std::string statistics_json(const SimulationResult& result);
 
-}  // namespace cusp::host
+}  // namespace cusp::simulate

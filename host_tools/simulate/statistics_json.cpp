@@ -3,7 +3,7 @@
 
 #include "host_tools/simulate/simulation.hpp"
 
-namespace cusp::host {
+namespace cusp::simulate {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -46,4 +46,4 @@ std::string statistics_json(const SimulationResult& result)
     return json.dump(2) + "\n";
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::simulate

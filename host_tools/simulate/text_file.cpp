@@ -8,7 +8,7 @@
 
 #include "host_tools/input_error/input_error.hpp"
 
-namespace cusp::host {
+namespace cusp::simulate {
 namespace {
 
 constexpr std::size_t kBufferSize = 1 << 16;
@@ -63,4 +63,4 @@ void write_text(const std::string& file, std::string_view text)
     out.close();
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::simulate

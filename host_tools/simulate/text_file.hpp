@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace cusp::host {
+namespace cusp::simulate {
 
 // Throws InputError where the file can't be made or written (the disk is full).
 class TextFile {
@@ -31,4 +31,4 @@ private:
 // A whole file at once.
 void write_text(const std::string& file, std::string_view text);
 
-}  // namespace cusp::host
+}  // namespace cusp::simulate

@@ -4,7 +4,7 @@
 #include <array>
 #include <string_view>
 
-namespace cusp::host {
+namespace cusp::simulate {
 namespace {
 
 // Order of declaration. Identifiers are '!' and up.
@@ -112,4 +112,4 @@ void VcdWriter::watch_outputs(std::uint64_t tick)
     }
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::simulate

@@ -8,7 +8,7 @@
 #include "hal/sim/simulated_player.hpp"
 #include "host_tools/simulate/text_file.hpp"
 
-namespace cusp::host {
+namespace cusp::simulate {
 
 // Wires step_x dir_x step_y dir_y step_z dir_z (logical levels: a step is a rising edge, dir 1 is
 // plus), spindle and coolant. Spindle and coolant change at the start of a servo tick.
@@ -44,4 +44,4 @@ private:
     std::uint64_t end_{0};
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::simulate

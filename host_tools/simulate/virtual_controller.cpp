@@ -19,7 +19,7 @@
 #include "host_tools/simulate/text_file.hpp"
 #include "host_tools/simulate/vcd_writer.hpp"
 
-namespace cusp::host {
+namespace cusp::simulate {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -297,4 +297,4 @@ void serve(const ServeOptions& options, const std::atomic<int>& stop)
     std::make_unique<VirtualController>(options)->run(stop);
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::simulate

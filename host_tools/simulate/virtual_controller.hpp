@@ -12,7 +12,7 @@
 #include "hal/posix/endpoints.hpp"
 #include "hal/sim/faulty_line.hpp"
 
-namespace cusp::host {
+namespace cusp::simulate {
 
 struct ServeOptions {
     // One of these two.
@@ -41,4 +41,4 @@ struct ServeOptions {
 // be used.
 void serve(const ServeOptions& options, const std::atomic<int>& stop);
 
-}  // namespace cusp::host
+}  // namespace cusp::simulate

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <fmt/format.h>
 
-namespace cusp::host {
+namespace cusp::stream {
 namespace {
 
 using gcode::ModalState;
@@ -136,4 +136,4 @@ Approach make_approach(const ResumePoint& point,
     return approach;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

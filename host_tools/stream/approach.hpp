@@ -9,7 +9,7 @@
 
 #include "host_tools/stream/resume_point.hpp"
 
-namespace cusp::host {
+namespace cusp::stream {
 
 struct Approach {
     std::vector<std::string> lines;
@@ -37,4 +37,4 @@ Approach make_approach(const ResumePoint& point,
                        Position machine,
                        std::optional<double> safe_z);
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

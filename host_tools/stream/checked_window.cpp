@@ -7,7 +7,7 @@
 
 #include "firmware/protocol/crc32.hpp"
 
-namespace cusp::host {
+namespace cusp::stream {
 namespace {
 
 using std::chrono::milliseconds;
@@ -200,4 +200,4 @@ std::uint64_t CheckedWindow::program_line_of(std::uint32_t number) const
     return back < program_lines_.size() ? program_lines_[program_lines_.size() - 1 - back] : 0;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

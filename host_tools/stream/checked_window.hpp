@@ -15,7 +15,7 @@
 #include <string>
 #include <string_view>
 
-namespace cusp::host {
+namespace cusp::stream {
 
 // A line as it goes over the wire, without line end.
 std::string checked_line(std::uint32_t number, std::string_view text);
@@ -96,4 +96,4 @@ private:
     std::uint64_t resent_{0};
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

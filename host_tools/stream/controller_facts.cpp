@@ -3,7 +3,7 @@
 
 #include <charconv>
 
-namespace cusp::host {
+namespace cusp::stream {
 namespace {
 
 using machine::Setting;
@@ -101,4 +101,4 @@ gcode::Parameters ControllerFacts::parameters() const
     return parameters;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

@@ -9,7 +9,7 @@
 #include "firmware/gcode/modal_state.hpp"
 #include "firmware/machine/settings.hpp"
 
-namespace cusp::host {
+namespace cusp::stream {
 
 class ControllerFacts {
 public:
@@ -41,4 +41,4 @@ private:
     gcode::Parameters parameters_;  // millimetres, or inches with $13, times a million
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

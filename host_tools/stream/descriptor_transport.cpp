@@ -9,7 +9,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-namespace cusp::host {
+namespace cusp::stream {
 namespace {
 
 bool is_passing(int error) { return error == EAGAIN || error == EWOULDBLOCK || error == EINTR; }
@@ -59,4 +59,4 @@ std::string DescriptorTransport::read(std::chrono::milliseconds timeout)
     return {};
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

@@ -4,7 +4,7 @@
 #include "hal/posix/descriptor.hpp"
 #include "host_tools/stream/transport.hpp"
 
-namespace cusp::host {
+namespace cusp::stream {
 
 class DescriptorTransport : public Transport {
 public:
@@ -17,4 +17,4 @@ private:
     hal::Descriptor descriptor_;
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <deque>
 
-namespace cusp::host {
+namespace cusp::stream {
 
 class ExecutedLine {
 public:
@@ -74,4 +74,4 @@ private:
     std::deque<std::uint64_t> answered_;
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

@@ -4,7 +4,7 @@
 #include <poll.h>
 #include <unistd.h>
 
-namespace cusp::host {
+namespace cusp::stream {
 namespace {
 
 StreamKey meaning(char key)
@@ -78,4 +78,4 @@ const char* Keyboard::legend()
     return "keys: h hold, r resume, + - feed by 10 %, > < by 1 %, = 100 %, q stop";
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

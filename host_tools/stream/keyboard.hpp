@@ -5,7 +5,7 @@
 
 #include "host_tools/stream/streamer.hpp"
 
-namespace cusp::host {
+namespace cusp::stream {
 
 // Reads standard input. A terminal gives keys at once, and is put back as it was; a pipe or file
 // gives its characters as keys as well.
@@ -30,4 +30,4 @@ private:
     bool ended_{false};
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

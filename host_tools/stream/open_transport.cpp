@@ -8,7 +8,7 @@
 #include "host_tools/stream/serial_transport.hpp"
 #include "host_tools/stream/transport.hpp"
 
-namespace cusp::host {
+namespace cusp::stream {
 namespace {
 
 constexpr std::string_view kTcp = "tcp:";
@@ -53,4 +53,4 @@ std::unique_ptr<Transport> open_transport(const std::string& port, int baud)
     }
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

@@ -8,11 +8,11 @@
 #include "firmware/protocol/crc32.hpp"
 #include "host_tools/dialect/program_lines.hpp"
 
-namespace cusp::host {
+namespace cusp::stream {
 
 class ProgramCheck {
 public:
-    void add(const ProgramLine& line)
+    void add(const dialect::ProgramLine& line)
     {
         for (const char character : line.text) {
             crc_.add(static_cast<std::uint8_t>(character));
@@ -39,7 +39,7 @@ public:
         std::uint32_t crc;
     };
 
-    void add(const ProgramLine& line)
+    void add(const dialect::ProgramLine& line)
     {
         constexpr std::size_t kMany = 4096;
         constexpr unsigned kStride = 64;
@@ -68,4 +68,4 @@ private:
     Mark passed_{0, 0};
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

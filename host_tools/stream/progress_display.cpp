@@ -7,7 +7,10 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-namespace cusp::host {
+namespace cusp::stream {
+
+using dialect::ControllerStatus;
+
 namespace {
 
 constexpr std::chrono::seconds kPlainInterval{10};
@@ -122,4 +125,4 @@ void ProgressDisplay::finish()
     std::fflush(out_);
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

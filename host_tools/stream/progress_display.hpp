@@ -8,7 +8,7 @@
 
 #include "host_tools/stream/streamer.hpp"
 
-namespace cusp::host {
+namespace cusp::stream {
 
 // "0:07", "12:34", "1:02:03".
 std::string clock_text(double seconds);
@@ -41,4 +41,4 @@ private:
     double last_plain_fraction_{-1.0};
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

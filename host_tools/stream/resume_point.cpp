@@ -12,7 +12,10 @@
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/stream/program_check.hpp"
 
-namespace cusp::host {
+namespace cusp::stream {
+
+using dialect::ProgramLines;
+
 namespace {
 
 using gcode::Motion;
@@ -157,4 +160,4 @@ ResumePoint find_resume_point(const std::string& program, const TransferRecord& 
     throw InputError{fmt::format("{}: has no line {}", program, record.executed_line)};
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

@@ -14,7 +14,7 @@
 #include "firmware/gcode/modal_state.hpp"
 #include "host_tools/stream/transfer_record.hpp"
 
-namespace cusp::host {
+namespace cusp::stream {
 
 struct ResumePoint {
     std::uint64_t line{0};  // of the file, the first to be sent
@@ -31,4 +31,4 @@ struct ResumePoint {
 // the line; where the program is not the one of the record; or where it has no such line.
 ResumePoint find_resume_point(const std::string& program, const TransferRecord& record);
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

@@ -10,7 +10,7 @@
 
 #include "host_tools/input_error/input_error.hpp"
 
-namespace cusp::host {
+namespace cusp::stream {
 namespace {
 
 std::string last_error(const std::string& otherwise)
@@ -95,4 +95,4 @@ std::string SerialTransport::read(std::chrono::milliseconds timeout)
     return {};
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

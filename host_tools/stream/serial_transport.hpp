@@ -7,7 +7,7 @@
 
 struct sp_port;
 
-namespace cusp::host {
+namespace cusp::stream {
 
 class SerialTransport : public Transport {
 public:
@@ -26,4 +26,4 @@ private:
     std::string device_;
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

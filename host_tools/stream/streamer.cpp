@@ -1,7 +1,12 @@
 // The transfer: lines, rest, and stopping.
 #include "host_tools/stream/streamer.hpp"
 
-namespace cusp::host {
+namespace cusp::stream {
+
+using dialect::numbered_line;
+using dialect::ProgramLine;
+using dialect::ProgramLines;
+
 namespace {
 
 using std::chrono::milliseconds;
@@ -258,4 +263,4 @@ void Streamer::pump(milliseconds wait)
     }
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

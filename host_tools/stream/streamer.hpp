@@ -24,7 +24,7 @@
 #include "host_tools/stream/transfer_record.hpp"
 #include "host_tools/stream/transport.hpp"
 
-namespace cusp::host {
+namespace cusp::stream {
 
 // How to take up a program that was interrupted.
 struct StreamResume {
@@ -58,9 +58,9 @@ struct StreamOptions {
 struct StreamProgress {
     std::uint64_t lines_sent{0};
     std::uint64_t lines_answered{0};
-    std::uint64_t line{0};      // of the file, answered last
-    double sent_fraction{0.0};  // of the file's bytes
-    ControllerStatus status;    // the latest
+    std::uint64_t line{0};             // of the file, answered last
+    double sent_fraction{0.0};         // of the file's bytes
+    dialect::ControllerStatus status;  // the latest
     std::uint64_t lines_resent{0};
     Vec3d work_offset;
     int feed_override{100};
@@ -122,7 +122,7 @@ public:
     // Sends the program and waits until the machine has come to rest.
     //
     //   stop  set by a signal handler: holds, then resets; set to 2 or more: resets at once
-    StreamReport run(ProgramLines& program, const std::atomic<int>& stop);
+    StreamReport run(dialect::ProgramLines& program, const std::atomic<int>& stop);
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -142,13 +142,13 @@ private:
     void send_checked_command(const std::string& command);
     void send_checked_lines();
     void prepare_record();
-    void prepare_resume(ProgramLines& program);
-    std::optional<ProgramLine> next_line(ProgramLines& program);
+    void prepare_resume(dialect::ProgramLines& program);
+    std::optional<dialect::ProgramLine> next_line(dialect::ProgramLines& program);
     void keep_record(const std::string& ending);
-    void send_program(ProgramLines& program);
+    void send_program(dialect::ProgramLines& program);
     void switch_checks_on();
     void leave_checks(const std::string& refusal);
-    void send_checked_program(ProgramLines& program);
+    void send_checked_program(dialect::ProgramLines& program);
     void wait_for_rest();
     void hold_and_reset();
 
@@ -158,8 +158,8 @@ private:
     void pump(std::chrono::milliseconds wait);
     void take_line(const std::string& line);
     void take_listing(const std::string& line);
-    void take_status(const ControllerStatus& status);
-    void take_answer(const Answer& answer);
+    void take_status(const dialect::ControllerStatus& status);
+    void take_answer(const dialect::Answer& answer);
     void take_checked(const std::string& line);
     void take_key(StreamKey key);
     void take_error(std::uint64_t line, int code);
@@ -172,7 +172,7 @@ private:
     StreamOptions options_;
     const std::atomic<int>* stop_{nullptr};
     std::string file_;
-    FlowWindow window_;
+    dialect::FlowWindow window_;
     std::optional<CheckedWindow> checked_;
     StreamProgress progress_;
     std::string incoming_;
@@ -185,15 +185,15 @@ private:
     std::uint64_t own_errors_{0};
     bool stopping_{false};
     ControllerFacts facts_;
-    std::vector<std::string>
-        listing_;  // of the command that was asked last, where lines are checked
+    // of the command that was asked last, where lines are checked
+    std::vector<std::string> listing_;
     bool in_check_mode_{false};
-    std::deque<ProgramLine> first_lines_;  // of the approach, and the first of the program
-    bool sending_{false};                  // the program, or the approach to it
+    std::deque<dialect::ProgramLine> first_lines_;  // of the approach, and the first of the program
+    bool sending_{false};                           // the program, or the approach to it
     TransferRecord record_;
     ExecutedLine executed_;
     ProgramChecks checks_;
     Clock::time_point last_kept_;
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

@@ -3,7 +3,15 @@
 
 #include "host_tools/stream/streamer.hpp"
 
-namespace cusp::host {
+namespace cusp::stream {
+
+using dialect::alarm_text;
+using dialect::Answer;
+using dialect::AnswerKind;
+using dialect::ControllerStatus;
+using dialect::error_text;
+using dialect::parse_answer;
+
 namespace {
 
 using std::chrono::milliseconds;
@@ -189,4 +197,4 @@ void Streamer::take_key(StreamKey key)
     }
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

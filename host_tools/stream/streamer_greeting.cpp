@@ -4,7 +4,12 @@
 
 #include "host_tools/stream/streamer.hpp"
 
-namespace cusp::host {
+namespace cusp::stream {
+
+using dialect::ControllerStatus;
+using dialect::FlowWindow;
+using dialect::numbered_line;
+using dialect::ProgramLines;
 using std::chrono::milliseconds;
 
 void Streamer::greet()
@@ -251,4 +256,4 @@ void Streamer::leave_checks(const std::string& refusal)
     }
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

@@ -6,7 +6,10 @@
 
 #include "host_tools/simulate/simulation.hpp"
 
-namespace cusp::host {
+namespace cusp::stream {
+
+using simulate::SimulationOptions;
+using simulate::SimulationResult;
 
 TimeTable::TimeTable(const std::string& program_file, const machine::Settings& settings)
 {
@@ -20,7 +23,7 @@ TimeTable::TimeTable(const std::string& program_file, const machine::Settings& s
             note(line, seconds);
         };
         try {
-            const SimulationResult result = simulate(program_file, options);
+            const SimulationResult result = simulate::simulate(program_file, options);
             const std::lock_guard lock{mutex_};
             if (result.good()) {
                 total_ = result.total_s;
@@ -66,4 +69,4 @@ std::optional<TimeTable::Times> TimeTable::at_line(std::uint64_t line) const
     return Times{after == notes_.begin() ? 0.0 : std::prev(after)->seconds, *total_};
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

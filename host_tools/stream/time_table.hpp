@@ -11,7 +11,7 @@
 
 #include "firmware/machine/settings.hpp"
 
-namespace cusp::host {
+namespace cusp::stream {
 
 // The same planner as the firmware's makes the times. Memory is bounded: of a long program only
 // some lines are noted.
@@ -48,4 +48,4 @@ private:
     std::thread thread_;
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

@@ -7,7 +7,7 @@
 
 #include "host_tools/input_error/input_error.hpp"
 
-namespace cusp::host {
+namespace cusp::stream {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -116,4 +116,4 @@ void drop_record(const std::string& program)
     std::filesystem::remove(record_file(program), ignored);
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

@@ -8,7 +8,7 @@
 
 #include "firmware/gcode/modal_state.hpp"
 
-namespace cusp::host {
+namespace cusp::stream {
 
 // How the controller stood when the program began: what its lines were read against.
 struct TransferStart {
@@ -42,4 +42,4 @@ std::optional<TransferRecord> read_record(const std::string& program);
 // The transfer went to its end.
 void drop_record(const std::string& program);
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

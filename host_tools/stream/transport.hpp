@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace cusp::host {
+namespace cusp::stream {
 
 // The controller can't be reached any more. The text says how that showed.
 class LinkLost : public std::runtime_error {
@@ -38,4 +38,4 @@ public:
 // Throws InputError where it can't be opened.
 std::unique_ptr<Transport> open_transport(const std::string& port, int baud);
 
-}  // namespace cusp::host
+}  // namespace cusp::stream

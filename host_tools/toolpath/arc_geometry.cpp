@@ -5,7 +5,7 @@
 
 #include "firmware/base/math.hpp"
 
-namespace cusp::host {
+namespace cusp::toolpath {
 namespace {
 
 constexpr double kTurn = 2 * kPi;
@@ -86,4 +86,4 @@ double length(const ArcShape& arc)
     return std::hypot(round, arc.end[arc.axes[2]] - arc.start[arc.axes[2]]);
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::toolpath

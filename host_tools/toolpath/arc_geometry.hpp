@@ -5,7 +5,7 @@
 
 #include "host_tools/toolpath/toolpath.hpp"
 
-namespace cusp::host {
+namespace cusp::toolpath {
 
 // The axes of an arc's plane in the order in which counter-clockwise turns the first to the
 // second, then the axis of a helix' travel.
@@ -30,4 +30,4 @@ Vec3d point_on(const ArcShape& arc, double share);
 Vec3d tangent_on(const ArcShape& arc, double share);  // unit
 double length(const ArcShape& arc);                   // of the helix, with the mean radius
 
-}  // namespace cusp::host
+}  // namespace cusp::toolpath

@@ -14,7 +14,10 @@
 
 #include "fmt/format.h"
 
-namespace cusp::host {
+namespace cusp::toolpath {
+
+using nurbs::Curve;
+
 namespace {
 
 constexpr double kMillimetresPerInch = 25.4;
@@ -396,4 +399,4 @@ void write_program(std::ostream& out,
     writer.end();
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::toolpath

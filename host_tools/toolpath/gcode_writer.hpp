@@ -8,7 +8,7 @@
 
 #include "host_tools/toolpath/toolpath.hpp"
 
-namespace cusp::host {
+namespace cusp::toolpath {
 
 // Of the whole program.
 struct ProgramForm {
@@ -31,4 +31,4 @@ void write_program(std::ostream& out,
 // A number in fixed point with at most `decimals`, without trailing zeros.
 std::string fixed_point(double value, int decimals);
 
-}  // namespace cusp::host
+}  // namespace cusp::toolpath

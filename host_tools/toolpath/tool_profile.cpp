@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "host_tools/toolpath/toolpath.hpp"
+#include "host_tools/toolpath/tool.hpp"
 
-namespace cusp::host {
+namespace cusp::toolpath {
 
 double profile_height(const Tool& tool, double d)
 {
@@ -20,4 +20,4 @@ double profile_height(const Tool& tool, double d)
     return corner - std::sqrt(std::max(0.0, corner * corner - beyond_flat * beyond_flat));
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::toolpath

@@ -8,29 +8,17 @@
 
 #include "firmware/base/vec.hpp"
 #include "host_tools/nurbs/nurbs.hpp"
+#include "host_tools/toolpath/tool.hpp"
 
-namespace cusp::host {
-
-enum class ToolShape : std::uint8_t { kBall, kFlat, kBull };
-
-struct Tool {
-    int number{1};
-    ToolShape shape{ToolShape::kBall};
-    double radius{};         // mm
-    double corner_radius{};  // mm: radius for a ball, 0 for a flat end mill
-};
-
-// Height of the tool's lower side over its tip at distance `d` from its axis; infinity beyond the
-// radius.
-double profile_height(const Tool& tool, double d);
+namespace cusp::toolpath {
 
 // One move of the tool tip; it starts where the one before ended.
 enum class MoveKind : std::uint8_t {
     kRapid,
-    kPlunge,   // at the plunge feed
-    kCut,      // at the feed
-    kLink,     // at the feed
-    kDescent,  // a cut or a link down into metal: nowhere faster downward than the plunge feed
+    kPlunge,       // at the plunge feed
+    kCut,          // at the feed
+    kLink,         // at the feed
+    kPlungingCut,  // a cut or a link down into metal: nowhere faster downward than the plunge feed
 };
 
 struct LineTo {
@@ -46,7 +34,7 @@ struct ArcTo {
     bool clockwise;
 };
 struct NurbsTo {
-    Curve curve;  // starts where the tool is; degree 1 to 4
+    nurbs::Curve curve;  // starts where the tool is; degree 1 to 4
 };
 
 struct ToolMove {
@@ -77,8 +65,8 @@ struct OperationStats {
     double gouge_bound_mm{};
     double scallop_bound_mm{};
     double planning_s{};
-    std::vector<std::pair<std::string, double>>
-        counts;                         // loops, isocurves, layers, cells, backtracks...
+    // loops, isocurves, layers, cells, backtracks...
+    std::vector<std::pair<std::string, double>> counts;
     std::vector<std::string> warnings;  // rest material, slots: for people
 };
 
@@ -88,4 +76,4 @@ struct PlannedOperation {
     OperationStats stats;
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::toolpath

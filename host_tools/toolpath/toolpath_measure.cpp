@@ -6,7 +6,10 @@
 
 #include "host_tools/toolpath/arc_geometry.hpp"
 
-namespace cusp::host {
+namespace cusp::toolpath {
+
+using nurbs::Curve;
+
 namespace {
 
 // What the estimate of time needs of one move.
@@ -309,7 +312,7 @@ double feed_of(const Toolpath& path, const ToolMove& move, Vec3d start)
     if (move.kind == MoveKind::kPlunge) {
         return path.plunge_feed;
     }
-    const double down = move.kind == MoveKind::kDescent ? steepest_descent(move, start) : 0;
+    const double down = move.kind == MoveKind::kPlungingCut ? steepest_descent(move, start) : 0;
     return down * path.feed > path.plunge_feed ? path.plunge_feed / down : path.feed;
 }
 
@@ -338,4 +341,4 @@ PathMeasure measure(const Toolpath& path, Vec3d start, const MachineRates& rates
     return sum;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::toolpath

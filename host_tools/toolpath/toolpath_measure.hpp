@@ -5,7 +5,7 @@
 
 #include "host_tools/toolpath/toolpath.hpp"
 
-namespace cusp::host {
+namespace cusp::toolpath {
 
 struct MoveCounts {
     int lines{};
@@ -50,4 +50,4 @@ double steepest_descent(const ToolMove& move, Vec3d start);
 // mm/min that the move is programmed with; 0 for rapids.
 double feed_of(const Toolpath& path, const ToolMove& move, Vec3d start);
 
-}  // namespace cusp::host
+}  // namespace cusp::toolpath

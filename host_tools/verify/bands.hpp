@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-namespace cusp::host {
+namespace cusp::verify {
 
 // Calls work(begin, end, number of the band) for disjoint ranges that cover [0, count), each on a
 // thread of its own. `work` must not throw.
@@ -30,4 +30,4 @@ inline std::size_t band_count(std::size_t count)
                                    std::max<std::size_t>(1, count));
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::verify

@@ -6,11 +6,14 @@
 #include <limits>
 
 #include "host_tools/verify/bands.hpp"
-#include "host_tools/verify/floor_reach.hpp"
-#include "host_tools/verify/metal_thickness.hpp"
 #include "host_tools/verify/reachable.hpp"
+#include "host_tools/verify/residual_thickness.hpp"
+#include "host_tools/verify/tool_access.hpp"
 
-namespace cusp::host {
+namespace cusp::verify {
+
+using toolpath::Tool;
+
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -121,10 +124,10 @@ Ideal ideal_heights(const FloorQuestion& q, const PartHeights& part)
     const PartHeights flat = part_heights(q.surfaces, q.mesh, level);
     const std::vector<double> best = best_heights(q, level, flat.z);
     // the closing of a map of points is high by this much on a smooth floor
-    const double slack = 0.002 + level.pitch * level.pitch / (4 * least_radius(q.tools));
+    const double max_error = 0.002 + level.pitch * level.pitch / (4 * least_radius(q.tools));
     std::vector<double> unfit(level.size(), 0.0);
     for (std::size_t k = 0; k < level.size(); ++k) {
-        unfit[k] = std::isfinite(flat.z[k]) && !(best[k] - flat.z[k] <= slack) ? 1.0 : 0.0;
+        unfit[k] = std::isfinite(flat.z[k]) && !(best[k] - flat.z[k] <= max_error) ? 1.0 : 0.0;
     }
     // the shifted points lie up to half a pitch beside the level ones
     constexpr std::size_t kAround = 2;
@@ -166,7 +169,7 @@ std::size_t settle(const FloorQuestion& q,
 {
     const FloorSamples samples{q.grid, part.z};
     for_each_band(places.size(), [&](std::size_t begin, std::size_t end, std::size_t) {
-        FloorReach reach{q.surfaces, q.mesh, q.tools, q.walls, samples, q.keep_off};
+        ToolAccess reach{q.surfaces, q.mesh, q.tools, q.walls, samples, q.path_clearance};
         for (std::size_t n = begin; n < end; ++n) {
             const std::size_t k = places[n];
             const std::size_t i = k / q.grid.ny;
@@ -229,7 +232,7 @@ void find_thickest(const FloorQuestion& q,
         }
     }
     std::sort(all.begin(), all.end(), [](const High& a, const High& b) { return a.over > b.over; });
-    const MetalThickness metal{q.runs, q.top};
+    const ResidualThickness metal{q.runs, q.top};
     double most = q.most_left;
     for (const High& high : all) {
         if (high.over <= most) {
@@ -342,4 +345,4 @@ std::vector<double> judge_floor(const FloorQuestion& q, VerifyFigures& figures)
     return left;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::verify

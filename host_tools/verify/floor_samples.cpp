@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cusp::host {
+namespace cusp::verify {
+
+using drop_cutter::LowestPositionSearch;
 
 FloorSamples::FloorSamples(const HeightGrid& grid, const std::vector<double>& heights)
     : grid_{grid}, heights_{heights}
@@ -14,9 +16,9 @@ FloorSamples::FloorSamples(const HeightGrid& grid, const std::vector<double>& he
     }
 }
 
-ReachSearch::Rest FloorSamples::rest(double radius, double x, double y) const
+LowestPositionSearch::DroppedTool FloorSamples::drop_ball(double radius, double x, double y) const
 {
-    ReachSearch::Rest best{{x, y, -ReachSearch::kNowhere}, {}};
+    LowestPositionSearch::DroppedTool best{{x, y, -LowestPositionSearch::kNowhere}, {}};
     const std::size_t i_end = grid_.end_column(x + radius);
     const std::size_t j_begin = grid_.first_row(y - radius);
     const std::size_t j_end = grid_.end_row(y + radius);
@@ -39,9 +41,9 @@ ReachSearch::Rest FloorSamples::rest(double radius, double x, double y) const
         }
     }
     if (!std::isfinite(best.centre.z)) {
-        best.centre.z = ReachSearch::kNowhere;
+        best.centre.z = LowestPositionSearch::kNowhere;
     }
     return best;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::verify

@@ -1,12 +1,12 @@
-// A ball let down on the points of a map of heights: quick, and never too high.
+// A ball dropped on the points of a height map: quick, and never too high.
 #pragma once
 
 #include <vector>
 
-#include "host_tools/clearing/reach_search.hpp"
+#include "host_tools/drop_cutter/lowest_position_search.hpp"
 #include "host_tools/verify/height_grid.hpp"
 
-namespace cusp::host {
+namespace cusp::verify {
 
 // Between points the ball sinks in by a part of the pitch's square over its radius, more beside
 // cliffs. A point that stops it stops it on the floor, too.
@@ -15,7 +15,9 @@ public:
     // heights  of the floor at the grid's points; NaN where there is none
     FloorSamples(const HeightGrid& grid, const std::vector<double>& heights);
 
-    ReachSearch::Rest rest(double radius, double x, double y) const;
+    drop_cutter::LowestPositionSearch::DroppedTool drop_ball(double radius,
+                                                             double x,
+                                                             double y) const;
 
 private:
     const HeightGrid& grid_;
@@ -23,4 +25,4 @@ private:
     std::vector<double> shifts_;
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::verify

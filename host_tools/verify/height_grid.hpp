@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace cusp::host {
+namespace cusp::verify {
 
 // A grid of nx columns (x) of ny points (y). Each row and each column is shifted by its own part of
 // a pitch, so that straight ridges cross all phases of the grid.
@@ -51,4 +51,4 @@ private:
     }
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::verify

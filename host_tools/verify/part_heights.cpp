@@ -6,10 +6,17 @@
 #include <cmath>
 #include <limits>
 
-#include "host_tools/import/loop_shape.hpp"
+#include "host_tools/job/loop_shape.hpp"
 #include "host_tools/verify/bands.hpp"
 
-namespace cusp::host {
+namespace cusp::verify {
+
+using job::encloses;
+using job::loop_polyline;
+using nurbs::BezierPatch;
+using nurbs::Surface;
+using nurbs::SurfacePoint;
+
 namespace {
 
 struct Quad {
@@ -263,4 +270,4 @@ PartBox part_box(const std::vector<Surface>& surfaces,
     return box;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::verify

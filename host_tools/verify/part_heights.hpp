@@ -7,7 +7,7 @@
 #include "host_tools/nurbs/nurbs.hpp"
 #include "host_tools/verify/height_grid.hpp"
 
-namespace cusp::host {
+namespace cusp::verify {
 
 struct PartHeights {
     std::vector<double> z;                   // NaN where no surface lies
@@ -18,7 +18,7 @@ struct PartHeights {
 // Heights are roots of the surfaces' equations (Newton), not interpolated. Surfaces that stand
 // upright have no height. Trims are honoured.
 // Triangles count as they are; upright ones have no height.
-PartHeights part_heights(const std::vector<Surface>& surfaces,
+PartHeights part_heights(const std::vector<nurbs::Surface>& surfaces,
                          const std::vector<std::array<Vec3d, 3>>& triangles,
                          const HeightGrid& grid);
 
@@ -27,7 +27,7 @@ struct PartBox {
 };
 
 // Of the surfaces' points, sampled, and of the triangles.
-PartBox part_box(const std::vector<Surface>& surfaces,
+PartBox part_box(const std::vector<nurbs::Surface>& surfaces,
                  const std::vector<std::array<Vec3d, 3>>& triangles = {});
 
-}  // namespace cusp::host
+}  // namespace cusp::verify

@@ -8,12 +8,16 @@
 
 #include "firmware/gcode/interpreter.hpp"
 #include "host_tools/dialect/answer.hpp"
-#include "host_tools/import/text_of_file.hpp"
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/input_error/text_of_file.hpp"
 
 #include "fmt/format.h"
 
-namespace cusp::host {
+namespace cusp::verify {
+
+using dialect::error_text;
+using toolpath::MoveCounts;
+
 namespace {
 
 Vec3d point_on(const path::Arc& arc, double t)
@@ -184,4 +188,4 @@ void append_points(const path::Move& move, double spacing, std::vector<Vec3d>& p
     points.push_back(end);
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::verify

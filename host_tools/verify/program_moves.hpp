@@ -9,7 +9,7 @@
 #include "firmware/path/move.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
 
-namespace cusp::host {
+namespace cusp::verify {
 
 struct ProgramMove {
     path::Move move;
@@ -18,7 +18,7 @@ struct ProgramMove {
 
 struct Program {
     std::vector<ProgramMove> moves;
-    MoveCounts counts;  // a NURBS of many pieces counts once
+    toolpath::MoveCounts counts;  // a NURBS of many pieces counts once
 };
 
 // Machine coordinates are program coordinates: offsets are those of a fresh controller, which
@@ -30,4 +30,4 @@ Program read_program(const std::string& file, double start_z);
 // Points of a move, at most `spacing` mm apart, the end included and the start not; mm.
 void append_points(const path::Move& move, double spacing, std::vector<Vec3d>& points);
 
-}  // namespace cusp::host
+}  // namespace cusp::verify

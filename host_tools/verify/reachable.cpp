@@ -8,7 +8,10 @@
 
 #include "host_tools/verify/bands.hpp"
 
-namespace cusp::host {
+namespace cusp::verify {
+
+using toolpath::Tool;
+
 namespace {
 
 // A place of the tool's lower side: at a grid point, or on the way to the next one.
@@ -133,4 +136,4 @@ std::vector<float> lowest_reachable(const std::vector<float>& heights,
     return lowest;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::verify

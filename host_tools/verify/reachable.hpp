@@ -6,7 +6,7 @@
 #include "host_tools/toolpath/toolpath.hpp"
 #include "host_tools/verify/height_grid.hpp"
 
-namespace cusp::host {
+namespace cusp::verify {
 
 // heights    of the part over the grid; -infinity where there is none
 // forbidden  where the tool's axis may not stand (not 0)
@@ -16,6 +16,6 @@ namespace cusp::host {
 std::vector<float> lowest_reachable(const std::vector<float>& heights,
                                     const std::vector<char>& forbidden,
                                     const HeightGrid& grid,
-                                    const Tool& tool);
+                                    const toolpath::Tool& tool);
 
-}  // namespace cusp::host
+}  // namespace cusp::verify

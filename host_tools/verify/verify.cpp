@@ -5,13 +5,23 @@
 #include <cmath>
 #include <set>
 
-#include "host_tools/surface_offset/surface_model.hpp"
+#include "host_tools/part_model/part_model.hpp"
 #include "host_tools/verify/floor_judgement.hpp"
 #include "host_tools/verify/wall_distance.hpp"
 
 #include "fmt/format.h"
 
-namespace cusp::host {
+namespace cusp::verify {
+
+using job::Job;
+using job::Loop;
+using job::Operation;
+using job::ToleranceSide;
+using nurbs::Surface;
+using part_model::PartModel;
+using toolpath::Tool;
+using toolpath::ToolShape;
+
 namespace {
 
 constexpr double kDefaultPitch = 0.173;  // out of step with round path intervals
@@ -32,7 +42,7 @@ struct Scene {
     double floor_tolerance{};
     double plan_tolerance{};
     std::optional<double> scallop;
-    double keep_off{};  // mm: the floor tolerance where it is one-sided
+    double path_clearance{};  // mm: the floor tolerance where it is one-sided
 };
 
 Scene scene_of(const Job& job)
@@ -63,7 +73,7 @@ Scene scene_of(const Job& job)
         scene.plan_tolerance = std::max(scene.plan_tolerance, operation.plan_tolerance);
         if (operation.scallop) {
             scene.scallop = operation.scallop;
-            scene.keep_off =
+            scene.path_clearance =
                 operation.tolerance_side == ToleranceSide::kOutside ? operation.floor_tolerance : 0;
         }
     }
@@ -160,8 +170,8 @@ std::optional<double> ball_gouge(const Scene& scene,
                                  const std::vector<ToolPositions>& runs,
                                  double top)
 {
-    const SurfaceModel model{scene.surfaces};
-    const SurfaceModel mesh{scene.mesh};
+    const PartModel model{scene.surfaces};
+    const PartModel mesh{scene.mesh};
     std::optional<double> deepest;
     for (const ToolPositions& run : runs) {
         if (run.tool.shape != ToolShape::kBall) {
@@ -170,8 +180,8 @@ std::optional<double> ball_gouge(const Scene& scene,
         deepest = deepest.value_or(0.0);
         for (const Vec3d tip : run.tips) {
             if (tip.z < top) {
-                deepest = std::max({*deepest, -model.clearance(run.tool, tip, 0.0).distance,
-                                    -mesh.clearance(run.tool, tip, 0.0).distance});
+                deepest = std::max({*deepest, -model.distance(run.tool, tip, 0.0).distance,
+                                    -mesh.distance(run.tool, tip, 0.0).distance});
             }
         }
     }
@@ -258,7 +268,7 @@ Verification verify(const Job& job,
         positions_of(job, result.program, program_file, spacing, figures);
     result.grid = make_grid(job, scene, least_radius, settings.pitch);
 
-    Stock stock{result.grid, job.stock_top};
+    StockHeightMap stock{result.grid, job.stock_top};
     const std::vector<Tool> tools = finishing_tools(job, runs);
     double widest = 0;
     for (const ToolPositions& run : runs) {
@@ -287,10 +297,10 @@ Verification verify(const Job& job,
     figures.ball_gouge_max = ball_gouge(scene, runs, job.stock_top);
     result.left = judge_floor(
         {scene.surfaces, scene.mesh, tools, walls, result.grid, stock.heights(), job.stock_top,
-         scene.scallop, scene.keep_off, runs, most_left(scene, tools, spacing)},
+         scene.scallop, scene.path_clearance, runs, most_left(scene, tools, spacing)},
         figures);
     judge(scene, result);
     return result;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::verify

@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "host_tools/import/job.hpp"
+#include "host_tools/job/job.hpp"
 #include "host_tools/verify/height_grid.hpp"
 #include "host_tools/verify/part_heights.hpp"
 #include "host_tools/verify/program_moves.hpp"
-#include "host_tools/verify/stock.hpp"
+#include "host_tools/verify/stock_cutting.hpp"
 
-namespace cusp::host {
+namespace cusp::verify {
 
 struct VerifySettings {
     std::optional<double> pitch;    // mm between heights; else 0.173 and fine enough for the tools
@@ -26,7 +26,7 @@ struct ThickestLeft {
 
 // All in mm, square to the surface where a surface is meant.
 struct VerifyFigures {
-    MoveCounts moves;
+    toolpath::MoveCounts moves;
     double cut_length{};
     double rapid_length{};  // without the program's first move
     std::size_t tool_positions{};
@@ -63,9 +63,9 @@ struct Verification {
 // high, measured square to the floor, and yet thin.
 //
 // Errors: InputError where the program can't be read or names a tool that the job lacks.
-Verification verify(const Job& job,
+Verification verify(const job::Job& job,
                     const std::string& program_file,
                     const VerifySettings& settings,
                     const Progress& progress);
 
-}  // namespace cusp::host
+}  // namespace cusp::verify

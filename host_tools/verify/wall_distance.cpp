@@ -5,9 +5,13 @@
 #include <cmath>
 #include <limits>
 
-#include "host_tools/import/loop_shape.hpp"
+#include "host_tools/job/loop_shape.hpp"
 
-namespace cusp::host {
+namespace cusp::verify {
+
+using job::Loop;
+using job::loop_polyline;
+
 namespace {
 
 constexpr double kChord = 1e-4;
@@ -111,4 +115,4 @@ double WallDistance::at(double x, double y) const
     return encloses(x, y) == outer_ ? nearest : -nearest;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::verify

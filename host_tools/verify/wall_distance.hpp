@@ -4,15 +4,15 @@
 #include <cstddef>
 #include <vector>
 
-#include "host_tools/import/job.hpp"
+#include "host_tools/job/job.hpp"
 
-namespace cusp::host {
+namespace cusp::verify {
 
 class WallDistance {
 public:
     // outer  true: a boundary, the tool stays inside; false: an island, it stays outside
-    // cap    mm: distances beyond it are not told apart
-    WallDistance(const Loop& loop, bool outer, double cap);
+    // cap    mm: distances beyond it may be inexact
+    WallDistance(const job::Loop& loop, bool outer, double cap);
 
     // Negative on the wrong side of the wall; within [-cap, cap]. Accuracy 1e-4 mm, that of the
     // loop's chords.
@@ -33,10 +33,10 @@ private:
     double cap_;
     double x0_, y0_;
     std::size_t nx_, ny_;
-    std::vector<std::vector<std::size_t>>
-        buckets_;  // squares of side cap_: segments that touch them
+    // squares of side cap_: segments that touch them
+    std::vector<std::vector<std::size_t>> buckets_;
     std::vector<std::vector<std::size_t>> levels_;  // strips of y: segments that cross them
     double level_height_;
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::verify

@@ -12,7 +12,7 @@
 #include "firmware/base/assert.hpp"
 #include "firmware/gcode/interpreter.hpp"
 #include "firmware/nurbs/arc_length_table.hpp"
-#include "host_tools/fit/fit_program.hpp"
+#include "host_tools/program_fit/fit_program.hpp"
 
 namespace {
 
@@ -56,7 +56,7 @@ void fit(benchmark::State& state)
         program += line + "\n";
     }
     for (auto _ : state) {
-        benchmark::DoNotOptimize(cusp::host::fit_program(program, "bench", 0.01));
+        benchmark::DoNotOptimize(cusp::program_fit::fit_program(program, "bench", 0.01));
     }
     state.SetItemsProcessed(state.iterations() * kLines);
 }

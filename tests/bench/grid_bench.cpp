@@ -12,7 +12,12 @@
 
 namespace {
 
-using namespace cusp::host;
+using namespace cusp::grid_pocket;
+using namespace cusp::job;
+using namespace cusp::offset;
+using namespace cusp::test;
+using namespace cusp::toolpath;
+using cusp::Vec2d;
 
 // The polygon of Choi, Cho & Kim, in inches.
 const std::vector<Vec2d> kPolygon{{0, 0},    {2.5, 0}, {3.5, .75}, {3, 1.5},   {3.5, 2.5},

@@ -8,7 +8,10 @@
 
 namespace {
 
-using namespace cusp::host;
+using namespace cusp::hull_rough;
+using namespace cusp::job;
+using namespace cusp::test;
+using namespace cusp::toolpath;
 
 void rough(benchmark::State& state)
 {

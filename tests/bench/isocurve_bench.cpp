@@ -12,14 +12,22 @@
 #include "benchmark/benchmark.h"
 
 #include "host_tools/adaptive_isocurve/adaptive_isocurve.hpp"
-#include "host_tools/adaptive_isocurve/rough_levels.hpp"
-#include "host_tools/clearing/reach_search.hpp"
-#include "host_tools/surface_offset/offset_surface.hpp"
-#include "host_tools/surface_offset/surface_model.hpp"
+#include "host_tools/adaptive_isocurve/waterline_roughing.hpp"
+#include "host_tools/drop_cutter/lowest_position_search.hpp"
+#include "host_tools/import/import.hpp"
+#include "host_tools/part_model/offset_surface.hpp"
+#include "host_tools/part_model/part_model.hpp"
 #include "tests/support/test_jobs.hpp"
 
 using namespace cusp;
-using namespace cusp::host;
+using namespace cusp::adaptive_isocurve;
+using namespace cusp::drop_cutter;
+using namespace cusp::import;
+using namespace cusp::job;
+using namespace cusp::nurbs;
+using namespace cusp::part_model;
+using namespace cusp::test;
+using namespace cusp::toolpath;
 
 namespace {
 
@@ -91,14 +99,14 @@ BENCHMARK(plan_noisy_scan)->Arg(25)->Arg(50)->Unit(benchmark::kMillisecond);
 
 void certified_distance(benchmark::State& state)
 {
-    const SurfaceModel model{sine_hills()};
+    const PartModel model{sine_hills()};
     const Tool ball{1, ToolShape::kBall, 3, 3};
     double u = 1;
     for (auto _ : state) {
         u = u > 98 ? 1 : u + 0.3;
         const SurfacePoint p = model.evaluate(0, u, 50);
         const Vec3d tip = p.point + upward_normal(p) * 3.002 - Vec3d{0, 0, 3};
-        benchmark::DoNotOptimize(model.clearance(ball, tip, 0.1).distance);
+        benchmark::DoNotOptimize(model.distance(ball, tip, 0.1).distance);
     }
 }
 BENCHMARK(certified_distance);
@@ -127,7 +135,7 @@ BENCHMARK(offset_within_two_micrometres)
     ->Unit(benchmark::kMillisecond);
 
 // range(1): of one cutter, or of a smaller one after it, too.
-void rough_levels(benchmark::State& state)
+void waterline_roughing(benchmark::State& state)
 {
     Job job = plain_job();
     job.stock_top = 9;
@@ -144,7 +152,7 @@ void rough_levels(benchmark::State& state)
     operation.max_depth = 3;
     for (auto _ : state) {
         double moves = 0;
-        for (const PlannedOperation& planned : plan_rough_levels(job, operation)) {
+        for (const PlannedOperation& planned : plan_waterline_roughing(job, operation)) {
             moves += static_cast<double>(planned.path.moves.size());
             state.counters["gouge_bound_mm"] = planned.stats.gouge_bound_mm;
         }
@@ -152,7 +160,7 @@ void rough_levels(benchmark::State& state)
     }
     count_patches(state);
 }
-BENCHMARK(rough_levels)
+BENCHMARK(waterline_roughing)
     ->ArgsProduct({{10, 30, 100}, {1, 2}})
     ->Iterations(1)
     ->Unit(benchmark::kMillisecond);
@@ -170,18 +178,18 @@ void lowest_beside_a_concave_edge(benchmark::State& state)
     wall.points = {{0, 0, 0}, {0, 60, 0}, {-3, 0, 20}, {-3, 60, 20}};
     plate.points = {{0, 0, 0}, {0, 60, 0}, {30, 0, 0}, {30, 60, 0}};
     const Tool ball{1, ToolShape::kBall, 3, 3};
-    const TipFloor floor{{wall, plate}, ball, 1e-4};
+    const DropCutter floor{{wall, plate}, ball, 1e-4};
     double drops = 0;
-    ReachSearch search{ball, 0, 0.375, 3e-4, [&](double x, double y) {
-                           ++drops;
-                           return rest_on(floor, x, y);
-                       }};
+    LowestPositionSearch search{ball, 0, 0.375, 3e-4, [&](double x, double y) {
+                                    ++drops;
+                                    return drop_tool(floor, x, y);
+                                }};
     double places = 0;
     for (auto _ : state) {
         const Vec3d place{0.3 + 0.1 * std::fmod(places, 9.0), 5 + std::fmod(0.01 * places, 50.0),
                           0};
-        const auto free = search.over(place, 1e9, 1e9, Vec2d{place.x + 2.5, place.y});
-        benchmark::DoNotOptimize(search.over(place, free->height - 0.03));
+        const auto free = search.lowest_over(place, 1e9, 1e9, Vec2d{place.x + 2.5, place.y});
+        benchmark::DoNotOptimize(search.lowest_over(place, free->height - 0.03));
         ++places;
     }
     state.counters["drops_per_place"] = drops / places;

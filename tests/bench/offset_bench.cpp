@@ -4,11 +4,20 @@
 #include <cmath>
 
 #include "host_tools/contour_pocket/contour_pocket.hpp"
+#include "host_tools/import/import.hpp"
 #include "host_tools/offset/contour_fit.hpp"
 #include "host_tools/offset/offset.hpp"
 #include "tests/papers/suh_lee/tiller_hanson.hpp"
 
-namespace cusp::host {
+namespace cusp::test {
+
+using namespace contour_pocket;
+using namespace import;
+using namespace job;
+using namespace nurbs;
+using namespace offset;
+using namespace toolpath;
+
 namespace {
 
 std::string part(const char* name)
@@ -222,4 +231,4 @@ BENCHMARK(plan_by_number_of_curves)
     ->Complexity();
 
 }  // namespace
-}  // namespace cusp::host
+}  // namespace cusp::test

@@ -15,7 +15,7 @@ void run_program(benchmark::State& state, const char* name)
     double lines = 0.0;
     for (auto _ : state) {
         const auto result =
-            cusp::host::simulate(std::string{CUSP_SOURCE_DIR "/tests/programs/"} + name, {});
+            cusp::simulate::simulate(std::string{CUSP_SOURCE_DIR "/tests/programs/"} + name, {});
         simulated += result.total_s;
         lines += static_cast<double>(result.lines);
     }

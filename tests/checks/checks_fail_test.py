@@ -50,6 +50,27 @@ class ChecksOfTheTree(unittest.TestCase):
         self.write("firmware/base/vec.hpp", '#include "axis.hpp"\n')
         self.assertEqual(self.run_check("includes.py")[0], 1)
 
+    def test_includes_refuses_an_arrow_that_nothing_uses(self):
+        self.write("firmware/path/line.hpp", "#include <array>\n")
+        status, text = self.run_check("includes.py")
+        self.assertEqual(status, 1)
+        self.assertIn("firmware/path includes nothing of firmware/base", text)
+
+    def test_includes_refuses_a_target_whose_dependencies_are_not_its_row(self):
+        self.write("firmware/path/line.hpp", '#include "firmware/base/vec.hpp"\n')
+        self.write("firmware/base/CMakeLists.txt", "cusp_module(NAME base LINKS cusp::path)\n")
+        self.write("firmware/path/CMakeLists.txt", "cusp_module(NAME path DEPENDS cusp::base)\n")
+        self.assertEqual(self.run_check("includes.py"), (0, "includes: 1 files keep to the arrows\n"))
+        self.write("firmware/path/CMakeLists.txt", "cusp_module(NAME path)  # cusp::base\n")
+        status, text = self.run_check("includes.py")
+        self.assertEqual(status, 1)
+        self.assertIn("firmware/base is missing", text)
+        self.write("firmware/path/CMakeLists.txt", "cusp_module(NAME path DEPENDS cusp::base)\n")
+        self.write("firmware/base/CMakeLists.txt", "cusp_module(NAME base DEPENDS cusp::path)\n")
+        status, text = self.run_check("includes.py")
+        self.assertEqual(status, 1)
+        self.assertIn("firmware/path is not in the row of firmware/base", text)
+
     def test_includes_needs_a_table_and_sources(self):
         self.assertEqual(self.run_check("includes.py")[0], 2)
         self.write("docs/architecture.md", "none\n")
@@ -69,6 +90,23 @@ class ChecksOfTheTree(unittest.TestCase):
         self.write("host_tools/import/job_reader.cpp", "")
         self.write("docs/job_file.md", "")
         self.assertEqual(self.run_check("job_keys.py")[0], 2)
+
+    def test_retired_words_are_refused_in_code_comments_documents_and_names_of_files(self):
+        self.write("host_tools/clearing/loops.hpp", "// A standing_metalwork.\nint told_apart_from;  // Joint\n")
+        self.assertEqual(self.run_check("retired_words.py")[0], 0)
+        for place, text in (("docs/life.md", "`TipFloor::drop()`\n"), ("host_tools/clearing/tip_floor_test.cpp", "\n"),
+                            ("host_tools/clearing/loops.hpp", "// See StandingMetal.\n"),
+                            ("firmware/base/vec.hpp", "struct Joint;\n"),
+                            ("host_tools/clearing/ball.hpp", "// A ball is let down.\n")):
+            self.write(place, text)
+            status, said = self.run_check("retired_words.py")
+            self.assertEqual(status, 1, place)
+            self.assertIn(place, said)
+            (self.top / place).unlink()
+
+    def test_retired_words_needs_sources(self):
+        shutil.rmtree(self.top / "docs")
+        self.assertEqual(self.run_check("retired_words.py")[0], 2)
 
     def test_format_refuses_a_badly_laid_out_file(self):
         shutil.copy(HERE.parent.parent / ".clang-format", self.top)

@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
-"""Compares every #include of the tree with the arrows that docs/architecture.md allows.
+"""Compares the arrows of docs/architecture.md with every #include of the tree and with CMake's DEPENDS.
 
 usage: includes.py TOP
-Exit status: 0 every arrow is in the table, 1 some are not, 2 the tree or its table can't be read.
+The table holds exactly the arrows that exist: an #include without an arrow, an arrow without an #include, and a module
+whose DEPENDS are not its row are refused. What is linked without an #include stands behind LINKS.
+Exit status: 0 they agree, 1 they do not, 2 the tree or its table can't be read.
 """
+import collections
 import pathlib
 import re
 import sys
@@ -48,7 +51,37 @@ def is_freestanding(module):
         "hal/contract", "hal/freestanding", "hal/qemu", "hal/stm32f4")
 
 
-def complaints(file, place, table):
+TARGET = re.compile(r"cusp_module\(\s*NAME\s+(\w+)([^)]*)\)")
+LINKED = re.compile(r"\bcusp::(\w+)")
+NOT_INCLUDED = re.compile(r"\bLINKS\b[^)]*")
+
+
+def cmake_lists(top, table):
+    """The text without comments of each CMakeLists.txt that declares a module, or the program of host_tools/cli.
+
+    Images are left out: they link what the headers of boards/ need, which are no target.
+    """
+    files = {module: top / module / "CMakeLists.txt" for module in table}
+    texts = {module: re.sub(r"#.*", "", file.read_text()) for module, file in files.items() if file.exists()}
+    return {module: text for module, text in texts.items() if "cusp_module(" in text or "add_executable(" in text}
+
+
+def disagreements_with_cmake(top, table):
+    """Modules whose DEPENDS are not their row. A row without a target (headers only) is not linked."""
+    lists = cmake_lists(top, table)
+    target_folder = {name: module for module, text in lists.items() for name, _ in TARGET.findall(text)}
+    for module, text in sorted(lists.items()):
+        named = set(LINKED.findall(NOT_INCLUDED.sub("", text)))
+        linked = {target_folder[name] for name in named if name in target_folder} - {module}
+        allowed = {other for other in table[module] if other in target_folder.values()}
+        place = f"{module}/CMakeLists.txt"
+        for other in sorted(linked - allowed):
+            yield f"{place}: {other} is not in the row of {module} in docs/architecture.md"
+        for other in sorted(allowed - linked):
+            yield f"{place}: {other} is missing, {module} includes it"
+
+
+def complaints(file, place, table, used):
     module = module_of(place, table)
     if module is None:
         yield f"{place}: lies in no module of docs/architecture.md"
@@ -59,6 +92,7 @@ def complaints(file, place, table):
         bracket, target = match.groups()
         if target.split("/")[0] in TOP_FOLDERS:
             other = module_of(target, table)
+            used[module].add(other)
             if other != module and other not in table[module]:
                 yield f"{place}:{line}: {module} may not include {target}"
         elif bracket == '"' and "/" not in target:
@@ -74,14 +108,17 @@ def main(arguments):
     except (OSError, ValueError) as error:
         print(f"includes: {error}", file=sys.stderr)
         return 2
-    count, found = 0, []
+    count, found, used = 0, [], collections.defaultdict(set)
     for folder in TOP_FOLDERS:
         for file in sorted((top / folder).rglob("*.[hc]pp")):
             count += 1
-            found += complaints(file, file.relative_to(top).as_posix(), table)
+            found += complaints(file, file.relative_to(top).as_posix(), table, used)
     if not count:
         print(f"includes: no sources below {top}", file=sys.stderr)
         return 2
+    for module, allowed in table.items():
+        found += [f"docs/architecture.md: {module} includes nothing of {other}" for other in sorted(allowed - used[module])]
+    found += disagreements_with_cmake(top, table)
     print("\n".join(found) if found else f"includes: {count} files keep to the arrows")
     return 1 if found else 0
 

@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""Checks that no type of namespace cusp::host is defined in two files.
+"""Checks that no type of one namespace is defined in two files of host_tools.
 
 usage: type_names.py TOP
-All host modules share one namespace: two types of one name, in two libraries of one program, are one
-type to the linker, and either's constructor may be run on the other. Types in unnamed namespaces are
-free. Exit status: 0 each name is defined once, 1 one is not, 2 no type was found at all.
+Two types of one name and namespace are one type to the linker, and either's constructor may be run on the other. Types
+in unnamed namespaces are free. Exit status: 0 each name is defined once, 1 one is not, 2 no type was found at all.
 """
 import collections
 import pathlib
 import re
 import sys
 
+NAMESPACE = re.compile(r"^namespace ([\w:]+) \{", re.MULTILINE)
 UNNAMED = re.compile(r"^namespace \{.*?^\}  // namespace$", re.DOTALL | re.MULTILINE)
 TYPE = re.compile(r"^(?:struct|class|enum class) (\w+)(?: final)?\s*(?::(?!:)[^;{]*)?\{", re.MULTILINE)
 
@@ -19,8 +19,10 @@ def main(arguments):
     top = pathlib.Path(arguments[1])
     places = collections.defaultdict(set)
     for file in sorted((top / "host_tools").rglob("*.?pp")):
-        for name in TYPE.findall(UNNAMED.sub("", file.read_text())):
-            places[name].add(str(file.relative_to(top)))
+        text = UNNAMED.sub("", file.read_text())
+        opened = NAMESPACE.findall(text)
+        for name in TYPE.findall(text):
+            places[f"{opened[-1]}::{name}" if opened else name].add(str(file.relative_to(top)))
     if not places:
         print("type_names: no type found", file=sys.stderr)
         return 2
@@ -32,4 +34,5 @@ def main(arguments):
     return 1 if twice else 0
 
 
-sys.exit(main(sys.argv))
+if __name__ == "__main__":
+    sys.exit(main(sys.argv))

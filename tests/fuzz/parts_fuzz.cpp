@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <string>
 
-#include "host_tools/import/job.hpp"
+#include "host_tools/import/import.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 // The first byte picks the format.
@@ -26,13 +26,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::fclose(out);
     try {
         if (kind == 0 || kind == 3) {
-            cusp::host::read_surfaces(file);
+            cusp::import::read_surfaces(file);
         } else if (kind == 4) {
-            cusp::host::read_job(file);
+            cusp::import::read_job(file);
         } else {
-            cusp::host::read_loop(file);
+            cusp::import::read_loop(file);
         }
-    } catch (const cusp::host::InputError&) {
+    } catch (const cusp::InputError&) {
         // refused in words, as it should be
     }
     return 0;

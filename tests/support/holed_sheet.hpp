@@ -7,14 +7,14 @@
 #include "host_tools/nurbs/nurbs.hpp"
 #include "tests/support/plates.hpp"
 
-namespace cusp::host {
+namespace cusp::test {
 
 // Over [0, 30] x [0, 30] mm, from 2 to 7 mm high; the hole about its middle, in (u, v).
 //
 //   radius  in (u, v): a share of the size
-inline Surface holed_sheet(double radius)
+inline nurbs::Surface holed_sheet(double radius)
 {
-    Surface s;
+    nurbs::Surface s;
     s.degree_u = s.degree_v = 3;
     s.size_u = s.size_v = 6;
     s.knots_u = s.knots_v = {0, 0, 0, 0, 1.0 / 3, 2.0 / 3, 1, 1, 1, 1};
@@ -24,7 +24,7 @@ inline Surface holed_sheet(double radius)
             s.weights.push_back(1.0 + 0.2 * ((i + j) % 2));
         }
     }
-    Curve circle{2, {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4}, {}, {}};
+    nurbs::Curve circle{2, {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4}, {}, {}};
     constexpr double kWay[][2] = {{1, 0},  {1, -1}, {0, -1}, {-1, -1}, {-1, 0},
                                   {-1, 1}, {0, 1},  {1, 1},  {1, 0}};
     for (int k = 0; k < 9; ++k) {
@@ -32,7 +32,7 @@ inline Surface holed_sheet(double radius)
         circle.weights.push_back(k % 2 == 0 ? 1.0 : std::sqrt(0.5));
     }
     const auto side = [](Vec3d a, Vec3d b) {
-        return Curve{1, {0, 0, 1, 1}, {a, b}, {1, 1}};
+        return nurbs::Curve{1, {0, 0, 1, 1}, {a, b}, {1, 1}};
     };
     s.trims = {{side({0, 0, 0}, {1, 0, 0}), side({1, 0, 0}, {1, 1, 0}), side({1, 1, 0}, {0, 1, 0}),
                 side({0, 1, 0}, {0, 0, 0})},
@@ -41,9 +41,9 @@ inline Surface holed_sheet(double radius)
 }
 
 // With the plate under it.
-inline std::vector<Surface> holed_floor(double radius)
+inline std::vector<nurbs::Surface> holed_floor(double radius)
 {
     return {plate(-5, -5, 35, 35, 0), holed_sheet(radius)};
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::test

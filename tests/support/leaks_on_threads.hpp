@@ -5,11 +5,11 @@
 #include "CppUTest/MemoryLeakWarningPlugin.h"
 #include "CppUTest/TestHarness.h"
 
-namespace cusp::host {
+namespace cusp::test {
 
 inline const bool kLeaksAreCountedOnThreads = [] {
     MemoryLeakWarningPlugin::turnOnThreadSafeNewDeleteOverloads();
     return true;
 }();
 
-}  // namespace cusp::host
+}  // namespace cusp::test

@@ -3,13 +3,13 @@
 
 #include <vector>
 
-#include "host_tools/import/job.hpp"
+#include "host_tools/job/job.hpp"
 
-namespace cusp::host {
+namespace cusp::test {
 
-inline Loop loop_of(const std::vector<Vec2d>& corners)
+inline job::Loop loop_of(const std::vector<Vec2d>& corners)
 {
-    Loop loop;
+    job::Loop loop;
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const Vec2d a = corners[i];
         const Vec2d b = corners[(i + 1) % corners.size()];
@@ -18,4 +18,4 @@ inline Loop loop_of(const std::vector<Vec2d>& corners)
     return loop;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::test

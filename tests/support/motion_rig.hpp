@@ -33,11 +33,11 @@ struct MotionRig {
         std::size_t next = 0;
         std::size_t idle = 0;
         while (idle < 3) {
-            while (next < moves.size() && planner->has_room()) {
+            while (next < moves.size() && planner->make_room()) {
                 planner->push(moves[next]);
                 ++next;
             }
-            if (next == moves.size() && planner->has_room()) {
+            if (next == moves.size() && planner->make_room()) {
                 planner->close();
             }
             samples.push_back(interpolator->tick());
@@ -59,11 +59,11 @@ struct MotionRig {
         std::size_t idle = 0;
         std::size_t until = 0;
         while (idle < 3 && samples.size() < kMostTicks) {
-            while (next < moves.size() && planner->has_room() && random() % 3 != 0) {
+            while (next < moves.size() && planner->make_room() && random() % 3 != 0) {
                 planner->push(moves[next]);
                 ++next;
             }
-            if (random() % 50 == 0 || (next == moves.size() && planner->has_room())) {
+            if (random() % 50 == 0 || (next == moves.size() && planner->make_room())) {
                 planner->close();
             }
             if (samples.size() >= until) {
@@ -97,11 +97,11 @@ struct MotionRig {
             // Until it starves it knows only a few moves, so that it does run dry.
             const std::size_t known =
                 starved ? std::min<std::size_t>(moves.size(), 5) : moves.size();
-            while (next < known && planner->has_room()) {
+            while (next < known && planner->make_room()) {
                 planner->push(moves[next]);
                 ++next;
             }
-            if (next == known && planner->has_room()) {
+            if (next == known && planner->make_room()) {
                 planner->close();
             }
             if (interpolator->holding() && interpolator->at_rest()) {

@@ -4,18 +4,19 @@
 #include "host_tools/nurbs/nurbs.hpp"
 #include "host_tools/offset/contour.hpp"
 
-namespace cusp::host {
+namespace cusp::test {
 
 // Of this length along the unit vector `along`, and this width across it, mm.
-inline Surface turned_plate(Vec2d centre, Vec2d along, double length, double width, double z)
+inline nurbs::Surface turned_plate(Vec2d centre, Vec2d along, double length, double width, double z)
 {
-    Surface s;
+    nurbs::Surface s;
     s.degree_u = s.degree_v = 1;
     s.size_u = s.size_v = 2;
     s.knots_u = s.knots_v = {0, 0, 1, 1};
     for (const double u : {-0.5, 0.5}) {
         for (const double v : {-0.5, 0.5}) {
-            const Vec2d p = centre + along * (u * length) + left_normal(along) * (v * width);
+            const Vec2d p =
+                centre + along * (u * length) + offset::left_normal(along) * (v * width);
             s.points.push_back({p.x, p.y, z});
             s.weights.push_back(1);
         }
@@ -23,9 +24,9 @@ inline Surface turned_plate(Vec2d centre, Vec2d along, double length, double wid
     return s;
 }
 
-inline Surface plate(double x0, double y0, double x1, double y1, double z)
+inline nurbs::Surface plate(double x0, double y0, double x1, double y1, double z)
 {
     return turned_plate({0.5 * (x0 + x1), 0.5 * (y0 + y1)}, {1, 0}, x1 - x0, y1 - y0, z);
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::test

@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-namespace cusp::host {
+namespace cusp::test {
 
 // CUSP_PROPERTY_CASES, or what suits CI.
 inline int property_cases(int usual)
@@ -12,4 +12,4 @@ inline int property_cases(int usual)
     return text != nullptr ? std::atoi(text) : usual;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::test

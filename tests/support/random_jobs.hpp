@@ -5,12 +5,12 @@
 #include <cmath>
 #include <vector>
 
-#include "host_tools/import/job.hpp"
+#include "host_tools/job/job.hpp"
 #include "tests/property/offset/random_regions.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/test_jobs.hpp"
 
-namespace cusp::host {
+namespace cusp::test {
 
 inline int whole(Random& random, int low, int high)
 {
@@ -18,7 +18,7 @@ inline int whole(Random& random, int low, int high)
 }
 
 // A box whose low corner is up to (along_x, along_y) from zero, with sides of `least` to `most`.
-inline Box2d random_box(Random& random, Vec2d along, double least, double most)
+inline offset::Box2d random_box(Random& random, Vec2d along, double least, double most)
 {
     const double x = uniform(random, 0.0, along.x);
     const double y = uniform(random, 0.0, along.y);
@@ -36,9 +36,12 @@ inline std::vector<double> even_knots(int points, int degree)
 
 // A B-spline graph over the box whose control points wander by `rough` mm about `middle`, rational
 // now and then.
-inline Surface random_floor(Random& random, const Box2d& box, double middle, double rough)
+inline nurbs::Surface random_floor(Random& random,
+                                   const offset::Box2d& box,
+                                   double middle,
+                                   double rough)
 {
-    Surface s;
+    nurbs::Surface s;
     s.degree_u = s.degree_v = whole(random, 2, 3);
     s.size_u = whole(random, 4, 8);
     s.size_v = whole(random, 4, 8);
@@ -57,7 +60,7 @@ inline Surface random_floor(Random& random, const Box2d& box, double middle, dou
 }
 
 // Trims the surface to a smaller square with a hole. The domain is that of even_knots().
-inline void trim(Random& random, Surface& surface)
+inline void trim(Random& random, nurbs::Surface& surface)
 {
     const double low = uniform(random, 0.02, 0.2);
     const double high = uniform(random, 0.8, 0.98);
@@ -67,28 +70,29 @@ inline void trim(Random& random, Surface& surface)
         loop_of({{0.5, 0.5 - hole}, {0.5 - hole, 0.5}, {0.5, 0.5 + hole}, {0.5 + hole, 0.5}})};
 }
 
-inline Tool random_tool(Random& random)
+inline toolpath::Tool random_tool(Random& random)
 {
     constexpr double kRadii[]{1.5, 2.0, 3.0, 4.0};
     const double radius = kRadii[whole(random, 0, 3)];
     switch (whole(random, 0, 5)) {
         case 0:
-            return {1, ToolShape::kFlat, radius, 0};
+            return {1, toolpath::ToolShape::kFlat, radius, 0};
         case 1:
-            return {1, ToolShape::kBull, radius, radius * uniform(random, 0.2, 0.7)};
+            return {1, toolpath::ToolShape::kBull, radius, radius * uniform(random, 0.2, 0.7)};
         default:
-            return {1, ToolShape::kBall, radius, radius};
+            return {1, toolpath::ToolShape::kBall, radius, radius};
     }
 }
 
 // A job of one operation, at feeds and a clearance that suit all.
-inline Job job_of(const Operation& operation)
+inline job::Job job_of(const job::Operation& operation)
 {
-    Job job = plain_job();
+    job::Job job = plain_job();
     job.spindle = 10000;
-    job.tools = operation.tools.empty() ? std::vector<Tool>{operation.tool} : operation.tools;
+    job.tools =
+        operation.tools.empty() ? std::vector<toolpath::Tool>{operation.tool} : operation.tools;
     job.operations = {operation};
     return job;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::test

@@ -13,7 +13,7 @@ std::string refusal(Act act)
 {
     try {
         act();
-    } catch (const host::InputError& error) {
+    } catch (const InputError& error) {
         return error.what();
     }
     return "";

@@ -7,7 +7,7 @@
 
 #include "host_tools/nurbs/nurbs.hpp"
 
-namespace cusp::host {
+namespace cusp::test {
 
 inline std::vector<double> clamped_uniform_knots(int points, int degree)
 {
@@ -19,9 +19,9 @@ inline std::vector<double> clamped_uniform_knots(int points, int degree)
 }
 
 // A bicubic surface over clamped uniform knots from its net, v fastest.
-inline Surface bicubic(int size_u, int size_v, std::vector<Vec3d> net)
+inline nurbs::Surface bicubic(int size_u, int size_v, std::vector<Vec3d> net)
 {
-    Surface surface;
+    nurbs::Surface surface;
     surface.degree_u = 3;
     surface.degree_v = 3;
     surface.size_u = size_u;
@@ -33,7 +33,7 @@ inline Surface bicubic(int size_u, int size_v, std::vector<Vec3d> net)
     return surface;
 }
 
-inline Surface tap()
+inline nurbs::Surface tap()
 {
     const std::array<double, 10> height{0, 3, 12, 23, 27, 26, 20, 13, 9, 6};
     const std::array<double, 10> width{16, 20, 24, 24, 22, 19, 16, 14, 12, 11};
@@ -49,4 +49,4 @@ inline Surface tap()
     return bicubic(10, 8, std::move(net));
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::test

@@ -7,16 +7,16 @@
 #include <utility>
 #include <vector>
 
-#include "host_tools/import/job.hpp"
+#include "host_tools/job/job.hpp"
 #include "host_tools/toolpath/toolpath.hpp"
 #include "tests/support/tap.hpp"
 
-namespace cusp::host {
+namespace cusp::test {
 
 // Without tools and operations, at feeds and a clearance that suit all.
-inline Job plain_job()
+inline job::Job plain_job()
 {
-    Job job;
+    job::Job job;
     job.file = "job.toml";
     job.feed = 1000;
     job.plunge_feed = 200;
@@ -25,7 +25,7 @@ inline Job plain_job()
 }
 
 // Hills of one size over a square of about `patches` patches of 10 x 10 mm.
-inline Surface hills(double patches)
+inline nurbs::Surface hills(double patches)
 {
     const int side = static_cast<int>(std::lround(std::sqrt(patches))) + 3;
     std::vector<Vec3d> net;
@@ -38,7 +38,7 @@ inline Surface hills(double patches)
 }
 
 // Not a number, which fails any comparison, where there is none of that name.
-inline double count_of(const PlannedOperation& planned, const std::string& name)
+inline double count_of(const toolpath::PlannedOperation& planned, const std::string& name)
 {
     for (const auto& [key, value] : planned.stats.counts) {
         if (key == name) {
@@ -48,4 +48,4 @@ inline double count_of(const PlannedOperation& planned, const std::string& name)
     return std::numeric_limits<double>::quiet_NaN();
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::test

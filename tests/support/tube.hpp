@@ -7,15 +7,15 @@
 
 #include "host_tools/nurbs/nurbs.hpp"
 
-namespace cusp::host {
+namespace cusp::test {
 
 // About the x axis or, `along_y`, the y axis, from 0 on: u along it, v once round from the level
 // side.
 //
 // radius, length  mm
-inline Surface tube(double radius, double length, bool along_y)
+inline nurbs::Surface tube(double radius, double length, bool along_y)
 {
-    Surface s;
+    nurbs::Surface s;
     s.degree_u = 1;
     s.degree_v = 2;
     s.knots_u = {0, 0, 1, 1};
@@ -35,4 +35,4 @@ inline Surface tube(double radius, double length, bool along_y)
     return s;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::test

@@ -7,10 +7,15 @@
 #include "CppUTest/TestHarness.h"
 
 #include "host_tools/grid_pocket/grid_pocket.hpp"
-#include "host_tools/import/job.hpp"
+#include "host_tools/import/import.hpp"
+#include "host_tools/job/job.hpp"
 #include "tests/support/test_jobs.hpp"
 
-using namespace cusp::host;
+using namespace cusp::grid_pocket;
+using namespace cusp::import;
+using namespace cusp::job;
+using namespace cusp::test;
+using namespace cusp::toolpath;
 
 namespace {
 

@@ -6,10 +6,15 @@
 #include "CppUTest/TestHarness.h"
 
 #include "host_tools/hull_rough/hull_rough.hpp"
-#include "host_tools/import/job.hpp"
+#include "host_tools/import/import.hpp"
+#include "host_tools/job/job.hpp"
 #include "tests/support/test_jobs.hpp"
 
-using namespace cusp::host;
+using namespace cusp::hull_rough;
+using namespace cusp::import;
+using namespace cusp::job;
+using namespace cusp::test;
+using namespace cusp::toolpath;
 
 namespace {
 

@@ -5,11 +5,14 @@
 #include "CppUTest/TestHarness.h"
 
 #include "host_tools/adaptive_isocurve/isocurve_extraction.hpp"
-#include "host_tools/import/job.hpp"
+#include "host_tools/import/import.hpp"
 #include "tests/support/tube.hpp"
 
 using namespace cusp;
-using namespace cusp::host;
+using namespace cusp::adaptive_isocurve;
+using namespace cusp::import;
+using namespace cusp::nurbs;
+using namespace cusp::test;
 
 namespace {
 

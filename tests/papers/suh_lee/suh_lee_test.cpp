@@ -2,11 +2,18 @@
 #include <cmath>
 
 #include "host_tools/contour_pocket/contour_pocket.hpp"
+#include "host_tools/import/import.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"
 
-namespace cusp::host {
+namespace cusp::test {
+
+using namespace contour_pocket;
+using namespace import;
+using namespace job;
+using namespace toolpath;
+
 namespace {
 
 std::string part(const char* name)
@@ -92,4 +99,4 @@ TEST(SuhLee, RetractsAtMostOncePerLeafAndIsland)
 }
 
 }  // namespace
-}  // namespace cusp::host
+}  // namespace cusp::test

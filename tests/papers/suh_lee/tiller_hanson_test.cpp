@@ -10,7 +10,11 @@
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"
 
-namespace cusp::host {
+namespace cusp::test {
+
+using namespace nurbs;
+using namespace offset;
+
 namespace {
 
 constexpr double kDistance = 4.0;  // mm
@@ -99,4 +103,4 @@ TEST(TillerHanson, OffsetsLieWhereThoseOfBiarcsDo)
 }
 
 }  // namespace
-}  // namespace cusp::host
+}  // namespace cusp::test

@@ -8,8 +8,8 @@
 #include <set>
 #include <vector>
 
-#include "host_tools/adaptive_isocurve/rough_levels.hpp"
-#include "host_tools/surface_offset/surface_model.hpp"
+#include "host_tools/adaptive_isocurve/waterline_roughing.hpp"
+#include "host_tools/part_model/part_model.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
 #include "tests/property/grid_pocket/random_pockets.hpp"
 #include "tests/support/property_cases.hpp"
@@ -19,7 +19,14 @@
 // it needs the harness before it
 #include "CppUTest/MemoryLeakWarningPlugin.h"
 
-namespace cusp::host {
+namespace cusp::test {
+
+using namespace adaptive_isocurve;
+using namespace job;
+using namespace offset;
+using namespace part_model;
+using namespace toolpath;
+
 namespace {
 
 Job random_model(Random& random, unsigned seed)
@@ -73,7 +80,7 @@ Job random_model(Random& random, unsigned seed)
 // The stock as heights over a grid of its own, cut by a tool that stands at places in turn.
 class Block {
 public:
-    Block(const SurfaceModel& model, double top)
+    Block(const PartModel& model, double top)
         : low_{model.box_low()},
           nx_{static_cast<std::size_t>((model.box_high().x - low_.x) / kPitch) + 1},
           ny_{static_cast<std::size_t>((model.box_high().y - low_.y) / kPitch) + 1},
@@ -86,8 +93,8 @@ public:
     {
         // Slivers between two places looked at are no metal: they are felt with less of the tool.
         const double less = kStep * kStep / (4 * tool.radius) + 0.004;
-        const Tool feeler{tool.number, tool.shape, tool.radius - less,
-                          std::max(0.0, tool.corner_radius - less)};
+        const Tool probe{tool.number, tool.shape, tool.radius - less,
+                         std::max(0.0, tool.corner_radius - less)};
         double deepest = 0;
         const auto range = [&](double at, double first, std::size_t count) {
             const double begin = std::ceil((at - tool.radius - first) / kPitch);
@@ -104,9 +111,9 @@ public:
                 const double away = std::hypot(low_.x + static_cast<double>(i) * kPitch - tip.x,
                                                low_.y + static_cast<double>(j) * kPitch - tip.y);
                 double& height = height_[i * ny_ + j];
-                if (away < feeler.radius) {
+                if (away < probe.radius) {
                     deepest =
-                        std::max(deepest, height - tip.z - less - profile_height(feeler, away));
+                        std::max(deepest, height - tip.z - less - profile_height(probe, away));
                 }
                 if (away <= tool.radius) {
                     height = std::min(height, tip.z + profile_height(tool, away));
@@ -117,7 +124,7 @@ public:
     }
 
     // The most that stands over a level where the tool would fit with room to spare.
-    double left(const SurfaceModel& model,
+    double left(const PartModel& model,
                 const Tool& tool,
                 const std::set<double>& levels,
                 double room) const
@@ -131,7 +138,7 @@ public:
                     if (height_[i * ny_ + j] - z <= most) {
                         break;
                     }
-                    if (model.clearance(tool, {at.x, at.y, z}, room).distance >= room) {
+                    if (model.distance(tool, {at.x, at.y, z}, room).distance >= room) {
                         most = height_[i * ny_ + j] - z;
                     }
                 }
@@ -162,7 +169,7 @@ struct Figures {
 // Distances from the model matter below `enough`.
 void cut(Block& block,
          const PlannedOperation& plan,
-         const SurfaceModel& model,
+         const PartModel& model,
          double enough,
          Figures& figures)
 {
@@ -177,7 +184,7 @@ void cut(Block& block,
                 double& deepest = move.kind == MoveKind::kRapid ? figures.rapid : figures.cut;
                 deepest = std::max(deepest, block.cut(tool, tip));
                 figures.clearance =
-                    std::min(figures.clearance, model.clearance(tool, tip, enough).distance);
+                    std::min(figures.clearance, model.distance(tool, tip, enough).distance);
             }
             at = to;
         }
@@ -215,20 +222,20 @@ void check_model(unsigned seed)
     for (const Tool& tool : operation.tools) {
         std::printf(" R%.2f/%.2f", tool.radius, tool.corner_radius);
     }
-    const std::vector<PlannedOperation> plans = plan_rough_levels(job, operation);
-    const SurfaceModel model{operation.floor};
+    const std::vector<PlannedOperation> plans = plan_waterline_roughing(job, operation);
+    const PartModel model{operation.floor};
     Block block{model, job.stock_top};
     Figures figures;
     std::size_t moves = 0;
     double seconds = 0;
     double gouge = 0;
-    std::size_t told = 0;
+    std::size_t warnings = 0;
     for (const PlannedOperation& plan : plans) {
         cut(block, plan, model, operation.allowance + kEnough, figures);
         moves += plan.path.moves.size();
         seconds += plan.stats.planning_s;
         gouge = std::max(gouge, plan.stats.gouge_bound_mm);
-        told += plan.stats.warnings.size();
+        warnings += plan.stats.warnings.size();
         std::printf("; tool %d %d loops %d retracts", plan.path.tool.number, plan.stats.passes,
                     plan.stats.retracts);
     }
@@ -245,16 +252,16 @@ void check_model(unsigned seed)
     CHECK(figures.clearance >= operation.allowance - 1e-6);
     CHECK(left <= 0.3 * *operation.max_depth);
     // An arrangement in fewer levels would be deeper than max_depth, or it is told.
-    CHECK(thinnest >= operation.min_depth.value_or(0) - 2e-3 || told > 0);
+    CHECK(thinnest >= operation.min_depth.value_or(0) - 2e-3 || warnings > 0);
     CHECK_EQUAL(0.0, gouge);
 }
 
 }  // namespace
 
-TEST_GROUP(RoughLevelsProperty){
+TEST_GROUP(WaterlineRoughingProperty){
     // Cells of the model are many: the count of allocations would take all the time.
     void setup() override{MemoryLeakWarningPlugin::turnOffNewDeleteOverloads();
-}  // namespace cusp::host
+}  // namespace cusp::test
 void teardown() override
 {
     MemoryLeakWarningPlugin::turnOnDefaultNotThreadSafeNewDeleteOverloads();
@@ -262,7 +269,7 @@ void teardown() override
 }
 ;
 
-TEST(RoughLevelsProperty, RandomModelsKeepTheirAllowanceAndNoCutIsDeeperThanALevel)
+TEST(WaterlineRoughingProperty, RandomModelsKeepTheirAllowanceAndNoCutIsDeeperThanALevel)
 {
     const char* const first = std::getenv("CUSP_PROPERTY_FIRST");
     const int begin = first != nullptr ? std::atoi(first) : 1;
@@ -271,4 +278,4 @@ TEST(RoughLevelsProperty, RandomModelsKeepTheirAllowanceAndNoCutIsDeeperThanALev
     }
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::test

@@ -9,13 +9,19 @@
 
 #include "firmware/base/math.hpp"
 #include "host_tools/adaptive_isocurve/adaptive_isocurve.hpp"
-#include "host_tools/adaptive_isocurve/scallop_width.hpp"
+#include "host_tools/adaptive_isocurve/isocurve_stepover.hpp"
 #include "tests/support/property_cases.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"
 
-namespace cusp::host {
+namespace cusp::test {
+
+using namespace adaptive_isocurve;
+using namespace job;
+using namespace nurbs;
+using namespace toolpath;
+
 namespace {
 
 constexpr double kLeast = 0.005;  // mm
@@ -139,7 +145,7 @@ double least_length(const Surface& s, double scallop)
             const SurfacePoint p =
                 derivatives_at(s, s.u_end() * (i + 0.5) / kParts, s.v_end() * (j + 0.5) / kParts);
             sum += norm(cross(p.du, p.dv)) /
-                   scallop_width(kRadius, kForRidges * scallop, cross_section_at(p).curvature);
+                   isocurve_stepover(kRadius, kForRidges * scallop, cross_section_at(p).curvature);
         }
     }
     return sum * s.u_end() * s.v_end() / (kParts * kParts);
@@ -176,4 +182,4 @@ TEST(StripProperty, CellsProveOnlyWhereStripsDoNot)
     }
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::test

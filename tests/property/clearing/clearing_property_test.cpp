@@ -11,14 +11,19 @@
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"
 
-namespace cusp::host {
+namespace cusp::test {
+
+using namespace clearing;
+using namespace offset;
+
 namespace {
 
 constexpr int kRegions = 200;
 constexpr double kEnough = 1.01;  // of half a step
 
-// A place as far from all passes as any, among those at least `first` inside the region; found by
-// halving squares, to a two hundredth of `enough`. Places nearer than `enough` are not told apart.
+// A place as far from all passes as any, among those at least `wall_clearance` inside the region;
+// found by halving squares, to a two hundredth of `enough`. Places nearer than `enough` are not
+// told apart.
 class FarthestPlace {
 public:
     FarthestPlace(const Region2d& region, const ClearedRegion& cleared, double first, double enough)
@@ -80,19 +85,19 @@ TEST(RandomClearing, LeavesNoPlaceFartherThanHalfAStepFromAPass)
     for (int i = 0; i < property_cases(kRegions); ++i) {
         const Region2d region = random_region(random);
         ClearingSettings settings;
-        settings.first = uniform(random, 1.5, 8.0);
-        settings.step = settings.first * uniform(random, 0.5, 1.9);
+        settings.wall_clearance = uniform(random, 1.5, 8.0);
+        settings.stepover = settings.wall_clearance * uniform(random, 0.5, 1.9);
         const ClearedRegion cleared = clear_region(region, settings);
         if (cleared.passes.empty()) {
             continue;
         }
-        const double half = 0.5 * settings.step;
-        const FarthestPlace farthest{region, cleared, settings.first, kEnough * half};
+        const double half = 0.5 * settings.stepover;
+        const FarthestPlace farthest{region, cleared, settings.wall_clearance, kEnough * half};
         if (farthest.apart() > kEnough * half) {
             std::printf(
                 "seed %u case %d first %.6g step %.6g: %.4g of half a step at (%.4f, %.4f)\n",
-                kSeed, i, settings.first, settings.step, farthest.apart() / half, farthest.at().x,
-                farthest.at().y);
+                kSeed, i, settings.wall_clearance, settings.stepover, farthest.apart() / half,
+                farthest.at().x, farthest.at().y);
             ++far;
         }
     }
@@ -100,4 +105,4 @@ TEST(RandomClearing, LeavesNoPlaceFartherThanHalfAStepFromAPass)
 }
 
 }  // namespace
-}  // namespace cusp::host
+}  // namespace cusp::test

@@ -10,7 +10,7 @@
 #include "host_tools/toolpath/toolpath.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
 
-namespace cusp::host {
+namespace cusp::test {
 
 struct MovesVerdict {
     double rapid_cut{};  // mm, deepest
@@ -30,25 +30,25 @@ struct MovesVerdict {
 class MovesJudge {
 public:
     // share: of the smallest tool's radius, between places
-    MovesJudge(const Region2d& region, double top, double smallest, double largest)
+    MovesJudge(const offset::Region2d& region, double top, double smallest, double largest)
         : region_{region}, top_{top}, pitch_{smallest / 10}, sliver_{0.03 * smallest}
     {
-        const Box2d box = box_of(region);
+        const offset::Box2d box = box_of(region);
         low_ = {box.x0 - largest, box.y0 - largest};
         columns_ = static_cast<int>((box.x1 - low_.x + largest) / pitch_) + 2;
         rows_ = static_cast<int>((box.y1 - low_.y + largest) / pitch_) + 2;
         heights_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), top);
     }
 
-    MovesVerdict cut(const Toolpath& path, double clearance, bool climb)
+    MovesVerdict cut(const toolpath::Toolpath& path, double clearance, bool climb)
     {
         MovesVerdict verdict;
         verdict.nearest_wall = 1e300;
         Vec3d at{};
         Vec2d along{};
-        MoveKind before = MoveKind::kRapid;
+        toolpath::MoveKind before = toolpath::MoveKind::kRapid;
         for (std::size_t i = 0; i < path.moves.size(); ++i) {
-            const ToolMove& move = path.moves[i];
+            const toolpath::ToolMove& move = path.moves[i];
             const double feed = feed_of(path, move, at);
             for (const Vec3d p : points_of(move, at, 0.004)) {
                 if (i > 0) {
@@ -62,12 +62,13 @@ public:
                 at = p;
                 if (dot(way, way) > 1e-10) {
                     constexpr double kCorner = 0.866;
-                    const bool link = before == MoveKind::kLink && move.kind == MoveKind::kCut;
+                    const bool link = before == toolpath::MoveKind::kLink &&
+                                      move.kind == toolpath::MoveKind::kCut;
                     verdict.links += link ? 1 : 0;
-                    verdict.turned += link && dot(along, unit(way)) < kCorner ? 1 : 0;
-                    along = unit(way);
+                    verdict.turned += link && dot(along, offset::unit(way)) < kCorner ? 1 : 0;
+                    along = offset::unit(way);
                     before = move.kind;
-                } else if (move.kind == MoveKind::kPlunge) {
+                } else if (move.kind == toolpath::MoveKind::kPlunge) {
                     // What goes over the metal and straight down is no link, but an entry.
                     before = move.kind;
                 }
@@ -94,9 +95,9 @@ public:
 
 private:
     struct Bite {
-        double felt{};    // mm, by a tool smaller by a sliver
-        double middle{};  // mm, under the middle third of it
-        double left{};    // mm^3
+        double tracked{};  // mm, by a tool smaller by a sliver
+        double middle{};   // mm, under the middle third of it
+        double left{};     // mm^3
         double right{};
     };
 
@@ -106,13 +107,13 @@ private:
                static_cast<std::size_t>(j);
     }
 
-    Bite bite(const Tool& tool, Vec3d tip, Vec3d way)
+    Bite bite(const toolpath::Tool& tool, Vec3d tip, Vec3d way)
     {
         Bite bite;
         const double radius = tool.radius;
-        Tool feeler = tool;
-        feeler.radius -= sliver_;
-        feeler.corner_radius = std::max(0.0, tool.corner_radius - sliver_);
+        toolpath::Tool probe = tool;
+        probe.radius -= sliver_;
+        probe.corner_radius = std::max(0.0, tool.corner_radius - sliver_);
         const auto first = [&](double at, double low) {
             return std::max(0, static_cast<int>(std::ceil((at - radius - low) / pitch_)));
         };
@@ -132,10 +133,10 @@ private:
                 if (cut <= 0.0) {
                     continue;
                 }
-                const double felt = height - tip.z - sliver_ - profile_height(feeler, out);
-                bite.felt = std::max(bite.felt, felt);
+                const double tracked = height - tip.z - sliver_ - profile_height(probe, out);
+                bite.tracked = std::max(bite.tracked, tracked);
                 if (out < radius / 3) {
-                    bite.middle = std::max(bite.middle, felt);
+                    bite.middle = std::max(bite.middle, tracked);
                 }
                 (way.x * y - way.y * x > 0.0 ? bite.left : bite.right) += cut * pitch_ * pitch_;
                 height -= cut;
@@ -144,8 +145,8 @@ private:
         return bite;
     }
 
-    void judge_places(const Tool& tool,
-                      MoveKind kind,
+    void judge_places(const toolpath::Tool& tool,
+                      toolpath::MoveKind kind,
                       Vec3d from,
                       Vec3d to,
                       double clearance,
@@ -157,7 +158,7 @@ private:
         constexpr double kFelt = 0.05;     // mm
         const Vec3d way = to - from;
         const double level = std::hypot(way.x, way.y);
-        if (kind == MoveKind::kRapid) {
+        if (kind == toolpath::MoveKind::kRapid) {
             verdict.low_rapid |= level > 1e-9 && std::min(from.z, to.z) < clearance - 1e-9;
             verdict.retracts += way.z > 0.0 && to.z >= clearance - 1e-9 ? 1 : 0;
         }
@@ -171,15 +172,16 @@ private:
                 std::min(verdict.nearest_wall, distance_to(region_, {tip.x, tip.y}));
             const Bite bite = this->bite(tool, tip, way);
             middle_ = std::max(middle_, bite.middle);
-            verdict.deepest = std::max(verdict.deepest, bite.felt);
-            if (kind == MoveKind::kRapid) {
-                verdict.rapid_cut = std::max(verdict.rapid_cut, bite.felt);
-            } else if (kind == MoveKind::kPlunge && level < 1e-9 && way.z < 0.0) {
+            verdict.deepest = std::max(verdict.deepest, bite.tracked);
+            if (kind == toolpath::MoveKind::kRapid) {
+                verdict.rapid_cut = std::max(verdict.rapid_cut, bite.tracked);
+            } else if (kind == toolpath::MoveKind::kPlunge && level < 1e-9 && way.z < 0.0) {
                 verdict.plunged = std::max(verdict.plunged, bite.middle);
-            } else if (kind == MoveKind::kPlunge && -way.z > kSteepest * level) {
+            } else if (kind == toolpath::MoveKind::kPlunge && -way.z > kSteepest * level) {
                 verdict.entry_cut = std::max(verdict.entry_cut, bite.middle);
-            } else if ((kind == MoveKind::kCut || kind == MoveKind::kDescent) &&
-                       bite.felt > kFelt) {
+            } else if ((kind == toolpath::MoveKind::kCut ||
+                        kind == toolpath::MoveKind::kPlungingCut) &&
+                       bite.tracked > kFelt) {
                 add_sides(bite, climb, verdict);
             }
         }
@@ -195,7 +197,7 @@ private:
         }
     }
 
-    const Region2d& region_;
+    const offset::Region2d& region_;
     double top_;
     double pitch_;
     double sliver_;
@@ -206,4 +208,4 @@ private:
     double middle_{};  // what the last move cut under the middle of the tool, mm
 };
 
-}  // namespace cusp::host
+}  // namespace cusp::test

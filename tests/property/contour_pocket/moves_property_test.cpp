@@ -12,7 +12,14 @@
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"
 
-namespace cusp::host {
+namespace cusp::test {
+
+using namespace contour_pocket;
+using namespace job;
+using namespace nurbs;
+using namespace offset;
+using namespace toolpath;
+
 namespace {
 
 constexpr unsigned kSeed = 1990;
@@ -223,9 +230,9 @@ std::vector<PlannedOperation> planned_or_too_narrow(const RandomTask& task)
     }
 }
 
-TEST_GROUP(PocketMoves){};
+TEST_GROUP(PocketToolpathWriter){};
 
-TEST(PocketMoves, EnterGentlyLinkThroughCutMetalAndKeepSideDepthAndAllowance)
+TEST(PocketToolpathWriter, EnterGentlyLinkThroughCutMetalAndKeepSideDepthAndAllowance)
 {
     Random random{kSeed};
     LinkCount links;
@@ -244,7 +251,7 @@ TEST(PocketMoves, EnterGentlyLinkThroughCutMetalAndKeepSideDepthAndAllowance)
 }
 
 // They go over the edges of cliffs into what stands at their feet.
-TEST(PocketMoves, TakeNoMoreRetractsForCliffsAndGoDownThemNoFasterThanThePlungeFeed)
+TEST(PocketToolpathWriter, TakeNoMoreRetractsForCliffsAndGoDownThemNoFasterThanThePlungeFeed)
 {
     constexpr unsigned kCliffSeed = 1991;
     constexpr double kRidge = 0.06;  // of the radius: what passes leave each other
@@ -275,7 +282,7 @@ TEST(PocketMoves, TakeNoMoreRetractsForCliffsAndGoDownThemNoFasterThanThePlungeF
             CHECK(verdict.sunk <= kRidge * one.path.tool.radius);
             descents += static_cast<int>(std::count_if(
                 one.path.moves.begin(), one.path.moves.end(),
-                [](const ToolMove& move) { return move.kind == MoveKind::kDescent; }));
+                [](const ToolMove& move) { return move.kind == MoveKind::kPlungingCut; }));
             CHECK(verdict.deepest <= task.operation.max_depth.value_or(1e300) * 1.02 + 0.03);
         }
     }
@@ -283,4 +290,4 @@ TEST(PocketMoves, TakeNoMoreRetractsForCliffsAndGoDownThemNoFasterThanThePlungeF
 }
 
 }  // namespace
-}  // namespace cusp::host
+}  // namespace cusp::test

@@ -12,7 +12,14 @@
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"
 
-namespace cusp::host {
+namespace cusp::test {
+
+using namespace contour_pocket;
+using namespace job;
+using namespace nurbs;
+using namespace offset;
+using namespace toolpath;
+
 namespace {
 
 constexpr double kSide = 50.0;  // mm
@@ -163,4 +170,4 @@ TEST(PartialLoopsOnSteepHills, AreCutOnceAndNoDeeperThanAllowedAfterRoughing)
 }
 
 }  // namespace
-}  // namespace cusp::host
+}  // namespace cusp::test

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "host_tools/contour_pocket/contour_pocket.hpp"
-#include "host_tools/import/job.hpp"
+#include "host_tools/job/job.hpp"
 #include "host_tools/offset/contour.hpp"
 #include "tests/property/offset/random_regions.hpp"
 
-namespace cusp::host {
+namespace cusp::test {
 
 struct PocketVerdict {
     double floor_gouge{};  // mm, along the normal (ball)
@@ -26,15 +26,15 @@ struct SurfaceCloud {
     std::vector<Vec3d> normals;
 };
 
-inline SurfaceCloud cloud_of(const std::vector<Surface>& floor, int each)
+inline SurfaceCloud cloud_of(const std::vector<nurbs::Surface>& floor, int each)
 {
     SurfaceCloud cloud;
-    for (const Surface& s : floor) {
+    for (const nurbs::Surface& s : floor) {
         for (int i = 0; i <= each; ++i) {
             for (int j = 0; j <= each; ++j) {
                 const double u = s.u_begin() + (s.u_end() - s.u_begin()) * i / each;
                 const double v = s.v_begin() + (s.v_end() - s.v_begin()) * j / each;
-                const SurfacePoint p = derivatives_at(s, u, v);
+                const nurbs::SurfacePoint p = derivatives_at(s, u, v);
                 cloud.points.push_back(p.point);
                 cloud.normals.push_back(upward_normal(p));
             }
@@ -44,15 +44,15 @@ inline SurfaceCloud cloud_of(const std::vector<Surface>& floor, int each)
 }
 
 // Tips along the moves below `top`, at most `step` apart.
-inline std::vector<Vec3d> tips_of(const Toolpath& path, double top, double step)
+inline std::vector<Vec3d> tips_of(const toolpath::Toolpath& path, double top, double step)
 {
     std::vector<Vec3d> tips;
     Vec3d at{};
     bool known = false;
-    for (const ToolMove& move : path.moves) {
+    for (const toolpath::ToolMove& move : path.moves) {
         const Vec3d from = at;
-        const auto* line = std::get_if<LineTo>(&move.shape);
-        const auto* arc = std::get_if<ArcTo>(&move.shape);
+        const auto* line = std::get_if<toolpath::LineTo>(&move.shape);
+        const auto* arc = std::get_if<toolpath::ArcTo>(&move.shape);
         at = line != nullptr ? line->end : arc->end;
         if (!known) {
             known = true;
@@ -69,7 +69,7 @@ inline std::vector<Vec3d> tips_of(const Toolpath& path, double top, double step)
                 turn += arc->clockwise && turn > 0.0 ? -6.283185307179586 : 0.0;
                 turn += !arc->clockwise && turn < 0.0 ? 6.283185307179586 : 0.0;
                 const Vec2d q =
-                    a * std::cos(turn * share) + left_normal(a) * std::sin(turn * share);
+                    a * std::cos(turn * share) + offset::left_normal(a) * std::sin(turn * share);
                 p = {arc->centre.x + q.x, arc->centre.y + q.y, p.z};
             }
             if (p.z < top) {
@@ -81,7 +81,7 @@ inline std::vector<Vec3d> tips_of(const Toolpath& path, double top, double step)
 }
 
 // The lowest that the tool cuts over a place, z.
-inline double lowest_cut(const Tool& tool, const std::vector<Vec3d>& tips, Vec2d p)
+inline double lowest_cut(const toolpath::Tool& tool, const std::vector<Vec3d>& tips, Vec2d p)
 {
     double least = 1e300;
     for (const Vec3d tip : tips) {
@@ -96,18 +96,21 @@ inline double lowest_cut(const Tool& tool, const std::vector<Vec3d>& tips, Vec2d
 }
 
 // A pocket under a stock to z = 1, its tool's corner and its scallop (0.05 to `scallop` mm) drawn.
-inline Operation random_pocket(
-    Random& random, std::vector<Surface> floor, Loop boundary, const Tool& tool, double scallop)
+inline job::Operation random_pocket(Random& random,
+                                    std::vector<nurbs::Surface> floor,
+                                    job::Loop boundary,
+                                    const toolpath::Tool& tool,
+                                    double scallop)
 {
-    Operation operation;
+    job::Operation operation;
     operation.strategy = "contour_pocket";
     operation.floor = std::move(floor);
     operation.floor_files = {"floor"};
     operation.boundary = std::move(boundary);
     operation.boundary_file = "boundary";
     operation.tool = tool;
-    operation.tool.corner_radius = tool.shape == ToolShape::kFlat ? 0.0
-                                   : tool.shape == ToolShape::kBall
+    operation.tool.corner_radius = tool.shape == toolpath::ToolShape::kFlat ? 0.0
+                                   : tool.shape == toolpath::ToolShape::kBall
                                        ? tool.radius
                                        : uniform(random, 0.2, 0.7) * tool.radius;
     operation.plan_tolerance = operation.floor_tolerance = 0.02;
@@ -115,20 +118,20 @@ inline Operation random_pocket(
     return operation;
 }
 
-inline PlannedOperation planned_pocket(const Operation& operation)
+inline toolpath::PlannedOperation planned_pocket(const job::Operation& operation)
 {
-    Job job;
+    job::Job job;
     job.file = "job";
     job.stock_top = 1.0;
     job.clearance = 5.0;
-    return plan_contour_pocket(job, operation).back();
+    return contour_pocket::plan_contour_pocket(job, operation).back();
 }
 
 // For a ball. Where a surface point is farther than the tool's radius from the walls it counts as
 // reached (choose floors that are nowhere bent tighter than the ball).
-inline PocketVerdict judge_pocket(const std::vector<Surface>& floor,
-                                  const Region2d& region,
-                                  const Toolpath& path,
+inline PocketVerdict judge_pocket(const std::vector<nurbs::Surface>& floor,
+                                  const offset::Region2d& region,
+                                  const toolpath::Toolpath& path,
                                   double top,
                                   int each)
 {
@@ -195,4 +198,4 @@ inline PocketVerdict judge_pocket(const std::vector<Surface>& floor,
     return verdict;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::test

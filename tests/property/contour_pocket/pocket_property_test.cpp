@@ -11,7 +11,14 @@
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"
 
-namespace cusp::host {
+namespace cusp::test {
+
+using namespace contour_pocket;
+using namespace job;
+using namespace nurbs;
+using namespace offset;
+using namespace toolpath;
+
 namespace {
 
 Curve line_curve(Vec2d a, Vec2d b)
@@ -117,4 +124,4 @@ TEST(RandomPocket, HasNoGougeAndNothingLeftOverTheScallop)
 }
 
 }  // namespace
-}  // namespace cusp::host
+}  // namespace cusp::test

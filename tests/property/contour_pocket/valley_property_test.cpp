@@ -8,7 +8,13 @@
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"
 
-namespace cusp::host {
+namespace cusp::test {
+
+using namespace job;
+using namespace nurbs;
+using namespace offset;
+using namespace toolpath;
+
 namespace {
 
 constexpr double kHalf = 12.0;   // mm, of the pocket
@@ -188,4 +194,4 @@ TEST(RandomValley, KeepsNoMoreThanTheScallopOverWhatAFlatOrBullNoseEndReaches)
 }
 
 }  // namespace
-}  // namespace cusp::host
+}  // namespace cusp::test

@@ -15,7 +15,13 @@
 
 #include "tests/support/leaks_on_threads.hpp"
 
-namespace cusp::host {
+namespace cusp::test {
+
+using namespace grid_pocket;
+using namespace job;
+using namespace toolpath;
+using namespace verify;
+
 namespace {
 
 VerifyFigures cut_in_memory(const Job& job, const std::vector<PlannedOperation>& plan)
@@ -29,7 +35,7 @@ VerifyFigures cut_in_memory(const Job& job, const std::vector<PlannedOperation>&
     VerifySettings settings;
     settings.pitch = 0.27;
     settings.spacing = 0.2;
-    return verify(job, file, settings, [](double) {}).figures;
+    return verify::verify(job, file, settings, [](double) {}).figures;
 }
 
 void check_pocket(unsigned seed)
@@ -75,4 +81,4 @@ TEST(GridProperty, RandomPocketsAreCutToTheComputedRoughnessWithoutGouge)
     }
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::test

@@ -10,7 +10,7 @@
 #include "tests/support/loops.hpp"
 #include "tests/support/random_jobs.hpp"
 
-namespace cusp::host {
+namespace cusp::test {
 
 using Polygon = std::vector<Vec2d>;
 
@@ -110,9 +110,9 @@ inline Polygon random_polygon(Random& random, double radius)
     }
 }
 
-inline Box2d grown_box(const Polygon& polygon, double by)
+inline offset::Box2d grown_box(const Polygon& polygon, double by)
 {
-    Box2d box;
+    offset::Box2d box;
     for (const Vec2d p : polygon) {
         box = {std::min(box.x0, p.x), std::min(box.y0, p.y), std::max(box.x1, p.x),
                std::max(box.y1, p.y)};
@@ -121,9 +121,9 @@ inline Box2d grown_box(const Polygon& polygon, double by)
 }
 
 // A job of one grid_pocket operation.
-inline Job random_pocket(Random& random)
+inline job::Job random_pocket(Random& random)
 {
-    Operation operation;
+    job::Operation operation;
     operation.strategy = "grid_pocket";
     operation.tool = random_tool(random);
     const double radius = operation.tool.radius;
@@ -141,9 +141,9 @@ inline Job random_pocket(Random& random)
     operation.grid_y = coarsest * uniform(random, 0.25, 1.0);
     operation.plan_tolerance = operation.floor_tolerance = operation.arc_tolerance =
         uniform(random, 0.01, 0.05);
-    operation.output = whole(random, 0, 1) == 0 ? OutputForm::kLines : OutputForm::kArcs;
-    constexpr EntryKind kEntries[]{EntryKind::kAuto, EntryKind::kHelix, EntryKind::kRamp,
-                                   EntryKind::kPlunge};
+    operation.output = whole(random, 0, 1) == 0 ? job::OutputForm::kLines : job::OutputForm::kArcs;
+    constexpr job::EntryKind kEntries[]{job::EntryKind::kAuto, job::EntryKind::kHelix,
+                                        job::EntryKind::kRamp, job::EntryKind::kPlunge};
     operation.entry = kEntries[whole(random, 0, 3)];
     if (whole(random, 0, 1) == 0) {
         operation.zigzag.push_back('x');
@@ -158,4 +158,4 @@ inline Job random_pocket(Random& random)
     return job_of(operation);
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::test

@@ -18,7 +18,15 @@
 #include "tests/support/leaks_on_threads.hpp"
 #include "tests/support/test_jobs.hpp"
 
-namespace cusp::host {
+namespace cusp::test {
+
+using namespace hull_rough;
+using namespace job;
+using namespace nurbs;
+using namespace offset;
+using namespace toolpath;
+using namespace verify;
+
 namespace {
 
 // Sheets anywhere; steps that meet edge to edge, flat or nearly; small islands over a floor.
@@ -129,7 +137,7 @@ VerifyFigures cut_in_memory(const Job& job, const std::vector<PlannedOperation>&
     }
     VerifySettings settings;
     settings.pitch = 0.3;
-    return verify(raised, file, settings, [](double) {}).figures;
+    return verify::verify(raised, file, settings, [](double) {}).figures;
 }
 
 void check_model(unsigned seed)
@@ -191,4 +199,4 @@ TEST(HullProperty, RandomModelsAreNeverCutInto)
     }
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::test

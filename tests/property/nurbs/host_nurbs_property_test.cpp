@@ -11,7 +11,7 @@
 #include "host_tools/nurbs/nurbs.hpp"
 
 using namespace cusp;
-using namespace cusp::host;
+using namespace cusp::nurbs;
 
 namespace {
 

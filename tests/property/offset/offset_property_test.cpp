@@ -11,7 +11,10 @@
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"
 
-namespace cusp::host {
+namespace cusp::test {
+
+using namespace offset;
+
 namespace {
 
 constexpr int kRegions = 10000;  // source profiles tried
@@ -29,7 +32,7 @@ double worst_distance(const Region2d& source, const Region2d& result, double dis
         }
         for (std::size_t i = 0; i < contour.size(); ++i) {
             const Vec2d next = contour[(i + 1) % contour.size()].start;
-            worst = std::max(worst, cusp::host::distance(contour[i].end, next));
+            worst = std::max(worst, cusp::offset::distance(contour[i].end, next));
         }
     }
     return worst;
@@ -192,4 +195,4 @@ TEST(RandomOffset, TakenInStepsEqualsOneOffset)
 }
 
 }  // namespace
-}  // namespace cusp::host
+}  // namespace cusp::test

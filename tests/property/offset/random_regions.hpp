@@ -7,7 +7,7 @@
 #include "host_tools/offset/contour.hpp"
 #include "host_tools/offset/region_check.hpp"
 
-namespace cusp::host {
+namespace cusp::test {
 
 using Random = std::mt19937_64;
 
@@ -17,20 +17,22 @@ inline double uniform(Random& random, double low, double high)
 }
 
 // A line, or an arc of the given bulge (a quarter of the sweep's tangent) between two points.
-inline Edge bulged(Vec2d a, Vec2d b, double bulge)
+inline offset::Edge bulged(Vec2d a, Vec2d b, double bulge)
 {
     if (std::abs(bulge) < 1e-3) {
-        return line_edge(a, b);
+        return offset::line_edge(a, b);
     }
     const Vec2d chord = b - a;
     // Centre left of the chord for a counter-clockwise arc below half a turn.
     const double height = (1.0 - bulge * bulge) / (4.0 * bulge);
-    return arc_edge(a, b, (a + b) * 0.5 + left_normal(chord) * height, bulge > 0.0 ? 1 : -1);
+    return offset::arc_edge(a, b, (a + b) * 0.5 + offset::left_normal(chord) * height,
+                            bulge > 0.0 ? 1 : -1);
 }
 
 // A star-shaped contour about a centre: some corners, some lines, some arcs bent either way. A grid
 // makes parallel, equal and coincident distances likely.
-inline Contour random_star(Random& random, Vec2d centre, double radius, int corners, double grid)
+inline offset::Contour random_star(
+    Random& random, Vec2d centre, double radius, int corners, double grid)
 {
     std::vector<Vec2d> points;
     for (int i = 0; i < corners; ++i) {
@@ -42,7 +44,7 @@ inline Contour random_star(Random& random, Vec2d centre, double radius, int corn
         }
         points.push_back(p);
     }
-    Contour contour;
+    offset::Contour contour;
     for (int i = 0; i < corners; ++i) {
         const Vec2d a = points[static_cast<std::size_t>(i)];
         const Vec2d b = points[static_cast<std::size_t>((i + 1) % corners)];
@@ -53,35 +55,36 @@ inline Contour random_star(Random& random, Vec2d centre, double radius, int corn
 }
 
 // A star with up to three islands, none of which cross.
-inline Region2d random_region(Random& random)
+inline offset::Region2d random_region(Random& random)
 {
     const double grid = uniform(random, 0.0, 1.0) < 0.3 ? 5.0 : 0.0;
     while (true) {
-        Region2d region;
+        offset::Region2d region;
         const int corners = static_cast<int>(uniform(random, 3.0, 12.0));
         region.contours.push_back(random_star(random, {0.0, 0.0}, 60.0, corners, grid));
         const int islands = static_cast<int>(uniform(random, 0.0, 4.0));
         for (int i = 0; i < islands; ++i) {
             const Vec2d centre{uniform(random, -35.0, 35.0), uniform(random, -35.0, 35.0)};
             const int sides = static_cast<int>(uniform(random, 3.0, 7.0));
-            region.contours.push_back(
-                reversed(random_star(random, centre, uniform(random, 4.0, 14.0), sides, grid)));
+            region.contours.push_back(offset::reversed(
+                random_star(random, centre, uniform(random, 4.0, 14.0), sides, grid)));
         }
-        const bool turned = std::any_of(
-            region.contours.begin(), region.contours.end(), [&](const Contour& contour) {
-                const bool outer = &contour == &region.contours.front();
-                return (area(contour) > 1.0) != outer || std::abs(area(contour)) < 1.0;
-            });
+        const bool turned = std::any_of(region.contours.begin(), region.contours.end(),
+                                        [&](const offset::Contour& contour) {
+                                            const bool outer = &contour == &region.contours.front();
+                                            return (offset::area(contour) > 1.0) != outer ||
+                                                   std::abs(offset::area(contour)) < 1.0;
+                                        });
         if (!turned && !find_fault(region)) {
             return region;
         }
     }
 }
 
-inline std::vector<Vec2d> samples(const Contour& contour, int each)
+inline std::vector<Vec2d> samples(const offset::Contour& contour, int each)
 {
     std::vector<Vec2d> points;
-    for (const Edge& edge : contour) {
+    for (const offset::Edge& edge : contour) {
         for (int i = 0; i < each; ++i) {
             points.push_back(point_on(edge, static_cast<double>(i) / each));
         }
@@ -89,4 +92,4 @@ inline std::vector<Vec2d> samples(const Contour& contour, int each)
     return points;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::test

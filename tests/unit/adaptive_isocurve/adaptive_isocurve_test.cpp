@@ -9,21 +9,27 @@
 #include "CppUTest/TestHarness.h"
 
 #include "host_tools/adaptive_isocurve/parallel_planes.hpp"
-#include "host_tools/surface_offset/surface_model.hpp"
-#include "host_tools/surface_passes/swept_balls.hpp"
+#include "host_tools/finishing/swept_volume.hpp"
+#include "host_tools/part_model/part_model.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
-#include "tests/support/told_progress.hpp"
+#include "tests/support/recorded_progress.hpp"
 #include "tests/unit/adaptive_isocurve/small_models.hpp"
 
 using namespace cusp;
-using namespace cusp::host;
+using namespace cusp::adaptive_isocurve;
+using namespace cusp::finishing;
+using namespace cusp::job;
+using namespace cusp::nurbs;
+using namespace cusp::part_model;
+using namespace cusp::test;
+using namespace cusp::toolpath;
 
 namespace {
 
 // All that the path cuts.
-SweptBalls swept_by(const Toolpath& path)
+SweptVolume swept_by(const Toolpath& path)
 {
-    SweptBalls swept{path.tool.radius, path.tool.radius};
+    SweptVolume swept{path.tool.radius, path.tool.radius};
     std::vector<Vec3d> tips;
     for (const ToolMove& move : path.moves) {
         if (!tips.empty()) {
@@ -40,7 +46,7 @@ SweptBalls swept_by(const Toolpath& path)
 // The deepest cut into the model over the whole path, rapids included.
 double deepest_cut(const Toolpath& path, const std::vector<Surface>& floor)
 {
-    const SurfaceModel model{floor};
+    const PartModel model{floor};
     Vec3d at = end_of(path.moves.front());
     double deepest = 0;
     for (const ToolMove& move : path.moves) {
@@ -48,7 +54,7 @@ double deepest_cut(const Toolpath& path, const std::vector<Surface>& floor)
             const int parts = 1 + static_cast<int>(norm(next - at) / 0.3);
             for (int k = 1; k <= parts; ++k) {
                 const Vec3d tip = at + (next - at) * (static_cast<double>(k) / parts);
-                deepest = std::max(deepest, -model.clearance(path.tool, tip, 0).distance);
+                deepest = std::max(deepest, -model.distance(path.tool, tip, 0).distance);
             }
             at = next;
         }
@@ -101,7 +107,7 @@ TEST(AdaptiveIsocurve, LeavesNoSliverOverTheOpenRimOfAnUprightWall)
     // What a one-sided tolerance keeps off the wall would stand up to the stock's top otherwise.
     const Job made = job_for({upright_rim()}, "adaptive_isocurve");
     const auto planned = plan_adaptive_isocurve(made, made.operations.front());
-    const SweptBalls swept = swept_by(planned.front().path);
+    const SweptVolume swept = swept_by(planned.front().path);
     for (const double y : {0.1, 2.0, 5.9}) {
         for (const double in : {1e-4, 0.002, 0.01, 0.019}) {
             CHECK(swept.lowest(5 - in, y).height < 0.025);
@@ -131,7 +137,7 @@ TEST(AdaptiveIsocurve, RowsOverASlopedMeshReachItsRims)
     const Vec3d c{10, 10, 15}, d{0, 10, 5};
     slope.mesh = {{a, b, c}, {a, c, d}};
     const PlannedOperation planned = plan_adaptive_isocurve(made, slope).front();
-    const SweptBalls swept = swept_by(planned.path);
+    const SweptVolume swept = swept_by(planned.path);
     const double tilt = std::sqrt(1 + 1 + 0.25);
     for (const Vec3d p : {a, b, c, d, (a + d) * 0.5, (a + b) * 0.5}) {
         const Vec3d in = p + ((a + c) * 0.5 - p) * 1e-3;
@@ -149,7 +155,7 @@ TEST(AdaptiveIsocurve, CutsThePoleOfABowlOnce)
     made.operations.front().tool.radius = made.operations.front().tool.corner_radius = 3;
     made.operations.front().floor_tolerance = 0.1;
     made.operations.front().scallop = 0.2;
-    const test::ToldProgress progress{made};
+    const test::RecordedProgress progress{made};
     const auto planned = plan_adaptive_isocurve(made, made.operations.front());
     // The tip of the tool runs over a ball of radius 2, and once around over the rim.
     CHECK(measure(planned.front().path, {}).cut_length_mm < 130);
@@ -170,14 +176,14 @@ TEST(AdaptiveIsocurve, KeepsTheScallopBesideARimThatTheBallPassesOutside)
     const auto planned = plan_adaptive_isocurve(bowl, finish).front();
     CHECK(planned.stats.scallop_bound_mm <= 0.1);
     // What a ball could do that stands on the passes' floor, beyond the bowl's open side.
-    const SurfaceModel model{finish.floor};
+    const PartModel model{finish.floor};
     Tool lifted = finish.tool;
     lifted.radius += 0.6 * finish.floor_tolerance;
     lifted.corner_radius = lifted.radius;
-    const SweptBalls swept = swept_by(planned.path);
+    const SweptVolume swept = swept_by(planned.path);
     std::vector<Vec3d> centres;
     for (double y = -2.6; y < -2.2; y += 0.02) {
-        if (const auto z = model.drop(lifted, 0, y)) {
+        if (const auto z = model.drop_height(lifted, 0, y)) {
             centres.push_back({0, y, *z + lifted.radius});
         }
     }
@@ -208,7 +214,7 @@ TEST(AdaptiveIsocurve, KeepsTheScallopOverAGapThatAFloorIsSeenThrough)
         const auto planned = plan_adaptive_isocurve(roof, finish).front();
         CHECK(planned.stats.scallop_bound_mm <= 0.1);
         // A ball on both rims sinks between them: it may stand no higher than level with them.
-        const SweptBalls swept = swept_by(planned.path);
+        const SweptVolume swept = swept_by(planned.path);
         for (double y = 0.6; y < 3.5; y += 0.05) {
             CHECK(swept.lowest(5, y).height <= -2.5 + 0.1);
         }
@@ -241,8 +247,8 @@ TEST(AdaptiveIsocurve, ProvesWhatPassesOfAGivenDistanceLeaveBetweenThem)
         const Surface& surface = at_distance.floor.front();
         const PlannedOperation planned = plan_adaptive_isocurve(made, at_distance).front();
         const double bound = planned.stats.scallop_bound_mm;
-        const SurfaceModel model{at_distance.floor};
-        const SweptBalls swept = swept_by(planned.path);
+        const PartModel model{at_distance.floor};
+        const SweptVolume swept = swept_by(planned.path);
         double most = 0;
         for (int i = 0; i <= kParts; ++i) {
             for (int j = 0; j <= kParts; ++j) {
@@ -251,7 +257,7 @@ TEST(AdaptiveIsocurve, ProvesWhatPassesOfAGivenDistanceLeaveBetweenThem)
                 const Vec3d n = upward_normal(p);
                 const Vec3d tip = p.point + n * 2 - Vec3d{0, 0, 2};
                 const double cut = swept.lowest(p.point.x, p.point.y).height;
-                if (model.clearance(planned.path.tool, tip, 0).distance > -1e-6) {
+                if (model.distance(planned.path.tool, tip, 0).distance > -1e-6) {
                     most = std::max(most, (cut - p.point.z) * n.z);
                 }
             }
@@ -289,7 +295,7 @@ TEST(AdaptiveIsocurve, IsocurvesAreThoseOfTheApproximatedOffsetToItsBound)
     CHECK_EQUAL(planned.stats.passes, static_cast<int>(exact));
     CHECK(bound <= 0.4 * operation.floor_tolerance);
     // The ball stands the lift of 0.6 tolerances over the surface, to the bound.
-    const SurfaceModel model{operation.floor};
+    const PartModel model{operation.floor};
     for (const ToolMove& move : planned.path.moves) {
         if (const NurbsTo* nurbs = std::get_if<NurbsTo>(&move.shape)) {
             const Curve& curve = nurbs->curve;
@@ -297,7 +303,7 @@ TEST(AdaptiveIsocurve, IsocurvesAreThoseOfTheApproximatedOffsetToItsBound)
                 const double u =
                     curve.domain_begin() + (curve.domain_end() - curve.domain_begin()) * k / 300;
                 const double apart =
-                    model.clearance(planned.path.tool, point_at(curve, u), 1).distance;
+                    model.distance(planned.path.tool, point_at(curve, u), 1).distance;
                 DOUBLES_EQUAL(0.6 * operation.floor_tolerance, apart, bound + 1e-6);
             }
         }

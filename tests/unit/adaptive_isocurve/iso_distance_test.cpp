@@ -6,7 +6,8 @@
 #include "CppUTest/TestHarness.h"
 
 using namespace cusp;
-using namespace cusp::host;
+using namespace cusp::adaptive_isocurve;
+using namespace cusp::nurbs;
 
 namespace {
 

@@ -9,7 +9,8 @@
 #include "tests/support/tube.hpp"
 
 using namespace cusp;
-using namespace cusp::host;
+using namespace cusp::adaptive_isocurve;
+using namespace cusp::test;
 
 TEST_GROUP(IsocurveExtraction){};
 

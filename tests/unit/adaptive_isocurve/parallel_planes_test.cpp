@@ -7,13 +7,18 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/surface_passes/swept_balls.hpp"
+#include "host_tools/finishing/swept_volume.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/unit/adaptive_isocurve/small_models.hpp"
 
 using namespace cusp;
-using namespace cusp::host;
+using namespace cusp::adaptive_isocurve;
+using namespace cusp::finishing;
+using namespace cusp::job;
+using namespace cusp::nurbs;
+using namespace cusp::test;
+using namespace cusp::toolpath;
 using cusp::test::refusal;
 
 namespace {
@@ -23,9 +28,9 @@ PlannedOperation planes_over(const Job& job)
     return plan_parallel_planes(job, job.operations.front()).front();
 }
 
-SweptBalls cut_by(const Toolpath& path)
+SweptVolume cut_by(const Toolpath& path)
 {
-    SweptBalls swept{path.tool.radius, path.tool.radius};
+    SweptVolume swept{path.tool.radius, path.tool.radius};
     std::vector<Vec3d> tips{end_of(path.moves.front())};
     for (const ToolMove& move : path.moves) {
         const std::vector<Vec3d> next = points_of(move, tips.back(), 1e-4);
@@ -36,7 +41,7 @@ SweptBalls cut_by(const Toolpath& path)
 }
 
 // The most that stands over the surface, upright, its rims included.
-double most_over(const SweptBalls& swept, const Surface& s)
+double most_over(const SweptVolume& swept, const Surface& s)
 {
     constexpr int kLooks = 150;
     double most = 0;
@@ -124,7 +129,7 @@ TEST(ParallelPlanes, RunOverTheTrianglesOfAMesh)
     const Vec3d c{10, 10, 15}, d{0, 10, 5};
     operation.mesh = {{a, b, c}, {a, c, d}};
     const PlannedOperation planned = planes_over(job);
-    const SweptBalls swept = cut_by(planned.path);
+    const SweptVolume swept = cut_by(planned.path);
     for (const Vec3d p : {a, b, c, d, (a + d) * 0.5, (a + b) * 0.5}) {
         const Vec3d in = p + ((a + c) * 0.5 - p) * 1e-3;
         CHECK((swept.lowest(in.x, in.y).height - in.z) / std::sqrt(1 + 1 + 0.25) <= 0.2);

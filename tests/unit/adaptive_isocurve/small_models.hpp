@@ -8,15 +8,15 @@
 #include <utility>
 #include <vector>
 
-#include "host_tools/import/job.hpp"
+#include "host_tools/job/job.hpp"
 #include "tests/support/test_jobs.hpp"
 
-namespace cusp::host {
+namespace cusp::test {
 
-inline Surface bumps(std::mt19937& random, double height)
+inline nurbs::Surface bumps(std::mt19937& random, double height)
 {
     std::uniform_real_distribution<double> z{0, height};
-    Surface s;
+    nurbs::Surface s;
     s.degree_u = s.degree_v = 3;
     s.knots_u = s.knots_v = {0, 0, 0, 0, 1, 2, 2, 2, 2};
     s.size_u = s.size_v = 5;
@@ -29,9 +29,9 @@ inline Surface bumps(std::mt19937& random, double height)
     return s;
 }
 
-inline Surface wall(double x, double z)
+inline nurbs::Surface wall(double x, double z)
 {
-    Surface s;
+    nurbs::Surface s;
     s.degree_u = s.degree_v = 1;
     s.knots_u = s.knots_v = {0, 0, 1, 1};
     s.size_u = s.size_v = 2;
@@ -41,9 +41,9 @@ inline Surface wall(double x, double z)
 }
 
 // A floor that bends up into a wall, upright at its open rim: x from 0 to 5, z from -5 to 0.
-inline Surface upright_rim()
+inline nurbs::Surface upright_rim()
 {
-    Surface s;
+    nurbs::Surface s;
     s.degree_u = 1;
     s.degree_v = 2;
     s.knots_u = {0, 0, 1, 1};
@@ -57,9 +57,9 @@ inline Surface upright_rim()
 
 // Level, with a trough along x that a ball of radius 2 does not fit into: only from beyond its ends
 // does the ball get lower there.
-inline Surface trough()
+inline nurbs::Surface trough()
 {
-    Surface s;
+    nurbs::Surface s;
     s.degree_u = 1;
     s.degree_v = 2;
     s.knots_u = {0, 0, 1, 1};
@@ -77,7 +77,7 @@ inline Surface trough()
 }
 
 // Half a ball of radius 5, open upwards, as CAD writes it: all around u, its pole below.
-inline Surface bowl()
+inline nurbs::Surface bowl()
 {
     constexpr double kRadius = 5;
     const double half = std::sqrt(0.5);
@@ -85,7 +85,7 @@ inline Surface bowl()
                               {-1, 1, half}, {-1, 0, 1},    {-1, -1, half},
                               {0, -1, 1},    {1, -1, half}, {1, 0, 1}};
     const double rise[][3] = {{0, -1, 1}, {1, -1, half}, {1, 0, 1}};
-    Surface s;
+    nurbs::Surface s;
     s.degree_u = s.degree_v = 2;
     s.knots_u = {0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4};
     s.knots_v = {0, 0, 0, 1, 1, 1};
@@ -102,10 +102,10 @@ inline Surface bowl()
 }
 
 // Open at y = 0, as wide as 4 mm: a ball of radius 3 reaches down into it from beyond that side.
-inline Surface half_bowl()
+inline nurbs::Surface half_bowl()
 {
     const double half = std::sqrt(0.5);
-    Surface s;
+    nurbs::Surface s;
     s.degree_u = 3;
     s.degree_v = 2;
     s.knots_u = {0, 0, 0, 0, 1, 1, 1, 1};
@@ -122,9 +122,9 @@ inline Surface half_bowl()
     return s;
 }
 
-inline Surface plane(Vec3d low, Vec3d high_y, Vec3d high_x, Vec3d high)
+inline nurbs::Surface plane(Vec3d low, Vec3d high_y, Vec3d high_x, Vec3d high)
 {
-    Surface s;
+    nurbs::Surface s;
     s.degree_u = s.degree_v = 1;
     s.knots_u = s.knots_v = {0, 0, 1, 1};
     s.size_u = s.size_v = 2;
@@ -134,19 +134,19 @@ inline Surface plane(Vec3d low, Vec3d high_y, Vec3d high_x, Vec3d high)
 }
 
 // A roof, open by 0.6 mm along its ridge at x = 5, z = -2.5: through the gap a floor is seen.
-inline std::vector<Surface> open_roof()
+inline std::vector<nurbs::Surface> open_roof()
 {
     return {plane({0, 0, -4.7}, {0, 4, -4.7}, {4.7, 0, -2.5}, {4.7, 4, -2.5}),
             plane({5.3, 0, -2.5}, {5.3, 4, -2.5}, {10, 0, -4.7}, {10, 4, -4.7}),
             plane({1.4, 0.5, -6}, {1.4, 3.5, -6}, {9.4, 0.5, -6}, {9.4, 3.5, -6})};
 }
 
-inline Job job_for(std::vector<Surface> floor, const std::string& strategy)
+inline job::Job job_for(std::vector<nurbs::Surface> floor, const std::string& strategy)
 {
-    Job job = plain_job();
-    job.tools = {{1, ToolShape::kBall, 2, 2}};
+    job::Job job = plain_job();
+    job.tools = {{1, toolpath::ToolShape::kBall, 2, 2}};
     job.stock_top = 20;
-    Operation operation;
+    job::Operation operation;
     operation.strategy = strategy;
     operation.floor = std::move(floor);
     operation.tool = job.tools.front();
@@ -156,4 +156,4 @@ inline Job job_for(std::vector<Surface> floor, const std::string& strategy)
     return job;
 }
 
-}  // namespace cusp::host
+}  // namespace cusp::test

@@ -7,7 +7,10 @@
 #include "tests/unit/adaptive_isocurve/small_models.hpp"
 
 using namespace cusp;
-using namespace cusp::host;
+using namespace cusp::adaptive_isocurve;
+using namespace cusp::job;
+using namespace cusp::test;
+using namespace cusp::toolpath;
 
 namespace {
 

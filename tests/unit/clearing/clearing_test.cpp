@@ -4,7 +4,12 @@
 
 #include "CppUTest/TestHarness.h"
 
-namespace cusp::host {
+namespace cusp::test {
+
+using namespace clearing;
+using namespace job;
+using namespace offset;
+
 namespace {
 
 Contour rectangle(double x0, double y0, double x1, double y1)
@@ -13,7 +18,7 @@ Contour rectangle(double x0, double y0, double x1, double y1)
             line_edge({x1, y1}, {x0, y1}), line_edge({x0, y1}, {x0, y0})};
 }
 
-// Largest distance of a point that is at least `first` inside the region from every pass.
+// Largest distance of a point that is at least `wall_clearance` inside the region from every pass.
 double widest_gap(const Region2d& region, const ClearedRegion& cleared, double first)
 {
     double widest = 0.0;
@@ -44,8 +49,8 @@ TEST_GROUP(Clearing){};
 TEST(Clearing, LeavesNoPointFartherThanHalfAStepFromAPass)
 {
     ClearingSettings settings;
-    settings.first = 3.0;
-    settings.step = 4.0;
+    settings.wall_clearance = 3.0;
+    settings.stepover = 4.0;
     const ClearedRegion cleared = clear_region(pocket_with_island(), settings);
     CHECK(widest_gap(pocket_with_island(), cleared, 3.0) <= 2.0 + 1e-6);
 }
@@ -53,8 +58,8 @@ TEST(Clearing, LeavesNoPointFartherThanHalfAStepFromAPass)
 TEST(Clearing, EntersOncePerLeafAndIsland)
 {
     ClearingSettings settings;
-    settings.first = 3.0;
-    settings.step = 4.0;
+    settings.wall_clearance = 3.0;
+    settings.stepover = 4.0;
     const ClearedRegion cleared = clear_region(pocket_with_island(), settings);
     const auto entries =
         std::count_if(cleared.passes.begin(), cleared.passes.end(),
@@ -66,8 +71,8 @@ TEST(Clearing, EntersOncePerLeafAndIsland)
 TEST(Clearing, RunsClimbCutsWithTheMetalOnTheRight)
 {
     ClearingSettings settings;
-    settings.first = 3.0;
-    settings.step = 4.0;
+    settings.wall_clearance = 3.0;
+    settings.stepover = 4.0;
     for (const CutDirection direction : {CutDirection::kClimb, CutDirection::kConventional}) {
         settings.direction = direction;
         const bool climb = direction == CutDirection::kClimb;
@@ -80,8 +85,8 @@ TEST(Clearing, RunsClimbCutsWithTheMetalOnTheRight)
 TEST(Clearing, IsEmptyWhereTheToolDoesNotFit)
 {
     ClearingSettings settings;
-    settings.first = 31.0;
-    settings.step = 4.0;
+    settings.wall_clearance = 31.0;
+    settings.stepover = 4.0;
     CHECK(clear_region({{rectangle(0, 0, 100, 60)}}, settings).passes.empty());
 }
 
@@ -89,21 +94,21 @@ TEST(Clearing, IsEmptyWhereTheToolDoesNotFit)
 TEST(Clearing, DrawsALevelFirstWhereTheLastOneSuited)
 {
     ClearingSettings settings;
-    settings.first = 1.0;
-    settings.step = 4.0;
+    settings.wall_clearance = 1.0;
+    settings.stepover = 4.0;
     settings.cover_corners = false;
     int looks = 0;
-    settings.left_between = [&looks](const LevelStrip& strip) {
+    settings.scallop_share_between = [&looks](const LoopStrip& strip) {
         ++looks;
         const double step = strip.to - strip.from;
         return step * step;
     };
     const ClearedRegion cleared = clear_region({{rectangle(0, 0, 22, 22)}}, settings);
-    CHECK(cleared.levels >= 9);
-    CHECK(looks <= cleared.levels + 4);
+    CHECK(cleared.rings >= 9);
+    CHECK(looks <= cleared.rings + 4);
     CHECK(cleared.widest_gap <= 1.0);
     CHECK(cleared.widest_gap >= 0.98);
 }
 
 }  // namespace
-}  // namespace cusp::host
+}  // namespace cusp::test

@@ -2,7 +2,10 @@
 
 #include "CppUTest/TestHarness.h"
 
-namespace cusp::host {
+namespace cusp::test {
+
+using namespace clearing;
+
 namespace {
 
 TEST_GROUP(CuttingOrder){};
@@ -22,4 +25,4 @@ TEST(CuttingOrder, IsThePrintedOneForTheTreeOfFigure220)
 }
 
 }  // namespace
-}  // namespace cusp::host
+}  // namespace cusp::test

@@ -4,7 +4,12 @@
 
 #include "CppUTest/TestHarness.h"
 
-namespace cusp::host {
+namespace cusp::test {
+
+using namespace clearing;
+using namespace job;
+using namespace offset;
+
 namespace {
 
 Contour square(double half)
@@ -87,4 +92,4 @@ TEST(PartialLoops, LeaveTheirLoopSquareToItAndComeBack)
 }
 
 }  // namespace
-}  // namespace cusp::host
+}  // namespace cusp::test

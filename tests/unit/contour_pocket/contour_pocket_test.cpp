@@ -5,14 +5,20 @@
 #include <map>
 
 #include "host_tools/contour_pocket/pocket_task.hpp"
+#include "tests/support/recorded_progress.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/test_jobs.hpp"
-#include "tests/support/told_progress.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
 #include "CppUTest/TestHarness.h"
 
-namespace cusp::host {
+namespace cusp::test {
+
+using namespace contour_pocket;
+using namespace job;
+using namespace nurbs;
+using namespace toolpath;
+
 namespace {
 
 Curve line_curve(Vec2d a, Vec2d b)
@@ -128,9 +134,9 @@ TEST(ContourPocket, TellsItsProgressThroughRoughingAndFinish)
     Operation operation = pocket();
     operation.max_depth = 2.0;
     operation.allowance = 0.2;
-    Job told = job();
-    const test::ToldProgress progress{told};
-    plan_contour_pocket(told, operation);
+    Job planned = job();
+    const test::RecordedProgress progress{planned};
+    plan_contour_pocket(planned, operation);
     CHECK(progress.rises(0.3));
 }
 
@@ -164,15 +170,20 @@ TEST(ContourPocket, TheFinishKeepsFartherOffTheWallsThanARoughingWithoutAllowanc
         Operation operation = pocket();
         operation.tolerance_side = side;
         operation.max_depth = 3.0;
-        const Budget whole = make_budget(job(), operation);
-        const auto [rough, finish] = share_out(operation, whole);
-        CHECK(rough.aside > 1e-4);
-        CHECK(rough.first + rough.aside < finish.first - finish.aside);
-        DOUBLES_EQUAL(whole.first - whole.aside, rough.first - rough.aside, 1e-12);
-        DOUBLES_EQUAL(whole.first + whole.aside, finish.first + finish.aside, 1e-12);
+        const ToleranceSplit whole = split_tolerances(job(), operation);
+        const auto [rough, finish] = split_between_rough_and_finish(operation, whole);
+        CHECK(rough.plan_tolerance > 1e-4);
+        CHECK(rough.wall_clearance + rough.plan_tolerance <
+              finish.wall_clearance - finish.plan_tolerance);
+        DOUBLES_EQUAL(whole.wall_clearance - whole.plan_tolerance,
+                      rough.wall_clearance - rough.plan_tolerance, 1e-12);
+        DOUBLES_EQUAL(whole.wall_clearance + whole.plan_tolerance,
+                      finish.wall_clearance + finish.plan_tolerance, 1e-12);
         operation.allowance = 0.3;
-        DOUBLES_EQUAL(whole.first, share_out(operation, whole).rough.first, 0);
-        DOUBLES_EQUAL(whole.aside, share_out(operation, whole).finish.aside, 0);
+        DOUBLES_EQUAL(whole.wall_clearance,
+                      split_between_rough_and_finish(operation, whole).rough.wall_clearance, 0);
+        DOUBLES_EQUAL(whole.plan_tolerance,
+                      split_between_rough_and_finish(operation, whole).finish.plan_tolerance, 0);
     }
 }
 
@@ -441,4 +452,4 @@ TEST(ContourPocket, RefusesAHoleInATrimmedFloor)
 }
 
 }  // namespace
-}  // namespace cusp::host
+}  // namespace cusp::test

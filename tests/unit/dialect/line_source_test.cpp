@@ -6,7 +6,7 @@
 #include "host_tools/input_error/input_error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-using cusp::host::LineSource;
+using cusp::dialect::LineSource;
 
 TEST_GROUP(LineSource) { cusp::test::TemporaryFolder folder; };
 
@@ -26,8 +26,8 @@ TEST(LineSource, EndsLinesAtEachKindOfLineEnd)
 
 TEST(LineSource, RefusesAFileThatIsNotThereAndAFolder)
 {
-    CHECK_THROWS(cusp::host::InputError, LineSource{folder.file("none.ngc")});
-    CHECK_THROWS(cusp::host::InputError, LineSource{folder.file(".")});
+    CHECK_THROWS(cusp::InputError, LineSource{folder.file("none.ngc")});
+    CHECK_THROWS(cusp::InputError, LineSource{folder.file(".")});
 }
 
 TEST(LineSource, CutsALineThatIsTooLong)

@@ -3,7 +3,8 @@
 
 #include "CppUTest/TestHarness.h"
 
-using namespace cusp::host;
+using namespace cusp;
+using namespace cusp::dialect;
 
 TEST_GROUP(ProgramLines){};
 

@@ -10,7 +10,9 @@
 
 #include "CppUTest/TestHarness.h"
 
-using namespace cusp::host;
+using namespace cusp;
+using namespace cusp::grid_pocket;
+using namespace cusp::offset;
 
 namespace {
 

@@ -14,14 +14,20 @@
 
 #include "host_tools/grid_pocket/grid_pocket.hpp"
 #include "host_tools/offset/offset.hpp"
-#include "host_tools/surface_offset/surface_model.hpp"
+#include "host_tools/part_model/part_model.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
 #include "tests/support/loops.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/tap.hpp"
 #include "tests/support/test_jobs.hpp"
 
-using namespace cusp::host;
+using namespace cusp::grid_pocket;
+using namespace cusp::job;
+using namespace cusp::nurbs;
+using namespace cusp::offset;
+using namespace cusp::part_model;
+using namespace cusp::test;
+using namespace cusp::toolpath;
 using cusp::Vec3d;
 
 namespace {
@@ -80,12 +86,12 @@ std::vector<Vec3d> along(const ToolMove& move, Vec3d from)
 
 double least_clearance(const PlannedOperation& plan, const Operation& operation)
 {
-    const SurfaceModel model{operation.floor};
+    const PartModel model{operation.floor};
     double least = 1e300;
     Vec3d at = end_of(plan.path.moves.front());
     for (const ToolMove& move : plan.path.moves) {
         for (const Vec3d& p : along(move, at)) {
-            least = std::min(least, model.clearance(operation.tool, p, 1).distance);
+            least = std::min(least, model.distance(operation.tool, p, 1).distance);
         }
         at = end_of(move);
     }

@@ -8,7 +8,8 @@
 
 #include "CppUTest/TestHarness.h"
 
-using namespace cusp::host;
+using namespace cusp;
+using namespace cusp::grid_pocket;
 
 namespace {
 

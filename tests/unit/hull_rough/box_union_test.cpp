@@ -7,11 +7,11 @@
 
 #include "CppUTest/TestHarness.h"
 
-using cusp::host::cross;
-using cusp::host::Rectangle;
-using cusp::host::union_area;
-using cusp::host::union_outline;
-using cusp::host::Vec2d;
+using cusp::cross;
+using cusp::Vec2d;
+using cusp::hull_rough::Rectangle;
+using cusp::hull_rough::union_area;
+using cusp::hull_rough::union_outline;
 
 namespace {
 

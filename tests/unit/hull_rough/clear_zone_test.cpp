@@ -9,7 +9,8 @@
 
 #include "host_tools/hull_rough/zigzag.hpp"
 
-using namespace cusp::host;
+using namespace cusp;
+using namespace cusp::hull_rough;
 
 namespace {
 

@@ -9,7 +9,9 @@
 
 #include "tests/support/tap.hpp"
 
-using namespace cusp::host;
+using namespace cusp::hull_rough;
+using namespace cusp::nurbs;
+using namespace cusp::test;
 
 namespace {
 

@@ -9,7 +9,10 @@
 #include "tests/support/loops.hpp"
 #include "tests/support/tap.hpp"
 
-using namespace cusp::host;
+using namespace cusp::hull_rough;
+using namespace cusp::nurbs;
+using namespace cusp::part_model;
+using namespace cusp::test;
 using cusp::Vec3d;
 
 namespace {

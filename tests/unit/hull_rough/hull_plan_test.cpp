@@ -16,7 +16,11 @@
 #include "tests/support/tap.hpp"
 #include "tests/support/test_jobs.hpp"
 
-using namespace cusp::host;
+using namespace cusp::hull_rough;
+using namespace cusp::job;
+using namespace cusp::nurbs;
+using namespace cusp::test;
+using namespace cusp::toolpath;
 using cusp::Vec3d;
 
 namespace {

@@ -5,7 +5,9 @@
 
 #include "host_tools/hull_rough/layer_clearing.hpp"
 
-using namespace cusp::host;
+using namespace cusp;
+using namespace cusp::clearing;
+using namespace cusp::hull_rough;
 
 namespace {
 
@@ -28,7 +30,7 @@ TEST_GROUP(LayerCoverage){};
 TEST(LayerCoverage, LinesAndOutlinesLeaveNothing)
 {
     const LayerClearing layer = cleared({{10, 10, 15, 18}, {22, 4, 30, 9}}, false);
-    CHECK(bare_spots(layer.runs, *layer.centres, 3, kStock).squares.empty());
+    CHECK(uncovered_spots(layer.runs, *layer.centres, 3, kStock).squares.empty());
     DOUBLES_EQUAL(0, layer.left.area, 0);
 }
 
@@ -42,15 +44,15 @@ TEST(LayerCoverage, ContoursLeaveNothingOncePatched)
 TEST(LayerCoverage, AMissingRunIsFoundAndItsPartsCloseIt)
 {
     const LayerClearing layer = cleared({}, false);
-    std::vector<LevelRun> some = layer.runs;
-    LevelRun shorter = some.front();
+    std::vector<LayerRun> some = layer.runs;
+    LayerRun shorter = some.front();
     shorter.edges.resize(shorter.edges.size() / 2);
     some.front() = shorter;
-    const BareSpots bare = bare_spots(some, *layer.centres, 3, kStock);
-    CHECK(bare.area > 100);
-    CHECK(bare.area < 40 * 30);
-    for (const LevelRun& run : runs_near(layer.runs, bare, 3)) {
+    const UncoveredSpots uncovered = uncovered_spots(some, *layer.centres, 3, kStock);
+    CHECK(uncovered.area > 100);
+    CHECK(uncovered.area < 40 * 30);
+    for (const LayerRun& run : runs_near(layer.runs, uncovered, 3)) {
         some.push_back(run);
     }
-    DOUBLES_EQUAL(0, bare_spots(some, *layer.centres, 3, kStock).area, 0);
+    DOUBLES_EQUAL(0, uncovered_spots(some, *layer.centres, 3, kStock).area, 0);
 }

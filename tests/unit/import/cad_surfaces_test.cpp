@@ -30,14 +30,16 @@
 // it needs the harness before it
 #include "CppUTest/MemoryLeakWarningPlugin.h"
 
-#include "host_tools/import/job.hpp"
-#include "host_tools/import/loop_shape.hpp"
-#include "host_tools/import/text_of_file.hpp"
+#include "host_tools/import/import.hpp"
+#include "host_tools/input_error/text_of_file.hpp"
+#include "host_tools/job/loop_shape.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace cusp;
-using namespace cusp::host;
+using namespace cusp::import;
+using namespace cusp::job;
+using namespace cusp::nurbs;
 
 namespace {
 

@@ -6,13 +6,16 @@
 #include "CppUTest/TestHarness.h"
 
 #include "firmware/base/math.hpp"
-#include "host_tools/import/job.hpp"
-#include "host_tools/import/loop_shape.hpp"
+#include "host_tools/import/import.hpp"
+#include "host_tools/job/job.hpp"
+#include "host_tools/job/loop_shape.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace cusp;
-using namespace cusp::host;
+using namespace cusp::import;
+using namespace cusp::job;
+using namespace cusp::nurbs;
 
 namespace {
 

@@ -4,13 +4,15 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/import/job.hpp"
-#include "host_tools/import/loop_shape.hpp"
+#include "host_tools/import/import.hpp"
+#include "host_tools/job/job.hpp"
+#include "host_tools/job/loop_shape.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace cusp;
-using namespace cusp::host;
+using namespace cusp::import;
+using namespace cusp::job;
 
 namespace {
 
@@ -78,9 +80,9 @@ TEST(GeometryJson, ReadsEveryReplicaPart)
 TEST(GeometryJson, ScalesInchesToMillimetres)
 {
     const auto inch = read_surfaces(kParts + "choi-polygon-floor.json", 25.4);
-    const auto bare = read_surfaces(kParts + "choi-polygon-floor.json");
-    DOUBLES_EQUAL(25.4 * bare[0].points[5].x, inch[0].points[5].x, 1e-12);
-    DOUBLES_EQUAL(25.4 * bare[0].points[5].z, inch[0].points[5].z, 1e-12);
+    const auto unitless = read_surfaces(kParts + "choi-polygon-floor.json");
+    DOUBLES_EQUAL(25.4 * unitless[0].points[5].x, inch[0].points[5].x, 1e-12);
+    DOUBLES_EQUAL(25.4 * unitless[0].points[5].z, inch[0].points[5].z, 1e-12);
 }
 
 TEST(GeometryJson, TurnsAClockwiseLoop)

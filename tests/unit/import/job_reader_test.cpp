@@ -5,12 +5,15 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/import/job.hpp"
+#include "host_tools/import/import.hpp"
+#include "host_tools/job/job.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace cusp;
-using namespace cusp::host;
+using namespace cusp::import;
+using namespace cusp::job;
+using namespace cusp::nurbs;
 
 namespace {
 

@@ -10,13 +10,14 @@
 
 #include "host_tools/import/facet_groups.hpp"
 #include "host_tools/import/height_field.hpp"
-#include "host_tools/import/job.hpp"
+#include "host_tools/import/import.hpp"
 #include "host_tools/import/mesh_patches.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace cusp;
-using namespace cusp::host;
+using namespace cusp::import;
+using namespace cusp::nurbs;
 
 namespace {
 

@@ -3,11 +3,13 @@
 
 #include "CppUTest/TestHarness.h"
 
-#include "host_tools/import/loop_shape.hpp"
+#include "host_tools/job/loop_shape.hpp"
 #include "tests/support/refusal.hpp"
 
 using namespace cusp;
-using namespace cusp::host;
+using namespace cusp::import;
+using namespace cusp::job;
+using namespace cusp::nurbs;
 
 namespace {
 

@@ -5,7 +5,11 @@
 
 #include "CppUTest/TestHarness.h"
 
-namespace cusp::host {
+namespace cusp::test {
+
+using namespace nurbs;
+using namespace offset;
+
 namespace {
 
 Curve quarter_circle()
@@ -75,4 +79,4 @@ TEST(ContourFit, ClosesAGapOfTheFileWithALine)
 }
 
 }  // namespace
-}  // namespace cusp::host
+}  // namespace cusp::test

@@ -4,7 +4,10 @@
 
 #include "tests/unit/offset/polygons.hpp"
 
-namespace cusp::host {
+namespace cusp::test {
+
+using namespace offset;
+
 namespace {
 
 double total_area(const Region2d& region)
@@ -133,4 +136,4 @@ TEST(Offset, TellsTheClearanceOfAPoint)
 }
 
 }  // namespace
-}  // namespace cusp::host
+}  // namespace cusp::test

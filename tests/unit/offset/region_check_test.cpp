@@ -4,7 +4,10 @@
 
 #include "tests/unit/offset/polygons.hpp"
 
-namespace cusp::host {
+namespace cusp::test {
+
+using namespace offset;
+
 namespace {
 
 TEST_GROUP(RegionCheck){};
@@ -47,4 +50,4 @@ TEST(RegionCheck, FindsAnEdgeWithoutLength)
 }
 
 }  // namespace
-}  // namespace cusp::host
+}  // namespace cusp::test

@@ -4,7 +4,7 @@
 #include "CppUTest/TestHarness.h"
 
 using cusp::Position;
-using cusp::host::MotionStatistics;
+using cusp::simulate::MotionStatistics;
 
 TEST_GROUP(MotionStatistics) { MotionStatistics statistics{Position{}}; };
 

@@ -17,7 +17,7 @@ TEST_GROUP(SettingsFile)
 
     std::string refusal(const std::string& text) const
     {
-        return test::refusal([&] { host::read_settings_file(folder.with("mill.txt", text)); });
+        return test::refusal([&] { simulate::read_settings_file(folder.with("mill.txt", text)); });
     }
 };
 
@@ -25,16 +25,16 @@ TEST(SettingsFile, IsReadAsItIsWritten)
 {
     machine::Settings settings;
     CHECK_FALSE(settings.put(110, 4321.5F).has_value());
-    const std::string file = folder.with("mill.txt", host::settings_text(settings));
-    const machine::Settings read = host::read_settings_file(file);
-    STRCMP_EQUAL(host::settings_text(settings).c_str(), host::settings_text(read).c_str());
-    LONGS_EQUAL(1, host::settings_commands(read).size());
-    STRCMP_EQUAL("$110=4321.500", host::settings_commands(read)[0].c_str());
+    const std::string file = folder.with("mill.txt", simulate::settings_text(settings));
+    const machine::Settings read = simulate::read_settings_file(file);
+    STRCMP_EQUAL(simulate::settings_text(settings).c_str(), simulate::settings_text(read).c_str());
+    LONGS_EQUAL(1, simulate::settings_commands(read).size());
+    STRCMP_EQUAL("$110=4321.500", simulate::settings_commands(read)[0].c_str());
 }
 
 TEST(SettingsFile, MayCarryComments)
 {
-    const machine::Settings read = host::read_settings_file(
+    const machine::Settings read = simulate::read_settings_file(
         folder.with("mill.txt", "; my mill\n\n$100=250.000 (x, step/mm)\r\n$0 = 3 # us\n"));
     DOUBLES_EQUAL(250.0, static_cast<double>(read.value(machine::Setting::kStepsPerMillimetre)), 0);
     LONGS_EQUAL(3, read.whole(machine::Setting::kStepPulse));
@@ -67,18 +67,19 @@ TEST_GROUP(FaultCommand){};
 
 TEST(FaultCommand, KnowsItsWords)
 {
-    CHECK(host::parse_fault_command("power on")->kind == host::FaultKind::kPowerOn);
-    CHECK(host::parse_fault_command("power off\r")->kind == host::FaultKind::kPowerOff);
-    LONGS_EQUAL(kLimitY, host::parse_fault_command("high y")->inputs);
-    DOUBLES_EQUAL(-3.5, host::parse_fault_command("plate -3.5")->value, 0.0);
-    DOUBLES_EQUAL(0.005, host::parse_fault_command("line noise=0.005 loss=0")->faults.noise, 0.0);
-    CHECK(host::parse_fault_command("unplug")->kind == host::FaultKind::kUnplug);
+    CHECK(simulate::parse_fault_command("power on")->kind == simulate::FaultKind::kPowerOn);
+    CHECK(simulate::parse_fault_command("power off\r")->kind == simulate::FaultKind::kPowerOff);
+    LONGS_EQUAL(kLimitY, simulate::parse_fault_command("high y")->inputs);
+    DOUBLES_EQUAL(-3.5, simulate::parse_fault_command("plate -3.5")->value, 0.0);
+    DOUBLES_EQUAL(0.005, simulate::parse_fault_command("line noise=0.005 loss=0")->faults.noise,
+                  0.0);
+    CHECK(simulate::parse_fault_command("unplug")->kind == simulate::FaultKind::kUnplug);
 }
 
 TEST(FaultCommand, RefusesAnythingElse)
 {
     for (const char* line : {"", "power", "power up", "high q", "cut", "cut -1", "line noise=2",
                              "line what=0.1", "unplug now", "plate x", "explode"}) {
-        CHECK_FALSE(host::parse_fault_command(line).has_value());
+        CHECK_FALSE(simulate::parse_fault_command(line).has_value());
     }
 }

@@ -74,17 +74,17 @@ std::vector<Sample> samples_of(const std::string& csv)
 TEST_GROUP(Simulation)
 {
     test::TemporaryFolder folder;
-    host::SimulationOptions options;
+    simulate::SimulationOptions options;
 
-    host::SimulationResult run(const std::string& text)
+    simulate::SimulationResult run(const std::string& text)
     {
-        return host::simulate(folder.with("part.ngc", text), options);
+        return simulate::simulate(folder.with("part.ngc", text), options);
     }
     void set(std::uint32_t number, float value)
     {
         CHECK_FALSE(options.settings.put(number, value).has_value());
     }
-    void check_limits(const host::SimulationResult& result) const
+    void check_limits(const simulate::SimulationResult& result) const
     {
         const MachineLimits limits = options.settings.limits();
         for (unsigned axis = 0; axis < kAxisCount; ++axis) {
@@ -100,7 +100,7 @@ TEST_GROUP(Simulation)
 TEST(Simulation, EndsWithAnErrorWhereTheControllerIsResetAtRest)
 {
     options.script = {{100, '!'}, {900, 0x18}};
-    const host::SimulationResult result = run("G21G90\nG1X50F1000\nX0\n");
+    const simulate::SimulationResult result = run("G21G90\nG1X50F1000\nX0\n");
     CHECK_FALSE(result.good());
     STRCMP_EQUAL("the controller was reset", result.errors.at(0).text.c_str());
 }
@@ -108,7 +108,8 @@ TEST(Simulation, EndsWithAnErrorWhereTheControllerIsResetAtRest)
 TEST(Simulation, RunsThePlainProgramsWithinEveryLimit)
 {
     for (const char* name : {"line", "diag", "square", "rsq", "circle"}) {
-        const host::SimulationResult result = host::simulate(kPrograms + name + ".ngc", options);
+        const simulate::SimulationResult result =
+            simulate::simulate(kPrograms + name + ".ngc", options);
         CHECK(result.good());
         CHECK(result.max_deviation_mm <= 0.0101);
         LONGS_EQUAL(0, result.starved_ticks);
@@ -118,7 +119,7 @@ TEST(Simulation, RunsThePlainProgramsWithinEveryLimit)
 
 TEST(Simulation, CountsMovesStepsAndLines)
 {
-    const host::SimulationResult result =
+    const simulate::SimulationResult result =
         run("G21 G90 G17 G64\nG0 X10\nG1 Y5 F1000\nG2 X15 Y10 I5\nG5.2 X20 Y10 L3\nX20 Y20\nX30 "
             "Y20\nG5.3\nM30\nG0 X99\n");
     CHECK(result.good());
@@ -137,7 +138,7 @@ TEST(Simulation, WritesAStepWhereThePathCrossesHalfAStep)
 {
     options.vcd_file = folder.file("t.vcd");
     options.samples_file = folder.file("t.csv");
-    CHECK(host::simulate(kPrograms + "rsq.ngc", options).good());
+    CHECK(simulate::simulate(kPrograms + "rsq.ngc", options).good());
     const auto samples = samples_of(folder.text_of("t.csv"));
     const auto steps = steps_of(folder.text_of("t.vcd"));
     CHECK(steps.size() > 100'000);
@@ -164,37 +165,37 @@ TEST(Simulation, WritesAStepWhereThePathCrossesHalfAStep)
 TEST(Simulation, RepeatsBitForBit)
 {
     options.vcd_file = folder.file("a.vcd");
-    host::simulate(kPrograms + "circle.ngc", options);
+    simulate::simulate(kPrograms + "circle.ngc", options);
     options.vcd_file = folder.file("b.vcd");
-    host::simulate(kPrograms + "circle.ngc", options);
+    simulate::simulate(kPrograms + "circle.ngc", options);
     CHECK(folder.text_of("a.vcd") == folder.text_of("b.vcd"));
 }
 
 TEST(Simulation, EndsAtTheFirstError)
 {
     options.samples_file = folder.file("t.csv");
-    const host::SimulationResult result = run("G21\nG1 X1 F100\nG1 X2 Q\nG1 X3\n");
+    const simulate::SimulationResult result = run("G21\nG1 X1 F100\nG1 X2 Q\nG1 X3\n");
     CHECK_FALSE(result.good());
     LONGS_EQUAL(1, result.errors.size());
     LONGS_EQUAL(3, result.errors[0].line);
     LONGS_EQUAL(2, result.errors[0].code);
     LONGS_EQUAL(1'000'000, result.end.x);
     CHECK(samples_of(folder.text_of("t.csv")).size() > 600);
-    CHECK(host::statistics_json(result).find("\"code\": 2") != std::string::npos);
+    CHECK(simulate::statistics_json(result).find("\"code\": 2") != std::string::npos);
 }
 
 TEST(Simulation, EndsInAlarmFiveWhereTheProbeFindsNothing)
 {
     LONGS_EQUAL(5, run("G21 G38.2 Z-5 F200\n").alarm);
     options.probe_z = -2.0;
-    const host::SimulationResult result = run("G21 G38.2 Z-5 F200\nG0 Z0\n");
+    const simulate::SimulationResult result = run("G21 G38.2 Z-5 F200\nG0 Z0\n");
     CHECK(result.good());
     LONGS_EQUAL(0, result.end.z);
 }
 
 TEST(Simulation, GoesOnAfterPausesAndListsThem)
 {
-    const host::SimulationResult result = run("G1 X1 F600\nM0\nG1 X2\nT2 M6\nG1 X3\nM30\n");
+    const simulate::SimulationResult result = run("G1 X1 F600\nM0\nG1 X2\nT2 M6\nG1 X3\nM30\n");
     CHECK(result.good());
     LONGS_EQUAL(2, result.pause_lines.size());
     LONGS_EQUAL(2, result.pause_lines[0]);
@@ -204,7 +205,7 @@ TEST(Simulation, GoesOnAfterPausesAndListsThem)
 
 TEST(Simulation, TakesItsTimeForADwell)
 {
-    const host::SimulationResult result = run("G1 X1 F600\nG4 P2\nG1 X2\n");
+    const simulate::SimulationResult result = run("G1 X1 F600\nG4 P2\nG1 X2\n");
     CHECK(result.duration_s > 2.1);
     CHECK(result.duration_s < 2.6);
 }
@@ -214,28 +215,28 @@ TEST(Simulation, HomesFirstWhereHomingIsOn)
     set(22, 1);
     set(20, 1);
     set(25, 3000);
-    const host::SimulationResult inside = run("G21 G90\nG1 X-20 Y-20 Z-20 F1000\n");
+    const simulate::SimulationResult inside = run("G21 G90\nG1 X-20 Y-20 Z-20 F1000\n");
     CHECK(inside.good());
-    const host::SimulationResult outside = run("G21 G90\nG1 X20 F1000\n");
+    const simulate::SimulationResult outside = run("G21 G90\nG1 X20 F1000\n");
     LONGS_EQUAL(2, outside.alarm);
 }
 
 TEST(Simulation, RefusesFilesThatAreNotThere)
 {
-    CHECK_THROWS(host::InputError, host::simulate(folder.file("none.ngc"), options));
+    CHECK_THROWS(InputError, simulate::simulate(folder.file("none.ngc"), options));
     options.vcd_file = folder.file("no/such/place.vcd");
-    CHECK_THROWS(host::InputError, run("M2\n"));
+    CHECK_THROWS(InputError, run("M2\n"));
 }
 
 TEST(Simulation, CallsAnOpenNurbsAtTheEndAnError)
 {
-    const host::SimulationResult result = run("G21 F500\nG5.2 X1 Y1 L3\nX2 Y0\n");
+    const simulate::SimulationResult result = run("G21 F500\nG5.2 X1 Y1 L3\nX2 Y0\n");
     LONGS_EQUAL(33, result.errors.at(0).code);
 }
 
 TEST(Simulation, OfAnEmptyProgramIsDoneAtOnce)
 {
-    const host::SimulationResult result = run("%\n(nothing)\n%\n");
+    const simulate::SimulationResult result = run("%\n(nothing)\n%\n");
     CHECK(result.good());
     DOUBLES_EQUAL(0.0, result.duration_s, 0.0);
 }

@@ -30,7 +30,7 @@ TEST_GROUP(VcdWriter)
 
 TEST(VcdWriter, WritesEachEdgeAtItsTick)
 {
-    host::VcdWriter writer{folder.file("t.vcd"), mill, 0, 0};
+    simulate::VcdWriter writer{folder.file("t.vcd"), mill, 0, 0};
     writer.frame_played(3000, one_step_back_on_y());
     writer.close();
     const std::string text = folder.text_of("t.vcd");
@@ -42,7 +42,7 @@ TEST(VcdWriter, WritesEachEdgeAtItsTick)
 
 TEST(VcdWriter, ShowsSpindleAndCoolant)
 {
-    host::VcdWriter writer{folder.file("t.vcd"), mill, 0, 0};
+    simulate::VcdWriter writer{folder.file("t.vcd"), mill, 0, 0};
     hal::OutputLevels levels;
     levels.spindle_on = true;
     mill.set(levels);
@@ -58,12 +58,12 @@ TEST(VcdWriter, ShowsSpindleAndCoolant)
 
 TEST(VcdWriter, RefusesAPlaceThatCantBeWritten)
 {
-    CHECK_THROWS(host::InputError, (host::VcdWriter{folder.file("no/such/t.vcd"), mill, 0, 0}));
+    CHECK_THROWS(InputError, (simulate::VcdWriter{folder.file("no/such/t.vcd"), mill, 0, 0}));
 }
 
 TEST(VcdWriter, WritesSamplesAsIntegers)
 {
-    host::SamplesWriter writer{folder.file("s.csv")};
+    simulate::SamplesWriter writer{folder.file("s.csv")};
     writer.write(1000, {-5, 0, 1234567890123});
     writer.close();
     STRCMP_EQUAL("t_us,x_nm,y_nm,z_nm\n1000,-5,0,1234567890123\n", folder.text_of("s.csv").c_str());

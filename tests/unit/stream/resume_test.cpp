@@ -10,7 +10,7 @@
 #include "tests/support/temporary_folder.hpp"
 
 using namespace cusp;
-using namespace cusp::host;
+using namespace cusp::stream;
 
 TEST_GROUP(Resume)
 {

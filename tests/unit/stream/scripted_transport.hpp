@@ -12,7 +12,7 @@
 namespace cusp::test {
 
 // Behaves as Grbl does at its simplest: answers ok to each line, reports as told.
-class ScriptedTransport : public host::Transport {
+class ScriptedTransport : public stream::Transport {
 public:
     // What a line is answered with.
     std::function<std::string(const std::string&)> answer = [](const std::string&) {
@@ -35,7 +35,7 @@ public:
     std::size_t write(std::string_view bytes) override
     {
         if (gone) {
-            throw host::LinkLost{"unplugged"};
+            throw stream::LinkLost{"unplugged"};
         }
         bytes = bytes.substr(0, mouthful);
         for (const char byte : bytes) {
@@ -48,7 +48,7 @@ public:
     std::string read(std::chrono::milliseconds) override
     {
         if (gone) {
-            throw host::LinkLost{"unplugged"};
+            throw stream::LinkLost{"unplugged"};
         }
         std::string said;
         said.swap(spoken_);

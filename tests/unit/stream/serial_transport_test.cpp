@@ -104,7 +104,7 @@ TEST_GROUP(SerialTransport)
 
 TEST(SerialTransport, CarriesBytesBothWaysAtTheRateAskedFor)
 {
-    host::SerialTransport transport{device, 115200};
+    stream::SerialTransport transport{device, 115200};
     LONGS_EQUAL(3, transport.write("G21"));
     STRCMP_EQUAL("G21", heard().c_str());
     LONGS_EQUAL(4, ::write(controller.number(), "ok\r\n", 4));
@@ -115,11 +115,11 @@ TEST(SerialTransport, CarriesBytesBothWaysAtTheRateAskedFor)
     CHECK((modem_lines & TIOCM_DTR) != 0);
 }
 
-TEST(SerialTransport, TakesAMegabaud) { host::SerialTransport transport{device, 1'000'000}; }
+TEST(SerialTransport, TakesAMegabaud) { stream::SerialTransport transport{device, 1'000'000}; }
 
 TEST(SerialTransport, WaitsForAByteAsLongAsItIsTold)
 {
-    host::SerialTransport transport{device, 115200};
+    stream::SerialTransport transport{device, 115200};
     const auto start = std::chrono::steady_clock::now();
     STRCMP_EQUAL("", transport.read(milliseconds{50}).c_str());
     const auto waited = std::chrono::steady_clock::now() - start;
@@ -129,13 +129,13 @@ TEST(SerialTransport, WaitsForAByteAsLongAsItIsTold)
 
 TEST(SerialTransport, IsForOneProgramAlone)
 {
-    host::SerialTransport transport{device, 115200};
-    CHECK_THROWS(host::InputError, host::SerialTransport(device, 115200));
+    stream::SerialTransport transport{device, 115200};
+    CHECK_THROWS(InputError, stream::SerialTransport(device, 115200));
 }
 
 TEST(SerialTransport, TellsWhenTheOtherEndIsGone)
 {
-    host::SerialTransport transport{device, 115200};
+    stream::SerialTransport transport{device, 115200};
     controller = {};
     terminal.reset();
     bool lost = false;
@@ -143,7 +143,7 @@ TEST(SerialTransport, TellsWhenTheOtherEndIsGone)
     while (!lost && std::chrono::steady_clock::now() - start < milliseconds{2000}) {
         try {
             transport.read(milliseconds{20});
-        } catch (const host::LinkLost&) {
+        } catch (const stream::LinkLost&) {
             lost = true;
         }
     }
@@ -152,34 +152,34 @@ TEST(SerialTransport, TellsWhenTheOtherEndIsGone)
 
 TEST(SerialTransport, RefusesWhatIsNoSerialPort)
 {
-    CHECK_THROWS(host::InputError, host::SerialTransport("/dev/null", 115200));
-    CHECK_THROWS(host::InputError, host::SerialTransport("/dev/no-such-port", 115200));
+    CHECK_THROWS(InputError, stream::SerialTransport("/dev/null", 115200));
+    CHECK_THROWS(InputError, stream::SerialTransport("/dev/no-such-port", 115200));
 }
 
 TEST(SerialTransport, TakesAProgramToTheVirtualController)
 {
-    struct Quiet : host::StreamWatcher {
-        void ready(const host::ControllerFacts&) override {}
-        void progress(const host::StreamProgress&) override {}
+    struct Quiet : stream::StreamWatcher {
+        void ready(const stream::ControllerFacts&) override {}
+        void progress(const stream::StreamProgress&) override {}
         void notice(const std::string&) override {}
-        host::StreamKey key() override { return host::StreamKey::kNone; }
+        stream::StreamKey key() override { return stream::StreamKey::kNone; }
     };
-    host::ServeOptions options;
+    simulate::ServeOptions options;
     options.pty_link = folder.file("mill");
     std::atomic<int> stop{0};
     std::thread server{[&] {
-        host::serve(options, stop);
+        simulate::serve(options, stop);
     }};
     while (!std::filesystem::exists(options.pty_link)) {
         std::this_thread::sleep_for(milliseconds{1});
     }
-    host::StreamReport report;
+    stream::StreamReport report;
     {
-        host::SerialTransport transport{std::filesystem::canonical(options.pty_link).string(),
-                                        115200};
+        stream::SerialTransport transport{std::filesystem::canonical(options.pty_link).string(),
+                                          115200};
         Quiet watcher;
-        host::ProgramLines program{folder.with("part.ngc", "G21 G90\nG1 X1 F6000\nG1 X0.5\n")};
-        report = host::Streamer{transport, watcher, {}}.run(program, stop);
+        dialect::ProgramLines program{folder.with("part.ngc", "G21 G90\nG1 X1 F6000\nG1 X0.5\n")};
+        report = stream::Streamer{transport, watcher, {}}.run(program, stop);
     }
     stop = 1;
     server.join();

@@ -19,11 +19,11 @@ namespace {
 
 using namespace cusp;
 
-struct QuietWatcher : host::StreamWatcher {
-    void ready(const host::ControllerFacts&) override {}
-    void progress(const host::StreamProgress&) override {}
+struct QuietWatcher : stream::StreamWatcher {
+    void ready(const stream::ControllerFacts&) override {}
+    void progress(const stream::StreamProgress&) override {}
     void notice(const std::string&) override {}
-    host::StreamKey key() override { return host::StreamKey::kNone; }
+    stream::StreamKey key() override { return stream::StreamKey::kNone; }
 };
 
 }  // namespace
@@ -31,26 +31,26 @@ struct QuietWatcher : host::StreamWatcher {
 TEST_GROUP(Serve)
 {
     test::TemporaryFolder folder;
-    host::ServeOptions serve_options;
-    host::StreamOptions options;
+    simulate::ServeOptions serve_options;
+    stream::StreamOptions options;
     std::atomic<int> serve_stop{0};
     std::atomic<int> stream_stop{0};
 
-    host::StreamReport stream(const std::string& text)
+    stream::StreamReport stream(const std::string& text)
     {
         serve_options.pty_link = folder.file("port");
         std::thread server{[this] {
-            host::serve(serve_options, serve_stop);
+            simulate::serve(serve_options, serve_stop);
         }};
         while (!std::filesystem::exists(serve_options.pty_link)) {
             std::this_thread::sleep_for(std::chrono::milliseconds{1});
         }
-        host::StreamReport report;
+        stream::StreamReport report;
         {
-            const auto transport = host::open_transport(serve_options.pty_link, 0);
+            const auto transport = stream::open_transport(serve_options.pty_link, 0);
             QuietWatcher watcher;
-            host::ProgramLines program{folder.with("part.ngc", text)};
-            report = host::Streamer{*transport, watcher, options}.run(program, stream_stop);
+            dialect::ProgramLines program{folder.with("part.ngc", text)};
+            report = stream::Streamer{*transport, watcher, options}.run(program, stream_stop);
         }
         serve_stop = 1;
         server.join();
@@ -69,17 +69,17 @@ TEST_GROUP(Serve)
 
 TEST(Serve, TakesAProgramToItsEnd)
 {
-    const host::StreamReport report = stream(zigzag(20));
+    const stream::StreamReport report = stream(zigzag(20));
     STRCMP_EQUAL("", report.text.c_str());
-    LONGS_EQUAL(host::StreamOutcome::kDone, report.outcome);
+    LONGS_EQUAL(stream::StreamOutcome::kDone, report.outcome);
     LONGS_EQUAL(22, report.progress.lines_answered);
     DOUBLES_EQUAL(0.5, report.progress.status.machine_position->x, 1e-9);
 }
 
 TEST(Serve, StopsTheStreamerAtABadLine)
 {
-    const host::StreamReport report = stream("G21\nG1 X1 F1000\nG1 X2 Q1 B5\nG1 X50\n");
-    LONGS_EQUAL(host::StreamOutcome::kError, report.outcome);
+    const stream::StreamReport report = stream("G21\nG1 X1 F1000\nG1 X2 Q1 B5\nG1 X50\n");
+    LONGS_EQUAL(stream::StreamOutcome::kError, report.outcome);
     CHECK(report.text.find("part.ngc:3: error:") != std::string::npos);
 }
 
@@ -91,9 +91,9 @@ TEST(Serve, RunsEachCheckedLineOnceOnALineThatDamagesBytes)
     serve_options.faults.loss = 0.001;
     serve_options.faults.doubling = 0.001;
     serve_options.seed = 11;
-    const host::StreamReport report = stream(zigzag(60));
+    const stream::StreamReport report = stream(zigzag(60));
     STRCMP_EQUAL("", report.text.c_str());
-    LONGS_EQUAL(host::StreamOutcome::kDone, report.outcome);
+    LONGS_EQUAL(stream::StreamOutcome::kDone, report.outcome);
     LONGS_EQUAL(62, report.progress.lines_answered);
     CHECK(report.progress.lines_resent > 0);
     DOUBLES_EQUAL(0.25, report.progress.status.machine_position->y, 1e-9);
@@ -102,9 +102,9 @@ TEST(Serve, RunsEachCheckedLineOnceOnALineThatDamagesBytes)
 TEST(Serve, KeepsSettingsInItsFile)
 {
     serve_options.settings_file = folder.file("mill.txt");
-    LONGS_EQUAL(host::StreamOutcome::kDone, stream("$110=4321\n").outcome);
+    LONGS_EQUAL(stream::StreamOutcome::kDone, stream("$110=4321\n").outcome);
     CHECK(folder.text_of("mill.txt").find("$110=4321.000\n") != std::string::npos);
     std::filesystem::remove(folder.file("mill.txt"));
-    LONGS_EQUAL(host::StreamOutcome::kDone, stream("G4 P0.01\n").outcome);
+    LONGS_EQUAL(stream::StreamOutcome::kDone, stream("G4 P0.01\n").outcome);
     CHECK(folder.text_of("mill.txt").find("$110=4321.000\n") != std::string::npos);
 }

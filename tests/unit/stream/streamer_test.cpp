@@ -14,7 +14,9 @@
 
 namespace {
 
-using namespace cusp::host;
+using namespace cusp;
+using namespace cusp::dialect;
+using namespace cusp::stream;
 
 struct QuietWatcher : StreamWatcher {
     void ready(const ControllerFacts&) override {}

@@ -9,7 +9,8 @@
 #include "CppUTest/TestHarness.h"
 
 using namespace cusp;
-using namespace cusp::host;
+using namespace cusp::nurbs;
+using namespace cusp::toolpath;
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "host_tools/toolpath/arc_geometry.hpp"
 
 using namespace cusp;
-using namespace cusp::host;
+using namespace cusp::toolpath;
 
 namespace {
 constexpr double kPi = 3.141592653589793;
@@ -66,12 +66,13 @@ TEST(ToolpathMeasure, DescentsGoDownNoFasterThanThePlungeFeed)
         return feed_of(path, {kind, LineTo{end}}, {0, 0, 0});
     };
     DOUBLES_EQUAL(1200, feed(MoveKind::kCut, {0, 0, -5}), 1e-9);
-    DOUBLES_EQUAL(300, feed(MoveKind::kDescent, {0, 0, -5}), 1e-9);
-    DOUBLES_EQUAL(500, feed(MoveKind::kDescent, {4, 0, -3}), 1e-9);
-    DOUBLES_EQUAL(1200, feed(MoveKind::kDescent, {4, 0, 3}), 1e-9);
-    DOUBLES_EQUAL(1200, feed(MoveKind::kDescent, {10, 0, -1}), 1e-9);
+    DOUBLES_EQUAL(300, feed(MoveKind::kPlungingCut, {0, 0, -5}), 1e-9);
+    DOUBLES_EQUAL(500, feed(MoveKind::kPlungingCut, {4, 0, -3}), 1e-9);
+    DOUBLES_EQUAL(1200, feed(MoveKind::kPlungingCut, {4, 0, 3}), 1e-9);
+    DOUBLES_EQUAL(1200, feed(MoveKind::kPlungingCut, {10, 0, -1}), 1e-9);
     // Down by its radius on a half turn.
-    const ToolMove helix{MoveKind::kDescent, ArcTo{{-5, 0, -5}, {0, 0, 0}, ArcPlane::kXY, false}};
+    const ToolMove helix{MoveKind::kPlungingCut,
+                         ArcTo{{-5, 0, -5}, {0, 0, 0}, ArcPlane::kXY, false}};
     DOUBLES_EQUAL(300 * std::hypot(kPi, 1), feed_of(path, helix, {5, 0, 0}), 1e-6);
 }
 

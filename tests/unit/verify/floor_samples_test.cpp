@@ -6,7 +6,8 @@
 #include "CppUTest/TestHarness.h"
 
 using namespace cusp;
-using namespace cusp::host;
+using namespace cusp::drop_cutter;
+using namespace cusp::verify;
 
 namespace {
 
@@ -41,7 +42,7 @@ TEST(FloorSamples, StopTheBallAtAPointOfTheFloorHardlyLowerThanTheFloorDoes)
     const FloorSamples samples{grid, heights};
     for (double x = -7.9; x < 8; x += 0.37) {
         const double y = 0.3 * x;
-        const ReachSearch::Rest rest = samples.rest(kBall, x, y);
+        const LowestPositionSearch::DroppedTool rest = samples.drop_ball(kBall, x, y);
         const double exact = std::sqrt((kDome + kBall) * (kDome + kBall) - x * x - y * y);
         CHECK(rest.centre.z <= exact + 1e-9);
         // What lies between points, more of it upright where the dome is steep.
@@ -51,5 +52,5 @@ TEST(FloorSamples, StopTheBallAtAPointOfTheFloorHardlyLowerThanTheFloorDoes)
         DOUBLES_EQUAL(kBall, norm(rest.centre - rest.contact), 1e-9);
         DOUBLES_EQUAL(kDome, norm(rest.contact), 1e-9);
     }
-    CHECK(samples.rest(kBall, 20, 0).centre.z == ReachSearch::kNowhere);
+    CHECK(samples.drop_ball(kBall, 20, 0).centre.z == LowestPositionSearch::kNowhere);
 }

@@ -9,7 +9,7 @@
 #include "tests/support/temporary_folder.hpp"
 
 using namespace cusp;
-using namespace cusp::host;
+using namespace cusp::verify;
 
 TEST_GROUP(ProgramMoves)
 {

@@ -7,12 +7,15 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "host_tools/import/import.hpp"
 #include "tests/support/leaks_on_threads.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace cusp;
-using namespace cusp::host;
+using namespace cusp::import;
+using namespace cusp::job;
+using namespace cusp::verify;
 
 namespace {
 
@@ -64,7 +67,7 @@ TEST_GROUP(Verify)
         folder.with("plane.json", kPlane);
         folder.with("wall.json", kWall);
         const Job job = read_job(folder.with("job.toml", kJob + more));
-        return verify(job, folder.with("p.ngc", program), settings, [](double) {});
+        return verify::verify(job, folder.with("p.ngc", program), settings, [](double) {});
     }
 };
 
@@ -122,7 +125,7 @@ TEST(Verify, KnowsWhereTheRimOfAFlatEndCutsOnASlope)
                         "[[operation]]\nstrategy = \"parallel_planes\"\nfloor = \"floor.json\"\n"
                         "boundary = \"walls.json\"\nstep_over = 1\nscallop = 0.03\n"));
         const std::string program = "G21 G90\nG0 Z5\nG0 X1 Y1\n" + moves + "M30\n";
-        return verify(job, folder.with("p.ngc", program), settings, [](double) {}).figures;
+        return verify::verify(job, folder.with("p.ngc", program), settings, [](double) {}).figures;
     };
     folder.with("walls.json", R"({"shape": {"type": "curve", "count": 1, "data": [{"degree": 1,
         "knotvector": [0, 0, 1, 2, 3, 4, 4], "control_points": {"points":
@@ -193,7 +196,7 @@ TEST(Verify, KnowsHowLowABallSinksBetweenTwoRims)
             std::snprintf(line, sizeof line, "G0 X%.3f Y0\nG1 Z%.5f F900\nG1 Y6\nG0 Z5\n", x, tip);
             text += line;
         }
-        return verify(job, folder.with("p.ngc", text + "M30\n"), settings, [](double) {});
+        return verify::verify(job, folder.with("p.ngc", text + "M30\n"), settings, [](double) {});
     };
     const Verification good = verdict_of(0);
     STRCMP_EQUAL("", good.broken.empty() ? "" : good.broken.front().c_str());
@@ -221,7 +224,8 @@ TEST(Verify, RefusesOnePlaceThatWasLeftOut)
     const std::size_t at = program.find(row);
     CHECK(at != std::string::npos);
     program.replace(at, row.size(), "G1 Y8 Z-5 F1000\nG1 X14\nG1 Z-3\nG1 X16.5\nG1 Z-5\nG1 X30\n");
-    const Verification result = verify(job, folder.with("p.ngc", program), settings, [](double) {});
+    const Verification result =
+        verify::verify(job, folder.with("p.ngc", program), settings, [](double) {});
     CHECK(result.figures.uncovered_share < 0.01);
     LONGS_EQUAL(1, result.broken.size());
     STRCMP_CONTAINS("left_thickness_mm", result.broken.front().c_str());
@@ -264,7 +268,7 @@ TEST(Verify, RefusesNoSliverThinnerThanTheTolerance)
         pass(15 + out, -4 + std::sqrt(9 - out * out));
     }
     const Verification result =
-        verify(job, folder.with("p.ngc", program + "M30\n"), settings, [](double) {});
+        verify::verify(job, folder.with("p.ngc", program + "M30\n"), settings, [](double) {});
     CHECK(result.figures.scallop_max > 0.5);
     STRCMP_EQUAL("", result.broken.empty() ? "" : result.broken.front().c_str());
 }

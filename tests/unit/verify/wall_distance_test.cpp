@@ -4,7 +4,8 @@
 #include "CppUTest/TestHarness.h"
 
 using namespace cusp;
-using namespace cusp::host;
+using namespace cusp::job;
+using namespace cusp::verify;
 
 namespace {
 

@@ -1,0 +1,63 @@
+// MinSpeedWindow: the least speed allowed anywhere over the travel of one path filter ahead.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "firmware/planner/path_queue.hpp"
+
+namespace cusp::interpolator {
+
+// What overrides leave of the programmed speeds: factors of squared speeds. kFeed and kRapid.
+struct OverrideFactors {
+    float feed{1};
+    float rapid{1};
+
+    float of(bool is_rapid) const noexcept { return is_rapid ? rapid : feed; }
+};
+
+// Squared speed from which braking reaches what both envelopes allow at the end of the interval and
+// beyond, `distance` mm before that end.
+float braking_before_end(const planner::Interval& interval,
+                         float distance,
+                         const OverrideFactors& factors) noexcept;
+
+// Squared speed allowed in the interval by its caps.
+float cap_of(const planner::Interval& interval, const OverrideFactors& factors) noexcept;
+
+// A window that only moves forward, with the minimum over it: a queue of ends of intervals in
+// rising order of their speeds. Context: servo tick.
+class MinSpeedWindow {
+public:
+    // Starts over at an interval, `distance` path units being left of it.
+    void restart(std::uint32_t interval, std::uint64_t end_position) noexcept;
+    bool started() const noexcept { return started_; }
+    std::uint32_t interval() const noexcept { return interval_; }
+
+    // Least squared speed allowed between two positions along the path, path units. 0 where the
+    // window reaches over more intervals than one tick may look at; the next ticks go on from
+    // there.
+    float least_between(const planner::PathQueue& queue,
+                        std::uint64_t from,
+                        std::uint64_t to,
+                        const OverrideFactors& factors) noexcept;
+
+private:
+    struct Entry {
+        std::uint64_t position;
+        float speed;  // squared
+    };
+    static constexpr std::uint32_t kEntries = 64;
+    static constexpr std::uint32_t kIntervalsPerTick = 48;
+
+    void push(const Entry& entry) noexcept;
+
+    std::array<Entry, kEntries> entries_{};
+    std::uint32_t begin_{0};
+    std::uint32_t end_{0};
+    std::uint32_t interval_{0};
+    std::uint64_t interval_end_{0};  // position
+    bool started_{false};
+};
+
+}  // namespace cusp::interpolator

@@ -1,0 +1,121 @@
+// The number of steps between passes over (u, v), in a table.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "host_tools/adaptive_isocurve/equal_scallop_passes.hpp"
+
+namespace cusp::adaptive_isocurve {
+
+// Steps and metric on the nodes.
+class DensityTable {
+public:
+    DensityTable(const nurbs::Surface& surface,
+                 const SurfaceFunction& at,
+                 const StepDensity& density);
+
+    // Steps from the lower end of v.
+    double steps(std::size_t i, double at) const
+    {
+        const std::size_t j = cell(at);
+        const double h = v[j + 1] - v[j];
+        return cubic(i, j, (at - v[j]) / h);
+    }
+
+    // The v at which so many steps are passed; it may lie a little outside the surface.
+    double inverse(std::size_t i, double wanted) const
+    {
+        const auto row = sum_.begin() + static_cast<std::ptrdiff_t>(i * v.size());
+        const auto next =
+            std::upper_bound(row + 1, row + static_cast<std::ptrdiff_t>(v.size()) - 1, wanted);
+        const std::size_t j = static_cast<std::size_t>(next - row) - 1;
+        const std::size_t end = i * v.size() + v.size() - 1;
+        // Outside by the density at the side: passes that begin early begin there.
+        if (wanted < 0) {
+            return v.front() + wanted / std::max(kLeastDensity, density_[i * v.size()]);
+        }
+        if (wanted > sum_[end]) {
+            return v.back() + (wanted - sum_[end]) / std::max(kLeastDensity, density_[end]);
+        }
+        // The density is linear in the cell: a root of a parabola.
+        const double h = v[j + 1] - v[j];
+        const double at_low = density_[i * v.size() + j];
+        const double more = density_[i * v.size() + j + 1] - at_low;
+        const double part = (wanted - row[static_cast<std::ptrdiff_t>(j)]) / h;
+        const double root = std::sqrt(std::max(0.0, at_low * at_low + 2 * more * part));
+        const double t = at_low + root > 0 ? std::clamp(2 * part / (at_low + root), 0.0, 1.0) : 0;
+        return v[j] + t * h;
+    }
+
+    // Length of a short move in the domain near the node.
+    double length(std::size_t i, double at, double du, double dv) const
+    {
+        const std::array<double, 3>& g = metric_[i * v.size() + cell(at)];
+        return std::sqrt(std::max(0.0, g[0] * du * du + 2 * g[1] * du * dv + g[2] * dv * dv));
+    }
+
+    // The density as the strips between the curves ask for it: where passes slant, steps may be
+    // wider than across isocurves, and where the bend changes between them, narrower.
+    void fit(const std::vector<DomainCurve>& curves, const StripJudge& judge);
+
+    // The factor asked for between nodes of u, at a place of v; kept for `tighten`.
+    void ask(std::size_t i, double at, double factor);
+
+    // Denser where it was asked for and round about.
+    void tighten();
+
+    void integrate()
+    {
+        sum_.assign(density_.size(), 0.0);
+        for (std::size_t i = 0; i < u.size(); ++i) {
+            for (std::size_t j = 1; j < v.size(); ++j) {
+                const std::size_t k = i * v.size() + j;
+                sum_[k] = sum_[k - 1] + 0.5 * (density_[k - 1] + density_[k]) * (v[j] - v[j - 1]);
+            }
+        }
+    }
+
+    std::vector<double> u;
+    std::vector<double> v;
+
+private:
+    static constexpr double kLeastDensity = 1e-6;
+
+    // Mean of each value, doubled, and its neighbours, along lines of values `stride` apart.
+    static void smooth(std::vector<double>& values,
+                       std::size_t stride,
+                       std::size_t line_stride,
+                       std::size_t count,
+                       std::size_t lines);
+
+    // The largest of each value and its neighbours.
+    static void raise(std::vector<double>& values,
+                      std::size_t stride,
+                      std::size_t line_stride,
+                      std::size_t count,
+                      std::size_t lines);
+
+    std::size_t cell(double at) const
+    {
+        const auto next = std::upper_bound(v.begin() + 1, v.end() - 1, at);
+        return static_cast<std::size_t>(next - v.begin()) - 1;
+    }
+
+    // The integral of the density, itself linear between nodes.
+    double cubic(std::size_t i, std::size_t j, double t) const
+    {
+        const std::size_t k = i * v.size() + j;
+        const double h = v[j + 1] - v[j];
+        return sum_[k] + h * t * (density_[k] + 0.5 * t * (density_[k + 1] - density_[k]));
+    }
+
+    std::vector<double> density_;
+    std::vector<double> asked_;
+    std::vector<double> sum_;
+    std::vector<std::array<double, 3>> metric_;
+};
+
+}  // namespace cusp::adaptive_isocurve

@@ -1,0 +1,68 @@
+// How far neighbouring curves are apart at equal u, bounded everywhere, not at samples.
+//
+// Proof: between two places of u the difference D of two curves on the surface leaves the straight
+// way between its ends by at most (u1 - u0)^2 / 8 times the largest D'', and the length of what is
+// on a straight way is largest at an end. D'' comes from bounds of the surface's derivatives on the
+// cells that the curves pass (convex hulls of control points) and from the cubics that v follows
+// over u. Where that proves too little the way is halved.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "host_tools/adaptive_isocurve/domain_curve.hpp"
+#include "host_tools/nurbs/nurbs.hpp"
+#include "host_tools/part_model/bezier_cell.hpp"
+#include "host_tools/part_model/part_model.hpp"
+
+namespace cusp::adaptive_isocurve {
+
+class IsocurveSpacingBound {
+public:
+    // surface  of the model, that number
+    IsocurveSpacingBound(const nurbs::Surface& surface,
+                         const part_model::PartModel& model,
+                         int number);
+
+    // curves   of that surface; at each u those that pass it are neighbours in order of v
+    // allowed  mm: the bound is sharp to a thousandth of it where neighbours are farther apart
+    //
+    // Returns the bound, mm.
+    // Accuracy: at least the distance everywhere, but for rounding (`IsocurveSpacingBound` tests).
+    double over(const std::vector<DomainCurve>& curves, double allowed) const;
+
+private:
+    // Largest lengths of derivatives on a part of the domain.
+    struct Leaf {
+        double u0, u1, v0, v1;
+        double dv, duu, duv, dvv;
+    };
+    // A curve over an interval: control values of its cubic, points at the ends, and the largest
+    // second derivative by u.
+    struct Strand {
+        std::array<double, 4> v;
+        Vec3d from;
+        Vec3d to;
+        double bend;
+    };
+
+    void collect(const part_model::BezierCell& cell, int halvings, std::vector<Leaf>& out) const;
+    double bend_over(double u0, double u1, const std::array<double, 4>& v) const;
+    double over_interval(
+        double u0, double u1, const std::vector<Strand>& strands, double allowed, int depth) const;
+    double over_halves(
+        double u0, double u1, const std::vector<Strand>& strands, double allowed, int depth) const;
+    static std::vector<std::size_t> first_of_groups(const std::vector<Strand>& strands);
+    static bool by_middle(const Strand& a, const Strand& b);
+
+    const part_model::PartModel& model_;
+    int number_;
+    double v_begin_;
+    double v_end_;
+    std::vector<double> breaks_u_;
+    std::vector<double> breaks_v_;
+    std::vector<std::vector<Leaf>> patches_;  // row by row in u, then v
+};
+
+}  // namespace cusp::adaptive_isocurve

@@ -1,0 +1,63 @@
+// The cosine rule at two balls beside a circle.
+#include "host_tools/adaptive_isocurve/isocurve_stepover.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cusp::adaptive_isocurve {
+
+using nurbs::SurfacePoint;
+
+namespace {
+
+// There is one way across only, that of v.
+CrossSection cross_section_at_pole(const SurfacePoint& p)
+{
+    const double square = dot(p.dv, p.dv);
+    return {square > 0 ? dot(upward_normal(p), p.dvv) / square : 0, std::sqrt(square)};
+}
+
+}  // namespace
+
+double isocurve_stepover(double radius, double scallop, double curvature)
+{
+    const double h = std::min(scallop, radius);
+    // k = 1 / rho of the paper: positive where convex.
+    const double k = -std::min(curvature, 0.98 / radius);
+    const double widest = 1.8 * radius;
+    // The cosine of half the angle between the contacts has this sign: beyond a right angle the
+    // valley is as round as the ball, and no ridge gets that high.
+    if (1 + 2 * radius * k + (1 + h * k) * (1 + h * k) <= 0) {
+        return widest;
+    }
+    const double square =
+        h * (2 * radius - h) * (4 + 4 * (radius + h) * k + (2 * radius * h + h * h) * k * k);
+    const double below = (1 + radius * k) * (1 + h * k);
+    return std::min(widest, std::sqrt(std::max(0.0, square)) / below);
+}
+
+CrossSection cross_section_at(const SurfacePoint& p)
+{
+    if (at_pole(p.du, p)) {
+        return cross_section_at_pole(p);
+    }
+    // All curves meet: there is no way across.
+    if (at_pole(p.dv, p)) {
+        return {0, std::sqrt(dot(p.dv, p.dv))};
+    }
+    const double e = dot(p.du, p.du);
+    const Vec3d normal = upward_normal(p);
+    if (dot(normal, normal) == 0) {
+        return {0, 0};
+    }
+    const double a = -dot(p.du, p.dv) / e;
+    const Vec3d across = p.dv + p.du * a;
+    const Vec3d bend = p.duu * (a * a) + p.duv * (2 * a) + p.dvv;
+    const double square = dot(across, across);
+    const double curvature = square > 0 ? dot(normal, bend) / square : 0;
+    // Rounding decides which side of a level normal is up: the one that asks for more passes
+    // counts.
+    return {normal.z < kLevelNormal ? -std::abs(curvature) : curvature, std::sqrt(square)};
+}
+
+}  // namespace cusp::adaptive_isocurve

@@ -1,0 +1,207 @@
+// Sides of a grid that a crease crosses, halved down to it; cells chain them.
+#include "host_tools/adaptive_isocurve/mesh_pencil_curves.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "host_tools/part_model/cell_chains.hpp"
+
+namespace cusp::adaptive_isocurve {
+
+using finishing::GougeFreePathFitter;
+using finishing::length_of;
+using finishing::Points;
+using part_model::CellChains;
+using part_model::end_node;
+using part_model::GridSide;
+using part_model::PartModel;
+
+namespace {
+
+constexpr double kTurned = 0.94;      // cosine between normals on both sides
+constexpr double kApart = 0.05;       // radii between contacts
+constexpr double kFound = 1e-5;       // mm
+constexpr double kSag = 0.2;          // of the lift, between places of a crease
+constexpr int kCrossingHalvings = 6;  // halvings between two crossings
+constexpr double kShortest = 0.05;    // radii
+constexpr std::size_t kMostGrid = 700;
+
+using Rest = PartModel::DroppedBall;
+
+class PencilCurveFinder {
+public:
+    PencilCurveFinder(const GougeFreePathFitter& path_fitter, double pitch)
+        : path_fitter_{path_fitter}, radius_{path_fitter.offset_tool().radius}
+    {
+        const Vec3d low = path_fitter.model().box_low();
+        const Vec3d high = path_fitter.model().box_high();
+        nx_ = count(high.x - low.x, pitch);
+        ny_ = count(high.y - low.y, pitch);
+        for (std::size_t i = 0; i < nx_; ++i) {
+            for (std::size_t j = 0; j < ny_; ++j) {
+                // Out of step with the part, so that its edges fall on no line of the grid.
+                const double x = (static_cast<double>(i) + 0.37) / static_cast<double>(nx_);
+                const double y = (static_cast<double>(j) + 0.41) / static_cast<double>(ny_);
+                places_.push_back({low.x + (high.x - low.x) * x, low.y + (high.y - low.y) * y});
+                dropped_.push_back(drop_at(places_.back()));
+            }
+        }
+    }
+
+    std::vector<Points> curves()
+    {
+        CellChains chains;
+        for (std::size_t i = 0; i + 1 < nx_; ++i) {
+            for (std::size_t j = 0; j + 1 < ny_; ++j) {
+                chains.join(i * ny_ + j, ny_,
+                            [&](const GridSide& side) { return found(side).has_value(); });
+            }
+        }
+        std::vector<Points> out;
+        for (const std::vector<GridSide>& chain : chains.chains()) {
+            Points tips = tips_along(chain);
+            if (length_of(tips) > kShortest * radius_) {
+                out.push_back(std::move(tips));
+            }
+        }
+        return out;
+    }
+
+private:
+    struct Crossing {
+        Vec2d from;
+        Vec2d to;
+        Vec3d tip;
+    };
+
+    static std::size_t count(double length, double pitch)
+    {
+        return std::clamp<std::size_t>(static_cast<std::size_t>(length / pitch) + 2, 4, kMostGrid);
+    }
+
+    std::optional<Rest> drop_at(Vec2d at) const
+    {
+        return path_fitter_.model().drop_ball(at.x, at.y, radius_);
+    }
+
+    // How much farther apart two contacts are than the centres.
+    static double jump(const Rest& a, const Rest& b)
+    {
+        return norm(b.point - a.point) - norm(b.centre - a.centre);
+    }
+
+    bool turned(const Rest& a, const Rest& b) const
+    {
+        const double square = radius_ * radius_;
+        return dot(a.centre - a.point, b.centre - b.point) < kTurned * square &&
+               norm(b.point - a.point) > kApart * radius_ && jump(a, b) > 0;
+    }
+
+    std::optional<Crossing> crossing(Vec2d from, Vec2d to) const
+    {
+        const std::optional<Rest> at_from = drop_at(from);
+        const std::optional<Rest> at_to = drop_at(to);
+        if (!at_from || !at_to || !turned(*at_from, *at_to)) {
+            return std::nullopt;
+        }
+        Rest a = *at_from;
+        Rest b = *at_to;
+        Vec2d low = from;
+        Vec2d high = to;
+        while (std::hypot(high.x - low.x, high.y - low.y) > kFound) {
+            const Vec2d middle = (low + high) * 0.5;
+            const std::optional<Rest> m = drop_at(middle);
+            if (!m) {
+                return std::nullopt;
+            }
+            if (jump(a, *m) > jump(*m, b)) {
+                b = *m;
+                high = middle;
+            } else {
+                a = *m;
+                low = middle;
+            }
+        }
+        if (!turned(a, b)) {
+            return std::nullopt;
+        }
+        const Vec3d centre = a.centre.z < b.centre.z ? a.centre : b.centre;
+        return Crossing{from, to, centre - Vec3d{0, 0, path_fitter_.tool().radius}};
+    }
+
+    const std::optional<Crossing>& found(const GridSide& side)
+    {
+        const auto known = crossings_.find(side);
+        if (known != crossings_.end()) {
+            return known->second;
+        }
+        const std::size_t a = side.first;
+        const std::size_t b = end_node(side, ny_);
+        const bool crosses = dropped_[a] && dropped_[b] && turned(*dropped_[a], *dropped_[b]);
+        return crossings_[side] = crosses ? crossing(places_[a], places_[b]) : std::nullopt;
+    }
+
+    Points tips_along(const std::vector<GridSide>& chain)
+    {
+        std::vector<Crossing> at;
+        for (const GridSide& side : chain) {
+            Crossing next = *crossings_[side];
+            // The same side of the crease first, so that ways between two lead across it.
+            if (!at.empty() && farther(at.back(), next)) {
+                std::swap(next.from, next.to);
+            }
+            at.push_back(next);
+        }
+        Points tips{at.front().tip};
+        for (std::size_t k = 1; k < at.size(); ++k) {
+            append(at[k - 1], at[k], 0, tips);
+        }
+        return tips;
+    }
+
+    static bool farther(const Crossing& a, const Crossing& b)
+    {
+        const auto square = [](Vec2d d) {
+            return d.x * d.x + d.y * d.y;
+        };
+        return square(b.from - a.from) + square(b.to - a.to) >
+               square(b.to - a.from) + square(b.from - a.to);
+    }
+
+    void append(const Crossing& a, const Crossing& b, int depth, Points& tips) const
+    {
+        const double allowed = std::max(1e-5, kSag * path_fitter_.band().offset);
+        if (depth < kCrossingHalvings) {
+            const auto middle = crossing((a.from + b.from) * 0.5, (a.to + b.to) * 0.5);
+            if (middle && norm(middle->tip - (a.tip + b.tip) * 0.5) > allowed) {
+                append(a, *middle, depth + 1, tips);
+                append(*middle, b, depth + 1, tips);
+                return;
+            }
+            if (middle) {
+                tips.push_back(middle->tip);
+            }
+        }
+        tips.push_back(b.tip);
+    }
+
+    const GougeFreePathFitter& path_fitter_;
+    double radius_;
+    std::size_t nx_{};
+    std::size_t ny_{};
+    std::vector<Vec2d> places_;
+    std::vector<std::optional<Rest>> dropped_;
+    std::map<GridSide, std::optional<Crossing>> crossings_;
+};
+
+}  // namespace
+
+std::vector<Points> mesh_pencil_curves(const GougeFreePathFitter& path_fitter, double pitch)
+{
+    return PencilCurveFinder{path_fitter, pitch}.curves();
+}
+
+}  // namespace cusp::adaptive_isocurve

@@ -1,0 +1,238 @@
+// Isocurves keep their parameters on the offset; the model decides which parts are kept.
+#include "host_tools/adaptive_isocurve/offset_curve_trimmer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "host_tools/adaptive_isocurve/dense_tips.hpp"
+#include "host_tools/part_model/cell_chains.hpp"
+
+namespace cusp::adaptive_isocurve {
+
+using finishing::length_of;
+using finishing::Points;
+using nurbs::Surface;
+using part_model::CellChains;
+using part_model::end_node;
+using part_model::GridSide;
+using part_model::PartModel;
+
+namespace {
+
+constexpr double kLookSpacing = 1.0;  // mm between places where freedom is looked at
+constexpr int kLeastLooks = 4;
+constexpr int kEdgeHalvings = 22;
+constexpr int kEdgeDeepest = 6;
+constexpr double kEdgeFound = 0.01;  // of the band: how far an edge may be from where it is found
+constexpr double kShortestPiece = 1e-3;  // mm
+constexpr std::size_t kMostLooks = 500;
+
+double length_along(const PartModel& model, int surface, Vec2d from, Vec2d to)
+{
+    constexpr int kParts = 12;
+    double sum = 0;
+    Vec3d last = model.evaluate(surface, from.x, from.y).point;
+    for (int k = 1; k <= kParts; ++k) {
+        const Vec2d at = from + (to - from) * (static_cast<double>(k) / kParts);
+        const Vec3d next = model.evaluate(surface, at.x, at.y).point;
+        sum += norm(next - last);
+        last = next;
+    }
+    return sum;
+}
+
+std::vector<double> even(double from, double to, std::size_t parts)
+{
+    std::vector<double> out;
+    for (std::size_t k = 0; k <= parts; ++k) {
+        const double t = static_cast<double>(k) / static_cast<double>(parts);
+        out.push_back(from * (1 - t) + to * t);
+    }
+    return out;
+}
+
+}  // namespace
+
+Vec3d OffsetCurveTrimmer::tip(int surface, double u, double v) const
+{
+    return path_fitter_.tip_at(surface, u, v);
+}
+
+bool OffsetCurveTrimmer::is_clear_at(int surface, double u, double v) const
+{
+    return path_fitter_.model().inside_trims(surface, u, v) &&
+           path_fitter_.is_clear_at_contact(surface, u, v);
+}
+
+TracedPiece OffsetCurveTrimmer::along(const DomainCurve& curve, double from, double to) const
+{
+    const double length = length_along(path_fitter_.model(), curve.surface,
+                                       {from, curve.v_at(from)}, {to, curve.v_at(to)});
+    const std::size_t parts =
+        std::max<std::size_t>(2, static_cast<std::size_t>(length / (1.5 * kLookSpacing)));
+    DenseTips tips = dense_tips(
+        path_fitter_, [&](double u) { return tip(curve.surface, u, curve.v_at(u)); },
+        even(from, to, 2 * parts));
+    TracedPiece piece{std::move(tips.points), {}, from, to};
+    for (const double u : tips.u) {
+        piece.cc_parameters.push_back({curve.surface, u, curve.v_at(u)});
+    }
+    return piece;
+}
+
+TracedCurve OffsetCurveTrimmer::trace(const DomainCurve& curve) const
+{
+    const double u0 = curve.u.front();
+    const double u1 = curve.u.back();
+    const double length = length_along(path_fitter_.model(), curve.surface, {u0, curve.v.front()},
+                                       {u1, curve.v.back()});
+    const std::size_t parts =
+        static_cast<std::size_t>(std::max<double>(kLeastLooks, std::ceil(length / kLookSpacing)));
+    const std::vector<double> looks = even(u0, u1, parts);
+    const auto free = [&](double u) {
+        return is_clear_at(curve.surface, u, curve.v_at(u));
+    };
+    TracedCurve out;
+    const auto look_at_blocked = [&](double u) {
+        out.blocked =
+            out.blocked || path_fitter_.model().inside_trims(curve.surface, u, curve.v_at(u));
+    };
+    double begin = u0;
+    bool was_free = free(u0);
+    if (!was_free) {
+        look_at_blocked(u0);
+    }
+    const auto close = [&](double end) {
+        if (end > begin) {
+            TracedPiece piece = along(curve, begin, end);
+            if (length_of(piece.points) > kShortestPiece) {
+                out.pieces.push_back(std::move(piece));
+            }
+        }
+    };
+    for (std::size_t k = 1; k < looks.size(); ++k) {
+        const bool is_free = free(looks[k]);
+        if (!is_free) {
+            look_at_blocked(looks[k]);
+        }
+        if (is_free == was_free) {
+            continue;
+        }
+        double inside = is_free ? looks[k] : looks[k - 1];
+        double outside = is_free ? looks[k - 1] : looks[k];
+        for (int turn = 0; turn < kEdgeHalvings; ++turn) {
+            const double middle = 0.5 * (inside + outside);
+            (free(middle) ? inside : outside) = middle;
+        }
+        look_at_blocked(outside);
+        if (is_free) {
+            begin = inside;
+        } else {
+            close(inside);
+        }
+        was_free = is_free;
+    }
+    if (was_free) {
+        close(u1);
+    }
+    return out;
+}
+
+std::vector<Points> OffsetCurveTrimmer::clear_region_edges(int surface, double spacing) const
+{
+    const Surface& s = surfaces_[static_cast<std::size_t>(surface)];
+    const PartModel& model = path_fitter_.model();
+    const double u_middle = 0.5 * (s.u_begin() + s.u_end());
+    const double v_middle = 0.5 * (s.v_begin() + s.v_end());
+    const auto parts = [&](double length) {
+        return std::clamp<std::size_t>(static_cast<std::size_t>(length / spacing), 8, kMostLooks);
+    };
+    const std::vector<double> us =
+        even(s.u_begin(), s.u_end(),
+             parts(length_along(model, surface, {s.u_begin(), v_middle}, {s.u_end(), v_middle})));
+    const std::vector<double> vs =
+        even(s.v_begin(), s.v_end(),
+             parts(length_along(model, surface, {u_middle, s.v_begin()}, {u_middle, s.v_end()})));
+    std::vector<bool> free;
+    for (const double u : us) {
+        for (const double v : vs) {
+            free.push_back(is_clear_at(surface, u, v));
+        }
+    }
+    const auto place = [&](std::size_t k) {
+        return Vec2d{us[k / vs.size()], vs[k % vs.size()]};
+    };
+    CellChains chains;
+    for (std::size_t i = 0; i + 1 < us.size(); ++i) {
+        for (std::size_t j = 0; j + 1 < vs.size(); ++j) {
+            chains.join(i * vs.size() + j, vs.size(), [&](const GridSide& side) {
+                return free[side.first] != free[end_node(side, vs.size())];
+            });
+        }
+    }
+    std::vector<Points> out;
+    for (const std::vector<GridSide>& chain : chains.chains()) {
+        std::vector<EdgeSide> sides;
+        for (const GridSide& side : chain) {
+            const std::size_t node = side.first;
+            const std::size_t other = end_node(side, vs.size());
+            sides.push_back({place(free[node] ? node : other), place(free[node] ? other : node)});
+        }
+        Points dense{edge_tip(surface, sides.front())};
+        for (std::size_t k = 1; k < sides.size(); ++k) {
+            const Vec3d next = edge_tip(surface, sides[k]);
+            const Points piece = edge_points(surface, sides[k - 1], sides[k], dense.back(), next);
+            dense.insert(dense.end(), piece.begin() + 1, piece.end());
+            model.forget_many_cells();
+        }
+        if (length_of(dense) > kShortestPiece) {
+            out.push_back(std::move(dense));
+        }
+    }
+    return out;
+}
+
+// The last free tip on the way out.
+Vec3d OffsetCurveTrimmer::edge_tip(int surface, const EdgeSide& side) const
+{
+    double inside = 0;
+    double outside = 1;
+    const auto place = [&](double share) {
+        return side.free + (side.blocked - side.free) * share;
+    };
+    const double found = kEdgeFound * path_fitter_.band().half_width;
+    double apart =
+        norm(tip(surface, side.blocked.x, side.blocked.y) - tip(surface, side.free.x, side.free.y));
+    for (int turn = 0; turn < kEdgeHalvings && apart > found; ++turn, apart *= 0.5) {
+        const double middle = 0.5 * (inside + outside);
+        const Vec2d at = place(middle);
+        (is_clear_at(surface, at.x, at.y) ? inside : outside) = middle;
+    }
+    const Vec2d at = place(inside);
+    return tip(surface, at.x, at.y);
+}
+
+// Between two places the edge is looked for on ways between theirs. Drops would stand on the brink
+// where the edge is one of an overhang.
+Points OffsetCurveTrimmer::edge_points(
+    int surface, const EdgeSide& from, const EdgeSide& to, Vec3d a, Vec3d b) const
+{
+    const auto middle_is_free = [&] {
+        const Vec2d at = (from.free + to.free) * 0.5;
+        return is_clear_at(surface, at.x, at.y);
+    };
+    if (!middle_is_free()) {
+        return path_fitter_.sample_dropped(a, b);
+    }
+    return path_fitter_.sample(
+        [&](double t) {
+            return t == 0   ? a
+                   : t == 1 ? b
+                            : edge_tip(surface, {from.free * (1 - t) + to.free * t,
+                                                 from.blocked * (1 - t) + to.blocked * t});
+        },
+        {0, 1}, kEdgeDeepest);
+}
+
+}  // namespace cusp::adaptive_isocurve

@@ -1,0 +1,407 @@
+// Slices, clears, takes what is left, and writes level by level; then asks the model about every
+// move.
+#include "host_tools/adaptive_isocurve/waterline_rougher.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "host_tools/adaptive_isocurve/fitted_edges.hpp"
+#include "host_tools/adaptive_isocurve/rest_regions.hpp"
+#include "host_tools/clearing/clearing.hpp"
+#include "host_tools/clearing/layer_toolpath_writer.hpp"
+#include "host_tools/clearing/rest_between_tools.hpp"
+#include "host_tools/input_error/input_error.hpp"
+#include "host_tools/offset/edge_tree.hpp"
+#include "host_tools/toolpath/toolpath_measure.hpp"
+
+#include "fmt/format.h"
+
+namespace cusp::adaptive_isocurve {
+
+using clearing::ClearedRegion;
+using clearing::ClearingPass;
+using clearing::ClearingSettings;
+using clearing::LayerRun;
+using clearing::LayerSpace;
+using clearing::LayerToolpathWriter;
+using clearing::PassStart;
+using clearing::rest_offset_between_tools;
+using job::OutputForm;
+using offset::area;
+using offset::Box2d;
+using offset::Contour;
+using offset::Edge;
+using offset::EdgeTree;
+using offset::length;
+using offset::Region2d;
+using offset::RegionOffset;
+using toolpath::LineTo;
+using toolpath::OperationStats;
+using toolpath::Tool;
+using toolpath::ToolMove;
+using toolpath::Toolpath;
+
+namespace {
+
+constexpr double kFirst = 2e-3;  // mm from the edge of a slice to the outermost pass
+constexpr double kFit = 1.5e-3;  // mm: of the edges of slices by lines and arcs
+// Each level keeps this much more than the one above, mm: else it would meet slivers at walls, as
+// wide as the fits of the two differ.
+constexpr double kTaper = 1e-3;
+constexpr double kChord = 1e-3;      // mm: where arcs are written as lines
+constexpr double kProofStep = 1e-3;  // mm: how far below the truth a proved clearance may be
+// mm by which a cutter is in the clear where another was, over what fits may take: the halves of
+// ways beside walls need not be short.
+constexpr double kMargin = 6e-3;
+
+double beside(const Box2d& box, Vec2d p)
+{
+    return std::hypot(std::max({box.x0 - p.x, p.x - box.x1, 0.0}),
+                      std::max({box.y0 - p.y, p.y - box.y1, 0.0}));
+}
+
+class WaterlineRougher {
+public:
+    WaterlineRougher(const RoughWork& work,
+                     const Tool& tool,
+                     double clearance,
+                     const std::vector<RoughedWaterlines>& before)
+        : work_{work}, tool_{tool}, clearance_{clearance}, before_{before}
+    {
+        step_ = pass_spacing(tool, work.depths.scallop_height);
+        inner_fit_ = std::min(0.25 * work.operation.plan_tolerance, 0.02 * step_.stepover);
+        result_.levels.tool = tool;
+    }
+
+    RoughedTool plan()
+    {
+        const auto begin = std::chrono::steady_clock::now();
+        const Box2d& plan = work_.stock.plan;
+        const double out = 1.05 * (tool_.radius + work_.operation.allowance);
+        SliceSettings settings;
+        settings.clearance = clearance_;
+        settings.excess = 0.5 * work_.operation.plan_tolerance;
+        settings.least_pitch = work_.least_pitch;
+        settings.field = {plan.x0 - out, plan.y0 - out, plan.x1 + out, plan.y1 + out};
+        const WaterlineSlices slices{work_.model, tool_, settings};
+        result_.keeps = most_kept(slices.pitch()) + slices.max_excess();
+        LayerToolpathWriter moves{
+            result_.planned.path,
+            {std::max(work_.stock.top, work_.job.stock_top) + work_.job.clearance,
+             work_.operation.entry, work_.operation.output != OutputForm::kLines, kChord}};
+        double above = work_.stock.top;
+        const std::vector<double>& heights = work_.depths.heights;
+        for (std::size_t k = 0; k < heights.size(); ++k) {
+            work_.job.report_progress(work_.share_before + work_.share * static_cast<double>(k) /
+                                                               static_cast<double>(heights.size()));
+            const std::optional<Level> level = cleared_level(slices, k);
+            work_.model.forget_cells();  // the next level asks at other heights
+            if (!level) {
+                break;
+            }
+            result_.levels.regions.push_back(std::make_unique<RegionOffset>(level->region));
+            write_level(*level, k, above, moves);
+            // Ridges of passes, and rests of other cutters, stand over the level.
+            above = heights[k] + scallops();
+        }
+        moves.retract();
+        finish(moves, begin);
+        return std::move(result_);
+    }
+
+private:
+    // mm over a level that is cleared.
+    double scallops() const
+    {
+        const double round = tool_.corner_radius > 0 ? step_.scallop_height : 0.0;
+        return before_.empty() ? round : work_.depths.scallop_height + work_.depths.rest_height;
+    }
+
+    // Of smooth walls, all levels and fits taken together.
+    double most_kept(double pitch) const
+    {
+        const double core = tool_.corner_radius + clearance_;
+        const double side = 1.42 * pitch;
+        const double levels = static_cast<double>(work_.depths.heights.size());
+        return std::sqrt(core * core + 0.5 * side * side) - tool_.corner_radius + 0.01 * side +
+               6.0 * kFit + kChord + kTaper * levels + kFirst + kMargin;
+    }
+
+    // Straight ways in the region: as far from its edge at both ends and at places between as the
+    // places are apart.
+    static bool line_inside(const RegionOffset& region, Vec2d from, Vec2d to)
+    {
+        const double room_from = region.clearance(from);
+        const double room_to = region.clearance(to);
+        const double length = norm(to - from);
+        if (room_from < 0 || room_to < 0) {
+            return false;
+        }
+        if (room_from + room_to >= length) {
+            return true;
+        }
+        if (length < 2.0 * kChord) {
+            return true;  // out by no more than chords may be
+        }
+        const Vec2d middle = (from + to) * 0.5;
+        return line_inside(region, from, middle) && line_inside(region, middle, to);
+    }
+
+    // Links are looked at for themselves: what makes them takes looks a tenth of a millimetre
+    // apart.
+    static bool line_inside(const RegionOffset& region, const std::vector<Edge>& way)
+    {
+        return std::all_of(way.begin(), way.end(), [&](const Edge& edge) {
+            const int parts = edge.turn == 0 ? 1 : 1 + static_cast<int>(sweep(edge) / 0.02);
+            for (int k = 0; k < parts; ++k) {
+                const Vec2d from = point_on(edge, static_cast<double>(k) / parts);
+                const Vec2d to = point_on(edge, static_cast<double>(k + 1) / parts);
+                if (!line_inside(region, from, to)) {
+                    return false;
+                }
+            }
+            return true;
+        });
+    }
+
+    struct Level {
+        double bottom;
+        Region2d region;
+        ClearedRegion cleared;
+    };
+
+    static Region2d fitted_region(const Region2d& slice, double fit)
+    {
+        Region2d out;
+        for (const Contour& contour : slice.contours) {
+            Contour edges = fitted_edges(contour, fit, true);
+            if (edges.size() >= 2 && std::abs(area(edges)) > fit * length(edges)) {
+                out.contours.push_back(std::move(edges));
+            }
+        }
+        return out;
+    }
+
+    // None where the tool fits nowhere. Offsets of a level may fail on edges that nearly coincide:
+    // edges fitted otherwise, and other steps, are as good.
+    std::optional<Level> cleared_level(const WaterlineSlices& slices, std::size_t k) const
+    {
+        for (const double share : {1.0, 0.96, 0.9}) {
+            for (const double fit : {kFit, 3.0 * kFit, kFit / 3.0}) {
+                const double more = fit + kChord + kTaper * static_cast<double>(k);
+                Level level{work_.depths.heights[k],
+                            fitted_region(slices.at(work_.depths.heights[k], more), fit),
+                            {}};
+                if (level.region.contours.empty()) {
+                    return std::nullopt;
+                }
+                ClearingSettings clearing;
+                clearing.wall_clearance = kFirst;
+                clearing.stepover = share * step_.stepover - 4.0 * inner_fit_;
+                clearing.direction = work_.operation.direction_of_cut;
+                level.cleared = clear_region(level.region, clearing);
+                if (covers(level, clearing.stepover)) {
+                    return level;
+                }
+            }
+        }
+        throw InputError(
+            fmt::format("{}: roughing: the level at z = {:g} mm can't be cleared; try "
+                        "another max_depth or allowance",
+                        work_.job.file, work_.depths.heights[k]));
+    }
+
+    // The levels below count on this one: a place left out would be met at twice the depth.
+    bool covers(const Level& level, double step) const
+    {
+        constexpr double kReach = 0.55;  // of a step; a half is what is asked for
+        std::vector<Edge> edges;
+        for (const ClearingPass& pass : level.cleared.passes) {
+            edges.insert(edges.end(), pass.path.begin(), pass.path.end());
+        }
+        const EdgeTree passes{edges};
+        const RegionOffset inside{level.region};
+        const double pitch = 0.4 * step;
+        for (double x = work_.stock.plan.x0; x <= work_.stock.plan.x1; x += pitch) {
+            for (double y = work_.stock.plan.y0; y <= work_.stock.plan.y1; y += pitch) {
+                const Vec2d at{x, y};
+                if (inside.clearance(at) > 2 * kFirst &&
+                    (edges.empty() || !passes.any_nearer(at, kReach * step))) {
+                    return false;
+                }
+            }
+        }
+        return true;
+    }
+
+    bool cuts_stock(const Contour& path) const
+    {
+        return std::any_of(path.begin(), path.end(), [&](const Edge& edge) {
+            const double room = beside(work_.stock.plan, point_on(edge, 0.5));
+            return room < tool_.radius + 0.5 * length(edge);
+        });
+    }
+
+    std::vector<LayerRun> runs_of(const ClearedRegion& cleared, const RegionOffset& region)
+    {
+        const bool arcs = work_.operation.output != OutputForm::kLines;
+        std::vector<LayerRun> out;
+        bool linked = false;  // the pass before is the last of `out`
+        for (const ClearingPass& pass : cleared.passes) {
+            if (!cuts_stock(pass.path)) {
+                linked = false;
+                continue;
+            }
+            // The outermost passes stay as they are: the levels below count on them.
+            const std::vector<Edge> edges =
+                arcs || pass.ring == 0 ? pass.path : fitted_edges(pass.path, inner_fit_, false);
+            if (linked && pass.start == PassStart::kLink && line_inside(region, pass.link)) {
+                std::vector<Edge>& run = out.back().edges;
+                run.insert(run.end(), pass.link.begin(), pass.link.end());
+                run.insert(run.end(), edges.begin(), edges.end());
+            } else {
+                out.push_back({edges, false});
+            }
+            linked = true;
+        }
+        return out;
+    }
+
+    // Where the cutters before leave nothing for this one on the level.
+    std::vector<ClearedPlaces> cleared_before(std::size_t k) const
+    {
+        std::vector<ClearedPlaces> out;
+        for (const RoughedWaterlines& other : before_) {
+            // A rest counts once: what the later ones found it under is not left higher by them.
+            const double rest = out.empty() ? work_.depths.rest_height : 0.0;
+            const auto reach = rest_offset_between_tools(other.tool, tool_, rest);
+            if (k < other.regions.size() && reach) {
+                out.push_back({other.regions[k].get(), *reach - 2 * kFirst});
+            }
+        }
+        return out;
+    }
+
+    void write_level(const Level& level, std::size_t k, double top, LayerToolpathWriter& moves)
+    {
+        const auto& regions = result_.levels.regions;
+        const RegionOffset& region = *regions[k];
+        LayerSpace space{top, level.bottom, tool_.radius, {}, {}, {}};
+        space.scallop_height = before_.empty() ? 0.0 : scallops();
+        space.has_room = [&](Vec2d place, double extra) {
+            return region.clearance(place) >= extra;
+        };
+        space.beside_stock = [&](Vec2d place) {
+            return beside(work_.stock.plan, place) >= tool_.radius;
+        };
+        if (k > 0) {
+            space.cleared_above = [&](Vec2d from, Vec2d to) {
+                return line_inside(*regions[k - 1], from, to);
+            };
+        }
+        std::vector<LayerRun> runs = runs_of(level.cleared, region);
+        const std::vector<ClearedPlaces> before = cleared_before(k);
+        if (!before.empty()) {
+            runs = rest_regions(runs, tool_.radius, before);
+        }
+        for (const LayerRun& run : runs) {
+            moves.add(run, space);
+        }
+        result_.loops += static_cast<int>(runs.size());
+        levels_ += runs.empty() ? 0 : 1;
+    }
+
+    // The least clearance of all moves but those at the clearance height.
+    double least_clearance() const
+    {
+        double least = std::numeric_limits<double>::infinity();
+        Vec3d at{};
+        bool started = false;
+        for (const ToolMove& move : result_.planned.path.moves) {
+            const Vec3d end = end_of(move);
+            const double sufficient = std::min(least, work_.operation.allowance + 1.0);
+            if (started &&
+                std::min(at.z, end.z) < work_.model.box_high().z + work_.operation.allowance) {
+                Vec3d from = at;
+                for (const Vec3d& to : points_of(move, at, kChord)) {
+                    const double bow = std::holds_alternative<LineTo>(move.shape) ? 0 : kChord;
+                    least = std::min(least, work_.model.move_clearance(
+                                                tool_, from, to, sufficient + bow, kProofStep) -
+                                                bow);
+                    from = to;
+                }
+            }
+            at = end;
+            started = true;
+        }
+        return least;
+    }
+
+    void finish(const LayerToolpathWriter& moves, std::chrono::steady_clock::time_point begin)
+    {
+        if (result_.loops == 0) {
+            return;
+        }
+        const double least = least_clearance();
+        Toolpath& path = result_.planned.path;
+        path.tool = tool_;
+        path.feed = work_.job.feed;
+        path.plunge_feed = work_.job.plunge_feed;
+        path.spindle = work_.job.spindle;
+        path.comments = {fmt::format("{}: {} roughing levels, allowance {:g} mm",
+                                     work_.operation.strategy, levels_, work_.operation.allowance),
+                         fmt::format("clearance from the model at least {:.4f} mm", least)};
+        OperationStats& stats = result_.planned.stats;
+        stats.strategy = work_.operation.strategy;
+        stats.roughing = true;
+        stats.passes = result_.loops;
+        stats.levels = levels_;
+        stats.cl_points = static_cast<int>(path.moves.size());
+        stats.retracts = moves.retracts();
+        stats.gouge_bound_mm = std::max(0.0, -least);
+        // Slices bound what is cut, not what is left: only the height of the stock does.
+        stats.scallop_bound_mm = work_.stock.top - work_.stock.bottom;
+        stats.counts = {{"layers", levels_},
+                        {"loops", result_.loops},
+                        {"layer_depth_mm", work_.stock.top - work_.depths.heights.front()},
+                        {"clearance_bound_mm", least},
+                        {"allowance_mm", work_.operation.allowance}};
+        if (least < work_.operation.allowance - kProofStep) {
+            stats.warnings.push_back(
+                fmt::format("roughing comes within {:.4f} mm of the model, the allowance is {:g} "
+                            "mm",
+                            least, work_.operation.allowance));
+        }
+        if (moves.steep_plunges() > 0) {
+            stats.warnings.push_back(
+                fmt::format("{} entries had no room for a ramp and plunge", moves.steep_plunges()));
+        }
+        stats.planning_s =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    }
+
+    const RoughWork& work_;
+    Tool tool_;
+    double clearance_;
+    const std::vector<RoughedWaterlines>& before_;
+    PassSpacing step_{};
+    double inner_fit_{};
+    RoughedTool result_;
+    int levels_{};
+};
+
+}  // namespace
+
+RoughedTool rough_with(const RoughWork& work,
+                       const Tool& tool,
+                       double clearance,
+                       const std::vector<RoughedWaterlines>& before)
+{
+    return WaterlineRougher{work, tool, clearance, before}.plan();
+}
+
+}  // namespace cusp::adaptive_isocurve

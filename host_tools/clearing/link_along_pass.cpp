@@ -1,0 +1,85 @@
+// Looks from the ends and middles of the edges of the next pass for the place nearest by.
+#include "host_tools/clearing/link_along_pass.hpp"
+
+namespace cusp::clearing {
+
+using offset::Contour;
+using offset::distance;
+using offset::Edge;
+using offset::line_edge;
+using offset::reversed;
+
+namespace {
+
+constexpr double kPoint = 1e-6;  // mm
+
+struct Crossing {
+    std::size_t edge{};  // of the pass before
+    Vec2d from;          // on it
+    Vec2d to;            // on the next
+    double way{1e300};   // along the pass before, and over
+    bool backward{};
+};
+
+// Else a part of an arc could turn into all of it.
+bool has_length(Vec2d from, Vec2d to) { return distance(from, to) >= kPoint; }
+
+// The parts of the pass up to the place, or from its end back to it.
+std::vector<Edge> part_of(const Contour& pass, const Crossing& crossing)
+{
+    const Edge& last = pass[crossing.edge];
+    const auto at = pass.begin() + static_cast<std::ptrdiff_t>(crossing.edge);
+    std::vector<Edge> part;
+    if (crossing.backward) {
+        if (has_length(crossing.from, last.end)) {
+            part.push_back(between(last, crossing.from, last.end));
+        }
+        part.insert(part.end(), at + 1, pass.end());
+        return reversed(part);
+    }
+    part.assign(pass.begin(), at);
+    if (has_length(last.start, crossing.from)) {
+        part.push_back(between(last, last.start, crossing.from));
+    }
+    return part;
+}
+
+}  // namespace
+
+std::vector<Edge> link_along_pass(const Contour& before, const Contour& next, double farthest)
+{
+    std::vector<double> ways{0.0};
+    for (const Edge& edge : before) {
+        ways.push_back(ways.back() + length(edge));
+    }
+    Crossing best;
+    const auto look = [&](Vec2d to) {
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            const Vec2d from = nearest_on(before[i], to);
+            const double over = distance(from, to);
+            if (over > farthest) {
+                continue;
+            }
+            const bool inside = has_length(before[i].start, from);
+            const double forward =
+                ways[i] + (inside ? length(between(before[i], before[i].start, from)) : 0.0);
+            const bool backward = ways.back() - forward < forward;
+            const double way = over + (backward ? ways.back() - forward : forward);
+            if (way < best.way) {
+                best = {i, from, to, way, backward};
+            }
+        }
+    };
+    for (const Edge& edge : next) {
+        look(edge.start);
+        look(point_on(edge, 0.5));
+    }
+    if (best.way == Crossing{}.way) {
+        return {};
+    }
+    std::vector<Edge> link = part_of(before, best);
+    link.push_back(line_edge(best.from, best.to));
+    return link;
+}
+
+}  // namespace cusp::clearing

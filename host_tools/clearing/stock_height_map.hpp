@@ -1,0 +1,79 @@
+// Height of the stock in a pocket on a fine grid (a Z-map): how deep a move would cut.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "host_tools/offset/contour.hpp"
+#include "host_tools/toolpath/toolpath.hpp"
+
+namespace cusp::clearing {
+
+// Heights of the stock at points of a grid (a coarser one in pockets of over four million places).
+// What is thinner than that may be missed.
+class StockHeightMap {
+public:
+    // box  all places that the tool may touch
+    // top  of the uncut stock
+    // share  of the tool's radius: between places
+    StockHeightMap(const offset::Box2d& box,
+                   const toolpath::Tool& tool,
+                   double top,
+                   double share = 1.0 / 12);
+
+    // Another tool cuts from here on.
+    void set_tool(const toolpath::Tool& tool);
+
+    // The height at which a tip that comes down over `at` first touches metal, with what of the
+    // tool is within that share of its radius; -1e300 where none stands.
+    double contact_height(Vec2d at, double share = 1.0) const;
+
+    // Takes what the tool sweeps on a straight move. Returns the deepest that it cuts, mm.
+    double cut(Vec3d from, Vec3d to) { return sweep(from, to, false); }
+
+    // As cut(), by a tool that is smaller by slivers: what it would only graze stays, to be counted
+    // for the next move that meets it.
+    double cut_with_shrunk_tool(Vec3d from, Vec3d to) { return sweep(from, to, true); }
+
+private:
+    // The tool's lower side: a flat of radius `flat`, a corner around it.
+    struct Profile {
+        double flat;
+        double corner;
+        double reach;  // squared radius of the whole tool
+        double at(double squared) const;
+    };
+    struct Range {
+        std::size_t begin;
+        std::size_t end;
+    };
+    struct Position {
+        Vec3d tip;
+        bool shrunk;  // of cut_with_shrunk_tool()
+    };
+
+    double spacing_{};
+    double sliver_{};  // mm: what stands between two looked-at places of a move is no metal
+    Profile tool_{};
+    Profile probe_profile_{};  // the tool, smaller by the slivers
+    // Heights that the tool's lower side has at least, by squared distance: most places under it
+    // are cut already, and told so without a root.
+    std::array<double, 257> at_least_{};
+    Vec2d origin_;
+    double pitch_;
+    std::size_t columns_;
+    std::size_t rows_;
+    double top_;
+    std::vector<float> heights_;
+    std::optional<Position> last_;  // the places under it are cut
+
+    static Range range(double low, double high, double origin, double pitch, std::size_t count);
+    double sweep(Vec3d from, Vec3d to, bool inside);
+    void cut_at(const Position& position, double& deepest);
+    void cut_column(std::size_t column, Range rows, const Position& position, double& deepest);
+    Range maybe_lower(double x, Range rows, Vec3d tip) const;
+    Range under_last(double x, Range rows, Vec3d tip) const;
+};
+
+}  // namespace cusp::clearing

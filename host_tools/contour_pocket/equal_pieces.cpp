@@ -1,0 +1,119 @@
+// More pieces of an edge until all of them stay in the bands.
+#include "host_tools/contour_pocket/equal_pieces.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/base/math.hpp"
+
+namespace cusp::contour_pocket {
+
+using drop_cutter::DropCutter;
+using offset::Edge;
+
+namespace {
+
+// Where the corners of the chords leave the tangent by less than this, they are made so blunt that
+// no machine stops at them.
+constexpr double kOffTangent = 0.03;     // mm
+constexpr double kBlunt = 0.45;          // degrees
+constexpr double kBluntest = 2.0;        // degrees: where pieces would be shorter than
+constexpr double kShortestPiece = 0.05;  // mm: many of them in a tick hold a machine up, too
+constexpr double kMostPieces = 4096;     // of one edge
+constexpr double kDegree = kPi / 180.0;
+
+class EdgePieces {
+public:
+    EdgePieces(const Edge& edge, const DropCutter& floor, const EqualPieces& settings)
+        : edge_{edge}, floor_{floor}, settings_{settings}
+    {
+    }
+
+    double band_middle(Vec2d at) const
+    {
+        return lowest(at) + 0.5 * (settings_.low + settings_.high);
+    }
+
+    int least_count() const
+    {
+        if (edge_.turn == 0 || settings_.arcs) {
+            return 1;
+        }
+        const double share = std::min(1.0, settings_.plan_tolerance / edge_.radius);
+        double angle = 2.0 * std::acos(1.0 - share);
+        if (0.5 * edge_.radius * angle * angle < kOffTangent) {
+            const double blunt =
+                std::clamp(kShortestPiece / edge_.radius, kBlunt * kDegree, kBluntest * kDegree);
+            angle = std::min(angle, blunt);
+        }
+        const double count = std::ceil(sweep(edge_) / angle);
+        return static_cast<int>(std::clamp(count, 1.0, kMostPieces));
+    }
+
+    // Every place between the ends of every piece is in its band.
+    bool fits(int count) const
+    {
+        for (int i = 0; i < count; ++i) {
+            const double a = band_middle(end(i, count));
+            const double b = band_middle(end(i + 1, count));
+            const int looks = 1 + static_cast<int>(length(edge_) / (count * settings_.spacing));
+            for (int k = 1; k < looks; ++k) {
+                const double share = static_cast<double>(k) / looks;
+                const double over =
+                    a + (b - a) * share - lowest(point_on(edge_, (i + share) / count));
+                if (over < settings_.low || over > settings_.high) {
+                    return false;
+                }
+            }
+        }
+        return true;
+    }
+
+    Vec2d end(int i, int count) const
+    {
+        return i == 0       ? edge_.start
+               : i == count ? edge_.end
+                            : point_on(edge_, static_cast<double>(i) / count);
+    }
+
+private:
+    double lowest(Vec2d at) const
+    {
+        return std::max(floor_.drop(at).z + settings_.allowance, settings_.min_z);
+    }
+
+    const Edge& edge_;
+    const DropCutter& floor_;
+    const EqualPieces& settings_;
+};
+
+}  // namespace
+
+Chain equal_pieces_chain(const std::vector<Edge>& plan,
+                         const DropCutter& floor,
+                         const EqualPieces& settings)
+{
+    Chain chain;
+    const Vec2d first = plan.front().start;
+    chain.start = {first.x, first.y, EdgePieces{plan.front(), floor, settings}.band_middle(first)};
+    for (const Edge& edge : plan) {
+        const EdgePieces pieces{edge, floor, settings};
+        const int most = 1 + static_cast<int>(length(edge) / settings.spacing);
+        int count = pieces.least_count();
+        while (count < most && !pieces.fits(count)) {
+            count += 1 + count / 4;
+        }
+        for (int i = 1; i <= count; ++i) {
+            const Vec2d at = pieces.end(i, count);
+            ClMove move{{at.x, at.y, pieces.band_middle(at)}};
+            if (settings.arcs && edge.turn != 0) {
+                move.centre = edge.centre;
+                move.turn = edge.turn;
+            }
+            chain.moves.push_back(move);
+        }
+    }
+    return chain;
+}
+
+}  // namespace cusp::contour_pocket

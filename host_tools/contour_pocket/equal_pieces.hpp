@@ -1,0 +1,30 @@
+// Curves of links in even pieces: no corner comes to lie beside the pass that they are tangent to.
+#pragma once
+
+#include "host_tools/contour_pocket/tolerance_chain.hpp"
+#include "host_tools/drop_cutter/drop_cutter.hpp"
+
+namespace cusp::contour_pocket {
+
+// Each edge as equal lines (arcs where `arcs`), as few as stay within `plan_tolerance` in plan and
+// [low, high] over the floor's height + `allowance` at every `spacing` (mm); places lower than
+// `min_z` count as if they were level.
+//
+// The longest moves that fit, as chain_through() takes them, may end in a short one a few
+// micrometres off the loop that the link joins. A machine that stops there (G61) has more set
+// points beside the loop than the loop has itself, and who looks for a path's nearest set points
+// finds the wrong ones.
+struct EqualPieces {
+    double plan_tolerance;
+    double low;
+    double high;
+    double allowance;
+    double min_z;
+    double spacing;
+    bool arcs;
+};
+Chain equal_pieces_chain(const std::vector<offset::Edge>& plan,
+                         const drop_cutter::DropCutter& floor,
+                         const EqualPieces& settings);
+
+}  // namespace cusp::contour_pocket

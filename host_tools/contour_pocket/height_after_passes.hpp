@@ -1,0 +1,30 @@
+// How high metal stands that passes leave.
+#pragma once
+
+#include <vector>
+
+#include "host_tools/clearing/clearing.hpp"
+#include "host_tools/drop_cutter/drop_cutter.hpp"
+#include "host_tools/offset/edge_tree.hpp"
+
+namespace cusp::contour_pocket {
+
+class HeightAfterPasses {
+public:
+    // The passes are looked at every `share` of the tool's radius, at the tip's lowest height.
+    HeightAfterPasses(const clearing::ClearedRegion& cleared,
+                      const drop_cutter::DropCutter& floor,
+                      double share = 0.08);
+
+    // z; 1e300 where no pass comes within the tool's radius.
+    double height(Vec2d place);
+
+private:
+    const drop_cutter::DropCutter& floor_;
+    double apart_;
+    std::vector<offset::Edge> edges_;
+    offset::EdgeTree tree_;
+    std::vector<std::vector<Vec3d>> tips_;  // along each edge; empty until they are asked for
+};
+
+}  // namespace cusp::contour_pocket

@@ -1,0 +1,494 @@
+// Ways inward from the outer loops, compared with what both levels' paths cut.
+#include "host_tools/contour_pocket/loop_scallop.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "firmware/base/math.hpp"
+#include "host_tools/clearing/corner_cleanup.hpp"
+#include "host_tools/contour_pocket/loop_spacing.hpp"
+#include "host_tools/contour_pocket/station_row.hpp"
+
+namespace cusp::contour_pocket {
+
+using clearing::LoopStrip;
+using clearing::starts_cleanup_spur;
+using drop_cutter::DropCutter;
+using nurbs::Surface;
+using offset::Box2d;
+using offset::Contour;
+using offset::distance;
+using offset::Edge;
+using offset::left_normal;
+using offset::Region2d;
+using toolpath::Tool;
+
+namespace {
+
+constexpr double kAlong = 1.0 / 6.0;         // of the tool's radius: ways are no farther apart
+constexpr double kNearestWays = 1.0 / 48.0;  // of it: where what stands changes
+constexpr double kFine = 0.02;               // of the tool's radius: places on a way are no closer
+constexpr double kEnough = 4.0;              // more need not be known
+
+// Beside the rim of a flat foot what stands is low enough over a sickle only: as deep as the cusp
+// on a steep floor, and as long as the chord there.
+double cross_lines_apart(const Tool& tool, double scallop_height)
+{
+    constexpr double kShare = 0.3;
+    const double chord = kShare * std::sqrt(2.0 * scallop_height * tool.radius);
+    return std::min(kAlong * tool.radius, std::max(chord, kAlong * tool.corner_radius));
+}
+
+bool turns(const Edge& before, const Edge& after)
+{
+    constexpr double kCorner = 0.995;  // cosine of some 6 degrees
+    return dot(tangent_at_end(before), tangent_at_start(after)) < kCorner;
+}
+
+}  // namespace
+
+LoopScallop::LoopScallop(const DropCutter& floor,
+                         const std::vector<Surface>& surfaces,
+                         const ToleranceSplit& tolerances)
+    : floor_{floor},
+      tolerances_{tolerances},
+      ball_{floor.tool().corner_radius >= floor.tool().radius},
+      apart_{cross_lines_apart(floor.tool(), tolerances.scallop_height)},
+      bounds_{ball_ ? surfaces : std::vector<Surface>{}, floor.tool().radius}
+{
+}
+
+// How far from a pass nothing too high stands, mm.
+double LoopScallop::proven(const BendBounds& bounds) const
+{
+    if (!ball_ || !std::isfinite(bounds.slope)) {
+        return 0.0;
+    }
+    const double secant = std::sqrt(1.0 + bounds.slope * bounds.slope);
+    return proven_reach(floor_.tool().radius, allowed(secant), bounds) - tolerances_.plan_tolerance;
+}
+
+// The same beside a level in that box, as far as the next one.
+double LoopScallop::proven(const Box2d& level, double step) const
+{
+    return proven(
+        bounds_.near({level.x0 - step, level.y0 - step, level.x1 + step, level.y1 + step}));
+}
+
+double LoopScallop::proven_stepover(const Region2d& level) const
+{
+    constexpr double kMargin = 0.9999;
+    const Box2d box = box_of(level);
+    const double radius = floor_.tool().radius;
+    const double flat =
+        2.0 * std::sqrt(tolerances_.scallop_height * (2.0 * radius - tolerances_.scallop_height));
+    const double step = 2.0 * kMargin * proven(box, flat);
+    return step > flat ? std::min(step, 2.0 * kMargin * proven(box, step)) : step;
+}
+
+bool LoopScallop::reaches_floor(const Region2d& region) const
+{
+    return ball_ && bounds_.near(box_of(region)).up * floor_.tool().radius < 1.0;
+}
+
+// Where the second derivative stays in a range of width w, the cubic through heights and slopes at
+// distance h is w h^2 / 32 off at most: its remainder is the integral of the second derivative with
+// a kernel that straight lines vanish under, of the absolute integral h^2 / 16. That of the tip's
+// z: see proven_reach().
+double LoopScallop::lookup_spacing(const Region2d& region, double off) const
+{
+    const BendBounds bounds = bounds_.near(box_of(region));
+    const double radius = floor_.tool().radius;
+    if (!ball_ || !(bounds.up * radius < 1.0) || !std::isfinite(bounds.down)) {
+        return 0.0;
+    }
+    const double width = bounds.up / (1.0 - bounds.up * radius) + bounds.down;
+    return std::min(std::sqrt(32.0 * off / std::max(width, 1e-12)), 4.0 * radius);
+}
+
+double LoopScallop::relative_scallop(const LoopStrip& strip)
+{
+    constexpr double kWorthIt = 0.95;
+    const double step = strip.to - strip.from;
+    const double reach = proven(box_of(strip.outer), step);
+    if (2.0 * reach > kWorthIt * step) {
+        const double share = 0.5 * step / reach;
+        return share * share;
+    }
+    if (step <= least_stepover(floor_.tool(), tolerances_)) {
+        return 0.0;
+    }
+    const Look look{strip, 0.0, step, false};
+    look_closely(step);
+    segments_.clear();
+    set_paths(strip.outer, step);
+    set_paths(strip.inner, step);
+    sort_segments(step);
+    double most = 0.0;
+    for (const Contour& contour : strip.outer.contours) {
+        Contour loop;
+        for (std::size_t e = 0; e < contour.size(); ++e) {
+            // The second visit of a spur goes back over the first.
+            if (!starts_cleanup_spur(contour, e) &&
+                !(e > 0 && starts_cleanup_spur(contour, e - 1))) {
+                loop.push_back(contour[e]);
+            }
+        }
+        for (std::size_t e = 0; e < loop.size() && most < kEnough; ++e) {
+            const Edge& before = loop[(e + loop.size() - 1) % loop.size()];
+            const Edge& after = loop[(e + 1) % loop.size()];
+            const Corners corners{turns(before, loop[e]), turns(loop[e], after)};
+            most = std::max(most, cross_lines_along(loop[e], corners, look));
+        }
+    }
+    return most;
+}
+
+// Neighbouring moves may stray from their paths, each its own way; a ridge grows as the square of
+// their distance.
+void LoopScallop::look_closely(double step)
+{
+    places_ = std::clamp(static_cast<int>(step / (kFine * floor_.tool().radius)), 3, kPlaces);
+    const double strayed = step / (step + 2.0 * tolerances_.plan_tolerance);
+    strayed_ = strayed * strayed;
+}
+
+// Places without floor are refused when the path is laid.
+void LoopScallop::set_paths(const Region2d& level, double step)
+{
+    const double height = 0.2 * tolerances_.scallop_height;
+    const StationSpacing spacing{0.5 * step, 0.02 * step, height, false};
+    for (const Contour& contour : level.contours) {
+        const StationRow row = stations_along(contour, &floor_, spacing);
+        for (std::size_t i = 1; i < row.stations.size(); ++i) {
+            const Station& a = row.stations[i - 1];
+            const Station& b = row.stations[i];
+            segments_.push_back({{a.at.x, a.at.y, a.height}, {b.at.x, b.at.y, b.height}});
+        }
+    }
+}
+
+void LoopScallop::sort_segments(double cell)
+{
+    field_ = {};
+    for (const TipSegment& s : segments_) {
+        field_ = {
+            std::min({field_.x0, s.start.x, s.end.x}), std::min({field_.y0, s.start.y, s.end.y}),
+            std::max({field_.x1, s.start.x, s.end.x}), std::max({field_.y1, s.start.y, s.end.y})};
+    }
+    constexpr double kMostCells = 250.0;  // a side
+    const double longest = std::max(field_.x1 - field_.x0, field_.y1 - field_.y0);
+    cell_ = std::max(cell, longest / kMostCells);
+    columns_ = 1 + static_cast<int>((field_.x1 - field_.x0) / cell_);
+    rows_ = 1 + static_cast<int>((field_.y1 - field_.y0) / cell_);
+    cells_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), {});
+    for (std::size_t k = 0; k < segments_.size(); ++k) {
+        const TipSegment& s = segments_[k];
+        const auto column = [&](double x) {
+            return static_cast<int>((x - field_.x0) / cell_);
+        };
+        const auto row = [&](double y) {
+            return static_cast<int>((y - field_.y0) / cell_);
+        };
+        for (int i = column(std::min(s.start.x, s.end.x));
+             i <= column(std::max(s.start.x, s.end.x)); ++i) {
+            for (int j = row(std::min(s.start.y, s.end.y)); j <= row(std::max(s.start.y, s.end.y));
+                 ++j) {
+                cells_[static_cast<std::size_t>(j * columns_ + i)].push_back(
+                    static_cast<std::uint32_t>(k));
+            }
+        }
+    }
+}
+
+// A place on the very rim is touched from nowhere else, not even from a hair's breadth aside.
+Vec2d LoopScallop::inside_rim(Vec2d at, Vec2d touched) const
+{
+    constexpr double kInside = 0.9999;
+    const double most = kInside * floor_.tool().radius;
+    const double out = distance(at, touched);
+    return out > most ? at + (touched - at) * (most / out) : touched;
+}
+
+// A ball's lower side lies along the floor beside the place that it touches; under the rim of a
+// flat foot the floor falls away, and the place must be known itself.
+LoopScallop::Probe LoopScallop::probe(Vec2d at) const
+{
+    const Tool& tool = floor_.tool();
+    const double slack = 0.02 * tolerances_.scallop_height;
+    if (!ball_) {
+        const DropCutter::CcPoint contact = floor_.exact_cc_point(at, slack);
+        const Vec3d p = contact.surface.point;
+        const Vec3d n = contact.normal;
+        const Vec2d touched = inside_rim(at, {p.x, p.y});
+        const double side = contact.z + profile_height(tool, distance(at, touched));
+        if (contact.found && std::abs(side - p.z) * n.z < 0.1 * tolerances_.scallop_height) {
+            return {at, contact.z, touched, p.z, {-n.x / n.z, -n.y / n.z}, 1.0 / n.z};
+        }
+    }
+    const DropCutter::ClPoint rest = floor_.drop(at, slack);
+    if (rest.z == DropCutter::kNoSurface) {
+        return {at, rest.z, at, rest.z, {}, 1.0};
+    }
+    const Vec2d touched = inside_rim(at, floor_.cc_place(at, rest));
+    const double side = rest.z + profile_height(tool, distance(at, touched));
+    const double secant = std::sqrt(1.0 + dot(rest.slope, rest.slope));
+    return {at, rest.z, touched, side, rest.slope, secant};
+}
+
+// What the paths beside `near` leave at `at`: z.
+double LoopScallop::left_at(Vec2d at, Vec2d near) const
+{
+    const int i = static_cast<int>(std::floor((near.x - field_.x0) / cell_));
+    const int j = static_cast<int>(std::floor((near.y - field_.y0) / cell_));
+    double least = kNotReached;
+    for (int row = std::max(0, j - 1); row <= std::min(rows_ - 1, j + 1); ++row) {
+        for (int column = std::max(0, i - 1); column <= std::min(columns_ - 1, i + 1); ++column) {
+            for (const std::uint32_t k :
+                 cells_[static_cast<std::size_t>(row * columns_ + column)]) {
+                const TipSegment& s = segments_[k];
+                if (std::min(s.start.z, s.end.z) < least) {
+                    least = std::min(least, cut_over(floor_.tool(), s, at, least));
+                }
+            }
+        }
+    }
+    return least;
+}
+
+// On a slope a move beside its path stands higher over the floor, and is raised where it would cut:
+// by no more than half again what it strays, square to the floor.
+double LoopScallop::allowed(double secant) const
+{
+    constexpr double kRaised = 1.5;
+    constexpr double kLeast = 0.3;  // of what may stand on a level floor
+    const double cosine = 1.0 / secant;
+    const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+    const double on_slope =
+        tolerances_.height_tolerance * (1.0 - cosine) - kRaised * tolerances_.plan_tolerance * sine;
+    return std::max(tolerances_.scallop_height + on_slope, kLeast * tolerances_.scallop_height);
+}
+
+// Square to the floor, where the tool touches it; as a share of what may stand.
+double LoopScallop::uncut(const Probe& probe, bool stretches) const
+{
+    if (probe.floor == DropCutter::kNoSurface) {
+        return 0.0;
+    }
+    const double share = std::max(0.0, left_at(probe.touched, probe.at) - probe.floor) /
+                         (probe.secant * strayed_ * allowed(probe.secant));
+    return stretches && ball_ && share > 1.0 && clear_square_to(probe) ? 1.0 : share;
+}
+
+// The tool rests on both sides of a valley where the continuations of its heights meet, lower than
+// at either place; where they don't, at the lower one.
+LoopScallop::Lowest LoopScallop::where_sides_meet(const Probe& a, const Probe& b)
+{
+    const Vec2d move = b.at - a.at;
+    const double fall = -dot(a.gradient, move);
+    const double rise = dot(b.gradient, move);
+    const double share = (a.tip - b.tip + rise) / (fall + rise);
+    if (fall > 0.0 && rise > 0.0 && share > 0.0 && share < 1.0) {
+        return {a.at + move * share, a.tip - fall * share};
+    }
+    return a.tip < b.tip ? Lowest{a.at, a.tip} : Lowest{b.at, b.tip};
+}
+
+// Where a ball does not reach the floor, between the places that it touches from two neighbouring
+// ones: over what it leaves at best.
+double LoopScallop::left_under(const Probe& a, const Probe& b) const
+{
+    constexpr int kPieces = 4;
+    constexpr double kFar = 0.1;  // of the tool's radius: nearer ones hide nothing
+    const Tool& tool = floor_.tool();
+    const double apart = distance(a.touched, b.touched);
+    const bool known = a.floor != DropCutter::kNoSurface && b.floor != DropCutter::kNoSurface;
+    if (!known || apart < std::max(kFar * tool.radius, 3.0 * distance(a.at, b.at))) {
+        return 0.0;
+    }
+    const Lowest lowest = where_sides_meet(a, b);
+    double most = 0.0;
+    for (int i = 1; i < kPieces; ++i) {
+        const double share = static_cast<double>(i) / kPieces;
+        const Vec2d p = a.touched + (b.touched - a.touched) * share;
+        const double best =
+            std::min({a.tip + profile_height(tool, distance(a.at, p)),
+                      b.tip + profile_height(tool, distance(b.at, p)),
+                      lowest.height + profile_height(tool, distance(lowest.at, p))});
+        // The floor of a valley is as steep as its sides only beside them.
+        const Vec2d slope = a.gradient * (1.0 - share) + b.gradient * share;
+        const double secant = std::sqrt(1.0 + dot(slope, slope));
+        const double stands = std::min({left_at(p, a.at), left_at(p, lowest.at), left_at(p, b.at)});
+        most = std::max(most, (stands - best) / (secant * strayed_ * allowed(secant)));
+    }
+    return most;
+}
+
+// Over a valley whose bottom a foot does not reach: what the paths leave over its middle and its
+// rim where it stands lowest between two neighbouring places. Down along the valley its rim cuts
+// steps.
+double LoopScallop::left_under_foot(const Probe& a, const Probe& b) const
+{
+    constexpr double kTurned = 0.1;  // slope: from where on it is no bend
+    constexpr int kRound = 12;       // places on the rim
+    constexpr double kInside = 0.9999;
+    const bool known = a.floor != DropCutter::kNoSurface && b.floor != DropCutter::kNoSurface;
+    const Vec2d move = b.at - a.at;
+    if (!known || dot(b.gradient - a.gradient, move) <= kTurned * std::sqrt(dot(move, move))) {
+        return 0.0;
+    }
+    const Lowest lowest = where_sides_meet(a, b);
+    const Tool& tool = floor_.tool();
+    const double foot = kInside * (tool.radius - tool.corner_radius);
+    double most = lowest.height;
+    for (int i = 0; i <= kRound; ++i) {
+        const double angle = 2 * kPi * i / kRound;
+        const Vec2d way{std::cos(angle), std::sin(angle)};
+        const Vec2d p = i < kRound ? lowest.at + way * foot : lowest.at;
+        const double stands =
+            std::min({left_at(p, lowest.at), left_at(p, (lowest.at + p) * 0.5), left_at(p, p)});
+        most = stands < kNotReached ? std::max(most, stands) : most;  // else beyond both levels
+    }
+    // A step is highest just before the next pass, by up to a place more than was looked at.
+    const double unseen = static_cast<double>(places_) / (places_ - 1);
+    return unseen * (most - lowest.height) / (strayed_ * allowed(1.0));
+}
+
+// Along a valley the two sides that the tool rests on are met by different ways.
+double LoopScallop::left_beside(const CrossLine& a, const CrossLine& b) const
+{
+    double most = 0.0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(std::min(a.count, b.count)); ++i) {
+        most = std::max(most, left_between(a.probes[i], b.probes[i]));
+    }
+    return most;
+}
+
+LoopScallop::CrossLine LoopScallop::cross_line(const Edge& edge,
+                                               double along,
+                                               const Look& look) const
+{
+    constexpr double kSlack = 1e-6;
+    const double step = look.step;
+    const Vec2d tangent = tangent_on(edge, along);
+    const Vec2d inward = left_normal(tangent);
+    const Vec2d foot = point_on(edge, along) + inward * look.foot;
+    const auto place = [&](double t) {
+        return foot + inward * t;
+    };
+    const Vec2d last = place(step);
+    const Box2d around{std::min(foot.x, last.x) - step, std::min(foot.y, last.y) - step,
+                       std::max(foot.x, last.x) + step, std::max(foot.y, last.y) + step};
+    const auto nearest_here = [&](double t) {
+        return !look.strip.walls.any_nearer(place(t), look.strip.from + look.foot + t - kSlack);
+    };
+    const bool part = look.foot > 0.0;
+    if ((part && !nearest_here(0.0)) ||
+        (ball_ && 2.0 * proven(bounds_.near(around)) >= step && (!part || nearest_here(step)))) {
+        return {along, 0.0, 0.0};
+    }
+    double end = step;
+    if (!nearest_here(step)) {
+        double good = 0.0;
+        for (int i = 0; i < 8; ++i) {
+            const double middle = 0.5 * (good + end);
+            (nearest_here(middle) ? good : end) = middle;
+        }
+        end = good;
+    }
+    std::array<double, kPlaces + 1> found{};
+    double most = 0.0;
+    double climb = 0.0;
+    CrossLine result{along, 0.0, 0.0};
+    const int n = std::max(1, static_cast<int>(std::ceil(places_ * end / step)));
+    for (int i = 0; i <= n && most < kEnough; ++i) {
+        const Probe here = probe(place(end * i / n));
+        if (i > 0) {
+            const Probe& before = result.probes[static_cast<std::size_t>(i) - 1];
+            most = std::max(most, left_between(before, here));
+        }
+        result.probes[static_cast<std::size_t>(i)] = here;
+        result.count = i + 1;
+        climb = i == 0 ? dot(here.gradient, tangent) : climb;
+        const double stock_beside = uncut(here, look.stretches);
+        found[static_cast<std::size_t>(i)] = stock_beside;
+        most = std::max(most, stock_beside);
+    }
+    // Between two places what one pass leaves rises and what the other leaves falls: the ridge is
+    // no higher than where their continuations meet, but for their bend.
+    for (std::size_t i = 2; i + 1 < static_cast<std::size_t>(n); ++i) {
+        const double rise = found[i] - found[i - 1];
+        const double fall = found[i + 1] - found[i + 2];
+        const double meeting = (found[i + 1] - found[i] + fall) / (rise + fall);
+        if (rise > 0.0 && fall > 0.0 && meeting >= 0.0 && meeting <= 1.0) {
+            most = std::max(most, found[i] + rise * meeting);
+        }
+    }
+    // The steps of a flat foot rise as far as the next pass and end there.
+    for (std::size_t i = 1; !ball_ && i < static_cast<std::size_t>(n); ++i) {
+        const double rise = found[i] - found[i - 1];
+        const double fall = found[i] - found[i + 1];
+        most = std::max(most, found[i] + std::min(std::max(0.0, rise), std::max(0.0, fall)));
+    }
+    result.share = most;
+    result.climb = climb;
+    return result;
+}
+
+// Beside a corner ways end early, where they meet those from its other side.
+std::vector<double> LoopScallop::places_along(const Edge& edge, Corners corners, double step) const
+{
+    const double whole = length(edge);
+    const int n = 1 + static_cast<int>(whole / apart_);
+    std::vector<double> places{1.0};
+    for (int i = 0; i < n; ++i) {
+        places.push_back(static_cast<double>(i) / n);
+    }
+    for (const double steps : {0.1, 0.2, 0.35, 0.5, 0.75, 1.0, 1.5}) {
+        const double along = steps * step / whole;
+        if (corners.before && along < 1.0) {
+            places.push_back(along);
+        }
+        if (corners.after && along < 1.0) {
+            places.push_back(1.0 - along);
+        }
+    }
+    std::sort(places.begin(), places.end());
+    return places;
+}
+
+double LoopScallop::cross_lines_along(const Edge& edge, Corners corners, const Look& look) const
+{
+    const std::vector<double> places = places_along(edge, corners, look.step);
+    CrossLine last = cross_line(edge, 0.0, look);
+    double most = last.share;
+    for (std::size_t i = 1; i < places.size() && most < kEnough; ++i) {
+        const CrossLine next = cross_line(edge, places[i], look);
+        most =
+            std::max({most, next.share, left_beside(last, next), between(edge, last, next, look)});
+        last = next;
+    }
+    return most;
+}
+
+double LoopScallop::between(const Edge& edge,
+                            const CrossLine& a,
+                            const CrossLine& b,
+                            const Look& look) const
+{
+    constexpr double kNear = 0.6;
+    constexpr double kEven = 0.1;
+    const double apart = (b.along - a.along) * length(edge);
+    const double most = std::max(a.share, b.share);
+    const bool uneven = most > kNear && std::abs(a.share - b.share) > kEven;
+    const bool turns_level = !ball_ && a.climb * b.climb < 0.0;
+    if (apart < kNearestWays * floor_.tool().radius || most > kEnough ||
+        (!uneven && !turns_level)) {
+        return 0.0;
+    }
+    const CrossLine middle = cross_line(edge, 0.5 * (a.along + b.along), look);
+    return std::max({middle.share, between(edge, a, middle, look), between(edge, middle, b, look)});
+}
+
+}  // namespace cusp::contour_pocket

@@ -1,0 +1,286 @@
+// Sections of the floor across every loop, in every direction at corners.
+#include "host_tools/contour_pocket/loop_spacing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/base/math.hpp"
+#include "host_tools/contour_pocket/stepover.hpp"
+
+namespace cusp::contour_pocket {
+
+using drop_cutter::DropCutter;
+using offset::Contour;
+using offset::distance;
+using offset::Edge;
+using offset::left_normal;
+using offset::Region2d;
+using offset::unit;
+using toolpath::Tool;
+
+namespace {
+
+constexpr double kSamplesApart = 0.3;  // of the tool's radius: samples along a loop are no closer
+constexpr double kLeastShare = 0.02;   // of the tool's radius: no interval by a ridge is less
+
+// Curvature of the tip's height over a floor of that curvature and slope, for a ball.
+double bend_of_tip(const Tool& tool, const DropCutter::Section& section)
+{
+    const double over = 1.0 + section.curvature * tool.corner_radius;
+    const double secant = std::sqrt(1.0 + section.slope * section.slope);
+    return over > 0.1 ? -section.curvature / over * secant * secant * secant : 1e3;
+}
+
+}  // namespace
+
+double scallop_between(const Tool& tool, const std::vector<double>& heights, double apart)
+{
+    constexpr int kPlaces = 24;
+    const auto n = static_cast<double>(heights.size() - 1);
+    double most = 0.0;
+    for (int i = 1; i < kPlaces; ++i) {
+        const double x = apart * i / kPlaces;
+        const auto cut_from = [&](double t, double height) {
+            return height + profile_height(tool, std::abs(x - t));
+        };
+        const double left =
+            std::min(cut_from(0.0, heights.front()), cut_from(apart, heights.back()));
+        double best = left;
+        std::size_t at = 0;
+        for (std::size_t k = 0; k < heights.size(); ++k) {
+            const double cut = cut_from(apart * static_cast<double>(k) / n, heights[k]);
+            if (cut < best) {
+                best = cut;
+                at = k;
+            }
+        }
+        const std::size_t a = at > 0 ? at - 1 : 0;
+        const std::size_t b = std::min(at + 1, heights.size() - 1);
+        const double slope = (heights[b] - heights[a]) / (apart * static_cast<double>(b - a) / n);
+        most = std::max(most, (left - best) / std::sqrt(1.0 + slope * slope));
+    }
+    return most;
+}
+
+double least_stepover(const Tool& tool, const ToleranceSplit& tolerances)
+{
+    return std::max(0.5 * tolerances.scallop_height, 0.01 * tool.radius);
+}
+
+// Neighbouring moves may stray from their paths, each its own way.
+double LoopSpacing::within_limits(double interval) const
+{
+    const double stray = tolerances_.one_sided ? 2.0 * tolerances_.plan_tolerance : 0.0;
+    return std::max(interval - stray, least_stepover(floor_.tool(), tolerances_));
+}
+
+double LoopSpacing::found() const { return within_limits(least_); }
+
+double LoopSpacing::stepover_from(const Region2d& level, double proven)
+{
+    constexpr double kWorthIt = 0.95;
+    least_ = 1e300;
+    const double apart = kSamplesApart * floor_.tool().radius;
+    for (const Contour& contour : level.contours) {
+        Vec2d corner{1e300, 1e300};
+        Vec2d arriving = tangent_at_end(contour.back());
+        since_ = 1e300;
+        for (const Edge& edge : contour) {
+            along(edge);
+            if (proven > kWorthIt * found()) {
+                return proven;
+            }
+            constexpr double kCorner = 0.995;  // cosine of some 6 degrees
+            const bool turns = dot(arriving, tangent_at_start(edge)) < kCorner;
+            if (corners_ && turns && distance(corner, edge.start) > apart) {
+                corner = edge.start;
+                around(corner);
+            }
+            arriving = tangent_at_end(edge);
+        }
+    }
+    return found();
+}
+
+double LoopSpacing::with_partial_loops(const Region2d& level, double step) const
+{
+    constexpr double kUneven = 0.7;
+    constexpr double kWorthIt = 0.85;
+    constexpr double kApart = 0.5;  // of the tool's radius
+    const Tool& tool = floor_.tool();
+    const double flat = stepover(tool, tolerances_.scallop_height, 0.0, 0.0, 0.0);
+    if (step > kUneven * flat) {
+        return 0.0;
+    }
+    std::vector<double> intervals;
+    for (const Contour& contour : level.contours) {
+        double next = 0.0;  // mm along the edge
+        for (const Edge& edge : contour) {
+            const double whole = length(edge);
+            for (; next < whole; next += kApart * tool.radius) {
+                const Vec2d at = point_on(edge, next / whole);
+                const Vec2d inward = left_normal(tangent_on(edge, next / whole));
+                const double first = allowed(contact(at), inward);
+                const double half = allowed(contact(at + inward * (0.5 * first)), inward);
+                intervals.push_back(within_limits(std::min(first, half)));
+            }
+            next -= whole;
+        }
+    }
+    std::sort(intervals.begin(), intervals.end());
+    double best = 0.0;
+    double least_cost = kWorthIt / step;
+    for (int tenth = 1; tenth < 10 && !intervals.empty(); ++tenth) {
+        const double wide = intervals[intervals.size() * static_cast<std::size_t>(tenth) / 10];
+        double passes = 0.0;
+        for (const double interval : intervals) {
+            const double halvings = std::max(0.0, std::ceil(std::log2(wide / interval)));
+            passes += 1.0 + 2.0 * (std::exp2(halvings) - 1.0);
+        }
+        const double cost = passes / (static_cast<double>(intervals.size()) * wide);
+        if (cost < least_cost) {
+            least_cost = cost;
+            best = wide;
+        }
+    }
+    return best;
+}
+
+// To a fiftieth of the cusp.
+DropCutter::CcPoint LoopSpacing::contact(Vec2d at) const
+{
+    return floor_.cc_point(at, 0.02 * tolerances_.scallop_height);
+}
+
+double LoopSpacing::allowed(const DropCutter::CcPoint& contact, Vec2d direction) const
+{
+    const DropCutter::Section section = DropCutter::section(contact, direction);
+    return stepover(floor_.tool(), tolerances_.scallop_height, section.curvature, section.slope,
+                    section.slope_along);
+}
+
+// The cusp stands half an interval away, where the floor may be bent otherwise.
+void LoopSpacing::across(Vec2d at, const DropCutter::CcPoint& here, Vec2d direction)
+{
+    const double first = allowed(here, direction);
+    const DropCutter::CcPoint half = contact(at + direction * (0.5 * first));
+    const double interval = std::min({least_, first, allowed(half, direction)});
+    least_ = interval;
+    if (!scallops_ || !here.found || !half.found) {
+        return;
+    }
+    const DropCutter::CcPoint there = contact(at + direction * first);
+    if (!as_expected(here, half, direction, 0.5 * first) ||
+        (there.found && !as_expected(half, there, direction, 0.5 * first))) {
+        least_ = by_scallop(at, direction, interval);
+    }
+}
+
+// The tip's height and slope change between two places as the curvatures at both say.
+bool LoopSpacing::as_expected(const DropCutter::CcPoint& a,
+                              const DropCutter::CcPoint& b,
+                              Vec2d direction,
+                              double apart) const
+{
+    const DropCutter::Section from = DropCutter::section(a, direction);
+    const DropCutter::Section to = DropCutter::section(b, direction);
+    const double rise = b.z - a.z;
+    const double by_slopes = 0.5 * apart * (from.slope + to.slope);
+    const double bend = 0.5 * (bend_of_tip(floor_.tool(), from) + bend_of_tip(floor_.tool(), to));
+    const double turned = to.slope - from.slope - bend * apart;
+    const double slack = 0.1 * tolerances_.scallop_height;
+    return std::abs(rise - by_slopes) < slack && std::abs(turned) * apart < 4.0 * slack;
+}
+
+double LoopSpacing::by_scallop(Vec2d at, Vec2d direction, double most) const
+{
+    constexpr int kPlaces = 32;
+    constexpr int kWindow = 4;  // places by which the windows looked at differ
+    constexpr int kHalvings = 6;
+    const auto low_enough = [&](double apart) {
+        std::vector<double> heights;
+        for (int i = 0; i <= kPlaces; ++i) {
+            const double height = floor_.drop(at + direction * (apart * i / kPlaces)).z;
+            if (height == DropCutter::kNoSurface) {
+                return true;
+            }
+            heights.push_back(height);
+        }
+        // The level's interval may turn out smaller: a valley that this pass clears would then lie
+        // between two passes.
+        while (heights.size() > 2) {
+            const double reach = apart * static_cast<double>(heights.size() - 1) / kPlaces;
+            if (scallop_between(floor_.tool(), heights, reach) > tolerances_.scallop_height) {
+                return false;
+            }
+            heights.resize(heights.size() - kWindow);
+        }
+        return true;
+    };
+    if (low_enough(most)) {
+        return most;
+    }
+    double good = std::min(most, kLeastShare * floor_.tool().radius);
+    double bad = most;
+    for (int i = 0; i < kHalvings; ++i) {
+        const double middle = 0.5 * (good + bad);
+        (low_enough(middle) ? good : bad) = middle;
+    }
+    return good;
+}
+
+// Closer where the floor is uneven along the edge. Of a chain of short edges only every one is
+// looked at that begins `kSamplesApart` after the last sample.
+void LoopSpacing::along(const Edge& edge)
+{
+    const double radius = floor_.tool().radius;
+    const double whole = length(edge);
+    since_ += whole;
+    if (since_ < kSamplesApart * radius) {
+        return;
+    }
+    const int n = 1 + static_cast<int>(whole / radius);
+    Sample last{};
+    for (int i = 0; i < n; ++i) {
+        const Sample next = sample(edge, (i + 0.5) / n);
+        if (i > 0) {
+            refine(edge, whole, last, next);
+        }
+        last = next;
+    }
+    since_ = 0.5 * whole / n;
+}
+
+LoopSpacing::Sample LoopSpacing::sample(const Edge& edge, double share)
+{
+    const Vec2d at = point_on(edge, share);
+    const Vec2d way = tangent_on(edge, share);
+    const Sample result{share, way, contact(at)};
+    across(at, result.contact, left_normal(way));
+    return result;
+}
+
+void LoopSpacing::refine(const Edge& edge, double whole, const Sample& a, const Sample& b)
+{
+    const double apart = (b.share - a.share) * whole;
+    const bool known = a.contact.found && b.contact.found;
+    if (!scallops_ || apart < kSamplesApart * floor_.tool().radius ||
+        (known && as_expected(a.contact, b.contact, unit(a.direction + b.direction), apart))) {
+        return;
+    }
+    const Sample middle = sample(edge, 0.5 * (a.share + b.share));
+    refine(edge, whole, a, middle);
+    refine(edge, whole, middle, b);
+}
+
+void LoopSpacing::around(Vec2d at)
+{
+    constexpr int kDirections = 12;
+    const DropCutter::CcPoint here = contact(at);
+    for (int i = 0; i < kDirections; ++i) {
+        const double angle = 2 * kPi * i / kDirections;
+        across(at, here, {std::cos(angle), std::sin(angle)});
+    }
+}
+
+}  // namespace cusp::contour_pocket

@@ -1,0 +1,114 @@
+// Cuts the passes of a cleared region on a floor: lays each, enters, links and retracts.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "host_tools/clearing/clearing.hpp"
+#include "host_tools/contour_pocket/axial_depth_tracker.hpp"
+#include "host_tools/contour_pocket/cl_path.hpp"
+#include "host_tools/contour_pocket/pocket_toolpath_writer.hpp"
+#include "host_tools/job/job.hpp"
+
+namespace cusp::contour_pocket {
+
+// What roughing left beside some passes stands to the top of the stock, thinner than the metal may
+// be known for.
+struct StockBesidePasses {
+    std::vector<bool> passes;  // which; empty: none
+    double top{};              // z of the stock
+    // z, downward: such passes are cut at these first, as far as they lie deeper; those that are
+    // linked to each other together.
+    std::vector<double> heights;
+};
+
+struct CutSettings {
+    ClPathSettings path_settings;
+    job::EntryKind entry{job::EntryKind::kAuto};
+    double wall_clearance{};  // mm: least distance of the tool's centre from the walls
+    // Passes that nowhere go deeper than this are left out (cut by the layer above).
+    double skip_above{1e300};
+    // Which passes have paths that are cut at several heights (flattened()); empty: none.
+    std::vector<bool> repeated;
+    StockBesidePasses stock_beside;
+    // Of the depth allowed: what a pass may cut as far as the metal is known.
+    double depth_share{1.0};
+    // How often the tool may have gone up at the end, the last time included; no fewer than there
+    // are entries. So that these have theirs others are reached above the metal, however far.
+    int retracts{};
+    // Where entries start, from the height of the pass there.
+    std::function<EntryHeights(double)> entry_heights;
+    // Where given, called with the share of the passes that is laid.
+    std::function<void(double)> progress;
+};
+
+// Where the tool's axis may be that keeps `wall_clearance` mm off the walls but for rounding.
+offset::Region2d reach_of(const offset::RegionOffset& walls, double first);
+
+class PocketPathWriter {
+public:
+    // walls  of the pocket
+    // depth  where given, passes that would cut too deep are cut at levels over them first, and
+    //        entries start over the metal that stands; passes that have no link are reached by
+    //        short ways above it
+    PocketPathWriter(const job::Operation& operation,
+                     const drop_cutter::DropCutter& floor,
+                     const offset::RegionOffset& walls,
+                     PocketToolpathWriter& moves,
+                     AxialDepthTracker* depth)
+        : operation_{operation}, floor_{floor}, walls_{walls}, moves_{moves}, depth_{depth}
+    {
+    }
+
+    // Throws InputError where a pass leaves the floor. The tool stays where the last pass ends.
+    void cut(const clearing::ClearedRegion& cleared, const CutSettings& settings);
+
+    // Takes the tool up from its last pass.
+    void end();
+
+    // mm; 0, or negative by how much some move may cut into the floor.
+    double least_clearance() const { return least_clearance_; }
+
+private:
+    // A pass as it is laid.
+    struct ProjectedPass {
+        clearing::ClearingPass pass;
+        ClPathSettings settings;
+        ClPath path;
+    };
+    ProjectedPass project_pass(const clearing::ClearingPass& pass,
+                               const CutSettings& settings,
+                               bool repeated);
+    bool too_deep(const ClPath& path, const CutSettings& settings) const;
+    bool link(const ProjectedPass& projected, const CutSettings& settings);
+    bool link_above_stock(const ProjectedPass& projected, const CutSettings& settings);
+    bool link_around(const ProjectedPass& projected, const CutSettings& settings);
+    bool is_shorter_than_retract(const std::vector<offset::Edge>& way) const;
+    void follow_above(const std::vector<offset::Edge>& way,
+                      double above,
+                      const CutSettings& settings);
+    void begin(const ProjectedPass& projected, const CutSettings& settings);
+    void return_over(const std::vector<clearing::ClearingPass>& passes,
+                     std::size_t from,
+                     std::size_t to,
+                     const CutSettings& settings);
+    void cut_beside_stock(std::vector<clearing::ClearingPass>& passes, const CutSettings& settings);
+    void cut_final(clearing::ClearingPass& pass, const CutSettings& settings, bool repeated);
+    void cut_pass(clearing::ClearingPass& pass, const CutSettings& settings, bool repeated);
+    ProjectedPass cut_above(const ProjectedPass& deep, const CutSettings& settings, bool repeated);
+    ClPath project(const std::vector<offset::Edge>& plan, const ClPathSettings& path_settings);
+    void enter(const ProjectedPass& cut, const CutSettings& settings);
+    void track_moves();
+    double stock_top_around(Vec2d start, double radius) const;
+
+    const job::Operation& operation_;
+    const drop_cutter::DropCutter& floor_;
+    const offset::RegionOffset& walls_;
+    PocketToolpathWriter& moves_;
+    AxialDepthTracker* depth_;
+    double least_clearance_{0.0};
+    int allowed_retracts_{0};  // until now
+    std::optional<offset::Region2d> reach_;
+};
+
+}  // namespace cusp::contour_pocket

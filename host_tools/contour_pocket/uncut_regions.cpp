@@ -1,0 +1,282 @@
+// Cells beside walls by distance; valleys where the tip's slope turns up sharply from cell to cell,
+// by lowering the tool on a finer grid around them.
+#include "host_tools/contour_pocket/uncut_regions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "host_tools/offset/offset.hpp"
+
+namespace cusp::contour_pocket {
+
+using drop_cutter::DropCutter;
+using nurbs::Surface;
+using offset::Box2d;
+using offset::distance;
+using offset::EdgeTree;
+using offset::Region2d;
+using offset::RegionOffset;
+using toolpath::Tool;
+using toolpath::ToolShape;
+
+namespace {
+
+constexpr double kMostCells = 500.0;  // a side
+
+// A needle: where it rests is the floor itself.
+Tool needle() { return {1, ToolShape::kFlat, 1e-3, 0.0}; }
+
+class RestSearch {
+public:
+    RestSearch(const RegionOffset& walls,
+               const Region2d& centres,
+               const std::vector<Surface>& floor,
+               const DropCutter& tips,
+               double first)
+        : walls_{walls},
+          centres_{edges_of(centres)},
+          tips_{tips},
+          floor_{floor, needle(), 0.01 * tips.tool().radius},
+          first_{first},
+          radius_{tips.tool().radius},
+          box_{box_of(walls.source())}
+    {
+        const double longest = std::max(box_.x1 - box_.x0, box_.y1 - box_.y0);
+        cell_ = std::max(0.25 * radius_, longest / kMostCells);
+        columns_ = static_cast<int>((box_.x1 - box_.x0) / cell_) + 1;
+        rows_ = static_cast<int>((box_.y1 - box_.y0) / cell_) + 1;
+        rest_.assign(index(columns_, 0), 0.0);
+        by_wall_.assign(rest_.size(), false);
+        find_places();
+    }
+
+    std::vector<UncutRegion> run(const UncutSettings& settings)
+    {
+        find_rest_at_walls(settings.top, settings.least);
+        if (settings.valleys) {
+            find_valleys(settings.least);
+        }
+        std::vector<UncutRegion> places;
+        for (int i = 0; i < columns_; ++i) {
+            for (int j = 0; j < rows_; ++j) {
+                if (rest_[index(i, j)] > 0.0) {
+                    places.push_back(taken_place(i, j));
+                }
+            }
+        }
+        std::sort(places.begin(), places.end(),
+                  [](const UncutRegion& a, const UncutRegion& b) { return a.volume > b.volume; });
+        return places;
+    }
+
+private:
+    std::size_t index(int i, int j) const
+    {
+        return static_cast<std::size_t>(i) * static_cast<std::size_t>(rows_) +
+               static_cast<std::size_t>(j);
+    }
+
+    Vec2d centre(int i, int j) const
+    {
+        return {box_.x0 + cell_ * (i + 0.5), box_.y0 + cell_ * (j + 0.5)};
+    }
+
+    // Inside or not changes only where a contour is near, and how near changes by no more than the
+    // way between: most cells follow from those beside them.
+    void find_places()
+    {
+        constexpr double kFarthest = 16.0;  // cells: further is not looked for
+        struct Room {
+            double least{0.0};
+            double most{1e300};
+        };
+        const double near = 1.01 * cell_;
+        places_.assign(rest_.size(), Place::kOutside);
+        std::vector<Room> rooms(static_cast<std::size_t>(rows_));  // of the column before
+        for (int i = 0; i < columns_; ++i) {
+            bool inside = false;
+            Room room;
+            for (int j = 0; j < rows_; ++j) {
+                Room& beside = rooms[static_cast<std::size_t>(j)];
+                const Vec2d p = centre(i, j);
+                room = {std::max(room.least, beside.least) - cell_,
+                        std::min(room.most, beside.most) + cell_};
+                if (room.least < first_ && room.most >= first_) {
+                    const double farthest = first_ + kFarthest * cell_;
+                    room.least = walls_.nearest(p, std::min(farthest, room.most));
+                    room.most = room.least < farthest ? room.least : 1e300;
+                }
+                beside = room;
+                const bool at_wall = room.least < first_;
+                if (j == 0 || (at_wall && room.least < near) || near > first_) {
+                    inside = walls_.contains(p);
+                }
+                if (inside) {
+                    places_[index(i, j)] = at_wall ? Place::kBeside : Place::kAllowed;
+                }
+            }
+        }
+    }
+
+    void find_rest_at_walls(double top, double least)
+    {
+        for (int i = 0; i < columns_; ++i) {
+            for (int j = 0; j < rows_; ++j) {
+                const Vec2d p = centre(i, j);
+                if (places_[index(i, j)] != Place::kBeside || centres_.any_nearer(p, first_)) {
+                    continue;
+                }
+                const double floor = floor_.drop(p).z;
+                if (floor != DropCutter::kNoSurface && top - floor > least) {
+                    rest_[index(i, j)] = top - floor;
+                    by_wall_[index(i, j)] = true;
+                }
+            }
+        }
+    }
+
+    // Where the tool is twice as far apart as cells, it stands on slopes that say where it cannot
+    // reach between.
+    void find_valleys(double least)
+    {
+        slopes_.assign(rest_.size(), std::nullopt);
+        for (int i = 0; i + 2 < columns_; i += 2) {
+            for (int j = 0; j + 2 < rows_; j += 2) {
+                if (turns_up(i, j, i + 2, j) || turns_up(i, j, i, j + 2)) {
+                    look_around(i, j, least);
+                }
+            }
+        }
+    }
+
+    bool turns_up(int i, int j, int k, int l)
+    {
+        if (places_[index(i, j)] != Place::kAllowed || places_[index(k, l)] != Place::kAllowed) {
+            return false;
+        }
+        const Vec2d way = centre(k, l) - centre(i, j);
+        const Vec2d turn = slope_at(k, l) - slope_at(i, j);
+        return dot(turn, way) > 0.3 * dot(way, way) / radius_;
+    }
+
+    Vec2d slope_at(int i, int j)
+    {
+        auto& slope = slopes_[index(i, j)];
+        if (!slope) {
+            slope = tips_.drop(centre(i, j), 0.01 * radius_).slope;
+        }
+        return *slope;
+    }
+
+    void look_around(int i, int j, double least)
+    {
+        for (int k = std::max(0, i - 1); k <= std::min(columns_ - 1, i + 3); ++k) {
+            for (int l = std::max(0, j - 1); l <= std::min(rows_ - 1, j + 3); ++l) {
+                double& rest = rest_[index(k, l)];
+                if (rest == 0.0 && places_[index(k, l)] != Place::kOutside) {
+                    const double left = left_over(centre(k, l));
+                    rest = left > least ? left : 0.0;
+                }
+            }
+        }
+    }
+
+    // How far the tool, at the best of the places on a grid of half the cells, stays over the
+    // floor at p.
+    double left_over(Vec2d p)
+    {
+        const double floor = floor_.drop(p).z;
+        if (floor == DropCutter::kNoSurface) {
+            return 0.0;
+        }
+        const double fine = 0.5 * cell_;
+        const int reach = static_cast<int>(radius_ / fine);
+        const int i = static_cast<int>((p.x - box_.x0) / fine);
+        const int j = static_cast<int>((p.y - box_.y0) / fine);
+        double best = 1e300;
+        for (int k = std::max(0, i - reach); k <= std::min(2 * columns_ - 1, i + reach); ++k) {
+            for (int l = std::max(0, j - reach); l <= std::min(2 * rows_ - 1, j + reach); ++l) {
+                const Vec2d at{box_.x0 + fine * k, box_.y0 + fine * l};
+                const double apart = distance(at, p);
+                if (apart <= radius_) {
+                    best = std::min(best, tip_at(k, l, at) + profile_height(tips_.tool(), apart));
+                }
+            }
+        }
+        return best < 1e299 ? best - floor - 0.02 * radius_ : 0.0;
+    }
+
+    double tip_at(int k, int l, Vec2d at)
+    {
+        if (heights_.empty()) {
+            heights_.resize(4 * rest_.size());
+        }
+        auto& height = heights_[static_cast<std::size_t>(k) * 2 * static_cast<std::size_t>(rows_) +
+                                static_cast<std::size_t>(l)];
+        if (!height) {
+            height = walls_.clearance(at) < first_ ? 1e300 : tips_.drop(at, 0.005 * radius_).z;
+        }
+        return *height;
+    }
+
+    // The cells that hang together with this one, which are taken off the grid.
+    UncutRegion taken_place(int i, int j)
+    {
+        UncutRegion place;
+        place.at_walls = by_wall_[index(i, j)];
+        std::vector<std::array<int, 2>> stack{{i, j}};
+        while (!stack.empty()) {
+            const auto [k, l] = stack.back();
+            stack.pop_back();
+            if (k < 0 || l < 0 || k >= columns_ || l >= rows_) {
+                continue;
+            }
+            const std::size_t here = index(k, l);
+            if (rest_[here] <= 0.0 || by_wall_[here] != place.at_walls) {
+                continue;
+            }
+            place.area += cell_ * cell_;
+            place.volume += cell_ * cell_ * rest_[here];
+            if (rest_[here] > place.height) {
+                place.height = rest_[here];
+                place.at = centre(k, l);
+            }
+            rest_[here] = 0.0;
+            stack.insert(stack.end(), {{k + 1, l}, {k - 1, l}, {k, l + 1}, {k, l - 1}});
+        }
+        return place;
+    }
+
+    enum class Place : std::uint8_t { kOutside, kBeside, kAllowed };
+
+    const RegionOffset& walls_;
+    EdgeTree centres_;
+    const DropCutter& tips_;
+    DropCutter floor_;
+    double first_;
+    double radius_;
+    Box2d box_;
+    double cell_{};
+    int columns_{};
+    int rows_{};
+    std::vector<double> rest_;  // mm over the floor
+    std::vector<bool> by_wall_;
+    std::vector<Place> places_;
+    std::vector<std::optional<Vec2d>> slopes_;
+    std::vector<std::optional<double>> heights_;  // of the tip, 1e300 where walls are too near
+};
+
+}  // namespace
+
+std::vector<UncutRegion> uncut_regions(const RegionOffset& walls,
+                                       const Region2d& centres,
+                                       const std::vector<Surface>& floor,
+                                       const DropCutter& tips,
+                                       const UncutSettings& settings)
+{
+    return RestSearch{walls, centres, floor, tips, settings.wall_clearance}.run(settings);
+}
+
+}  // namespace cusp::contour_pocket

@@ -1,0 +1,241 @@
+// Drops the tool: branch and bound for the highest place that any piece asks for.
+#include <algorithm>
+#include <cmath>
+
+#include "host_tools/drop_cutter/drop_cutter.hpp"
+#include "host_tools/drop_cutter/edge_contact.hpp"
+#include "host_tools/offset/contour.hpp"
+
+namespace cusp::drop_cutter {
+
+using offset::Box2d;
+using offset::distance;
+
+namespace {
+
+constexpr double kOnPiece = 0.01;         // of the radius: pieces beside the contact touch as well
+constexpr double kSteepestSide = 1000.0;  // slope
+
+double square_of(double x) { return x * x; }
+
+}  // namespace
+
+// The highest rest of the tool on a plane above a rectangle; kNothing where the place at which the
+// tool touches the plane, `reach` slopes from its axis, lies inside. The tip's height is concave
+// over the rectangle: where its top lies outside, the best place inside is on an edge that faces
+// it.
+//
+//   here  height of the plane at the tool's axis
+DropCutter::PlaneContact DropCutter::on_edges(
+    const Rectangle& part, Vec2d slope, double here, double reach, Vec2d at) const
+{
+    const Vec2d contact = at + slope * reach;
+    PlaneContact best{kNoSurface, contact};
+    if (contact.x < part.x0 || contact.x > part.x1) {
+        const double x = (contact.x < part.x0 ? part.x0 : part.x1) - at.x;
+        const EdgeContact rest = drop_on_edge(tool_, slope.y, x, part.y0 - at.y, part.y1 - at.y);
+        best = {here + slope.x * x + rest.lift, at + Vec2d{x, rest.forth}};
+    }
+    if (contact.y < part.y0 || contact.y > part.y1) {
+        const double y = (contact.y < part.y0 ? part.y0 : part.y1) - at.y;
+        const EdgeContact rest = drop_on_edge(tool_, slope.x, y, part.x0 - at.x, part.x1 - at.x);
+        const double height = here + slope.y * y + rest.lift;
+        best = height > best.height ? PlaneContact{height, at + Vec2d{rest.forth, y}} : best;
+    }
+    return best;
+}
+
+DropCutter::PlaneContact DropCutter::on_edges(const Piece& piece, Vec2d at) const
+{
+    const double here = piece.z_at_origin + dot(piece.gradient, at);
+    return on_edges({piece.x0, piece.x1, piece.y0, piece.y1}, piece.gradient, here, piece.contact,
+                    at);
+}
+
+// Height of the tip on the piece's plane, which goes on for ever.
+double DropCutter::over_plane(const Piece& piece, Vec2d at)
+{
+    const Vec2d g = piece.gradient;
+    return piece.graph ? piece.z_at_origin + g.x * at.x + g.y * at.y + piece.rise : 1e300;
+}
+
+// Upper bound of the tip's height that the piece asks for, as far as it is above `best`; tight
+// where halving it would change it by no more than its thickness.
+double DropCutter::bound(const Piece& piece, const Query& query, double best, bool& tight) const
+{
+    tight = false;
+    const Vec2d at = query.at;
+    const Vec2d g = piece.gradient;
+    const double by_plane = over_plane(piece, at);
+    const double r = tool_.radius;
+    const double c = tool_.corner_radius;
+    const double dx = excess(piece.x0, piece.x1, at.x);
+    const double dy = excess(piece.y0, piece.y1, at.y);
+    double square = dx * dx + dy * dy;
+    if (square >= r * r) {
+        return kNoSurface;
+    }
+    if (piece.outline != 0) {
+        const double beyond = beyond_outline(piece, at);
+        square = std::max(square, beyond > 0.0 ? beyond * beyond : 0.0);
+        if (square >= r * r) {
+            return kNoSurface;
+        }
+    }
+    const Vec2d contact = at + g * piece.contact;
+    const bool in_box = contact.x >= piece.x0 && contact.x <= piece.x1 && contact.y >= piece.y0 &&
+                        contact.y <= piece.y1;
+    if (piece.graph && in_box && (piece.outline == 0 || beyond_outline(piece, contact) <= 0.0)) {
+        const bool whole = !piece.cut || is_whole(piece, query.thin);
+        tight = whole && piece.thickness <= query.thin;
+        return std::min(by_plane, piece.z1);
+    }
+    const double far = c == r ? square : square_of(std::max(0.0, std::sqrt(square) - (r - c)));
+    const double up = best - piece.z1 + c;
+    const double room = std::max(c * c - far, 0.0);
+    if (up >= 0.0 && room <= up * up) {
+        return kNoSurface;
+    }
+    const double by_box = piece.z1 - (c - std::sqrt(room));
+    const bool whole = is_whole(piece, query.thin);
+    if (!piece.graph) {
+        tight = whole && piece.patch != kGroup &&
+                std::max(piece.x1 - piece.x0, piece.y1 - piece.y0) < 5.0 * accuracy_;
+        return by_box;
+    }
+    tight = whole && piece.thickness <= query.thin;
+    double least = std::min(by_plane, by_box);
+    if (!in_box) {
+        least = std::min(least, on_edges(piece, at).height);
+    }
+    if (piece.outline != 0 && beyond_outline(piece, contact) > 0.0) {
+        const PlaneContact rest = on_outline(piece, at);
+        least = std::min(least, rest.height);
+        // On a steep side of the tool what stands over in plan counts as many times.
+        const double steep = std::max(1.0, side_slope(distance(rest.place, at)));
+        tight = tight && (!piece.cut || is_whole(piece, query.thin / steep));
+    }
+    return least;
+}
+
+// The smallest piece, of those that there are, with the place that the tool would touch if the
+// slope were what it was where it rested last.
+std::uint32_t DropCutter::guess(Vec2d at) const
+{
+    const Vec2d place = at + pieces_[last_].gradient * pieces_[last_].contact;
+    const auto holds = [&](std::uint32_t index) {
+        const Piece& piece = pieces_[index];
+        return place.x >= piece.x0 && place.x <= piece.x1 && place.y >= piece.y0 &&
+               place.y <= piece.y1;
+    };
+    std::uint32_t index = last_;
+    while (index != kRoot && !holds(index)) {
+        index = pieces_[index].parent;
+    }
+    while (const std::uint32_t child = pieces_[index].child) {
+        if (!holds(child) && !holds(child + 1)) {
+            break;
+        }
+        index = holds(child) ? child : child + 1;
+    }
+    return index;
+}
+
+DropCutter::ClPoint DropCutter::drop(Vec2d at, double max_error) const
+{
+    make_room();
+    const Query query{at, std::max(accuracy_, max_error)};
+    const double r = tool_.radius;
+    const Box2d around{at.x - r, at.y - r, at.x + r, at.y + r};
+    struct Entry {
+        double height;
+        std::uint32_t piece;
+    };
+    std::array<Entry, kStack> stack;
+    std::size_t depth = 0;
+    ClPoint best{kNoSurface, {0.0, 0.0}, 0};
+    const auto consider = [&](std::uint32_t index) {
+        const Piece& piece = pieces_[index];
+        const bool far = piece.x0 >= around.x1 || piece.x1 <= around.x0 || piece.y0 >= around.y1 ||
+                         piece.y1 <= around.y0;
+        if (far || piece.z1 <= best.z || over_plane(piece, at) <= best.z) {
+            return;
+        }
+        bool tight = false;
+        const double height = bound(piece, query, best.z, tight);
+        if (height > best.z && (tight || depth == kStack)) {
+            best = {height, piece.gradient, index};
+        } else if (height > best.z) {
+            stack[depth++] = {height, index};
+        }
+    };
+    const auto look_into = [&](std::uint32_t piece) {
+        consider(piece);
+        while (depth > 0) {
+            const Entry top = stack[--depth];
+            if (top.height <= best.z) {
+                continue;
+            }
+            if (pieces_[top.piece].child == 0) {
+                halve(top.piece);
+            }
+            const std::uint32_t child = pieces_[top.piece].child;
+            const std::size_t before = depth;
+            consider(child);
+            consider(child + 1);
+            // The more promising half is looked at first.
+            if (depth == before + 2 && stack[before].height > stack[before + 1].height) {
+                std::swap(stack[before], stack[before + 1]);
+            }
+        }
+    };
+    // From where the tool should rest upwards: what contains that place need not be looked at
+    // itself, only what lies beside it. A flat foot rests on its rim: where it did last is as good.
+    const bool ball = tool_.corner_radius == r;
+    const std::uint32_t first = ball ? guess(at) : last_;
+    look_into(first);
+    for (std::uint32_t piece = first; piece != kRoot; piece = pieces_[piece].parent) {
+        look_into(sibling(piece));
+    }
+    if (best.z != kNoSurface) {
+        last_ = best.piece;
+        best.slope = slope_of(pieces_[best.piece], at);
+    }
+    return best;
+}
+
+Vec2d DropCutter::cc_place(Vec2d at, const ClPoint& rest) const
+{
+    const Piece& piece = pieces_[rest.piece];
+    return on_piece(piece, at);
+}
+
+// The slope of the tip's height: of the piece's plane, or where the tool touches beyond the piece,
+// on an edge, of the tool's side there.
+Vec2d DropCutter::slope_of(const Piece& piece, Vec2d at) const
+{
+    const Vec2d contact = at + piece.gradient * piece.contact;
+    const Vec2d place = on_piece(piece, at);
+    const Vec2d arm = place - at;
+    const double away = std::sqrt(dot(arm, arm));
+    const bool on_plane = piece.graph && distance(place, contact) < kOnPiece * tool_.radius;
+    if (tool_.corner_radius == 0.0 || on_plane) {
+        return piece.gradient;
+    }
+    const double slope = side_slope(away);
+    return slope > 0.0 ? arm * (slope / away) : Vec2d{0.0, 0.0};
+}
+
+// Of the tool's lower side at this distance from its axis.
+double DropCutter::side_slope(double away) const
+{
+    const double c = tool_.corner_radius;
+    const double out = away - (tool_.radius - c);
+    if (out <= 0.0 || c == 0.0) {
+        return 0.0;
+    }
+    const double side = std::sqrt(std::max(c * c - out * out, 0.0));
+    return std::min(out / std::max(side, 1e-9 * tool_.radius), kSteepestSide);
+}
+
+}  // namespace cusp::drop_cutter

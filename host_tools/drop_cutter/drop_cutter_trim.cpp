@@ -1,0 +1,200 @@
+// What the edges of a trimmed surface leave of a piece: where one line along the edge tells that,
+// the line is a side of the piece's outline.
+#include <algorithm>
+#include <cmath>
+
+#include "host_tools/drop_cutter/drop_cutter.hpp"
+#include "host_tools/offset/contour.hpp"
+
+namespace cusp::drop_cutter {
+
+using offset::distance;
+using offset::left_normal;
+using offset::unit;
+using part_model::TrimRegion;
+
+namespace {
+
+constexpr std::size_t kMostPlaces = 200;  // of an edge: more of them are no line
+constexpr double kRounding = 1e-9;        // mm
+
+}  // namespace
+
+DropCutter::Domain DropCutter::domain_of(const Piece& piece) const
+{
+    const Patch& patch = patches_[piece.patch];
+    const auto share = [](double from, double to, float at) {
+        return from + (to - from) * static_cast<double>(at);
+    };
+    return {share(patch.u0, patch.u1, piece.u[0]), share(patch.u0, patch.u1, piece.u[1]),
+            share(patch.v0, patch.v1, piece.v[0]), share(patch.v0, patch.v1, piece.v[1])};
+}
+
+// Of a piece that an edge may cut, whether it still does. One that is trimmed away becomes a box
+// that nothing meets.
+void DropCutter::trim(Piece& piece) const
+{
+    if (!piece.cut) {
+        return;
+    }
+    const Domain domain = domain_of(piece);
+    const TrimRegion::Part part =
+        trims_[patches_[piece.patch].surface].part(domain.u0, domain.u1, domain.v0, domain.v1);
+    piece.cut = part == TrimRegion::Part::kCut;
+    if (part == TrimRegion::Part::kInside) {
+        // What lies beside it may be trimmed away.
+        piece.border = kAllSides;
+        measure_outline(piece);
+    }
+    if (part == TrimRegion::Part::kCut) {
+        measure_remnant(piece);
+    }
+    if (part == TrimRegion::Part::kOutside) {
+        piece.graph = false;
+        piece.x0 = piece.y0 = piece.z0 = 1e300;
+        piece.x1 = piece.y1 = piece.z1 = -1e300;
+    }
+}
+
+// The piece is the parallelogram A(s, t) of its corners, s and t the shares of its domain, but for
+// its control points' distances from A at their own shares: those bound what the piece bends. Where
+// weights differ, the places lie no farther off in s and t than their ratio tells.
+DropCutter::Remnant DropCutter::remnant_of(const Piece& piece) const
+{
+    const Patch& patch = patches_[piece.patch];
+    const std::size_t rows = patch.rows;
+    const std::size_t columns = patch.columns;
+    const Vec3d* const points = points_of(piece);
+    const std::size_t size = rows * columns;
+    const Vec3d c00 = points[0];
+    const Vec3d c01 = points[columns - 1];
+    const Vec3d c10 = points[(rows - 1) * columns];
+    const Vec3d c11 = points[size - 1];
+    const Vec3d by_s = ((c10 - c00) + (c11 - c01)) * 0.5;
+    const Vec3d by_t = ((c01 - c00) + (c11 - c10)) * 0.5;
+    const Vec3d middle = (c00 + c01 + c10 + c11) * 0.25;
+    const auto on_plane = [&](double s, double t) {
+        return middle + by_s * (s - 0.5) + by_t * (t - 0.5);
+    };
+    Remnant left{{}, 0, 0.0};
+    double least = 1e300;
+    double most = 0.0;
+    for (std::size_t k = 0; k < size; ++k) {
+        const double s = static_cast<double>(k / columns) / static_cast<double>(rows - 1);
+        const double t = static_cast<double>(k % columns) / static_cast<double>(columns - 1);
+        left.off = std::max(left.off, norm(points[k] - on_plane(s, t)));
+        const double weight = patch.weighted ? weights_[piece.net + k] : 1.0;
+        least = std::min(least, weight);
+        most = std::max(most, weight);
+    }
+    left.off += (most / least - 1.0) * (norm(by_s) + norm(by_t)) + kRounding;
+    const Domain d = domain_of(piece);
+    const TrimRegion::Remnant remnant = trims_[patch.surface].remnant(d.u0, d.u1, d.v0, d.v1);
+    const auto place = [&](Vec2d at) {
+        return on_plane((at.x - d.u0) / (d.u1 - d.u0), (at.y - d.v0) / (d.v1 - d.v0));
+    };
+    for (const Vec2d at : remnant.corners) {
+        left.places.push_back(place(at));
+    }
+    left.edge = left.places.size();
+    for (const Vec2d at : remnant.edge) {
+        left.places.push_back(place(at));
+    }
+    return left;
+}
+
+// Along the edge's ends, on the side where less stands over it.
+//
+//   bow  how much the edge lies within the side, mm
+std::optional<DropCutter::Side> DropCutter::side_along(const Remnant& left, double& bow)
+{
+    const auto from = left.places.begin() + static_cast<std::ptrdiff_t>(left.edge);
+    const auto farthest = [&](Vec2d p) {
+        return in_plan(*std::max_element(from, left.places.end(), [&](Vec3d a, Vec3d b) {
+            return distance(in_plan(a), p) < distance(in_plan(b), p);
+        }));
+    };
+    const Vec2d one = farthest(in_plan(*from));
+    const Vec2d other = farthest(one);
+    bow = 0.0;
+    if (distance(one, other) < kRounding) {
+        return std::nullopt;
+    }
+    std::optional<Side> best;
+    bow = 1e300;
+    const Vec2d normal = left_normal(unit(other - one));
+    for (const Vec2d across : {normal, normal * -1.0}) {
+        Side side{across, 1e300, -1e300, 1e300, -1e300, 0.0, 0.0};
+        for (const Vec3d& p : left.places) {
+            widen(side, in_plan(p));
+        }
+        double least = 1e300;
+        std::for_each(from, left.places.end(),
+                      [&](Vec3d p) { least = std::min(least, dot(across, in_plan(p))); });
+        if (side.outer - least < bow) {
+            bow = side.outer - least;
+            best = side;
+        }
+    }
+    return best;
+}
+
+void DropCutter::measure_remnant(Piece& piece) const
+{
+    const bool measured = piece.outline != 0;
+    Outline outline{};
+    piece.outlined = false;
+    if (!set_sides(piece, outline)) {
+        piece.outline = 0;
+        return;
+    }
+    const Remnant left = remnant_of(piece);
+    if (left.edge == left.places.size() || left.places.size() > kMostPlaces) {
+        piece.outline = 0;
+        return;
+    }
+    Vec3d low = left.places.front();
+    Vec3d high = low;
+    for (const Vec3d& p : left.places) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    piece.x0 = std::max(piece.x0, low.x - left.off);
+    piece.y0 = std::max(piece.y0, low.y - left.off);
+    piece.z0 = std::max(piece.z0, low.z - left.off);
+    piece.x1 = std::min(piece.x1, high.x + left.off);
+    piece.y1 = std::min(piece.y1, high.y + left.off);
+    piece.z1 = std::min(piece.z1, high.z + left.off);
+    for (std::size_t i = 0; i < outline.count; ++i) {
+        Side& side = outline.sides[i];
+        Side within{side.across, 1e300, -1e300, 1e300, -1e300, 0.0, 0.0};
+        for (const Vec3d& p : left.places) {
+            widen(within, in_plan(p));
+        }
+        side.inner = std::max(side.inner, within.inner - left.off);
+        side.outer = std::min(side.outer, within.outer + left.off);
+        side.low = std::max(side.low, within.low - left.off);
+        side.high = std::min(side.high, within.high + left.off);
+    }
+    double bow = 0.0;
+    if (const std::optional<Side> along = side_along(left, bow)) {
+        outline.sides[outline.count++] = {along->across,
+                                          along->inner - left.off,
+                                          along->outer + left.off,
+                                          along->low - left.off,
+                                          along->high + left.off,
+                                          0.0,
+                                          0.0};
+    }
+    outline.bow = std::max(outline.bow, bow + 2.0 * left.off);
+    end_sides(outline);
+    piece.outlined = true;
+    if (measured) {
+        outlines_[piece.outline] = outline;
+    } else {
+        piece.outline = static_cast<std::uint32_t>(outlines_.size());
+        outlines_.push_back(outline);
+    }
+}
+
+}  // namespace cusp::drop_cutter

@@ -1,0 +1,421 @@
+// Contacts bound the drop from below, each exact drop adds one.
+#include "host_tools/drop_cutter/lowest_position_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host_tools/part_model/pattern_search.hpp"
+
+namespace cusp::drop_cutter {
+
+using part_model::pattern_search;
+using toolpath::Tool;
+
+namespace {
+
+constexpr int kMostDrops = 10;          // from a start
+constexpr std::size_t kMostStarts = 3;  // apart from each other
+constexpr double kApart = 0.3;          // radii
+constexpr double kFinest = 1e-3;        // of the pitch
+// Where no walk leads lower.
+constexpr std::size_t kMostTriangles = 600;  // of directions that are looked at
+constexpr int kMostWalks = 10;               // to what the contacts known leave open
+constexpr int kMostTries = 40;               // drops for nothing but a contact
+constexpr double kBeside = 0.25;             // of a triangle's edge: as good as its middle
+constexpr int kMostHalvings = 8;             // of the pitch: key_of() tells 2^21 pitches apart
+constexpr std::size_t kLongestProof = 1500;  // parts; longer ones have become too fine
+constexpr std::size_t kMostParts = 200'000;  // of all proofs: 16 MB
+constexpr std::size_t kMostNodes = 200'000;  // 16 MB
+constexpr double kMoreGained = 0.25;         // of what is gained: worth another search
+
+double square(double a) { return a * a; }
+
+// The square of how far a place is from the tool's flat, seen from above.
+double square_off_flat(double flat, Vec2d axis, Vec3d place)
+{
+    const double away = square(place.x - axis.x) + square(place.y - axis.y);
+    return flat > 0 ? square(std::max(0.0, std::sqrt(away) - flat)) : away;
+}
+
+}  // namespace
+
+LowestPositionSearch::LowestPositionSearch(
+    const Tool& tool, double growth, double pitch, double agrees, Drop drop)
+    : radius_{tool.radius},
+      flat_{tool.radius - tool.corner_radius},
+      corner_{tool.corner_radius},
+      contact_corner_{tool.corner_radius + growth},
+      pitch_{pitch},
+      agreement_{agrees},
+      drop_{std::move(drop)}
+{
+}
+
+double LowestPositionSearch::height_under(Vec3d centre, Vec3d place) const
+{
+    const double under = square(corner_) - square_off_flat(flat_, {centre.x, centre.y}, place);
+    return under < 0 ? kNowhere : centre.z - std::sqrt(under);
+}
+
+// halvings  of the grid's pitch
+const LowestPositionSearch::DroppedTool& LowestPositionSearch::node(int halvings,
+                                                                    std::int64_t i,
+                                                                    std::int64_t j)
+{
+    const std::uint64_t key = key_of(halvings, i, j);
+    const auto found = nodes_.find(key);
+    if (found != nodes_.end()) {
+        return found->second;
+    }
+    if (nodes_.size() > kMostNodes) {
+        nodes_.clear();
+    }
+    const double pitch = std::ldexp(pitch_, -halvings);
+    return nodes_
+        .emplace(key, drop_(static_cast<double>(i) * pitch, static_cast<double>(j) * pitch))
+        .first->second;
+}
+
+// Of a grid no coarser than a length.
+const LowestPositionSearch::DroppedTool& LowestPositionSearch::node_near(double x,
+                                                                         double y,
+                                                                         double length)
+{
+    int halvings = 0;
+    while (halvings < kMostHalvings && std::ldexp(pitch_, -halvings) > length) {
+        ++halvings;
+    }
+    const double pitch = std::ldexp(pitch_, -halvings);
+    return node(halvings, std::llround(x / pitch), std::llround(y / pitch));
+}
+
+std::vector<LowestPositionSearch::Position> LowestPositionSearch::starts_over(Vec3d place)
+{
+    contacts_.clear();
+    std::vector<Position> all;
+    for (std::int64_t i = cell(place.x - radius_) + 1; i <= cell(place.x + radius_); ++i) {
+        for (std::int64_t j = cell(place.y - radius_) + 1; j <= cell(place.y + radius_); ++j) {
+            const double x = static_cast<double>(i) * pitch_;
+            const double y = static_cast<double>(j) * pitch_;
+            if (square_off_flat(flat_, {x, y}, place) > square(corner_)) {
+                continue;
+            }
+            const DroppedTool& at = node(0, i, j);
+            if (std::isfinite(at.centre.z)) {
+                contacts_.push_back(at.contact);
+                all.push_back({at.centre, height_under(at.centre, place)});
+            }
+        }
+    }
+    std::sort(all.begin(), all.end(),
+              [](const Position& a, const Position& b) { return a.height < b.height; });
+    std::vector<Position> out;
+    for (const Position& start : all) {
+        const bool apart = std::all_of(out.begin(), out.end(), [&](const Position& other) {
+            return std::hypot(start.centre.x - other.centre.x, start.centre.y - other.centre.y) >
+                   kApart * radius_;
+        });
+        if (apart) {
+            out.push_back(start);
+        }
+        if (out.size() == kMostStarts) {
+            break;
+        }
+    }
+    return out;
+}
+
+// What a tool that stands on the contacts known leaves over the place: never above the truth.
+double LowestPositionSearch::lowest_known(Vec3d place, Vec2d at) const
+{
+    double centre = -kNowhere;
+    for (const Vec3d& contact : contacts_) {
+        const double up = square(contact_corner_) - square_off_flat(flat_, at, contact);
+        if (up >= 0) {
+            centre = std::max(centre, contact.z + std::sqrt(up));
+        }
+    }
+    return height_under({at.x, at.y, centre}, place);
+}
+
+// A place where `lowest_known` is least, near the one given.
+Vec2d LowestPositionSearch::improved(Vec3d place, Vec2d at)
+{
+    double best = lowest_known(place, at);
+    const double corner_square = square(contact_corner_);
+    const double flat = flat_;
+    // True where no contact keeps the tool as high as `best`. The one that does is looked at first
+    // the next time: mostly the same few are in the way.
+    const auto lower = [&](Vec2d to) {
+        const double under = square(corner_) - square_off_flat(flat_, to, place);
+        if (under < 0) {
+            return false;
+        }
+        const double depth = std::sqrt(under);
+        const double limit = best + depth;
+        double centre = -kNowhere;
+        for (std::size_t i = 0; i < contacts_.size(); ++i) {
+            const Vec3d c = contacts_[i];
+            const double up = corner_square - square_off_flat(flat, to, c);
+            const bool higher = up >= 0 && (c.z > centre || up > square(centre - c.z));
+            centre = higher ? c.z + std::sqrt(up) : centre;
+            if (centre >= limit) {
+                std::swap(contacts_[i], contacts_[i / 2]);
+                return false;
+            }
+        }
+        // Rounding may have let it pass at the same height: no walk goes on for ever.
+        const bool found = centre - depth < best;
+        best = std::min(best, centre - depth);
+        return found;
+    };
+    return pattern_search(at, pitch_, kFinest * pitch_, lower);
+}
+
+void LowestPositionSearch::improve_from(const Position& start,
+                                        Vec3d place,
+                                        double resolution,
+                                        std::optional<Position>& best)
+{
+    const auto take = [&](const Position& answer) {
+        if (!best || answer.height < best->height) {
+            best = answer;
+        }
+    };
+    take(start);
+    Vec2d at{start.centre.x, start.centre.y};
+    for (int drops = 0; drops < kMostDrops; ++drops) {
+        const Vec2d to = improved(place, at);
+        const double hoped = lowest_known(place, to);
+        // The contacts know that this start leads no lower than what is known or asked for.
+        if (hoped > resolution || hoped > best->height - agreement_) {
+            return;
+        }
+        const DroppedTool rest = drop_(to.x, to.y);
+        if (!std::isfinite(rest.centre.z)) {
+            return;
+        }
+        const double height = height_under(rest.centre, place);
+        take({rest.centre, height});
+        contacts_.push_back(rest.contact);
+        if (height - hoped < agreement_) {
+            return;
+        }
+        at = to;
+    }
+}
+
+// Under a tool without a corner single contacts are steps of a stair: no slope leads on.
+void LowestPositionSearch::improve_by_drops(Vec3d place, Position& best)
+{
+    const auto lower = [&](Vec2d to) {
+        const Vec3d centre = drop_(to.x, to.y).centre;
+        const double height = height_under(centre, place);
+        const bool found = height < best.height;
+        best = found ? Position{centre, height} : best;
+        return found;
+    };
+    pattern_search({best.centre.x, best.centre.y}, pitch_, kFinest * pitch_, lower);
+}
+
+std::int64_t LowestPositionSearch::cell(double at) const
+{
+    return static_cast<std::int64_t>(std::floor(at / pitch_));
+}
+
+std::uint64_t LowestPositionSearch::key_of(int halvings, std::int64_t i, std::int64_t j)
+{
+    constexpr std::uint64_t kPlaces = (1U << 29) - 1;
+    return (static_cast<std::uint64_t>(halvings) << 58) ^
+           ((static_cast<std::uint64_t>(i) & kPlaces) << 29) ^
+           (static_cast<std::uint64_t>(j) & kPlaces);
+}
+
+// Contacts that bar nothing are left out.
+LowestPositionSearch::Proof LowestPositionSearch::proof_of(std::vector<BlockedPart> barred,
+                                                           const ApproachDirections& directions)
+{
+    Proof proof;
+    std::unordered_map<std::size_t, std::size_t> numbers;
+    for (BlockedPart& part : barred) {
+        const auto [at, is_new] = numbers.try_emplace(part.contact, proof.contacts.size());
+        if (is_new) {
+            proof.contacts.push_back(directions.contact(part.contact));
+        }
+        part.contact = at->second;
+    }
+    proof.parts = std::move(barred);
+    return proof;
+}
+
+void LowestPositionSearch::store(Vec3d place, Proof proof)
+{
+    if (parts_ > kMostParts) {
+        proofs_.clear();
+        parts_ = 0;
+    }
+    Proof& last = proofs_[key_of(0, cell(place.x), cell(place.y))];
+    parts_ = parts_ - last.parts.size() + proof.parts.size();
+    last = std::move(proof);
+}
+
+// Walks from a few starts miss narrow ways between cliffs. The directions that no contact bars are
+// quartered, large parts first, and their middles are tried: whether the ball gets lower than a
+// height, and the first place found where it does. What bars them is kept for the next place near:
+// mostly the same contacts bar the same directions there.
+//
+// exact  tries are made in the middles themselves, not in what was tried beside them
+//
+// Precondition: the tool is a ball
+std::optional<LowestPositionSearch::Position> LowestPositionSearch::divided(double height,
+                                                                            Vec3d place,
+                                                                            bool exact,
+                                                                            bool& proved)
+{
+    ApproachDirections directions{{place.x, place.y, height}, radius_, contact_corner_};
+    const Proof& last = proofs_[key_of(0, cell(place.x), cell(place.y))];
+    contacts_.insert(contacts_.begin(), last.contacts.begin(), last.contacts.end());
+    for (const Vec3d& contact : contacts_) {
+        directions.add(contact);
+    }
+    std::vector<BlockedPart> barred;
+    std::vector<ApproachDirections::Triangle> open;
+    for (const BlockedPart& part : last.parts) {
+        if (directions.blocks(part.contact, part.triangle)) {
+            barred.push_back(part);
+        } else {
+            open.push_back(part.triangle);
+        }
+    }
+    if (last.parts.empty()) {
+        const auto whole = ApproachDirections::half_sphere();
+        open.assign(whole.begin(), whole.end());
+    }
+    const std::size_t most = open.size() + kMostTriangles;
+    int walks = 0;
+    int tries = 0;
+    for (std::size_t k = 0; k < open.size() && k < most; ++k) {
+        const ApproachDirections::Triangle triangle = open[k];
+        if (const auto contact = directions.blocking(triangle)) {
+            barred.push_back({triangle, *contact});
+            continue;
+        }
+        const Vec3d middle = directions.centre(ApproachDirections::middle(triangle));
+        Vec2d at{middle.x, middle.y};
+        const bool open_middle = lowest_known(place, at) < height;
+        const double edge = norm(triangle[0] - triangle[1]) * radius_;
+        std::optional<Position> lower;
+        // Whether its contact bars the triangle.
+        const auto try_drop = [&](const DroppedTool& rest) {
+            if (!std::isfinite(rest.centre.z)) {
+                return false;
+            }
+            const Position there{rest.centre, height_under(rest.centre, place)};
+            lower = there.height < height ? std::optional{there} : std::nullopt;
+            contacts_.push_back(rest.contact);
+            const std::size_t contact = directions.add(rest.contact);
+            const bool bars = !lower && directions.blocks(contact, triangle);
+            if (bars) {
+                barred.push_back({triangle, contact});
+            }
+            return bars;
+        };
+        bool bars = false;
+        if (open_middle) {
+            at = ++walks < kMostWalks ? improved(place, at) : at;
+            bars = try_drop(drop_(at.x, at.y));
+        } else if (edge < pitch_ && ++tries < kMostTries) {
+            // Among nodes too few contacts are known. One beside the middle has mostly been found
+            // for another place.
+            bars = try_drop(exact ? drop_(at.x, at.y) : node_near(at.x, at.y, kBeside * edge));
+        }
+        if (lower) {
+            return lower;
+        }
+        if (bars) {
+            continue;
+        }
+        const auto parts = ApproachDirections::quarters(triangle);
+        open.insert(open.end(), parts.begin(), parts.end());
+    }
+    proved = open.size() <= most;
+    if (proved) {
+        store(place,
+              barred.size() <= kLongestProof ? proof_of(std::move(barred), directions) : Proof{});
+    }
+    return std::nullopt;
+}
+
+std::optional<LowestPositionSearch::Position> LowestPositionSearch::lower_than(double height,
+                                                                               Vec3d place,
+                                                                               bool& proved)
+{
+    const std::optional<Position> found = divided(height, place, false, proved);
+    return found || proved ? found : divided(height, place, true, proved);
+}
+
+std::optional<LowestPositionSearch::Position> LowestPositionSearch::lowest_over(
+    Vec3d place, double resolution, double sufficient, std::optional<Vec2d> guess)
+{
+    std::optional<Position> first;
+    if (guess) {
+        const DroppedTool rest = drop_(guess->x, guess->y);
+        if (std::isfinite(rest.centre.z)) {
+            first = Position{rest.centre, height_under(rest.centre, place)};
+            if (first->height <= sufficient) {
+                return first;
+            }
+        }
+    }
+    std::vector<Position> starts = starts_over(place);
+    if (first && std::isfinite(first->height)) {
+        starts.push_back(*first);
+    }
+    const bool ball = flat_ == 0;
+    std::optional<Position> best;
+    // Mostly there is nothing better, and that is told at once.
+    if (ball && !starts.empty() &&
+        std::none_of(starts.begin(), starts.end(),
+                     [&](const Position& start) { return start.height < resolution; })) {
+        bool proved = false;
+        best = lower_than(resolution - agreement_, place, proved);
+        if (!best && proved) {
+            return starts.front();
+        }
+    }
+    for (const Position& start : starts) {
+        improve_from(start, place, resolution, best);
+        if (best->height <= sufficient) {
+            return best;
+        }
+    }
+    if (best && corner_ == 0) {
+        improve_by_drops(place, *best);
+    }
+    while (ball && best && best->height > sufficient && best->height < resolution) {
+        const double gained = resolution - best->height;
+        bool proved = false;
+        const auto lower =
+            lower_than(best->height - std::max(agreement_, kMoreGained * gained), place, proved);
+        if (!lower) {
+            break;
+        }
+        improve_from(*lower, place, resolution, best);
+    }
+    return best;
+}
+
+LowestPositionSearch::DroppedTool drop_tool(const DropCutter& floor, double x, double y)
+{
+    const DropCutter::ClPoint rest = floor.drop({x, y});
+    if (rest.z == DropCutter::kNoSurface) {
+        return {{x, y, LowestPositionSearch::kNowhere}, {}};
+    }
+    const Tool& tool = floor.tool();
+    const Vec2d touched = floor.cc_place({x, y}, rest);
+    const double away = std::min(tool.radius, std::hypot(touched.x - x, touched.y - y));
+    return {{x, y, rest.z + tool.corner_radius},
+            {touched.x, touched.y, rest.z + profile_height(tool, away)}};
+}
+
+}  // namespace cusp::drop_cutter

@@ -1,0 +1,286 @@
+// Triangles are halved across their longest side as long as one move covers each half.
+#include "host_tools/finishing/mesh_scallop_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host_tools/part_model/facet_distance.hpp"
+
+namespace cusp::finishing {
+
+using part_model::Facet;
+
+namespace {
+
+constexpr double kSmallestFacet = 1.0 / 64;  // cells, in steps between passes
+constexpr double kLargestFacet = 2;          // the same
+constexpr int kFacetRounds = 5;
+constexpr int kFacetHalvings = 60;
+constexpr std::size_t kMostGaps = 300000;
+
+// Exactly on a side of a cell the neighbour's normal counts as much.
+Vec3d place_beside(Vec3d corner, Vec3d middle) { return corner + (middle - corner) * 1e-3; }
+
+}  // namespace
+
+MeshScallopCheck::MeshScallopCheck(const std::vector<std::array<Vec3d, 3>>& triangles,
+                                   const GougeFreePathFitter& path_fitter,
+                                   double scallop,
+                                   double path_off)
+    : triangles_{triangles},
+      path_fitter_{path_fitter},
+      scallop_{scallop},
+      path_off_{path_off},
+      places_{no_surfaces_, path_fitter, scallop, path_off}
+{
+}
+
+bool MeshScallopCheck::is_hidden(Vec3d point) const
+{
+    const auto top = path_fitter_.model().height_at(point.x, point.y);
+    return top && top->point.z > point.z + kHidden;
+}
+
+MeshScallopCheck::Verdict MeshScallopCheck::judge(const Cell& cell) const
+{
+    double longest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        longest = std::max(longest, norm(cell.corners[(k + 1) % 3] - cell.corners[k]));
+    }
+    if (longest > kLargestFacet * step()) {
+        return Verdict::kHalve;
+    }
+    const Vec3d middle = cell.middle();
+    const bool upright = cell.normal.z >= kSteepNormal;
+    places_.swept().near(centre_under(raised(middle, cell.normal, scallop_, upright), cell.normal,
+                                      scallop_, path_fitter_.tool().radius),
+                         near_);
+    bool touched = false;
+    for (const std::uint32_t move : near_) {
+        const auto count =
+            std::count_if(cell.corners.begin(), cell.corners.end(), [&](Vec3d corner) {
+                return places_.swept().removes(move, raised(corner, cell.normal, scallop_, upright),
+                                               path_off_);
+            });
+        if (count == 3) {
+            return Verdict::kCovered;
+        }
+        touched = touched || count > 0;
+    }
+    if (!touched && longest < step() && is_hidden(middle) &&
+        std::all_of(cell.corners.begin(), cell.corners.end(),
+                    [&](Vec3d corner) { return is_hidden(corner); })) {
+        return Verdict::kCovered;
+    }
+    if (longest >= kBlockedCell * step()) {
+        return longest < kSettledCell * step() && settled(cell) ? Verdict::kSettled
+                                                                : Verdict::kHalve;
+    }
+    bool each = true;
+    for (const Vec3d& corner : cell.corners) {
+        if (!is_covered(corner, cell.normal, kPlaceShare)) {
+            each = false;
+            if (!path_fitter_.is_clear(places_.touching_tip(corner, cell.normal))) {
+                return low_enough(cell) ? Verdict::kCovered : Verdict::kBlocked;
+            }
+        }
+    }
+    // Halves with a bare corner would be no less bare.
+    if (!each) {
+        return Verdict::kUncovered;
+    }
+    return longest >= kSmallestFacet * step() ? Verdict::kHalve : Verdict::kCovered;
+}
+
+bool MeshScallopCheck::blocked(Vec3d corner, Vec3d normal) const
+{
+    return !is_covered(corner, normal, kPlaceShare) &&
+           !path_fitter_.is_clear(places_.touching_tip(corner, normal));
+}
+
+bool MeshScallopCheck::settled(const Cell& cell) const
+{
+    const Vec3d middle = cell.middle();
+    return std::all_of(cell.corners.begin(), cell.corners.end(),
+                       [&](Vec3d corner) { return blocked(corner, cell.normal); }) &&
+           !is_hidden(middle) && places_.settled(middle, cell.normal);
+}
+
+// Whether what stands straight over the corners is no more than the scallop, square to the facet.
+bool MeshScallopCheck::low_enough(const Cell& cell) const
+{
+    return std::all_of(cell.corners.begin(), cell.corners.end(), [&](Vec3d corner) {
+        const double over = places_.swept().lowest(corner.x, corner.y).height - corner.z;
+        return over * cell.normal.z <= kPlaceShare * scallop_;
+    });
+}
+
+void MeshScallopCheck::check_cell(const Cell& cell, int depth)
+{
+    if (overflowed_) {
+        return;
+    }
+    const Verdict verdict = judge(cell);
+    if (verdict == Verdict::kCovered) {
+        return;
+    }
+    if (verdict != Verdict::kHalve || depth == 0) {
+        if ((verdict == Verdict::kBlocked || verdict == Verdict::kSettled) && checking_) {
+            blocked_area_ += 0.5 * norm(cross(cell.corners[1] - cell.corners[0],
+                                              cell.corners[2] - cell.corners[0]));
+        }
+        // Mostly nothing is to be done where the tool can't touch, and rough ground has no end of
+        // such cells.
+        if (verdict == Verdict::kSettled ||
+            (verdict == Verdict::kBlocked && !may_be_uncovered(cell))) {
+            return;
+        }
+        overflowed_ = uncovered_.size() >= kMostGaps;
+        if (!overflowed_) {
+            uncovered_.push_back(cell);
+        }
+        return;
+    }
+    const std::array<Vec3d, 3>& at = cell.corners;
+    std::size_t side = 0;
+    for (std::size_t k = 1; k < 3; ++k) {
+        if (norm(at[(k + 1) % 3] - at[k]) > norm(at[(side + 1) % 3] - at[side])) {
+            side = k;
+        }
+    }
+    const Vec3d half = (at[side] + at[(side + 1) % 3]) * 0.5;
+    const Vec3d across = at[(side + 2) % 3];
+    check_cell({{at[side], half, across}, cell.normal}, depth - 1);
+    check_cell({{half, at[(side + 1) % 3], across}, cell.normal}, depth - 1);
+}
+
+void MeshScallopCheck::check()
+{
+    checking_ = true;
+    for (const auto& corners : triangles_) {
+        const Facet facet{corners};
+        if (facet.normal.z >= kUprightNormal) {
+            check_cell({corners, facet.normal}, kFacetHalvings);
+        }
+    }
+    checking_ = false;
+}
+
+// The tip that is missing at a place; none where nothing is, or the tool can't touch and
+// `where_blocked` is false.
+std::optional<Vec3d> MeshScallopCheck::missing_tip(const Place& at, bool where_blocked) const
+{
+    if (at.normal.z < kUprightNormal || is_covered(at.point, at.normal, kPlaceShare) ||
+        is_hidden(at.point)) {
+        return std::nullopt;
+    }
+    const Vec3d tip = places_.touching_tip(at.point, at.normal);
+    if (path_fitter_.is_clear(tip)) {
+        return tip;
+    }
+    return where_blocked ? places_.lower_tip(at.point, at.normal).tip : std::nullopt;
+}
+
+// A place of the cell that lacks a pass.
+std::optional<MeshScallopCheck::Place> MeshScallopCheck::uncovered_point(const Cell& cell) const
+{
+    const Place middle{cell.middle(), cell.normal};
+    if (missing_tip(middle, true)) {
+        return middle;
+    }
+    for (const Vec3d& corner : cell.corners) {
+        const Place place{place_beside(corner, middle.point), cell.normal};
+        if (missing_tip(place, false)) {
+            return place;
+        }
+    }
+    return std::nullopt;
+}
+
+// As `uncovered_point`, but told at once: true where it would have to be searched for.
+bool MeshScallopCheck::may_be_uncovered(const Cell& cell) const
+{
+    const Vec3d middle = cell.middle();
+    const auto stays = [&](Vec3d at) {
+        return is_covered(at, cell.normal, kPlaceShare) || is_hidden(at);
+    };
+    const auto touched = [&](Vec3d at) {
+        return path_fitter_.is_clear(places_.touching_tip(at, cell.normal));
+    };
+    if (!stays(middle) && (touched(middle) || !places_.has_no_lower_tip(middle, cell.normal))) {
+        return true;
+    }
+    return std::any_of(cell.corners.begin(), cell.corners.end(), [&](Vec3d corner) {
+        const Vec3d at = place_beside(corner, middle);
+        return !stays(at) && touched(at);
+    });
+}
+
+// From place to place of the mesh as seen from above, both ways, as far as tips are missing.
+Points MeshScallopCheck::trace(const Place& from, Vec3d way) const
+{
+    Points out;
+    for (const double sign : {-1.0, 1.0}) {
+        Place at = from;
+        for (int k = 0; k < kMostTraced; ++k) {
+            const std::optional<Vec3d> tip = missing_tip(at, true);
+            if (!tip) {
+                break;
+            }
+            if (k > 0 || sign < 0) {
+                out.push_back(*tip);
+            }
+            const double slant = dot(at.normal, way) / at.normal.z;
+            const Vec3d next =
+                at.point + way * (sign * kTraceStep * step() / std::sqrt(1 + slant * slant));
+            const auto top = path_fitter_.model().height_at(next.x, next.y);
+            if (!top) {
+                break;
+            }
+            at = {top->point, top->normal};
+        }
+        if (sign < 0) {
+            std::reverse(out.begin(), out.end());
+        }
+    }
+    return out;
+}
+
+void MeshScallopCheck::add_missing_passes(const std::function<void(const Points&)>& cut)
+{
+    for (int round = 0; round < kFacetRounds && !uncovered_.empty(); ++round) {
+        const std::vector<Cell> open = std::move(uncovered_);
+        uncovered_.clear();
+        std::vector<Cell> changed;
+        for (const Cell& cell : open) {
+            const std::optional<Place> place = uncovered_point(cell);
+            if (!place) {
+                continue;
+            }
+            changed.push_back(cell);
+            Points one = trace(*place, {1, 0, 0});
+            Points other = trace(*place, {0, 1, 0});
+            if (length_of(other) > length_of(one)) {
+                std::swap(one, other);
+            }
+            for (const Points& run : places_.runs_of(one)) {
+                cut(run);
+            }
+        }
+        for (const Cell& cell : changed) {
+            check_cell(cell, kFacetHalvings / 6);
+        }
+    }
+    const auto met = [&](const Cell& cell) {
+        return !uncovered_point(cell).has_value();
+    };
+    uncovered_.erase(std::remove_if(uncovered_.begin(), uncovered_.end(), met), uncovered_.end());
+    for (const Cell& cell : uncovered_) {
+        if (const std::optional<Place> place = uncovered_point(cell)) {
+            most_left_ =
+                std::max(most_left_, places_.uncut_at(place->point, place->normal, 0).reachable);
+        }
+    }
+}
+
+}  // namespace cusp::finishing

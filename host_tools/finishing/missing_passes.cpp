@@ -1,0 +1,231 @@
+// Passes where too much stands: where a place lacks one, it is traced along the surface's
+// parameters.
+#include <algorithm>
+#include <cmath>
+
+#include "host_tools/finishing/scallop_check.hpp"
+
+namespace cusp::finishing {
+
+using nurbs::Surface;
+using nurbs::SurfacePoint;
+
+namespace {
+
+constexpr double kNearCell =
+    0.03;  // cells in steps between passes, where nearly the scallop stands
+constexpr double kLeastNear = 0.7;  // of the scallop: beside less it is not worth the search
+constexpr int kRounds = 5;
+constexpr int kMoreHalvings = 10;  // a round
+
+}  // namespace
+
+std::optional<Vec3d> ScallopCheck::missing_tip(int surface,
+                                               double u,
+                                               double v,
+                                               bool where_blocked) const
+{
+    const Corner at = corner(surface, u, v);
+    if (!inside_trims(surface, u, v)) {
+        return std::nullopt;
+    }
+    if (is_covered(at)) {
+        if (where_blocked) {
+            lower_tip(at);  // that is none, but what stands may be nearly the scallop
+        }
+        return std::nullopt;
+    }
+    if (is_clear(at)) {
+        return places_.touching_tip(at.point.point, at.normal);
+    }
+    return where_blocked ? lower_tip(at) : std::nullopt;
+}
+
+std::optional<Vec3d> ScallopCheck::lower_tip(const Corner& at) const
+{
+    // On upright walls heights say nothing.
+    if (at.normal.z < kUprightNormal || is_hidden(at)) {
+        return std::nullopt;
+    }
+    const ScallopAtPoint::LowerTip better =
+        places_.lower_tip(at.point.point, at.normal, near_share_);
+    moved_clear_ = moved_clear_ || better.moved_clear;
+    if (better.left > scallop_) {
+        return better.tip;
+    }
+    nearly_uncovered_ = nearly_uncovered_ || better.tip;
+    return std::nullopt;
+}
+
+Points ScallopCheck::trace(int surface, Place place, bool along_u) const
+{
+    const Surface& s = surfaces_[static_cast<std::size_t>(surface)];
+    const double begin = along_u ? s.u_begin() : s.v_begin();
+    const double end = along_u ? s.u_end() : s.v_end();
+    Points out;
+    for (const double sign : {-1.0, 1.0}) {
+        double at_u = place.u;
+        double at_v = place.v;
+        for (int k = 0; k < kMostTraced; ++k) {
+            const std::optional<Vec3d> tip = missing_tip(surface, at_u, at_v, true);
+            if (k == 0 && sign > 0) {
+                // the start is there already
+            } else if (tip) {
+                out.push_back(*tip);
+            } else {
+                break;
+            }
+            const SurfacePoint p = path_fitter_.model().evaluate(surface, at_u, at_v);
+            const double speed = norm(along_u ? p.du : p.dv);
+            double& at = along_u ? at_u : at_v;
+            const double step =
+                std::min(kTraceStep * places_.step() / std::max(1e-9, speed), (end - begin) / 8);
+            const double next = std::clamp(at + sign * step, begin, end);
+            if (next == at) {
+                break;
+            }
+            at = next;
+        }
+        if (sign < 0) {
+            std::reverse(out.begin(), out.end());
+        }
+    }
+    return out;
+}
+
+// Its middle, then its corners.
+std::array<ScallopCheck::Place, 5> ScallopCheck::places_of(const Cell& cell) const
+{
+    return {Place{0.5 * (cell.u0 + cell.u1), 0.5 * (cell.v0 + cell.v1)}, Place{cell.u0, cell.v0},
+            Place{cell.u1, cell.v0}, Place{cell.u0, cell.v1}, Place{cell.u1, cell.v1}};
+}
+
+// Whether the middle of the next cell beyond a corner that is seen is hidden as that of this one
+// is: else what is seen is looked at there.
+bool ScallopCheck::in_narrow_opening(int surface,
+                                     const Place& middle,
+                                     const Place& corner_place) const
+{
+    const Surface& s = surfaces_[static_cast<std::size_t>(surface)];
+    const double u = 2 * corner_place.u - middle.u;
+    const double v = 2 * corner_place.v - middle.v;
+    return u <= s.u_begin() || u >= s.u_end() || v <= s.v_begin() || v >= s.v_end() ||
+           is_hidden(corner(surface, u, v));
+}
+
+// A place of the cell that lacks a pass. Ridges between passes that leave the scallop rise by two
+// scallops a step beside them: what is between two places may be so much more.
+std::optional<ScallopCheck::Place> ScallopCheck::uncovered_point(const Cell& cell) const
+{
+    const Surface& s = surfaces_[static_cast<std::size_t>(cell.surface)];
+    // Beyond a border no other cell says what is left.
+    const auto on_border = [&](const Place& at) {
+        return at.u == s.u_begin() || at.u == s.u_end() || at.v == s.v_begin() || at.v == s.v_end();
+    };
+    const auto [long_u, long_v] = sides_of(cell);
+    const double size = std::max(long_u, long_v) / places_.step();
+    near_share_ = std::max(kLeastNear, 1 - 2 * size);
+    nearly_uncovered_ = false;
+    const std::array<Place, 5> places = places_of(cell);
+    bool middle_hidden = false;
+    for (const Place& place : places) {
+        const bool middle = &place == places.data();
+        if ((middle || middle_hidden) && is_hidden(corner(cell.surface, place.u, place.v))) {
+            middle_hidden = true;
+            continue;
+        }
+        const bool ask = middle || nearly_uncovered_ || on_border(place) ||
+                         (middle_hidden && in_narrow_opening(cell.surface, places.front(), place));
+        if (missing_tip(cell.surface, place.u, place.v, ask)) {
+            return place;
+        }
+    }
+    if (!nearly_uncovered_ || size < kNearCell) {
+        return std::nullopt;
+    }
+    for (const Cell& half : halves_of(cell, long_u >= long_v)) {
+        if (const std::optional<Place> place = uncovered_point(half)) {
+            return place;
+        }
+    }
+    return std::nullopt;
+}
+
+void ScallopCheck::add_missing_passes(const std::function<void(const Points&)>& cut,
+                                      const std::function<void(double)>& progress)
+{
+    std::vector<Cell> beside_edges;
+    for (int round = 0; round < kRounds && !uncovered_.empty(); ++round) {
+        const std::vector<Cell> open = std::move(uncovered_);
+        uncovered_.clear();
+        std::vector<Cell> changed;
+        std::size_t looked = 0;
+        for (const Cell& cell : open) {
+            // A round has half the work of the one before.
+            const double rest =
+                1 - 0.5 * static_cast<double>(looked++) / static_cast<double>(open.size());
+            progress(1 - std::ldexp(rest, -round));
+            moved_clear_ = false;
+            path_fitter_.model().forget_many_cells();
+            const std::optional<Place> place = uncovered_point(cell);
+            if (!place) {
+                if (moved_clear_) {
+                    beside_edges.push_back(cell);
+                }
+                // Passes cut since may have made what stands steep.
+                const std::array<Corner, 4> at = corners_of(cell);
+                if (is_steep(at)) {
+                    changed.push_back(cell);
+                }
+                continue;
+            }
+            changed.push_back(cell);
+            Points one = trace(cell.surface, *place, true);
+            Points other = trace(cell.surface, *place, false);
+            if (one.empty() || length_of(other) > length_of(one)) {
+                std::swap(one, other);
+            }
+            for (const Points& run : places_.runs_of(one)) {
+                cut(run);
+            }
+        }
+        for (const Cell& cell : changed) {
+            check_cell(cell, corners_of(cell), kMoreHalvings);
+        }
+    }
+    const auto met = [&](const Cell& cell) {
+        moved_clear_ = false;
+        const std::optional<Place> place = uncovered_point(cell);
+        if (place) {
+            most_left_ = std::max(
+                most_left_, scallop_over_reachable(corner(cell.surface, place->u, place->v), 0));
+        } else if (moved_clear_) {
+            beside_edges.push_back(cell);
+        }
+        return !place;
+    };
+    uncovered_.erase(std::remove_if(uncovered_.begin(), uncovered_.end(), met), uncovered_.end());
+    measure_beside_edges(beside_edges);
+}
+
+double ScallopCheck::scallop_over_reachable(const Corner& at, double resolution)
+{
+    const ScallopAtPoint::Uncut left = places_.uncut_at(at.point.point, at.normal, resolution);
+    left_beside_edges_ = std::max(left_beside_edges_, left.beside_edges);
+    return left.reachable;
+}
+
+// Cells where nothing is left to do but by tips that passes are kept off.
+void ScallopCheck::measure_beside_edges(const std::vector<Cell>& cells)
+{
+    for (const Cell& cell : cells) {
+        for (const Place& place : places_of(cell)) {
+            const Corner at = corner(cell.surface, place.u, place.v);
+            if (at.normal.z >= kUprightNormal && !is_hidden(at)) {
+                scallop_over_reachable(at, std::max(scallop_, left_beside_edges_));
+            }
+        }
+    }
+}
+
+}  // namespace cusp::finishing

@@ -1,0 +1,147 @@
+// `LowestPositionSearch` over drops of the tool that passes are planned with; its answer is dropped
+// exactly.
+#include "host_tools/finishing/reachable_height.hpp"
+
+#include <cmath>
+
+#include "firmware/base/math.hpp"
+
+namespace cusp::finishing {
+
+using drop_cutter::LowestPositionSearch;
+using nurbs::Surface;
+using part_model::EdgeGougeCheck;
+
+namespace {
+
+// Away from the brink of a cliff.
+constexpr double kLeastOffBrink = 5e-4;  // mm
+constexpr double kMostOffBrink = 0.1;    // of the pitch
+constexpr int kWays = 8;
+
+}  // namespace
+
+ReachableHeight::ReachableHeight(const std::vector<Surface>& surfaces,
+                                 const GougeFreePathFitter& path_fitter,
+                                 double pitch,
+                                 double accuracy)
+    : surfaces_{surfaces},
+      path_fitter_{path_fitter},
+      accuracy_{accuracy},
+      radius_{path_fitter.tool().radius},
+      contact_radius_{radius_ + path_fitter.band().offset},
+      search_{path_fitter.tool(), path_fitter.band().offset, pitch, 3 * accuracy,
+              [this](double x, double y) {
+                  return drop_at(x, y, Edges::kIgnored);
+              }},
+      search_clear_of_edges_{path_fitter.tool(), path_fitter.band().offset, pitch, 3 * accuracy,
+                             [this](double x, double y) {
+                                 return drop_at(x, y, Edges::kMovedClear);
+                             }}
+{
+}
+
+// An edge that the tool keeps off is one more contact.
+LowestPositionSearch::DroppedTool ReachableHeight::drop_at(double x, double y, Edges edges)
+{
+    LowestPositionSearch::DroppedTool rest{{x, y, LowestPositionSearch::kNowhere}, {}};
+    if (surfaces_.empty()) {
+        if (const auto on_mesh = path_fitter_.model().drop_ball(x, y, contact_radius_)) {
+            rest = {on_mesh->centre, on_mesh->point};
+        }
+    } else {
+        // Most models never ask.
+        if (!floor_) {
+            floor_.emplace(surfaces_, path_fitter_.offset_tool(), accuracy_);
+        }
+        rest = drop_tool(*floor_, x, y);
+    }
+    if (edges == Edges::kMovedClear && std::isfinite(rest.centre.z)) {
+        const Vec3d up{0, 0, radius_};
+        const EdgeGougeCheck::RaisedTip raised =
+            path_fitter_.raised_clear_of_edges(rest.centre - up);
+        if (raised.barrier) {
+            rest = {raised.tip + up, *raised.barrier};
+        }
+    }
+    return rest;
+}
+
+std::optional<ReachableHeight::Position> ReachableHeight::lowest_over(Vec3d place,
+                                                                      double resolution)
+{
+    const std::optional<LowestPositionSearch::Position> best =
+        search_.lowest_over(place, resolution);
+    if (best && best->height > resolution) {
+        return Position{best->centre - Vec3d{0, 0, radius_}, best->height};
+    }
+    return best ? exactly(*best, place, resolution, Edges::kIgnored) : std::nullopt;
+}
+
+std::optional<ReachableHeight::Position> ReachableHeight::lowest_clear_of_edges(
+    Vec3d place, const Position& near, double resolution)
+{
+    const std::optional<LowestPositionSearch::Position> best = search_clear_of_edges_.lowest_over(
+        place, resolution, -1e300, Vec2d{near.tip.x, near.tip.y});
+    if (!best || best->height > resolution) {
+        return std::nullopt;
+    }
+    const std::optional<Position> exact = exactly(*best, place, resolution, Edges::kMovedClear);
+    return exact && exact->height <= resolution ? exact : std::nullopt;
+}
+
+std::optional<ReachableHeight::Position> ReachableHeight::exactly(
+    const LowestPositionSearch::Position& found, Vec3d place, double resolution, Edges edges)
+{
+    const std::optional<Position> exact = exact_over(place, found.centre.x, found.centre.y, edges);
+    if (exact && exact->height > resolution) {
+        const std::optional<Position> off_brink = beside(place, found.centre, resolution, edges);
+        return off_brink ? off_brink : exact;
+    }
+    return exact;
+}
+
+std::optional<ReachableHeight::Position> ReachableHeight::exact_over(Vec3d place,
+                                                                     double x,
+                                                                     double y,
+                                                                     Edges edges) const
+{
+    std::optional<Vec3d> tip = path_fitter_.drop(x, y);
+    if (!tip) {
+        return std::nullopt;
+    }
+    if (edges == Edges::kMovedClear) {
+        tip = path_fitter_.raised_clear_of_edges(*tip).tip;
+    }
+    return Position{*tip, search_.height_under(*tip + Vec3d{0, 0, radius_}, place)};
+}
+
+// The lowest position is often on the brink of a cliff that the ball just misses, and exactly
+// dropped it stands on top. A little away it is hardly higher.
+std::optional<ReachableHeight::Position> ReachableHeight::beside(Vec3d place,
+                                                                 Vec3d brink,
+                                                                 double resolution,
+                                                                 Edges edges)
+{
+    for (double off = kLeastOffBrink; off < kMostOffBrink * search_.pitch(); off *= 2) {
+        std::optional<Position> best;
+        for (int k = 0; k < kWays; ++k) {
+            const double turn = 2 * kPi * k / kWays;
+            const double x = brink.x + off * std::cos(turn);
+            const double y = brink.y + off * std::sin(turn);
+            if (search_.height_under(drop_at(x, y, edges).centre, place) > resolution) {
+                continue;
+            }
+            const std::optional<Position> there = exact_over(place, x, y, edges);
+            if (there && there->height <= resolution && (!best || there->height < best->height)) {
+                best = there;
+            }
+        }
+        if (best) {
+            return best;
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace cusp::finishing

@@ -1,0 +1,93 @@
+// Passes over open rims of upright walls: the sliver that the tolerance keeps on such a wall stands
+// up to the stock's top until the ball has gone over its rim.
+#include <algorithm>
+#include <cmath>
+
+#include "host_tools/finishing/scallop_check.hpp"
+
+namespace cusp::finishing {
+
+using nurbs::Surface;
+using part_model::PartModel;
+
+namespace {
+
+constexpr double kUprightRim = 0.2;  // z of the normal: below, cells are proved along the normal
+constexpr double kRimStep = 0.125;   // in steps between passes
+constexpr int kLeastRim = 16;        // places
+constexpr int kMostRim = 4000;
+
+double length_between(const PartModel& model, int surface, Vec2d from, Vec2d to)
+{
+    double sum = 0;
+    Vec3d last = model.evaluate(surface, from.x, from.y).point;
+    for (int k = 1; k <= kLeastRim; ++k) {
+        const Vec2d at = from + (to - from) * (static_cast<double>(k) / kLeastRim);
+        const Vec3d next = model.evaluate(surface, at.x, at.y).point;
+        sum += norm(next - last);
+        last = next;
+    }
+    return sum;
+}
+
+}  // namespace
+
+// The tip over a place of a rim, where that takes away more than what may be left.
+std::optional<Vec3d> ScallopCheck::tip_over_rim(int surface, Vec2d place) const
+{
+    if (!path_fitter_.model().inside_trims(surface, place.x, place.y)) {
+        return std::nullopt;
+    }
+    const Corner at = corner(surface, place.x, place.y);
+    if (at.normal.z >= kUprightRim || is_hidden(at)) {
+        return std::nullopt;
+    }
+    const Vec3d p = at.point.point;
+    const double now = places_.swept().lowest(p.x, p.y).height;
+    if (now <= p.z + scallop_) {
+        return std::nullopt;
+    }
+    const std::optional<Vec3d> tip = path_fitter_.drop(p.x, p.y);
+    return tip && now - tip->z > scallop_ ? tip : std::nullopt;
+}
+
+void ScallopCheck::go_over_rim(int surface,
+                               Vec2d from,
+                               Vec2d to,
+                               const std::function<void(const Points&)>& cut)
+{
+    const double length = length_between(path_fitter_.model(), surface, from, to);
+    const int parts =
+        std::clamp(static_cast<int>(length / (kRimStep * places_.step())), kLeastRim, kMostRim);
+    Points run;
+    const auto close = [&] {
+        if (!run.empty()) {
+            for (const Points& pass : places_.runs_of(run)) {
+                cut(pass);
+            }
+        }
+        run.clear();
+    };
+    for (int k = 0; k <= parts; ++k) {
+        const double share = static_cast<double>(k) / parts;
+        if (const auto tip = tip_over_rim(surface, from * (1 - share) + to * share)) {
+            run.push_back(*tip);
+        } else {
+            close();
+        }
+    }
+    close();
+}
+
+void ScallopCheck::add_rim_passes(int surface, const std::function<void(const Points&)>& cut)
+{
+    const Surface& s = surfaces_[static_cast<std::size_t>(surface)];
+    const std::array<Vec2d, 4> corners{Vec2d{s.u_begin(), s.v_begin()},
+                                       Vec2d{s.u_end(), s.v_begin()}, Vec2d{s.u_end(), s.v_end()},
+                                       Vec2d{s.u_begin(), s.v_end()}};
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        go_over_rim(surface, corners[k], corners[(k + 1) % corners.size()], cut);
+    }
+}
+
+}  // namespace cusp::finishing

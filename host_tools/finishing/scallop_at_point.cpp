@@ -1,0 +1,191 @@
+// Moves near the place are tried one by one; best tips come from `ReachableHeight`.
+#include "host_tools/finishing/scallop_at_point.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cusp::finishing {
+
+using nurbs::Surface;
+
+namespace {
+
+constexpr double kReachStep = 0.25;    // in steps between passes
+constexpr double kReachPitch = 0.125;  // radii, at least
+// How high drops may be: mm, but no less and no more than shares of the scallop. A part of metres
+// would be cut to millions of pieces otherwise.
+constexpr double kDropAccuracy = 1e-4;
+constexpr double kLeastDropShare = 0.001;
+constexpr double kMostDropShare = 0.005;
+constexpr double kAgrees = 3;        // of the accuracy of drops: what searches tell apart
+constexpr double kTraceApart = 0.3;  // in steps between passes, of tips that one line may join
+constexpr double kFarApart = 0.5;    // radii, of tips that one pass may join
+constexpr double kShortest = 1e-3;   // mm
+
+}  // namespace
+
+Vec3d raised(Vec3d point, Vec3d normal, double scallop, bool upright)
+{
+    return upright ? point + Vec3d{0, 0, scallop / normal.z} : point + normal * scallop;
+}
+
+Vec3d centre_under(Vec3d top, Vec3d normal, double scallop, double radius)
+{
+    return top + normal * (radius - scallop);
+}
+
+ScallopAtPoint::ScallopAtPoint(const std::vector<Surface>& surfaces,
+                               const GougeFreePathFitter& path_fitter,
+                               double scallop,
+                               double path_off)
+    : path_fitter_{path_fitter},
+      radius_{path_fitter.tool().radius},
+      scallop_{scallop},
+      path_off_{path_off},
+      step_{std::sqrt(8 * radius_ * scallop)},
+      swept_{radius_, 0.6 * step_},
+      accuracy_{std::clamp(kDropAccuracy, kLeastDropShare * scallop, kMostDropShare * scallop)},
+      reach_{surfaces, path_fitter, std::max(kReachStep * step_, kReachPitch * radius_), accuracy_}
+{
+    if (surfaces.empty()) {
+        lower_position_.emplace(path_fitter, std::max(kReachStep * step_, kReachPitch * radius_));
+    }
+}
+
+Vec3d ScallopAtPoint::touching_tip(Vec3d point, Vec3d normal) const
+{
+    return point + normal * (radius_ + path_fitter_.band().offset) - Vec3d{0, 0, radius_};
+}
+
+bool ScallopAtPoint::is_covered(Vec3d point, Vec3d normal, double share) const
+{
+    const double allowed = scallop_ * share;
+    const Vec3d top = raised(point, normal, allowed, normal.z >= kSteepNormal);
+    swept_.near(centre_under(top, normal, allowed, radius_), near_);
+    return std::any_of(near_.begin(), near_.end(),
+                       [&](std::uint32_t move) { return swept_.removes(move, top, path_off_); });
+}
+
+// What is told at once of whether a ball takes off more than a share of the scallop, by what
+// searches tell apart.
+LowerPositionProof::Verdict ScallopAtPoint::quick_verdict(Vec3d point,
+                                                          Vec3d normal,
+                                                          double share,
+                                                          const SweptVolume::Lowest& now) const
+{
+    const double resolution = scallop_ * share / normal.z;
+    if (now.height - point.z <= resolution) {
+        return LowerPositionProof::Verdict::kNone;
+    }
+    if (!lower_position_ || !std::isfinite(now.height)) {
+        return LowerPositionProof::Verdict::kUnknown;
+    }
+    return lower_position_->verdict_over(
+        {point.x, point.y, now.height - resolution - kAgrees * accuracy_}, now.centre);
+}
+
+ScallopAtPoint::LowerTip ScallopAtPoint::searched(Vec3d point,
+                                                  Vec3d normal,
+                                                  double share,
+                                                  const SweptVolume::Lowest& now) const
+{
+    const double resolution = scallop_ * share;
+    const double cosine = normal.z;
+    const std::optional<ReachableHeight::Position> best =
+        reach_.lowest_over(point, now.height - resolution / cosine);
+    if (!best || (now.height - best->height) * cosine <= resolution) {
+        return {};
+    }
+    if (path_fitter_.moved_clear_of_edges({best->tip}).front() == best->tip) {
+        return {best->tip, (now.height - best->height) * cosine, false};
+    }
+    const std::optional<ReachableHeight::Position> kept =
+        reach_.lowest_clear_of_edges(point, *best, now.height - resolution / cosine);
+    if (!kept || (now.height - kept->height) * cosine <= resolution) {
+        return {std::nullopt, 0, true};
+    }
+    return {kept->tip, (now.height - kept->height) * cosine, false};
+}
+
+ScallopAtPoint::LowerTip ScallopAtPoint::lower_tip(Vec3d point, Vec3d normal, double share) const
+{
+    const SweptVolume::Lowest now = swept_.lowest(point.x, point.y);
+    return quick_verdict(point, normal, share, now) == LowerPositionProof::Verdict::kNone
+               ? LowerTip{}
+               : searched(point, normal, share, now);
+}
+
+bool ScallopAtPoint::has_no_lower_tip(Vec3d point, Vec3d normal) const
+{
+    return quick_verdict(point, normal, 1, swept_.lowest(point.x, point.y)) ==
+           LowerPositionProof::Verdict::kNone;
+}
+
+bool ScallopAtPoint::settled(Vec3d point, Vec3d normal) const
+{
+    const SweptVolume::Lowest now = swept_.lowest(point.x, point.y);
+    const LowerPositionProof::Verdict quick = quick_verdict(point, normal, kSettledShare, now);
+    if (quick != LowerPositionProof::Verdict::kUnknown) {
+        return quick == LowerPositionProof::Verdict::kNone;
+    }
+    const LowerTip better = searched(point, normal, kSettledShare, now);
+    return !better.tip && !better.moved_clear;
+}
+
+ScallopAtPoint::Uncut ScallopAtPoint::uncut_at(Vec3d point, Vec3d normal, double resolution) const
+{
+    const SweptVolume::Lowest now = swept_.lowest(point.x, point.y);
+    if (!std::isfinite(now.height)) {
+        return {radius_, 0};
+    }
+    if ((now.height - point.z) * normal.z <= resolution) {
+        return {};
+    }
+    const auto over = [&](double height) {
+        const double from = std::max(point.z, height);
+        return std::min(radius_, std::max(0.0, (now.height - from) * normal.z));
+    };
+    const double least_resolution = now.height - resolution / normal.z;
+    const std::optional<ReachableHeight::Position> best =
+        reach_.lowest_over(point, least_resolution);
+    if (!best) {
+        return {over(point.z), 0};
+    }
+    if (best->height > least_resolution ||
+        path_fitter_.moved_clear_of_edges({best->tip}).front() == best->tip) {
+        return {over(best->height), 0};
+    }
+    const std::optional<ReachableHeight::Position> kept =
+        reach_.lowest_clear_of_edges(point, *best, least_resolution);
+    return {kept ? over(kept->height) : 0, over(best->height)};
+}
+
+std::vector<Points> ScallopAtPoint::runs_of(const Points& tips) const
+{
+    // A place that is at the limit may have its tip when asked once and none the next time: drops
+    // are right to a micrometre only.
+    if (tips.empty()) {
+        return {};
+    }
+    std::vector<Points> out{{tips.front()}};
+    for (std::size_t k = 1; k < tips.size(); ++k) {
+        const double apart = norm(tips[k] - out.back().back());
+        if (apart > kFarApart * radius_) {
+            out.push_back({tips[k]});
+            continue;
+        }
+        if (apart > kTraceApart * step_) {
+            const Points between = path_fitter_.sample_dropped(out.back().back(), tips[k]);
+            out.back().insert(out.back().end(), between.begin() + 1, between.end() - 1);
+        }
+        out.back().push_back(tips[k]);
+    }
+    for (Points& run : out) {
+        if (run.size() == 1) {
+            run.push_back(run.front() + Vec3d{kShortest, 0, 0});
+        }
+    }
+    return out;
+}
+
+}  // namespace cusp::finishing

@@ -1,0 +1,453 @@
+// Cells are halved across the passes as long as one move covers each half.
+#include "host_tools/finishing/scallop_check.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "host_tools/nurbs/knot_insertion.hpp"
+
+namespace cusp::finishing {
+
+using nurbs::knots_between;
+using nurbs::Surface;
+using nurbs::SurfacePoint;
+
+namespace {
+
+constexpr double kSmallest = 1.0 / 96;  // cells, in steps between passes
+constexpr double kLargest = 4;          // the same
+constexpr double kBorderCell = 0.03;    // the same across a border, where a ball reaches over it
+constexpr double kSteepCell = 0.04;     // the same where what stands is steep
+constexpr double kSteepShare = 4.0;     // of the scallop, between corners: steep
+constexpr double kGapCell = 0.125;      // the same where gaps are looked for, over places
+constexpr int kDeepest = 40;
+constexpr double kBorderSlack = 1e-6;  // of a surface's domain
+
+double largest(const std::array<double, 4>& of) { return *std::max_element(of.begin(), of.end()); }
+
+}  // namespace
+
+ScallopCheck::ScallopCheck(const std::vector<Surface>& surfaces,
+                           const GougeFreePathFitter& path_fitter,
+                           double scallop,
+                           double path_off,
+                           std::size_t most_gaps)
+    : surfaces_{surfaces},
+      path_fitter_{path_fitter},
+      radius_{path_fitter.tool().radius},
+      scallop_{scallop},
+      path_off_{path_off},
+      max_uncovered_{most_gaps},
+      places_{surfaces, path_fitter, scallop, path_off}
+{
+}
+
+void ScallopCheck::add(const Points& tips)
+{
+    if (looked_) {
+        places_.add(tips);
+    } else {
+        waiting_.push_back(tips);
+    }
+}
+
+ScallopCheck::Corner ScallopCheck::corner(int surface, double u, double v) const
+{
+    Corner out{surface, u, v, path_fitter_.model().evaluate(surface, u, v), {}};
+    out.normal = path_fitter_.model().facing_up(surface, u, v, out.point);
+    return out;
+}
+
+// Whether a place belongs to the surface. Trims that run along a border may miss it by rounding.
+bool ScallopCheck::inside_trims(int surface, double u, double v) const
+{
+    const Surface& s = surfaces_[static_cast<std::size_t>(surface)];
+    const double slack_u = kBorderSlack * (s.u_end() - s.u_begin());
+    const double slack_v = kBorderSlack * (s.v_end() - s.v_begin());
+    return path_fitter_.model().inside_trims(
+        surface, std::clamp(u, s.u_begin() + slack_u, s.u_end() - slack_u),
+        std::clamp(v, s.v_begin() + slack_v, s.v_end() - slack_v));
+}
+
+// Whether a ball can touch the place.
+bool ScallopCheck::is_clear(const Corner& at) const
+{
+    return dot(at.normal, at.normal) > 0 &&
+           path_fitter_.is_clear(places_.touching_tip(at.point.point, at.normal));
+}
+
+std::array<ScallopCheck::Corner, 4> ScallopCheck::corners_of(const Cell& cell) const
+{
+    return {corner(cell.surface, cell.u0, cell.v0), corner(cell.surface, cell.u1, cell.v0),
+            corner(cell.surface, cell.u0, cell.v1), corner(cell.surface, cell.u1, cell.v1)};
+}
+
+ScallopCheck::Corner ScallopCheck::middle_of(const Cell& cell) const
+{
+    return corner(cell.surface, 0.5 * (cell.u0 + cell.u1), 0.5 * (cell.v0 + cell.v1));
+}
+
+std::array<ScallopCheck::Cell, 2> ScallopCheck::halves_of(const Cell& cell, bool along_u)
+{
+    std::array<Cell, 2> out{cell, cell};
+    if (along_u) {
+        out[0].u1 = out[1].u0 = 0.5 * (cell.u0 + cell.u1);
+    } else {
+        out[0].v1 = out[1].v0 = 0.5 * (cell.v0 + cell.v1);
+    }
+    return out;
+}
+
+// mm, straight, from its first corner.
+std::array<double, 2> ScallopCheck::sides_of(const Cell& cell) const
+{
+    const auto at = [&](double u, double v) {
+        return path_fitter_.model().evaluate(cell.surface, u, v).point;
+    };
+    const Vec3d first = at(cell.u0, cell.v0);
+    return {norm(at(cell.u1, cell.v0) - first), norm(at(cell.u0, cell.v1) - first)};
+}
+
+ScallopCheck::Verdict ScallopCheck::judge(const Cell& cell, const std::array<Corner, 4>& at) const
+{
+    const double width_u = cell.u1 - cell.u0;
+    const double width_v = cell.v1 - cell.v0;
+    std::array<double, 4> along_u{};
+    std::array<double, 4> along_v{};
+    std::array<double, 4> bow{};
+    double turn = 0;
+    double least_z = 1;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const SurfacePoint& p = at[k].point;
+        along_u[k] = norm(p.du) * width_u;
+        along_v[k] = norm(p.dv) * width_v;
+        bow[k] = 0.25 * (norm(p.duu) * width_u * width_u + norm(p.dvv) * width_v * width_v);
+        turn = std::max(turn, norm(at[k].normal - at[0].normal));
+        least_z = std::min(least_z, at[k].normal.z);
+    }
+    const double long_u = std::max(largest(along_u), norm(at[1].point.point - at[0].point.point));
+    const double long_v = std::max(largest(along_v), norm(at[2].point.point - at[0].point.point));
+    const Verdict longer = long_u >= long_v ? Verdict::kHalveU : Verdict::kHalveV;
+    if (std::max(long_u, long_v) > kLargest * places_.step() || turn > 0.5) {
+        if (std::max(long_u, long_v) > kSmallest * places_.step()) {
+            return longer;
+        }
+    }
+    const bool upright = least_z >= kSteepNormal;
+    const double bend = upright ? turn / least_z : turn;
+    const double less = path_off_ + largest(bow) + 0.5 * scallop_ * bend * bend;
+    const Corner middle = middle_of(cell);
+    const Vec3d middle_top = raised(middle.point.point, middle.normal, scallop_,
+                                    upright && middle.normal.z >= kSteepNormal);
+    places_.swept().near(centre_under(middle_top, middle.normal, scallop_, radius_), near_);
+    std::array<Vec3d, 4> tops{};
+    for (std::size_t k = 0; k < 4; ++k) {
+        tops[k] = raised(at[k].point.point, at[k].normal, scallop_, upright);
+    }
+    // One bit a corner, of the moves that cover it.
+    std::array<bool, 16> together{};
+    for (const std::uint32_t move : near_) {
+        unsigned covers = 0;
+        for (unsigned k = 0; k < 4; ++k) {
+            if (places_.swept().removes(move, tops[k], less)) {
+                covers |= 1U << k;
+            }
+        }
+        if (covers == 15) {
+            return Verdict::kCovered;
+        }
+        together[covers] = true;
+    }
+    const auto some = [&](unsigned corners) {
+        for (unsigned k = corners; k < 16; ++k) {
+            if ((k & corners) == corners && together[k]) {
+                return true;
+            }
+        }
+        return false;
+    };
+    if (std::max(long_u, long_v) < kBlockedCell * places_.step()) {
+        if (blocked_somewhere(at)) {
+            return thinned(cell, at, long_u, long_v);
+        }
+        if (is_uncovered(at)) {
+            return Verdict::kUncovered;
+        }
+    } else if (std::max(long_u, long_v) < kSettledCell * places_.step() &&
+               settled(cell, at, middle)) {
+        return Verdict::kCovered;
+    }
+    if (std::max(long_u, long_v) < kSmallest * places_.step()) {
+        const bool each =
+            std::all_of(at.begin(), at.end(), [&](const Corner& c) { return is_covered(c); });
+        return each ? Verdict::kCovered : Verdict::kUncovered;
+    }
+    const double least = 0.5 * kSmallest * places_.step();
+    if (long_u > least && long_v > least) {
+        if (some(3) && some(12)) {
+            return Verdict::kHalveV;
+        }
+        if (some(5) && some(10)) {
+            return Verdict::kHalveU;
+        }
+    }
+    if (near_.empty() && std::max(long_u, long_v) < places_.step() &&
+        ((lies_under_others(cell, at) && !silhouette_above(at)) || lies_under_itself(at, middle))) {
+        return Verdict::kCovered;
+    }
+    return longer;
+}
+
+// From beyond a border the ball gets the lower the nearer to it a place is, and beside cliffs what
+// stands at one place says nothing of the next.
+ScallopCheck::Verdict ScallopCheck::thinned(const Cell& cell,
+                                            const std::array<Corner, 4>& at,
+                                            double long_u,
+                                            double long_v) const
+{
+    const Verdict longer = long_u >= long_v ? Verdict::kHalveU : Verdict::kHalveV;
+    if (lies_under_others(cell, at)) {
+        if (!silhouette_above(at)) {
+            return Verdict::kCovered;
+        }
+        if (std::max(long_u, long_v) > kGapCell * places_.step()) {
+            return longer;
+        }
+        // The other corners are those of cells beside it.
+        if (is_hidden(middle_of(cell)) && is_hidden(at.front())) {
+            return Verdict::kCovered;
+        }
+    }
+    const Surface& s = surfaces_[static_cast<std::size_t>(cell.surface)];
+    const double thin = kBorderCell * places_.step();
+    if (long_u > thin && (cell.u0 == s.u_begin() || cell.u1 == s.u_end())) {
+        return Verdict::kHalveU;
+    }
+    if (long_v > thin && (cell.v0 == s.v_begin() || cell.v1 == s.v_end())) {
+        return Verdict::kHalveV;
+    }
+    return is_steep(at) ? longer : Verdict::kUncovered;
+}
+
+// Whether a cell is wide for one where some of the corners are trimmed away and others not, or far
+// more stands over some.
+bool ScallopCheck::is_steep(const std::array<Corner, 4>& at) const
+{
+    const double wide = kSteepCell * places_.step();
+    if (norm(at[1].point.point - at[0].point.point) < wide &&
+        norm(at[2].point.point - at[0].point.point) < wide) {
+        return false;
+    }
+    double least = std::numeric_limits<double>::infinity();
+    double most = -least;
+    int outside = 0;
+    for (const Corner& c : at) {
+        if (!inside_trims(c.surface, c.u, c.v)) {
+            ++outside;
+            continue;
+        }
+        const Vec3d p = c.point.point;
+        const double height = places_.swept().lowest(p.x, p.y).height;
+        if (std::isfinite(height)) {
+            least = std::min(least, (height - p.z) * c.normal.z);
+            most = std::max(most, (height - p.z) * c.normal.z);
+        }
+    }
+    return (outside > 0 && outside < 4) || most - least > kSteepShare * scallop_;
+}
+
+// Whether some corner is bare because the tool can't touch it, or is trimmed away.
+bool ScallopCheck::blocked_somewhere(const std::array<Corner, 4>& at) const
+{
+    return std::any_of(at.begin(), at.end(), [&](const Corner& c) { return blocked(c); });
+}
+
+// Whether nothing has been at any of the corners, which the tool can touch: cut there before cells
+// are halved.
+bool ScallopCheck::is_uncovered(const std::array<Corner, 4>& at) const
+{
+    return std::all_of(at.begin(), at.end(), [&](const Corner& c) {
+        return inside_trims(c.surface, c.u, c.v) && !is_covered(c) && is_clear(c);
+    });
+}
+
+// Whether the tool can touch none of the cell and there is nothing to be done in it: away from
+// borders, where the ball gets the lower the nearer a place is, and from cliffs.
+bool ScallopCheck::settled(const Cell& cell,
+                           const std::array<Corner, 4>& at,
+                           const Corner& middle) const
+{
+    const Surface& s = surfaces_[static_cast<std::size_t>(cell.surface)];
+    const auto inside = [&](const Corner& c) {
+        return c.normal.z >= kUprightNormal && inside_trims(c.surface, c.u, c.v);
+    };
+    return cell.u0 > s.u_begin() && cell.u1 < s.u_end() && cell.v0 > s.v_begin() &&
+           cell.v1 < s.v_end() && inside(middle) &&
+           std::all_of(at.begin(), at.end(),
+                       [&](const Corner& c) { return inside(c) && blocked(c); }) &&
+           !is_steep(at) && !is_hidden(middle) &&
+           places_.settled(middle.point.point, middle.normal);
+}
+
+// Whether the place is trimmed away or lies well under another surface.
+bool ScallopCheck::is_hidden(const Corner& at) const
+{
+    return !inside_trims(at.surface, at.u, at.v) ||
+           visibility().is_hidden(at.point.point, at.normal);
+}
+
+// Whether a cell lies well under other surfaces, but for gaps between those. One that is trimmed
+// away in its middle may be there beside it.
+bool ScallopCheck::lies_under_others(const Cell& cell, const std::array<Corner, 4>& at) const
+{
+    const VisibilityFromAbove& places = visibility();
+    const bool corners = std::all_of(at.begin(), at.end(), [&](const Corner& c) {
+        return places.under_others(c.point.point) || !inside_trims(c.surface, c.u, c.v);
+    });
+    if (!corners) {
+        return false;
+    }
+    const Corner middle = middle_of(cell);
+    return places.under_others(middle.point.point) &&
+           inside_trims(cell.surface, middle.u, middle.v);
+}
+
+// Whether the cell's own surface, which is whole, lies over it: just under the equator of a ball.
+bool ScallopCheck::lies_under_itself(const std::array<Corner, 4>& at, const Corner& middle) const
+{
+    const auto under = [&](const Corner& c) {
+        return visibility().under_itself(c.point.point, c.surface);
+    };
+    return surfaces_[static_cast<std::size_t>(middle.surface)].trims.empty() && under(middle) &&
+           std::all_of(at.begin(), at.end(), under);
+}
+
+// Whether some of a cell may be seen through a gap that misses its corners.
+bool ScallopCheck::silhouette_above(const std::array<Corner, 4>& at) const
+{
+    return visibility().silhouette_above(
+        {at[0].point.point, at[1].point.point, at[2].point.point, at[3].point.point});
+}
+
+const VisibilityFromAbove& ScallopCheck::visibility() const
+{
+    if (!visibility_) {
+        visibility_.emplace(surfaces_, path_fitter_, kBlockedCell * places_.step());
+    }
+    return *visibility_;
+}
+
+void ScallopCheck::check_cell(const Cell& cell, const std::array<Corner, 4>& at, int depth)
+{
+    if (overflowed_ ||
+        path_fitter_.model().outside_trims(cell.surface, {cell.u0, cell.v0}, {cell.u1, cell.v1})) {
+        return;
+    }
+    const Verdict verdict = judge(cell, at);
+    if (verdict == Verdict::kCovered) {
+        return;
+    }
+    if (verdict == Verdict::kUncovered || depth == 0) {
+        if (uncovered_.size() < max_uncovered_) {
+            uncovered_.push_back(cell);
+        } else {
+            overflowed_ = true;
+        }
+        return;
+    }
+    const auto [a, b] = halves_of(cell, verdict == Verdict::kHalveU);
+    if (verdict == Verdict::kHalveU) {
+        const Corner low = corner(cell.surface, a.u1, cell.v0);
+        const Corner high = corner(cell.surface, a.u1, cell.v1);
+        check_cell(a, {at[0], low, at[2], high}, depth - 1);
+        check_cell(b, {low, at[1], high, at[3]}, depth - 1);
+    } else {
+        const Corner low = corner(cell.surface, cell.u0, a.v1);
+        const Corner high = corner(cell.surface, cell.u1, a.v1);
+        check_cell(a, {at[0], at[1], low, high}, depth - 1);
+        check_cell(b, {low, high, at[2], at[3]}, depth - 1);
+    }
+}
+
+void ScallopCheck::check(int surface)
+{
+    const Surface& s = surfaces_[static_cast<std::size_t>(surface)];
+    check(surface, {s.u_begin(), s.v_begin()}, {s.u_end(), s.v_end()});
+}
+
+void ScallopCheck::check(int surface, Vec2d low, Vec2d high)
+{
+    if (!looked_) {
+        for (const Points& tips : waiting_) {
+            places_.add(tips);
+        }
+        waiting_.clear();
+        looked_ = true;
+    }
+    const Surface& s = surfaces_[static_cast<std::size_t>(surface)];
+    const std::vector<double> us =
+        knots_between(s.knots_u, std::max(low.x, s.u_begin()), std::min(high.x, s.u_end()));
+    const std::vector<double> vs =
+        knots_between(s.knots_v, std::max(low.y, s.v_begin()), std::min(high.y, s.v_end()));
+    for (std::size_t i = 1; i < us.size(); ++i) {
+        for (std::size_t j = 1; j < vs.size(); ++j) {
+            const Cell cell{surface, us[i - 1], us[i], vs[j - 1], vs[j]};
+            path_fitter_.model().forget_many_cells();
+            check_cell(cell, corners_of(cell), kDeepest);
+        }
+    }
+}
+
+ScallopCheck::Unproved ScallopCheck::unproved()
+{
+    Unproved out;
+    std::vector<Cell> touched;
+    std::vector<Cell> blocked;
+    for (const Cell& cell : uncovered_) {
+        const std::array<Corner, 4> at = corners_of(cell);
+        if (std::all_of(at.begin(), at.end(), [&](const Corner& c) { return is_hidden(c); })) {
+            continue;
+        }
+        if (blocked_somewhere(at)) {
+            blocked.push_back(cell);
+            continue;
+        }
+        touched.push_back(cell);
+        out.parts.push_back({cell.surface, {cell.u0, cell.v0}, {cell.u1, cell.v1}});
+    }
+    out.left = most_left_in(touched);
+    out.blocked_left = most_left_in(blocked);
+    return out;
+}
+
+// Highest places first: most of the others are told to be lower without a search.
+double ScallopCheck::most_left_in(const std::vector<Cell>& cells)
+{
+    struct High {
+        Corner at;
+        double over;  // mm, over the surface
+    };
+    std::vector<High> all;
+    for (const Cell& cell : cells) {
+        for (const Place& place : places_of(cell)) {
+            const Corner at = corner(cell.surface, place.u, place.v);
+            const Vec3d p = at.point.point;
+            const double over = (places_.swept().lowest(p.x, p.y).height - p.z) * at.normal.z;
+            if (over > scallop_ && at.normal.z >= kUprightNormal && !is_hidden(at)) {
+                all.push_back({at, over});
+            }
+        }
+    }
+    std::sort(all.begin(), all.end(), [](const High& a, const High& b) { return a.over > b.over; });
+    double most = 0;
+    for (const High& high : all) {
+        if (high.over <= most) {
+            break;
+        }
+        most = std::max(most, scallop_over_reachable(high.at, std::max(scallop_, most)));
+    }
+    return most;
+}
+
+}  // namespace cusp::finishing

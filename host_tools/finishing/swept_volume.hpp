@@ -1,0 +1,76 @@
+// The metal that straight moves of a ball remove, and the moves near a place.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "host_tools/nurbs/nurbs.hpp"
+
+namespace cusp::finishing {
+
+// Moves by the centres of the ball. What one removes, a ball and its shank swept along a line, is
+// convex.
+//
+// Not for use by two threads at once.
+class SweptVolume {
+public:
+    struct Move {
+        Vec3d from;
+        Vec3d to;
+    };
+
+    // radius  mm, of the ball
+    // reach   mm: how near to a centre moves are looked for
+    SweptVolume(double radius, double reach);
+
+    // Straight moves through tips of the tool.
+    void add(const std::vector<Vec3d>& tips);
+
+    // The numbers of all moves that pass within `reach` of the centre, and some more.
+    void near(Vec3d centre, std::vector<std::uint32_t>& out) const;
+
+    // Whether the point lies in what the move removes, by a tool that is smaller by `shrink`.
+    bool removes(std::uint32_t move, Vec3d point, double shrink) const;
+
+    // Whether the ball itself comes to the point.
+    bool passes_near(std::uint32_t move, Vec3d point) const;
+
+    // The lowest point that all moves leave free of metal straight above (x, y), and the centre of
+    // the ball that does; height is infinite where there is none.
+    struct Lowest {
+        double height;
+        Vec3d centre;
+    };
+    Lowest lowest(double x, double y) const;
+
+private:
+    using Key = std::uint64_t;
+    static constexpr std::int64_t kBlock = 8;  // squares, each way
+    struct Square {
+        double low{std::numeric_limits<double>::infinity()};  // mm: least height of a centre
+        std::vector<std::uint32_t> moves;
+    };
+    struct Block {
+        double low{std::numeric_limits<double>::infinity()};
+        std::array<Square, kBlock * kBlock> squares;
+    };
+    // Share of the move where the ball is lowest straight over (x, y); none where it misses.
+    std::optional<double> lowest_share(const Move& move, double x, double y) const;
+    void try_move(std::uint32_t number, double x, double y, Lowest& best) const;
+    bool may_be_lower(double low, Vec2d corner, double side, Vec2d at, double than) const;
+    static Key key(std::int64_t i, std::int64_t j);
+    static std::size_t number_in_block(std::int64_t i, std::int64_t j);
+    std::int64_t cell(double at) const;
+
+    double radius_;
+    double pitch_;
+    std::vector<Move> moves_;
+    std::unordered_map<Key, Block> blocks_;
+    mutable std::uint32_t last_{};  // the move that was lowest: mostly it is beside the place, too
+};
+
+}  // namespace cusp::finishing

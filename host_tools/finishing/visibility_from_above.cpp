@@ -1,0 +1,66 @@
+// Outlines bound what is hidden: between them all or nothing is.
+#include "host_tools/finishing/visibility_from_above.hpp"
+
+#include <algorithm>
+
+#include "host_tools/finishing/scallop_at_point.hpp"
+
+namespace cusp::finishing {
+
+using nurbs::Surface;
+using toolpath::Tool;
+using toolpath::ToolShape;
+
+namespace {
+
+constexpr double kNeedle = 0.01;  // mm, radius
+
+}  // namespace
+
+VisibilityFromAbove::VisibilityFromAbove(const std::vector<Surface>& surfaces,
+                                         const GougeFreePathFitter& path_fitter,
+                                         double pitch)
+    : path_fitter_{path_fitter}, tops_{surfaces, path_fitter.model(), pitch}
+{
+}
+
+// The squares around one that lies on a slope are higher than it.
+double VisibilityFromAbove::roof_over(double z) const { return z + kHidden + 2 * tops_.pitch(); }
+
+bool VisibilityFromAbove::under_others(Vec3d place) const
+{
+    return tops_.least_around(place.x, place.y) > roof_over(place.z);
+}
+
+bool VisibilityFromAbove::under_itself(Vec3d place, int surface) const
+{
+    return tops_.finds_over(place, kHidden, surface);
+}
+
+bool VisibilityFromAbove::is_hidden(Vec3d place, Vec3d normal) const
+{
+    const Vec2d at{place.x, place.y};
+    if (!under_others(place)) {
+        return tops_.finds_over(place, kHidden);
+    }
+    if (!(tops_.highest_silhouette(at, at) > roof_over(place.z))) {
+        return true;
+    }
+    // The needle's shank meets what lies over the place.
+    const Tool needle{0, ToolShape::kBall, kNeedle, kNeedle};
+    const double rise = kHidden + kNeedle * (1 / std::max(normal.z, kUprightNormal) - 1);
+    return !path_fitter_.model().is_distance_at_least(needle, place + Vec3d{0, 0, rise}, 0.0);
+}
+
+bool VisibilityFromAbove::silhouette_above(const std::array<Vec3d, 4>& corners) const
+{
+    Vec3d low = corners[0];
+    Vec3d high = corners[0];
+    for (const Vec3d& p : corners) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    return tops_.highest_silhouette({low.x, low.y}, {high.x, high.y}) > roof_over(low.z);
+}
+
+}  // namespace cusp::finishing

@@ -1,0 +1,122 @@
+// Moves of the tip over the floor: heights by exact drop, few moves, each proven not to cut in.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "host_tools/grid_pocket/grid_drop_cutter.hpp"
+#include "host_tools/grid_pocket/profile_fit.hpp"
+#include "host_tools/job/job.hpp"
+#include "host_tools/offset/contour.hpp"
+
+namespace cusp::grid_pocket {
+
+struct FollowSettings {
+    double tolerance{};       // mm, > 0: height of the band over the exact tip height
+    bool both_sides{};        // the band reaches as far below it: the paper's rule
+    bool arcs{};              // G18 and G19 arcs on runs along an axis
+    double arc_tolerance{};   // mm, > 0: the band's height where arcs are fitted
+    double max_arc_radius{};  // mm: flatter arcs become lines
+    double sample{};          // mm, > 0: between looked-at places
+};
+
+// How far a move may be from the exact height, mm.
+double band_height(const FollowSettings& settings);
+
+// The height of a tip over a smooth floor is taken to bend no tighter than with this radius, mm:
+// for a ball that is proven, for a flat end, whose rim follows the floor itself, the proof of each
+// move decides.
+double bend_radius(const toolpath::Tool& tool);
+
+// Where the tip stands and the moves that brought it there.
+class GridMoveWriter {
+public:
+    explicit GridMoveWriter(toolpath::Toolpath& path) : path_{path} {}
+
+    void line(toolpath::MoveKind kind, Vec3d end);
+    void arc(toolpath::MoveKind kind, const toolpath::ArcTo& arc);
+    Vec3d at() const { return at_; }
+    bool started() const { return started_; }
+
+private:
+    toolpath::Toolpath& path_;
+    Vec3d at_{};
+    bool started_{false};
+};
+
+class ClPathFitter {
+public:
+    // Heights leave `allowance` mm, square to the surface, all over the floor.
+    ClPathFitter(const std::vector<nurbs::Surface>& floor,
+                 std::shared_ptr<const part_model::PartModel> model,
+                 const toolpath::Tool& tool,
+                 double allowance,
+                 FollowSettings settings);
+
+    // The same, but never below a level: the floor of a roughing layer.
+    ClPathFitter above(double level) const;
+
+    // Exact height of the tip over (x, y); none where no surface lies under the tool.
+    std::optional<double> height(Vec2d at) const;
+
+    // Height at which moves pass the point: the exact one, or the middle of the band.
+    double start_height(Vec2d at) const;
+
+    // The lowest that moves over the point may be.
+    double lowest_height(Vec2d at) const;
+
+    // No move is lower than this.
+    double bottom() const
+    {
+        return std::max(min_z_, drop_cutter_.lowest() + allowance_ - allowed_gouge());
+    }
+
+    // Cuts along the corners, straight in plan between them, from where the tip stands at the
+    // first.
+    void follow(GridMoveWriter& moves, const std::vector<Vec2d>& corners, toolpath::MoveKind kind);
+
+    // Cuts along an arc in plan from where the tip stands at its start, where the floor is level
+    // along it and the arc is proven clear. Returns whether it did.
+    bool follow_level_arc(GridMoveWriter& moves, const offset::Edge& arc, toolpath::MoveKind kind);
+
+    // follow() as chords from `start`, along at most `length` mm.
+    std::vector<Vec3d> chords(const std::vector<Vec2d>& corners, double length) const;
+
+    // Lower bound of the distance that a straight move keeps from the floor, cut off at
+    // `sufficient`.
+    double move_clearance(Vec3d a, Vec3d b, double sufficient) const;
+
+    bool has_flat_end() const
+    {
+        return drop_cutter_.tool().corner_radius < drop_cutter_.tool().radius;
+    }
+
+    // Largest depth that any move so far may cut into the floor; 0 where all are proven clear.
+    double gouge_bound() const { return gouge_bound_; }
+
+    // Lets that depth count here, too: of moves over this floor as another follower saw it.
+    void add_bound(double depth) { gouge_bound_ = std::max(gouge_bound_, depth); }
+
+private:
+    GridDropCutter drop_cutter_;  // of the tool grown by the allowance
+    double allowance_;
+    FollowSettings settings_;
+    double min_z_{-1e300};
+    double gouge_bound_{0};
+
+    // How deep a move may cut: nothing, or the band where it reaches below the floor.
+    double allowed_gouge() const { return settings_.both_sides ? band_height(settings_) : 0.0; }
+    double path_height(Vec2d at) const;
+
+    std::vector<BandPoint> band(Vec2d a, Vec2d b, double tolerance) const;
+    void follow_segment(GridMoveWriter& moves, Vec2d a, Vec2d b, toolpath::MoveKind kind);
+    double room(Vec3d a, Vec3d b, double needed) const;
+    bool in_band(Vec2d at, double z) const;
+    double arc_room(Vec3d from, const toolpath::ArcTo& arc, double curvature) const;
+    std::vector<Vec3d> arc_vertices(Vec2d a, Vec2d b) const;
+    bool follow_with_arcs(GridMoveWriter& moves, Vec2d a, Vec2d b, toolpath::MoveKind kind);
+    void chord(GridMoveWriter& moves, Vec3d end, toolpath::MoveKind kind, int depth);
+};
+
+}  // namespace cusp::grid_pocket

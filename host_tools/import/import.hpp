@@ -1,0 +1,33 @@
+// Readers: job files, surfaces, meshes, loops. Everything they return is in millimetres, and
+// checked.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "host_tools/job/job.hpp"
+#include "host_tools/nurbs/nurbs.hpp"
+
+namespace cusp::import {
+
+// Reads a TOML job and the parts it names. Throws InputError.
+job::Job read_job(const std::string& file);
+
+// Geometry by itself, with clamped ends. Throws InputError.
+//
+// millimetres     of one unit of the file: 1 or 25.4; STEP and IGES name their own
+// mesh_tolerance  mm: how closely a mesh (STL) is followed, never below it (height_field.hpp)
+// notes           gets what was left out or changed; may be null
+std::vector<nurbs::Surface> read_surfaces(const std::string& file,
+                                          double millimetres = 1.0,
+                                          double mesh_tolerance = 0.01,
+                                          std::vector<std::string>* notes = nullptr);
+// The triangles of an STL file, in mm. `notes` gets what was left out and what overhangs.
+std::vector<std::array<Vec3d, 3>> read_mesh(const std::string& file,
+                                            double millimetres,
+                                            std::vector<std::string>* notes = nullptr);
+// Closed to 1e-3 mm, simple, oriented counter-clockwise. `name` of a drawing may end in #layer.
+job::Loop read_loop(const std::string& name, double millimetres = 1.0);
+
+}  // namespace cusp::import

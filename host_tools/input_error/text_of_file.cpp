@@ -1,0 +1,36 @@
+// Reads large files once, without a copy.
+#include "host_tools/input_error/text_of_file.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "host_tools/input_error/input_error.hpp"
+
+namespace cusp {
+
+std::string text_of_file(const std::string& file)
+{
+    if (std::filesystem::is_directory(file)) {
+        throw InputError(file + ": is a folder");
+    }
+    errno = 0;
+    std::ifstream in(file, std::ios::binary);
+    // A file without a known size (a pipe) is read all the same.
+    std::string text;
+    std::error_code unknown;
+    const std::uintmax_t size = std::filesystem::file_size(file, unknown);
+    text.resize(unknown ? 0 : static_cast<std::size_t>(size));
+    in.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, in.gcount())));
+    text.append(std::istreambuf_iterator<char>{in}, {});
+    if (!in && errno != 0) {
+        throw InputError(file + ": can't be read: " + std::strerror(errno));
+    }
+    return text;
+}
+
+}  // namespace cusp

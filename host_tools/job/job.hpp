@@ -1,0 +1,103 @@
+// A job: what to cut, with which tool, how. Data without a reader. Everything in millimetres.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host_tools/input_error/input_error.hpp"
+#include "host_tools/nurbs/nurbs.hpp"
+#include "host_tools/toolpath/toolpath.hpp"
+
+namespace cusp::job {
+
+enum class OutputForm : std::uint8_t { kLines, kArcs, kNurbs };
+enum class ToleranceSide : std::uint8_t { kOutside, kBoth };
+enum class CutDirection : std::uint8_t { kClimb, kConventional };
+enum class EntryKind : std::uint8_t { kAuto, kHelix, kRamp, kPlunge };
+enum class Traversal : std::uint8_t { kZigzag, kOneWay };
+
+// A closed chain of curves, in order, counter-clockwise seen from above; z is ignored.
+using Loop = std::vector<nurbs::Curve>;
+
+struct Operation {
+    int number{1};  // its place in the job
+    std::string strategy;
+    std::vector<nurbs::Surface> floor;
+    std::vector<std::string> floor_files;
+    // Of bodies that the floor was intersected with: `floor` is what is left.
+    std::vector<std::string> intersect_files;
+    // adaptive_isocurve, where all of the floor is STL: its triangles, and no `floor`.
+    std::vector<std::array<Vec3d, 3>> mesh;
+    std::optional<Loop> boundary;
+    std::string boundary_file;
+    std::vector<Loop> islands;
+    std::vector<std::string> island_files;
+    toolpath::Tool tool;
+    std::vector<toolpath::Tool> tools;  // hull_rough: the choice; else just `tool`
+    OutputForm output{OutputForm::kLines};
+    double plan_tolerance{};
+    double floor_tolerance{};
+    ToleranceSide tolerance_side{ToleranceSide::kOutside};
+    std::optional<double> scallop;
+    CutDirection direction_of_cut{CutDirection::kClimb};
+    EntryKind entry{EntryKind::kAuto};
+    Traversal traversal{Traversal::kZigzag};
+    double allowance{};
+    std::optional<double> max_depth;
+    std::optional<double> min_depth;
+    std::vector<double> layers;  // depths below stock.top
+    // adaptive_isocurve
+    std::optional<double> iso_distance;
+    bool even_steps{false};  // iso_spacing = "even": full steps instead of the paper's halving
+    char direction{'u'};
+    bool roughing{false};
+    // grid_pocket
+    double grid_x{};
+    double grid_y{};
+    std::vector<char> zigzag;  // 'x', 'y'
+    double arc_tolerance{};
+    double max_arc_radius{};
+    std::optional<double> max_roughness;
+    // hull_rough
+    double overlap{};
+    int extra_subdivision{};
+    bool contour_clearing{false};
+    // parallel_planes
+    std::optional<double> step_over;
+};
+
+// Of an operation's progress, where a finish follows.
+inline constexpr double kRoughingDone = 0.5;
+
+struct Job {
+    std::string file;
+    bool inch{false};  // of the G-code written; everything in this struct is mm
+    std::vector<toolpath::Tool> tools;
+    double feed{};         // mm/min
+    double plunge_feed{};  // mm/min
+    double spindle{};      // rpm
+    double stock_top{};
+    double clearance{};  // above stock_top
+    std::optional<double> stock_bottom;
+    std::optional<std::array<double, 2>> stock_x;
+    std::optional<std::array<double, 2>> stock_y;
+    std::vector<Operation> operations;
+    std::vector<std::string> notes;  // what the readers left out or changed, in words
+    // Called by planners now and then with the share of an operation that is done, 0 to 1, about;
+    // may be empty.
+    std::function<void(double)> progress;
+
+    // begun  the share that was done before the part that `share` is of
+    void report_progress(double share, double begun = 0.0) const
+    {
+        if (progress) {
+            progress(begun + (1.0 - begun) * share);
+        }
+    }
+};
+
+}  // namespace cusp::job

@@ -1,0 +1,371 @@
+// Evaluation by Bernstein polynomials, halving by de Casteljau.
+#include "host_tools/part_model/bezier_cell.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+namespace cusp::part_model {
+
+using nurbs::BezierPatch;
+using nurbs::SurfacePoint;
+
+namespace {
+
+constexpr std::size_t kMostControls = 32;
+using Row = std::array<double, kMostControls>;
+
+// Bernstein polynomials with first and second derivatives.
+struct Basis {
+    Row value;
+    Row first;
+    Row second;
+};
+
+void raise_degree(Row& row, std::size_t degree, double s)
+{
+    double carried = 0;
+    for (std::size_t i = 0; i < degree; ++i) {
+        const double b = row[i];
+        row[i] = carried + (1 - s) * b;
+        carried = s * b;
+    }
+    row[degree] = carried;
+}
+
+void differences(const Row& lower, std::size_t degree, Row& out)
+{
+    const double p = static_cast<double>(degree);
+    out[0] = -p * lower[0];
+    for (std::size_t i = 1; i < degree; ++i) {
+        out[i] = p * (lower[i - 1] - lower[i]);
+    }
+    out[degree] = p * lower[degree - 1];
+}
+
+void bernstein(std::size_t degree, double s, Basis& out)
+{
+    Row row;
+    row[0] = 1;
+    for (std::size_t k = 1; k + 1 < degree; ++k) {
+        raise_degree(row, k, s);
+    }
+    if (degree >= 2) {
+        Row slope;
+        differences(row, degree - 1, slope);
+        differences(slope, degree, out.second);
+        raise_degree(row, degree - 1, s);
+    } else {
+        out.second[0] = out.second[1] = 0;
+    }
+    differences(row, degree, out.first);
+    raise_degree(row, degree, s);
+    std::copy_n(row.begin(), degree + 1, out.value.begin());
+}
+
+// The same with the degree known to the compiler, which leaves no loop.
+template <std::size_t Count>
+struct FixedBasis {
+    std::array<double, Count> value;
+    std::array<double, Count> first;
+    std::array<double, Count> second;
+};
+
+FixedBasis<2> fixed_basis(std::integral_constant<std::size_t, 2>, double s)
+{
+    return {{1 - s, s}, {-1, 1}, {0, 0}};
+}
+
+FixedBasis<4> fixed_basis(std::integral_constant<std::size_t, 4>, double s)
+{
+    const double r = 1 - s;
+    return {{r * r * r, 3 * r * r * s, 3 * r * s * s, s * s * s},
+            {-3 * r * r, 3 * r * (r - 2 * s), 3 * s * (2 * r - s), 3 * s * s},
+            {6 * r, 6 * (s - 2 * r), 6 * (r - 2 * s), 6 * s}};
+}
+
+// Sum over j of the vectors in `row`, times the factors.
+template <std::size_t Count>
+Vec3d weighted(const std::array<double, 3 * Count>& row, const std::array<double, Count>& factor)
+{
+    Vec3d sum;
+    for (std::size_t j = 0; j < Count; ++j) {
+        sum.x += row[3 * j] * factor[j];
+        sum.y += row[3 * j + 1] * factor[j];
+        sum.z += row[3 * j + 2] * factor[j];
+    }
+    return sum;
+}
+
+// At one s, as curves of t: the control points of the value and of its derivatives by s. Rows are
+// summed as plain numbers, so that the compiler takes several at once.
+template <std::size_t CountS, std::size_t CountT>
+void reduce_to_curves(const Vec3d* points, double s, double* value, double* first, double* second)
+{
+    static_assert(sizeof(Vec3d) == 3 * sizeof(double));
+    const auto bs = fixed_basis(std::integral_constant<std::size_t, CountS>{}, s);
+    const double* control = &points->x;
+    for (std::size_t k = 0; k < 3 * CountT; ++k) {
+        double sum = 0;
+        double sum_first = 0;
+        double sum_second = 0;
+        for (std::size_t i = 0; i < CountS; ++i) {
+            const double c = control[i * 3 * CountT + k];
+            sum += c * bs.value[i];
+            sum_first += c * bs.first[i];
+            sum_second += c * bs.second[i];
+        }
+        value[k] = sum;
+        first[k] = sum_first;
+        second[k] = sum_second;
+    }
+}
+
+template <std::size_t Count>
+SurfacePoint on_curves(const std::array<double, 3 * Count>& value,
+                       const std::array<double, 3 * Count>& first,
+                       const std::array<double, 3 * Count>& second,
+                       double t)
+{
+    const auto bt = fixed_basis(std::integral_constant<std::size_t, Count>{}, t);
+    return {weighted<Count>(value, bt.value), weighted<Count>(first, bt.value),
+            weighted<Count>(value, bt.first), weighted<Count>(second, bt.value),
+            weighted<Count>(first, bt.first), weighted<Count>(value, bt.second)};
+}
+
+template <std::size_t CountS, std::size_t CountT>
+SurfacePoint polynomial_at(const Vec3d* points, double s, double t)
+{
+    std::array<double, 3 * CountT> value;
+    std::array<double, 3 * CountT> first;
+    std::array<double, 3 * CountT> second;
+    reduce_to_curves<CountS, CountT>(points, s, value.data(), first.data(), second.data());
+    return on_curves<CountT>(value, first, second, t);
+}
+
+// The same without second derivatives.
+template <std::size_t CountS, std::size_t CountT>
+void reduce_to_curve(const Vec3d* points, double s, double* value, double* first)
+{
+    const auto bs = fixed_basis(std::integral_constant<std::size_t, CountS>{}, s);
+    const double* control = &points->x;
+    for (std::size_t k = 0; k < 3 * CountT; ++k) {
+        double sum = 0;
+        double sum_first = 0;
+        for (std::size_t i = 0; i < CountS; ++i) {
+            const double c = control[i * 3 * CountT + k];
+            sum += c * bs.value[i];
+            sum_first += c * bs.first[i];
+        }
+        value[k] = sum;
+        first[k] = sum_first;
+    }
+}
+
+template <std::size_t CountS, std::size_t CountT>
+SurfacePoint tangents(const Vec3d* points, double s, double t)
+{
+    const auto bt = fixed_basis(std::integral_constant<std::size_t, CountT>{}, t);
+    std::array<double, 3 * CountT> value;
+    std::array<double, 3 * CountT> first;
+    reduce_to_curve<CountS, CountT>(points, s, value.data(), first.data());
+    return {weighted<CountT>(value, bt.value),
+            weighted<CountT>(first, bt.value),
+            weighted<CountT>(value, bt.first),
+            {},
+            {},
+            {}};
+}
+
+// De Casteljau at the middle over `count` values `stride` apart.
+template <class T>
+void halve(const T* from, T* lower, T* upper, std::size_t count, std::size_t stride)
+{
+    std::array<T, kMostControls> work;
+    for (std::size_t i = 0; i < count; ++i) {
+        work[i] = from[i * stride];
+    }
+    for (std::size_t k = 0; k < count; ++k) {
+        lower[k * stride] = work[0];
+        upper[(count - 1 - k) * stride] = work[count - 1 - k];
+        for (std::size_t i = 0; i + 1 < count - k; ++i) {
+            work[i] = (work[i] + work[i + 1]) * 0.5;
+        }
+    }
+}
+
+}  // namespace
+
+BezierCell::BezierCell(const BezierPatch& patch, int surface, std::size_t* made)
+    : surface_{surface},
+      made_{made},
+      count_s_{static_cast<std::size_t>(patch.surface.size_u)},
+      count_t_{static_cast<std::size_t>(patch.surface.size_v)},
+      points_{patch.surface.points},
+      u_begin_{patch.u_begin},
+      u_end_{patch.u_end},
+      v_begin_{patch.v_begin},
+      v_end_{patch.v_end}
+{
+    const std::vector<double>& weights = patch.surface.weights;
+    const auto [least, most] = std::minmax_element(weights.begin(), weights.end());
+    if (*least != *most) {
+        weights_ = weights;
+        for (std::size_t k = 0; k < points_.size(); ++k) {
+            points_[k] = points_[k] * weights_[k];
+        }
+    }
+    find_bounds();
+}
+
+Vec3d BezierCell::control(std::size_t i, std::size_t j) const
+{
+    const std::size_t k = i * count_t_ + j;
+    return weights_.empty() ? points_[k] : points_[k] / weights_[k];
+}
+
+SurfacePoint BezierCell::at(double s, double t) const
+{
+    if (weights_.empty() && count_s_ == 4 && count_t_ == 4) {
+        return polynomial_at<4, 4>(points_.data(), s, t);
+    }
+    if (weights_.empty() && count_s_ == 2 && count_t_ == 2) {
+        return polynomial_at<2, 2>(points_.data(), s, t);
+    }
+    return at_any_degree(s, t);
+}
+
+SurfacePoint BezierCell::tangents_at(double s, double t) const
+{
+    if (weights_.empty() && count_s_ == 4 && count_t_ == 4) {
+        return tangents<4, 4>(points_.data(), s, t);
+    }
+    return at(s, t);
+}
+
+bool BezierCell::cut_at(double s, Curve4& out) const
+{
+    if (!weights_.empty() || count_s_ != 4 || count_t_ != 4) {
+        return false;
+    }
+    reduce_to_curves<4, 4>(points_.data(), s, out.value.data(), out.along_s.data(),
+                           out.along_ss.data());
+    return true;
+}
+
+SurfacePoint BezierCell::on_cut(const Curve4& cut, double t)
+{
+    const auto bt = fixed_basis(std::integral_constant<std::size_t, 4>{}, t);
+    return {weighted<4>(cut.value, bt.value),
+            weighted<4>(cut.along_s, bt.value),
+            weighted<4>(cut.value, bt.first),
+            {},
+            {},
+            {}};
+}
+
+SurfacePoint BezierCell::bends_on_cut(const Curve4& cut, double t)
+{
+    return on_curves<4>(cut.value, cut.along_s, cut.along_ss, t);
+}
+
+// Of the degree count_s - 1 by count_t - 1.
+SurfacePoint BezierCell::at_any_degree(double s, double t) const
+{
+    Basis bs;
+    Basis bt;
+    bernstein(count_s_ - 1, s, bs);
+    bernstein(count_t_ - 1, t, bt);
+    SurfacePoint out;
+    double w = 0;
+    double ws = 0;
+    double wt = 0;
+    double wss = 0;
+    double wst = 0;
+    double wtt = 0;
+    for (std::size_t i = 0; i < count_s_; ++i) {
+        Vec3d p;
+        Vec3d pt;
+        Vec3d ptt;
+        const Vec3d* row = &points_[i * count_t_];
+        for (std::size_t j = 0; j < count_t_; ++j) {
+            p = p + row[j] * bt.value[j];
+            pt = pt + row[j] * bt.first[j];
+            ptt = ptt + row[j] * bt.second[j];
+        }
+        out.point = out.point + p * bs.value[i];
+        out.du = out.du + p * bs.first[i];
+        out.duu = out.duu + p * bs.second[i];
+        out.dv = out.dv + pt * bs.value[i];
+        out.duv = out.duv + pt * bs.first[i];
+        out.dvv = out.dvv + ptt * bs.value[i];
+        for (std::size_t j = 0; j < (weights_.empty() ? 0 : count_t_); ++j) {
+            const double weight = weights_[i * count_t_ + j];
+            w += weight * bt.value[j] * bs.value[i];
+            ws += weight * bt.value[j] * bs.first[i];
+            wss += weight * bt.value[j] * bs.second[i];
+            wt += weight * bt.first[j] * bs.value[i];
+            wst += weight * bt.first[j] * bs.first[i];
+            wtt += weight * bt.second[j] * bs.value[i];
+        }
+    }
+    if (!weights_.empty()) {
+        out.point = out.point / w;
+        out.du = (out.du - out.point * ws) / w;
+        out.dv = (out.dv - out.point * wt) / w;
+        out.duu = (out.duu - out.du * (2 * ws) - out.point * wss) / w;
+        out.duv = (out.duv - out.du * wt - out.dv * ws - out.point * wst) / w;
+        out.dvv = (out.dvv - out.dv * (2 * wt) - out.point * wtt) / w;
+    }
+    return out;
+}
+
+std::array<const BezierCell*, 2> BezierCell::halves() const
+{
+    if (!halves_[0]) {
+        std::array<std::unique_ptr<BezierCell>, 2> half;
+        const bool across_u = norm(middle_.du) >= norm(middle_.dv);
+        for (std::size_t k = 0; k < 2; ++k) {
+            half[k].reset(new BezierCell);
+            half[k]->surface_ = surface_;
+            half[k]->made_ = made_;
+            half[k]->count_s_ = count_s_;
+            half[k]->count_t_ = count_t_;
+            half[k]->points_.resize(points_.size());
+            half[k]->weights_.resize(weights_.size());
+            const double u_middle = 0.5 * (u_begin_ + u_end_);
+            const double v_middle = 0.5 * (v_begin_ + v_end_);
+            half[k]->u_begin_ = across_u && k == 1 ? u_middle : u_begin_;
+            half[k]->u_end_ = across_u && k == 0 ? u_middle : u_end_;
+            half[k]->v_begin_ = !across_u && k == 1 ? v_middle : v_begin_;
+            half[k]->v_end_ = !across_u && k == 0 ? v_middle : v_end_;
+            half[k]->first_u_ = first_u_ && !(across_u && k == 1);
+            half[k]->last_u_ = last_u_ && !(across_u && k == 0);
+            half[k]->first_v_ = first_v_ && (across_u || k == 0);
+            half[k]->last_v_ = last_v_ && (across_u || k == 1);
+            half[k]->trim_ = trim_ == Trim::kCut ? Trim::kUnknown : trim_;
+        }
+        const std::size_t lines = across_u ? count_t_ : count_s_;
+        const std::size_t count = across_u ? count_s_ : count_t_;
+        const std::size_t stride = across_u ? count_t_ : 1;
+        for (std::size_t line = 0; line < lines; ++line) {
+            const std::size_t first = across_u ? line : line * count_t_;
+            halve(&points_[first], &half[0]->points_[first], &half[1]->points_[first], count,
+                  stride);
+            if (!weights_.empty()) {
+                halve(&weights_[first], &half[0]->weights_[first], &half[1]->weights_[first], count,
+                      stride);
+            }
+        }
+        half[0]->find_bounds();
+        half[1]->find_bounds();
+        halves_[0] = std::move(half[0]);
+        halves_[1] = std::move(half[1]);
+        if (made_ != nullptr) {
+            *made_ += 2;
+        }
+    }
+    return {halves_[0].get(), halves_[1].get()};
+}
+
+}  // namespace cusp::part_model

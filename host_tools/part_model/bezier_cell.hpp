@@ -1,0 +1,156 @@
+// A piece of a Bezier patch that knows bounds of its place and of its derivatives from its control
+// points.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "host_tools/nurbs/nurbs.hpp"
+
+namespace cusp::part_model {
+
+// a u^2 + 2 b u v + c v^2.
+struct QuadraticForm {
+    double a{};
+    double b{};
+    double c{};
+
+    double operator()(double u, double v) const { return a * u * u + 2 * b * u * v + c * v * v; }
+    double determinant() const { return a * c - b * b; }
+    bool never_negative() const { return a >= 0 && c >= 0 && determinant() >= 0; }
+};
+
+class BezierCell {
+public:
+    // A patch with one span each way, as `bezier_patches` makes them.
+    //
+    // made  counts the halves made of it and of those, if given; must outlive it
+    BezierCell(const nurbs::BezierPatch& patch, int surface, std::size_t* made = nullptr);
+
+    int surface() const { return surface_; }
+    // Point and derivatives by the local parameters, each in [0, 1].
+    nurbs::SurfacePoint at(double s, double t) const;
+    // The same; second derivatives may be left out.
+    nurbs::SurfacePoint tangents_at(double s, double t) const;
+
+    // A bicubic cell at one s, as control points of a curve of t and of its derivative by s.
+    struct Curve4 {
+        std::array<double, 12> value;
+        std::array<double, 12> along_s;
+        std::array<double, 12> along_ss;
+    };
+    // False for cells of other degrees, and rational ones.
+    bool cut_at(double s, Curve4& out) const;
+    // Point and first derivatives.
+    static nurbs::SurfacePoint on_cut(const Curve4& cut, double t);
+    // Second derivatives, too.
+    static nurbs::SurfacePoint bends_on_cut(const Curve4& cut, double t);
+
+    double u(double s) const { return u_begin_ + s * (u_end_ - u_begin_); }
+    double v(double t) const { return v_begin_ + t * (v_end_ - v_begin_); }
+    double u_begin() const { return u_begin_; }
+    double u_end() const { return u_end_; }
+    double v_begin() const { return v_begin_; }
+    double v_end() const { return v_end_; }
+    // Whether the cell reaches the patch's first or last u, or v.
+    bool ends_in_u() const { return first_u_ || last_u_; }
+    bool ends_in_v() const { return first_v_ || last_v_; }
+
+    Vec3d low() const { return low_; }
+    Vec3d high() const { return high_; }
+
+    // The values at the middle, and how far any value in the cell is from them. Proved by the
+    // convex hull of the control points (of the derivatives'; for weights by interval arithmetic on
+    // them).
+    struct Spread {
+        double point;
+        double ds;
+        double dt;
+        double dss;
+        double dst;
+        double dtt;
+    };
+    const nurbs::SurfacePoint& middle() const { return middle_; }
+    const Spread& spread() const { return spread_; }
+
+    // A box along the tangent plane of the middle; axes()[0] is the upward normal.
+    const std::array<Vec3d, 3>& axes() const { return axes_; }
+    // Bounds of dot(point - middle().point, axes()[k]).
+    double box_low(std::size_t k) const { return box_low_[k]; }
+    double box_high(std::size_t k) const { return box_high_[k]; }
+
+    // Two halves across the longer side, made when first asked for.
+    std::array<const BezierCell*, 2> halves() const;
+    // Drops them, and what is known of the surroundings.
+    void forget() const
+    {
+        halves_ = {};
+        surroundings_.reset();
+    }
+
+    // The surface in and round the cell, for `MoveClearanceBound`; kept here once it is known.
+    struct Surroundings {
+        double u_begin, u_end, v_begin, v_end;
+        // For the contact at any place x of the cell, n its upward normal, and any y of the
+        // surroundings, w what lies between them in the domain:
+        //   (y - x)^2 >= nearness * metric(w),  2 n . (y - x) <= bend(w) + more * metric(w),
+        //   (y - x).z^2 <= climb^2 * metric(w).
+        // `more` is infinite where nothing is proved.
+        QuadraticForm metric;
+        QuadraticForm bend;
+        double nearness;
+        double more;
+        double climb;
+        double top;  // nothing of the surroundings is higher
+        // Patches that are nearer than `range` to a ball's centre at `centre`, over the middle of
+        // the cell, or to anything straight above it.
+        mutable std::vector<const BezierCell*> patches;
+        mutable Vec3d centre;
+        mutable double range;
+    };
+    const Surroundings* surroundings() const { return surroundings_.get(); }
+    void set_surroundings(const Surroundings& found) const
+    {
+        surroundings_ = std::make_unique<const Surroundings>(found);
+    }
+
+    enum class Trim : std::uint8_t { kUnknown, kInside, kOutside, kCut };
+    Trim trim() const { return trim_; }
+    void set_trim(Trim trim) const { trim_ = trim; }
+
+private:
+    BezierCell() = default;
+    nurbs::SurfacePoint at_any_degree(double s, double t) const;
+    void find_bounds();
+    Spread polynomial_spread() const;
+    Spread rational_spread() const;
+    Vec3d control(std::size_t i, std::size_t j) const;
+
+    int surface_{};
+    std::size_t* made_{};
+    std::size_t count_s_{};
+    std::size_t count_t_{};
+    std::vector<Vec3d> points_;    // times the weight
+    std::vector<double> weights_;  // empty: all 1
+    double u_begin_{};
+    double u_end_{};
+    double v_begin_{};
+    double v_end_{};
+    bool first_u_{true};
+    bool last_u_{true};
+    bool first_v_{true};
+    bool last_v_{true};
+    Vec3d low_;
+    Vec3d high_;
+    nurbs::SurfacePoint middle_;
+    Spread spread_{};
+    std::array<Vec3d, 3> axes_;
+    std::array<double, 3> box_low_{};
+    std::array<double, 3> box_high_{};
+    mutable std::array<std::unique_ptr<const BezierCell>, 2> halves_;
+    mutable std::unique_ptr<const Surroundings> surroundings_;
+    mutable Trim trim_{Trim::kUnknown};
+};
+
+}  // namespace cusp::part_model

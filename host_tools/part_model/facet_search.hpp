@@ -1,0 +1,28 @@
+// What of a model's facets a ball comes down on, over the tree of boxes.
+#pragma once
+
+#include <optional>
+
+#include "host_tools/part_model/nearest_search.hpp"
+
+namespace cusp::part_model {
+
+// A ball dropped at (x, y) on the facets of a model; none where it passes beside all of them.
+// Where several are met at once, the one that faces the ball most.
+struct MeshContact {
+    FacetContact at;
+    std::size_t facet;
+};
+std::optional<MeshContact> drop_ball_on_facets(const PartModel::State& state,
+                                               double x,
+                                               double y,
+                                               double radius);
+
+// The highest facet at (x, y).
+struct FacetUnder {
+    std::size_t facet;
+    double height;
+};
+std::optional<FacetUnder> highest_facet(const PartModel::State& state, double x, double y);
+
+}  // namespace cusp::part_model

@@ -1,0 +1,386 @@
+// Clearance of points and of straight moves, and the drop, all by the search for the nearest place.
+#include "host_tools/part_model/part_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host_tools/nurbs/knot_insertion.hpp"
+#include "host_tools/part_model/facet_search.hpp"
+#include "host_tools/part_model/move_clearance_bound.hpp"
+#include "host_tools/part_model/nearest_search.hpp"
+#include "host_tools/part_model/surface_cut.hpp"
+
+namespace cusp::part_model {
+
+using nurbs::BezierPatch;
+using nurbs::crease_knots;
+using nurbs::Surface;
+using nurbs::SurfacePoint;
+using toolpath::Tool;
+using toolpath::ToolShape;
+
+namespace {
+
+constexpr int kMostDropSteps = 400;
+constexpr int kMostClimbs = 6;
+constexpr int kMostSlow = 3;  // steps of a drop that leave more than the share of its room
+constexpr double kSlowShare = 0.75;
+constexpr double kTouching = 1e-9;   // mm
+constexpr double kDropSlack = 5e-7;  // mm above the least height
+constexpr double kDiscDropSlack = 2e-5;
+constexpr std::size_t kMostHalves = 500'000;  // 0.5 GB
+
+void add_cells(const Surface& surface, int number, PartModel::State& state)
+{
+    PartModel::State::Grid grid;
+    grid.first = state.cells.size();
+    for (const BezierPatch& patch : bezier_patches(surface)) {
+        state.cells.push_back(std::make_unique<BezierCell>(patch, number, &state.halves));
+        if (grid.u.empty() || patch.u_begin > grid.u.back()) {
+            grid.u.push_back(patch.u_begin);
+        }
+        if (grid.u.size() == 1) {
+            grid.v.push_back(patch.v_begin);
+        }
+    }
+    grid.creases_u =
+        crease_knots(surface.knots_u, surface.degree_u, static_cast<std::size_t>(surface.size_u));
+    grid.creases_v =
+        crease_knots(surface.knots_v, surface.degree_v, static_cast<std::size_t>(surface.size_v));
+    state.grids.push_back(std::move(grid));
+}
+
+// Height of the tip at which the tool, come from above, is nearer than `fat` to the point; none
+// beside it.
+std::optional<double> touch_height(const Tool& tool, double x, double y, Vec3d p, double fat = 0)
+{
+    const double away = std::hypot(p.x - x, p.y - y);
+    if (away > tool.radius + fat) {
+        return std::nullopt;
+    }
+    const double flat = tool.radius - tool.corner_radius;
+    const double out = std::max(0.0, away - flat);
+    const double corner = tool.corner_radius + fat;
+    return p.z - tool.corner_radius + std::sqrt(std::max(0.0, corner * corner - out * out));
+}
+
+// The least distance from the core between two places, `length` apart, where it is d0 and d1.
+double least_between(double d0, double d1, double length)
+{
+    if (length <= 0) {
+        return std::min(d0, d1);
+    }
+    // d(t)^2 - t^2 is concave: d(t)^2 >= d0^2 - 2 t at + t^2.
+    const double at = 0.5 * (length - (d1 * d1 - d0 * d0) / length);
+    if (at <= 0) {
+        return d0;
+    }
+    if (at >= length) {
+        return d1;
+    }
+    return std::sqrt(std::max(0.0, d0 * d0 - at * at));
+}
+
+class ChordBound {
+public:
+    ChordBound(const PartModel& model, const Tool& tool, double sufficient, double resolution)
+        : model_{model}, tool_{tool}, sufficient_{sufficient}, resolution_{resolution}
+    {
+    }
+
+    double clearance(Vec3d tip, double reach)
+    {
+        const double found = model_.distance(tool_, tip, sufficient_ + reach).distance;
+        least_seen_ = std::min(least_seen_, found);
+        return found;
+    }
+
+    double between(Vec3d a, double at_a, Vec3d b, double at_b)
+    {
+        const double length = norm(b - a);
+        const double corner = tool_.corner_radius;
+        const double bound = least_between(at_a + corner, at_b + corner, length) - corner;
+        if (bound >= sufficient_ || bound >= least_seen_ - resolution_) {
+            return bound;
+        }
+        const Vec3d middle = (a + b) * 0.5;
+        const double there = clearance(middle, 0.5 * length);
+        const double first = between(a, at_a, middle, there);
+        return std::min(first, between(middle, there, b, at_b));
+    }
+
+private:
+    const PartModel& model_;
+    const Tool& tool_;
+    double sufficient_;
+    double resolution_;
+    double least_seen_{std::numeric_limits<double>::infinity()};
+};
+
+}  // namespace
+
+PartModel::PartModel(const std::vector<Surface>& surfaces, double edge_error)
+    : state_{std::make_unique<State>()}
+{
+    State& state = *state_;
+    state.edge_error = edge_error;
+    for (std::size_t k = 0; k < surfaces.size(); ++k) {
+        add_cells(surfaces[k], static_cast<int>(k), state);
+        state.regions.emplace_back(surfaces[k], edge_error);
+        for (const auto& edge : state.regions.back().edges()) {
+            state.edges.push_back(edge);
+            state.edge_surface.push_back(static_cast<int>(k));
+        }
+    }
+    std::vector<std::array<Vec3d, 2>> boxes;
+    for (const auto& cell : state.cells) {
+        boxes.push_back({cell->low(), cell->high()});
+    }
+    for (const auto& [a, b] : state.edges) {
+        boxes.push_back({Vec3d{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)},
+                         Vec3d{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}});
+    }
+    state.tree = make_box_tree(boxes);
+    if (!state.tree.nodes.empty()) {
+        state.low = state.tree.nodes.front().low;
+        state.high = state.tree.nodes.front().high;
+    }
+}
+
+PartModel::PartModel(const std::vector<std::array<Vec3d, 3>>& triangles)
+    : state_{std::make_unique<State>()}
+{
+    std::vector<std::uint32_t> order;
+    state_->tree = make_facet_tree(triangles, order);
+    state_->facets.reserve(order.size());
+    for (const std::uint32_t number : order) {
+        state_->facets.emplace_back(triangles[number]);
+    }
+    if (!state_->tree.nodes.empty()) {
+        state_->low = state_->tree.nodes.front().low;
+        state_->high = state_->tree.nodes.front().high;
+    }
+}
+
+PartModel::~PartModel() = default;
+PartModel::PartModel(PartModel&&) noexcept = default;
+PartModel& PartModel::operator=(PartModel&&) noexcept = default;
+
+bool PartModel::is_mesh() const { return !state_->facets.empty(); }
+
+std::optional<PartModel::DroppedBall> PartModel::drop_ball(double x, double y, double radius) const
+{
+    const std::optional<MeshContact> found = drop_ball_on_facets(*state_, x, y, radius);
+    if (!found) {
+        return std::nullopt;
+    }
+    return DroppedBall{
+        {x, y, found->at.centre}, found->at.point, state_->facets[found->facet].normal};
+}
+
+std::optional<PartModel::TopPoint> PartModel::height_at(double x, double y) const
+{
+    const std::optional<FacetUnder> found = highest_facet(*state_, x, y);
+    if (!found) {
+        return std::nullopt;
+    }
+    return TopPoint{{x, y, found->height}, state_->facets[found->facet].normal};
+}
+
+Vec3d PartModel::box_low() const { return state_->low; }
+Vec3d PartModel::box_high() const { return state_->high; }
+
+double PartModel::highest() const
+{
+    // it can't but rest on the highest place
+    Tool wide;
+    wide.shape = ToolShape::kFlat;
+    wide.radius = norm(state_->high - state_->low);
+    const Vec3d middle = 0.5 * (state_->low + state_->high);
+    return drop_height(wide, middle.x, middle.y).value_or(state_->low.z);
+}
+
+bool PartModel::inside_trims(int surface, double u, double v) const
+{
+    return state_->regions[static_cast<std::size_t>(surface)].inside(u, v);
+}
+
+bool PartModel::outside_trims(int surface, Vec2d low, Vec2d high) const
+{
+    const TrimRegion& region = state_->regions[static_cast<std::size_t>(surface)];
+    return region.trimmed() &&
+           region.part(low.x, high.x, low.y, high.y) == TrimRegion::Part::kOutside;
+}
+
+double PartModel::edge_error() const { return state_->edges.empty() ? 0 : state_->edge_error; }
+
+SurfacePoint PartModel::evaluate(int surface, double u, double v) const
+{
+    const BezierCell& cell = state_->cell_at(surface, u, v);
+    const double width_u = cell.u_end() - cell.u_begin();
+    const double width_v = cell.v_end() - cell.v_begin();
+    SurfacePoint p = cell.at(std::clamp((u - cell.u_begin()) / width_u, 0.0, 1.0),
+                             std::clamp((v - cell.v_begin()) / width_v, 0.0, 1.0));
+    p.du = p.du / width_u;
+    p.dv = p.dv / width_v;
+    p.duu = p.duu / (width_u * width_u);
+    p.duv = p.duv / (width_u * width_v);
+    p.dvv = p.dvv / (width_v * width_v);
+    return p;
+}
+
+SurfacePoint PartModel::tangents(int surface, double u, double v) const
+{
+    const BezierCell& cell = state_->cell_at(surface, u, v);
+    const double width_u = cell.u_end() - cell.u_begin();
+    const double width_v = cell.v_end() - cell.v_begin();
+    SurfacePoint p = cell.tangents_at(std::clamp((u - cell.u_begin()) / width_u, 0.0, 1.0),
+                                      std::clamp((v - cell.v_begin()) / width_v, 0.0, 1.0));
+    p.du = p.du / width_u;
+    p.dv = p.dv / width_v;
+    return p;
+}
+
+SurfaceCut PartModel::cut_at(int surface, double u) const { return {*this, *state_, surface, u}; }
+
+ToolDistance PartModel::distance(const Tool& tool, Vec3d tip, double limit) const
+{
+    const NearestResult found =
+        nearest(*state_, core_of(tool, tip), std::max(0.0, limit + tool.corner_radius));
+    return {found.distance - tool.corner_radius, found.place};
+}
+
+void PartModel::forget_cells() const
+{
+    state_->last_cell = nullptr;
+    for (const std::unique_ptr<BezierCell>& cell : state_->cells) {
+        cell->forget();
+    }
+    state_->halves = 0;
+}
+
+void PartModel::forget_many_cells() const
+{
+    if (state_->halves > kMostHalves) {
+        forget_cells();
+    }
+}
+
+double PartModel::distance_within(
+    const Tool& tool, Vec3d tip, double least, double most, double max_error) const
+{
+    const NearestResult found =
+        nearest(*state_, core_of(tool, tip), std::max(0.0, most + tool.corner_radius), max_error,
+                least + tool.corner_radius);
+    return found.distance - tool.corner_radius;
+}
+
+bool PartModel::is_distance_at_least(const Tool& tool, Vec3d tip, double least) const
+{
+    return least + tool.corner_radius <= 0 ||
+           is_core_distance_at_least(*state_, core_of(tool, tip), least + tool.corner_radius);
+}
+
+double PartModel::move_clearance(
+    const Tool& tool, Vec3d a, Vec3d b, double sufficient, double resolution) const
+{
+    ChordBound chord{*this, tool, sufficient, resolution};
+    const double reach = 0.5 * norm(b - a);
+    const double at_a = chord.clearance(a, reach);
+    const double at_b = chord.clearance(b, reach);
+    return std::min(sufficient, chord.between(a, at_a, b, at_b));
+}
+
+std::optional<double> PartModel::move_clearance_between_contacts(const CcPoint& a,
+                                                                 const CcPoint& b,
+                                                                 double radius,
+                                                                 double sufficient) const
+{
+    return MoveClearanceBound{*this, *state_, radius}.move_clearance(a, b, sufficient);
+}
+
+std::optional<double> PartModel::drop_height(const Tool& tool,
+                                             double x,
+                                             double y,
+                                             std::optional<double> guess) const
+{
+    const std::optional<DroppedCutter> found = drop_cutter(tool, x, y, guess);
+    return found ? std::optional{found->tip} : std::nullopt;
+}
+
+std::optional<PartModel::DroppedCutter> PartModel::drop_cutter(const Tool& tool,
+                                                               double x,
+                                                               double y,
+                                                               std::optional<double> guess) const
+{
+    if (state_->cells.empty() && tool.corner_radius == tool.radius) {
+        const std::optional<MeshContact> found = drop_ball_on_facets(*state_, x, y, tool.radius);
+        return found ? std::optional{DroppedCutter{found->at.centre - tool.radius, {}}}
+                     : std::nullopt;
+    }
+    const double floor = state_->low.z - tool.radius - 1;
+    const double nothing = -std::numeric_limits<double>::infinity();
+    // `high` is free of the model; `low` would touch a known place, so the answer is not below it.
+    double high = state_->high.z + 0.01;
+    double low = nothing;
+    double trial = guess ? std::min(*guess, high) : high;
+    // Mostly the next question is beside the last one, and so is the answer. A flat tool can't tell
+    // how deep it cuts: it comes from above.
+    const bool feels_depth = tool.corner_radius > 0;
+    if (!guess && feels_depth && state_->last_cell != nullptr) {
+        const Vec3d last = state_->last_cell->at(state_->last_s, state_->last_t).point;
+        if (const auto touch = touch_height(tool, x, y, last)) {
+            low = *touch;
+            trial = low;
+        }
+    }
+    const double max_error = tool.corner_radius < tool.radius ? kDiscDropSlack : kDropSlack;
+    int deep = 0;
+    int slow = 0;
+    double room = std::numeric_limits<double>::infinity();
+    NearestPoint place;
+    for (int step = 0; step < kMostDropSteps && high - low > max_error; ++step) {
+        const ToolDistance c =
+            distance(tool, {x, y, trial}, std::numeric_limits<double>::infinity());
+        if (c.nearest.surface < 0) {
+            return std::nullopt;
+        }
+        place = c.nearest;
+        const double was_low = low;
+        // Places are as fat as their distance may be low, trimmed edges above all. One that were
+        // taken for thin would be met at `low` and be free just over it, step after step.
+        const double fat = norm(core_of(tool, {x, y, trial}).reach(c.nearest.point)) -
+                           (c.distance + tool.corner_radius);
+        if (const auto touch = touch_height(tool, x, y, c.nearest.point, std::max(0.0, fat))) {
+            low = std::max(low, *touch);
+        }
+        if (c.distance >= -kTouching && trial <= high) {
+            // The tool may fall as far as it is from everything.
+            high = trial - std::max(0.0, c.distance);
+            if (c.distance <= max_error && tool.corner_radius > 0 && trial <= low + kTouching) {
+                return DroppedCutter{trial, place};
+            }
+        }
+        if (high < floor) {
+            return std::nullopt;
+        }
+        const bool cut_a_little = tool.corner_radius > 0 && c.distance > -0.5 * tool.corner_radius;
+        // Beside an upright rim it falls no more at a time than it is off that: then it is tried
+        // half way down. Where it is free it can be lifted out, since all above it is the tool's.
+        const double bottom = std::max(low, floor - tool.radius);
+        slow = high - bottom > kSlowShare * room ? slow + 1 : 0;
+        room = high - bottom;
+        if (feels_depth && slow >= kMostSlow) {
+            trial = 0.5 * (bottom + high);
+            continue;
+        }
+        // Cut deep, but what it cuts is known now: up there is a better place to go on.
+        const bool climbs = feels_depth && low > was_low + max_error && ++deep <= kMostClimbs;
+        trial =
+            low > nothing && (cut_a_little || climbs) && trial != low && low < high ? low : high;
+    }
+    return DroppedCutter{high, place};
+}
+
+}  // namespace cusp::part_model

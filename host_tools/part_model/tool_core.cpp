@@ -1,0 +1,86 @@
+// Boxes turned along tangent planes; edges in closed form for a ball, by halving for a disc.
+#include "host_tools/part_model/tool_core.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cusp::part_model {
+
+using toolpath::Tool;
+
+namespace {
+
+// Nearest point of a straight edge to a ball's core, which is a point and all above it: below the
+// point the nearest in space counts, above it the nearest seen from above.
+double ball_edge_distance(const ToolCore& core, const std::array<Vec3d, 2>& edge, Vec3d& place)
+{
+    const Vec3d d = edge[1] - edge[0];
+    const Vec3d from = core.end - edge[0];
+    const double level = d.x * d.x + d.y * d.y;
+    const double along = from.x * d.x + from.y * d.y;
+    const double rise = d.z * d.z;
+    double t = 0;
+    if (level + rise > 0) {
+        const double in_space = std::clamp((along + from.z * d.z) / (level + rise), 0.0, 1.0);
+        t = in_space;
+        if (edge[0].z + t * d.z > core.end.z) {
+            // The squared distance is convex and smooth: where its lower part still falls at the
+            // core's height, the least is above.
+            const double seen = level > 0 ? std::clamp(along / level, 0.0, 1.0) : t;
+            const double height = edge[0].z + seen * d.z;
+            t = height >= core.end.z ? seen : from.z / d.z;
+        }
+    }
+    place = edge[0] + d * t;
+    return norm(core.reach(place));
+}
+
+}  // namespace
+
+ToolCore core_of(const Tool& tool, Vec3d tip)
+{
+    return {tool.radius - tool.corner_radius, {tip.x, tip.y, tip.z + tool.corner_radius}};
+}
+
+// From the box along the tangent plane.
+double oriented_distance(const ToolCore& core, const BezierCell& cell)
+{
+    const Vec3d from = core.end - cell.middle().point;
+    const Vec3d normal = cell.axes()[0];
+    const double tilt = core.radius > 0 ? core.radius * std::hypot(normal.x, normal.y) : 0;
+    const double above = dot(from, normal) - tilt - cell.box_high(0);
+    if (core.radius > 0 || cell.high().z > core.end.z) {
+        return std::max(0.0, above);
+    }
+    const double gap = std::max({above, cell.box_low(0) - dot(from, normal), 0.0});
+    double square = gap * gap;
+    for (std::size_t k = 1; k < 3; ++k) {
+        const double along = dot(from, cell.axes()[k]);
+        const double off = std::max({along - cell.box_high(k), cell.box_low(k) - along, 0.0});
+        square += off * off;
+    }
+    return std::sqrt(square);
+}
+
+// Nearest point of a straight edge: the distance to the core is convex along it.
+double edge_distance(const ToolCore& core, const std::array<Vec3d, 2>& edge, Vec3d& place)
+{
+    if (core.radius == 0) {
+        return ball_edge_distance(core, edge, place);
+    }
+    const Vec3d d = edge[1] - edge[0];
+    double from = 0;
+    double to = 1;
+    for (int k = 0; k < 48 && from < to; ++k) {
+        const double middle = 0.5 * (from + to);
+        const double slope = dot(core.reach(edge[0] + d * middle), d);
+        (slope > 0 ? to : from) = middle;
+        if (slope == 0) {
+            to = from = middle;
+        }
+    }
+    place = edge[0] + d * from;
+    return norm(core.reach(place));
+}
+
+}  // namespace cusp::part_model

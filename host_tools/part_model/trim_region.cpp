@@ -1,0 +1,264 @@
+// Even-odd test against polygons that hold what stays, fine both in (u, v) and in space.
+#include "host_tools/part_model/trim_region.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace cusp::part_model {
+
+using nurbs::Curve;
+using nurbs::Surface;
+
+namespace {
+
+constexpr int kFirstHalvings = 2;  // of a Bezier piece: its probe is at the middle only
+constexpr int kDeepestHalving = 14;
+constexpr std::size_t kSidesInRow = 4;
+constexpr std::size_t kMostRows = 2000;
+constexpr double kRounding = 1e-12;  // of a length
+
+// Whether p stands to the right of the way, by more than rounding.
+bool right_of(Vec2d from, Vec2d to, Vec2d p)
+{
+    return cross(p - from, to - from) > kRounding * norm(to - from) * norm(to - from);
+}
+
+// Follows loops, to whose left the surface stays. A Bezier piece lies in the hull of its control
+// points: sides along the hull's right end leave nothing out, wherever the piece bends.
+class EdgeTracer {
+public:
+    EdgeTracer(const Surface& surface, double edge_error)
+        : surface_{surface}, edge_error_{edge_error}
+    {
+    }
+
+    std::vector<Vec2d> trace(const std::vector<Curve>& loop)
+    {
+        corners_.clear();
+        for (const Curve& curve : loop) {
+            for (const Curve& piece : bezier_pieces(curve)) {
+                trace(piece, 0);
+            }
+        }
+        return std::move(corners_);
+    }
+
+private:
+    void trace(const Curve& piece, int depth)
+    {
+        const double middle = 0.5 * (piece.domain_begin() + piece.domain_end());
+        const bool fine =
+            depth >= kFirstHalvings && goes_on(piece) && off(piece, middle) <= edge_error_;
+        if (fine || depth == kDeepestHalving) {
+            append(piece);
+            return;
+        }
+        for (const Curve& half : split_at(piece, middle)) {
+            trace(half, depth + 1);
+        }
+    }
+
+    // Whether no control point stands before the first or behind the last one.
+    static bool goes_on(const Curve& piece)
+    {
+        const Vec2d from = in_plan(piece.points.front());
+        const Vec2d way = in_plan(piece.points.back()) - from;
+        return std::all_of(piece.points.begin(), piece.points.end(), [&](const Vec3d& p) {
+            const double along = dot(in_plan(p) - from, way);
+            return along >= -kRounding * dot(way, way) &&
+                   along <= dot(way, way) * (1.0 + kRounding);
+        });
+    }
+
+    Vec3d in_space(Vec3d p) const { return point_at(surface_, p.x, p.y); }
+
+    // How far the sides may lie from the edge in space. Of the chord's middle half is allowed: the
+    // rest is for what the probe does not see.
+    double off(const Curve& piece, double middle) const
+    {
+        const Vec3d from = in_space(piece.points.front());
+        const Vec3d to = in_space(piece.points.back());
+        const Vec3d way = to - from;
+        double most = 2.0 * norm(in_space(point_at(piece, middle)) - (from + to) * 0.5);
+        for (std::size_t k = 1; k + 1 < piece.points.size(); ++k) {
+            const Vec3d arm = in_space(piece.points[k]) - from;
+            const double square = dot(way, way);
+            const double share = square > 0.0 ? std::clamp(dot(arm, way) / square, 0.0, 1.0) : 0.0;
+            most = std::max(most, norm(arm - way * share));
+        }
+        return most;
+    }
+
+    // The right end of the hull, from the first control point to the last one: those that stand
+    // beyond the way between them, in the order along it, without what then stands back.
+    void append(const Curve& piece)
+    {
+        const Vec2d from = in_plan(piece.points.front());
+        const Vec2d to = in_plan(piece.points.back());
+        std::vector<Vec2d> beyond;
+        for (const Vec3d& p : piece.points) {
+            if (right_of(from, to, in_plan(p))) {
+                beyond.push_back(in_plan(p));
+            }
+        }
+        std::sort(beyond.begin(), beyond.end(),
+                  [&](Vec2d a, Vec2d b) { return dot(a, to - from) < dot(b, to - from); });
+        beyond.push_back(to);
+        if (corners_.empty() || corners_.back().x != from.x || corners_.back().y != from.y) {
+            corners_.push_back(from);
+        }
+        const std::size_t first = corners_.size();
+        for (const Vec2d p : beyond) {
+            while (corners_.size() > first &&
+                   !right_of(corners_[corners_.size() - 2], p, corners_.back())) {
+                corners_.pop_back();
+            }
+            corners_.push_back(p);
+        }
+    }
+
+    const Surface& surface_;
+    double edge_error_;
+    std::vector<Vec2d> corners_;
+};
+
+// The part of the side, as shares, that lies in the rectangle (Liang and Barsky).
+std::optional<std::array<double, 2>> part_in(const std::array<Vec2d, 2>& side,
+                                             Vec2d low,
+                                             Vec2d high)
+{
+    double from = 0;
+    double to = 1;
+    const Vec2d d = side[1] - side[0];
+    const std::array<std::array<double, 2>, 4> bounds{{{-d.x, side[0].x - low.x},
+                                                       {d.x, high.x - side[0].x},
+                                                       {-d.y, side[0].y - low.y},
+                                                       {d.y, high.y - side[0].y}}};
+    for (const auto& [p, q] : bounds) {
+        if (p == 0) {
+            if (q < 0) {
+                return std::nullopt;
+            }
+        } else if (p < 0) {
+            from = std::max(from, q / p);
+        } else {
+            to = std::min(to, q / p);
+        }
+    }
+    return from <= to ? std::optional{std::array{from, to}} : std::nullopt;
+}
+
+}  // namespace
+
+TrimRegion::TrimRegion(const Surface& surface, double edge_error)
+{
+    EdgeTracer tracer{surface, edge_error};
+    for (const std::vector<Curve>& loop : surface.trims) {
+        std::vector<Vec2d> corners = tracer.trace(loop);
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            const Vec2d from = corners[k];
+            const Vec2d to = corners[(k + 1) % corners.size()];
+            sides_.push_back({from, to});
+            edges_.push_back({point_at(surface, from.x, from.y), point_at(surface, to.x, to.y)});
+        }
+        loops_.push_back(std::move(corners));
+    }
+    make_rows();
+}
+
+std::size_t TrimRegion::row(double v) const
+{
+    const double share = high_ > low_ ? (v - low_) / (high_ - low_) : 0;
+    const double last = static_cast<double>(rows_.size() - 1);
+    return static_cast<std::size_t>(
+        std::clamp(share * static_cast<double>(rows_.size()), 0.0, last));
+}
+
+void TrimRegion::make_rows()
+{
+    if (sides_.empty()) {
+        return;
+    }
+    low_ = high_ = sides_.front()[0].y;
+    for (const auto& [a, b] : sides_) {
+        low_ = std::min({low_, a.y, b.y});
+        high_ = std::max({high_, a.y, b.y});
+    }
+    rows_.resize(std::clamp<std::size_t>(sides_.size() / kSidesInRow, 1, kMostRows));
+    for (std::size_t k = 0; k < sides_.size(); ++k) {
+        const std::size_t last = row(std::max(sides_[k][0].y, sides_[k][1].y));
+        for (std::size_t at = row(std::min(sides_[k][0].y, sides_[k][1].y)); at <= last; ++at) {
+            rows_[at].push_back(static_cast<std::uint32_t>(k));
+        }
+    }
+}
+
+bool TrimRegion::inside(double u, double v) const
+{
+    if (sides_.empty()) {
+        return true;
+    }
+    bool in = false;
+    for (const std::uint32_t side : rows_[row(v)]) {
+        const auto& [a, b] = sides_[side];
+        if ((a.y > v) != (b.y > v) && u < a.x + (b.x - a.x) * (v - a.y) / (b.y - a.y)) {
+            in = !in;
+        }
+    }
+    return in;
+}
+
+// A little wider, so that an edge along the rectangle's own side counts.
+TrimRegion::Box TrimRegion::widened(double u_begin, double u_end, double v_begin, double v_end)
+{
+    const Vec2d max_error{1e-9 * (u_end - u_begin), 1e-9 * (v_end - v_begin)};
+    return {Vec2d{u_begin, v_begin} - max_error, Vec2d{u_end, v_end} + max_error};
+}
+
+TrimRegion::Part TrimRegion::part(double u_begin, double u_end, double v_begin, double v_end) const
+{
+    const Box box = widened(u_begin, u_end, v_begin, v_end);
+    if (sides_.empty()) {
+        return Part::kInside;
+    }
+    const std::size_t last = row(box.high.y);
+    for (std::size_t at = row(box.low.y); at <= last; ++at) {
+        for (const std::uint32_t side : rows_[at]) {
+            if (part_in(sides_[side], box.low, box.high)) {
+                return Part::kCut;
+            }
+        }
+    }
+    return inside(0.5 * (u_begin + u_end), 0.5 * (v_begin + v_end)) ? Part::kInside
+                                                                    : Part::kOutside;
+}
+
+TrimRegion::Remnant TrimRegion::remnant(double u_begin,
+                                        double u_end,
+                                        double v_begin,
+                                        double v_end) const
+{
+    Remnant result;
+    for (const Vec2d corner : {Vec2d{u_begin, v_begin}, Vec2d{u_begin, v_end},
+                               Vec2d{u_end, v_begin}, Vec2d{u_end, v_end}}) {
+        if (inside(corner.x, corner.y)) {
+            result.corners.push_back(corner);
+        }
+    }
+    const Box box = widened(u_begin, u_end, v_begin, v_end);
+    const std::size_t last = row(box.high.y);
+    for (std::size_t at = row(box.low.y); at <= last && !sides_.empty(); ++at) {
+        for (const std::uint32_t index : rows_[at]) {
+            const std::array<Vec2d, 2>& side = sides_[index];
+            if (const auto part = part_in(side, box.low, box.high)) {
+                const Vec2d way = side[1] - side[0];
+                result.edge.push_back(side[0] + way * (*part)[0]);
+                result.edge.push_back(side[0] + way * (*part)[1]);
+            }
+        }
+    }
+    return result;
+}
+
+}  // namespace cusp::part_model

@@ -1,0 +1,58 @@
+// The trimmed domain of a surface: inside or outside, and the edges as polylines in space.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "host_tools/nurbs/nurbs.hpp"
+
+namespace cusp::part_model {
+
+class TrimRegion {
+public:
+    // surface     its loops are closed, in (u, v); it stays to their left
+    // edge_error  mm between an edge in space and its polyline, which cuts off nothing that stays:
+    //             what is inside by the loops is inside here, and what is proven of this region
+    //             holds for that
+    TrimRegion(const nurbs::Surface& surface, double edge_error);
+
+    bool trimmed() const { return !sides_.empty(); }
+    bool inside(double u, double v) const;
+
+    enum class Part : std::uint8_t { kInside, kOutside, kCut };
+    // Of a rectangle of the domain; kCut where an edge may touch it.
+    Part part(double u_begin, double u_end, double v_begin, double v_end) const;
+
+    // What edges leave of a rectangle of the domain lies in the convex hull of these places, (u,
+    // v).
+    struct Remnant {
+        std::vector<Vec2d> corners;  // of the rectangle, as far as they are inside
+        std::vector<Vec2d> edge;     // ends of the edges' sides in the rectangle
+    };
+    Remnant remnant(double u_begin, double u_end, double v_begin, double v_end) const;
+
+    // The edges in space.
+    const std::vector<std::array<Vec3d, 2>>& edges() const { return edges_; }
+
+    // The edges in (u, v), each loop a closed polyline.
+    const std::vector<std::vector<Vec2d>>& loops() const { return loops_; }
+
+private:
+    struct Box {
+        Vec2d low, high;
+    };
+    static Box widened(double u_begin, double u_end, double v_begin, double v_end);
+    std::size_t row(double v) const;
+    void make_rows();
+
+    std::vector<std::array<Vec2d, 2>> sides_;
+    // The sides that touch each of the equal rows between the least and the greatest v.
+    std::vector<std::vector<std::uint32_t>> rows_;
+    double low_{};
+    double high_{};
+    std::vector<std::array<Vec3d, 2>> edges_;
+    std::vector<std::vector<Vec2d>> loops_;
+};
+
+}  // namespace cusp::part_model

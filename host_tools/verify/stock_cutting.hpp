@@ -1,0 +1,55 @@
+// The stock as a map of heights, and what each position of a tool takes from it.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "host_tools/toolpath/toolpath.hpp"
+#include "host_tools/verify/height_grid.hpp"
+
+namespace cusp::verify {
+
+// Positions of one tool's tip, in order; `rapid` says which are reached by rapid moves.
+struct ToolPositions {
+    toolpath::Tool tool;
+    std::vector<Vec3d> tips;
+    std::vector<bool> rapid;
+};
+
+struct CutFigures {
+    double rapid_cut{};  // mm: the deepest that a rapid move runs into metal
+    double cut_depth{};  // mm: the deepest that a feed move does
+};
+
+// Calls progress(share done) now and then.
+using Progress = std::function<void(double)>;
+
+class StockHeightMap {
+public:
+    StockHeightMap(const HeightGrid& grid, double top);
+
+    // Removes what the tool sweeps, position by position; under a foot with an edge also what it
+    // takes between them.
+    //
+    // spacing  mm between positions: depths are measured with a tool that is smaller by what the
+    //          slivers between two positions can be high
+    CutFigures cut(const ToolPositions& positions, double spacing, const Progress& progress);
+
+    const std::vector<double>& heights() const { return heights_; }
+    double top() const { return top_; }
+
+private:
+    CutFigures cut_band(const ToolPositions& positions,
+                        double spacing,
+                        std::size_t begin,
+                        std::size_t end,
+                        const Progress& progress);
+    void sweep_foot(
+        const toolpath::Tool& tool, Vec3d from, Vec3d to, std::size_t begin, std::size_t end);
+
+    HeightGrid grid_;
+    double top_;
+    std::vector<double> heights_;
+};
+
+}  // namespace cusp::verify

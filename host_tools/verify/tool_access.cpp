@@ -1,0 +1,139 @@
+// Where a tool can touch the place one drop tells; else it is searched for.
+#include "host_tools/verify/tool_access.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cusp::verify {
+
+using drop_cutter::LowestPositionSearch;
+using nurbs::Surface;
+using toolpath::Tool;
+using toolpath::ToolShape;
+
+namespace {
+
+constexpr double kUnreached = LowestPositionSearch::kNowhere;
+constexpr double kPitch = 0.125;        // radii, of the grid of drops
+constexpr double kDropAccuracy = 1e-4;  // mm
+constexpr double kAgrees = 3e-4;        // mm
+constexpr double kTouches = 1e-3;       // mm: nothing is lower than the floor
+// Beside cliffs, which samples say little of: places in a row where they were no help, and how
+// often they are asked from there on.
+constexpr int kInVain = 4;
+constexpr int kAgain = 8;
+
+}  // namespace
+
+ToolAccess::ToolAccess(const std::vector<Surface>& surfaces,
+                       const std::vector<std::array<Vec3d, 3>>& mesh,
+                       const std::vector<Tool>& tools,
+                       const std::vector<WallDistance>& walls,
+                       const FloorSamples& samples,
+                       double path_clearance)
+    : surfaces_{surfaces},
+      mesh_{mesh},
+      walls_{walls},
+      samples_{samples},
+      path_clearance_{path_clearance}
+{
+    for (const Tool& tool : tools) {
+        Tool kept_off = tool;
+        kept_off.radius += path_clearance;
+        kept_off.corner_radius += path_clearance;
+        if (kept_off.shape == ToolShape::kFlat && path_clearance > 0) {
+            kept_off.shape = ToolShape::kBull;
+        }
+        cutters_.push_back({tool, kept_off, {}, {}, {}, 0, 0});
+    }
+    for (Cutter& cutter : cutters_) {
+        const double pitch = kPitch * cutter.tool.radius;
+        cutter.search.emplace(
+            cutter.tool, path_clearance, pitch, kAgrees,
+            [this, &cutter](double x, double y) { return drop_at(cutter, x, y); });
+        if (cutter.tool.shape == ToolShape::kBall) {
+            cutter.on_samples.emplace(
+                cutter.tool, path_clearance, pitch, kAgrees,
+                [this, &cutter](double x, double y) { return drop_on_samples(cutter, x, y); });
+        }
+    }
+}
+
+bool ToolAccess::within_walls(const Cutter& cutter, double x, double y) const
+{
+    return std::none_of(walls_.begin(), walls_.end(), [&](const WallDistance& wall) {
+        return wall.at(x, y) < cutter.tool.radius;
+    });
+}
+
+LowestPositionSearch::DroppedTool ToolAccess::drop_on_samples(const Cutter& cutter,
+                                                              double x,
+                                                              double y) const
+{
+    return within_walls(cutter, x, y) ? samples_.drop_ball(cutter.grown_tool.radius, x, y)
+                                      : LowestPositionSearch::DroppedTool{{x, y, kUnreached}, {}};
+}
+
+LowestPositionSearch::DroppedTool ToolAccess::drop_at(Cutter& cutter, double x, double y)
+{
+    LowestPositionSearch::DroppedTool rest{{x, y, kUnreached}, {}};
+    if (!within_walls(cutter, x, y)) {
+        return rest;
+    }
+    if (!surfaces_.empty()) {
+        if (!cutter.floor) {
+            cutter.floor.emplace(surfaces_, cutter.grown_tool, kDropAccuracy);
+        }
+        rest = drop_tool(*cutter.floor, x, y);
+    }
+    if (!mesh_.empty()) {
+        if (!model_) {
+            model_.emplace(mesh_);
+        }
+        if (const auto tip = model_->drop_height(cutter.grown_tool, x, y)) {
+            const double height = *tip + cutter.grown_tool.corner_radius;
+            if (rest.centre.z == kUnreached || height > rest.centre.z) {
+                rest.centre.z = height;
+                rest.contact =
+                    model_->distance(cutter.grown_tool, {x, y, *tip}, kTouches).nearest.point;
+            }
+        }
+    }
+    return rest;
+}
+
+double ToolAccess::lowest_over(Vec3d place, Vec3d normal, double resolution)
+{
+    double lowest = kUnreached;
+    for (Cutter& cutter : cutters_) {
+        // a tool that rests on the place stands here
+        const double level = std::hypot(normal.x, normal.y);
+        const double flat = cutter.tool.radius - cutter.tool.corner_radius;
+        const double out = cutter.grown_tool.corner_radius + (level > 0 ? flat / level : 0.0);
+        const Vec2d touching{place.x + out * normal.x, place.y + out * normal.y};
+        const double touched =
+            place.z + kTouches + (1 / std::max(normal.z, 0.05)) * path_clearance_;
+        const double lower = std::min(resolution, lowest);
+        if (cutter.on_samples && (cutter.in_vain < kInVain || ++cutter.skipped % kAgain == 0)) {
+            // The first position that gets lower is enough to ask the floor itself.
+            const double sufficient = std::nextafter(lower, -kUnreached);
+            const auto hoped = cutter.on_samples->lowest_over(place, lower, sufficient, touching);
+            if (hoped && hoped->height >= lower) {
+                cutter.in_vain = 0;
+                lowest = std::min(lowest, hoped->height);
+                continue;
+            }
+            ++cutter.in_vain;
+        }
+        const auto answer = cutter.search->lowest_over(place, lower, touched, touching);
+        if (answer) {
+            lowest = std::min(lowest, answer->height);
+        }
+        if (lowest <= touched) {
+            break;
+        }
+    }
+    return std::max(lowest, place.z);
+}
+
+}  // namespace cusp::verify

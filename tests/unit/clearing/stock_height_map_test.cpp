@@ -1,0 +1,108 @@
+#include "host_tools/clearing/stock_height_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "CppUTest/TestHarness.h"
+
+namespace cusp::test {
+
+using namespace clearing;
+using namespace offset;
+using namespace toolpath;
+
+namespace {
+
+constexpr double kSide = 24.0;
+constexpr double kTop = 0.0;
+
+double lower_side(const Tool& tool, double out)
+{
+    const double flat = tool.radius - tool.corner_radius;
+    const double beyond = std::max(0.0, out - flat);
+    const double c = tool.corner_radius;
+    return c - std::sqrt(std::max(0.0, c * c - beyond * beyond));
+}
+
+// One place of metal under every position of the tool, none left out.
+class OnePlace {
+public:
+    OnePlace(Vec2d at, const Tool& tool) : at_{at}, tool_{tool} {}
+
+    void cut(Vec3d from, Vec3d to)
+    {
+        const int n = std::max(1, static_cast<int>(std::ceil(norm(to - from) / tool_.radius * 10)));
+        for (int i = 1; i <= n; ++i) {
+            const Vec3d tip = from + (to - from) * (static_cast<double>(i) / n);
+            const double out = distance(at_, {tip.x, tip.y});
+            if (out <= tool_.radius) {
+                height_ = std::min(height_, tip.z + lower_side(tool_, out));
+            }
+        }
+    }
+    Vec2d at() const { return at_; }
+    double height() const { return height_; }
+
+private:
+    Vec2d at_;
+    Tool tool_;
+    double height_{kTop};
+};
+
+TEST_GROUP(StockHeightMap){};
+
+// Level, up, down, plunging, from somewhere else: what the last position left is relied on.
+TEST(StockHeightMap, IsWhatAllPositionsOfTheToolLeave)
+{
+    constexpr unsigned kSeed = 20261122;
+    constexpr double kGraze = 1e-6;
+    std::mt19937 random{kSeed};
+    std::uniform_real_distribution<double> any{0.0, 1.0};
+    int cut = 0;
+    for (int n = 0; n < 60; ++n) {
+        Tool tool{};
+        tool.radius = 1.0 + 2.0 * any(random);
+        tool.corner_radius = n % 3 == 0 ? 0.0 : n % 3 == 1 ? tool.radius : 0.4 * tool.radius;
+        constexpr double kShare = 1.0 / 8;
+        const double pitch = tool.radius * kShare;
+        StockHeightMap metal{{0.0, 0.0, kSide, kSide}, tool, kTop, kShare};
+        // A pin that is thinner than the places are apart feels one of them.
+        Tool pin{};
+        pin.radius = 0.5 * pitch;
+        std::vector<OnePlace> places;
+        for (int i = 0; i < 12; ++i) {
+            const auto place = [&] {
+                return pitch * std::floor(any(random) * kSide / pitch);
+            };
+            places.push_back({{place(), place()}, tool});
+        }
+        Vec3d at{12.0, 12.0, 1.0};
+        for (int move = 0; move < 60; ++move) {
+            Vec3d to{kSide * any(random), kSide * any(random), at.z};
+            const double kind = any(random);
+            to.z = kind < 0.4 ? std::min(at.z, -0.5) : 1.0 - 4.0 * any(random);
+            to = kind > 0.9 ? Vec3d{at.x, at.y, to.z} : to;
+            to = any(random) < 0.5 ? at + (to - at) * (0.3 / kSide) : to;
+            metal.cut(at, to);
+            for (OnePlace& place : places) {
+                place.cut(at, to);
+            }
+            at = any(random) < 0.05 ? Vec3d{kSide * any(random), kSide * any(random), 0.5} : to;
+        }
+        StockHeightMap uncut{{0.0, 0.0, kSide, kSide}, tool, kTop, kShare};
+        uncut.set_tool(pin);
+        metal.set_tool(pin);
+        for (const OnePlace& place : places) {
+            const double taken =
+                uncut.contact_height(place.at()) - metal.contact_height(place.at());
+            DOUBLES_EQUAL(kTop - place.height(), taken, kGraze);
+            cut += taken > 0.5 ? 1 : 0;
+        }
+    }
+    CHECK(cut > 300);
+}
+
+}  // namespace
+}  // namespace cusp::test

@@ -1,0 +1,184 @@
+// Beside the rim of a hole: how low the tool may stand and how much room its moves keep, by brute
+// force.
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "host_tools/drop_cutter/drop_cutter.hpp"
+#include "host_tools/offset/contour.hpp"
+#include "host_tools/part_model/trim_region.hpp"
+#include "tests/support/holed_sheet.hpp"
+
+// Last: CppUTest redefines new, which the standard headers can not bear.
+#include "CppUTest/TestHarness.h"
+
+namespace cusp::test {
+
+using namespace drop_cutter;
+using namespace nurbs;
+using namespace part_model;
+using namespace toolpath;
+
+namespace {
+
+constexpr double kAccuracy = 2e-3;
+constexpr double kHole = 0.25;
+constexpr double kRadius = 3.0;
+constexpr double kAround = 7.5;  // mm: the rim's way from the middle, about
+
+// Places of the floor: a grid, and the rim twenty times as dense.
+std::vector<Vec3d> places_of(const std::vector<Surface>& floor)
+{
+    constexpr double kOnRim = 0.01;  // mm
+    std::vector<Vec3d> places;
+    for (const Surface& surface : floor) {
+        const TrimRegion region{surface, 1e-5};
+        const int grid = surface.degree_u == 1 ? 50 : 450;
+        for (int i = 0; i <= grid; ++i) {
+            for (int j = 0; j <= grid; ++j) {
+                const double u = static_cast<double>(i) / grid;
+                const double v = static_cast<double>(j) / grid;
+                if (region.inside(u, v)) {
+                    places.push_back(point_at(surface, u, v));
+                }
+            }
+        }
+        for (const auto& [a, b] : region.edges()) {
+            const int n = 1 + static_cast<int>(norm(b - a) / kOnRim);
+            for (int k = 0; k <= n; ++k) {
+                places.push_back(a + (b - a) * (static_cast<double>(k) / n));
+            }
+        }
+    }
+    return places;
+}
+
+double highest(const std::vector<Vec3d>& places, const Tool& tool, Vec2d at, double wider)
+{
+    const double flat = tool.radius - tool.corner_radius;
+    const double corner = tool.corner_radius + wider;
+    double most = DropCutter::kNoSurface;
+    for (const Vec3d& p : places) {
+        const double out = std::max(0.0, std::hypot(p.x - at.x, p.y - at.y) - flat);
+        if (out <= corner) {
+            most = std::max(most, p.z + std::sqrt(corner * corner - out * out) - corner);
+        }
+    }
+    return most;
+}
+
+double distance_to_way(const std::vector<Vec3d>& places, Vec3d a, Vec3d b)
+{
+    const Vec3d way = b - a;
+    double least = 1e300;
+    for (const Vec3d& p : places) {
+        const double share = std::clamp(dot(p - a, way) / dot(way, way), 0.0, 1.0);
+        const Vec3d off = p - a - way * share;
+        least = std::min(least, dot(off, off));
+    }
+    return std::sqrt(least);
+}
+
+Vec2d near_rim(std::mt19937& random)
+{
+    std::uniform_real_distribution<double> turn{0.0, 6.28318530717958648};
+    std::uniform_real_distribution<double> away{kAround - 1.1 * kRadius, kAround + 0.5 * kRadius};
+    const double angle = turn(random);
+    return Vec2d{15.0, 15.0} + Vec2d{std::cos(angle), std::sin(angle)} * away(random);
+}
+
+TEST_GROUP(TrimmedFloor)
+{
+    std::vector<Surface> floor = holed_floor(kHole);
+    std::vector<Vec3d> places = places_of(floor);
+    std::mt19937 random{71};
+};
+
+TEST(TrimmedFloor, HoldsEveryToolAtItsRim)
+{
+    constexpr double kBetween = 2e-3;  // mm: what places let through
+    for (const Tool& tool :
+         {Tool{1, ToolShape::kBall, kRadius, kRadius}, Tool{1, ToolShape::kBull, kRadius, 1.0},
+          Tool{1, ToolShape::kFlat, kRadius, 0.0}}) {
+        const DropCutter tips{floor, tool, kAccuracy};
+        for (int i = 0; i < 60; ++i) {
+            const Vec2d at = near_rim(random);
+            const double height = tips.drop(at).z;
+            CHECK(height >= highest(places, tool, at, 0.0) - 1e-6);
+            CHECK(height <= highest(places, tool, at, 0.005) + kAccuracy + kBetween);
+        }
+    }
+}
+
+// Moves that slide over the rim touch it all their way: they are looked at without being halved.
+TEST(TrimmedFloor, TellsTheRoomOfMovesOverItsRim)
+{
+    const Tool ball{1, ToolShape::kBall, kRadius, kRadius};
+    const DropCutter tips{floor, ball, kAccuracy};
+    std::uniform_real_distribution<double> share{-1.0, 1.0};
+    for (int i = 0; i < 60; ++i) {
+        const Vec2d from = near_rim(random);
+        const Vec2d to = from + Vec2d{share(random), share(random)} * (0.2 * kRadius);
+        const Vec3d a{from.x, from.y, tips.drop(from).z + 0.05 * share(random)};
+        const Vec3d b{to.x, to.y, tips.drop(to).z + 0.05 * share(random)};
+        const Vec3d up{0.0, 0.0, kRadius};
+        const double room = std::min(0.0, distance_to_way(places, a + up, b + up) - kRadius);
+        const double gap = tips.move_clearance(a, b);
+        CHECK(gap <= room + 1e-9);
+        CHECK(gap >= 1.2 * room - 2.0 * kAccuracy);
+    }
+}
+
+// The sheet is the top of metal: a ball on the plate can not reach under the rim.
+TEST(TrimmedFloor, LeavesNoWayUnderItsRim)
+{
+    const Tool ball{1, ToolShape::kBall, kRadius, kRadius};
+    const DropCutter tips{floor, ball, kAccuracy};
+    constexpr double kLow = 0.01;  // mm
+    int under = 0;
+    for (int i = 0; i < 60; ++i) {
+        const Vec2d way{std::cos(0.1 * i), std::sin(0.1 * i)};
+        const Vec2d from = Vec2d{15.0, 15.0} + way * (kAround - kRadius - 1.0);
+        const Vec2d to = Vec2d{15.0, 15.0} + way * (kAround - kRadius + 0.3);
+        double cut = 0.0;
+        for (const Vec3d& p : places) {
+            const double away = std::hypot(p.x - to.x, p.y - to.y);
+            cut = p.z > kLow + kRadius ? std::max(cut, kRadius - away) : cut;
+        }
+        under += cut > 0.0 ? 1 : 0;
+        CHECK(tips.move_clearance({from.x, from.y, kLow}, {to.x, to.y, kLow}) <= 1e-3 - cut);
+        CHECK(tips.move_clearance({to.x, to.y, kLow}, {to.x, to.y, kLow + 0.5}) <= 1e-3 - cut);
+    }
+    CHECK(under > 20);
+}
+
+// Where it falls off the rim the ball stands its radius away from it, to where the rim is known.
+TEST(TrimmedFloor, EndsAtASmoothRim)
+{
+    const Tool ball{1, ToolShape::kBall, kRadius, kRadius};
+    const DropCutter tips{floor, ball, kAccuracy};
+    constexpr double kCliff = 1.0;  // mm
+    for (int i = 0; i < 100; ++i) {
+        const Vec2d way{std::cos(0.005 * i), std::sin(0.005 * i)};
+        const auto place = [&](double out) {
+            return Vec2d{15.0, 15.0} + way * out;
+        };
+        double low = 0.0;
+        double high = kAround;
+        while (high - low > 1e-6) {
+            const double middle = 0.5 * (low + high);
+            (tips.drop(place(middle)).z > kCliff ? high : low) = middle;
+        }
+        double nearest = 1e300;
+        for (const Vec3d& p : places) {
+            if (p.z > kCliff) {
+                nearest = std::min(nearest, std::hypot(p.x - place(high).x, p.y - place(high).y));
+            }
+        }
+        DOUBLES_EQUAL(kRadius, nearest, 2e-3);
+    }
+}
+
+}  // namespace
+}  // namespace cusp::test

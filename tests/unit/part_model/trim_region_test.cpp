@@ -1,0 +1,147 @@
+#include "host_tools/part_model/trim_region.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/plates.hpp"
+
+// Last: CppUTest redefines new, which the standard headers can not bear.
+#include "CppUTest/TestHarness.h"
+
+namespace cusp::test {
+
+using namespace nurbs;
+using namespace part_model;
+
+namespace {
+
+constexpr double kSide = 20.0;  // mm
+constexpr double kEdgeError = 1e-3;
+constexpr int kLooks = 5000;
+
+Curve circle_about(Vec2d centre, double radius)
+{
+    const double w = std::sqrt(0.5);
+    const double corners[][2] = {{1, 0},   {1, 1},  {0, 1},  {-1, 1}, {-1, 0},
+                                 {-1, -1}, {0, -1}, {1, -1}, {1, 0}};
+    Curve circle{2, {0.0, 0.0, 0.0, 1.0, 1.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0, 4.0}, {}, {}};
+    for (int i = 0; i < 9; ++i) {
+        circle.points.push_back(
+            {centre.x + radius * corners[i][0], centre.y + radius * corners[i][1], 0.0});
+        circle.weights.push_back(i % 2 == 0 ? 1.0 : w);
+    }
+    return circle;
+}
+
+// Bent both ways, counter-clockwise, with a corner where it closes.
+Curve wave_about(Vec2d centre, double radius)
+{
+    constexpr int kPoints = 14;
+    Curve wave;
+    wave.degree = 3;
+    wave.knots.assign(4, 0.0);
+    for (int i = 1; i < kPoints - 3; ++i) {
+        wave.knots.push_back(i);
+    }
+    wave.knots.insert(wave.knots.end(), 4, kPoints - 3.0);
+    for (int i = 0; i < kPoints; ++i) {
+        const double angle = 6.283185307179586 * i / (kPoints - 1);
+        const double out = radius * (i % 2 == 0 ? 1.0 : 0.6);
+        wave.points.push_back(
+            {centre.x + out * std::cos(angle), centre.y + out * std::sin(angle), 0.0});
+        wave.weights.push_back(i % 3 == 0 ? 1.5 : 1.0);
+    }
+    wave.points.back() = wave.points.front();
+    wave.weights.back() = wave.weights.front();
+    return wave;
+}
+
+// Bent up across v, so that lines along v are bent in space.
+Surface bent_sheet()
+{
+    Surface s = turned_plate({0.0, 0.0}, {1.0, 0.0}, kSide, kSide, 0.0);
+    s.degree_v = 2;
+    s.size_v = 3;
+    s.knots_v = {0.0, 0.0, 0.0, 1.0, 1.0, 1.0};
+    s.points.clear();
+    for (const double x : {-0.5, 0.5}) {
+        for (const double y : {-0.5, 0.0, 0.5}) {
+            s.points.push_back({kSide * x, kSide * y, y == 0.0 ? 6.0 : 0.0});
+        }
+    }
+    s.weights.assign(6, 1.0);
+    return s;
+}
+
+TEST_GROUP(TrimRegion){
+    // A place of each curve, and a way to its left.
+    template <class Check>
+    void along_edges(const Surface& surface, const Check& check){for (const std::vector<Curve>& loop
+                                                                      : surface.trims){
+        for (const Curve& curve
+             : loop){for (int i = 1; i < kLooks; ++i){const double share = (i + 0.123) / kLooks;
+const double t = curve.domain_begin() + (curve.domain_end() - curve.domain_begin()) * share;
+const CurvePoint p = derivatives_at(curve, t);
+const Vec2d left{-p.first.y, p.first.x};
+check(in_plan(p.point), left*(1.0 / norm(left)));
+}  // namespace
+}  // namespace cusp::test
+}
+}
+
+// All that stays by the loops is inside, and little more.
+void check_region(const Surface& surface)
+{
+    const TrimRegion region{surface, kEdgeError};
+    along_edges(surface, [&](Vec2d at, Vec2d left) {
+        constexpr double kBeside = 1e-9;
+        const Vec2d inside = at + left * kBeside;
+        const Vec2d outside = at - left * (1.5 * kEdgeError / kSide);
+        CHECK(region.inside(inside.x, inside.y));
+        CHECK(!region.inside(outside.x, outside.y));
+        CHECK(region.part(inside.x - kBeside, inside.x + kBeside, inside.y - kBeside,
+                          inside.y + kBeside) != TrimRegion::Part::kOutside);
+    });
+}
+}
+;
+
+TEST(TrimRegion, CutsNothingOffACircle)
+{
+    Surface surface = bent_sheet();
+    surface.trims = {{circle_about({0.5, 0.5}, 0.4)}};
+    check_region(surface);
+}
+
+TEST(TrimRegion, CutsNothingOffBesideAHole)
+{
+    Surface surface = bent_sheet();
+    surface.trims = {{circle_about({0.5, 0.5}, 0.45)}, {reversed(circle_about({0.4, 0.5}, 0.2))}};
+    check_region(surface);
+}
+
+TEST(TrimRegion, CutsNothingOffAnEdgeBentBothWays)
+{
+    Surface surface = bent_sheet();
+    surface.trims = {{wave_about({0.5, 0.5}, 0.48)}, {reversed(wave_about({0.5, 0.5}, 0.2))}};
+    check_region(surface);
+}
+
+TEST(TrimRegion, KeepsItsEdgesInSpaceWithinTheirError)
+{
+    Surface surface = bent_sheet();
+    surface.trims = {{circle_about({0.5, 0.5}, 0.4)}};
+    const TrimRegion region{surface, kEdgeError};
+    for (const auto& [from, to] : region.edges()) {
+        for (const double share : {0.0, 0.25, 0.5, 0.75}) {
+            const Vec3d p = from + (to - from) * share;
+            const double angle = std::atan2(p.y, p.x);
+            const Vec2d round{0.4 * kSide * std::cos(angle), 0.4 * kSide * std::sin(angle)};
+            const Vec3d edge = point_at(surface, round.x / kSide + 0.5, round.y / kSide + 0.5);
+            CHECK(norm(p - edge) <= kEdgeError);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace cusp::test
