@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host_tools/cli/commands.hpp"
+#include "host_tools/cli/version_text.hpp"
 #include "host_tools/input_error/input_error.hpp"
 
 #include "CLI/CLI.hpp"
@@ -44,7 +45,7 @@ int run(int argc, char** argv)
 {
     CLI::App app{kDescription, "cusp"};
     app.footer(kFooter);
-    app.set_version_flag("--version", "cusp " CUSP_VERSION);
+    app.set_version_flag("--version", version_text);
     app.require_subcommand(1);
     Work work;
     for (const AddCommand add : commands()) {

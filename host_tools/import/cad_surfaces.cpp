@@ -2,6 +2,7 @@
 #include "host_tools/import/cad_surfaces.hpp"
 
 #include <dlfcn.h>
+#include <filesystem>
 
 #include "host_tools/import/turning_knots.hpp"
 #include "host_tools/input_error/input_error.hpp"
@@ -10,11 +11,31 @@
 
 namespace cusp::host {
 
+namespace {
+
+constexpr const char* kModule = "libcusp_cad.so";
+
+// The module beside the program: where it is built, where it is installed, and (tests) where
+// RUNPATH says. Null: not there; dlerror() says why. It stays loaded: Open CASCADE keeps state that
+// outlives a call.
+void* load_module()
+{
+    std::error_code error;
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+    for (const char* folder : {"lib", CUSP_CAD_FOLDER}) {
+        const std::filesystem::path file = program.parent_path().parent_path() / folder / kModule;
+        if (!error && std::filesystem::exists(file, error)) {
+            return dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+        }
+    }
+    return dlopen(kModule, RTLD_NOW | RTLD_LOCAL);
+}
+
+}  // namespace
+
 std::vector<Surface> read_cad_surfaces(const std::string& file)
 {
-    // Looked for where the program's RUNPATH says. It stays loaded: Open CASCADE keeps state that
-    // outlives a call.
-    void* const module = dlopen("libcusp_cad.so", RTLD_NOW | RTLD_LOCAL);
+    void* const module = load_module();
     void* const door = module == nullptr ? nullptr : dlsym(module, "cusp_read_cad_surfaces");
     if (door == nullptr) {
         throw InputError(
