@@ -61,16 +61,6 @@ void check(const Job& job, const Operation& operation, const std::vector<Tool>& 
     }
 }
 
-std::string names_of(const std::vector<Tool>& tools)
-{
-    std::string out;
-    for (const Tool& tool : tools) {
-        out += fmt::format("{}{} of radius {:g} mm", out.empty() ? "tool " : ", ", tool.number,
-                           tool.radius);
-    }
-    return out;
-}
-
 }  // namespace
 
 std::vector<PlannedOperation> plan_rough_levels(const Job& job, const Operation& operation)
@@ -105,10 +95,7 @@ std::vector<PlannedOperation> plan_rough_levels(const Job& job, const Operation&
         out.push_back(std::move(roughed.planned));
     }
     if (out.empty()) {
-        throw InputError(
-            fmt::format("{}: roughing: {}, with an allowance of {:g} mm, fits nowhere into the "
-                        "stock",
-                        job.file, names_of(tools), operation.allowance));
+        return out;
     }
     const double least = operation.min_depth.value_or(0);
     if (work.depths.thinnest < least - kRounded) {
