@@ -24,6 +24,7 @@ constexpr const char* kDescription =
     "                                        short lines to arcs and lines\n"
     "  cusp verify JOB.toml PART.ngc         cut it in memory: gouge, scallop, what is left\n"
     "  cusp sim PART.ngc --stats RUN.json    run it: time, limits, pulses\n"
+    "  cusp demo                             all of it, on a pocket that comes with cusp\n"
     "  cusp stream /dev/ttyUSB0 PART.ngc     send it to a controller\n";
 
 constexpr const char* kFooter =
@@ -35,8 +36,8 @@ constexpr const char* kFooter =
 const std::vector<AddCommand>& commands()
 {
     static const std::vector<AddCommand> all{
-        add_plan_command, add_fit_command,    add_verify_command,
-        add_sim_command,  add_stream_command, add_settings_command,
+        add_plan_command,   add_fit_command,      add_verify_command, add_sim_command,
+        add_stream_command, add_settings_command, add_demo_command,
     };
     return all;
 }

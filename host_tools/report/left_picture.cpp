@@ -7,12 +7,14 @@
 #include "host_tools/report/picture_frame.hpp"
 #include "host_tools/report/pictures.hpp"
 
+#include "fmt/format.h"
+
 namespace cusp::host {
 namespace {
 
 constexpr int kNothing = -1;
 constexpr int kUncut = -2;
-constexpr std::size_t kMostCells = 240;  // along the longer side of the picture
+constexpr std::size_t kMostCells = 400;  // along the longer side of the picture
 
 // The highest of the values of a square of grid points; an uncut one beats all.
 int step_of_square(
@@ -97,10 +99,14 @@ std::string left_picture(const Job& job, const Verification& result)
             current = step;
         }
     }
-    std::string out =
-        frame.head() + runs.text(frame.x_low, frame.flipped(frame.y_low), side) + walls(job, frame);
-    out += scale_bar(frame.x_high + frame.margin(), frame.y_low, 0.8 * frame.height(), 0, highest,
-                     "left, mm");
+    std::string out = frame.head() + frame.panel(0, "Metal left over what the tool reaches");
+    out += runs.text(frame.x_low, frame.flipped(frame.y_low), side) + walls(job, frame) + "</g>\n";
+    out += frame.ruler();
+    out += scale_bar(frame.scale_x(), frame.y_low, 0.75 * frame.height(), 0, highest, "left, mm");
+    if (result.figures.uncut_share > 0) {
+        out += frame.legend(
+            0, fmt::format("stroke=\"black\" stroke-width=\"{:.3f}\"", frame.text()), "uncut");
+    }
     return out + "</svg>\n";
 }
 

@@ -14,7 +14,7 @@ using namespace cusp::host;
 
 namespace {
 
-const std::string kParts = CUSP_SOURCE_DIR "/tests/parts/";
+const std::string kParts = CUSP_SOURCE_DIR "/examples/parts/";
 
 std::string line(const std::string& from, const std::string& to)
 {
