@@ -22,6 +22,7 @@ using Work = std::function<int()>;
 using AddCommand = void (*)(CLI::App& app, Work& work);
 
 void add_fit_command(CLI::App& app, Work& work);
+void add_info_command(CLI::App& app, Work& work);
 void add_plan_command(CLI::App& app, Work& work);
 void add_verify_command(CLI::App& app, Work& work);
 void add_sim_command(CLI::App& app, Work& work);
