@@ -23,6 +23,7 @@ using AddCommand = void (*)(CLI::App& app, Work& work);
 
 void add_demo_command(CLI::App& app, Work& work);
 void add_fit_command(CLI::App& app, Work& work);
+void add_info_command(CLI::App& app, Work& work);
 void add_plan_command(CLI::App& app, Work& work);
 void add_verify_command(CLI::App& app, Work& work);
 void add_sim_command(CLI::App& app, Work& work);

@@ -19,6 +19,7 @@ constexpr const char* kDescription =
     "From a sculptured surface to stepper pulses: plan tool paths over NURBS parts, run them\n"
     "through the controller's own motion core, look at every pulse, and cut the part in memory.\n"
     "\n"
+    "  cusp info PART.step                   what a part is: size, loops, the largest ball\n"
     "  cusp plan JOB.toml -o PART.ngc        plan the operations of a job\n"
     "  cusp fit PART.ngc -o ARCS.ngc --tolerance 0.01\n"
     "                                        short lines to arcs and lines\n"
@@ -36,8 +37,8 @@ constexpr const char* kFooter =
 const std::vector<AddCommand>& commands()
 {
     static const std::vector<AddCommand> all{
-        add_plan_command,   add_fit_command,      add_verify_command, add_sim_command,
-        add_stream_command, add_settings_command, add_demo_command,
+        add_info_command, add_plan_command,   add_fit_command,      add_verify_command,
+        add_sim_command,  add_stream_command, add_settings_command, add_demo_command,
     };
     return all;
 }

@@ -10,7 +10,6 @@
 #include "fmt/format.h"
 
 namespace cusp::host {
-
 namespace {
 
 constexpr const char* kModule = "libcusp_cad.so";
@@ -31,24 +30,31 @@ void* load_module()
     return dlopen(kModule, RTLD_NOW | RTLD_LOCAL);
 }
 
-}  // namespace
-
-std::vector<Surface> read_cad_surfaces(const std::string& file)
+CadModel read_model(const std::string& file, bool all_faces)
 {
     void* const module = load_module();
-    void* const door = module == nullptr ? nullptr : dlsym(module, "cusp_read_cad_surfaces");
+    void* const door = module == nullptr ? nullptr : dlsym(module, "cusp_read_cad_model");
     if (door == nullptr) {
         throw InputError(
             fmt::format("{}: STEP and IGES can't be read: {}; it is built where Open CASCADE "
                         "(libocct-data-exchange-dev) is installed",
                         file, dlerror()));
     }
-    std::vector<Surface> surfaces;
-    reinterpret_cast<decltype(&cusp_read_cad_surfaces)>(door)(file, surfaces);
-    for (Surface& surface : surfaces) {
+    CadModel model;
+    reinterpret_cast<decltype(&cusp_read_cad_model)>(door)(file, all_faces, model);
+    for (Surface& surface : model.faces) {
         surface = with_turning_knots(surface);
     }
-    return surfaces;
+    return model;
 }
+
+}  // namespace
+
+std::vector<Surface> read_cad_surfaces(const std::string& file)
+{
+    return read_model(file, false).faces;
+}
+
+CadModel read_cad_model(const std::string& file) { return read_model(file, true); }
 
 }  // namespace cusp::host

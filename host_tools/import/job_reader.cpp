@@ -28,10 +28,6 @@ constexpr double kDefaultClearance = 5.0;   // mm
 constexpr double kDefaultLargestArcRadius = 1000.0;
 // Tool numbers as controllers take them.
 constexpr Range kToolNumber{1, 255};
-// Programs are written to a ten-thousandth of a millimetre: far less is never held.
-constexpr Range kTolerance{1e-5, kLargest};
-// Nor is a feed written that is far less than a thousandth.
-constexpr Range kFeed{0.01, kLargest};
 
 const std::vector<std::string> kStrategies{"contour_pocket",     "adaptive_isocurve",
                                            "grid_pocket",        "hull_rough",

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "host_tools/import/number_ranges.hpp"
 #include "host_tools/import/path_ending.hpp"
 #include "host_tools/input_error/input_error.hpp"
 
@@ -12,10 +13,6 @@
 
 namespace cusp::host {
 namespace {
-
-constexpr double kLargest = 1e6;
-constexpr double kLeastTolerance = 1e-5;  // as in job files
-constexpr double kLeastFeed = 0.01;       // as in job files
 
 void check_range(const char* option, std::optional<double> value, double low, bool above_low)
 {
@@ -49,12 +46,12 @@ void check_parts(const OneLineRequest& request)
 
 void check_numbers(const OneLineRequest& request)
 {
-    check_range("--scallop", request.scallop, kLeastTolerance, true);
-    check_range("--tolerance", request.tolerance, kLeastTolerance, false);
+    check_range("--scallop", request.scallop, kTolerance.low, true);
+    check_range("--tolerance", request.tolerance, kTolerance.low, false);
     check_range("--max-depth", request.max_depth, 0, true);
     check_range("--allowance", request.allowance, 0, false);
-    check_range("--feed", request.feed, kLeastFeed, false);
-    check_range("--plunge-feed", request.plunge_feed, kLeastFeed, false);
+    check_range("--feed", request.feed, kFeed.low, false);
+    check_range("--plunge-feed", request.plunge_feed, kFeed.low, false);
     check_range("--spindle", request.spindle, 0, false);
     check_range("--stock-top", request.stock_top, -kLargest, false);
     check_range("--clearance", request.clearance, 0, true);

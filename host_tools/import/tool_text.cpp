@@ -6,6 +6,7 @@
 #include <sstream>
 #include <vector>
 
+#include "host_tools/import/number_ranges.hpp"
 #include "host_tools/input_error/input_error.hpp"
 
 #include "fmt/format.h"
@@ -14,7 +15,6 @@ namespace cusp::host {
 namespace {
 
 constexpr double kMillimetresPerInch = 25.4;
-constexpr double kLargest = 1e6;
 
 [[noreturn]] void refuse(const std::string& text, const std::string& what)
 {
