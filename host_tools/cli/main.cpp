@@ -20,13 +20,16 @@ constexpr const char* kDescription =
     "through the controller's own motion core, look at every pulse, and cut the part in memory.\n"
     "\n"
     "  cusp info PART.step                   what a part is: size, loops, the largest ball\n"
-    "  cusp plan JOB.toml -o PART.ngc        plan the operations of a job\n"
-    "  cusp fit PART.ngc -o ARCS.ngc --tolerance 0.01\n"
-    "                                        short lines to arcs and lines\n"
-    "  cusp verify JOB.toml PART.ngc         cut it in memory: gouge, scallop, what is left\n"
-    "  cusp sim PART.ngc --stats RUN.json    run it: time, limits, pulses\n"
     "  cusp demo                             all of it, on a pocket that comes with cusp\n"
-    "  cusp stream /dev/ttyUSB0 PART.ngc     send it to a controller\n";
+    "  cusp info part.step                   what a part is, and the largest ball for it\n"
+    "  cusp plan part.step --tool flat:8 ball:6 --scallop 0.02 -o part.ngc\n"
+    "                                        tool paths for it, without a job file\n"
+    "  cusp plan JOB.toml -o part.ngc        plan the operations of a job\n"
+    "  cusp verify JOB.toml part.ngc         cut it in memory: gouge, scallop, what is left\n"
+    "  cusp sim part.ngc --stats run.json    run it: time, limits, pulses\n"
+    "  cusp fit part.ngc -o arcs.ngc --tolerance 0.01\n"
+    "                                        short lines to arcs and lines\n"
+    "  cusp stream /dev/ttyUSB0 part.ngc     send it to a controller\n";
 
 constexpr const char* kFooter =
     "'cusp COMMAND --help' explains a command.\n"

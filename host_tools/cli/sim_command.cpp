@@ -229,7 +229,7 @@ void add_serve_options(CLI::App& command, SimArguments& arguments)
 void add_sim_command(CLI::App& app, Work& work)
 {
     CLI::App* command =
-        app.add_subcommand("sim", "Run a program through the controller's core as fast as it goes");
+        app.add_subcommand("sim", "run a program through the controller's core as fast as it goes");
     const auto arguments = std::make_shared<SimArguments>();
     command->add_option("program", arguments->program, "G-code to run from machine position 0,0,0");
     command->add_option("--settings", arguments->settings_file,
