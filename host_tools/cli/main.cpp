@@ -40,8 +40,8 @@ constexpr const char* kFooter =
 const std::vector<AddCommand>& commands()
 {
     static const std::vector<AddCommand> all{
-        add_info_command, add_plan_command,   add_fit_command,      add_verify_command,
-        add_sim_command,  add_stream_command, add_settings_command, add_demo_command,
+        add_demo_command, add_info_command, add_plan_command,   add_verify_command,
+        add_sim_command,  add_fit_command,  add_stream_command, add_settings_command,
     };
     return all;
 }
