@@ -1,7 +1,8 @@
 #!/bin/sh
-# Installs what is missing, builds, cross-builds the images, runs every test. See docs/testing.md.
+# Installs what is missing, builds, cross-builds the images and runs the tests. See docs/testing.md.
 # usage: ./test.sh [--all]
-#   --all, or CI=true: also the unit tests under ASan and UBSan, bounded fuzzing, and a build without Eigen and Open CASCADE
+#   --all, or CI=true: also the long tests, the unit tests under ASan and UBSan, bounded fuzzing, the packages, and the
+#   demo and the packages in bare roots
 set -eu
 cd "$(dirname "$0")"
 . ./.ci/packages.sh
@@ -42,26 +43,54 @@ run_tests() {
     failed=$((failed + broken))
 }
 
+# step NAME COMMAND...: one more test, by its exit status
+step() {
+    name=$1
+    shift
+    if "$@"; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "failed: $name"
+    fi
+}
+
+# Says how many tests the quick tier leaves out, and which.
+leave_out() {
+    echo "left to ./test.sh --all: $(ctest --preset dev -N -L long | sed -n 's/^Total Tests: //p') long tests" \
+        "($(ctest --preset dev -N -L long | sed -n 's/^ *Test *#[0-9]*: //p' | tr '\n' ' ' | sed 's/ $//'))," \
+        "ASan and UBSan, fuzzing, the packages, bare roots"
+}
+
 mkdir -p build
 echo "building (dev)"
 quietly build/configure-dev.log cmake --preset dev -DCUSP_TARGET_TESTS=ON
 quietly build/build-dev.log cmake --build --preset dev -j "$jobs"
-run_tests dev
 
-if [ "$all" = yes ]; then
+if [ "$all" = no ]; then
+    run_tests dev -LE long
+    leave_out
+else
+    run_tests dev
     echo "building (sanitize)"
     quietly build/configure-sanitize.log cmake --preset sanitize -DCUSP_TARGET_TESTS=OFF
     quietly build/build-sanitize.log cmake --build --preset sanitize -j "$jobs" --target unit_tests cusp
-    run_tests sanitize -L unit
+    run_tests sanitize -L unit -LE long
     echo "building the fuzz targets"
     quietly build/configure-fuzz.log cmake --preset fuzz -DCUSP_FUZZ_SECONDS=10 \
         -DCUSP_TARGET_TESTS=OFF
     quietly build/build-fuzz.log cmake --build --preset fuzz -j "$jobs"
     run_tests fuzz
-    echo "building without Eigen and Open CASCADE"
-    quietly build/configure-no-eigen.log cmake --preset dev -B build/no-eigen -DCUSP_EIGEN=OFF -DCUSP_OCCT=OFF \
-        -DCUSP_TARGET_TESTS=OFF -DCUSP_UNITY=ON -DCMAKE_CXX_FLAGS_DEBUG=-O0
-    quietly build/build-no-eigen.log cmake --build build/no-eigen -j "$jobs" --target cusp
+    echo "building without Eigen and Open CASCADE, with clang and make"
+    quietly build/configure-least.log cmake -S . -B build/least -G "Unix Makefiles" -DCMAKE_CXX_COMPILER=clang++ \
+        -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 -DBUILD_TESTING=OFF -DCUSP_EIGEN=OFF -DCUSP_OCCT=OFF \
+        -DCUSP_UNITY=ON
+    quietly build/build-least.log cmake --build build/least -j "$jobs" --target cusp
+    echo "making the packages"
+    install_packages $package_packages $fresh_packages
+    quietly build/package.log .ci/package
+    step packages tests/fresh/lint.sh out/packages
+    step "bare roots" tests/fresh/fresh_test.sh out/packages
 fi
 
 echo "$passed passed, $failed failed"

@@ -1,13 +1,19 @@
 # The Debian packages that the project needs, and how the missing ones are installed. Sourced.
 
-# Builds the host program.
-host_packages="g++ cmake ninja-build pkg-config python3 cpputest libeigen3-dev libcli11-dev libfmt-dev
-    libtomlplusplus-dev nlohmann-json3-dev libserialport-dev"
-# Also builds the images and runs all tests.
-test_packages="$host_packages python3-numpy clang-format-14 libpolyclipping-dev libbenchmark-dev
-    libocct-data-exchange-dev
-    gcc-arm-none-eabi libnewlib-dev libstdc++-arm-none-eabi-dev qemu-system-arm
-    g++-riscv64-linux-gnu qemu-user clang libclang-rt-14-dev"
+# Builds the product.
+host_packages="g++ cmake ninja-build libcli11-dev libeigen3-dev libfmt-dev libserialport-dev libtomlplusplus-dev
+    nlohmann-json3-dev"
+# Also reads STEP and IGES.
+cad_packages="libocct-data-exchange-dev"
+# Builds the images of the boards.
+image_packages="gcc-arm-none-eabi libnewlib-dev libstdc++-arm-none-eabi-dev"
+# Makes the Debian packages of it all, and checks them.
+package_packages="$host_packages $cad_packages $image_packages dpkg-dev file help2man lintian"
+# Runs all tests.
+test_packages="$host_packages $cad_packages $image_packages cpputest libpolyclipping-dev python3 python3-numpy
+    clang-format-14 qemu-system-arm g++-riscv64-linux-gnu qemu-user clang libclang-rt-14-dev git"
+# Runs the demo and the packages in a bare root.
+fresh_packages="mmdebstrap"
 
 # missing_packages PACKAGE...: those that are not installed
 missing_packages() {
@@ -26,11 +32,17 @@ install_packages() {
         return 1
     }
     as_root=""
-    [ "$(id -u)" = 0 ] || as_root=sudo
+    if [ "$(id -u)" != 0 ]; then
+        as_root=sudo
+        command -v sudo >/dev/null || {
+            echo "missing: $missing (run as root: apt-get install $missing)" >&2
+            return 1
+        }
+    fi
     echo "installing $missing"
     $as_root apt-get update -qq
     # shellcheck disable=SC2086
-    DEBIAN_FRONTEND=noninteractive $as_root apt-get install -y -qq --no-install-recommends $missing
+    $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing >/dev/null
 }
 
 if command -v ccache >/dev/null; then

@@ -69,16 +69,6 @@ void check(const Job& job, const Operation& operation, const std::vector<Tool>& 
     }
 }
 
-std::string names_of(const std::vector<Tool>& tools)
-{
-    std::string out;
-    for (const Tool& tool : tools) {
-        out += fmt::format("{}{} of radius {:g} mm", out.empty() ? "tool " : ", ", tool.number,
-                           tool.radius);
-    }
-    return out;
-}
-
 }  // namespace
 
 std::vector<PlannedOperation> plan_waterline_roughing(const Job& job, const Operation& operation)
@@ -113,10 +103,7 @@ std::vector<PlannedOperation> plan_waterline_roughing(const Job& job, const Oper
         out.push_back(std::move(roughed.planned));
     }
     if (out.empty()) {
-        throw InputError(
-            fmt::format("{}: roughing: {}, with an allowance of {:g} mm, fits nowhere into the "
-                        "stock",
-                        job.file, names_of(tools), operation.allowance));
+        return out;
     }
     const double least = operation.min_depth.value_or(0);
     if (work.depths.thinnest < least - kRounded) {

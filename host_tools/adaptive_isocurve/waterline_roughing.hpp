@@ -11,8 +11,8 @@ namespace cusp::adaptive_isocurve {
 
 // Levels of equal depth from the top of the stock down to the lowest place of the model
 // (`rough_depths`: max_depth, min_depth, layers), for the tools of operation.tools, of any shapes,
-// the largest first: one result for each that finds metal. operation.allowance stays on the model,
-// along its normal.
+// the largest first: one result for each that finds metal, none where none fits into the stock.
+// operation.allowance stays on the model, along its normal.
 //
 // A smaller tool cuts where it reaches deeper than a quarter of the ridges below what the larger
 // ones left. Beside walls it keeps off by as much more as their slices may have kept, so that it

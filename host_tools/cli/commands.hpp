@@ -21,7 +21,9 @@ using Work = std::function<int()>;
 // <name>_command.cpp with such a function, one line here and one in main.cpp.
 using AddCommand = void (*)(CLI::App& app, Work& work);
 
+void add_demo_command(CLI::App& app, Work& work);
 void add_fit_command(CLI::App& app, Work& work);
+void add_info_command(CLI::App& app, Work& work);
 void add_plan_command(CLI::App& app, Work& work);
 void add_verify_command(CLI::App& app, Work& work);
 void add_sim_command(CLI::App& app, Work& work);

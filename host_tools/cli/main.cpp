@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host_tools/cli/commands.hpp"
+#include "host_tools/cli/version_text.hpp"
 #include "host_tools/input_error/input_error.hpp"
 
 #include "CLI/CLI.hpp"
@@ -18,12 +19,17 @@ constexpr const char* kDescription =
     "From a sculptured surface to stepper pulses: plan tool paths over NURBS parts, run them\n"
     "through the controller's own motion core, look at every pulse, and cut the part in memory.\n"
     "\n"
-    "  cusp plan JOB.toml -o PART.ngc        plan the operations of a job\n"
-    "  cusp fit PART.ngc -o ARCS.ngc --tolerance 0.01\n"
+    "  cusp info PART.step                   what a part is: size, loops, the largest ball\n"
+    "  cusp demo                             all of it, on a pocket that comes with cusp\n"
+    "  cusp info part.step                   what a part is, and the largest ball for it\n"
+    "  cusp plan part.step --tool flat:8 ball:6 --scallop 0.02 -o part.ngc\n"
+    "                                        tool paths for it, without a job file\n"
+    "  cusp plan JOB.toml -o part.ngc        plan the operations of a job\n"
+    "  cusp verify JOB.toml part.ngc         cut it in memory: gouge, scallop, what is left\n"
+    "  cusp sim part.ngc --stats run.json    run it: time, limits, pulses\n"
+    "  cusp fit part.ngc -o arcs.ngc --tolerance 0.01\n"
     "                                        short lines to arcs and lines\n"
-    "  cusp verify JOB.toml PART.ngc         cut it in memory: gouge, scallop, what is left\n"
-    "  cusp sim PART.ngc --stats RUN.json    run it: time, limits, pulses\n"
-    "  cusp stream /dev/ttyUSB0 PART.ngc     send it to a controller\n";
+    "  cusp stream /dev/ttyUSB0 part.ngc     send it to a controller\n";
 
 constexpr const char* kFooter =
     "'cusp COMMAND --help' explains a command.\n"
@@ -34,8 +40,8 @@ constexpr const char* kFooter =
 const std::vector<AddCommand>& commands()
 {
     static const std::vector<AddCommand> all{
-        add_plan_command, add_fit_command,    add_verify_command,
-        add_sim_command,  add_stream_command, add_settings_command,
+        add_demo_command, add_info_command, add_plan_command,   add_verify_command,
+        add_sim_command,  add_fit_command,  add_stream_command, add_settings_command,
     };
     return all;
 }
@@ -44,7 +50,7 @@ int run(int argc, char** argv)
 {
     CLI::App app{kDescription, "cusp"};
     app.footer(kFooter);
-    app.set_version_flag("--version", "cusp " CUSP_VERSION);
+    app.set_version_flag("--version", version_text);
     app.require_subcommand(1);
     Work work;
     for (const AddCommand add : commands()) {

@@ -11,7 +11,7 @@ using simulate::settings_text;
 
 void add_settings_command(CLI::App& app, Work& work)
 {
-    CLI::App* command = app.add_subcommand("settings", "Print the default settings");
+    CLI::App* command = app.add_subcommand("settings", "print the default settings");
     command->footer(
         "Lines as `$$` prints them; redirect them to a file, change it, and hand it to\n"
         "`cusp sim --settings FILE`.");

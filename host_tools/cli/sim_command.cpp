@@ -9,11 +9,11 @@
 #include "firmware/base/pulse_frame.hpp"
 #include "host_tools/cli/commands.hpp"
 #include "host_tools/cli/interruption.hpp"
+#include "host_tools/cli/run_program.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/simulate/fault_command.hpp"
 #include "host_tools/simulate/settings_file.hpp"
 #include "host_tools/simulate/simulation.hpp"
-#include "host_tools/simulate/text_file.hpp"
 #include "host_tools/simulate/virtual_controller.hpp"
 
 namespace cusp::cli {
@@ -24,11 +24,10 @@ using simulate::ProgramMoveCounts;
 using simulate::read_script;
 using simulate::read_settings_file;
 using simulate::ServeOptions;
-using simulate::SimulationError;
 using simulate::SimulationOptions;
 using simulate::SimulationProgress;
 using simulate::SimulationResult;
-using simulate::write_text;
+using simulate::ToolTime;
 
 namespace {
 
@@ -92,12 +91,21 @@ void print_result(const SimulationResult& result, const MachineLimits& limits)
     if (result.starved_ticks > 0) {
         fmt::print("starved    {} ms without a line to run\n", result.starved_ticks);
     }
+    if (result.tool_changes > 0) {
+        fmt::print("tools     ");
+        for (const ToolTime& tool : result.tools) {
+            fmt::print(" T{} {:.1f} s{}", tool.number, tool.seconds(),
+                       &tool == &result.tools.back() ? "" : ",");
+        }
+        fmt::print("; {} change{} of tool\n", result.tool_changes,
+                   result.tool_changes == 1 ? "" : "s");
+    }
     for (const std::uint64_t line : result.pause_lines) {
         fmt::print("pause      line {}: went on at once\n", line);
     }
 }
 
-int run_program(const SimArguments& arguments)
+int run_once(const SimArguments& arguments)
 {
     SimulationOptions options;
     if (!arguments.settings_file.empty()) {
@@ -110,32 +118,17 @@ int run_program(const SimArguments& arguments)
     }
     options.probe_z = arguments.probe_z;
     options.bits_per_second = arguments.bits_per_second;
-    const std::atomic<int>& stops = count_interruptions();
-    options.stop = [&stops] {
-        return stops.load() > 0;
-    };
     const bool on_terminal = ::isatty(STDERR_FILENO) != 0;
     if (on_terminal) {
         options.progress = show_progress;
     }
-    const SimulationResult result = simulate::simulate(arguments.program, options);
+    const SimulationResult result = run_program(arguments.program, options, arguments.stats_file);
     if (on_terminal) {
         fmt::print(stderr, "\r\x1b[K");
     }
-    if (!arguments.stats_file.empty()) {
-        write_text(arguments.stats_file, statistics_json(result));
-    }
     print_result(result, options.settings.limits());
     std::fflush(stdout);
-    for (const SimulationError& error : result.errors) {
-        const std::string code = error.code == 0     ? ""
-                                 : result.alarm != 0 ? fmt::format("ALARM:{}: ", error.code)
-                                                     : fmt::format("error:{}: ", error.code);
-        fmt::print(stderr, "{}:{}: {}{}\n", arguments.program, error.line, code, error.text);
-    }
-    if (result.stopped) {
-        fmt::print(stderr, "stopped before the end\n");
-    }
+    print_faults(arguments.program, result);
     return result.good() ? kDone : kFoundWrong;
 }
 
@@ -208,7 +201,7 @@ int run_sim(const SimArguments& arguments)
     if (arguments.program.empty()) {
         throw InputError{"cusp sim needs a program, or --serve"};
     }
-    return run_program(arguments);
+    return run_once(arguments);
 }
 
 void add_serve_options(CLI::App& command, SimArguments& arguments)
@@ -248,7 +241,7 @@ void add_serve_options(CLI::App& command, SimArguments& arguments)
 void add_sim_command(CLI::App& app, Work& work)
 {
     CLI::App* command =
-        app.add_subcommand("sim", "Run a program through the controller's core as fast as it goes");
+        app.add_subcommand("sim", "run a program through the controller's core as fast as it goes");
     const auto arguments = std::make_shared<SimArguments>();
     command->add_option("program", arguments->program, "G-code to run from machine position 0,0,0");
     command->add_option("--settings", arguments->settings_file,

@@ -258,7 +258,7 @@ int run_stream(const StreamArguments& arguments)
 
 void add_stream_command(CLI::App& app, Work& work)
 {
-    CLI::App* command = app.add_subcommand("stream", "Send a program to a controller");
+    CLI::App* command = app.add_subcommand("stream", "send a program to a controller");
     const auto arguments = std::make_shared<StreamArguments>();
     command->add_option("port", arguments->port, "Serial device, pseudo-terminal, or tcp:HOST:PORT")
         ->required();

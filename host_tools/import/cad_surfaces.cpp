@@ -2,6 +2,7 @@
 #include "host_tools/import/cad_surfaces.hpp"
 
 #include <dlfcn.h>
+#include <filesystem>
 
 #include "host_tools/import/turning_knots.hpp"
 #include "host_tools/input_error/input_error.hpp"
@@ -12,24 +13,51 @@ namespace cusp::import {
 
 using nurbs::Surface;
 
-std::vector<Surface> read_cad_surfaces(const std::string& file)
+namespace {
+
+constexpr const char* kModule = "libcusp_cad.so";
+
+// The module beside the program: where it is built, where it is installed, and (tests) where
+// RUNPATH says. Null: not there; dlerror() says why. It stays loaded: Open CASCADE keeps state that
+// outlives a call.
+void* load_module()
 {
-    // Looked for where the program's RUNPATH says. It stays loaded: Open CASCADE keeps state that
-    // outlives a call.
-    void* const module = dlopen("libcusp_cad.so", RTLD_NOW | RTLD_LOCAL);
-    void* const door = module == nullptr ? nullptr : dlsym(module, "cusp_read_cad_surfaces");
+    std::error_code error;
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+    for (const char* folder : {"lib", CUSP_CAD_FOLDER}) {
+        const std::filesystem::path file = program.parent_path().parent_path() / folder / kModule;
+        if (!error && std::filesystem::exists(file, error)) {
+            return dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+        }
+    }
+    return dlopen(kModule, RTLD_NOW | RTLD_LOCAL);
+}
+
+CadModel read_model(const std::string& file, bool all_faces)
+{
+    void* const module = load_module();
+    void* const door = module == nullptr ? nullptr : dlsym(module, "cusp_read_cad_model");
     if (door == nullptr) {
         throw InputError(
             fmt::format("{}: STEP and IGES can't be read: {}; it is built where Open CASCADE "
                         "(libocct-data-exchange-dev) is installed",
                         file, dlerror()));
     }
-    std::vector<Surface> surfaces;
-    reinterpret_cast<decltype(&cusp_read_cad_surfaces)>(door)(file, surfaces);
-    for (Surface& surface : surfaces) {
+    CadModel model;
+    reinterpret_cast<decltype(&cusp_read_cad_model)>(door)(file, all_faces, model);
+    for (Surface& surface : model.faces) {
         surface = with_turning_knots(surface);
     }
-    return surfaces;
+    return model;
 }
+
+}  // namespace
+
+std::vector<Surface> read_cad_surfaces(const std::string& file)
+{
+    return read_model(file, false).faces;
+}
+
+CadModel read_cad_model(const std::string& file) { return read_model(file, true); }
 
 }  // namespace cusp::import

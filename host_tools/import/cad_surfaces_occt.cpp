@@ -1,20 +1,14 @@
-// The one file that knows Open CASCADE: it reads the model, turns every face into a B-spline and
-// hands surface and trimming curves over.
+// Turns every face of a CAD model into a B-spline and hands surface and trimming curves over.
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
+#include "host_tools/import/cad_shape.hpp"
 #include "host_tools/import/cad_surfaces.hpp"
 #include "host_tools/import/nurbs_validity.hpp"
-#include "host_tools/import/path_ending.hpp"
 #include "host_tools/import/trim_loops.hpp"
 #include "host_tools/import/trim_repair.hpp"
 #include "host_tools/input_error/input_error.hpp"
-#include "host_tools/input_error/text_of_file.hpp"
 #include "host_tools/job/loop_shape.hpp"
 #include "host_tools/nurbs/knot_insertion.hpp"
 
@@ -33,25 +27,12 @@
 #include "opencascade/Geom2d_TrimmedCurve.hxx"
 #include "opencascade/GeomConvert.hxx"
 #include "opencascade/Geom_BSplineSurface.hxx"
-#include "opencascade/IGESControl_Reader.hxx"
-#include "opencascade/Interface_Check.hxx"
-#include "opencascade/Interface_CheckIterator.hxx"
-#include "opencascade/Message.hxx"
-#include "opencascade/Message_Messenger.hxx"
-#include "opencascade/STEPControl_Reader.hxx"
-#include "opencascade/ShapeFix_Face.hxx"
-#include "opencascade/ShapeFix_Shape.hxx"
-#include "opencascade/ShapeFix_Solid.hxx"
-#include "opencascade/ShapeFix_Wire.hxx"
 #include "opencascade/Standard_Failure.hxx"
 #include "opencascade/TopExp_Explorer.hxx"
 #include "opencascade/TopoDS.hxx"
 #include "opencascade/TopoDS_Edge.hxx"
 #include "opencascade/TopoDS_Face.hxx"
 #include "opencascade/TopoDS_Solid.hxx"
-#include "opencascade/XSAlgo.hxx"
-#include "opencascade/XSAlgo_AlgoContainer.hxx"
-#include "opencascade/XSControl_WorkSession.hxx"
 
 namespace cusp::import {
 
@@ -74,96 +55,6 @@ std::vector<double> list_of(const TColStd_Array1OfReal& knots)
     return {knots.begin(), knots.end()};
 }
 
-// Open CASCADE's repairs as they are by default, but for the orientation of wires: where a seam
-// ends in a pole on the edge of a face they cut the seam off, and keep the wrong part of a ball.
-class GentleRepairs : public XSAlgo_AlgoContainer {
-public:
-    TopoDS_Shape ProcessShape(const TopoDS_Shape& shape,
-                              double precision,
-                              double most,
-                              const char* resource,
-                              const char* sequence,
-                              Handle(Standard_Transient) & about,
-                              const Message_ProgressRange& progress,
-                              bool non_manifold) const override
-    {
-        if (shape.IsNull()) {
-            return XSAlgo_AlgoContainer::ProcessShape(shape, precision, most, resource, sequence,
-                                                      about, progress, non_manifold);
-        }
-        ShapeFix_Shape repair{shape};
-        repair.SetPrecision(precision);
-        repair.SetMaxTolerance(most);
-        repair.FixFaceTool()->FixOrientationMode() = 0;
-        repair.FixFaceTool()->FixWireTool()->FixSameParameterMode() = 0;
-        repair.FixSolidTool()->CreateOpenSolidMode() = false;
-        repair.Perform(progress);
-        return repair.Shape();
-    }
-};
-
-enum class Repairs { kGentle, kAll };
-
-// Whether the shape can be made without a crash, tried in a process of its own.
-bool survives_transfer(XSControl_Reader& reader)
-{
-    const pid_t child = fork();
-    if (child == 0) {
-        const rlimit no_core{0, 0};
-        setrlimit(RLIMIT_CORE, &no_core);
-        try {
-            reader.TransferRoots();
-        } catch (...) {
-        }
-        _exit(0);
-    }
-    int status = 0;
-    return child < 0 || (waitpid(child, &status, 0) == child && status == 0);
-}
-
-// Open CASCADE follows references to what it could not read. Many files with faults are read well,
-// so only those that it does not survive are refused.
-void check_faults(const std::string& file, XSControl_Reader& reader)
-{
-    Interface_CheckIterator faults = reader.WS()->ModelCheckList(true).Extract(Interface_CheckFail);
-    faults.Start();
-    if (faults.More() && !survives_transfer(reader)) {
-        throw InputError(
-            fmt::format("{}: Open CASCADE can't make a shape of it; the first fault: "
-                        "entity {}: {}",
-                        file, faults.Number(), faults.Value()->CFail(1)));
-    }
-}
-
-TopoDS_Shape read_shape(const std::string& file, Repairs repairs)
-{
-    Message::DefaultMessenger()->ChangePrinters().Clear();
-    text_of_file(file);  // says why a file can't be read
-    const std::string ending = path_ending(file);
-    const bool step = ending == ".step" || ending == ".stp";
-    std::unique_ptr<XSControl_Reader> reader;
-    if (step) {
-        reader = std::make_unique<STEPControl_Reader>();
-    } else {
-        reader = std::make_unique<IGESControl_Reader>();
-    }
-    if (reader->ReadFile(file.c_str()) != IFSelect_RetDone) {
-        throw InputError(fmt::format("{}: this is no {} file", file, step ? "STEP" : "IGES"));
-    }
-    if (repairs == Repairs::kGentle) {
-        XSAlgo::SetAlgoContainer(new GentleRepairs);
-    } else {
-        XSAlgo::SetAlgoContainer(new XSAlgo_AlgoContainer);
-    }
-    check_faults(file, *reader);
-    reader->TransferRoots();
-    const TopoDS_Shape shape = reader->OneShape();
-    if (shape.IsNull()) {
-        throw InputError(file + ": the file holds no shape");
-    }
-    return shape;
-}
-
 struct SolidFace {
     TopoDS_Face face;
     bool solid;
@@ -178,7 +69,8 @@ void add_faces(const TopoDS_Shape& shape, bool solid, std::vector<SolidFace>& fa
 }
 
 // Faces outside solids, sewn: a shell that closes becomes a solid with its faces turned outwards.
-void add_loose_faces(const TopoDS_Shape& shape, std::vector<SolidFace>& faces)
+// Returns how many do.
+std::size_t add_loose_faces(const TopoDS_Shape& shape, std::vector<SolidFace>& faces)
 {
     BRepBuilderAPI_Sewing sewing{kSewing};
     bool any = false;
@@ -187,8 +79,9 @@ void add_loose_faces(const TopoDS_Shape& shape, std::vector<SolidFace>& faces)
         any = true;
     }
     if (!any) {
-        return;
+        return 0;
     }
+    std::size_t closed_shells = 0;
     sewing.Perform();
     const TopoDS_Shape sewn = sewing.SewedShape();
     const BRep_Builder builder;
@@ -198,10 +91,12 @@ void add_loose_faces(const TopoDS_Shape& shape, std::vector<SolidFace>& faces)
         builder.Add(solid, at.Current());
         const bool closed = BRep_Tool::IsClosed(at.Current()) && BRepLib::OrientClosedSolid(solid);
         add_faces(closed ? TopoDS_Shape{solid} : at.Current(), closed, faces);
+        closed_shells += closed ? 1 : 0;
     }
     for (TopExp_Explorer at{sewn, TopAbs_FACE, TopAbs_SHELL}; at.More(); at.Next()) {
         faces.push_back({TopoDS::Face(at.Current()), false});
     }
+    return closed_shells;
 }
 
 // The least u and v of the ends of the face's edges.
@@ -409,68 +304,90 @@ double area_of(const TopoDS_Shape& shape)
     return properties.Mass();
 }
 
-std::vector<Surface> surfaces_of(const std::string& file, Repairs repairs)
+// One face with its trims.
+Surface trimmed_surface(const TopoDS_Face& face, Surface surface, const std::string& place)
 {
-    const TopoDS_Shape shape = read_shape(file, repairs);
-    std::vector<SolidFace> faces;
-    for (TopExp_Explorer at{shape, TopAbs_SOLID}; at.More(); at.Next()) {
-        add_faces(at.Current(), true, faces);
+    check_surface(surface, place);
+    surface = clamped(surface);
+    add_trims(face, place, surface);
+    return surface;
+}
+
+void add_face(const SolidFace& found, bool all_faces, const std::string& place, CadModel& model)
+{
+    // with the face turned forward its wires keep the material on their left in (u, v)
+    const TopoDS_Shape converted =
+        BRepBuilderAPI_NurbsConvert{found.face.Oriented(TopAbs_FORWARD), true}.Shape();
+    const TopoDS_Face face = TopoDS::Face(converted.Oriented(TopAbs_FORWARD));
+    // Sewing has turned such a face, too: it would seem to look down.
+    if (area_of(face) < 0) {
+        throw InputError(place + ": its edges run round it the wrong way");
     }
-    add_loose_faces(shape, faces);
+    const Surface surface = surface_of(face);
+    const double outwards = found.face.Orientation() == TopAbs_REVERSED ? -1.0 : 1.0;
+    const bool is_below = found.solid && !looks_up(surface, outwards);
+    if (is_below && !all_faces) {
+        return;
+    }
+    try {
+        model.faces.push_back(trimmed_surface(face, surface, place));
+        model.outwards.push_back(found.solid ? outwards : 0.0);
+    } catch (const InputError&) {
+        if (!is_below) {
+            throw;
+        }
+        ++model.unread;
+    }
+}
+
+CadModel model_of(const std::string& file, Repairs repairs, bool all_faces)
+{
+    const ReadShape read = read_shape(file, repairs);
+    CadModel model;
+    model.unit = read.unit;
+    std::vector<SolidFace> faces;
+    for (TopExp_Explorer at{read.shape, TopAbs_SOLID}; at.More(); at.Next()) {
+        add_faces(at.Current(), true, faces);
+        ++model.solids;
+    }
+    model.solids += add_loose_faces(read.shape, faces);
     if (faces.empty()) {
         throw InputError(file + ": the file holds no face");
     }
-    std::vector<Surface> surfaces;
     for (std::size_t i = 0; i < faces.size(); ++i) {
-        const std::string place = fmt::format("{}: face {}", file, i + 1);
-        // with the face turned forward its wires keep the material on their left in (u, v)
-        const TopoDS_Shape converted =
-            BRepBuilderAPI_NurbsConvert{faces[i].face.Oriented(TopAbs_FORWARD), true}.Shape();
-        const TopoDS_Face face = TopoDS::Face(converted.Oriented(TopAbs_FORWARD));
-        // Sewing has turned such a face, too: it would seem to look down.
-        if (area_of(face) < 0) {
-            throw InputError(place + ": its edges run round it the wrong way");
-        }
-        Surface surface = surface_of(face);
-        const double outwards = faces[i].face.Orientation() == TopAbs_REVERSED ? -1.0 : 1.0;
-        if (faces[i].solid && !looks_up(surface, outwards)) {
-            continue;
-        }
-        check_surface(surface, place);
-        surface = clamped(surface);
-        add_trims(face, place, surface);
-        surfaces.push_back(std::move(surface));
+        add_face(faces[i], all_faces, fmt::format("{}: face {}", file, i + 1), model);
     }
-    if (surfaces.empty()) {
+    if (model.faces.empty()) {
         throw InputError(file + ": no face looks up: is z the tool's axis?");
     }
-    return surfaces;
+    return model;
 }
 
 // A file whose wires do need turning is read again with all repairs, unless those lose some of it.
-std::vector<Surface> surfaces_with_fewest_repairs(const std::string& file)
+CadModel model_with_fewest_repairs(const std::string& file, bool all_faces)
 {
     constexpr double kSamePart = 1e-3;
     try {
-        return surfaces_of(file, Repairs::kGentle);
+        return model_of(file, Repairs::kGentle, all_faces);
     } catch (const InputError&) {
-        const double gentle = area_of(read_shape(file, Repairs::kGentle));
-        const double repaired = area_of(read_shape(file, Repairs::kAll));
+        const double gentle = area_of(read_shape(file, Repairs::kGentle).shape);
+        const double repaired = area_of(read_shape(file, Repairs::kAll).shape);
         if (repaired < (1 - kSamePart) * gentle) {
             throw;
         }
     }
-    return surfaces_of(file, Repairs::kAll);
+    return model_of(file, Repairs::kAll, all_faces);
 }
 
 }  // namespace
 }  // namespace cusp::import
 
-extern "C" void cusp_read_cad_surfaces(const std::string& file,
-                                       std::vector<cusp::nurbs::Surface>& surfaces)
+extern "C" void cusp_read_cad_model(const std::string& file,
+                                    bool all_faces,
+                                    cusp::import::CadModel& model)
 {
     try {
-        surfaces = cusp::import::surfaces_with_fewest_repairs(file);
+        model = cusp::import::model_with_fewest_repairs(file, all_faces);
     } catch (const Standard_Failure& failure) {
         throw cusp::InputError(
             fmt::format("{}: Open CASCADE gave up: {}", file, failure.GetMessageString()));

@@ -39,6 +39,7 @@ public:
     {
     }
 
+    // In the order of the drawing; none where the layer draws nothing.
     std::vector<Curve> read();
 
 private:
@@ -376,15 +377,16 @@ std::vector<Curve> in_order(std::vector<Curve> curves)
 std::vector<Curve> CurveMaker::read()
 {
     add_all(drawing_.entities(), "", 0);
-    if (curves_.empty()) {
-        throw InputError(layer_.empty() ? drawing_.file() + ": the drawing holds no curve"
-                                        : fmt::format("{}: no curve on the layer \"{}\"",
-                                                      drawing_.file(), layer_));
-    }
     for (const Curve& curve : curves_) {
         check_curve(curve, drawing_.file());
     }
-    return in_order(std::move(curves_));
+    return std::move(curves_);
+}
+
+std::string no_curve(const std::string& file, const std::string& layer)
+{
+    return layer.empty() ? file + ": the drawing holds no curve"
+                         : fmt::format("{}: no curve on the layer \"{}\"", file, layer);
 }
 
 }  // namespace
@@ -416,7 +418,32 @@ std::vector<Curve> read_dxf_curves(const std::string& file,
                                    const std::string& layer)
 {
     const DxfDrawing drawing{file, millimetres};
-    return CurveMaker{drawing, layer}.read();
+    std::vector<Curve> curves = CurveMaker{drawing, layer}.read();
+    if (curves.empty()) {
+        throw InputError(no_curve(file, layer));
+    }
+    return in_order(std::move(curves));
+}
+
+DxfLayers read_dxf_layers(const std::string& file, double millimetres)
+{
+    const DxfDrawing drawing{file, millimetres};
+    DxfLayers out{drawing.unit(), drawing.names_unit(), {}};
+    for (const std::string& name : drawing.layers()) {
+        DxfLayer layer{name, drawing.hidden(name), {}, {}};
+        try {
+            layer.curves = CurveMaker{drawing, name}.read();
+        } catch (const InputError& error) {
+            layer.problem = error.what();
+        }
+        if (!layer.curves.empty() || !layer.problem.empty()) {
+            out.layers.push_back(std::move(layer));
+        }
+    }
+    if (out.layers.empty()) {
+        throw InputError(no_curve(file, ""));
+    }
+    return out;
 }
 
 }  // namespace cusp::import

@@ -24,6 +24,24 @@ std::vector<nurbs::Curve> read_dxf_curves(const std::string& file,
                                           double millimetres,
                                           const std::string& layer = "");
 
+// One layer of a drawing, by itself.
+struct DxfLayer {
+    std::string name;
+    bool hidden{};                     // switched off or frozen
+    std::vector<nurbs::Curve> curves;  // in the order of the file
+    std::string problem;               // why it can't be read, with the line; "": it can
+};
+
+struct DxfLayers {
+    double millimetres{};  // of one unit of the drawing
+    bool names_unit{};     // by $INSUNITS
+    std::vector<DxfLayer> layers;
+};
+
+// Every layer that draws something, by name; curves as read_dxf_curves() makes them.
+// Errors: InputError where the file is no drawing or draws nothing.
+DxfLayers read_dxf_layers(const std::string& file, double millimetres);
+
 // The arc about `centre` from an angle on, counter-clockwise for a positive sweep, radians.
 // Precondition: radius > 0, 0 < |sweep| <= 2 pi.
 nurbs::Curve arc_curve(Vec2d centre, double radius, double start, double sweep);

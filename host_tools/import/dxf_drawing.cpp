@@ -115,6 +115,7 @@ void DxfDrawing::read_unit()
             constexpr double kMillimetres = 4;
             constexpr double kInch = 25.4;
             const double unit = number(group);
+            names_unit_ = unit == kInches || unit == kMillimetres;
             unit_ = unit == kInches ? kInch : unit == kMillimetres ? 1.0 : unit_;
             return;
         } else if (group.code == 0 && group.value == "ENDSEC") {
@@ -158,6 +159,21 @@ const DxfBlock* DxfDrawing::block(std::string_view name) const
 {
     const auto at = blocks_.find(upper(name));
     return at == blocks_.end() ? nullptr : &at->second;
+}
+
+std::set<std::string> DxfDrawing::layers() const
+{
+    std::set<std::string> names;
+    const auto add = [&names](const std::vector<DxfEntity>& entities) {
+        for (const DxfEntity& entity : entities) {
+            names.emplace(text(entity, 8, "0"));
+        }
+    };
+    add(entities_);
+    for (const auto& [name, block] : blocks_) {
+        add(block.entities);
+    }
+    return names;
 }
 
 std::string_view DxfDrawing::text(const DxfEntity& entity, int code, std::string_view otherwise)

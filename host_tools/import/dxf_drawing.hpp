@@ -42,6 +42,10 @@ public:
     // Names are the same whatever their case; none: nullptr.
     const DxfBlock* block(std::string_view name) const;
     double unit() const { return unit_; }  // mm
+    // Whether the drawing names millimetres or inches itself.
+    bool names_unit() const { return names_unit_; }
+    // The names of all layers that objects are on, those in blocks included, in order.
+    std::set<std::string> layers() const;
     // Layers that are switched off or frozen draw nothing.
     bool hidden(std::string_view layer) const { return hidden_.count(layer) > 0; }
 
@@ -69,6 +73,7 @@ private:
     std::string file_;
     std::string text_;
     double unit_;
+    bool names_unit_{false};
     std::vector<DxfGroup> groups_;
     std::set<std::string_view> hidden_;
     std::map<std::string, DxfBlock> blocks_;

@@ -177,16 +177,19 @@ Surface read_surface(const Json& shape, double millimetres, const std::string& p
     return surface;
 }
 
-// Calls read(data[i], place) for each shape of the file.
-template <class Read>
-void for_each_shape(const std::string& file, const char* type, Read read)
+Json parsed(const std::string& file)
 {
-    Json document;
     try {
-        document = Json::parse(text_of_file(file));
+        return Json::parse(text_of_file(file));
     } catch (const Json::exception& error) {
         throw InputError(fmt::format("{}: not JSON: {}", file, error.what()));
     }
+}
+
+// Calls read(data[i], place) for each shape of the document.
+template <class Read>
+void for_each_shape(const Json& document, const std::string& file, const char* type, Read read)
+{
     const Json& shape = member(document, "shape", file);
     const Json& found = member(shape, "type", file);
     if (found != type) {
@@ -207,24 +210,45 @@ void for_each_shape(const std::string& file, const char* type, Read read)
     }
 }
 
-}  // namespace
-
-std::vector<Surface> read_json_surfaces(const std::string& file, double millimetres)
+std::vector<Surface> surfaces_of(const Json& document, const std::string& file, double millimetres)
 {
     std::vector<Surface> surfaces;
-    for_each_shape(file, "surface", [&](const Json& shape, const std::string& place) {
+    for_each_shape(document, file, "surface", [&](const Json& shape, const std::string& place) {
         surfaces.push_back(read_surface(shape, millimetres, place));
     });
     return surfaces;
 }
 
-std::vector<Curve> read_json_curves(const std::string& file, double millimetres)
+std::vector<Curve> curves_of(const Json& document, const std::string& file, double millimetres)
 {
     std::vector<Curve> curves;
-    for_each_shape(file, "curve", [&](const Json& shape, const std::string& place) {
+    for_each_shape(document, file, "curve", [&](const Json& shape, const std::string& place) {
         curves.push_back(read_curve(shape, millimetres, place));
     });
     return curves;
+}
+
+}  // namespace
+
+std::vector<Surface> read_json_surfaces(const std::string& file, double millimetres)
+{
+    return surfaces_of(parsed(file), file, millimetres);
+}
+
+std::vector<Curve> read_json_curves(const std::string& file, double millimetres)
+{
+    return curves_of(parsed(file), file, millimetres);
+}
+
+std::variant<std::vector<Surface>, std::vector<Curve>> read_json_shapes(const std::string& file,
+                                                                        double millimetres)
+{
+    const Json document = parsed(file);
+    const Json& type = member(member(document, "shape", file), "type", file);
+    if (type == "curve") {
+        return curves_of(document, file, millimetres);
+    }
+    return surfaces_of(document, file, millimetres);
 }
 
 }  // namespace cusp::import

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "host_tools/nurbs/nurbs.hpp"
@@ -14,5 +15,9 @@ namespace cusp::import {
 // Errors: InputError naming file, shape, quantity, value and limit.
 std::vector<nurbs::Surface> read_json_surfaces(const std::string& file, double millimetres);
 std::vector<nurbs::Curve> read_json_curves(const std::string& file, double millimetres);
+
+// Whichever the file holds.
+std::variant<std::vector<nurbs::Surface>, std::vector<nurbs::Curve>> read_json_shapes(
+    const std::string& file, double millimetres);
 
 }  // namespace cusp::import

@@ -14,6 +14,16 @@ namespace cusp::import {
 // Reads a TOML job and the parts it names. Throws InputError.
 job::Job read_job(const std::string& file);
 
+// A job that is in no file.
+struct JobText {
+    std::string text;    // TOML
+    std::string name;    // of the job in messages
+    std::string folder;  // that paths in it are relative to; "": the current one
+};
+class PartFiles;
+// The same from text, with parts that may be read already.
+job::Job read_job(const JobText& job, PartFiles& parts);
+
 // Geometry by itself, with clamped ends. Throws InputError.
 //
 // millimetres     of one unit of the file: 1 or 25.4; STEP and IGES name their own

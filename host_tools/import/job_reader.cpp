@@ -11,6 +11,7 @@
 #include "host_tools/import/job_text.hpp"
 #include "host_tools/import/operation_check.hpp"
 #include "host_tools/import/owned_keys.hpp"
+#include "host_tools/import/part_files.hpp"
 #include "host_tools/import/path_ending.hpp"
 #include "host_tools/import/trim_loops.hpp"
 #include "host_tools/input_error/text_of_file.hpp"
@@ -24,7 +25,6 @@ namespace cusp::import {
 using job::CutDirection;
 using job::EntryKind;
 using job::Job;
-using job::Loop;
 using job::Operation;
 using job::OutputForm;
 using job::ToleranceSide;
@@ -43,10 +43,6 @@ constexpr double kDefaultClearance = 5.0;   // mm
 constexpr double kDefaultLargestArcRadius = 1000.0;
 // Tool numbers as controllers take them.
 constexpr Range kToolNumber{1, 255};
-// Programs are written to a ten-thousandth of a millimetre: far less is never held.
-constexpr Range kTolerance{1e-5, kLargest};
-// Nor is a feed written that is far less than a thousandth.
-constexpr Range kFeed{0.01, kLargest};
 
 const std::vector<std::string> kStrategies{"contour_pocket",     "adaptive_isocurve",
                                            "grid_pocket",        "hull_rough",
@@ -54,9 +50,14 @@ const std::vector<std::string> kStrategies{"contour_pocket",     "adaptive_isocu
 
 class JobReader {
 public:
-    explicit JobReader(const std::string& file) : file_{file} { job_.file = file; }
+    // folder  that paths are relative to
+    JobReader(const std::string& file, const std::filesystem::path& folder, PartFiles& parts)
+        : file_{file}, folder_{folder}, parts_{parts}
+    {
+        job_.file = file;
+    }
 
-    Job read();
+    Job read(const std::string& text);
 
 private:
     void read_units(JobTable& top);
@@ -72,7 +73,6 @@ private:
     void read_strategy_keys(JobTable& table, Operation& operation);
     void read_grid(JobTable& table, Operation& operation);
     bool takes_mesh(const Operation& operation, const std::vector<std::string>& floor) const;
-    void read_mesh_of(const std::string& path, Operation& operation);
     const std::vector<Surface>& surfaces_of(const std::string& path, double floor_tolerance);
     void intersect(JobTable& table, const std::vector<std::string>& bodies, Operation& operation);
     void read_parts(JobTable& table, Operation& operation);
@@ -91,11 +91,10 @@ private:
     }
 
     std::string file_;
+    std::filesystem::path folder_;
+    PartFiles& parts_;
     double unit_{1.0};  // mm
     Job job_;
-    std::map<std::string, Loop> loops_;
-    std::map<std::pair<std::string, double>, std::vector<Surface>> surfaces_;  // by tolerance, too
-    std::map<std::string, std::vector<std::array<Vec3d, 3>>> meshes_;
     // By the files of the floor, those it was intersected with, and the tolerance.
     using Names = std::vector<std::string>;
     std::map<std::tuple<Names, Names, double>, std::vector<Surface>> intersections_;
@@ -104,7 +103,7 @@ private:
 std::string JobReader::path_of(const std::string& name) const
 {
     const std::filesystem::path path{name};
-    return path.is_absolute() ? name : (std::filesystem::path(file_).parent_path() / path).string();
+    return path.is_absolute() ? name : (folder_ / path).string();
 }
 
 void JobReader::read_units(JobTable& top)
@@ -340,24 +339,10 @@ bool JobReader::takes_mesh(const Operation& operation, const std::vector<std::st
                        [](const std::string& name) { return path_ending(name) == ".stl"; });
 }
 
-void JobReader::read_mesh_of(const std::string& path, Operation& operation)
-{
-    if (meshes_.count(path) == 0) {
-        meshes_[path] = read_mesh(path, unit_, &job_.notes);
-    }
-    operation.mesh.insert(operation.mesh.end(), meshes_[path].begin(), meshes_[path].end());
-}
-
 const std::vector<Surface>& JobReader::surfaces_of(const std::string& path, double floor_tolerance)
 {
     // half of what the floor may be off goes to a mesh's height field
-    const double tolerance = path_ending(path) == ".stl" ? floor_tolerance / 2 : 0;
-    const auto [found, is_new] = surfaces_.try_emplace({path, tolerance});
-    std::vector<Surface>& surfaces = found->second;
-    if (is_new) {
-        surfaces = read_surfaces(path, unit_, tolerance, &job_.notes);
-    }
-    return surfaces;
+    return parts_.surfaces(path, unit_, floor_tolerance / 2);
 }
 
 // What is left of the floor under every one of `bodies`.
@@ -403,7 +388,8 @@ void JobReader::read_parts(JobTable& table, Operation& operation)
     for (const std::string& name : floor) {
         operation.floor_files.push_back(path_of(name));
         if (mesh) {
-            read_mesh_of(operation.floor_files.back(), operation);
+            const Triangles& triangles = parts_.mesh(operation.floor_files.back(), unit_);
+            operation.mesh.insert(operation.mesh.end(), triangles.begin(), triangles.end());
         } else {
             const std::vector<Surface>& surfaces =
                 surfaces_of(operation.floor_files.back(), operation.floor_tolerance);
@@ -416,19 +402,13 @@ void JobReader::read_parts(JobTable& table, Operation& operation)
     if (!bodies.empty()) {
         intersect(table, bodies, operation);
     }
-    const auto loop = [&](const std::string& path) {
-        if (loops_.count(path) == 0) {
-            loops_[path] = read_loop(path, unit_);
-        }
-        return loops_[path];
-    };
     if (const auto name = table.text("boundary")) {
         operation.boundary_file = path_of(*name);
-        operation.boundary = loop(operation.boundary_file);
+        operation.boundary = parts_.loop(operation.boundary_file, unit_);
     }
     for (const std::string& name : table.texts("islands").value_or(std::vector<std::string>{})) {
         operation.island_files.push_back(path_of(name));
-        operation.islands.push_back(loop(operation.island_files.back()));
+        operation.islands.push_back(parts_.loop(operation.island_files.back(), unit_));
     }
 }
 
@@ -453,9 +433,8 @@ Operation JobReader::read_operation(const toml::table& entry, std::size_t index)
     return operation;
 }
 
-Job JobReader::read()
+Job JobReader::read(const std::string& text)
 {
-    const std::string text = text_of_file(file_);
     check_plain_text(text, file_);
     toml::table document;
     try {
@@ -477,11 +456,22 @@ Job JobReader::read()
     for (std::size_t i = 0; i < operations.size(); ++i) {
         job_.operations.push_back(read_operation(*operations[i], i + 1));
     }
+    job_.notes = parts_.notes();
     return std::move(job_);  // meshes are large
 }
 
 }  // namespace
 
-Job read_job(const std::string& file) { return JobReader{file}.read(); }
+Job read_job(const std::string& file)
+{
+    PartFiles parts;
+    const std::filesystem::path folder = std::filesystem::path{file}.parent_path();
+    return JobReader{file, folder, parts}.read(text_of_file(file));
+}
+
+Job read_job(const JobText& job, PartFiles& parts)
+{
+    return JobReader{job.name, job.folder, parts}.read(job.text);
+}
 
 }  // namespace cusp::import

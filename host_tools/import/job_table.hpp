@@ -6,23 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "host_tools/import/number_ranges.hpp"
+
 // toml++ asserts in debug builds on some broken files that it refuses properly in release ones.
 #define TOML_ASSERT(condition) static_cast<void>(0)
 #include "toml++/toml.h"
 
 namespace cusp::import {
-
-// Which numbers a key may hold.
-struct Range {
-    double low;
-    double high;
-    bool above_low{false};  // `low` itself is not allowed
-};
-
-inline constexpr double kLargest = 1e6;
-inline constexpr Range kPositive{0, kLargest, true};
-inline constexpr Range kNotNegative{0, kLargest};
-inline constexpr Range kAnyNumber{-kLargest, kLargest};
 
 class JobTable {
 public:

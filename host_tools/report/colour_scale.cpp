@@ -19,7 +19,19 @@ constexpr std::array<Colour, 6> kStops{Colour{68, 1, 84},    Colour{65, 68, 135}
                                        Colour{42, 120, 142}, Colour{34, 168, 132},
                                        Colour{122, 209, 81}, Colour{253, 231, 37}};
 
+constexpr double kSlack = 1e-6;  // of a step between the numbers of a scale
+
 }  // namespace
+
+double round_below(double most)
+{
+    if (!(most > 0)) {
+        return 1;
+    }
+    const double power = std::pow(10.0, std::floor(std::log10(most)));
+    const double share = most / power;
+    return power * (share >= 5 ? 5 : share >= 2 ? 2 : 1);
+}
 
 std::string colour_of_step(int step)
 {
@@ -58,13 +70,16 @@ std::string scale_bar(
             "<rect x=\"{:.3f}\" y=\"{:.3f}\" width=\"{:.3f}\" height=\"{:.3f}\" fill=\"{}\"/>\n", x,
             y + (kColourSteps - 1 - k) * step_height, width, 1.05 * step_height, colour_of_step(k));
     }
-    constexpr int kNumbers = 4;
-    for (int k = 0; k <= kNumbers; ++k) {
-        const double share = static_cast<double>(k) / kNumbers;
+    const double step = round_below((high - low) / 4);
+    for (double number = std::ceil(low / step - kSlack) * step; number <= high + kSlack * step;
+         number += step) {
+        const double share = high > low ? (number - low) / (high - low) : 0;
+        // what is nearly zero is zero
+        const double shown = std::abs(number) < kSlack * step ? 0 : number;
         out += fmt::format(
             "<text x=\"{:.3f}\" y=\"{:.3f}\" font-size=\"{:.3f}\" "
             "font-family=\"sans-serif\">{:.3g}</text>\n",
-            x + 1.3 * width, y + (1 - share) * height + text / 3, text, low + share * (high - low));
+            x + 1.3 * width, y + (1 - share) * height + text / 3, text, shown);
     }
     return out;
 }

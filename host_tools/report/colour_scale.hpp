@@ -14,7 +14,10 @@ std::string colour_of_step(int step);
 // The step of a value between low and high; clamped.
 int step_of(double value, double low, double high);
 
-// The scale as an upright bar with five numbers.
+// 1, 2 or 5 times a power of ten, at most `most`; 1 where that is not above 0.
+double round_below(double most);
+
+// The scale as an upright bar with round numbers.
 //
 // x, y    of its upper left corner; height and text size in the picture's units
 std::string scale_bar(

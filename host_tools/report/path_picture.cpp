@@ -1,5 +1,7 @@
-// Polylines of one colour each: a path of many moves stays a small file.
+// A panel for each tool. Polylines of one colour each: a path of many moves stays a small file.
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -8,31 +10,42 @@
 #include "host_tools/report/pictures.hpp"
 #include "host_tools/verify/part_heights.hpp"
 
+#include "fmt/format.h"
+
 namespace cusp::report {
 
 using job::Job;
 using job::Operation;
 using nurbs::Surface;
+using toolpath::Tool;
 using verify::append_points;
 using verify::part_box;
 using verify::PartBox;
 using verify::Program;
+using verify::ProgramMove;
 
 namespace {
 
-constexpr double kSpacing = 0.5;  // mm along arcs and curves
+// mm between points: of curves, and of arcs, whose chords may be off by kSagitta.
+constexpr double kSpacing = 0.5;
+constexpr double kSagitta = 0.02;
 
 std::vector<Vec3d> points_of(const path::Move& move)
 {
     std::vector<Vec3d> points{to_millimetres(move.start)};
-    const bool straight = std::holds_alternative<path::Line>(move.path);
-    append_points(move, straight ? std::numeric_limits<double>::infinity() : kSpacing, points);
+    double spacing = kSpacing;
+    if (std::holds_alternative<path::Line>(move.path)) {
+        spacing = std::numeric_limits<double>::infinity();
+    } else if (const auto* arc = std::get_if<path::Arc>(&move.path)) {
+        spacing = std::max(kSpacing, std::sqrt(8 * arc->radius * kSagitta));
+    }
+    append_points(move, spacing, points);
     return points;
 }
 
 struct Extent {
     PictureFrame frame;
-    double z_low, z_high;
+    double z_low, z_high;  // of what is cut
 };
 
 Extent extent_of(const Job& job, const Program& program)
@@ -52,16 +65,25 @@ Extent extent_of(const Job& job, const Program& program)
         }
         for (const Vec3d p : points_of(move)) {
             PictureFrame& f = extent.frame;
-            f = {std::min(f.x_low, p.x), std::max(f.x_high, p.x), std::min(f.y_low, p.y),
-                 std::max(f.y_high, p.y)};
+            f.x_low = std::min(f.x_low, p.x);
+            f.x_high = std::max(f.x_high, p.x);
+            f.y_low = std::min(f.y_low, p.y);
+            f.y_high = std::max(f.y_high, p.y);
             extent.z_low = std::min(extent.z_low, p.z);
             extent.z_high = std::max(extent.z_high, p.z);
         }
     }
+    extent.z_high = std::max(extent.z_low, std::min(extent.z_high, job.stock_top));
     return extent;
 }
 
 constexpr int kRapid = -1;
+
+std::string rapid_stroke(const PictureFrame& frame)
+{
+    return fmt::format("stroke=\"#c03030\" stroke-width=\"{:.3f}\" stroke-dasharray=\"{:.3f}\"",
+                       frame.line(), 5 * frame.line());
+}
 
 class PathLines {
 public:
@@ -72,15 +94,11 @@ public:
     {
         if (!open_ || step != step_) {
             close();
-            out_ += step == kRapid
-                        ? fmt::format(
-                              "<polyline fill=\"none\" stroke=\"#c03030\" "
-                              "stroke-width=\"{:.3f}\" stroke-dasharray=\"{:.3f}\" points=\"",
-                              frame_.line(), 5 * frame_.line())
-                        : fmt::format(
-                              "<polyline fill=\"none\" stroke=\"{}\" "
-                              "stroke-width=\"{:.3f}\" points=\"",
-                              colour_of_step(step), frame_.line());
+            const std::string stroke = step == kRapid
+                                           ? rapid_stroke(frame_)
+                                           : fmt::format("stroke=\"{}\" stroke-width=\"{:.3f}\"",
+                                                         colour_of_step(step), frame_.line());
+            out_ += fmt::format("<polyline fill=\"none\" {} points=\"", stroke);
             point(a);
             open_ = true;
             step_ = step;
@@ -102,17 +120,38 @@ private:
     int step_{0};
 };
 
-}  // namespace
-
-std::string path_picture(const Job& job, const Program& program)
+// The tools that cut, in the order of their first cut; T words, 0 where the program has none.
+std::vector<int> cutting_tools(const Program& program)
 {
-    const Extent extent = extent_of(job, program);
-    const PictureFrame& frame = extent.frame;
-    std::string out = frame.head() + walls(job, frame);
-    PathLines lines{frame, out};
+    std::vector<int> tools;
+    for (const ProgramMove& m : program.moves) {
+        const bool cuts = m.move.kind != path::MoveKind::kRapid;
+        if (cuts && std::find(tools.begin(), tools.end(), m.tool) == tools.end()) {
+            tools.push_back(m.tool);
+        }
+    }
+    return tools;
+}
+
+std::string title_of(const Job& job, int number)
+{
+    for (const Tool& tool : job.tools) {
+        if (tool.number == number || number == 0) {
+            return fmt::format("T{} {}", tool.number, tool_title(tool));
+        }
+    }
+    return fmt::format("T{}", number);
+}
+
+void add_moves(const Program& program, int tool, const Extent& extent, std::string& out)
+{
+    PathLines lines{extent.frame, out};
     // the first move comes from where the machine happens to stand
     for (std::size_t k = 2; k < program.moves.size(); ++k) {
         const path::Move& move = program.moves[k].move;
+        if (program.moves[k].tool != tool) {
+            continue;
+        }
         const std::vector<Vec3d> points = points_of(move);
         for (std::size_t i = 1; i < points.size(); ++i) {
             const double z = (points[i - 1].z + points[i].z) / 2;
@@ -123,8 +162,27 @@ std::string path_picture(const Job& job, const Program& program)
         }
     }
     lines.close();
-    out += scale_bar(frame.x_high + frame.margin(), frame.y_low, 0.8 * frame.height(), extent.z_low,
+}
+
+}  // namespace
+
+std::string path_picture(const Job& job, const Program& program)
+{
+    Extent extent = extent_of(job, program);
+    const std::vector<int> tools = cutting_tools(program);
+    PictureFrame& frame = extent.frame;
+    frame.panels = std::max(1, static_cast<int>(tools.size()));
+    std::string out = frame.head();
+    for (int k = 0; k < static_cast<int>(tools.size()); ++k) {
+        const int tool = tools[static_cast<std::size_t>(k)];
+        out += frame.panel(k, title_of(job, tool)) + walls(job, frame);
+        add_moves(program, tool, extent, out);
+        out += "</g>\n";
+    }
+    out += frame.ruler();
+    out += scale_bar(frame.scale_x(), frame.y_low, 0.75 * frame.height(), extent.z_low,
                      extent.z_high, "tip z, mm");
+    out += frame.legend(0, rapid_stroke(frame), "rapid");
     return out + "</svg>\n";
 }
 

@@ -41,6 +41,9 @@ public:
         deviation_.restart();
     }
 
+    // The T word in force; 0 where none was.
+    int tool() const { return interpreter_.modal().tool; }
+
     // A NURBS is begun and not ended.
     bool in_nurbs() const;
 

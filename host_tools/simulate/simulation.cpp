@@ -71,6 +71,7 @@ public:
             samples_->write(time_of_set_point(), at);
         }
         statistics_.add(at);
+        tool_times_.add_tick(line);
         shadow_.deviation().add_set_point(at);
         if (line != line_ && options_.line_started) {
             options_.line_started(line, static_cast<double>(statistics_.ticks()) * kSecondsPerTick);
@@ -101,9 +102,19 @@ public:
         result.max_jerk = statistics_.max_jerk();
         result.max_deviation_mm = shadow_.deviation().greatest();
         result.max_deviation_line = shadow_.deviation().line();
+        result.tools = tool_times_.times();
+        result.tool_changes = tool_times_.changes();
         for (unsigned axis = 0; axis < kAxisCount; ++axis) {
             result.steps[axis] = controller_.board().mill.steps_taken()[axis] - start_steps_[axis];
         }
+    }
+
+    // The next line of the program, before it is sent.
+    LineEffects read(std::string_view line, std::uint64_t number)
+    {
+        const LineEffects effects = shadow_.read(line, number);
+        tool_times_.read_line(number, shadow_.tool());
+        return effects;
     }
 
     ProgramShadow& shadow() { return shadow_; }
@@ -125,6 +136,7 @@ private:
     std::uint64_t start_tick_;
     MotionStatistics statistics_;
     ProgramShadow shadow_;
+    ToolTimes tool_times_;
     std::uint64_t delay_us_;
     std::unique_ptr<VcdWriter> vcd_;
     std::unique_ptr<SamplesWriter> samples_;
@@ -251,7 +263,7 @@ private:
         send_script();
         controller_.settle();
         sender_.listen();
-        while (!sender_.waiting() && !sender_.failed() && send_next(instruments.shadow())) {
+        while (!sender_.waiting() && !sender_.failed() && send_next(instruments)) {
             controller_.settle();
             sender_.listen();
             after_answer(instruments.shadow());
@@ -280,7 +292,7 @@ private:
         }
     }
 
-    bool send_next(ProgramShadow& shadow)
+    bool send_next(Instruments& instruments)
     {
         while (!no_more_lines_) {
             const auto line = source_.next();
@@ -293,7 +305,7 @@ private:
                 continue;
             }
             const std::string numbered = numbered_line(uncovered, source_.line_number());
-            effects_ = shadow.read(numbered, source_.line_number());
+            effects_ = instruments.read(numbered, source_.line_number());
             no_more_lines_ = effects_.ends_program;
             if (effects_.pauses) {
                 note_pause();

@@ -14,6 +14,7 @@
 #include "firmware/machine/settings.hpp"
 #include "host_tools/simulate/motion_statistics.hpp"
 #include "host_tools/simulate/program_shadow.hpp"
+#include "host_tools/simulate/tool_times.hpp"
 
 namespace cusp::simulate {
 
@@ -79,6 +80,8 @@ struct SimulationResult {
     // M0, M1 and tool changes, which went on at once.
     std::vector<std::uint64_t> pause_lines;
     std::uint64_t pauses{0};
+    std::vector<ToolTime> tools;  // in the order of their first use
+    std::uint64_t tool_changes{0};
     bool stopped{false};
 
     bool good() const { return errors.empty() && alarm == 0 && !stopped; }

@@ -18,6 +18,10 @@ std::string statistics_json(const SimulationResult& result)
     for (const SimulationError& error : result.errors) {
         errors.push_back({{"line", error.line}, {"code", error.code}, {"text", error.text}});
     }
+    Json tools = Json::array();
+    for (const ToolTime& tool : result.tools) {
+        tools.push_back({{"number", tool.number}, {"time_s", tool.seconds()}});
+    }
     const ProgramMoveCounts& moves = result.moves;
     Json json{
         {"duration_s", result.duration_s},
@@ -42,6 +46,8 @@ std::string statistics_json(const SimulationResult& result)
         {"errors", errors},
         {"pauses", result.pauses},
         {"pause_lines", result.pause_lines},
+        {"tools", tools},
+        {"tool_changes", result.tool_changes},
     };
     return json.dump(2) + "\n";
 }

@@ -77,10 +77,7 @@ std::string comment_lines(std::string text)
 
 std::string tool_text(const Tool& tool, double unit, const char* name)
 {
-    const char* shape = tool.shape == ToolShape::kBall   ? "ball"
-                        : tool.shape == ToolShape::kFlat ? "flat"
-                                                         : "bull";
-    std::string text = fmt::format("tool {} {} diameter {} {}", tool.number, shape,
+    std::string text = fmt::format("tool {} {} diameter {} {}", tool.number, name_of(tool.shape),
                                    fixed_point(2 * tool.radius / unit, 4), name);
     if (tool.shape == ToolShape::kBull) {
         text +=

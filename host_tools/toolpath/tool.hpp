@@ -7,6 +7,9 @@ namespace cusp::toolpath {
 
 enum class ToolShape : std::uint8_t { kBall, kFlat, kBull };
 
+// "ball", "flat" or "bull".
+const char* name_of(ToolShape shape);
+
 struct Tool {
     int number{1};
     ToolShape shape{ToolShape::kBall};

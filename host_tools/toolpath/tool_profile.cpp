@@ -7,6 +7,11 @@
 
 namespace cusp::toolpath {
 
+const char* name_of(ToolShape shape)
+{
+    return shape == ToolShape::kBall ? "ball" : shape == ToolShape::kFlat ? "flat" : "bull";
+}
+
 double profile_height(const Tool& tool, double d)
 {
     if (!(d <= tool.radius)) {

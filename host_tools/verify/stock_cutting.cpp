@@ -12,17 +12,14 @@ using toolpath::Tool;
 
 namespace {
 
-// The tool's lower side over its tip, at the square of a radius that lies within it; in a form
-// that the compiler can put into vectors.
+// The tool's lower side over its tip, at the square of a radius that lies within it.
 struct Profile {
     double flat;    // radius of the flat bottom
     double corner;  // radius of the corner
     double reach;   // squared radius of the whole tool
 
     explicit Profile(const Tool& tool, double less)
-        : flat{std::max(0.0, tool.radius - tool.corner_radius)},
-          corner{std::max(0.0, tool.corner_radius - less)},
-          reach{}
+        : flat{}, corner{std::max(0.0, tool.corner_radius - less)}, reach{}
     {
         const double radius = std::max(0.0, tool.radius - less);
         flat = std::max(0.0, radius - corner);
@@ -33,7 +30,15 @@ struct Profile {
         const double beyond = std::max(0.0, std::sqrt(squared) - flat);
         return corner - std::sqrt(std::max(0.0, corner * corner - beyond * beyond));
     }
+    // A lower bound of at(squared) is steepness() * squared: a ball lies above its parabola.
+    double steepness() const { return flat > 0 || corner <= 0 ? 0.0 : 1 / (2 * corner); }
 };
+
+// Half of the chord that a line cuts from a circle at a distance from its middle; 0 outside.
+double half_chord(double squared_radius, double distance)
+{
+    return std::sqrt(std::max(0.0, squared_radius - distance * distance));
+}
 
 // A level foot on its way from one position to the next: what it leaves on a slope is as low as its
 // rim comes there, between the positions too.
@@ -80,8 +85,12 @@ private:
 }  // namespace
 
 StockHeightMap::StockHeightMap(const HeightGrid& grid, double top)
-    : grid_{grid}, top_{top}, heights_(grid.size(), top)
+    : grid_{grid}, top_{top}, heights_(grid.size(), top), row_x_(grid.ny), row_y_(grid.ny)
 {
+    for (std::size_t j = 0; j < grid.ny; ++j) {
+        row_x_[j] = grid.shift(j);
+        row_y_[j] = grid.y0 + static_cast<double>(j) * grid.pitch;
+    }
 }
 
 CutFigures StockHeightMap::cut_band(const ToolPositions& positions,
@@ -92,12 +101,6 @@ CutFigures StockHeightMap::cut_band(const ToolPositions& positions,
 {
     const Tool& tool = positions.tool;
     const double less = spacing * spacing / (4 * tool.radius) + 0.002;
-    const Profile profile{tool, 0};
-    const Profile probe{tool, less};
-    std::vector<double> row_shift(grid_.ny);
-    for (std::size_t j = 0; j < grid_.ny; ++j) {
-        row_shift[j] = grid_.shift(j);
-    }
     // Rounder corners leave no more between positions than the square of their distance.
     const bool edged = tool.radius > tool.corner_radius && tool.corner_radius < spacing;
     constexpr std::size_t kReport = 4096;
@@ -110,48 +113,93 @@ CutFigures StockHeightMap::cut_band(const ToolPositions& positions,
         if (tip.z >= top_) {
             continue;
         }
-        double deepest = 0;
-        const std::size_t first = std::max(begin, grid_.first_column(tip.x - tool.radius));
-        const std::size_t last = std::min(end, grid_.end_column(tip.x + tool.radius));
-        const std::size_t low = grid_.first_row(tip.y - tool.radius);
-        const std::size_t high = grid_.end_row(tip.y + tool.radius);
-        for (std::size_t i = first; i < last; ++i) {
-            const double column_x = grid_.x0 + static_cast<double>(i) * grid_.pitch - tip.x;
-            const double column_y = grid_.y0 + grid_.shift(i) - tip.y;
-            double* height = heights_.data() + i * grid_.ny;
-            for (std::size_t j = low; j < high; ++j) {
-                const double dx = column_x + row_shift[j];
-                const double dy = column_y + static_cast<double>(j) * grid_.pitch;
-                const double squared = dx * dx + dy * dy;
-                const double tracked = height[j] - tip.z - less - probe.at(squared);
-                deepest = squared <= probe.reach && tracked > deepest ? tracked : deepest;
-                const double lower = tip.z + profile.at(squared);
-                height[j] = squared <= profile.reach && lower < height[j] ? lower : height[j];
-            }
-        }
+        const double depth = cut_at(tool, tip, less, begin, end);
         if (edged && k > 0 && positions.tips[k - 1].z < top_) {
             sweep_foot(tool, positions.tips[k - 1], tip, begin, end);
         }
         double& worst = positions.rapid[k] ? figures.rapid_cut : figures.cut_depth;
-        worst = std::max(worst, deepest);
+        worst = std::max(worst, depth);
     }
     return figures;
 }
 
+double StockHeightMap::cut_at(
+    const Tool& tool, Vec3d tip, double less, std::size_t begin, std::size_t end)
+{
+    // Rows that are looked at together: most stand below the tool's lower side.
+    constexpr std::size_t kRun = 16;
+    const Profile profile{tool, 0};
+    const Profile probe{tool, less};
+    const double steepness = profile.steepness();
+    const double* row_x = row_x_.data();
+    const double* row_y = row_y_.data();
+    double deepest = 0;
+    const std::size_t last = std::min(end, grid_.end_column(tip.x + tool.radius));
+    for (std::size_t i = std::max(begin, grid_.first_column(tip.x - tool.radius)); i < last; ++i) {
+        const double column_x = grid_.x0 + static_cast<double>(i) * grid_.pitch - tip.x;
+        const double column_y = grid_.shift(i) - tip.y;
+        const auto squared_at = [=](std::size_t j) {
+            const double dx = column_x + row_x[j];
+            const double dy = column_y + row_y[j];
+            return dx * dx + dy * dy;
+        };
+        const double half =
+            half_chord(profile.reach, std::max(0.0, std::abs(column_x) - grid_.pitch / 2));
+        const std::size_t high = grid_.end_row(tip.y + half);
+        double* height = heights_.data() + i * grid_.ny;
+        for (std::size_t j0 = grid_.first_row(tip.y - half); j0 < high; j0 += kRun) {
+            const std::size_t j1 = std::min(high, j0 + kRun);
+            double over = 0;
+#pragma omp simd reduction(max : over)
+            for (std::size_t j = j0; j < j1; ++j) {
+                const double squared = squared_at(j);
+                over = std::max(over, std::min(profile.reach - squared,
+                                               height[j] - tip.z - steepness * squared));
+            }
+            if (over <= 0) {
+                continue;
+            }
+#pragma omp simd reduction(max : deepest)
+            for (std::size_t j = j0; j < j1; ++j) {
+                const double squared = squared_at(j);
+                const double tracked = height[j] - tip.z - less - probe.at(squared);
+                deepest = std::max(deepest, squared <= probe.reach ? tracked : 0.0);
+                const double lower = tip.z + profile.at(squared);
+                height[j] = squared <= profile.reach ? std::min(lower, height[j]) : height[j];
+            }
+        }
+    }
+    return deepest;
+}
+
+// Under the lower of the two ends all is cut already: a crescent beside it is left.
 void StockHeightMap::sweep_foot(
     const Tool& tool, Vec3d from, Vec3d to, std::size_t begin, std::size_t end)
 {
     const double radius = tool.radius - tool.corner_radius;
+    const double squared = radius * radius;
+    const double max_error = grid_.pitch / 2;
     const FootSweep sweep{from, to, radius};
-    const std::size_t first = std::max(begin, grid_.first_column(std::min(from.x, to.x) - radius));
-    const std::size_t last = std::min(end, grid_.end_column(std::max(from.x, to.x) + radius));
-    const std::size_t low = grid_.first_row(std::min(from.y, to.y) - radius);
-    const std::size_t high = grid_.end_row(std::max(from.y, to.y) + radius);
-    for (std::size_t i = first; i < last; ++i) {
-        double* height = heights_.data() + i * grid_.ny;
-        for (std::size_t j = low; j < high; ++j) {
-            height[j] = std::min(height[j], sweep.lowest(grid_.x(i, j), grid_.y(i, j)));
-        }
+    const Vec3d lower = from.z < to.z ? from : to;
+    const auto [x_low, x_high] = std::minmax(from.x, to.x);
+    const auto [y_low, y_high] = std::minmax(from.y, to.y);
+    const std::size_t last = std::min(end, grid_.end_column(x_high + radius));
+    for (std::size_t i = std::max(begin, grid_.first_column(x_low - radius)); i < last; ++i) {
+        const double x = grid_.x0 + static_cast<double>(i) * grid_.pitch;
+        const double outer =
+            half_chord(squared, std::max({0.0, x_low - x - max_error, x - x_high - max_error}));
+        const double inner = half_chord(squared, std::abs(x - lower.x) + max_error);
+        const std::size_t high = grid_.end_row(y_high + outer);
+        const std::size_t done = grid_.end_row(lower.y - inner);
+        const std::size_t open = std::max(done, grid_.first_row(lower.y + inner));
+        const auto cut_rows = [&](std::size_t first, std::size_t stop) {
+            for (std::size_t j = first; j < stop; ++j) {
+                double& height = heights_[grid_.index(i, j)];
+                height = std::min(height, sweep.lowest(grid_.x(i, j), grid_.y(i, j)));
+            }
+        };
+        cut_rows(grid_.first_row(y_low - outer), std::min(done, high));
+        cut_rows(open, high);
     }
 }
 

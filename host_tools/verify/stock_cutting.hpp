@@ -44,12 +44,17 @@ private:
                         std::size_t begin,
                         std::size_t end,
                         const Progress& progress);
+    // Returns how deep, mm. less: what the measuring tool is smaller by.
+    double cut_at(
+        const toolpath::Tool& tool, Vec3d tip, double less, std::size_t begin, std::size_t end);
     void sweep_foot(
         const toolpath::Tool& tool, Vec3d from, Vec3d to, std::size_t begin, std::size_t end);
 
     HeightGrid grid_;
     double top_;
     std::vector<double> heights_;
+    std::vector<double> row_x_;  // mm: what a row's points lie beside their columns
+    std::vector<double> row_y_;  // mm: of rows in a column without a shift
 };
 
 }  // namespace cusp::verify

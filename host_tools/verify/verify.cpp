@@ -112,6 +112,17 @@ std::vector<Tool> finishing_tools(const Job& job, const std::vector<ToolPosition
     return finishing.empty() ? all : finishing;
 }
 
+ToolFigures& figures_of(const Tool& tool, VerifyFigures& figures)
+{
+    for (ToolFigures& known : figures.tools) {
+        if (known.tool.number == tool.number) {
+            return known;
+        }
+    }
+    figures.tools.push_back({tool});
+    return figures.tools.back();
+}
+
 // Runs of positions, a new one at every change of tool; lengths on the way.
 std::vector<ToolPositions> positions_of(const Job& job,
                                         const Program& program,
@@ -132,7 +143,9 @@ std::vector<ToolPositions> positions_of(const Job& job,
         if (k == 0) {  // where the tool comes from is not known
             run.tips.push_back(to_millimetres(m.move.end));
         } else {
-            (rapid ? figures.rapid_length : figures.cut_length) += path::length(m.move);
+            const double length = path::length(m.move);
+            (rapid ? figures.rapid_length : figures.cut_length) += length;
+            figures_of(run.tool, figures).cut_length += rapid ? 0.0 : length;
             append_points(m.move, spacing, run.tips);
         }
         run.rapid.resize(run.tips.size(), rapid);
@@ -220,17 +233,18 @@ double wall_gouge(const std::vector<WallDistance>& walls,
 void judge(const Scene& scene, Verification& result)
 {
     const VerifyFigures& f = result.figures;
+    const VerifyBounds& bounds = result.bounds;
     const auto bound = [&](const char* name, std::optional<double> value, double limit) {
         if (value && !(*value <= limit)) {
             result.broken.push_back(fmt::format("{} {:.4g} is over {:.4g}", name, *value, limit));
         }
     };
-    bound("gouge_max_mm", f.gouge_max, scene.floor_tolerance + kJudgement);
-    bound("ball_gouge_max_mm", f.ball_gouge_max, scene.floor_tolerance + kJudgement);
-    bound("wall_gouge_max_mm", f.wall_gouge_max, scene.plan_tolerance + kJudgement);
-    bound("rapid_cut_max_mm", f.rapid_cut_max, kRapidCutAllowed);
+    bound("gouge_max_mm", f.gouge_max, bounds.floor_tolerance + kJudgement);
+    bound("ball_gouge_max_mm", f.ball_gouge_max, bounds.floor_tolerance + kJudgement);
+    bound("wall_gouge_max_mm", f.wall_gouge_max, bounds.plan_tolerance + kJudgement);
+    bound("rapid_cut_max_mm", f.rapid_cut_max, bounds.rapid_cut);
     if (scene.scallop) {
-        bound("uncovered_share", f.uncovered_share, kUncoveredAllowed);
+        bound("uncovered_share", f.uncovered_share, bounds.uncovered_share);
         if (f.thickest_left) {
             const auto [thickness, at] = *f.thickest_left;
             result.broken.push_back(
@@ -251,6 +265,8 @@ Verification verify(const Job& job,
 {
     const Scene scene = scene_of(job);
     Verification result;
+    result.bounds = {scene.floor_tolerance, scene.plan_tolerance, kRapidCutAllowed,
+                     kUncoveredAllowed};
     // from above, as far as any program starts, so that its first move is one
     constexpr double kStartAbove = 1000;
     result.program = read_program(program_file, job.stock_top + kStartAbove);
@@ -283,6 +299,8 @@ Verification verify(const Job& job,
         done += run.tips.size();
         figures.rapid_cut_max = std::max(figures.rapid_cut_max, cut.rapid_cut);
         figures.cut_depth_max = std::max(figures.cut_depth_max, cut.cut_depth);
+        double& of_tool = figures_of(run.tool, figures).cut_depth_max;
+        of_tool = std::max(of_tool, cut.cut_depth);
         widest = std::max(widest, run.tool.radius);
     }
     progress(1.0);

@@ -24,6 +24,13 @@ struct ThickestLeft {
     Vec3d place;       // as low as the tools get there
 };
 
+// What one tool of the program did.
+struct ToolFigures {
+    toolpath::Tool tool;
+    double cut_length{};     // mm
+    double cut_depth_max{};  // mm, along the axis
+};
+
 // All in mm, square to the surface where a surface is meant.
 struct VerifyFigures {
     toolpath::MoveCounts moves;
@@ -37,7 +44,8 @@ struct VerifyFigures {
     std::optional<double> wall_left_max;   // beside walls, over what the tool can reach
     double rapid_cut_max{};
     double cut_depth_max{};
-    double unreachable_share{};  // of the part, where no tool of the program fits
+    std::vector<ToolFigures> tools;  // in the order of their first use
+    double unreachable_share{};      // of the part, where no tool of the program fits
     double uncut_share{};
     std::optional<double> scallop_bound;
     double scallop_max{};  // metal left above the surface, or above what the tools can reach
@@ -48,8 +56,18 @@ struct VerifyFigures {
     double uncovered_share{};                   // left above the scallop bound
 };
 
+// What the figures are held against, mm. Distances are allowed what a judgement may be wrong by
+// besides.
+struct VerifyBounds {
+    double floor_tolerance{};  // gouges of the floor
+    double plan_tolerance{};   // gouges of walls
+    double rapid_cut{};        // the deepest that a rapid move may run into metal
+    double uncovered_share{};  // of the floor, that may stand above the scallop
+};
+
 struct Verification {
     VerifyFigures figures;
+    VerifyBounds bounds;
     std::vector<std::string> broken;  // each bound that does not hold, in words; empty: all hold
     // for pictures
     HeightGrid grid;

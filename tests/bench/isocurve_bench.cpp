@@ -33,7 +33,7 @@ namespace {
 
 std::vector<Surface> sine_hills()
 {
-    return read_surfaces(std::string{CUSP_SOURCE_DIR} + "/tests/parts/sine-hills.json");
+    return read_surfaces(std::string{CUSP_SOURCE_DIR} + "/examples/parts/sine-hills.json");
 }
 
 void plan_sine_hills(benchmark::State& state)

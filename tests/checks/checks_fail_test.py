@@ -140,6 +140,18 @@ class ChecksOfTheTree(unittest.TestCase):
         self.write("firmware/path/vec.hpp", "#pragma once\n")
         self.assertEqual(self.run_check("headers.py", "g++")[0], 1)
 
+    def test_examples_refuses_files_outside(self):
+        self.assertEqual(2, self.run_check("examples.py")[0])
+        self.write("examples/parts/floor.json", "")
+        self.write("examples/a/job.toml", '[[operation]]\nfloor = "../parts/floor.json"\n')
+        self.assertEqual(0, self.run_check("examples.py")[0])
+        self.write("outside.json", "")
+        for name in ("../../outside.json", "../parts/none.json"):
+            self.write("examples/a/job.toml", f'[[operation]]\nislands = ["../parts/floor.json", "{name}"]\n')
+            status, text = self.run_check("examples.py")
+            self.assertEqual(1, status)
+            self.assertIn(name, text)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -100,6 +100,40 @@ class Cli(unittest.TestCase):
         self.assertIn("</svg>", (self.folder / "path.svg").read_text())
         self.assertIn("</svg>", (self.folder / "left.svg").read_text())
 
+    def examples_with(self, settings):
+        demo = self.folder / "examples" / "demo"
+        demo.mkdir(parents=True, exist_ok=True)
+        for name in ("floor.json", "boundary.json"):
+            (demo / name).write_text((self.folder / name).read_text())
+        (demo / "pocket.toml").write_text(JOB)
+        (demo / "mill.settings").write_text(settings)
+
+    def test_the_demo_writes_its_files_and_says_what_came_out(self):
+        self.examples_with("$100=200\n")
+        self.expect(0, "deepest cut", "demo", "--out", "a/b", "--examples", "examples")
+        out = self.folder / "a" / "b"
+        self.assertEqual({"left.svg", "path.svg", "plan.json", "pocket.ngc", "pocket.vcd", "samples.csv", "sim.json",
+                          "verify.json", "verify.txt"}, {file.name for file in out.iterdir()})
+        self.assertTrue((out / "verify.txt").read_text().endswith("all bounds hold\n"))
+        cut, run = (json.loads((out / name).read_text()) for name in ("verify.json", "sim.json"))
+        self.assertEqual([cut["cut_depth_max_mm"]], [tool["cut_depth_max_mm"] for tool in cut["tools"]])
+        self.assertEqual([1], [tool["number"] for tool in run["tools"]])
+        self.assertEqual(0, run["tool_changes"])
+        self.run_cusp("plan", "examples/demo/pocket.toml", "-o", "p.ngc")
+        self.assertEqual((self.folder / "p.ngc").read_text(), (out / "pocket.ngc").read_text())
+
+    def test_the_demo_finds_what_is_wrong(self):
+        self.examples_with("$20=1\n$22=1\n$130=20\n")
+        self.expect(1, "ALARM", "demo", "--examples", "examples")
+        self.examples_with("$100=0\n")
+        self.expect(2, "mill.settings", "demo", "--out", "new", "--examples", "examples")
+        self.expect(2, "--examples nowhere", "demo", "--out", "new", "--examples", "nowhere")
+        self.assertFalse((self.folder / "new").exists())
+        self.examples_with("")
+        self.write("file", "")
+        self.expect(2, "--out file: can't be written: Not a directory", "demo", "--out", "file", "--examples", "examples")
+        self.expect(2, "--out file/x: can't be written: Not a directory", "demo", "--out", "file/x", "--examples", "examples")
+
     def test_a_lowered_program_is_found_wrong(self):
         self.run_cusp("plan", "job.toml", "-o", "p.ngc")
         text = (self.folder / "p.ngc").read_text()

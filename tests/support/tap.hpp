@@ -1,5 +1,5 @@
 // The water tap replica of Chuang & Pan's figure 20, from its formula
-// (tests/parts/chuang-pan-tap.json).
+// (examples/parts/chuang-pan-tap.json).
 #pragma once
 
 #include <algorithm>

@@ -18,7 +18,7 @@ namespace {
 
 std::string part(const char* name)
 {
-    return std::string{CUSP_SOURCE_DIR "/tests/parts/suh-lee-"} + name + ".json";
+    return std::string{CUSP_SOURCE_DIR "/examples/parts/suh-lee-"} + name + ".json";
 }
 
 Job job()

@@ -1,8 +1,8 @@
 // Offsets of random regions, judged by brute-force distance and by Clipper.
 #include <algorithm>
-#include <clipper.hpp>
 #include <cstdio>
 #include <cstdlib>
+#include <polyclipping/clipper.hpp>
 
 #include "host_tools/offset/offset.hpp"
 #include "tests/property/offset/random_regions.hpp"

@@ -17,7 +17,7 @@ namespace {
 
 Surface part(const char* name)
 {
-    return read_surfaces(std::string{CUSP_SOURCE_DIR} + "/tests/parts/" + name).front();
+    return read_surfaces(std::string{CUSP_SOURCE_DIR} + "/examples/parts/" + name).front();
 }
 
 struct Measured {

@@ -21,7 +21,7 @@ constexpr int kLooks = 5000;
 
 Surface part(const char* name)
 {
-    return read_surfaces(std::string{CUSP_SOURCE_DIR} + "/tests/parts/" + name).front();
+    return read_surfaces(std::string{CUSP_SOURCE_DIR} + "/examples/parts/" + name).front();
 }
 
 double widest_seen(const Surface& s, const std::vector<DomainCurve>& curves)

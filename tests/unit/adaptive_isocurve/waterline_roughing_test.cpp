@@ -6,6 +6,7 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "host_tools/adaptive_isocurve/adaptive_isocurve.hpp"
 #include "host_tools/adaptive_isocurve/rest_regions.hpp"
 #include "host_tools/adaptive_isocurve/rough_depths.hpp"
 #include "host_tools/part_model/part_model.hpp"
@@ -155,4 +156,22 @@ TEST(WaterlineRoughing, RestPartsAreWhatLeavesTheClearedPlaces)
     CHECK(!rest[0].starts_in_cleared_stock);
     CHECK(rest[1].starts_in_cleared_stock);
     CHECK_EQUAL(1U, rest_regions(runs, 8.0, {{&region, 2.0}}).size());
+}
+
+// A closed slot 6 mm wide in a plate: nothing for 10 mm.
+TEST(WaterlineRoughing, WhereNoCutterFitsOnlyTheFinishIsPlanned)
+{
+    Job job = channel_job();
+    Operation& operation = job.operations.front();
+    operation.floor = {plate(0, 0, 41, 30, -6), plate(0, 0, 20, 30, 0), plate(26, 0, 41, 30, 0),
+                       plate(19, 0, 27, 8, 0), plate(19, 22, 27, 30, 0)};
+    job.stock_top = 0;
+    operation.allowance = 0.3;
+    CHECK(plan_waterline_roughing(job, operation).empty());
+    operation.tool = {3, ToolShape::kBall, 2, 2};
+    operation.scallop = 0.3;
+    const auto planned = plan_adaptive_isocurve(job, operation);
+    CHECK_EQUAL(1U, planned.size());
+    CHECK_EQUAL(3, planned.front().path.tool.number);
+    STRCMP_CONTAINS("nothing is roughed", planned.front().stats.warnings.back().c_str());
 }

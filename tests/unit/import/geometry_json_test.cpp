@@ -16,7 +16,7 @@ using namespace cusp::job;
 
 namespace {
 
-const std::string kParts = CUSP_SOURCE_DIR "/tests/parts/";
+const std::string kParts = CUSP_SOURCE_DIR "/examples/parts/";
 
 std::string line(const std::string& from, const std::string& to)
 {

@@ -17,7 +17,7 @@ using namespace cusp::nurbs;
 
 namespace {
 
-const std::string kParts = CUSP_SOURCE_DIR "/tests/parts/";
+const std::string kParts = CUSP_SOURCE_DIR "/examples/parts/";
 
 const std::string kHead = R"(units = "mm"
 [tool]

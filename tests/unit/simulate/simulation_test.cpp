@@ -203,6 +203,19 @@ TEST(Simulation, GoesOnAfterPausesAndListsThem)
     LONGS_EQUAL(3'000'000, result.end.x);
 }
 
+TEST(Simulation, CountsTheTimeOfEachTool)
+{
+    const simulate::SimulationResult result =
+        run("G21 G90\nT1\nG1 X10 F600\nM0\nT2\nG1 X30\nM30\n");
+    LONGS_EQUAL(1, result.tool_changes);
+    LONGS_EQUAL(2, result.tools.size());
+    LONGS_EQUAL(1, result.tools[0].number);
+    LONGS_EQUAL(2, result.tools[1].number);
+    // 10 mm and 20 mm at 10 mm/s, and a few hundredths to get up to speed
+    DOUBLES_EQUAL(1.05, result.tools[0].seconds(), 0.05);
+    DOUBLES_EQUAL(2.05, result.tools[1].seconds(), 0.05);
+}
+
 TEST(Simulation, TakesItsTimeForADwell)
 {
     const simulate::SimulationResult result = run("G1 X1 F600\nG4 P2\nG1 X2\n");

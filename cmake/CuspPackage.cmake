@@ -1,0 +1,81 @@
+# What `cmake --install` puts beside the programs, and the Debian packages that `cpack` makes of it all:
+# cusp_<version>_<architecture>.deb and cusp-dev_<version>_<architecture>.deb.
+#
+# The preset `package` switches on what belongs into them: Open CASCADE, Eigen, the boards' images, the man pages.
+
+set(packaging ${PROJECT_SOURCE_DIR}/packaging)
+
+set(data ${CMAKE_INSTALL_DATADIR})
+install(DIRECTORY examples DESTINATION ${data}/cusp COMPONENT program)
+install(FILES README.md CHANGELOG.md DESTINATION ${data}/doc/cusp COMPONENT program)
+install(DIRECTORY docs DESTINATION ${data}/doc/cusp COMPONENT program)
+install(FILES ${packaging}/cusp.bash DESTINATION ${data}/bash-completion/completions RENAME cusp COMPONENT program)
+
+# The images, each with its board's README: an own build with the preset cortex-m4f.
+if(CUSP_IMAGES)
+  set(images ${PROJECT_BINARY_DIR}/images)
+  add_custom_target(cusp_images ALL
+    COMMAND ${CMAKE_COMMAND} --preset cortex-m4f -B ${images} > ${PROJECT_BINARY_DIR}/images.log
+    COMMAND ${CMAKE_COMMAND} --build ${images} >> ${PROJECT_BINARY_DIR}/images.log
+    WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} COMMENT "Cross-building the images of the boards" VERBATIM)
+  file(GLOB readmes CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/boards/*/README.md)
+  foreach(readme IN LISTS readmes)
+    get_filename_component(folder ${readme} DIRECTORY)
+    get_filename_component(board ${folder} NAME)
+    install(FILES ${readme} ${images}/bin/${board}.bin ${images}/bin/${board}.hex
+      DESTINATION ${data}/cusp/boards/${board} COMPONENT program)
+  endforeach()
+endif()
+
+# One page a command, and one of the program.
+if(CUSP_MAN_PAGES)
+  set(pages ${PROJECT_BINARY_DIR}/man)
+  add_custom_target(cusp_man_pages ALL
+    COMMAND sh ${packaging}/man_pages.sh $<TARGET_FILE:cusp> ${CUSP_PROGRAM_help2man} ${PROJECT_VERSION} ${pages}
+    COMMENT "Making the man pages" VERBATIM)
+  add_dependencies(cusp_man_pages cusp)
+  install(DIRECTORY ${pages}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+endif()
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME cusp)
+set(CPACK_PACKAGE_VENDOR "cusp")
+set(CPACK_PACKAGE_CONTACT "The cusp developers <cusp@cusp.example>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL program development)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+  OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME cusp)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "CNC tool paths, simulation and streaming for 3-axis mills
+ cusp plans tool paths over NURBS surfaces, meshes and STEP models with a
+ computed bound on gouge and scallop, runs the G-code through the motion core
+ of its own controller firmware, cuts the part in memory and streams programs
+ to Grbl-compatible controllers. The firmware images of all boards come with it.")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME cusp-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "CNC controller core of cusp, for boards of one's own
+ Headers, static libraries and the CMake package (find_package(cusp)) of the
+ freestanding core that cusp simulates: G-code, planner, interpolator, pulses.")
+
+# Debian wants the licence and a changelog in each package.
+foreach(pair program:cusp development:cusp-dev)
+  string(REPLACE ":" ";" pair ${pair})
+  list(GET pair 0 component)
+  list(GET pair 1 package)
+  set(folder ${PROJECT_BINARY_DIR}/packaging/${package})
+  configure_file(${packaging}/copyright ${folder}/copyright COPYONLY)
+  configure_file(${packaging}/debian_changelog.in ${folder}/changelog @ONLY)
+  add_custom_command(OUTPUT ${folder}/changelog.gz
+    COMMAND gzip -9nk -f ${folder}/changelog DEPENDS ${folder}/changelog VERBATIM)
+  add_custom_target(${component}_changelog ALL DEPENDS ${folder}/changelog.gz)
+  install(FILES ${folder}/copyright ${folder}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package}
+    COMPONENT ${component})
+endforeach()
+include(CPack)

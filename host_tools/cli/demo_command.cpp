@@ -1,0 +1,122 @@
+// cusp demo: the packaged pocket, planned, cut in memory, run and drawn.
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <unistd.h>
+
+#include "host_tools/cli/commands.hpp"
+#include "host_tools/cli/demo_summary.hpp"
+#include "host_tools/cli/examples_folder.hpp"
+#include "host_tools/cli/plan_program.hpp"
+#include "host_tools/cli/run_program.hpp"
+#include "host_tools/cli/share_progress.hpp"
+#include "host_tools/cli/verify_program.hpp"
+#include "host_tools/import/import.hpp"
+#include "host_tools/input_error/input_error.hpp"
+#include "host_tools/job/job.hpp"
+#include "host_tools/simulate/settings_file.hpp"
+#include "host_tools/simulate/text_file.hpp"
+
+#include "CLI/CLI.hpp"
+#include "fmt/format.h"
+
+namespace cusp::cli {
+
+using import::read_job;
+using job::Job;
+using simulate::read_settings_file;
+using simulate::SimulationOptions;
+using simulate::SimulationProgress;
+using simulate::SimulationResult;
+using simulate::write_text;
+using verify::Verification;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kJob = "demo/pocket.toml";
+constexpr const char* kMill = "demo/mill.settings";
+
+struct DemoOptions {
+    std::string out{"cusp-demo"};
+    std::string examples;
+};
+
+// Before anything is computed: a folder that can't be written is known at once.
+void make_folder(const fs::path& folder)
+{
+    std::error_code failed;
+    fs::create_directories(folder, failed);
+    if (!failed && ::access(folder.c_str(), W_OK | X_OK) != 0) {
+        failed = {errno, std::generic_category()};
+    }
+    if (failed) {
+        throw InputError(
+            fmt::format("--out {}: can't be written: {}", folder.string(), failed.message()));
+    }
+}
+
+int run_demo(const DemoOptions& options)
+{
+    const fs::path examples = examples_folder(options.examples, kJob);
+    Job job = read_job(examples / kJob);
+    SimulationOptions mill;
+    mill.settings = read_settings_file(examples / kMill);
+    const fs::path out = options.out;
+    make_folder(out);
+
+    const fs::path program = out / "pocket.ngc";
+    PlanOutput plan_output;
+    plan_output.program = program;
+    plan_output.stats = out / "plan.json";
+    const Plan plan = plan_program(job, "job " + job.file, plan_output);
+    const Verification cut =
+        verify_program(job, program, {}, {out / "verify.json", out / "path.svg", out / "left.svg"});
+    write_text(out / "verify.txt", verification_text(cut));
+    mill.vcd_file = out / "pocket.vcd";
+    mill.samples_file = out / "samples.csv";
+    ShareProgress bar{"running"};
+    mill.progress = [&bar](const SimulationProgress& progress) {
+        bar(progress.fraction);
+    };
+    const SimulationResult run = run_program(program, mill, out / "sim.json");
+    bar(1.0);
+
+    fmt::print("\nPocket with a curved floor and an island: {}\n\n{}", job.file,
+               demo_summary(plan, run, cut));
+    fmt::print(
+        "\nIn {}: pocket.ngc (G-code), path.svg left.svg (pictures), pocket.vcd (pulses, for "
+        "GTKWave),\nsamples.csv (set points), plan.json sim.json verify.json verify.txt "
+        "(figures)\n",
+        out.string());
+    std::fflush(stdout);
+    print_faults(program, run);
+    for (const std::string& broken : cut.broken) {
+        fmt::print("broken: {}\n", broken);
+    }
+    return cut.broken.empty() && run.good() ? kDone : kFoundWrong;
+}
+
+}  // namespace
+
+void add_demo_command(CLI::App& app, Work& work)
+{
+    CLI::App* command =
+        app.add_subcommand("demo", "plan, cut, run and draw a pocket that comes with cusp");
+    command->footer(
+        "A flat end mill roughs the pocket in layers, a ball finishes it: one program, two tools.\n"
+        "Exit status 1 where a bound of the job does not hold, or the run ends early.");
+    auto options = std::make_shared<DemoOptions>();
+    command->add_option("--out", options->out, "folder for what is written")->capture_default_str();
+    command->add_option("--examples", options->examples,
+                        "folder of the examples (default: those that came with this program)");
+    command->callback([&work, options] {
+        work = [options] {
+            return run_demo(*options);
+        };
+    });
+}
+
+}  // namespace cusp::cli

@@ -1,0 +1,17 @@
+// What the demo says when it is done.
+#pragma once
+
+#include <string>
+
+#include "host_tools/cli/plan_statistics.hpp"
+#include "host_tools/simulate/simulation.hpp"
+#include "host_tools/verify/verify.hpp"
+
+namespace cusp::cli {
+
+// Times, lengths and depths of each tool and in all, then every figure beside what is allowed.
+std::string demo_summary(const Plan& plan,
+                         const simulate::SimulationResult& run,
+                         const verify::Verification& cut);
+
+}  // namespace cusp::cli

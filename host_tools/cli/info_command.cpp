@@ -1,0 +1,124 @@
+// cusp info: what a part is, for a machinist who has been handed a file.
+#include <filesystem>
+#include <memory>
+
+#include "host_tools/cli/commands.hpp"
+#include "host_tools/part_info/part_info.hpp"
+#include "host_tools/report/part_picture.hpp"
+#include "host_tools/simulate/text_file.hpp"
+
+#include "CLI/CLI.hpp"
+#include "fmt/format.h"
+
+namespace cusp::cli {
+
+using part_info::InspectSettings;
+using part_info::PartInfo;
+using report::part_picture;
+using simulate::write_text;
+
+namespace {
+
+struct InfoOptions {
+    std::vector<std::string> files;
+    std::string units{"mm"};
+    std::string stats;
+    std::string picture;
+    double tolerance{0.01};
+};
+
+// A file that could not be written whole is removed; a device stays.
+void write_or_remove(const std::string& file, const std::string& text)
+{
+    try {
+        write_text(file, text);
+    } catch (const InputError&) {
+        if (std::filesystem::is_regular_file(file)) {
+            std::filesystem::remove(file);
+        }
+        throw;
+    }
+}
+
+// Both or none is left behind.
+void write_outputs(const InfoOptions& options, const std::vector<PartInfo>& parts)
+{
+    const std::string picture = options.picture.empty() ? "" : part_picture(parts.front());
+    if (!options.picture.empty()) {
+        write_or_remove(options.picture, picture);
+    }
+    if (options.stats.empty()) {
+        return;
+    }
+    try {
+        write_or_remove(options.stats, json_of(parts));
+    } catch (const InputError&) {
+        if (std::filesystem::is_regular_file(options.picture)) {
+            std::filesystem::remove(options.picture);
+        }
+        throw;
+    }
+}
+
+int run_info(const InfoOptions& options)
+{
+    constexpr double kInch = 25.4;
+    if (!options.picture.empty() && options.files.size() > 1) {
+        throw InputError(
+            fmt::format("--picture: {} files; a picture shows one: call cusp info once for each",
+                        options.files.size()));
+    }
+    InspectSettings settings;
+    settings.millimetres = options.units == "inch" ? kInch : 1.0;
+    settings.tolerance = options.tolerance;
+    std::vector<PartInfo> parts;
+    std::string text;
+    for (const std::string& file : options.files) {
+        parts.push_back(inspect_part(file, settings));
+        text += (text.empty() ? "" : "\n") + text_of(parts.back());
+        if (options.picture.empty()) {  // only the picture asks for them again
+            parts.back().surfaces.clear();
+            parts.back().triangles.clear();
+        }
+    }
+    write_outputs(options, parts);
+    fmt::print("{}", text);
+    return kDone;
+}
+
+}  // namespace
+
+void add_info_command(CLI::App& app, Work& work)
+{
+    auto* command = app.add_subcommand(
+        "info", "what a part is: unit, size, faces, loops, undercuts, the largest ball");
+    command->footer(
+        "  cusp info bracket.step\n"
+        "  cusp info plate.dxf#outline --picture plate.svg\n"
+        "\n"
+        "Reads .json, .step, .stp, .iges, .igs, .stl and .dxf. Of a drawing each layer's loops\n"
+        "and open ends are listed; of a mesh its holes. \"Largest ball\" is the largest ball end\n"
+        "that comes within --tolerance of every place seen from above, shank included. It is\n"
+        "found at 4000 to 40 000 places and more along edges, to 0.1 %; what lies between them\n"
+        "and is tighter may be missed. Of STL, give at least what its facets are off the shape.\n"
+        "\"Undercuts\" is the area that nothing from above can touch.\n"
+        "Exit status 2 where a file can't be read; then nothing is written.");
+    auto options = std::make_shared<InfoOptions>();
+    command->add_option("FILE", options->files, "parts; of a drawing FILE#LAYER")->required();
+    command->add_option("--units", options->units, "mm or inch: of files that name no unit")
+        ->check(CLI::IsMember({"mm", "inch"}))
+        ->capture_default_str();
+    command->add_option("--tolerance", options->tolerance, "mm that a ball may leave")
+        ->check(CLI::Range(1e-4, 10.0))
+        ->capture_default_str();
+    command->add_option("--stats", options->stats, "the same to write (JSON), in mm and degrees");
+    command->add_option("--picture", options->picture,
+                        "picture to write (SVG) of one file, from above");
+    command->callback([&work, options] {
+        work = [options] {
+            return run_info(*options);
+        };
+    });
+}
+
+}  // namespace cusp::cli

@@ -1,0 +1,123 @@
+// Values are checked where the job is built: there they have units.
+#include "host_tools/cli/one_line_options.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "host_tools/import/one_line_check.hpp"
+#include "host_tools/import/path_ending.hpp"
+#include "host_tools/input_error/input_error.hpp"
+
+#include "CLI/CLI.hpp"
+
+namespace cusp::cli {
+
+using import::is_part_file;
+using import::OneLineRequest;
+using import::path_ending;
+
+namespace {
+
+constexpr const char* kGroup = "Without a job file";
+
+bool is_job_file(const std::string& file) { return path_ending(file) == ".toml"; }
+
+// Files may follow the tools: `--tool ball:6 part.step`.
+void take_files_from_tools(PlanCall& call)
+{
+    std::vector<std::string>& tools = call.request.tools;
+    for (const std::string& text : tools) {
+        if (!text.empty() && text.front() == '-') {
+            throw InputError("--tool: a tool is missing before " + text + ", such as ball:6");
+        }
+    }
+    const auto files = std::stable_partition(
+        tools.begin(), tools.end(),
+        [](const std::string& text) { return !is_part_file(text) && !is_job_file(text); });
+    call.files.insert(call.files.end(), files, tools.end());
+    tools.erase(files, tools.end());
+}
+
+const CLI::Option* option_for_parts(const CLI::App& command)
+{
+    for (const CLI::Option* option : command.get_options()) {
+        if (option->get_group() == kGroup && option->count() > 0) {
+            return option;
+        }
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+std::string PlanCall::job_name() const
+{
+    return is_one_line() ? "one-line job of " + request.parts.front() : files.front();
+}
+
+void add_one_line_options(CLI::App& command, PlanCall& call)
+{
+    OneLineRequest& request = call.request;
+    const auto add = [&](const char* name, auto& value, const char* text) {
+        return command.add_option(name, value, text)->group(kGroup);
+    };
+    add("--tool", request.tools,
+        "ball:6, flat:8, bull:10:1.5: diameter, corner radius; the first rough, the last finishes")
+        ->type_name("SHAPE:DIAMETER ...");
+    add("--scallop", request.scallop, "height of the ridges that may stay, tolerance included");
+    add("--units", call.units,
+        "of the options, of the G-code, and of .json and .stl files, which name none")
+        ->check(CLI::IsMember({"mm", "inch"}))
+        ->capture_default_str();
+    add("--boundary", request.boundary, "loop round a pocket (.json, .dxf, plate.dxf#layer)");
+    add("--island", request.islands, "loop that stays in the pocket; may be repeated")
+        ->allow_extra_args(false);
+    add("--feed", request.feed, "a minute; default 200 diameters, at most 1200 mm")
+        ->type_name("FEED");
+    add("--plunge-feed", request.plunge_feed, "default: a quarter of the feed")->type_name("FEED");
+    add("--spindle", request.spindle, "default 12000")->type_name("RPM");
+    add("--max-depth", request.max_depth, "of a roughing layer; default: half the diameter");
+    add("--allowance", request.allowance,
+        "what roughing leaves; default: 0.05 diameters, at most 0.3 mm");
+    add("--tolerance", request.tolerance, "default: half the scallop, at most 0.01 mm");
+    add("--stock-top", request.stock_top, "z; default: the part's top");
+    add("--clearance", request.clearance, "of rapid moves over the stock; default 5 mm");
+    add("--strategy", request.strategy,
+        "adaptive_isocurve, parallel_planes, or contour_pocket (with --boundary)")
+        ->check(CLI::IsMember({"adaptive_isocurve", "parallel_planes", "contour_pocket"}))
+        ->type_name("NAME");
+    add("--moves", request.output, "lines, arcs or nurbs")
+        ->check(CLI::IsMember({"lines", "arcs", "nurbs"}))
+        ->type_name("NAME");
+    command.add_flag("--no-roughing", call.no_roughing, "only finish")->group(kGroup);
+    command.add_flag("--print-job", call.print_job, "print the job file that the call amounts to")
+        ->group(kGroup);
+}
+
+void sort_call(const CLI::App& command, PlanCall& call)
+{
+    take_files_from_tools(call);
+    if (call.files.empty()) {
+        throw InputError("plan: a job file or a part is required; see cusp plan --help");
+    }
+    const CLI::Option* option = option_for_parts(command);
+    const auto job = std::find_if(call.files.begin(), call.files.end(), is_job_file);
+    if (job != call.files.end()) {
+        if (call.files.size() > 1) {
+            throw InputError(*job + ": is a job, which names its own parts: plan it alone");
+        }
+        if (option != nullptr) {
+            throw InputError(option->get_name() + ": is for parts without a job file; " + *job +
+                             " has a key for it (docs/job_file.md)");
+        }
+        return;
+    }
+    if (call.files.size() == 1 && option == nullptr && !is_part_file(call.files.front())) {
+        return;  // a job with another ending
+    }
+    call.request.parts = call.files;
+    call.request.inch = call.units == "inch";
+    call.request.roughing = !call.no_roughing;
+}
+
+}  // namespace cusp::cli

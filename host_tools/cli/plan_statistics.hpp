@@ -1,0 +1,32 @@
+// What `cusp plan` reports: a summary on the terminal, statistics as JSON.
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "host_tools/toolpath/toolpath.hpp"
+#include "host_tools/toolpath/toolpath_measure.hpp"
+
+#include "nlohmann/json.hpp"
+
+namespace cusp::cli {
+
+struct Plan {
+    std::vector<toolpath::PlannedOperation> operations;  // not empty
+    std::vector<toolpath::PathMeasure> measures;         // of each
+};
+
+// Lengths and times on `said`, warnings and notes on the standard error stream.
+//
+// notes   of the readers of parts
+// output  the file that was written
+void print_summary(const Plan& plan,
+                   const std::vector<std::string>& notes,
+                   const std::string& output,
+                   std::FILE* said);
+
+// The keys of the whole program, then those of `about`, then "operations", in mm and s.
+nlohmann::ordered_json plan_statistics(const Plan& plan, const nlohmann::ordered_json& about);
+
+}  // namespace cusp::cli

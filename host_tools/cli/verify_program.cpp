@@ -1,0 +1,118 @@
+// Figures by the names of their keys.
+#include "host_tools/cli/verify_program.hpp"
+
+#include <cmath>
+
+#include "host_tools/cli/share_progress.hpp"
+#include "host_tools/report/pictures.hpp"
+#include "host_tools/simulate/text_file.hpp"
+
+#include "fmt/format.h"
+#include "nlohmann/json.hpp"
+
+namespace cusp::cli {
+
+using job::Job;
+using report::left_picture;
+using report::path_picture;
+using simulate::write_text;
+using verify::ToolFigures;
+using verify::Verification;
+using verify::VerifyFigures;
+using verify::VerifySettings;
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double rounded(double value)
+{
+    constexpr double kMicro = 1e6;
+    return std::round(value * kMicro) / kMicro;
+}
+
+Json stats_of(const Verification& result)
+{
+    const VerifyFigures& f = result.figures;
+    Json out{{"moves",
+              {{"rapid", f.moves.rapids},
+               {"line", f.moves.lines},
+               {"arc", f.moves.arcs},
+               {"nurbs", f.moves.nurbs}}},
+             {"cut_length_mm", rounded(f.cut_length)},
+             {"rapid_length_mm", rounded(f.rapid_length)},
+             {"tool_positions", f.tool_positions},
+             {"rapid_cut_max_mm", rounded(f.rapid_cut_max)},
+             {"cut_depth_max_mm", rounded(f.cut_depth_max)},
+             {"gouge_max_mm", rounded(f.gouge_max)}};
+    for (const ToolFigures& t : f.tools) {
+        out["tools"].push_back({{"number", t.tool.number},
+                                {"shape", name_of(t.tool.shape)},
+                                {"diameter_mm", rounded(2 * t.tool.radius)},
+                                {"cut_length_mm", rounded(t.cut_length)},
+                                {"cut_depth_max_mm", rounded(t.cut_depth_max)}});
+    }
+    const auto optional = [&](const char* name, std::optional<double> value) {
+        if (value && std::isfinite(*value)) {
+            out[name] = rounded(*value);
+        }
+    };
+    optional("ball_gouge_max_mm", f.ball_gouge_max);
+    optional("wall_gouge_max_mm", f.wall_gouge_max);
+    optional("wall_left_max_mm", f.wall_left_max);
+    out["cells"] = f.cells;
+    out["unreachable_share"] = rounded(f.unreachable_share);
+    out["uncut_share"] = rounded(f.uncut_share);
+    out["scallop_max_mm"] = rounded(f.scallop_max);
+    out["scallop_p99_mm"] = rounded(f.scallop_p99);
+    out["scallop_mean_mm"] = rounded(f.scallop_mean);
+    out["left_volume_mm3"] = rounded(f.left_volume);
+    if (f.scallop_bound) {
+        out["scallop_bound_mm"] = *f.scallop_bound;
+        out["uncovered_share"] = rounded(f.uncovered_share);
+        if (f.thickest_left) {
+            const auto& [thickness, at] = *f.thickest_left;
+            out["left_thickness_mm"] = rounded(thickness);
+            out["left_thickness_at_mm"] = {rounded(at.x), rounded(at.y), rounded(at.z)};
+        }
+    }
+    out["broken"] = result.broken;
+    return out;
+}
+
+}  // namespace
+
+Verification verify_program(const Job& job,
+                            const std::string& program_file,
+                            const VerifySettings& settings,
+                            const VerifyOutput& output)
+{
+    Verification result = verify::verify(job, program_file, settings, ShareProgress{"cutting"});
+    if (!output.stats.empty()) {
+        write_text(output.stats, stats_of(result).dump(1) + "\n");
+    }
+    if (!output.path_picture.empty()) {
+        write_text(output.path_picture, path_picture(job, result.program));
+    }
+    if (!output.left_picture.empty()) {
+        write_text(output.left_picture, left_picture(job, result));
+    }
+    return result;
+}
+
+std::string verification_text(const Verification& result)
+{
+    std::string text;
+    const Json stats = stats_of(result);
+    for (const auto& [name, value] : stats.items()) {
+        if (name != "broken") {
+            text += fmt::format("{}: {}\n", name, value.dump());
+        }
+    }
+    for (const std::string& broken : result.broken) {
+        text += fmt::format("broken: {}\n", broken);
+    }
+    return text + (result.broken.empty() ? "all bounds hold\n" : "");
+}
+
+}  // namespace cusp::cli

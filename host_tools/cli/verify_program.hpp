@@ -1,0 +1,28 @@
+// What `cusp verify` does: cuts a program in memory and writes figures and pictures of it.
+#pragma once
+
+#include <string>
+
+#include "host_tools/job/job.hpp"
+#include "host_tools/verify/verify.hpp"
+
+namespace cusp::cli {
+
+// Files to write; empty: none.
+struct VerifyOutput {
+    std::string stats;         // JSON
+    std::string path_picture;  // SVG
+    std::string left_picture;  // SVG
+};
+
+// Shows its progress. Throws InputError where the program can't be read, names a tool that the job
+// lacks, or a file can't be written.
+verify::Verification verify_program(const job::Job& job,
+                                    const std::string& program_file,
+                                    const verify::VerifySettings& settings,
+                                    const VerifyOutput& output);
+
+// One figure a line, then the bounds that do not hold.
+std::string verification_text(const verify::Verification& result);
+
+}  // namespace cusp::cli

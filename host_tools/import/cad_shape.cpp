@@ -1,0 +1,142 @@
+// Reads STEP and IGES with no more repairs than a file needs, and survives files that Open CASCADE
+// does not.
+#include "host_tools/import/cad_shape.hpp"
+
+#include <memory>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "host_tools/import/path_ending.hpp"
+#include "host_tools/input_error/input_error.hpp"
+#include "host_tools/input_error/text_of_file.hpp"
+
+#include "fmt/format.h"
+#include "opencascade/IGESControl_Reader.hxx"
+#include "opencascade/IGESData_GlobalSection.hxx"
+#include "opencascade/IGESData_IGESModel.hxx"
+#include "opencascade/Interface_Check.hxx"
+#include "opencascade/Interface_CheckIterator.hxx"
+#include "opencascade/Message.hxx"
+#include "opencascade/Message_Messenger.hxx"
+#include "opencascade/STEPControl_Reader.hxx"
+#include "opencascade/ShapeFix_Face.hxx"
+#include "opencascade/ShapeFix_Shape.hxx"
+#include "opencascade/ShapeFix_Solid.hxx"
+#include "opencascade/ShapeFix_Wire.hxx"
+#include "opencascade/TColStd_SequenceOfAsciiString.hxx"
+#include "opencascade/TCollection_HAsciiString.hxx"
+#include "opencascade/XSAlgo.hxx"
+#include "opencascade/XSAlgo_AlgoContainer.hxx"
+#include "opencascade/XSControl_WorkSession.hxx"
+
+namespace cusp::import {
+namespace {
+
+// Open CASCADE's repairs as they are by default, but for the orientation of wires: where a seam
+// ends in a pole on the edge of a face they cut the seam off, and keep the wrong part of a ball.
+class GentleRepairs : public XSAlgo_AlgoContainer {
+public:
+    TopoDS_Shape ProcessShape(const TopoDS_Shape& shape,
+                              double precision,
+                              double most,
+                              const char* resource,
+                              const char* sequence,
+                              Handle(Standard_Transient) & about,
+                              const Message_ProgressRange& progress,
+                              bool non_manifold) const override
+    {
+        if (shape.IsNull()) {
+            return XSAlgo_AlgoContainer::ProcessShape(shape, precision, most, resource, sequence,
+                                                      about, progress, non_manifold);
+        }
+        ShapeFix_Shape repair{shape};
+        repair.SetPrecision(precision);
+        repair.SetMaxTolerance(most);
+        repair.FixFaceTool()->FixOrientationMode() = 0;
+        repair.FixFaceTool()->FixWireTool()->FixSameParameterMode() = 0;
+        repair.FixSolidTool()->CreateOpenSolidMode() = false;
+        repair.Perform(progress);
+        return repair.Shape();
+    }
+};
+
+// Whether the shape can be made without a crash, tried in a process of its own.
+bool survives_transfer(XSControl_Reader& reader)
+{
+    const pid_t child = fork();
+    if (child == 0) {
+        const rlimit no_core{0, 0};
+        setrlimit(RLIMIT_CORE, &no_core);
+        try {
+            reader.TransferRoots();
+        } catch (...) {
+        }
+        _exit(0);
+    }
+    int status = 0;
+    return child < 0 || (waitpid(child, &status, 0) == child && status == 0);
+}
+
+// Open CASCADE follows references to what it could not read. Many files with faults are read well,
+// so only those that it does not survive are refused.
+void check_faults(const std::string& file, XSControl_Reader& reader)
+{
+    Interface_CheckIterator faults = reader.WS()->ModelCheckList(true).Extract(Interface_CheckFail);
+    faults.Start();
+    if (faults.More() && !survives_transfer(reader)) {
+        throw InputError(
+            fmt::format("{}: Open CASCADE can't make a shape of it; the first fault: "
+                        "entity {}: {}",
+                        file, faults.Number(), faults.Value()->CFail(1)));
+    }
+}
+
+// The unit of length as the file names it.
+std::string unit_of(XSControl_Reader& reader, bool step)
+{
+    if (step) {
+        TColStd_SequenceOfAsciiString lengths;
+        TColStd_SequenceOfAsciiString angles;
+        TColStd_SequenceOfAsciiString solid_angles;
+        static_cast<STEPControl_Reader&>(reader).FileUnits(lengths, angles, solid_angles);
+        return lengths.IsEmpty() ? "" : lengths.First().ToCString();
+    }
+    const Handle(IGESData_IGESModel) model = Handle(IGESData_IGESModel)::DownCast(reader.Model());
+    const Handle(TCollection_HAsciiString) name =
+        model.IsNull() ? nullptr : model->GlobalSection().UnitName();
+    return name.IsNull() ? "" : name->ToCString();
+}
+
+}  // namespace
+
+ReadShape read_shape(const std::string& file, Repairs repairs)
+{
+    Message::DefaultMessenger()->ChangePrinters().Clear();
+    text_of_file(file);  // says why a file can't be read
+    const std::string ending = path_ending(file);
+    const bool step = ending == ".step" || ending == ".stp";
+    std::unique_ptr<XSControl_Reader> reader;
+    if (step) {
+        reader = std::make_unique<STEPControl_Reader>();
+    } else {
+        reader = std::make_unique<IGESControl_Reader>();
+    }
+    if (reader->ReadFile(file.c_str()) != IFSelect_RetDone) {
+        throw InputError(fmt::format("{}: this is no {} file", file, step ? "STEP" : "IGES"));
+    }
+    if (repairs == Repairs::kGentle) {
+        XSAlgo::SetAlgoContainer(new GentleRepairs);
+    } else {
+        XSAlgo::SetAlgoContainer(new XSAlgo_AlgoContainer);
+    }
+    check_faults(file, *reader);
+    reader->TransferRoots();
+    const TopoDS_Shape shape = reader->OneShape();
+    if (shape.IsNull()) {
+        throw InputError(file + ": the file holds no shape");
+    }
+    return {shape, unit_of(*reader, step)};
+}
+
+}  // namespace cusp::import

@@ -1,0 +1,23 @@
+// A CAD file as Open CASCADE reads it. Only libcusp_cad.so knows this header.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "opencascade/TopoDS_Shape.hxx"
+
+namespace cusp::import {
+
+// kGentle: as Open CASCADE does by default, but that wires are not turned.
+enum class Repairs : std::uint8_t { kGentle, kAll };
+
+struct ReadShape {
+    TopoDS_Shape shape;
+    std::string unit;  // of length, as the file names it
+};
+
+// Errors: InputError with the file: it can't be read, is no STEP or IGES, holds no shape, or has
+// faults that Open CASCADE does not survive.
+ReadShape read_shape(const std::string& file, Repairs repairs);
+
+}  // namespace cusp::import

@@ -1,0 +1,21 @@
+// Which numbers a job, or an option in place of a job, may hold.
+#pragma once
+
+namespace cusp::import {
+
+struct Range {
+    double low;
+    double high;
+    bool above_low{false};  // `low` itself is not allowed
+};
+
+// mm, mm/min, rpm
+inline constexpr double kLargest = 1e6;
+inline constexpr Range kPositive{0, kLargest, true};
+inline constexpr Range kNotNegative{0, kLargest};
+inline constexpr Range kAnyNumber{-kLargest, kLargest};
+// Programs are written to a ten-thousandth of a millimetre, feeds to a thousandth a minute.
+inline constexpr Range kTolerance{1e-5, kLargest};  // mm
+inline constexpr Range kFeed{0.01, kLargest};       // mm/min
+
+}  // namespace cusp::import

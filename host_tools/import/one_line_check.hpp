@@ -1,0 +1,20 @@
+// What a one-line job may be asked for.
+#pragma once
+
+#include <vector>
+
+#include "host_tools/import/one_line_job.hpp"
+#include "host_tools/import/tool_text.hpp"
+
+namespace cusp::import {
+
+// Errors: InputError that names the option or the file, its value, its limit and what to do.
+void check_request(const OneLineRequest& request);
+
+// Whether the last of the tools can finish as asked. Errors: InputError.
+void check_tools(const OneLineRequest& request, const std::vector<NamedTool>& tools);
+
+// Whether files of this ending hold parts: .json, .step, .stp, .iges, .igs, .stl.
+bool is_part_file(const std::string& file);
+
+}  // namespace cusp::import

@@ -1,0 +1,40 @@
+// What a one-line job leaves open: chosen by the part and its tools.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host_tools/import/one_line_job.hpp"
+#include "host_tools/import/part_extent.hpp"
+#include "host_tools/import/tool_text.hpp"
+
+namespace cusp::import {
+
+// Lengths in `unit`, feeds in it a minute.
+struct OneLineChoice {
+    const char* unit;  // "mm" or "inch"
+    double steps{};    // of one unit: the stock is rounded outwards to them
+    std::vector<NamedTool> tools;
+    std::string strategy;
+    double tolerance{};
+    double feed{};
+    double plunge_feed{};
+    double spindle{};  // rpm
+    double clearance{};
+    PartExtent part;
+    double top{};     // of the stock
+    double bottom{};  // of the part
+    bool roughs{};
+    double max_depth{};
+    double allowance{};
+
+    // To the step that the stock is rounded to.
+    std::string words(double length) const;
+    // All but the last; the only one.
+    std::vector<NamedTool> roughing_tools() const;
+};
+
+// Errors: InputError that names the option or the file.
+OneLineChoice choose(const OneLineRequest& request, PartFiles& parts);
+
+}  // namespace cusp::import

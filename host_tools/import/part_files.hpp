@@ -1,0 +1,40 @@
+// PartFiles: the parts of a job by their files, each read once however often it is asked for.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host_tools/import/import.hpp"
+#include "host_tools/job/job.hpp"
+
+namespace cusp::import {
+
+using Triangles = std::vector<std::array<Vec3d, 3>>;
+
+// Errors, here and below: InputError, as `read_surfaces`, `read_mesh` and `read_loop` throw it.
+//
+// millimetres  of one unit of a file that names no unit: 1 or 25.4; the same in all calls
+class PartFiles {
+public:
+    // mesh_tolerance  mm: how closely surfaces over an STL mesh follow it
+    const std::vector<nurbs::Surface>& surfaces(const std::string& file,
+                                                double millimetres,
+                                                double mesh_tolerance);
+    const Triangles& mesh(const std::string& file, double millimetres);
+    const job::Loop& loop(const std::string& file, double millimetres);
+
+    // What the readers left out or changed so far, in words.
+    const std::vector<std::string>& notes() const { return notes_; }
+
+private:
+    // by tolerance, too
+    std::map<std::pair<std::string, double>, std::vector<nurbs::Surface>> surfaces_;
+    std::map<std::string, Triangles> meshes_;
+    std::map<std::string, job::Loop> loops_;
+    std::vector<std::string> notes_;
+};
+
+}  // namespace cusp::import

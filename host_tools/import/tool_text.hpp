@@ -1,0 +1,24 @@
+// A tool in one word, as the command line takes it: "ball:6", "flat:8", "bull:10:1.5".
+#pragma once
+
+#include <string>
+
+namespace cusp::import {
+
+// In the unit that was asked for.
+struct NamedTool {
+    std::string shape;  // as in job files: "ball", "flat", "bull"
+    double diameter{};
+    double corner_radius{};  // of a bull-nose end; else 0
+};
+
+// text  SHAPE:DIAMETER or bull:DIAMETER:CORNER_RADIUS; each length may end in "mm" or "in"
+// inch  whether lengths without an ending are inches, and those of the result
+//
+// Errors: InputError that names the text, what is wrong with it and how it is written.
+NamedTool tool_of_text(const std::string& text, bool inch);
+
+// "ball 6 mm", "bull 10 mm with corners of 1.5 mm".
+std::string words_of(const NamedTool& tool, bool inch);
+
+}  // namespace cusp::import

@@ -1,0 +1,325 @@
+// Ends are found in a grid of squares; chains are walked from their open ends first.
+#include "host_tools/part_info/loop_nesting.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numeric>
+#include <tuple>
+#include <unordered_map>
+
+#include "host_tools/job/loop_shape.hpp"
+
+namespace cusp::part_info {
+
+using job::crossing_of;
+using job::encloses;
+using job::loop_polyline;
+using nurbs::Curve;
+using nurbs::CurvePoint;
+
+namespace {
+
+constexpr double kMeets = 1e-3;             // mm, as loops of a job are closed
+constexpr double kOutline = 1e-3;           // mm, of chords
+constexpr double kRepeated = 1e-4;          // mm: curves nearer than that are one
+constexpr std::size_t kMostSides = 200000;  // of outlines that are searched for crossings
+
+struct End {
+    std::size_t curve;
+    bool last;  // of the curve
+    Vec2d at;
+};
+
+// Ends of curves by the squares they lie in.
+class EndGrid {
+public:
+    explicit EndGrid(double side) : side_{side} {}
+    void add(std::size_t number, Vec2d at) { squares_[key(at, 0, 0)].push_back(number); }
+
+    // Calls visit(number) for all in the squares around a place.
+    template <class Visit>
+    void near(Vec2d at, const Visit& visit) const
+    {
+        for (int i = -1; i <= 1; ++i) {
+            for (int j = -1; j <= 1; ++j) {
+                if (const auto found = squares_.find(key(at, i, j)); found != squares_.end()) {
+                    std::for_each(found->second.begin(), found->second.end(), visit);
+                }
+            }
+        }
+    }
+
+private:
+    std::uint64_t key(Vec2d at, int i, int j) const
+    {
+        const auto column = static_cast<std::int64_t>(std::floor(at.x / side_)) + i;
+        const auto row = static_cast<std::int64_t>(std::floor(at.y / side_)) + j;
+        return static_cast<std::uint64_t>(column) * 0x9E3779B97F4A7C15U ^
+               static_cast<std::uint64_t>(row);
+    }
+
+    double side_;
+    std::unordered_map<std::uint64_t, std::vector<std::size_t>> squares_;
+};
+
+struct Measures {
+    double length{};
+    double area{};  // signed, of the sector from the origin
+};
+
+// Gauss's rule with eight places on each piece between knots.
+Measures measures_of(const Curve& curve, Vec2d origin)
+{
+    constexpr std::array<double, 4> kPlaces{0.1834346424956498, 0.5255324099163290,
+                                            0.7966664774136267, 0.9602898564975363};
+    constexpr std::array<double, 4> kWeights{0.3626837833783620, 0.3137066458778873,
+                                             0.2223810344533745, 0.1012285362903763};
+    Measures sum;
+    for (const Curve& piece : bezier_pieces(curve)) {
+        const double half = (piece.domain_end() - piece.domain_begin()) / 2;
+        const double middle = (piece.domain_end() + piece.domain_begin()) / 2;
+        for (std::size_t k = 0; k < 2 * kPlaces.size(); ++k) {
+            const double side = k % 2 == 0 ? 1.0 : -1.0;
+            const CurvePoint p = derivatives_at(piece, middle + side * half * kPlaces[k / 2]);
+            const double weight = half * kWeights[k / 2];
+            sum.length += weight * norm(in_plan(p.first));
+            sum.area += weight * cross(in_plan(p.point) - origin, in_plan(p.first)) / 2;
+        }
+    }
+    return sum;
+}
+
+// The curves without those that are drawn again over another.
+std::vector<Curve> without_repeats(const std::vector<Curve>& curves, std::size_t& repeated)
+{
+    using Key = std::array<std::int64_t, 6>;
+    std::map<Key, int> seen;
+    std::vector<Curve> out;
+    for (const Curve& curve : curves) {
+        const auto rounded = [](Vec2d p) {
+            return std::array<std::int64_t, 2>{std::llround(p.x / kRepeated),
+                                               std::llround(p.y / kRepeated)};
+        };
+        auto a = rounded(in_plan(curve.points.front()));
+        auto b = rounded(in_plan(curve.points.back()));
+        if (b < a) {
+            std::swap(a, b);
+        }
+        const auto middle =
+            rounded(in_plan(point_at(curve, (curve.domain_begin() + curve.domain_end()) / 2)));
+        if (seen[{a[0], a[1], b[0], b[1], middle[0], middle[1]}]++ == 0) {
+            out.push_back(curve);
+        } else {
+            ++repeated;
+        }
+    }
+    return out;
+}
+
+class Chains {
+public:
+    explicit Chains(const std::vector<Curve>& curves)
+        : curves_{curves}, grid_{kMeets}, used_(curves.size(), false)
+    {
+        for (std::size_t k = 0; k < curves.size(); ++k) {
+            for (const bool last : {false, true}) {
+                const Vec3d at = last ? curves[k].points.back() : curves[k].points.front();
+                grid_.add(ends_.size(), in_plan(at));
+                ends_.push_back({k, last, in_plan(at)});
+            }
+        }
+    }
+
+    void sort_into(LoopNesting& nesting)
+    {
+        // Where a chain ends it begins, too; what is left after those are loops.
+        for (const bool from_open_ends : {true, false}) {
+            for (std::size_t e = 0; e < ends_.size(); ++e) {
+                if (!used_[ends_[e].curve] && (!from_open_ends || is_open(e))) {
+                    add_chain(e, nesting);
+                }
+            }
+        }
+    }
+
+private:
+    // An unused curve's end that meets this one; the number of ends where there is none.
+    std::size_t next_to(std::size_t end) const
+    {
+        std::size_t nearest = ends_.size();
+        double least = kMeets;
+        grid_.near(ends_[end].at, [&](std::size_t other) {
+            const double apart = norm(ends_[other].at - ends_[end].at);
+            if (other != end && !used_[ends_[other].curve] && apart <= least) {
+                least = apart;
+                nearest = other;
+            }
+        });
+        return nearest;
+    }
+    bool is_open(std::size_t end) const
+    {
+        bool meets = false;
+        grid_.near(ends_[end].at, [&](std::size_t other) {
+            meets = meets || (other != end && norm(ends_[other].at - ends_[end].at) <= kMeets);
+        });
+        return !meets;
+    }
+
+    void add_chain(std::size_t first, LoopNesting& nesting)
+    {
+        std::vector<Curve> chain;
+        const Vec2d begin = ends_[first].at;
+        Vec2d end = begin;
+        for (std::size_t at = first; at < ends_.size();) {
+            const End& from = ends_[at];
+            used_[from.curve] = true;
+            chain.push_back(from.last ? reversed(curves_[from.curve]) : curves_[from.curve]);
+            const std::size_t other = at ^ 1U;
+            end = ends_[other].at;
+            at = norm(end - begin) <= kMeets ? ends_.size() : next_to(other);
+        }
+        Measures sum;
+        for (const Curve& curve : chain) {
+            const Measures one = measures_of(curve, begin);
+            sum.length += one.length;
+            sum.area += one.area;
+        }
+        if (norm(end - begin) <= kMeets && sum.length > 2 * kMeets) {
+            const std::vector<Vec2d> outline = loop_polyline(chain, kOutline);
+            nesting.loops.push_back({outline, chain.size(), sum.length, std::abs(sum.area),
+                                     sum.area > 0, -1, 0, std::nullopt});
+            return;
+        }
+        // loop_polyline() closes what it is given
+        std::vector<Vec2d> outline = loop_polyline(chain, kOutline);
+        outline.back() = end;
+        nesting.open.push_back({outline, chain.size(), sum.length, begin, end, 0, begin, end});
+    }
+
+    const std::vector<Curve>& curves_;
+    EndGrid grid_;
+    std::vector<End> ends_;
+    std::vector<bool> used_;
+};
+
+void measure_gaps(std::vector<OpenChain>& open)
+{
+    std::vector<Vec2d> ends;
+    for (const OpenChain& chain : open) {
+        ends.push_back(chain.begin);
+        ends.push_back(chain.end);
+    }
+    // Sorted by x, so that only ends within the least gap so far are looked at.
+    std::vector<std::size_t> order(ends.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return std::tie(ends[a].x, a) < std::tie(ends[b].x, b);
+    });
+    std::vector<double> gaps(open.size(), kInfinite);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const std::size_t from = order[i];
+        OpenChain& chain = open[from / 2];
+        const auto look = [&](std::size_t k) {
+            const double gap = norm(ends[order[k]] - ends[from]);
+            if (gap < gaps[from / 2]) {
+                gaps[from / 2] = chain.gap = gap;
+                chain.gap_from = ends[from];
+                chain.gap_to = ends[order[k]];
+            }
+            return std::abs(ends[order[k]].x - ends[from].x) <= gaps[from / 2];
+        };
+        for (std::size_t k = i + 1; k < order.size() && look(k); ++k) {
+        }
+        for (std::size_t k = i; k-- > 0 && look(k);) {
+        }
+    }
+}
+
+struct PlanBox {
+    Vec2d low, high;
+    bool holds(const PlanBox& other) const
+    {
+        return low.x <= other.low.x && low.y <= other.low.y && high.x >= other.high.x &&
+               high.y >= other.high.y;
+    }
+};
+
+PlanBox box_of(const std::vector<Vec2d>& outline)
+{
+    PlanBox box{outline.front(), outline.front()};
+    for (const Vec2d p : outline) {
+        box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+        box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+    }
+    return box;
+}
+
+// By three of its places, as loops may touch.
+bool lies_in(const std::vector<Vec2d>& inner, const std::vector<Vec2d>& outer)
+{
+    const std::size_t n = inner.size() - 1;
+    int inside = 0;
+    for (const std::size_t k : {std::size_t{0}, n / 3, 2 * n / 3}) {
+        inside += encloses(outer, 0.5 * (inner[k] + inner[k + 1])) ? 1 : 0;
+    }
+    return inside >= 2;
+}
+
+// Precondition: the largest first.
+void nest(std::vector<ClosedLoop>& loops)
+{
+    std::vector<PlanBox> boxes;
+    for (std::size_t i = 0; i < loops.size(); ++i) {
+        boxes.push_back(box_of(loops[i].outline));
+        for (std::size_t k = i; k-- > 0;) {
+            if (boxes[k].holds(boxes[i]) && lies_in(loops[i].outline, loops[k].outline)) {
+                loops[i].parent = static_cast<int>(k);
+                loops[i].depth = loops[k].depth + 1;
+                break;
+            }
+        }
+    }
+}
+
+void find_crossings(LoopNesting& nesting)
+{
+    std::vector<std::vector<Vec2d>> outlines;
+    std::size_t sides = 0;
+    for (const ClosedLoop& loop : nesting.loops) {
+        outlines.push_back(loop.outline);
+        sides += loop.outline.size();
+    }
+    if (sides > kMostSides || !(nesting.crossing = crossing_of(outlines))) {
+        return;
+    }
+    bool own = false;
+    for (ClosedLoop& loop : nesting.loops) {
+        loop.crossing = crossing_of({loop.outline});
+        own = own || loop.crossing;
+    }
+    if (own) {
+        nesting.crossing.reset();
+    }
+}
+
+}  // namespace
+
+LoopNesting nest_loops(const std::vector<Curve>& curves)
+{
+    LoopNesting nesting;
+    nesting.curves = curves.size();
+    const std::vector<Curve> once = without_repeats(curves, nesting.repeated);
+    Chains{once}.sort_into(nesting);
+    std::stable_sort(nesting.loops.begin(), nesting.loops.end(),
+                     [](const ClosedLoop& a, const ClosedLoop& b) { return a.area > b.area; });
+    nest(nesting.loops);
+    find_crossings(nesting);
+    measure_gaps(nesting.open);
+    return nesting;
+}
+
+}  // namespace cusp::part_info

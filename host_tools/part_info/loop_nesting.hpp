@@ -1,0 +1,48 @@
+// The curves of a drawing as closed loops, which lies in which, and the chains that are open.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "host_tools/nurbs/nurbs.hpp"
+
+namespace cusp::part_info {
+
+// Seen from above, mm.
+struct ClosedLoop {
+    std::vector<Vec2d> outline;  // chords within 1e-3 mm; the last point is the first again
+    std::size_t curves{};
+    double length{};
+    double area{};                  // above 0, or 0
+    bool counter_clockwise{};       // as drawn
+    int parent{-1};                 // number of the smallest loop around it; -1: none
+    int depth{};                    // loops around it: even encloses material, odd is a hole
+    std::optional<Vec2d> crossing;  // where it crosses itself
+};
+
+struct OpenChain {
+    std::vector<Vec2d> outline;
+    std::size_t curves{};
+    double length{};
+    Vec2d begin, end;
+    // From one of its ends to the nearest end of any chain, this one's other end included.
+    double gap{};
+    Vec2d gap_from, gap_to;
+};
+
+struct LoopNesting {
+    std::size_t curves{};
+    std::size_t repeated{};         // drawn a second time over another one; left out
+    std::vector<ClosedLoop> loops;  // the largest first
+    std::vector<OpenChain> open;
+    std::optional<Vec2d> crossing;  // where two loops cross: their nesting means little
+};
+
+// Ends within 1e-3 mm meet, as read_loop() has it. Lengths and areas are integrals over the curves,
+// good to 1e-9 of them for arcs up to a quarter turn a piece.
+//
+// Where more than two ends meet, a chain goes on along any of them.
+LoopNesting nest_loops(const std::vector<nurbs::Curve>& curves);
+
+}  // namespace cusp::part_info

@@ -1,0 +1,276 @@
+// A reader for each kind of file, then the same questions to all surfaces and meshes.
+#include "host_tools/part_info/part_info.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+#include <variant>
+
+#include "host_tools/import/cad_surfaces.hpp"
+#include "host_tools/import/dxf_curves.hpp"
+#include "host_tools/import/geometry_json.hpp"
+#include "host_tools/import/path_ending.hpp"
+#include "host_tools/import/stl_facets.hpp"
+#include "host_tools/input_error/input_error.hpp"
+#include "host_tools/part_info/mesh_places.hpp"
+#include "host_tools/part_info/surface_facets.hpp"
+
+#include "fmt/format.h"
+
+namespace cusp::part_info {
+
+using import::CadModel;
+using import::DxfLayer;
+using import::DxfLayers;
+using import::Facets;
+using import::path_ending;
+using import::read_cad_model;
+using import::read_dxf_layers;
+using import::read_json_shapes;
+using import::read_stl;
+using nurbs::Curve;
+using nurbs::Surface;
+using part_model::PartModel;
+
+namespace {
+
+// Balls are asked for up to so many times the part's diagonal.
+constexpr double kLargestBall = 5;
+// Of the tolerance, between faces and the facets that balls are tried on.
+constexpr double kFacetShare = 0.2;
+
+PartUnit unit_of(double millimetres, bool assumed)
+{
+    return {millimetres == 1 ? "mm" : "inch", millimetres, assumed};
+}
+
+void start_box(PartInfo& info)
+{
+    info.box_low = {kInfinite, kInfinite, kInfinite};
+    info.box_high = {-kInfinite, -kInfinite, -kInfinite};
+}
+
+void widen_box(PartInfo& info, Vec3d p)
+{
+    info.box_low = {std::min(info.box_low.x, p.x), std::min(info.box_low.y, p.y),
+                    std::min(info.box_low.z, p.z)};
+    info.box_high = {std::max(info.box_high.x, p.x), std::max(info.box_high.y, p.y),
+                     std::max(info.box_high.z, p.z)};
+}
+
+// Hidden layers count where nothing else is drawn.
+void take_box_of_layers(PartInfo& info)
+{
+    const auto widen = [&info](const auto& chains) {
+        for (const auto& chain : chains) {
+            for (const Vec2d p : chain.outline) {
+                widen_box(info, {p.x, p.y, 0});
+            }
+        }
+    };
+    const bool all_hidden = std::all_of(info.layers.begin(), info.layers.end(),
+                                        [](const LayerInfo& layer) { return layer.hidden; });
+    start_box(info);
+    for (const LayerInfo& layer : info.layers) {
+        if (!layer.hidden || all_hidden) {
+            widen(layer.loops.loops);
+            widen(layer.loops.open);
+        }
+    }
+}
+
+void read_curves(PartInfo& info, const std::vector<Curve>& curves)
+{
+    info.layers.push_back({"", false, "", nest_loops(curves)});
+    take_box_of_layers(info);
+    info.box_low.z = kInfinite;
+    info.box_high.z = -kInfinite;
+    for (const Curve& curve : curves) {
+        for (const Vec3d& p : curve.points) {
+            info.box_low.z = std::min(info.box_low.z, p.z);
+            info.box_high.z = std::max(info.box_high.z, p.z);
+        }
+    }
+}
+
+void read_drawing(PartInfo& info,
+                  const std::string& file,
+                  const std::string& wanted,
+                  double millimetres)
+{
+    DxfLayers drawing = read_dxf_layers(file, millimetres);
+    info.format = "DXF";
+    info.unit = unit_of(drawing.millimetres, !drawing.names_unit);
+    std::string names;
+    for (DxfLayer& layer : drawing.layers) {
+        names += (names.empty() ? "\"" : ", \"") + layer.name + "\"";
+        if (wanted.empty() || layer.name == wanted) {
+            info.layers.push_back(
+                {layer.name, layer.hidden, layer.problem, nest_loops(layer.curves)});
+        }
+    }
+    if (info.layers.empty()) {
+        throw InputError(fmt::format("{}: no curve on the layer \"{}\"; layers with curves: {}",
+                                     file, wanted, names));
+    }
+    take_box_of_layers(info);
+    if (!(info.box_low.x <= info.box_high.x)) {
+        throw InputError(info.layers.front().problem);
+    }
+}
+
+// How many places balls are tried at: a ball that follows a hollow is near all facets of it.
+std::size_t ball_places(std::size_t facets)
+{
+    constexpr std::size_t kWork = 5'000'000'000;
+    constexpr std::size_t kLeast = 4000;
+    constexpr std::size_t kMost = 40000;
+    return std::clamp(kWork / facets, kLeast, kMost);
+}
+
+TopOfPart top_of(const PartModel& mesh)
+{
+    return [&mesh](double x, double y) {
+        const auto found = mesh.height_at(x, y);
+        return found ? std::optional{found->point.z} : std::nullopt;
+    };
+}
+
+std::vector<char> hidden_points(const TopOfPart& top, const std::vector<GroundPlace>& places)
+{
+    std::vector<char> hidden;
+    hidden.reserve(places.size());
+    for (const GroundPlace& place : places) {
+        hidden.push_back(hidden_from_above(top, place) ? 1 : 0);
+    }
+    return hidden;
+}
+
+// Every so many of the places that are not hidden, so that there are no more than `most` or so.
+void add_seen(const std::vector<GroundPlace>& places,
+              const std::vector<char>& hidden,
+              std::size_t most,
+              std::vector<GroundPlace>& seen)
+{
+    const std::size_t step = std::max<std::size_t>(1, places.size() / most);
+    for (std::size_t k = 0; k < places.size(); k += step) {
+        if (hidden[k] == 0) {
+            seen.push_back(places[k]);
+        }
+    }
+}
+
+double largest_asked_for(const PartInfo& info)
+{
+    return kLargestBall * norm(info.box_high - info.box_low);
+}
+
+void inspect_surfaces(PartInfo& info, const std::vector<double>& outwards, double tolerance)
+{
+    const SurfacePlaces found = surface_places(info.surfaces, outwards);
+    info.box_low = found.box_low;
+    info.box_high = found.box_high;
+    const SurfaceFacets facets = surface_facets(info.surfaces, kFacetShare * tolerance);
+    const PartModel model{facets.triangles};
+    const std::vector<char> hidden = hidden_points(top_of(model), found.places);
+    info.ground = ground_of(found.places, hidden, info.box_low.z);
+    info.hollow = smallest_hollow(info.surfaces, found, hidden);
+    std::vector<GroundPlace> seen;
+    if (info.hollow) {
+        seen.push_back(info.hollow->place);
+    }
+    add_seen(found.places, hidden, ball_places(facets.triangles.size()), seen);
+    info.ball = largest_ball(model, seen, std::max(tolerance, facets.tolerance / kFacetShare),
+                             largest_asked_for(info));
+}
+
+void inspect_mesh(PartInfo& info, double tolerance)
+{
+    start_box(info);
+    for (const auto& triangle : info.triangles) {
+        for (const Vec3d& corner : triangle) {
+            widen_box(info, corner);
+        }
+    }
+    const std::size_t most = ball_places(info.triangles.size());
+    std::vector<GroundPlace> places;
+    std::vector<GroundPlace> creases;
+    {
+        const WeldedMesh mesh = weld(info.triangles);
+        info.mesh = mesh.health;
+        places = facet_places(mesh);
+        creases = crease_places(mesh, most);
+    }
+    const PartModel model{info.triangles};
+    const TopOfPart top = top_of(model);
+    const std::vector<char> hidden = hidden_points(top, places);
+    info.ground = ground_of(places, hidden, info.box_low.z);
+    std::vector<GroundPlace> seen;
+    add_seen(creases, hidden_points(top, creases), 2 * most, seen);
+    add_seen(places, hidden, most, seen);
+    info.ball = largest_ball(model, seen, tolerance, largest_asked_for(info));
+}
+
+void read_json(PartInfo& info, const std::string& file, const InspectSettings& settings)
+{
+    info.unit = unit_of(settings.millimetres, true);
+    auto shapes = read_json_shapes(file, settings.millimetres);
+    if (const auto* curves = std::get_if<std::vector<Curve>>(&shapes)) {
+        info.format = "JSON curves";
+        read_curves(info, *curves);
+        return;
+    }
+    info.format = "JSON surfaces";
+    info.surfaces = std::move(std::get<std::vector<Surface>>(shapes));
+    inspect_surfaces(info, {}, settings.tolerance);
+}
+
+void read_mesh_file(PartInfo& info, const std::string& file, const InspectSettings& settings)
+{
+    Facets facets = read_stl(file, settings.millimetres);
+    info.format = "STL";
+    info.unit = unit_of(settings.millimetres, true);
+    info.triangles = std::move(facets.triangles);
+    info.degenerate = facets.degenerate;
+    inspect_mesh(info, settings.tolerance);
+}
+
+void read_cad(PartInfo& info, const std::string& file, bool step, double tolerance)
+{
+    CadModel model = read_cad_model(file);
+    info.format = step ? "STEP" : "IGES";
+    info.unit = {model.unit, 0, false};
+    info.solids = model.solids;
+    info.unread_faces = model.unread;
+    info.surfaces = std::move(model.faces);
+    inspect_surfaces(info, model.outwards, tolerance);
+}
+
+}  // namespace
+
+PartInfo inspect_part(const std::string& name, const InspectSettings& settings)
+{
+    const std::size_t mark = name.rfind('#');
+    const bool layered = mark != std::string::npos && path_ending(name.substr(0, mark)) == ".dxf";
+    const std::string file = layered ? name.substr(0, mark) : name;
+    const std::string ending = path_ending(file);
+    PartInfo info;
+    info.file = name;
+    if (ending == ".json") {
+        read_json(info, file, settings);
+    } else if (ending == ".stl") {
+        read_mesh_file(info, file, settings);
+    } else if (ending == ".dxf") {
+        read_drawing(info, file, layered ? name.substr(mark + 1) : "", settings.millimetres);
+    } else if (ending == ".step" || ending == ".stp" || ending == ".iges" || ending == ".igs") {
+        read_cad(info, file, ending == ".step" || ending == ".stp", settings.tolerance);
+    } else {
+        throw InputError(fmt::format(
+            "{}: parts are read from .json, .step, .stp, .iges, .igs, .stl and .dxf, not from "
+            "\"{}\"",
+            file, ending));
+    }
+    return info;
+}
+
+}  // namespace cusp::part_info

@@ -1,0 +1,74 @@
+// What a part is, for somebody who has been handed a file: size, faces, loops, steepness, hollows,
+// faults. `inspect_part` reads a file of any kind; text and JSON of what it finds are below.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host_tools/nurbs/nurbs.hpp"
+#include "host_tools/part_info/ball_reach.hpp"
+#include "host_tools/part_info/ground.hpp"
+#include "host_tools/part_info/loop_nesting.hpp"
+#include "host_tools/part_info/mesh_health.hpp"
+#include "host_tools/part_info/surface_places.hpp"
+
+namespace cusp::part_info {
+
+struct InspectSettings {
+    double millimetres{1};   // of one unit of files that name none: 1 or 25.4
+    double tolerance{0.01};  // mm: what a ball may leave
+};
+
+struct PartUnit {
+    std::string name;      // "mm", "inch", or as the file has it
+    double millimetres{};  // of one; 0: not told (STEP and IGES are converted on reading)
+    bool assumed{};        // the file names none
+};
+
+struct LayerInfo {
+    std::string name;  // "" where the file has no layers
+    bool hidden{};     // switched off or frozen: left out where no layer is asked for
+    std::string problem;
+    LoopNesting loops;
+};
+
+struct PartInfo {
+    std::string file;    // as it was named, "#layer" included
+    std::string format;  // "STL", "STEP", "IGES", "JSON surfaces", "JSON curves", "DXF"
+    PartUnit unit;
+    Vec3d box_low, box_high;  // mm
+
+    // Drawings and curves.
+    std::vector<LayerInfo> layers;
+
+    // Surfaces and meshes. Only one of the first two holds something.
+    std::vector<nurbs::Surface> surfaces;
+    std::vector<std::array<Vec3d, 3>> triangles;
+    std::size_t solids{};        // STEP and IGES
+    std::size_t unread_faces{};  // that look down and have broken edges
+    std::size_t degenerate{};    // facets without area
+    std::optional<MeshHealth> mesh;
+    std::optional<Ground> ground;
+    std::optional<Hollow> hollow;  // of faces; none: nothing is hollow, or a mesh
+    std::optional<BallReach> ball;
+
+    bool is_drawing() const { return !layers.empty(); }
+    bool is_mesh() const { return mesh.has_value(); }
+};
+
+// name  a file; of a drawing "#layer" may follow
+//
+// Errors: InputError with the file, place and reason, as the readers of host_tools/import have it:
+// missing, empty or broken files, an ending that nothing is read from.
+PartInfo inspect_part(const std::string& name, const InspectSettings& settings);
+
+// Aligned lines, with a unit on every number.
+std::string text_of(const PartInfo& info);
+
+// {"files": [...]}: stable keys, in mm and degrees.
+std::string json_of(const std::vector<PartInfo>& parts);
+
+}  // namespace cusp::part_info

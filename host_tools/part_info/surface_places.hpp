@@ -1,0 +1,48 @@
+// NURBS faces as places to look at, their box, and their smallest hollow radius.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "host_tools/nurbs/nurbs.hpp"
+#include "host_tools/part_info/ground.hpp"
+
+namespace cusp::part_info {
+
+struct SurfaceAt {
+    int surface;
+    double u, v;
+};
+
+struct SurfacePlaces {
+    std::vector<GroundPlace> places;
+    std::vector<SurfaceAt> at;  // of each
+    Vec3d box_low, box_high;    // mm; where a face bulges between places, found to 1e-6 mm
+};
+
+// Middles of cells, some 30 000 in all but at least nine for each Bezier patch, with their areas;
+// corners of patches and places along trimmed edges, without.
+//
+// outwards  of each surface: +1 where du x dv points out of a solid, -1 where in, 0 where it bounds
+//           none; empty: all 0
+SurfacePlaces surface_places(const std::vector<nurbs::Surface>& surfaces,
+                             const std::vector<double>& outwards);
+
+// mm, of the ball that follows the surface across its sharpest hollow there, on the side that the
+// normal points to: one over the greater principal curvature; none where it is not hollow.
+std::optional<double> hollow_radius(const nurbs::SurfacePoint& p, Vec3d normal);
+
+struct Hollow {
+    double radius;  // mm
+    GroundPlace place;
+};
+
+// The smallest hollow radius of the faces where they can be seen from above, from the places and
+// walks on from the best of them. None: nothing is hollow.
+// Accuracy: 1e-6 of the radius at the place; a smaller hollow between places may be missed.
+std::optional<Hollow> smallest_hollow(const std::vector<nurbs::Surface>& surfaces,
+                                      const SurfacePlaces& places,
+                                      const std::vector<char>& hidden);
+
+}  // namespace cusp::part_info

@@ -1,0 +1,61 @@
+#!/bin/sh
+# Runs a command in a bare Debian 12: mmdebstrap's minbase, with git, sudo and certificates and nothing else.
+# What is committed here is cloned into its home folder first.
+#
+# usage: bare_root.sh [--user] [--keep FOLDER] [--copy FILE]... [--out FOLDER] COMMAND...
+#   --user         as a plain user who may sudo, not as root
+#   --keep FOLDER  the root is this folder; made if there is none, and left there
+#   --copy FILE    into the home folder, beside the clone
+#   --out FOLDER   gets the clone's folder out/ afterwards
+# Needs root and mmdebstrap. Exit status: the command's. Example: tests/fresh/bare_root.sh --user ./demo.sh
+set -eu
+top=$(cd "$(dirname "$0")/../.." && pwd)
+user=root home=/root keep="" copies="" out=""
+while [ $# -gt 0 ]; do
+    case $1 in
+    --user) user=miller home=/home/miller && shift ;;
+    --keep) keep=$2 && shift 2 ;;
+    --copy) copies="$copies $2" && shift 2 ;;
+    --out) out=$2 && shift 2 ;;
+    *) break ;;
+    esac
+done
+[ $# -gt 0 ] || { sed -n 's/^# usage: /usage: /p' "$0" >&2; exit 2; }
+[ "$(id -u)" = 0 ] || { echo "bare_root: only root can make a root folder" >&2; exit 2; }
+
+root=${keep:-$(mktemp -d)/root}
+leave() {
+    for place in dev/pts dev proc; do
+        ! mountpoint -q "$root/$place" || umount "$root/$place"
+    done
+    [ -n "$keep" ] || rm -rf --one-file-system "$(dirname "$root")"
+}
+trap leave EXIT
+
+if [ ! -d "$root/etc" ]; then
+    # The sources of this machine: where it gets its packages, the bare one can.
+    sources=/etc/apt/sources.list.d/debian.sources
+    [ -f "$sources" ] || sources=/etc/apt/sources.list
+    mmdebstrap --quiet --variant=minbase --include=ca-certificates,git,sudo bookworm "$root" "$sources"
+fi
+mount -t proc proc "$root/proc"
+mount --bind /dev "$root/dev"
+mount -t devpts devpts "$root/dev/pts"
+
+if [ "$user" != root ]; then
+    chroot "$root" useradd --create-home --shell /bin/bash "$user" 2>/dev/null || true
+    echo "$user ALL=(ALL) NOPASSWD:ALL" >"$root/etc/sudoers.d/$user"
+fi
+rm -rf "$root$home/cusp"
+git -c safe.directory='*' clone -q "$top" "$root$home/cusp"
+for file in $copies; do
+    cp "$file" "$root$home/"
+done
+chroot "$root" chown -R "$user" "$home"
+status=0
+chroot "$root" su - "$user" -c "cd cusp && TERM=dumb $*" || status=$?
+if [ -n "$out" ]; then
+    mkdir -p "$out"
+    cp -r "$root$home/cusp/out/." "$out/"
+fi
+exit $status

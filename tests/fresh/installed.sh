@@ -1,0 +1,30 @@
+# Run in a bare root beside the two packages: installs them, makes the first picture, uses the rest.
+set -eu
+begun=$(date +%s)
+apt-get update -qq
+apt-get install -y -qq ./cusp_*.deb >/dev/null
+cusp demo --out demo
+seconds=$(($(date +%s) - begun))
+echo "the first picture after $seconds s"
+grep -q '<svg' demo/path.svg
+[ "$seconds" -le 60 ]
+
+# The examples, the images and the pages came along.
+cusp plan /usr/share/cusp/examples/hull_rough/tap.toml -o tap.ngc
+grep -q M30 tap.ngc
+for board in mill3_f405 mill3_f405_qemu; do
+    [ -s /usr/share/cusp/boards/$board/$board.bin ]
+    [ -s /usr/share/cusp/boards/$board/README.md ]
+done
+for page in cusp cusp-plan cusp-sim cusp-verify cusp-stream; do
+    zcat /usr/share/man/man1/$page.1.gz | grep -q '^\.SH NAME'
+done
+bash -c '. /usr/share/bash-completion/completions/cusp
+    COMP_WORDS=(cusp pl) COMP_CWORD=1; _cusp; [ "${COMPREPLY[*]}" = plan ]
+    COMP_WORDS=(cusp plan --sta) COMP_CWORD=2; _cusp; [ "${COMPREPLY[*]}" = --stats ]'
+
+# The core, for a board of one's own.
+apt-get install -y -qq --no-install-recommends ./cusp-dev_*.deb g++ cmake make >/dev/null
+cmake -S cusp/tests/checks/installed -B board >/dev/null
+cmake --build board >/dev/null
+board/board
