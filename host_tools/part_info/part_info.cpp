@@ -23,7 +23,7 @@ namespace {
 // Balls are asked for up to so many times the part's diagonal.
 constexpr double kLargestBall = 5;
 // Of the tolerance, between faces and the facets that balls are tried on.
-constexpr double kFacetShare = 0.2;
+constexpr double kFacetShare = 0.25;
 
 PartUnit unit_of(double millimetres, bool assumed)
 {
@@ -108,9 +108,9 @@ void read_drawing(PartInfo& info,
 // How many places balls are tried at: a ball that follows a hollow is near all facets of it.
 std::size_t ball_places(std::size_t facets)
 {
-    constexpr std::size_t kWork = 5'000'000'000;
-    constexpr std::size_t kLeast = 4000;
-    constexpr std::size_t kMost = 40000;
+    constexpr std::size_t kWork = 200'000'000;
+    constexpr std::size_t kLeast = 2500;
+    constexpr std::size_t kMost = 20000;
     return std::clamp(kWork / facets, kLeast, kMost);
 }
 
@@ -153,6 +153,7 @@ double largest_asked_for(const PartInfo& info)
 
 void inspect_surfaces(PartInfo& info, const std::vector<double>& outwards, double tolerance)
 {
+    info.pieces = info.surfaces.size();
     const SurfacePlaces found = surface_places(info.surfaces, outwards);
     info.box_low = found.box_low;
     info.box_high = found.box_high;
@@ -167,11 +168,12 @@ void inspect_surfaces(PartInfo& info, const std::vector<double>& outwards, doubl
     }
     add_seen(found.places, hidden, ball_places(facets.triangles.size()), seen);
     info.ball = largest_ball(model, seen, std::max(tolerance, facets.tolerance / kFacetShare),
-                             largest_asked_for(info));
+                             facets.tolerance, largest_asked_for(info));
 }
 
 void inspect_mesh(PartInfo& info, double tolerance)
 {
+    info.pieces = info.triangles.size();
     start_box(info);
     for (const auto& triangle : info.triangles) {
         for (const Vec3d& corner : triangle) {
@@ -194,7 +196,7 @@ void inspect_mesh(PartInfo& info, double tolerance)
     std::vector<GroundPlace> seen;
     add_seen(creases, hidden_places(top, creases), 2 * most, seen);
     add_seen(places, hidden, most, seen);
-    info.ball = largest_ball(model, seen, tolerance, largest_asked_for(info));
+    info.ball = largest_ball(model, seen, tolerance, 0, largest_asked_for(info));
 }
 
 void read_json(PartInfo& info, const std::string& file, const InspectSettings& settings)
