@@ -83,8 +83,7 @@ std::string ground_picture(const PartInfo& info, const PictureFrame& frame)
         return fmt::format("stroke=\"black\" stroke-opacity=\"{:.3f}\"",
                            kDarkest * shade / kShades);
     });
-    return out + scale_bar(frame.x_high + frame.margin(), frame.y_low, 0.8 * frame.height(), low,
-                           high, "height, mm");
+    return out + frame.scale(low, high, "height, mm");
 }
 
 std::string marks_of(const PartInfo& info, const PictureFrame& frame)
