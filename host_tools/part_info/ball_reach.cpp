@@ -18,7 +18,11 @@ constexpr double kPrecision = 5e-4;  // of the radius
 // and asking takes ten times as long. Those around the tightest one are then asked again.
 constexpr double kAskedFor = 0.95;
 constexpr double kAskedAgain = 0.995;
-constexpr std::size_t kAgain = 300;
+constexpr std::size_t kAgain = 100;
+// Places that are asked in any case, and facets that may be looked at for all others.
+constexpr std::size_t kFirst = 300;
+constexpr double kWork = 1e8;
+constexpr double kLeastWork = 1000;  // each
 // Of the touching direction along the normal: a ball beside the part's border touches an edge, but
 // not from above.
 constexpr double kLeastFacing = 0.1;
@@ -82,10 +86,10 @@ private:
     // From the best place so far; ends early where it leaves little enough.
     bool searched(double allowed)
     {
-        constexpr double kFirst = 0.25;
+        constexpr double kFirstStep = 0.25;
         if (least_ > allowed && least_ < kInfinite) {
             const double finest = std::min(1e-5 * ball_.radius, allowed / 10);
-            pattern_search(best_, kFirst * ball_.radius, finest,
+            pattern_search(best_, kFirstStep * ball_.radius, finest,
                            [&](Vec2d to) { return least_ > allowed && better(to); });
         }
         return least_ <= allowed;
@@ -179,17 +183,29 @@ struct Trial {
     }
 };
 
-// Shuffled, always the same way.
+// The first as they are, the likeliest; the others shuffled, always the same way.
 std::vector<std::size_t> order_of(std::size_t count)
 {
     std::vector<std::size_t> order(count);
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::uint64_t state = 1;
-    for (std::size_t k = count; k > 1; --k) {
+    for (std::size_t k = count; k > kFirst + 1; --k) {
         state = state * 6364136223846793005U + 1442695040888963407U;
-        std::swap(order[k - 1], order[(state >> 33U) % k]);
+        std::swap(order[k - 1], order[kFirst + (state >> 33U) % (k - kFirst)]);
     }
     return order;
+}
+
+// Of the places, those that a ball that touches the place nearly touches, too: a search for what it
+// cuts goes through the facets there.
+double share_near(const std::vector<GroundPlace>& places, const GroundPlace& place, double radius)
+{
+    constexpr double kNear = 0.1;  // of the radius
+    const Vec3d centre = place.point + place.normal * radius;
+    const auto near = std::count_if(places.begin(), places.end(), [&](const GroundPlace& other) {
+        return std::abs(norm(other.point - centre) - radius) < kNear * radius;
+    });
+    return static_cast<double>(near) / static_cast<double>(places.size());
 }
 
 }  // namespace
@@ -198,18 +214,20 @@ BallReach largest_ball(const SurfaceModel& model,
                        const std::vector<GroundPlace>& places,
                        double tolerance,
                        double facets_off,
+                       std::size_t facets,
                        double most)
 {
     const Trial trial{model, tolerance, facets_off + kTouching * tolerance};
     BallReach found;
     found.leaves = tolerance;
-    found.places = places.size();
     const double smallest = tolerance / 4;
     double radius = most;
     const GroundPlace* tightest = nullptr;
-    const auto ask = [&](const std::vector<std::size_t>& order, double share) {
-        for (const std::size_t k : order) {
-            const GroundPlace& place = places[k];
+    const auto ask = [&](const std::vector<std::size_t>& order, std::size_t begin, std::size_t end,
+                         double share) {
+        for (std::size_t at = begin; at < end; ++at) {
+            const GroundPlace& place = places[order[at]];
+            ++found.places;
             if (!trial.reaches(place, share * radius) && trial.reaches(place, smallest)) {
                 radius = trial.largest_at(place, smallest, share * radius);
                 tightest = &place;
@@ -217,21 +235,24 @@ BallReach largest_ball(const SurfaceModel& model,
         }
     };
     std::vector<std::size_t> order = order_of(places.size());
-    // The caller's first place is the likeliest.
-    std::stable_partition(order.begin(), order.end(), [](std::size_t k) { return k == 0; });
-    ask(order, kAskedFor);
+    const std::size_t first = std::min(kFirst, places.size());
+    ask(order, 0, first, kAskedFor);
+    const double near = tightest == nullptr ? 0 : share_near(places, *tightest, radius);
+    const double each = kLeastWork + near * static_cast<double>(facets);
+    const std::size_t most_places =
+        std::min(places.size(), std::max(first, static_cast<std::size_t>(kWork / each)));
+    ask(order, first, most_places, kAskedFor);
     if (tightest == nullptr) {
         return found;
     }
     const Vec3d middle = tightest->point;
-    const std::size_t again = std::min(kAgain, order.size());
+    const std::size_t again = std::min({kAgain, order.size(), most_places / 10 + 1});
     std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(again),
                       order.end(), [&](std::size_t a, std::size_t b) {
                           return std::make_pair(norm(places[a].point - middle), a) <
                                  std::make_pair(norm(places[b].point - middle), b);
                       });
-    order.resize(again);
-    ask(order, kAskedAgain);
+    ask(order, 0, again, kAskedAgain);
     found.radius = radius;
     found.at = tightest->point;
     const Trial finer{model, tolerance / 4, std::min(tolerance / 8, trial.touching)};

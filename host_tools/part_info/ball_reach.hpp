@@ -25,9 +25,11 @@ struct BallReach {
 // search in plan. In a hollow that is round with radius r
 // to a depth h the result is r to r / (1 - tolerance / h); where only its bottom is so tight, more.
 //
-// places     none hidden from above; the likeliest to bound the ball first, if one is known
+// places     none hidden from above; the likeliest to bound the ball first. All are looked at
+//            unless the ball follows so many facets that it would take long; then 300 or more
 // tolerance  mm > 0; for meshes at least what their facets are off the shape that is meant
 // facets_off mm: how far facets may lie in front of the places, as on faces
+// facets     of the model
 // most       mm: radius of the largest ball asked for
 //
 // Accuracy (BallReach tests): 5 % of the radius at the places given, 0.5 % at those around the
@@ -36,6 +38,7 @@ BallReach largest_ball(const SurfaceModel& model,
                        const std::vector<GroundPlace>& places,
                        double tolerance,
                        double facets_off,
+                       std::size_t facets,
                        double most);
 
 }  // namespace cusp::host
