@@ -53,16 +53,15 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME cusp)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "CNC tool paths, simulation and streaming for 3-axis mills
- cusp plans tool paths over NURBS surfaces, meshes and STEP models with a
- computed bound on gouge and scallop, runs the G-code through the motion core
- of its own controller firmware, cuts the part in memory and streams programs
- to Grbl-compatible controllers. The firmware images of all boards come with it.")
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "cusp plans tool paths over NURBS surfaces, meshes and STEP models with a
+computed bound on gouge and scallop, runs the G-code through the motion core
+of its own controller firmware, cuts the part in memory and streams programs
+to Grbl-compatible controllers. The firmware images of all boards come with it.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME cusp-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "CNC controller core of cusp, for boards of one's own
- Headers, static libraries and the CMake package (find_package(cusp)) of the
- freestanding core that cusp simulates: G-code, planner, interpolator, pulses.")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers, static libraries and the CMake package (find_package(cusp)) of the
+freestanding core that cusp simulates: G-code, planner, interpolator, pulses.
+For a board of one's own.")
 
 # Debian wants the licence and a changelog in each package.
 foreach(pair program:cusp development:cusp-dev)

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 
 #include "host_tools/part_model/pattern_search.hpp"
 
@@ -13,56 +14,94 @@ namespace cusp::part_info {
 
 using part_model::PartModel;
 using part_model::pattern_search;
+using part_model::ToolDistance;
 using toolpath::Tool;
 using toolpath::ToolShape;
 
 namespace {
 
 constexpr double kPrecision = 5e-4;  // of the radius
+// Places are asked for a ball so much smaller: one that follows a hollow exactly is near all of it,
+// and asking takes ten times as long. Those around the tightest one are then asked again.
+constexpr double kAskedFor = 0.95;
+constexpr double kAskedAgain = 0.995;
+constexpr std::size_t kAgain = 100;
+// Places that are asked in any case, and facets that may be looked at for all others.
+constexpr std::size_t kFirst = 300;
+constexpr double kWork = 1e8;
+constexpr double kLeastWork = 1000;  // each
 // Of the touching direction along the normal: a ball beside the part's border touches an edge, but
 // not from above.
 constexpr double kLeastFacing = 0.1;
-// Of what may be left: a ball that cuts in by so much is moved aside by little more. It also allows
-// for facets in front of the face that places lie on.
-constexpr double kCutShare = 0.5;
+// Of the tolerance: touching is no cut.
+constexpr double kTouching = 0.02;
 
 // How much a ball of one radius leaves at one place.
 class Leaving {
 public:
-    Leaving(const PartModel& model, const GroundPlace& place, Vec3d normal, double radius)
+    Leaving(const PartModel& model,
+            const GroundPlace& place,
+            Vec3d normal,
+            double radius,
+            double touching)
         : model_{model},
           point_{place.point},
           normal_{normal},
+          touching_{touching},
           ball_{1, ToolShape::kBall, radius, radius}
     {
     }
 
     bool at_most(double allowed)
     {
-        Vec3d tip = point_ + normal_ * ball_.radius;
-        tip.z -= ball_.radius;
-        if (model_.is_distance_at_least(ball_, tip, -kCutShare * allowed)) {
+        if (settles(allowed)) {
             return true;
         }
-        const Vec2d tangent = in_plan(tip);
-        if (better(tangent) && least_ <= allowed) {
+        better(in_plan(point_ + normal_ * ball_.radius));
+        if (searched(allowed)) {
             return true;
         }
+        least_ = kInfinite;
         look_around(in_plan(point_), allowed);
-        if (least_ <= allowed) {
-            return true;
-        }
-        if (least_ == kInfinite) {
-            return false;
-        }
-        constexpr double kFirst = 0.25;
-        const double finest = std::min(1e-4 * ball_.radius, allowed / 10);
-        pattern_search(best_, kFirst * ball_.radius, finest,
-                       [&](Vec2d to) { return least_ > allowed && better(to); });
-        return least_ <= allowed;
+        return searched(allowed);
     }
 
 private:
+    // From the ball that touches the place: pushed out of what it cuts, again and again, it mostly
+    // ends beside the place.
+    bool settles(double allowed) const
+    {
+        constexpr int kPushes = 12;
+        Vec3d centre = point_ + normal_ * ball_.radius;
+        for (int k = 0; k < kPushes && left_at(centre) <= allowed - touching_; ++k) {
+            const Vec3d tip = centre - Vec3d{0, 0, ball_.radius};
+            if (model_.is_distance_at_least(ball_, tip, -touching_)) {
+                return true;
+            }
+            const ToolDistance cut = model_.distance(ball_, tip, 0);
+            Vec3d way = centre - cut.nearest.point;
+            way.z = std::max(0.0, way.z);  // the shank is cut from the side
+            const double length = norm(way);
+            if (!(length > 0) || !(cut.distance < 0)) {
+                return false;
+            }
+            centre = centre + way * (-cut.distance / length);
+        }
+        return false;
+    }
+
+    // From the best place so far; ends early where it leaves little enough.
+    bool searched(double allowed)
+    {
+        constexpr double kFirstStep = 0.25;
+        if (least_ > allowed && least_ < kInfinite) {
+            const double finest = std::min(1e-5 * ball_.radius, allowed / 10);
+            pattern_search(best_, kFirstStep * ball_.radius, finest,
+                           [&](Vec2d to) { return least_ > allowed && better(to); });
+        }
+        return least_ <= allowed;
+    }
+
     // Rings of places: the search has several valleys beside walls.
     void look_around(Vec2d middle, double allowed)
     {
@@ -97,8 +136,14 @@ private:
             return kInfinite;
         }
         const auto tip = model_.drop_height(ball_, at.x, at.y);
-        const double centre = tip ? *tip + ball_.radius : -kInfinite;
-        const Vec3d way{at.x - point_.x, at.y - point_.y, std::max(0.0, centre - point_.z)};
+        return left_at({at.x, at.y, tip ? *tip + ball_.radius : -kInfinite});
+    }
+
+    // By a ball with its centre there.
+    double left_at(Vec3d centre) const
+    {
+        const Vec3d way{centre.x - point_.x, centre.y - point_.y,
+                        std::max(0.0, centre.z - point_.z)};
         const double length = norm(way);
         if (dot(way, normal_) < kLeastFacing * length) {
             return kInfinite;
@@ -109,43 +154,65 @@ private:
     const PartModel& model_;
     Vec3d point_;
     Vec3d normal_;
+    double touching_;
     Tool ball_;
     double least_{kInfinite};
     Vec2d best_;
 };
 
-bool reaches(const PartModel& model, const GroundPlace& place, double radius, double leaves)
-{
-    return Leaving{model, place, place.normal, radius}.at_most(leaves) ||
-           (place.two_sided && Leaving{model, place, place.normal * -1.0, radius}.at_most(leaves));
-}
+// What balls are tried on, and how near they are to come.
+struct Trial {
+    const PartModel& model;
+    double leaves;
+    double touching;
 
-// The largest ball that reaches it, between one that does and one that does not.
-double largest_at(const PartModel& model,
-                  const GroundPlace& place,
-                  double leaves,
-                  double reaching,
-                  double failing)
-{
-    while (failing > (1 + kPrecision) * reaching) {
-        const double middle =
-            failing > 2 * reaching ? std::sqrt(failing * reaching) : (failing + reaching) / 2;
-        (reaches(model, place, middle, leaves) ? reaching : failing) = middle;
+    bool reaches(const GroundPlace& place, double radius) const
+    {
+        const auto from = [&](Vec3d side) {
+            return Leaving{model, place, side, radius, touching}.at_most(leaves);
+        };
+        return from(place.normal) || (place.two_sided && from(place.normal * -1.0));
     }
-    return reaching;
-}
 
-// Shuffled, always the same way.
+    // The largest ball that reaches it, between one that does and one that does not.
+    double largest_at(const GroundPlace& place, double reaching, double failing) const
+    {
+        // Small balls first: large ones that do not reach take long.
+        while (failing > 2 * reaching && reaches(place, 2 * reaching)) {
+            reaching *= 2;
+        }
+        failing = std::min(failing, 2 * reaching);
+        while (failing > (1 + kPrecision) * reaching) {
+            const double middle = (failing + reaching) / 2;
+            (reaches(place, middle) ? reaching : failing) = middle;
+        }
+        return reaching;
+    }
+};
+
+// The first as they are, the likeliest; the others shuffled, always the same way.
 std::vector<std::size_t> order_of(std::size_t count)
 {
     std::vector<std::size_t> order(count);
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::uint64_t state = 1;
-    for (std::size_t k = count; k > 1; --k) {
+    for (std::size_t k = count; k > kFirst + 1; --k) {
         state = state * 6364136223846793005U + 1442695040888963407U;
-        std::swap(order[k - 1], order[(state >> 33U) % k]);
+        std::swap(order[k - 1], order[kFirst + (state >> 33U) % (k - kFirst)]);
     }
     return order;
+}
+
+// Of the places, those that a ball that touches the place nearly touches, too: a search for what it
+// cuts goes through the facets there.
+double share_near(const std::vector<GroundPlace>& places, const GroundPlace& place, double radius)
+{
+    constexpr double kNear = 0.1;  // of the radius
+    const Vec3d centre = place.point + place.normal * radius;
+    const auto near = std::count_if(places.begin(), places.end(), [&](const GroundPlace& other) {
+        return std::abs(norm(other.point - centre) - radius) < kNear * radius;
+    });
+    return static_cast<double>(near) / static_cast<double>(places.size());
 }
 
 }  // namespace
@@ -153,33 +220,50 @@ std::vector<std::size_t> order_of(std::size_t count)
 BallReach largest_ball(const PartModel& model,
                        const std::vector<GroundPlace>& places,
                        double tolerance,
+                       double facets_off,
+                       std::size_t facets,
                        double most)
 {
+    const Trial trial{model, tolerance, facets_off + kTouching * tolerance};
     BallReach found;
     found.leaves = tolerance;
-    found.places = places.size();
     const double smallest = tolerance / 4;
     double radius = most;
     const GroundPlace* tightest = nullptr;
-    std::vector<std::size_t> order = order_of(places.size());
-    // The caller's first place is the likeliest.
-    std::stable_partition(order.begin(), order.end(), [](std::size_t k) { return k == 0; });
-    for (const std::size_t k : order) {
-        const GroundPlace& place = places[k];
-        if (reaches(model, place, radius, tolerance) ||
-            !reaches(model, place, smallest, tolerance)) {
-            continue;
+    const auto ask = [&](const std::vector<std::size_t>& order, std::size_t begin, std::size_t end,
+                         double share) {
+        for (std::size_t at = begin; at < end; ++at) {
+            const GroundPlace& place = places[order[at]];
+            ++found.places;
+            if (!trial.reaches(place, share * radius) && trial.reaches(place, smallest)) {
+                radius = trial.largest_at(place, smallest, share * radius);
+                tightest = &place;
+            }
         }
-        radius = largest_at(model, place, tolerance, smallest, radius);
-        tightest = &place;
-    }
+    };
+    std::vector<std::size_t> order = order_of(places.size());
+    const std::size_t first = std::min(kFirst, places.size());
+    ask(order, 0, first, kAskedFor);
+    const double near = tightest == nullptr ? 0 : share_near(places, *tightest, radius);
+    const double each = kLeastWork + near * static_cast<double>(facets);
+    const std::size_t most_places =
+        std::min(places.size(), std::max(first, static_cast<std::size_t>(kWork / each)));
+    ask(order, first, most_places, kAskedFor);
     if (tightest == nullptr) {
         return found;
     }
+    const Vec3d middle = tightest->point;
+    const std::size_t again = std::min({kAgain, order.size(), most_places / 10 + 1});
+    std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(again),
+                      order.end(), [&](std::size_t a, std::size_t b) {
+                          return std::make_pair(norm(places[a].point - middle), a) <
+                                 std::make_pair(norm(places[b].point - middle), b);
+                      });
+    ask(order, 0, again, kAskedAgain);
     found.radius = radius;
     found.at = tightest->point;
-    const double finer = tolerance / 4;
-    found.corner = !reaches(model, *tightest, radius / 2, finer);
+    const Trial finer{model, tolerance / 4, std::min(tolerance / 8, trial.touching)};
+    found.corner = radius < 2 * tolerance || !finer.reaches(*tightest, radius / 2);
     return found;
 }
 

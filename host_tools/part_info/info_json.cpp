@@ -71,7 +71,7 @@ Json layer_json(const LayerInfo& layer)
 void add_mesh(const PartInfo& info, Json& out)
 {
     const MeshHealth& mesh = *info.mesh;
-    out["facets"] = info.triangles.size();
+    out["facets"] = info.pieces;
     out["degenerate_facets"] = info.degenerate;
     out["shells"] = mesh.shells;
     out["closed"] = mesh.closed;
@@ -141,7 +141,7 @@ Json part_json(const PartInfo& info)
     } else if (info.is_mesh()) {
         add_mesh(info, out);
     } else {
-        out["faces"] = info.surfaces.size();
+        out["faces"] = info.pieces;
         out["solids"] = info.solids;
         out["unread_faces"] = info.unread_faces;
     }

@@ -137,8 +137,8 @@ void add_layer(const LayerInfo& layer, Lines& lines)
 void add_mesh(const PartInfo& info, Lines& lines)
 {
     const MeshHealth& mesh = *info.mesh;
-    lines.add("facets", fmt::format("{} in {}", info.triangles.size(),
-                                    count(mesh.shells, "shell", "shells")));
+    lines.add("facets",
+              fmt::format("{} in {}", info.pieces, count(mesh.shells, "shell", "shells")));
     if (info.degenerate > 0) {
         lines.add("", count(info.degenerate, "facet", "facets") + " without area, left out");
     }
@@ -169,8 +169,13 @@ std::string area_and_share(double part, double whole)
                        number(whole > 0 ? 100 * part / whole : 0, 2));
 }
 
-void add_ground(const Ground& ground, Lines& lines)
+void add_ground(const PartInfo& info, Lines& lines)
 {
+    const Ground& ground = *info.ground;
+    // Surfaces of a union may run on under each other.
+    const char* const by = info.format == "JSON surfaces"
+                               ? " hidden from above, by overhangs or other surfaces, as "
+                               : " hidden from above, as ";
     lines.add("area", number(ground.area, 2) + " mm2");
     lines.add("steepest", fmt::format("{} degrees from level, {}", number(ground.steepest, 2),
                                       place(ground.steepest_at)));
@@ -185,10 +190,10 @@ void add_ground(const Ground& ground, Lines& lines)
     lines.add("level ground", ground.level_at ? area_and_share(ground.level_area, ground.area) +
                                                     ", highest " + place(*ground.level_at)
                                               : "none");
-    lines.add("undercuts", ground.hidden_at && ground.hidden_area > 0
-                               ? area_and_share(ground.hidden_area, ground.area) +
-                                     " hidden from above, as " + place(*ground.hidden_at)
-                               : "none: all is seen from above");
+    lines.add("undercuts",
+              ground.hidden_at && ground.hidden_area > 0
+                  ? area_and_share(ground.hidden_area, ground.area) + by + place(*ground.hidden_at)
+                  : "none: all is seen from above");
 }
 
 void add_ball(const PartInfo& info, Lines& lines)
@@ -229,7 +234,7 @@ std::string text_of(const PartInfo& info)
     if (info.is_mesh()) {
         add_mesh(info, lines);
     } else if (!info.is_drawing()) {
-        std::string faces = fmt::format("{}", info.surfaces.size());
+        std::string faces = fmt::format("{}", info.pieces);
         if (info.solids > 0) {
             faces += ", of " + count(info.solids, "solid", "solids");
         }
@@ -239,7 +244,7 @@ std::string text_of(const PartInfo& info)
         lines.add("faces", faces);
     }
     if (info.ground) {
-        add_ground(*info.ground, lines);
+        add_ground(info, lines);
         add_ball(info, lines);
     }
     return std::move(lines).text();

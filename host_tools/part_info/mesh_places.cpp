@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace cusp::part_info {
 namespace {
@@ -113,14 +114,13 @@ std::vector<GroundPlace> facet_places(const WeldedMesh& mesh)
 std::vector<GroundPlace> crease_places(const WeldedMesh& mesh, std::size_t most)
 {
     std::vector<Crease> creases = concave_edges(mesh);
-    if (creases.size() > most) {
-        const auto by_radius = [](const Crease& a, const Crease& b) {
-            return a.width_over_turn < b.width_over_turn;
-        };
-        std::nth_element(creases.begin(), creases.begin() + static_cast<std::ptrdiff_t>(most),
-                         creases.end(), by_radius);
-        creases.resize(most);
-    }
+    const std::size_t kept = std::min(most, creases.size());
+    std::partial_sort(creases.begin(), creases.begin() + static_cast<std::ptrdiff_t>(kept),
+                      creases.end(), [](const Crease& a, const Crease& b) {
+                          return std::tie(a.width_over_turn, a.edge) <
+                                 std::tie(b.width_over_turn, b.edge);
+                      });
+    creases.resize(kept);
     std::vector<GroundPlace> places;
     for (const Crease& crease : creases) {
         const MeshEdge& edge = mesh.edges[crease.edge];

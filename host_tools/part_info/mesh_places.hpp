@@ -12,7 +12,7 @@ namespace cusp::part_info {
 std::vector<GroundPlace> facet_places(const WeldedMesh& mesh);
 
 // Where a ball may not reach: concave edges, those that turn most over the way across them first,
-// then corners. At most `most` of each; of more corners every so many.
+// in that order, then corners. At most `most` of each; of more corners every so many.
 std::vector<GroundPlace> crease_places(const WeldedMesh& mesh, std::size_t most);
 
 }  // namespace cusp::part_info

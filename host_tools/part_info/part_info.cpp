@@ -36,8 +36,9 @@ namespace {
 
 // Balls are asked for up to so many times the part's diagonal.
 constexpr double kLargestBall = 5;
+constexpr std::size_t kBallPlaces = 20000;
 // Of the tolerance, between faces and the facets that balls are tried on.
-constexpr double kFacetShare = 0.2;
+constexpr double kFacetShare = 0.25;
 
 PartUnit unit_of(double millimetres, bool assumed)
 {
@@ -119,15 +120,6 @@ void read_drawing(PartInfo& info,
     }
 }
 
-// How many places balls are tried at: a ball that follows a hollow is near all facets of it.
-std::size_t ball_places(std::size_t facets)
-{
-    constexpr std::size_t kWork = 5'000'000'000;
-    constexpr std::size_t kLeast = 4000;
-    constexpr std::size_t kMost = 40000;
-    return std::clamp(kWork / facets, kLeast, kMost);
-}
-
 TopOfPart top_of(const PartModel& mesh)
 {
     return [&mesh](double x, double y) {
@@ -167,6 +159,7 @@ double largest_asked_for(const PartInfo& info)
 
 void inspect_surfaces(PartInfo& info, const std::vector<double>& outwards, double tolerance)
 {
+    info.pieces = info.surfaces.size();
     const SurfacePlaces found = surface_places(info.surfaces, outwards);
     info.box_low = found.box_low;
     info.box_high = found.box_high;
@@ -179,36 +172,36 @@ void inspect_surfaces(PartInfo& info, const std::vector<double>& outwards, doubl
     if (info.hollow) {
         seen.push_back(info.hollow->place);
     }
-    add_seen(found.places, hidden, ball_places(facets.triangles.size()), seen);
+    add_seen(found.places, hidden, kBallPlaces, seen);
     info.ball = largest_ball(model, seen, std::max(tolerance, facets.tolerance / kFacetShare),
-                             largest_asked_for(info));
+                             facets.tolerance, facets.triangles.size(), largest_asked_for(info));
 }
 
 void inspect_mesh(PartInfo& info, double tolerance)
 {
+    info.pieces = info.triangles.size();
     start_box(info);
     for (const auto& triangle : info.triangles) {
         for (const Vec3d& corner : triangle) {
             widen_box(info, corner);
         }
     }
-    const std::size_t most = ball_places(info.triangles.size());
     std::vector<GroundPlace> places;
     std::vector<GroundPlace> creases;
     {
         const WeldedMesh mesh = weld(info.triangles);
         info.mesh = mesh.health;
         places = facet_places(mesh);
-        creases = crease_places(mesh, most);
+        creases = crease_places(mesh, kBallPlaces);
     }
     const PartModel model{info.triangles};
     const TopOfPart top = top_of(model);
     const std::vector<char> hidden = hidden_points(top, places);
     info.ground = ground_of(places, hidden, info.box_low.z);
     std::vector<GroundPlace> seen;
-    add_seen(creases, hidden_points(top, creases), 2 * most, seen);
-    add_seen(places, hidden, most, seen);
-    info.ball = largest_ball(model, seen, tolerance, largest_asked_for(info));
+    add_seen(creases, hidden_points(top, creases), 2 * kBallPlaces, seen);
+    add_seen(places, hidden, kBallPlaces, seen);
+    info.ball = largest_ball(model, seen, tolerance, 0, info.pieces, largest_asked_for(info));
 }
 
 void read_json(PartInfo& info, const std::string& file, const InspectSettings& settings)

@@ -47,6 +47,7 @@ struct PartInfo {
     // Surfaces and meshes. Only one of the first two holds something.
     std::vector<nurbs::Surface> surfaces;
     std::vector<std::array<Vec3d, 3>> triangles;
+    std::size_t pieces{};        // how many surfaces or triangles: their lists may be dropped
     std::size_t solids{};        // STEP and IGES
     std::size_t unread_faces{};  // that look down and have broken edges
     std::size_t degenerate{};    // facets without area

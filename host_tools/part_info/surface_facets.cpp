@@ -25,11 +25,10 @@ struct Cells {
     int u, v;
 };
 
-// By three terms of the way between a bilinear cell and the surface, a third of the tolerance each.
+// By the second-order terms of the way between a cell and the surface.
 Cells cells_of(const Surface& s, double tolerance)
 {
     constexpr int kLooks = 6;
-    constexpr double kSpare = 1.2;
     double bend_u = 0;
     double bend_v = 0;
     double twist = 0;
@@ -45,11 +44,13 @@ Cells cells_of(const Surface& s, double tolerance)
     }
     const double width_u = s.u_end() - s.u_begin();
     const double width_v = s.v_end() - s.v_begin();
-    const double third = tolerance / 3 / kSpare;
-    double u = std::max(1.0, width_u * std::sqrt(bend_u / (8 * third)));
-    double v = std::max(1.0, width_v * std::sqrt(bend_v / (8 * third)));
-    const double twisted = width_u * width_v * twist / 4 / third;
-    const double more = std::sqrt(std::max(1.0, twisted / (u * v)));
+    const double half = tolerance / 2;
+    double u = std::max(1.0, width_u * std::sqrt(bend_u / (8 * half)));
+    double v = std::max(1.0, width_v * std::sqrt(bend_v / (8 * half)));
+    const double off = bend_u * width_u * width_u / (8 * u * u) +
+                       bend_v * width_v * width_v / (8 * v * v) +
+                       twist * width_u * width_v / (4 * u * v);
+    const double more = std::sqrt(std::max(1.0, off / tolerance));
     u = std::min(more * u, static_cast<double>(kMostAlong));
     v = std::min(more * v, static_cast<double>(kMostAlong));
     return {static_cast<int>(std::ceil(u)), static_cast<int>(std::ceil(v))};

@@ -257,6 +257,15 @@ private:
     SurfacePlaces out_;
 };
 
+// So near a pole that derivatives are mostly rounding: a ten-thousandth of the surface.
+bool beside_pole(const Surface& s, const SurfacePoint& p)
+{
+    constexpr double kShare = 1e-4;
+    const double u = norm(p.du) * (s.u_end() - s.u_begin());
+    const double v = norm(p.dv) * (s.v_end() - s.v_begin());
+    return u < kShare * v || v < kShare * u;
+}
+
 }  // namespace
 
 SurfacePlaces surface_places(const std::vector<Surface>& surfaces,
@@ -295,10 +304,10 @@ std::optional<Hollow> smallest_hollow(const std::vector<Surface>& surfaces,
             continue;
         }
         const SurfaceAt& at = places.at[k];
-        const auto radius = hollow_radius(
-            derivatives_at(surfaces[static_cast<std::size_t>(at.surface)], at.u, at.v),
-            place.normal);
-        if (radius) {
+        const Surface& surface = surfaces[static_cast<std::size_t>(at.surface)];
+        const SurfacePoint p = derivatives_at(surface, at.u, at.v);
+        const auto radius = hollow_radius(p, place.normal);
+        if (radius && !beside_pole(surface, p)) {
             found.emplace_back(*radius, k);
         }
     }
@@ -323,7 +332,7 @@ std::optional<Hollow> smallest_hollow(const std::vector<Surface>& surfaces,
             Vec3d normal = upward_normal(p);
             normal = dot(normal, side) < 0 ? normal * -1.0 : normal;
             const auto radius = hollow_radius(p, normal);
-            if (!radius || *radius >= here.radius || !kept(region, u, v)) {
+            if (!radius || *radius >= here.radius || beside_pole(s, p) || !kept(region, u, v)) {
                 return false;
             }
             here.radius = *radius;

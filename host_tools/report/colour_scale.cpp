@@ -55,12 +55,16 @@ int step_of(double value, double low, double high)
     return std::clamp(static_cast<int>(share * kColourSteps), 0, kColourSteps - 1);
 }
 
-std::string scale_bar(
-    double x, double y, double height, double low, double high, const std::string& title)
+std::string scale_bar(double x,
+                      double y,
+                      double height,
+                      double text,
+                      double low,
+                      double high,
+                      const std::string& title)
 {
-    const double width = height / 16;
+    const double width = 1.4 * text;
     const double step_height = height / kColourSteps;
-    const double text = height / 24;
     std::string out = fmt::format(
         "<text x=\"{:.3f}\" y=\"{:.3f}\" font-size=\"{:.3f}\" "
         "font-family=\"sans-serif\">{}</text>\n",

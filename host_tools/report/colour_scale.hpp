@@ -19,8 +19,13 @@ double round_below(double most);
 
 // The scale as an upright bar with round numbers.
 //
-// x, y    of its upper left corner; height and text size in the picture's units
-std::string scale_bar(
-    double x, double y, double height, double low, double high, const std::string& title);
+// x, y    of its upper left corner; height and size of the text in the picture's units
+std::string scale_bar(double x,
+                      double y,
+                      double height,
+                      double text,
+                      double low,
+                      double high,
+                      const std::string& title);
 
 }  // namespace cusp::report

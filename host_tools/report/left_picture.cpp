@@ -71,7 +71,7 @@ std::string left_picture(const Job& job, const Verification& result)
                   }) +
         walls(job, frame) + "</g>\n";
     out += frame.ruler();
-    out += scale_bar(frame.scale_x(), frame.y_low, 0.75 * frame.height(), 0, highest, "left, mm");
+    out += frame.scale(0, highest, "left, mm");
     if (result.figures.uncut_share > 0) {
         out += frame.legend(
             0, fmt::format("stroke=\"black\" stroke-width=\"{:.3f}\"", frame.text()), "uncut");

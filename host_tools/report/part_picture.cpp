@@ -30,9 +30,9 @@ std::string label(const PictureFrame& frame, Vec2d at, const std::string& text, 
 {
     return fmt::format(
         "<text x=\"{:.3f}\" y=\"{:.3f}\" font-size=\"{:.3f}\" font-family=\"sans-serif\" "
-        "fill=\"{}\">{}</text>\n",
+        "fill=\"{}\" stroke=\"white\" stroke-width=\"{:.3f}\" paint-order=\"stroke\">{}</text>\n",
         at.x + 8 * frame.line(), frame.flipped(at.y) - 8 * frame.line(), 18 * frame.line(), colour,
-        text);
+        4 * frame.line(), text);
 }
 
 // radius  mm
@@ -51,12 +51,13 @@ std::string mark(const PictureFrame& frame, Vec3d at, const std::string& text)
            ring(frame, place, 8 * frame.line(), "black") + label(frame, place, text, "black");
 }
 
-// How much darker than full light, 0 to kShades.
+// How much darker than level ground, 0 to kShades.
 int shade_of(double lean_x, double lean_y, double cosine)
 {
     // light from the upper left, 45 degrees high
     const double light = (-0.5 * lean_x + 0.5 * lean_y) + std::sqrt(0.5) * cosine;
-    return std::clamp(static_cast<int>(std::lround((1 - light) * kShades)), 0, kShades);
+    return std::clamp(static_cast<int>(std::lround((std::sqrt(0.5) - light) * kShades)), 0,
+                      kShades);
 }
 
 std::string ground_picture(const PartInfo& info, const PictureFrame& frame)
@@ -93,8 +94,7 @@ std::string ground_picture(const PartInfo& info, const PictureFrame& frame)
         return fmt::format("stroke=\"black\" stroke-opacity=\"{:.3f}\"",
                            kDarkest * shade / kShades);
     });
-    return out + scale_bar(frame.x_high + frame.margin(), frame.y_low, 0.8 * frame.height(), low,
-                           high, "height, mm");
+    return out + frame.scale(low, high, "height, mm");
 }
 
 std::string marks_of(const PartInfo& info, const PictureFrame& frame)

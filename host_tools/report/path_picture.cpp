@@ -180,8 +180,7 @@ std::string path_picture(const Job& job, const Program& program)
         out += "</g>\n";
     }
     out += frame.ruler();
-    out += scale_bar(frame.scale_x(), frame.y_low, 0.75 * frame.height(), extent.z_low,
-                     extent.z_high, "tip z, mm");
+    out += frame.scale(extent.z_low, extent.z_high, "tip z, mm");
     out += frame.legend(0, rapid_stroke(frame), "rapid");
     return out + "</svg>\n";
 }

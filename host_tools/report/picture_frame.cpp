@@ -16,9 +16,8 @@ using toolpath::Tool;
 
 namespace {
 
-constexpr int kPixels = 900;  // of a picture with one panel
-// Room for the scale beside the panels, as a share of their height.
-constexpr double kScaleRoom = 0.3;
+constexpr int kPixels = 900;      // of a picture with one panel
+constexpr double kScaleRoom = 9;  // beside the panels, in heights of text
 
 std::string text_at(double x, double y, double size, const std::string& text)
 {
@@ -35,7 +34,7 @@ double PictureFrame::line() const { return std::max(width(), height()) / kPixels
 std::string PictureFrame::head() const
 {
     const double m = margin();
-    const double one = width() + 2 * m + kScaleRoom * height();
+    const double one = width() + 2 * m + kScaleRoom * text();
     const double w = one + (panels - 1) * stride();
     const double h = height() + 5 * m;
     const double pixels = kPixels * w / one;
@@ -62,6 +61,13 @@ std::string PictureFrame::ruler() const
                "d=\"M{:.3f} {:.3f}v{:.3f}h{:.3f}v{:.3f}\"/>\n",
                1.5 * line(), x_low, y, tick, length, -tick) +
            text_at(x_low, y + tick + 1.1 * text(), text(), fmt::format("{:g} mm", length));
+}
+
+std::string PictureFrame::scale(double low, double high, const std::string& title) const
+{
+    // ten numbers have room one over the other
+    const double size = std::min(0.8 * text(), height() / 14);
+    return scale_bar(scale_x(), y_low, 0.75 * height(), size, low, high, title);
 }
 
 std::string PictureFrame::legend(int row, const std::string& stroke, const std::string& title) const

@@ -31,6 +31,8 @@ struct PictureFrame {
     std::string panel(int number, const std::string& title) const;
     // A bar of a round length, below the first panel.
     std::string ruler() const;
+    // The scale of colours.
+    std::string scale(double low, double high, const std::string& title) const;
     // A line of the legend below the scale; `stroke` as SVG attributes.
     std::string legend(int row, const std::string& stroke, const std::string& title) const;
 };

@@ -145,7 +145,9 @@ std::vector<ToolPositions> positions_of(const Job& job,
         } else {
             const double length = path::length(m.move);
             (rapid ? figures.rapid_length : figures.cut_length) += length;
-            figures_of(run.tool, figures).cut_length += rapid ? 0.0 : length;
+            if (!rapid) {
+                figures_of(run.tool, figures).cut_length += length;
+            }
             append_points(m.move, spacing, run.tips);
         }
         run.rapid.resize(run.tips.size(), rapid);
@@ -299,8 +301,10 @@ Verification verify(const Job& job,
         done += run.tips.size();
         figures.rapid_cut_max = std::max(figures.rapid_cut_max, cut.rapid_cut);
         figures.cut_depth_max = std::max(figures.cut_depth_max, cut.cut_depth);
-        double& of_tool = figures_of(run.tool, figures).cut_depth_max;
-        of_tool = std::max(of_tool, cut.cut_depth);
+        if (cut.cut_depth > 0) {
+            double& of_tool = figures_of(run.tool, figures).cut_depth_max;
+            of_tool = std::max(of_tool, cut.cut_depth);
+        }
         widest = std::max(widest, run.tool.radius);
     }
     progress(1.0);

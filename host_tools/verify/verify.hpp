@@ -27,8 +27,9 @@ struct ThickestLeft {
 // What one tool of the program did.
 struct ToolFigures {
     toolpath::Tool tool;
-    double cut_length{};     // mm
-    double cut_depth_max{};  // mm, along the axis
+    double cut_length{};  // mm
+    // mm: the tallest metal over its lower side that it takes at a position
+    double cut_depth_max{};
 };
 
 // All in mm, square to the surface where a surface is meant.
@@ -44,7 +45,7 @@ struct VerifyFigures {
     std::optional<double> wall_left_max;   // beside walls, over what the tool can reach
     double rapid_cut_max{};
     double cut_depth_max{};
-    std::vector<ToolFigures> tools;  // in the order of their first use
+    std::vector<ToolFigures> tools;  // those that cut, in the order of their first cut
     double unreachable_share{};      // of the part, where no tool of the program fits
     double uncut_share{};
     std::optional<double> scallop_bound;

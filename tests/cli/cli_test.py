@@ -119,6 +119,9 @@ class Cli(unittest.TestCase):
         self.assertEqual([cut["cut_depth_max_mm"]], [tool["cut_depth_max_mm"] for tool in cut["tools"]])
         self.assertEqual([1], [tool["number"] for tool in run["tools"]])
         self.assertEqual(0, run["tool_changes"])
+        picture = (out / "path.svg").read_text()
+        for words in (">T1 ball 6 mm<", ">10 mm<", ">tip z, mm<", ">rapid<"):
+            self.assertIn(words, picture)
         self.run_cusp("plan", "examples/demo/pocket.toml", "-o", "p.ngc")
         self.assertEqual((self.folder / "p.ngc").read_text(), (out / "pocket.ngc").read_text())
 

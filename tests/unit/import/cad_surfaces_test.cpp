@@ -154,6 +154,29 @@ TEST(CadSurfaces, OfASolidInStepAreThoseThatLookUp) { check_block(step(block()))
 
 TEST(CadSurfaces, OfAStepFileInInchesAreInMillimetres) { check_block(step(block(), "INCH")); }
 
+// Six sides, the ball's hollow and the hole: du x dv turned out looks away from the block's inside.
+TEST(CadSurfaces, OfAModelAreAllFacesWithTheirOutsideAndTheUnit)
+{
+    const CadModel model = read_cad_model(step(block(), "INCH"));
+    STRCMP_EQUAL("INCH", model.unit.c_str());
+    UNSIGNED_LONGS_EQUAL(1, model.solids);
+    UNSIGNED_LONGS_EQUAL(0, model.unread);
+    UNSIGNED_LONGS_EQUAL(8, model.faces.size());
+    CHECK(read_cad_surfaces(step(block(), "INCH")).size() < 8);
+    int below = 0;
+    for (std::size_t k = 0; k < 8; ++k) {
+        const Surface& s = model.faces[k];
+        const SurfacePoint p =
+            derivatives_at(s, (s.u_begin() + s.u_end()) / 2, (s.v_begin() + s.v_end()) / 2);
+        const Vec3d out = cross(p.du, p.dv) * model.outwards[k];
+        below += out.z < -0.9 * norm(out) ? 1 : 0;
+        if (std::abs(p.point.x) < 1e-6) {
+            CHECK(out.x < 0);
+        }
+    }
+    LONGS_EQUAL(1, below);
+}
+
 TEST(CadSurfaces, OfASolidInIgesAreThoseThatLookUp) { check_block(iges(block(), true)); }
 
 TEST(CadSurfaces, OfLooseIgesFacesThatCloseAVolumeAreThoseThatLookUp)

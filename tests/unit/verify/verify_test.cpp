@@ -85,6 +85,32 @@ TEST(Verify, FindsNoFaultInAGoodPath)
     CHECK(result.figures.cut_depth_max > 0.1 && result.figures.cut_depth_max <= 5);
 }
 
+TEST(Verify, TellsWhatEachToolCut)
+{
+    folder.with("plane.json", kPlane);
+    const std::string second = "[[tool]]\nshape = \"flat\"\ndiameter = 8\nnumber = 7\n";
+    const Job job = read_job(folder.with("job.toml", "[[tool]]" + kJob.substr(7) + second));
+    // a groove of the flat end 2 mm deep, and one of the ball 4.5 mm deep
+    // the job's first tool stands for the moves before the first T word, which cut nothing
+    const std::string program =
+        "G21 G90\nG0 Z5\nT7\nG0 X5 Y10\nG1 Z-2 F1000\nG1 X25\nG0 Z5\nT1\nG0 X5 Y3\nG1 Z-4.5\n"
+        "G1 X20\nG0 Z5\nT7\nG0 X10\nG1 Z4\nG0 Z5\nM30\n";
+    const VerifyFigures figures =
+        verify::verify(job, folder.with("p.ngc", program), settings, [](double) {}).figures;
+    LONGS_EQUAL(2, figures.tools.size());
+    const ToolFigures& ball = figures.tools[1];
+    const ToolFigures& flat = figures.tools[0];
+    LONGS_EQUAL(1, ball.tool.number);
+    LONGS_EQUAL(7, flat.tool.number);
+    DOUBLES_EQUAL(2, flat.cut_depth_max, 0.01);
+    // between what its shank meets and what stands over it a position (0.1 mm) further in
+    CHECK(ball.cut_depth_max > 4.5 - 3);
+    CHECK(ball.cut_depth_max < 4.5 - (3 - std::sqrt(9 - 2.9 * 2.9)));
+    DOUBLES_EQUAL(7 + 20 + 1, flat.cut_length, 1e-6);
+    DOUBLES_EQUAL(9.5 + 15, ball.cut_length, 1e-6);
+    DOUBLES_EQUAL(ball.cut_depth_max, figures.cut_depth_max, 0);
+}
+
 TEST(Verify, MeasuresThePathThatIsTooLow)
 {
     const Verification result = verdict(passes(-5.1, 1));
