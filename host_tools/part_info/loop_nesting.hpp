@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "host_tools/import/import.hpp"
 #include "host_tools/nurbs/nurbs.hpp"
 
 namespace cusp::part_info {
