@@ -2,10 +2,10 @@
 // straight move. Both are computed bounds, from boxes that are halved until they are thin.
 //
 //     const DropCutter cutter{surfaces, tool, 0.001};
-//     const DropCutter::ClPoint cl = cutter.drop({10.0, 5.0});      // cl.z: at most 0.001 too high
-//     const Vec2d cc = cutter.cc_place({10.0, 5.0}, cl);            // where the tool touches, in
-//     plan cutter.move_clearance({10.0, 5.0, cl.z}, {12.0, 5.0, cl.z});  // < 0: how deep it may
-//     gouge
+//     const DropCutter::ClPoint cl = cutter.drop({10.0, 5.0});  // cl.z: at most 0.001 too high
+//     const Vec2d cc = cutter.cc_place({10.0, 5.0}, cl);        // in plan, where the tool touches
+//     const double gap = cutter.move_clearance({10.0, 5.0, cl.z}, {12.0, 5.0, cl.z});
+//                                                               // < 0: how deep it may gouge
 //
 // Every piece of a surface lies in the convex hull of its control points, so it lies below a plane
 // through their highest ones. Dropping the tool on such planes bounds the true height from above;
