@@ -15,13 +15,13 @@ namespace {
 bool nests(const Tool& before, const Tool& after, double apart, double scallop_height)
 {
     constexpr int kPlaces = 256;
-    constexpr double kSlack = 1e-9;
+    constexpr double kRoundingSlack = 1e-9;
     for (int i = 0; i <= kPlaces; ++i) {
         const double at = after.radius * i / kPlaces;
         const double from_before = std::max(0.0, at + apart);
-        if (from_before > before.radius + kSlack ||
+        if (from_before > before.radius + kRoundingSlack ||
             profile_height(before, std::min(from_before, before.radius)) >
-                profile_height(after, at) + scallop_height + kSlack) {
+                profile_height(after, at) + scallop_height + kRoundingSlack) {
             return false;
         }
     }

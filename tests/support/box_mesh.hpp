@@ -12,22 +12,22 @@
 
 namespace cusp::test {
 
-using import::Triangles = std::vector<std::array<Vec3d, 3>>;
+using Triangles = std::vector<std::array<Vec3d, 3>>;
 
 // Two triangles, counter-clockwise as the corners run.
-inline void add_quad(import::Triangles& out, Vec3d a, Vec3d b, Vec3d c, Vec3d d)
+inline void add_quad(Triangles& out, Vec3d a, Vec3d b, Vec3d c, Vec3d d)
 {
     out.push_back({a, b, c});
     out.push_back({a, c, d});
 }
 
 // Twelve facets, looking outwards.
-inline import::Triangles box_mesh(Vec3d low, Vec3d high)
+inline Triangles box_mesh(Vec3d low, Vec3d high)
 {
     const auto at = [&](int x, int y, int z) {
         return Vec3d{x == 0 ? low.x : high.x, y == 0 ? low.y : high.y, z == 0 ? low.z : high.z};
     };
-    import::Triangles out;
+    Triangles out;
     add_quad(out, at(0, 0, 1), at(1, 0, 1), at(1, 1, 1), at(0, 1, 1));
     add_quad(out, at(0, 0, 0), at(0, 1, 0), at(1, 1, 0), at(1, 0, 0));
     add_quad(out, at(0, 0, 0), at(1, 0, 0), at(1, 0, 1), at(0, 0, 1));
@@ -37,7 +37,7 @@ inline import::Triangles box_mesh(Vec3d low, Vec3d high)
     return out;
 }
 
-inline std::string ascii_stl(const import::Triangles& triangles)
+inline std::string ascii_stl(const Triangles& triangles)
 {
     std::string out = "solid part\n";
     for (const auto& t : triangles) {

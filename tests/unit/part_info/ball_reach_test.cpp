@@ -11,7 +11,6 @@
 #include "tests/support/temporary_folder.hpp"
 
 using namespace cusp;
-using namespace cusp::import;
 using namespace cusp::part_info;
 using namespace cusp::test;
 using cusp::test::TemporaryFolder;

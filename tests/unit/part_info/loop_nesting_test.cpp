@@ -11,7 +11,6 @@
 #include "tests/support/loops.hpp"
 
 using namespace cusp;
-using namespace cusp::import;
 using namespace cusp::nurbs;
 using namespace cusp::part_info;
 using namespace cusp::test;

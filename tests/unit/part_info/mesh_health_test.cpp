@@ -8,7 +8,6 @@
 #include "tests/support/box_mesh.hpp"
 
 using namespace cusp;
-using namespace cusp::import;
 using namespace cusp::part_info;
 using namespace cusp::test;
 
