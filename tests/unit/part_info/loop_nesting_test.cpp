@@ -37,7 +37,7 @@ TEST_GROUP(LoopNesting){};
 
 TEST(LoopNesting, CirclesHaveTheirLengthAndArea)
 {
-    const LoopNesting found = nest_loops({arc_curve({30, -20}, 12.5, 0.3, -2 * kPi)});
+    const LoopNesting found = nest_loops({import::arc_curve({30, -20}, 12.5, 0.3, -2 * kPi)});
     UNSIGNED_LONGS_EQUAL(1, found.loops.size());
     DOUBLES_EQUAL(2 * kPi * 12.5, found.loops[0].length, 1e-8);
     DOUBLES_EQUAL(kPi * 12.5 * 12.5, found.loops[0].area, 1e-7);
@@ -47,9 +47,9 @@ TEST(LoopNesting, CirclesHaveTheirLengthAndArea)
 TEST(LoopNesting, AnIslandInAHoleInAPlateIsThreeDeep)
 {
     // in disorder, one side turned, two holes beside each other
-    std::vector<Curve> curves = joined({{arc_curve({20, 20}, 2, 0, 2 * kPi)},
+    std::vector<Curve> curves = joined({{import::arc_curve({20, 20}, 2, 0, 2 * kPi)},
                                         square(10, 40),
-                                        {arc_curve({70, 70}, 8, 0, 2 * kPi)},
+                                        {import::arc_curve({70, 70}, 8, 0, 2 * kPi)},
                                         square(0, 100)});
     std::swap(curves[2], curves[7]);
     curves[3] = reversed(curves[3]);
