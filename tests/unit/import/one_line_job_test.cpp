@@ -19,7 +19,7 @@ using namespace cusp::job;
 
 namespace {
 
-const std::string kParts = CUSP_SOURCE_DIR "/tests/parts/";
+const std::string kParts = CUSP_SOURCE_DIR "/examples/parts/";
 
 // A plane from (0, 0) to (60, 40), from z = a at x = 0 to z = b.
 std::string ramp(double a, double b)

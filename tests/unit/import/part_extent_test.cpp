@@ -15,7 +15,7 @@ using namespace cusp::test;
 
 namespace {
 
-const std::string kParts = CUSP_SOURCE_DIR "/tests/parts/";
+const std::string kParts = CUSP_SOURCE_DIR "/examples/parts/";
 
 void check_near(Vec3d expected, Vec3d found, double tolerance)
 {
