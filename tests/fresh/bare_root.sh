@@ -9,6 +9,8 @@
 #   --out FOLDER   gets the clone's folder out/ afterwards
 # Needs root and mmdebstrap. Exit status: the command's. Example: tests/fresh/bare_root.sh --user ./demo.sh
 set -eu
+# In a mount namespace of its own: what is mounted below is seen by nothing else, and is gone at the end whatever happens.
+[ -n "${BARE_ROOT_INSIDE:-}" ] || BARE_ROOT_INSIDE=yes exec unshare --mount "$0" "$@"
 top=$(cd "$(dirname "$0")/../.." && pwd)
 user=root home=/root keep="" copies="" out=""
 while [ $# -gt 0 ]; do
@@ -25,9 +27,7 @@ done
 
 root=${keep:-$(mktemp -d)/root}
 leave() {
-    for place in dev/pts dev proc; do
-        ! mountpoint -q "$root/$place" || umount "$root/$place"
-    done
+    umount "$root/dev/pts" "$root/proc" 2>/dev/null || true
     [ -n "$keep" ] || rm -rf --one-file-system "$(dirname "$root")"
 }
 trap leave EXIT
@@ -38,9 +38,9 @@ if [ ! -d "$root/etc" ]; then
     [ -f "$sources" ] || sources=/etc/apt/sources.list
     mmdebstrap --quiet --variant=minbase --include=ca-certificates,git,sudo bookworm "$root" "$sources"
 fi
+# The root has device nodes of its own, from mmdebstrap: this machine's /dev is never reached from it.
 mount -t proc proc "$root/proc"
-mount --bind /dev "$root/dev"
-mount -t devpts devpts "$root/dev/pts"
+mount -t devpts -o newinstance,ptmxmode=0666 devpts "$root/dev/pts"
 
 if [ "$user" != root ]; then
     chroot "$root" useradd --create-home --shell /bin/bash "$user" 2>/dev/null || true
