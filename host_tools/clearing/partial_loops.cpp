@@ -190,6 +190,15 @@ double added_length(const std::vector<PartialLoop>& loops)
     return sum;
 }
 
+double length(const ClearedRegion& cleared)
+{
+    double sum = added_length(cleared.partial);
+    for (const ClearingPass& pass : cleared.passes) {
+        sum += length(pass.path);
+    }
+    return sum;
+}
+
 void put_in_partial_loops(ClearedRegion& cleared)
 {
     std::vector<std::vector<Detour>> detours(cleared.passes.size());

@@ -20,6 +20,9 @@ std::vector<PartialLoop> loops_over(const std::vector<offset::Edge>& feet,
 // mm of path that partial loops make, ways there and back included.
 double added_length(const std::vector<PartialLoop>& loops);
 
+// mm of path of all passes and partial loops.
+double length(const ClearedRegion& cleared);
+
 // Puts the partial loops into their passes: each is a way straight inward from the loop that it
 // refines, along it the way that loops run, and back over what is cut. Loops stay closed and in
 // their order.

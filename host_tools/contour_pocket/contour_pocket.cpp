@@ -55,15 +55,7 @@ namespace {
 // mm^2: corners and necks.
 double unswept_area(const Region2d& region, const Region2d& centres, double radius)
 {
-    const auto area_of = [](const Region2d& part) {
-        double sum = 0.0;
-        for (const Contour& contour : part.contours) {
-            sum += area(contour);
-        }
-        return sum;
-    };
-    return centres.contours.empty() ? area_of(region)
-                                    : area_of(region) - area_of(grown(centres, radius));
+    return area(region) - (centres.contours.empty() ? 0.0 : area(grown(centres, radius)));
 }
 
 // How much higher than the tip of `tool` metal stands that it left, at most, over a place within
@@ -86,24 +78,6 @@ constexpr double kWorthIt = 0.97;
 constexpr double kWorthItAtCliffs = 0.8;
 
 constexpr double kLevelsDone = 0.6;  // of the progress
-
-double area_of(const Region2d& region)
-{
-    double sum = 0.0;
-    for (const Contour& contour : region.contours) {
-        sum += area(contour);
-    }
-    return sum;
-}
-
-double length_of(const ClearedRegion& cleared)
-{
-    double sum = added_length(cleared.partial);
-    for (const ClearingPass& pass : cleared.passes) {
-        sum += length(pass.path);
-    }
-    return sum;
-}
 
 // Such a floor has no cliffs.
 bool is_one_whole_surface(const Operation& operation)
@@ -194,8 +168,8 @@ private:
         const bool corners = settings.cover_corners;
         const bool whole = is_one_whole_surface(operation_);
         LoopSpacing interval{floor_, tolerances_, corners && !whole, !corners || !whole};
-        settings.stepover_from = [&, whole_area = area_of(region_)](const Region2d& level) {
-            report(kLevelsDone * (1.0 - area_of(level) / whole_area));
+        settings.stepover_from = [&, whole_area = area(region_)](const Region2d& level) {
+            report(kLevelsDone * (1.0 - area(level) / whole_area));
             return interval.stepover_from(
                 level, corners && whole ? loop_scallop_.proven_stepover(level) : 0.0);
         };
@@ -213,12 +187,12 @@ private:
             };
         }
         ClearedRegion cleared = clear_region(region_, settings);
-        if (cleared.saved > 0.0 && cleared.saved < kDoubtful * length_of(cleared)) {
+        if (cleared.saved > 0.0 && cleared.saved < kDoubtful * length(cleared)) {
             settings.partial_stepover = nullptr;
             ClearedRegion by_loops = clear_region(region_, settings);
             const double slope = (job_.stock_top - lowest_tip(by_loops, floor_)) / kEntrySlope;
             const auto cost = [&](const ClearedRegion& c) {
-                return length_of(c) + slope * c.leaves;
+                return length(c) + slope * c.leaves;
             };
             if (cost(cleared) > (whole ? kWorthIt : kWorthItAtCliffs) * cost(by_loops)) {
                 cleared = std::move(by_loops);

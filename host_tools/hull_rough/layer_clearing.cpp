@@ -198,15 +198,6 @@ double length_of(const std::vector<LayerRun>& runs)
     return sum;
 }
 
-double area_of(const Region2d& region)
-{
-    double sum = 0;
-    for (const Contour& contour : region.contours) {
-        sum += area(contour);
-    }
-    return sum;
-}
-
 // Of what a cutter clears when its axis goes everywhere in the field, the part beside the stock.
 double area_outside(const Rectangle& stock, const Rectangle& field, double radius)
 {
@@ -300,7 +291,7 @@ LayerClearing clear_layer(const std::vector<Rectangle>& boxes,
     const Region2d centres = source.at(kept);
     out.centres = std::make_shared<RegionOffset>(centres);
     out.cleared_area =
-        std::max(0.0, area_of(grown(centres, radius)) - area_outside(stock, field, radius));
+        std::max(0.0, area(grown(centres, radius)) - area_outside(stock, field, radius));
     std::vector<Contour> outlines;
     for (const Contour& contour : centres.contours) {
         if (!on_border(contour, field)) {

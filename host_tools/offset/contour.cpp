@@ -130,6 +130,15 @@ double area(const Contour& contour)
     return 0.5 * twice;
 }
 
+double area(const Region2d& region)
+{
+    double sum = 0.0;
+    for (const Contour& contour : region.contours) {
+        sum += area(contour);
+    }
+    return sum;
+}
+
 Contour reversed(const Contour& contour)
 {
     Contour result;

@@ -68,7 +68,8 @@ Edge reversed(const Edge& edge);
 Edge between(const Edge& edge, Vec2d from, Vec2d to);
 
 double length(const Contour& contour);
-double area(const Contour& contour);  // > 0 where it runs counter-clockwise
+double area(const Contour& contour);  // mm^2, > 0 where it runs counter-clockwise
+double area(const Region2d& region);  // mm^2, holes taken off
 Contour reversed(const Contour& contour);
 
 // True where a ray from the point to the right counts the edge an odd number of times: over all

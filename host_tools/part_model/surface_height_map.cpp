@@ -13,10 +13,10 @@ using nurbs::SurfacePoint;
 
 namespace {
 
-constexpr double kPiecesAlong = 100;  // the box of all surfaces
-constexpr int kMostParts = 400;       // of a patch, along each side
-constexpr std::size_t kBins = 128;    // along each side of the box
-constexpr double kBeyond = 0.25;      // of a piece's size: its edges are not straight
+constexpr double kPiecesAlong = 100;   // the box of all surfaces
+constexpr int kMostParts = 400;        // of a patch, along each side
+constexpr std::size_t kBins = 128;     // along each side of the box
+constexpr double kBeyondPiece = 0.25;  // of a piece's size: its edges are not straight
 constexpr int kMostSteps = 20;
 constexpr double kMeet = 1e-7;      // mm
 constexpr double kTooSteep = 1e-3;  // of the cosine: too steep to start from
@@ -95,7 +95,7 @@ void SurfaceHeightMap::add_pieces(std::size_t patch, double width)
             }
             piece.folds = std::abs(up) != 9;
             const double beyond =
-                kBeyond * std::max(piece.high.x - piece.low.x, piece.high.y - piece.low.y);
+                kBeyondPiece * std::max(piece.high.x - piece.low.x, piece.high.y - piece.low.y);
             piece.low = piece.low - Vec2d{beyond, beyond};
             piece.high = piece.high + Vec2d{beyond, beyond};
             pieces_.push_back(std::move(piece));
