@@ -75,7 +75,7 @@ else
     echo "building (sanitize)"
     quietly build/configure-sanitize.log cmake --preset sanitize -DCUSP_TARGET_TESTS=OFF
     quietly build/build-sanitize.log cmake --build --preset sanitize -j "$jobs" --target unit_tests cusp
-    run_tests sanitize -L unit -LE long
+    run_tests sanitize -L unit
     echo "building the fuzz targets"
     quietly build/configure-fuzz.log cmake --preset fuzz -DCUSP_FUZZ_SECONDS=10 \
         -DCUSP_TARGET_TESTS=OFF

@@ -12,24 +12,24 @@
 #include "host_tools/cli/run_program.hpp"
 #include "host_tools/cli/share_progress.hpp"
 #include "host_tools/cli/verify_program.hpp"
+#include "host_tools/files/files.hpp"
 #include "host_tools/import/import.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/job/job.hpp"
 #include "host_tools/simulate/settings_file.hpp"
-#include "host_tools/simulate/text_file.hpp"
 
 #include "CLI/CLI.hpp"
 #include "fmt/format.h"
 
 namespace cusp::cli {
 
+using files::write_text;
 using import::read_job;
 using job::Job;
 using simulate::read_settings_file;
 using simulate::SimulationOptions;
 using simulate::SimulationProgress;
 using simulate::SimulationResult;
-using simulate::write_text;
 using verify::Verification;
 
 namespace {

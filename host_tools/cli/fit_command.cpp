@@ -7,9 +7,9 @@
 
 #include "host_tools/cli/commands.hpp"
 #include "host_tools/cli/share_progress.hpp"
+#include "host_tools/files/files.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/program_fit/fit_program.hpp"
-#include "host_tools/simulate/text_file.hpp"
 
 #include "CLI/CLI.hpp"
 #include "fmt/format.h"
@@ -17,10 +17,10 @@
 
 namespace cusp::cli {
 
+using files::write_text;
 using program_fit::fit_program;
 using program_fit::FitReport;
 using program_fit::FittedProgram;
-using simulate::write_text;
 
 namespace {
 

@@ -4,19 +4,19 @@
 #include <memory>
 
 #include "host_tools/cli/commands.hpp"
+#include "host_tools/files/files.hpp"
 #include "host_tools/part_info/part_info.hpp"
 #include "host_tools/report/part_picture.hpp"
-#include "host_tools/simulate/text_file.hpp"
 
 #include "CLI/CLI.hpp"
 #include "fmt/format.h"
 
 namespace cusp::cli {
 
+using files::write_text;
 using part_info::InspectSettings;
 using part_info::PartInfo;
 using report::part_picture;
-using simulate::write_text;
 
 namespace {
 

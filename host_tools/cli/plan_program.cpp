@@ -6,8 +6,8 @@
 
 #include "host_tools/cli/share_progress.hpp"
 #include "host_tools/cli/strategies.hpp"
+#include "host_tools/files/files.hpp"
 #include "host_tools/input_error/input_error.hpp"
-#include "host_tools/simulate/text_file.hpp"
 #include "host_tools/toolpath/gcode_writer.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
 
@@ -16,9 +16,9 @@
 
 namespace cusp::cli {
 
+using files::write_text;
 using job::Job;
 using job::Operation;
-using simulate::write_text;
 using toolpath::MachineRates;
 using toolpath::PlannedOperation;
 using toolpath::ProgramForm;

@@ -2,16 +2,16 @@
 #include "host_tools/cli/run_program.hpp"
 
 #include "host_tools/cli/interruption.hpp"
-#include "host_tools/simulate/text_file.hpp"
+#include "host_tools/files/files.hpp"
 
 #include "fmt/format.h"
 
 namespace cusp::cli {
 
+using files::write_text;
 using simulate::SimulationError;
 using simulate::SimulationOptions;
 using simulate::SimulationResult;
-using simulate::write_text;
 
 SimulationResult run_program(const std::string& program,
                              SimulationOptions options,

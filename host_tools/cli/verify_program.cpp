@@ -4,18 +4,18 @@
 #include <cmath>
 
 #include "host_tools/cli/share_progress.hpp"
+#include "host_tools/files/files.hpp"
 #include "host_tools/report/pictures.hpp"
-#include "host_tools/simulate/text_file.hpp"
 
 #include "fmt/format.h"
 #include "nlohmann/json.hpp"
 
 namespace cusp::cli {
 
+using files::write_text;
 using job::Job;
 using report::left_picture;
 using report::path_picture;
-using simulate::write_text;
 using verify::ToolFigures;
 using verify::Verification;
 using verify::VerifyFigures;

@@ -7,9 +7,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "host_tools/files/files.hpp"
 #include "host_tools/import/path_ending.hpp"
 #include "host_tools/input_error/input_error.hpp"
-#include "host_tools/input_error/text_of_file.hpp"
 
 #include "fmt/format.h"
 #include "opencascade/IGESControl_Reader.hxx"
@@ -113,7 +113,7 @@ std::string unit_of(XSControl_Reader& reader, bool step)
 ReadShape read_shape(const std::string& file, Repairs repairs)
 {
     Message::DefaultMessenger()->ChangePrinters().Clear();
-    text_of_file(file);  // says why a file can't be read
+    files::text_of_file(file);  // says why a file can't be read
     const std::string ending = path_ending(file);
     const bool step = ending == ".step" || ending == ".stp";
     std::unique_ptr<XSControl_Reader> reader;

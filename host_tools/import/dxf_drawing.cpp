@@ -5,8 +5,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "host_tools/files/files.hpp"
 #include "host_tools/input_error/input_error.hpp"
-#include "host_tools/input_error/text_of_file.hpp"
 
 #include "fmt/format.h"
 
@@ -32,7 +32,7 @@ std::string upper(std::string_view text)
 }  // namespace
 
 DxfDrawing::DxfDrawing(std::string file, double millimetres)
-    : file_{std::move(file)}, text_{text_of_file(file_)}, unit_{millimetres}
+    : file_{std::move(file)}, text_{files::text_of_file(file_)}, unit_{millimetres}
 {
     groups_ = groups();
     read_unit();

@@ -3,10 +3,10 @@
 
 #include <cmath>
 
+#include "host_tools/files/files.hpp"
 #include "host_tools/import/nurbs_validity.hpp"
 #include "host_tools/import/trim_loops.hpp"
 #include "host_tools/input_error/input_error.hpp"
-#include "host_tools/input_error/text_of_file.hpp"
 #include "host_tools/nurbs/knot_insertion.hpp"
 
 #include "fmt/format.h"
@@ -180,7 +180,7 @@ Surface read_surface(const Json& shape, double millimetres, const std::string& p
 Json parsed(const std::string& file)
 {
     try {
-        return Json::parse(text_of_file(file));
+        return Json::parse(files::text_of_file(file));
     } catch (const Json::exception& error) {
         throw InputError(fmt::format("{}: not JSON: {}", file, error.what()));
     }

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "host_tools/files/files.hpp"
 #include "host_tools/import/import.hpp"
 #include "host_tools/import/job_table.hpp"
 #include "host_tools/import/job_text.hpp"
@@ -14,7 +15,6 @@
 #include "host_tools/import/part_files.hpp"
 #include "host_tools/import/path_ending.hpp"
 #include "host_tools/import/trim_loops.hpp"
-#include "host_tools/input_error/text_of_file.hpp"
 #include "host_tools/job/job.hpp"
 #include "host_tools/part_model/model_intersection.hpp"
 
@@ -466,7 +466,7 @@ Job read_job(const std::string& file)
 {
     PartFiles parts;
     const std::filesystem::path folder = std::filesystem::path{file}.parent_path();
-    return JobReader{file, folder, parts}.read(text_of_file(file));
+    return JobReader{file, folder, parts}.read(files::text_of_file(file));
 }
 
 Job read_job(const JobText& job, PartFiles& parts)

@@ -9,9 +9,9 @@
 #include <cstring>
 #include <string_view>
 
+#include "host_tools/files/files.hpp"
 #include "host_tools/import/nurbs_validity.hpp"
 #include "host_tools/input_error/input_error.hpp"
-#include "host_tools/input_error/text_of_file.hpp"
 
 #include "fmt/format.h"
 
@@ -220,7 +220,7 @@ double width_along(double Vec3d::*axis, const Facets& facets)
 
 Facets read_stl(const std::string& file, double millimetres)
 {
-    const std::string bytes = text_of_file(file);
+    const std::string bytes = files::text_of_file(file);
     const bool ascii = is_ascii(bytes);
     if (!ascii && bytes.size() < kHead) {
         throw InputError(fmt::format(

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "firmware/base/vec.hpp"
-#include "host_tools/simulate/text_file.hpp"
+#include "host_tools/files/files.hpp"
 
 namespace cusp::simulate {
 
@@ -19,7 +19,7 @@ public:
     void close() { file_.close(); }
 
 private:
-    TextFile file_;
+    files::TextFile file_;
 };
 
 }  // namespace cusp::simulate

@@ -6,7 +6,7 @@
 
 #include "hal/sim/simulated_mill.hpp"
 #include "hal/sim/simulated_player.hpp"
-#include "host_tools/simulate/text_file.hpp"
+#include "host_tools/files/files.hpp"
 
 namespace cusp::simulate {
 
@@ -34,7 +34,7 @@ private:
     void write_changes(std::uint64_t tick, PulseLines changed);
     void watch_outputs(std::uint64_t tick);
 
-    TextFile file_;
+    files::TextFile file_;
     const hal::SimulatedMill& mill_;
     std::uint64_t start_;
     PulseLines levels_;

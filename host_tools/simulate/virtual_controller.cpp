@@ -11,12 +11,12 @@
 #include <poll.h>
 
 #include "boards/sim/simulated_controller.hpp"
+#include "host_tools/files/files.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/simulate/fault_command.hpp"
 #include "host_tools/simulate/mill_setup.hpp"
 #include "host_tools/simulate/serial_end.hpp"
 #include "host_tools/simulate/settings_file.hpp"
-#include "host_tools/simulate/text_file.hpp"
 #include "host_tools/simulate/vcd_writer.hpp"
 
 namespace cusp::simulate {
@@ -263,7 +263,7 @@ private:
             return;
         }
         const std::string fresh = options_.settings_file + ".new";
-        TextFile file{fresh};
+        files::TextFile file{fresh};
         file.write(settings_text(controller_.machine().settings()));
         file.close();
         std::filesystem::rename(fresh, options_.settings_file);

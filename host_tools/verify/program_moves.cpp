@@ -8,8 +8,8 @@
 
 #include "firmware/gcode/interpreter.hpp"
 #include "host_tools/dialect/answer.hpp"
+#include "host_tools/files/files.hpp"
 #include "host_tools/input_error/input_error.hpp"
-#include "host_tools/input_error/text_of_file.hpp"
 
 #include "fmt/format.h"
 
@@ -152,7 +152,7 @@ private:
 
 Program read_program(const std::string& file, double start_z)
 {
-    const std::string text = text_of_file(file);
+    const std::string text = files::text_of_file(file);
     ProgramReader reader{file, start_z};
     std::string_view rest{text};
     while (!rest.empty()) {

@@ -30,8 +30,8 @@
 // it needs the harness before it
 #include "CppUTest/MemoryLeakWarningPlugin.h"
 
+#include "host_tools/files/files.hpp"
 #include "host_tools/import/import.hpp"
-#include "host_tools/input_error/text_of_file.hpp"
 #include "host_tools/job/loop_shape.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -283,7 +283,7 @@ TEST(CadSurfaces, KeepAFreeFormFaceAndItsShape)
 TEST(CadSurfaces, AreRefusedWhereOpenCascadeWouldFollowWhatItCouldNotRead)
 {
     // Points of a kind that there is not: it crashed on the placement that names the first.
-    std::string text = text_of_file(step(block()));
+    std::string text = files::text_of_file(step(block()));
     const std::string known = "CARTESIAN_POINT";
     for (int k = 0; k < 5; ++k) {
         text.replace(text.find(known), known.size(), "CARTESIAN_PINT");

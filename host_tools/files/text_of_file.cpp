@@ -1,6 +1,4 @@
 // Reads large files once, without a copy.
-#include "host_tools/input_error/text_of_file.hpp"
-
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -8,9 +6,10 @@
 #include <fstream>
 #include <iterator>
 
+#include "host_tools/files/files.hpp"
 #include "host_tools/input_error/input_error.hpp"
 
-namespace cusp {
+namespace cusp::files {
 
 std::string text_of_file(const std::string& file)
 {
@@ -33,4 +32,4 @@ std::string text_of_file(const std::string& file)
     return text;
 }
 
-}  // namespace cusp
+}  // namespace cusp::files

@@ -1,4 +1,7 @@
-// TextFile: an output file written through one large buffer, whose failure is never silent.
+// Whole files, read and written so that no failure is silent.
+//
+//     const std::string program = files::text_of_file("part.ngc");
+//     files::write_text("copy.ngc", program);
 #pragma once
 
 #include <cstdint>
@@ -6,9 +9,13 @@
 #include <string>
 #include <string_view>
 
-namespace cusp::simulate {
+namespace cusp::files {
 
-// Throws InputError where the file can't be made or written (the disk is full).
+// A file's whole text. Throws InputError with the file's name and the system's reason.
+std::string text_of_file(const std::string& file);
+
+// An output file written through one large buffer. Throws InputError where the file can't be made or
+// written (the disk is full).
 class TextFile {
 public:
     explicit TextFile(const std::string& file);
@@ -31,4 +38,4 @@ private:
 // A whole file at once.
 void write_text(const std::string& file, std::string_view text);
 
-}  // namespace cusp::simulate
+}  // namespace cusp::files

@@ -1,14 +1,13 @@
 // The buffer of an output file.
-#include "host_tools/simulate/text_file.hpp"
-
 #include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
 
+#include "host_tools/files/files.hpp"
 #include "host_tools/input_error/input_error.hpp"
 
-namespace cusp::simulate {
+namespace cusp::files {
 namespace {
 
 constexpr std::size_t kBufferSize = 1 << 16;
@@ -63,4 +62,4 @@ void write_text(const std::string& file, std::string_view text)
     out.close();
 }
 
-}  // namespace cusp::simulate
+}  // namespace cusp::files
