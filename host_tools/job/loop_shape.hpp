@@ -25,7 +25,7 @@ std::optional<Vec2d> crossing_of(const std::vector<std::vector<Vec2d>>& closed);
 bool encloses(const std::vector<Vec2d>& closed, Vec2d point);
 
 // The loop in order, each curve starting where the one before ends, and its end where it starts.
-// Curves that run against the others are reversed; gaps up to `allowed_clearance` are closed.
+// Curves that run against the others are reversed; gaps up to `allowed_gap` are closed.
 //
 // Errors: a curve of no length, a gap. `place` starts the message.
 Loop chained(Loop loop, double allowed_gap, const std::string& place);

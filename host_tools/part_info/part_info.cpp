@@ -9,6 +9,7 @@
 #include "host_tools/import/cad_surfaces.hpp"
 #include "host_tools/import/dxf_curves.hpp"
 #include "host_tools/import/geometry_json.hpp"
+#include "host_tools/import/part_extent.hpp"
 #include "host_tools/import/path_ending.hpp"
 #include "host_tools/import/stl_facets.hpp"
 #include "host_tools/input_error/input_error.hpp"
@@ -22,6 +23,7 @@ namespace cusp::part_info {
 using import::CadModel;
 using import::DxfLayer;
 using import::DxfLayers;
+using import::extent_of_triangles;
 using import::Facets;
 using import::path_ending;
 using import::read_cad_model;
@@ -180,12 +182,9 @@ void inspect_surfaces(PartInfo& info, const std::vector<double>& outwards, doubl
 void inspect_mesh(PartInfo& info, double tolerance)
 {
     info.pieces = info.triangles.size();
-    start_box(info);
-    for (const auto& triangle : info.triangles) {
-        for (const Vec3d& corner : triangle) {
-            widen_box(info, corner);
-        }
-    }
+    const import::PartExtent extent = extent_of_triangles(info.triangles);
+    info.box_low = extent.low;
+    info.box_high = extent.high;
     std::vector<GroundPlace> places;
     std::vector<GroundPlace> creases;
     {

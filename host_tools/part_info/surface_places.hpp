@@ -18,7 +18,8 @@ struct SurfaceAt {
 struct SurfacePlaces {
     std::vector<GroundPlace> places;
     std::vector<SurfaceAt> at;  // of each
-    Vec3d box_low, box_high;    // mm; where a face bulges between places, found to 1e-6 mm
+    Vec3d box_low, box_high;    // mm, to 1e-6; a search, where
+                                // import::extent_of_surfaces() is a bound that trims widen by 1e-4
 };
 
 // Middles of cells, some 30 000 in all but at least nine for each Bezier patch, with their areas;
