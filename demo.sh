@@ -17,4 +17,4 @@ echo "building"
     exit 1
 }
 
-exec build/release/bin/cusp demo --out out/demo
+exec build/release/bin/cusp demo --traces --out out/demo

@@ -42,6 +42,7 @@ constexpr const char* kMill = "demo/mill.settings";
 struct DemoOptions {
     std::string out{"cusp-demo"};
     std::string examples;
+    bool traces{};
 };
 
 // Before anything is computed: a folder that can't be written is known at once.
@@ -75,8 +76,10 @@ int run_demo(const DemoOptions& options)
     const Verification cut =
         verify_program(job, program, {}, {out / "verify.json", out / "path.svg", out / "left.svg"});
     write_text(out / "verify.txt", verification_text(cut));
-    mill.vcd_file = out / "pocket.vcd";
-    mill.samples_file = out / "samples.csv";
+    if (options.traces) {
+        mill.vcd_file = out / "pocket.vcd";
+        mill.samples_file = out / "samples.csv";
+    }
     ShareProgress bar{"running"};
     mill.progress = [&bar](const SimulationProgress& progress) {
         bar(progress.fraction);
@@ -87,10 +90,10 @@ int run_demo(const DemoOptions& options)
     fmt::print("\nPocket with a curved floor and an island: {}\n\n{}", job.file,
                demo_summary(plan, run, cut));
     fmt::print(
-        "\nIn {}: pocket.ngc (G-code), path.svg left.svg (pictures), pocket.vcd (pulses, for "
-        "GTKWave),\nsamples.csv (set points), plan.json sim.json verify.json verify.txt "
-        "(figures)\n",
-        out.string());
+        "\nIn {}: pocket.ngc (G-code), path.svg left.svg (pictures),\n"
+        "plan.json sim.json verify.json verify.txt (figures){}\n",
+        out.string(),
+        options.traces ? ", pocket.vcd (pulses, for GTKWave), samples.csv (set points)" : "");
     std::fflush(stdout);
     print_faults(program, run);
     for (const std::string& broken : cut.broken) {
@@ -112,6 +115,8 @@ void add_demo_command(CLI::App& app, Work& work)
     command->add_option("--out", options->out, "folder for what is written")->capture_default_str();
     command->add_option("--examples", options->examples,
                         "folder of the examples (default: those that came with this program)");
+    command->add_flag("--traces", options->traces,
+                      "also write every pulse (pocket.vcd) and set point (samples.csv): 470 MB");
     command->callback([&work, options] {
         work = [options] {
             return run_demo(*options);

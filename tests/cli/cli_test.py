@@ -112,8 +112,11 @@ class Cli(unittest.TestCase):
         self.examples_with("$100=200\n")
         self.expect(0, "deepest cut", "demo", "--out", "a/b", "--examples", "examples")
         out = self.folder / "a" / "b"
-        self.assertEqual({"left.svg", "path.svg", "plan.json", "pocket.ngc", "pocket.vcd", "samples.csv", "sim.json",
-                          "verify.json", "verify.txt"}, {file.name for file in out.iterdir()})
+        files = {"left.svg", "path.svg", "plan.json", "pocket.ngc", "sim.json", "verify.json", "verify.txt"}
+        self.assertEqual(files, {file.name for file in out.iterdir()})
+        self.expect(0, "pocket.vcd", "demo", "--traces", "--out", "a/traced", "--examples", "examples")
+        traced = {file.name for file in (self.folder / "a" / "traced").iterdir()}
+        self.assertEqual(files | {"pocket.vcd", "samples.csv"}, traced)
         self.assertTrue((out / "verify.txt").read_text().endswith("all bounds hold\n"))
         cut, run = (json.loads((out / name).read_text()) for name in ("verify.json", "sim.json"))
         self.assertEqual([cut["cut_depth_max_mm"]], [tool["cut_depth_max_mm"] for tool in cut["tools"]])
