@@ -7,7 +7,7 @@
 #include "firmware/base/axis.hpp"
 #include "firmware/base/vec.hpp"
 
-namespace cusp::simulate {
+namespace cusp::program_run {
 
 // Takes one set point a servo tick, whole nanometres, so that the figures are those of the samples
 // file and not of any float along the way.
@@ -45,4 +45,4 @@ private:
     double length_{0};
 };
 
-}  // namespace cusp::simulate
+}  // namespace cusp::program_run

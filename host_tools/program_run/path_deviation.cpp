@@ -1,5 +1,5 @@
 // Nearest points of moves.
-#include "host_tools/simulate/path_deviation.hpp"
+#include "host_tools/program_run/path_deviation.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include "firmware/base/math.hpp"
 
-namespace cusp::simulate {
+namespace cusp::program_run {
 namespace {
 
 PathPlace nearest_on_segment(Vec3d point, Vec3d end)
@@ -210,10 +210,14 @@ void PathDeviation::add_set_point(Position set_point)
            stretches_.front().start + stretches_.front().length < place_ - 4.0 * around) {
         stretches_.pop_front();
     }
-    if (nearest > greatest_ && nearest < std::numeric_limits<double>::infinity()) {
+    if (nearest == std::numeric_limits<double>::infinity()) {
+        return;
+    }
+    latest_ = nearest;
+    if (nearest > greatest_) {
         greatest_ = nearest;
         line_ = line;
     }
 }
 
-}  // namespace cusp::simulate
+}  // namespace cusp::program_run

@@ -1,12 +1,12 @@
 // Differences of set points.
-#include "host_tools/simulate/motion_statistics.hpp"
+#include "host_tools/program_run/motion_statistics.hpp"
 
 #include <algorithm>
 #include <cstdlib>
 
 #include "firmware/base/pulse_frame.hpp"
 
-namespace cusp::simulate {
+namespace cusp::program_run {
 namespace {
 
 constexpr double kTicks = kServoTicksPerSecond;
@@ -72,4 +72,4 @@ std::uint64_t MotionStatistics::moving_ticks() const
     return first_moving_ == 0 ? 0 : last_moving_ - first_moving_ + 1;
 }
 
-}  // namespace cusp::simulate
+}  // namespace cusp::program_run
