@@ -23,7 +23,7 @@ void SimulatedStore::read(unsigned sector,
                           Span<std::uint8_t> bytes) const noexcept
 {
     CUSP_ASSERT(sector < 2 && offset + bytes.size() <= kSectorSize);
-    std::copy_n(sectors_[sector].begin() + offset, bytes.size(), bytes.begin());
+    std::copy_n(sectors_[sector].data() + offset, bytes.size(), bytes.begin());
 }
 
 bool SimulatedStore::write(unsigned sector,
