@@ -12,6 +12,9 @@
 #include <vector>
 
 #include "firmware/base/assert.hpp"
+#include "firmware/machine/settings.hpp"
+#include "host_tools/dialect/line_source.hpp"
+#include "host_tools/program_run/motion_profile.hpp"
 #include "host_tools/program_run/program_run.hpp"
 #include "host_tools/program_run/settings_lines.hpp"
 
@@ -25,6 +28,8 @@ void cusp::fault(const char* /*expression*/, const char* /*file*/, int /*line*/)
 namespace {
 
 using namespace cusp;
+using program_run::MotionProfile;
+using program_run::ProfileStretch;
 using program_run::ProgramRun;
 using program_run::RunError;
 using program_run::RunOptions;
@@ -47,6 +52,8 @@ struct Run {
     RunOptions options;
     std::unique_ptr<ProgramRun> run;
     std::vector<SetPointRow> rows;
+    MotionProfile profile;
+    std::vector<double> profile_rows;
     std::array<double, kFigures> figures{};
     std::string errors;
     std::string text;  // of the caller
@@ -127,6 +134,7 @@ CUSP_EXPORT(cusp_run_begin) int cusp_run_begin(int with_set_points)
     run.run.reset();
     run.errors.clear();
     run.rows.clear();
+    run.profile = {};
     run.figures = {};
     run.program.swap(run.text);
     run.options = {};
@@ -138,6 +146,7 @@ CUSP_EXPORT(cusp_run_begin) int cusp_run_begin(int with_set_points)
     }
     if (with_set_points != 0) {
         run.options.set_point = [&run](const SetPoint& point) {
+            run.profile.add(point.at, point.line);
             const Vec3d at = to_millimetres(point.at);
             run.rows.push_back({at.x, at.y, at.z, static_cast<double>(point.line)});
         };
@@ -181,6 +190,29 @@ CUSP_EXPORT(cusp_set_point_count) std::uint32_t cusp_set_point_count()
     return static_cast<std::uint32_t>(the_run().rows.size());
 }
 
+// The profile of the run, where set points are kept: twelve doubles a stretch of time. Greatest speed; velocity,
+// acceleration and jerk of X, Y and Z; first line; seconds from the start of the run.
+CUSP_EXPORT(cusp_profile) const double* cusp_profile()
+{
+    Run& run = the_run();
+    run.profile_rows.clear();
+    double start = 0;
+    for (const ProfileStretch& stretch : run.profile.stretches()) {
+        run.profile_rows.push_back(stretch.speed);
+        for (const Vec3d& of_axes : {stretch.velocity, stretch.acceleration, stretch.jerk}) {
+            run.profile_rows.insert(run.profile_rows.end(), {of_axes.x, of_axes.y, of_axes.z});
+        }
+        run.profile_rows.push_back(static_cast<double>(stretch.first_line));
+        run.profile_rows.push_back(start);
+        start += run.profile.seconds_each();
+    }
+    return run.profile_rows.data();
+}
+CUSP_EXPORT(cusp_profile_count) std::uint32_t cusp_profile_count()
+{
+    return static_cast<std::uint32_t>(the_run().profile.stretches().size());
+}
+
 CUSP_EXPORT(cusp_figures) const double* cusp_figures() { return the_run().figures.data(); }
 
 CUSP_EXPORT(cusp_errors) const char* cusp_errors() { return the_run().errors.data(); }
@@ -189,7 +221,7 @@ CUSP_EXPORT(cusp_errors_size) std::uint32_t cusp_errors_size()
     return static_cast<std::uint32_t>(the_run().errors.size());
 }
 
-// Five doubles a setting: number, value in force for this text of settings or the default, least, most, decimals.
+// Five doubles a setting: number, default, least, most, decimals.
 CUSP_EXPORT(cusp_settings) const double* cusp_settings()
 {
     static std::array<double, 5 * machine::kSettingCount> table;
