@@ -28,8 +28,8 @@ public:
     // Moves in the order of the program. A move of no length is dropped.
     void add_move(const path::Move& move);
 
-    // The set point of the next servo tick.
-    void add_set_point(Position set_point);
+    // The set point of the next servo tick. Returns its distance, mm; 0 where it stands still.
+    double add_set_point(Position set_point);
 
     // The machine has moved on its own: the path goes on with the next move.
     void restart();

@@ -59,6 +59,10 @@ public:
             samples_ = std::make_unique<SamplesWriter>(options.samples_file);
             samples_->write(time_of_set_point() - kPulseTicksPerFrame, motion_.position());
         }
+        if (options.set_point) {
+            options.set_point(
+                {time_of_set_point() - kPulseTicksPerFrame, motion_.position(), 0, 0.0});
+        }
     }
 
     // One servo tick of everything.
@@ -72,7 +76,10 @@ public:
         }
         statistics_.add(at);
         tool_times_.add_tick(line);
-        shadow_.deviation().add_set_point(at);
+        const double deviation = shadow_.deviation().add_set_point(at);
+        if (options_.set_point) {
+            options_.set_point({time_of_set_point(), at, line, deviation});
+        }
         if (line != line_ && options_.line_started) {
             options_.line_started(line, static_cast<double>(statistics_.ticks()) * kSecondsPerTick);
         }

@@ -34,6 +34,14 @@ struct ScriptedByte {
 // Reads lines `tick byte`, both decimal, ticks not falling. Throws InputError.
 std::vector<ScriptedByte> read_script(const std::string& file);
 
+// Where the interpolator was at the end of a servo tick.
+struct SetPoint {
+    std::uint64_t microseconds;  // on the clock of the pulse trace
+    Position at;
+    std::uint32_t line;   // of the program, being run
+    double deviation_mm;  // from the programmed path
+};
+
 struct SimulationOptions {
     machine::Settings settings;
     // While it has bytes left a hold lasts until the script's cycle start; without, it is over at
@@ -49,6 +57,8 @@ struct SimulationOptions {
     std::function<void(const SimulationProgress&)> progress;
     // Called when the first set point of a line has been reached; for tables of times.
     std::function<void(std::uint32_t line, double seconds)> line_started;
+    // Called with where the run starts, then at the end of each servo tick.
+    std::function<void(const SetPoint&)> set_point;
     // Ends the run where it returns true; asked some ten times a second.
     std::function<bool()> stop;
 };
