@@ -97,11 +97,12 @@ namespace cusp::view {
 
 std::string_view page_text(Page page)
 {
-    static constexpr std::string_view kView{
-${literal(pages.view)}};
-    static constexpr std::string_view kPlayground{
-${literal(pages.playground)}};
-    return page == Page::kView ? kView : kPlayground;
+    static constexpr char kView[] =
+${literal(pages.view)};
+    static constexpr char kPlayground[] =
+${literal(pages.playground)};
+    return page == Page::kView ? std::string_view{kView, sizeof kView - 1}
+                               : std::string_view{kPlayground, sizeof kPlayground - 1};
 }
 
 std::string_view why_no_page() { return ""; }
