@@ -23,7 +23,8 @@ function(cusp_missing_wasm_packages)
   set(packages "${packages}" PARENT_SCOPE)
 endfunction()
 
-# cusp_add_wasm_core(VARIABLE): the file that the build makes; empty where packages are missing, which is said in a line.
+# cusp_add_wasm_core(VARIABLE): the file that the build makes, also the global property CUSP_WASM_CORE; empty where packages
+# are missing, which is said in a line.
 function(cusp_add_wasm_core variable)
   set(${variable} "" PARENT_SCOPE)
   if(CUSP_WASM STREQUAL "OFF")
@@ -48,5 +49,6 @@ function(cusp_add_wasm_core variable)
     COMMAND ${CMAKE_COMMAND} --build ${folder} >> ${PROJECT_BINARY_DIR}/wasm.log
     DEPENDS ${sources} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
     COMMENT "Building the core in WebAssembly" VERBATIM)
+  set_property(GLOBAL PROPERTY CUSP_WASM_CORE ${core})
   set(${variable} ${core} PARENT_SCOPE)
 endfunction()
