@@ -6,9 +6,9 @@
 #include <string_view>
 
 #include "firmware/gcode/interpreter.hpp"
-#include "host_tools/simulate/path_deviation.hpp"
+#include "host_tools/program_run/path_deviation.hpp"
 
-namespace cusp::simulate {
+namespace cusp::program_run {
 
 struct ProgramMoveCounts {
     std::uint64_t rapid{0};
@@ -60,4 +60,4 @@ private:
     PathDeviation deviation_;
 };
 
-}  // namespace cusp::simulate
+}  // namespace cusp::program_run

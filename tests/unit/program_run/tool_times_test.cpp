@@ -1,5 +1,5 @@
 // Ticks are counted for the tool of the line that is executed, not of the line that is read.
-#include "host_tools/simulate/tool_times.hpp"
+#include "host_tools/program_run/tool_times.hpp"
 
 #include "CppUTest/TestHarness.h"
 
@@ -7,7 +7,7 @@ using namespace cusp;
 
 TEST_GROUP(ToolTimes)
 {
-    simulate::ToolTimes times;
+    program_run::ToolTimes times;
 
     void tick(std::uint32_t line, int count)
     {

@@ -1,10 +1,10 @@
 // Speed, acceleration and jerk of set points.
-#include "host_tools/simulate/motion_statistics.hpp"
+#include "host_tools/program_run/motion_statistics.hpp"
 
 #include "CppUTest/TestHarness.h"
 
 using cusp::Position;
-using cusp::simulate::MotionStatistics;
+using cusp::program_run::MotionStatistics;
 
 TEST_GROUP(MotionStatistics) { MotionStatistics statistics{Position{}}; };
 

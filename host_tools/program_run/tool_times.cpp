@@ -1,9 +1,9 @@
 // Starts are kept by line: the tick says which line is executed.
-#include "host_tools/simulate/tool_times.hpp"
+#include "host_tools/program_run/tool_times.hpp"
 
 #include <algorithm>
 
-namespace cusp::simulate {
+namespace cusp::program_run {
 
 void ToolTimes::read_line(std::uint64_t line, int tool)
 {
@@ -38,4 +38,4 @@ std::size_t ToolTimes::place_of(int tool)
     return static_cast<std::size_t>(found - times_.begin());
 }
 
-}  // namespace cusp::simulate
+}  // namespace cusp::program_run

@@ -1,12 +1,12 @@
 // Geometry and stored settings of the virtual mill.
-#include "host_tools/simulate/mill_setup.hpp"
+#include "host_tools/program_run/mill_setup.hpp"
 
 #include <utility>
 
 #include "firmware/machine/settings_log.hpp"
 #include "firmware/machine/stored_state.hpp"
 
-namespace cusp::simulate {
+namespace cusp::program_run {
 
 using machine::Setting;
 
@@ -48,4 +48,4 @@ bool store_settings(const machine::Settings& settings, hal::SimulatedStore& stor
     return log.append(std::as_const(state).bytes());
 }
 
-}  // namespace cusp::simulate
+}  // namespace cusp::program_run

@@ -1,5 +1,5 @@
 // Nearest points of moves.
-#include "host_tools/simulate/path_deviation.hpp"
+#include "host_tools/program_run/path_deviation.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include "firmware/base/math.hpp"
 
-namespace cusp::simulate {
+namespace cusp::program_run {
 namespace {
 
 PathPlace nearest_on_segment(Vec3d point, Vec3d end)
@@ -180,11 +180,11 @@ double PathDeviation::reach(Position set_point) const
     return kSlack + 2.0 * travel + 8.0 * greatest_tolerance_;
 }
 
-double PathDeviation::add_set_point(Position set_point)
+void PathDeviation::add_set_point(Position set_point)
 {
     if (stretches_.empty() || set_point == last_) {
         last_ = set_point;
-        return 0;
+        return;
     }
     const double around = reach(set_point);
     last_ = set_point;
@@ -211,13 +211,13 @@ double PathDeviation::add_set_point(Position set_point)
         stretches_.pop_front();
     }
     if (nearest == std::numeric_limits<double>::infinity()) {
-        return 0;
+        return;
     }
+    latest_ = nearest;
     if (nearest > greatest_) {
         greatest_ = nearest;
         line_ = line;
     }
-    return nearest;
 }
 
-}  // namespace cusp::simulate
+}  // namespace cusp::program_run

@@ -1,5 +1,5 @@
 // Distances to the programmed path.
-#include "host_tools/simulate/path_deviation.hpp"
+#include "host_tools/program_run/path_deviation.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +39,7 @@ Vec3d helix_point(const path::Arc& arc, double t)
 
 double distance_of(const path::Move& move, Position point)
 {
-    return simulate::nearest_place(move, point).distance;
+    return program_run::nearest_place(move, point).distance;
 }
 
 }  // namespace
@@ -97,7 +97,7 @@ TEST(PathDeviation, FollowsThePathAndNotItsNeighbourhood)
 {
     // Out along x and back 5 mm above. A tool that takes the way out again instead of the way back
     // is 5 mm off, though it is on the path all the time.
-    simulate::PathDeviation deviation;
+    program_run::PathDeviation deviation;
     deviation.add_move(line({0, 0, 0}, {10'000'000, 0, 0}, 1));
     deviation.add_move(line({10'000'000, 0, 0}, {10'000'000, 5'000'000, 0}, 2));
     deviation.add_move(line({10'000'000, 5'000'000, 0}, {0, 5'000'000, 0}, 3));
@@ -118,7 +118,7 @@ TEST(PathDeviation, FollowsThePathAndNotItsNeighbourhood)
 
 TEST(PathDeviation, FollowsThereAndBackAgainOnTheSameLine)
 {
-    simulate::PathDeviation deviation;
+    program_run::PathDeviation deviation;
     Position at{};
     for (std::uint32_t stroke = 1; stroke <= 6; ++stroke) {
         const Position next{stroke % 2 == 0 ? 0 : 20'000'000, 0, 0};
@@ -139,7 +139,7 @@ TEST(PathDeviation, FollowsThereAndBackAgainOnTheSameLine)
 
 TEST(PathDeviation, GoesOnElsewhereAfterARestart)
 {
-    simulate::PathDeviation deviation;
+    program_run::PathDeviation deviation;
     deviation.add_move(line({0, 0, 0}, {0, 0, -20'000'000}, 1));
     for (std::int64_t i = 0; i <= 50; ++i) {
         deviation.add_set_point({0, 0, -i * 100'000});  // a probe that stops at -5
@@ -152,7 +152,7 @@ TEST(PathDeviation, GoesOnElsewhereAfterARestart)
 
 TEST(PathDeviation, ForgetsMovesThatAreLongPast)
 {
-    simulate::PathDeviation deviation;
+    program_run::PathDeviation deviation;
     for (std::int64_t i = 0; i < 10; ++i) {
         deviation.add_move(line({i * 1'000'000, 0, 0}, {(i + 1) * 1'000'000, 0, 0},
                                 static_cast<std::uint32_t>(i) + 1U));

@@ -1,7 +1,7 @@
 // Reading along with the controller.
-#include "host_tools/simulate/program_shadow.hpp"
+#include "host_tools/program_run/program_shadow.hpp"
 
-namespace cusp::simulate {
+namespace cusp::program_run {
 
 LineEffects ProgramShadow::read(std::string_view line, std::uint64_t number)
 {
@@ -58,4 +58,4 @@ void ProgramShadow::count(const path::Move& move)
     }
 }
 
-}  // namespace cusp::simulate
+}  // namespace cusp::program_run

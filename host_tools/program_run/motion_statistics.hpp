@@ -1,19 +1,19 @@
 // MotionStatistics: how fast, how hard and how long the set points of a run moved.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "firmware/base/axis.hpp"
 #include "firmware/base/vec.hpp"
+#include "host_tools/program_run/set_point_differences.hpp"
 
-namespace cusp::simulate {
+namespace cusp::program_run {
 
 // Takes one set point a servo tick, whole nanometres, so that the figures are those of the samples
 // file and not of any float along the way.
 class MotionStatistics {
 public:
-    explicit MotionStatistics(Position start) : last_{start, start, start} {}
+    explicit MotionStatistics(Position start) : window_{start} {}
 
     void add(Position set_point);
 
@@ -28,15 +28,15 @@ public:
     // From the first to the last tick that moved, both counted.
     std::uint64_t moving_ticks() const;
     std::uint64_t ticks() const { return ticks_; }
-    Position end() const { return last_[0]; }
+    Position end() const { return window_.latest(); }
     // Way along the set points, mm.
     double length() const { return length_; }
 
 private:
     void take(Position set_point);
 
-    std::array<Position, 3> last_;  // newest first
-    Position velocity_{};           // greatest of each axis, nm a tick ...
+    SetPointWindow window_;
+    Position velocity_{};  // greatest of each axis, nm a tick ...
     Position acceleration_{};
     Position jerk_{};
     std::uint64_t ticks_{0};
@@ -45,4 +45,4 @@ private:
     double length_{0};
 };
 
-}  // namespace cusp::simulate
+}  // namespace cusp::program_run

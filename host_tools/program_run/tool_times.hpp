@@ -7,7 +7,7 @@
 
 #include "firmware/base/pulse_frame.hpp"
 
-namespace cusp::simulate {
+namespace cusp::program_run {
 
 struct ToolTime {
     int number;           // its T word; 0: the program names none
@@ -45,4 +45,4 @@ private:
     std::uint64_t changes_{0};
 };
 
-}  // namespace cusp::simulate
+}  // namespace cusp::program_run

@@ -1,12 +1,12 @@
 // Differences of set points.
-#include "host_tools/simulate/motion_statistics.hpp"
+#include "host_tools/program_run/motion_statistics.hpp"
 
 #include <algorithm>
 #include <cstdlib>
 
 #include "firmware/base/pulse_frame.hpp"
 
-namespace cusp::simulate {
+namespace cusp::program_run {
 namespace {
 
 constexpr double kTicks = kServoTicksPerSecond;
@@ -23,7 +23,7 @@ void keep_greatest(Position& greatest, Position value)
 void MotionStatistics::add(Position set_point)
 {
     ++ticks_;
-    if (set_point != last_[0]) {
+    if (set_point != window_.latest()) {
         last_moving_ = ticks_;
         if (first_moving_ == 0) {
             first_moving_ = ticks_;
@@ -35,16 +35,13 @@ void MotionStatistics::add(Position set_point)
 void MotionStatistics::finish()
 {
     for (int tick = 0; tick < 3; ++tick) {
-        take(last_[0]);
+        take(window_.latest());
     }
 }
 
 void MotionStatistics::take(Position p)
 {
-    const auto [a, b, c] = last_;
-    const Position velocity = p - a;
-    const Position acceleration = p - a - (a - b);
-    const Position jerk = acceleration - (a - b - (b - c));
+    const auto [velocity, acceleration, jerk] = window_.take(p);
     if (velocity == Position{} && acceleration == Position{} && jerk == Position{}) {
         return;
     }
@@ -52,7 +49,6 @@ void MotionStatistics::take(Position p)
     keep_greatest(acceleration_, acceleration);
     keep_greatest(jerk_, jerk);
     length_ += norm(to_millimetres(velocity));
-    last_ = {p, a, b};
 }
 
 Vec3d MotionStatistics::max_velocity() const { return to_millimetres(velocity_) * kTicks; }
@@ -72,4 +68,4 @@ std::uint64_t MotionStatistics::moving_ticks() const
     return first_moving_ == 0 ? 0 : last_moving_ - first_moving_ + 1;
 }
 
-}  // namespace cusp::simulate
+}  // namespace cusp::program_run

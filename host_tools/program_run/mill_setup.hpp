@@ -7,7 +7,7 @@
 #include "hal/sim/simulated_mill.hpp"
 #include "hal/sim/simulated_store.hpp"
 
-namespace cusp::simulate {
+namespace cusp::program_run {
 
 // Where the tool stands at power-up: this part of each travel from the end that it homes to. A
 // program that is run as fast as it goes homes at once; a sender's may go either way from there.
@@ -29,4 +29,4 @@ machine::Settings stored_settings(const hal::SimulatedStore& store);
 // damaged is left to the firmware, which tells of it. Returns false where the store fails.
 bool store_settings(const machine::Settings& settings, hal::SimulatedStore& store);
 
-}  // namespace cusp::simulate
+}  // namespace cusp::program_run
