@@ -17,7 +17,7 @@
 
 namespace cusp::view {
 
-using simulate::SetPoint;
+using program_run::SetPoint;
 using simulate::SimulationOptions;
 using simulate::SimulationProgress;
 using simulate::SimulationResult;
