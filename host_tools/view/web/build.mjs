@@ -107,6 +107,8 @@ ${literal(pages.playground)};
 
 std::string_view why_no_page() { return ""; }
 
+bool pages_hold_core() { return ${core ? "true" : "false"}; }
+
 }  // namespace cusp::view
 `);
 }
