@@ -20,9 +20,9 @@ namespace {
 
 constexpr double kLeft = 64;
 constexpr double kPlotWidth = 840;
-constexpr double kRight = 150;  // for the legend
+constexpr double kRight = 190;  // for the legend
 constexpr double kPanelHeight = 120;
-constexpr double kGap = 34;
+constexpr double kGap = 46;
 constexpr double kTop = 30;
 constexpr double kTextSize = 12;
 constexpr double kPercent = 100;
@@ -168,17 +168,17 @@ std::string axis_panel(const MotionProfile& profile,
     };
     // The velocity is drawn last: the jerk alone would hide it.
     const std::vector<Curve> curves{
-        {fmt::format("jerk of {:g}", limits.jerk[axis]), kJerkColour,
+        {fmt::format("jerk, of {:g} mm/s³", limits.jerk[axis]), kJerkColour,
          share(&ProfileStretch::jerk, limits.jerk)},
-        {fmt::format("accel. of {:g}", limits.acceleration[axis]), kAccelerationColour,
+        {fmt::format("acceleration, of {:g} mm/s²", limits.acceleration[axis]), kAccelerationColour,
          share(&ProfileStretch::acceleration, limits.acceleration)},
-        {fmt::format("velocity of {:g}", limits.velocity[axis]), kVelocityColour,
+        {fmt::format("velocity, of {:g} mm/s", limits.velocity[axis]), kVelocityColour,
          share(&ProfileStretch::velocity, limits.velocity)}};
     constexpr std::array<char, kAxisCount> kNames{'X', 'Y', 'Z'};
     constexpr double kUpper = 110;  // rounding to nanometres adds a few per cent of a jerk
     constexpr double kStep = 50;
     const std::string title =
-        fmt::format("{}, % of its limit (mm/s, mm/s², mm/s³)", kNames.at(axis));
+        fmt::format("{}, % of its limits", kNames.at(axis));
     return panel_of({static_cast<int>(axis) + 1, seconds, kUpper}, title, kStep, curves,
                     profile.seconds_each());
 }
