@@ -9,6 +9,7 @@
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/job/job.hpp"
 #include "host_tools/simulate/settings_file.hpp"
+#include "host_tools/view/page_still.hpp"
 #include "host_tools/view/run_page.hpp"
 
 #include "CLI/CLI.hpp"
@@ -20,6 +21,7 @@ using files::write_text;
 using import::read_job;
 using job::Job;
 using simulate::read_settings_file;
+using view::page_still;
 using view::run_page;
 using view::RunPage;
 using view::RunPageOptions;
@@ -31,6 +33,7 @@ struct ViewArguments {
     std::string job_file;
     std::string settings_file;
     std::string page;
+    std::string still;
 };
 
 RunPage page_of(const ViewArguments& arguments)
@@ -61,6 +64,9 @@ int run_view(const ViewArguments& arguments)
 {
     const RunPage page = page_of(arguments);
     write_text(arguments.page, page.html);
+    if (!arguments.still.empty()) {
+        write_text(arguments.still, page_still(arguments.page));
+    }
     constexpr double kMegabyte = 1048576.0;
     fmt::print("{}: {} ticks, {:.2f} MB\n{}\n", arguments.page, page.ticks,
                static_cast<double>(page.html.size()) / kMegabyte, page.verdict);
@@ -88,6 +94,8 @@ void add_view_command(CLI::App& app, Work& work)
                         "job file (TOML): part, stock, tools, and what the part is held against");
     command->add_option("--settings", arguments->settings_file, "settings of the machine");
     command->add_option("-o,--output", arguments->page, "page to write (HTML)")->required();
+    command->add_option("--still", arguments->still,
+                        "picture of the scene to write (PNG): by Chromium, where it is installed");
     command->callback([&work, arguments] {
         work = [arguments] {
             return run_view(*arguments);

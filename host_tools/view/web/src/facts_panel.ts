@@ -54,10 +54,10 @@ function boundRows(facts: PageFacts): Content[][] {
   add("Gouge, floor", v.gouge_max_mm, v.floor_tolerance, "mm", judged);
   add("Gouge, ball", v.ball_gouge_max_mm, v.floor_tolerance, "mm", judged);
   add("Gouge, walls", v.wall_gouge_max_mm, v.plan_tolerance, "mm", judged);
-  add("Rapid into metal", v.rapid_cut_max_mm, v.rapid_cut_bound_mm);
+  add("Rapid in metal", v.rapid_cut_max_mm, v.rapid_cut_bound_mm);
   if (v.scallop_bound_mm !== null) {
-    add("Scallop, 99 %", v.scallop_p99_mm, v.scallop_bound_mm);
-    add("Floor over scallop", v.uncovered_share, v.uncovered_bound, "%");
+    add("Scallop (99 %)", v.scallop_p99_mm, v.scallop_bound_mm);
+    add("Over scallop", v.uncovered_share, v.uncovered_bound, "%");
   }
   return rows;
 }
@@ -76,7 +76,6 @@ function warnings(facts: PageFacts, actions: FactsActions): Content[] {
   if (facts.not_verified) say(`The part is not verified: ${facts.not_verified}`);
   for (const broken of facts.verification?.broken ?? []) say(broken);
   if (run.stopped) say("The run was stopped before its end");
-  if (run.pauses > 0) say(`${run.pauses} pause${run.pauses > 1 ? "s" : ""} of the program (M0, M1, M6) went on at once`);
   return out;
 }
 
@@ -85,14 +84,15 @@ export function factsPanel(facts: PageFacts, actions: FactsActions): HTMLElement
   const warned = warnings(facts, actions);
   if (warned.length > 0) out.push(section("Warnings", element("ul", { class: "warnings" }, ...warned)));
   const farthest = run.max_deviation_line > 0
-    ? element("span", {}, `${figure(run.max_deviation_mm, 3)} mm, `, button(`line ${run.max_deviation_line}`, "Go to this line", () => actions.toLine(run.max_deviation_line)))
-    : `${figure(run.max_deviation_mm, 3)} mm`;
+    ? element("span", {}, `${figure(run.max_deviation_mm * 1000, 3)} µm `, button(`line ${run.max_deviation_line}`, "Go to this line", () => actions.toLine(run.max_deviation_line)))
+    : `${figure(run.max_deviation_mm * 1000, 3)} µm`;
   out.push(section("Run", rowsOf([
     ["Time in motion", duration(f.duration_s)],
     ["Length", metres(f.length_mm)],
     ["Moves", `${f.moves}`],
     ["Rapid, line, arc, NURBS", `${run.rapids}, ${run.lines_moved}, ${run.arcs}, ${run.nurbs}`],
-    ["Set points", `${f.ticks}`],
+    ["Set points, 1 ms", `${f.ticks}`],
+    ["Pauses, gone on at once", `${run.pauses}`],
     ["Off the path, most", farthest],
   ])));
   const limits = section("Greatest, against limits", table(["", "X", "Y", "Z"], limitRows(facts)));
