@@ -15,6 +15,17 @@ test_packages="$host_packages $cad_packages $image_packages cpputest libpolyclip
 # Runs the demo and the packages in a bare root.
 fresh_packages="mmdebstrap"
 
+# Bundles the pages of cusp view; the commands may come from elsewhere.
+npm_packages() {
+    command -v node >/dev/null || echo nodejs
+    command -v npm >/dev/null || echo npm
+}
+# Also tests them in a browser.
+view_packages() {
+    npm_packages
+    command -v chromium >/dev/null || echo chromium
+}
+
 # missing_packages PACKAGE...: those that are not installed
 missing_packages() {
     for package in "$@"; do

@@ -1,5 +1,5 @@
 // What the tests of pages share: a browser that watches for requests, errors and dialogs, and cusp.
-import { execFileSync, spawnSync } from "node:child_process";
+import { spawnSync } from "node:child_process";
 import fs from "node:fs";
 import { createRequire } from "node:module";
 import os from "node:os";
@@ -86,4 +86,3 @@ export function pictureOf(page) {
     return sum;
   });
 }
-export { execFileSync };

@@ -95,11 +95,11 @@ export function factsPanel(facts: PageFacts, actions: FactsActions): HTMLElement
     ["Pauses, gone on at once", `${run.pauses}`],
     ["Off the path, most", farthest],
   ])));
-  const limits = section("Greatest, against limits", table(["", "X", "Y", "Z"], limitRows(facts)));
+  const limits = section("Greatest, against limits", table(["Axis", "X", "Y", "Z"], limitRows(facts)));
   limits.append(element("p", { class: "note" }, "Set points are whole nanometres: up to 4000 mm/s³ of jerk is rounding."));
   out.push(limits);
   if (facts.verification) {
-    out.push(section("Bounds of the job, as cut", table(["", "Measured", "Allowed", ""], boundRows(facts))));
+    out.push(section("Bounds of the job, as cut", table(["Bound", "Measured", "Allowed", "Verdict"], boundRows(facts))));
     const worst = f.worst ?? [];
     const places = worst.map((place) => {
       const label = element("span", { class: "kind kind-" + place.kind }, { gouge: "gouge", left: "left", uncut: "uncut" }[place.kind]);
@@ -111,7 +111,7 @@ export function factsPanel(facts: PageFacts, actions: FactsActions): HTMLElement
     out.push(section("Worst places", worst.length > 0 ? element("ol", { class: "worst" }, ...places) : element("p", {}, "None: nothing is gouged or left.")));
   }
   if (facts.tools.length > 0) {
-    out.push(section("Tools", table(["", "Shape", "Time", "Cut", "Deepest"], facts.tools.map((tool) => [
+    out.push(section("Tools", table(["Tool", "Shape", "Time", "Cut", "Deepest"], facts.tools.map((tool) => [
       tool.number > 0 ? `T${tool.number}` : "T–",
       tool.shape ? `${tool.shape} ${figure(2 * tool.radius!)}${tool.shape === "bull" ? ` r${figure(tool.corner_radius!)}` : ""} mm` : "not known",
       duration(tool.time_s),
