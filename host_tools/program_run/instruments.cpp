@@ -39,12 +39,10 @@ void Instruments::tick()
     const std::uint32_t line = motion_.executing_line();
     statistics_.add(at);
     tool_times_.add_tick(line);
-    PathDeviation& deviation = shadow_.deviation();
-    if (options_.measures_deviation) {
-        deviation.add_set_point(at);
-    }
+    const double deviation =
+        options_.measures_deviation ? shadow_.deviation().add_set_point(at) : 0.0;
     if (options_.set_point) {
-        options_.set_point({time_of_set_point(), at, line, deviation.latest()});
+        options_.set_point({time_of_set_point(), at, line, deviation});
     }
     controller_.tick_world();
 }

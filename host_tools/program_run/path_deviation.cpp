@@ -180,11 +180,11 @@ double PathDeviation::reach(Position set_point) const
     return kSlack + 2.0 * travel + 8.0 * greatest_tolerance_;
 }
 
-void PathDeviation::add_set_point(Position set_point)
+double PathDeviation::add_set_point(Position set_point)
 {
     if (stretches_.empty() || set_point == last_) {
         last_ = set_point;
-        return;
+        return 0;
     }
     const double around = reach(set_point);
     last_ = set_point;
@@ -211,13 +211,13 @@ void PathDeviation::add_set_point(Position set_point)
         stretches_.pop_front();
     }
     if (nearest == std::numeric_limits<double>::infinity()) {
-        return;
+        return 0;
     }
-    latest_ = nearest;
     if (nearest > greatest_) {
         greatest_ = nearest;
         line_ = line;
     }
+    return nearest;
 }
 
 }  // namespace cusp::program_run

@@ -28,8 +28,8 @@ public:
     // Moves in the order of the program. A move of no length is dropped.
     void add_move(const path::Move& move);
 
-    // The set point of the next servo tick.
-    void add_set_point(Position set_point);
+    // The set point of the next servo tick. Returns its distance, mm; 0 where it stands still.
+    double add_set_point(Position set_point);
 
     // The machine has moved on its own: the path goes on with the next move.
     void restart();
@@ -37,8 +37,6 @@ public:
     // Greatest distance so far, mm, and the line of the move that was nearest there.
     double greatest() const { return greatest_; }
     std::uint32_t line() const { return line_; }
-    // Of the last set point, mm.
-    double latest() const { return latest_; }
 
 private:
     struct Stretch {
@@ -53,7 +51,6 @@ private:
     double place_{0};  // of the last set point
     Position last_{};
     double greatest_tolerance_{0};
-    double latest_{0};
     double greatest_{0};
     std::uint32_t line_{0};
 };

@@ -11,7 +11,6 @@ namespace cusp::simulate {
 
 using program_run::ProgramRun;
 using program_run::RunOptions;
-using program_run::SetPoint;
 
 namespace {
 

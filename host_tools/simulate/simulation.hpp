@@ -11,6 +11,8 @@
 
 namespace cusp::simulate {
 
+using SetPoint = program_run::SetPoint;
+
 // How far a run is; called some ten times a second.
 struct SimulationProgress {
     double fraction;     // of the program's bytes
