@@ -9,6 +9,7 @@
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/job/job.hpp"
 #include "host_tools/simulate/settings_file.hpp"
+#include "host_tools/view/page_still.hpp"
 #include "host_tools/view/page_text.hpp"
 #include "host_tools/view/run_page.hpp"
 
@@ -22,6 +23,7 @@ using import::read_job;
 using job::Job;
 using simulate::read_settings_file;
 using view::Page;
+using view::page_still;
 using view::page_text;
 using view::pages_hold_core;
 using view::run_page;
@@ -37,6 +39,7 @@ struct ViewArguments {
     std::string settings_file;
     std::string page;
     bool playground{false};
+    std::string still;
 };
 
 RunPage page_of(const ViewArguments& arguments)
@@ -66,8 +69,9 @@ RunPage page_of(const ViewArguments& arguments)
 int write_playground(const ViewArguments& arguments)
 {
     if (!arguments.program.empty() || !arguments.job_file.empty() ||
-        !arguments.settings_file.empty()) {
-        throw InputError{"cusp view --playground takes no program, job or settings: its page does"};
+        !arguments.settings_file.empty() || !arguments.still.empty()) {
+        throw InputError{
+            "cusp view --playground takes no program, job, settings or still: its page does"};
     }
     const std::string_view page = page_text(Page::kPlayground);
     if (page.empty()) {
@@ -92,6 +96,9 @@ int run_view(const ViewArguments& arguments)
     }
     const RunPage page = page_of(arguments);
     write_text(arguments.page, page.html);
+    if (!arguments.still.empty()) {
+        write_text(arguments.still, page_still(arguments.page));
+    }
     constexpr double kMegabyte = 1048576.0;
     fmt::print("{}: {} ticks, {:.2f} MB\n{}\n", arguments.page, page.ticks,
                static_cast<double>(page.html.size()) / kMegabyte, page.verdict);
@@ -121,6 +128,8 @@ void add_view_command(CLI::App& app, Work& work)
         "--playground", arguments->playground,
         "write a page that runs any program that is opened in it, on the firmware's core");
     command->add_option("-o,--output", arguments->page, "page to write (HTML)")->required();
+    command->add_option("--still", arguments->still,
+                        "picture of the scene to write (PNG): by Chromium, where it is installed");
     command->callback([&work, arguments] {
         work = [arguments] {
             return run_view(*arguments);

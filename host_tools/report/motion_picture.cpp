@@ -177,8 +177,7 @@ std::string axis_panel(const MotionProfile& profile,
     constexpr std::array<char, kAxisCount> kNames{'X', 'Y', 'Z'};
     constexpr double kUpper = 110;  // rounding to nanometres adds a few per cent of a jerk
     constexpr double kStep = 50;
-    const std::string title =
-        fmt::format("{}, % of its limits", kNames.at(axis));
+    const std::string title = fmt::format("{}, % of its limits", kNames.at(axis));
     return panel_of({static_cast<int>(axis) + 1, seconds, kUpper}, title, kStep, curves,
                     profile.seconds_each());
 }
