@@ -97,13 +97,27 @@ def add_trace(found, program, folder, out):
                   "statistics of sim": figures(out / "sim.json"), "pulse trace": trace.hexdigest().encode()})
 
 
+def keys_that_differ(a, b):
+    """Keys that only one of two JSON objects has, in words, or nothing."""
+    try:
+        was, now = json.loads(a), json.loads(b)
+    except ValueError:
+        return None
+    if not (isinstance(was, dict) and isinstance(now, dict)) or was.keys() == now.keys():
+        return None
+    return f"keys added: {sorted(now.keys() - was.keys())}, gone: {sorted(was.keys() - now.keys())}"
+
+
 def difference(old, new):
-    """The first thing that differs, with its line, or nothing."""
+    """The first thing that differs, with its line, or nothing. A key more or less is a difference, and named."""
     for key in old.keys() | new.keys() if old.keys() != new.keys() else old:
         a, b = old.get(key), new.get(key)
         if a is None or b is None:
             return f"{key}: only one of the programs has it"
         if a != b:
+            keys = keys_that_differ(a, b)
+            if keys:
+                return f"{key}: {keys}"
             lines = zip(a.split(b"\n") + [b"(the end)"], b.split(b"\n") + [b"(the end)"])
             number, (was, now) = next((i, pair) for i, pair in enumerate(lines, 1) if pair[0] != pair[1])
             return f"{key}, line {number}: {was[:200].decode(errors='replace')!r} is now {now[:200].decode(errors='replace')!r}"

@@ -58,6 +58,9 @@ class CompareBytes(unittest.TestCase):
     def test_statistics_that_differ_are_found(self):
         self.assert_found("plan", "--stats", '"passes": ', '"passes": 1', "statistics of plan, line")
 
+    def test_a_key_that_is_added_is_found(self):
+        self.assert_found("verify", "--stats", "{", '{"new": 1, ', "figures of verify: keys added: ['new'], gone: []")
+
     def test_a_message_more_is_found(self):
         self.assert_found("plan", "", "", "", "messages of plan, line")
 
