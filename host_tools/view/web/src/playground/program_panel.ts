@@ -2,7 +2,7 @@
 import type { RunError } from "../core/core";
 import { button, element } from "../elements";
 
-const MOST_EDITED = 1_000_000;  // characters
+const MOST_EDITED = 250_000;  // characters
 const SHOWN = 50_000;
 
 export class ProgramPanel {
