@@ -10,6 +10,7 @@
 #include "host_tools/dialect/answer.hpp"
 #include "host_tools/dialect/line_source.hpp"
 #include "host_tools/dialect/program_lines.hpp"
+#include "host_tools/dialect/refusal.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/simulate/mill_setup.hpp"
 #include "host_tools/simulate/samples_writer.hpp"
@@ -21,10 +22,11 @@ using dialect::alarm_text;
 using dialect::Answer;
 using dialect::AnswerKind;
 using dialect::bare_line;
-using dialect::error_text;
 using dialect::LineSource;
 using dialect::numbered_line;
 using dialect::parse_answer;
+using dialect::refusal_text;
+using dialect::refused_word;
 
 namespace {
 
@@ -151,9 +153,12 @@ public:
     {
     }
 
-    void send(const std::string& line, std::uint64_t number)
+    //   line   as it goes to the controller
+    //   block  as the program has it
+    void send(const std::string& line, const std::string& block, std::uint64_t number)
     {
         controller_.board().byte_link.send(line + "\n");
+        block_ = block;
         number_ = number;
         waiting_ = true;
     }
@@ -183,20 +188,22 @@ private:
             waiting_ = false;
         } else if (answer.kind == AnswerKind::kError) {
             waiting_ = false;
-            result_.errors.push_back({number_, answer.code, std::string{error_text(answer.code)}});
+            result_.errors.push_back({number_, answer.code, refusal_text(answer.code, block_), block_,
+                                      refused_word(answer.code, block_)});
         } else if (answer.kind == AnswerKind::kAlarm) {
             result_.alarm = answer.code;
             result_.errors.push_back(
-                {number_, answer.code, "alarm: " + std::string{alarm_text(answer.code)}});
+                {number_, answer.code, "alarm: " + std::string{alarm_text(answer.code)}, "", ""});
         } else if (answer.kind == AnswerKind::kBanner && begun_) {
             waiting_ = false;
-            result_.errors.push_back({number_, 0, "the controller was reset"});
+            result_.errors.push_back({number_, 0, "the controller was reset", "", ""});
         }
     }
 
     SimulatedController& controller_;
     SimulationResult& result_;
     std::string heard_;
+    std::string block_;
     std::uint64_t number_{0};
     bool waiting_{false};
     bool begun_{false};
@@ -233,7 +240,7 @@ public:
         if (instruments.shadow().in_nurbs() && !sender_.failed()) {
             constexpr int kInvalidTarget = 33;
             result_.errors.push_back(
-                {source_.line_number(), kInvalidTarget, "the program ends inside a NURBS"});
+                {source_.line_number(), kInvalidTarget, "the program ends inside a NURBS", "", ""});
         }
         instruments.finish(result_);
         result_.lines = source_.line_number();
@@ -250,7 +257,7 @@ private:
         if (!options_.settings.on(machine::Setting::kHoming)) {
             return;
         }
-        sender_.send("$H", 0);
+        sender_.send("$H", "", 0);
         while (sender_.waiting() && !sender_.failed()) {
             controller_.tick();
             sender_.listen();
@@ -310,7 +317,7 @@ private:
             if (effects_.pauses) {
                 note_pause();
             }
-            sender_.send(numbered, source_.line_number());
+            sender_.send(numbered, *line, source_.line_number());
             return true;
         }
         return false;
@@ -353,7 +360,7 @@ private:
         resting_ticks_ = rests ? resting_ticks_ + 1 : 0;
         if (resting_ticks_ > kPatience) {
             result_.errors.push_back(
-                {source_.line_number(), 0, "the controller rests and answers no more"});
+                {source_.line_number(), 0, "the controller rests and answers no more", "", ""});
         }
     }
 
