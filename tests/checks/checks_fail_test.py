@@ -131,6 +131,14 @@ class ChecksOfTheTree(unittest.TestCase):
     def test_doc_names_needs_the_document(self):
         self.assertEqual(self.run_check("doc_names.py", "docs/none.md")[0], 2)
 
+    def test_line_lengths_refuses_a_long_line(self):
+        self.assertEqual(self.run_check("line_lengths.py", "10", "docs/papers.md")[0], 2)
+        self.write("docs/papers.md", "short\n" + "a" * 10 + "\n")
+        self.assertEqual(self.run_check("line_lengths.py", "10", "docs/papers.md")[0], 0)
+        status, text = self.run_check("line_lengths.py", "9", "docs/papers.md")
+        self.assertEqual(status, 1)
+        self.assertIn("docs/papers.md:2: 10 characters; limit 9", text)
+
     def test_headers_refuses_one_that_leans_on_its_reader(self):
         self.write("firmware/base/vec.hpp", "#pragma once\nstd::size_t size();\n")
         self.assertEqual(self.run_check("headers.py", "g++")[0], 1)
