@@ -125,6 +125,11 @@ class ChecksOfTheTree(unittest.TestCase):
         self.assertEqual(self.run_check("doc_names.py", "docs/life.md")[0], 0)
         self.write("docs/life.md", "`norm()` then `Vec::dot()`\n")
         self.assertEqual(self.run_check("doc_names.py", "docs/life.md")[0], 1)
+        self.write("firmware/base/vec.hpp", "int norm(int x);\nclass UnitVector;\n")
+        self.write("docs/life.md", "`UnitVector::norm()` of a `UnitVector`\n")
+        self.assertEqual(self.run_check("doc_names.py", "docs/life.md")[0], 0)
+        self.write("docs/life.md", "`UnitVectors`\n")
+        self.assertEqual(self.run_check("doc_names.py", "docs/life.md")[0], 1)
         self.write("docs/life.md", "in `firmware/base/vector.hpp`\n")
         self.assertEqual(self.run_check("doc_names.py", "docs/life.md")[0], 1)
 
