@@ -144,6 +144,22 @@ class ChecksOfTheTree(unittest.TestCase):
         self.assertEqual(status, 1)
         self.assertIn("docs/papers.md:2: 10 characters; limit 9", text)
 
+    def test_front_doors_need_a_row_and_an_example(self):
+        self.assertEqual(self.run_check("front_doors.py")[0], 2)
+        self.write("firmware/base/vec.hpp", "// Vectors.\n//\n//   Vec3d v{1, 2, 3};\n#pragma once\n")
+        self.write("docs/architecture.md", "| firmware/base | `vec.hpp` |\n")
+        self.assertEqual(self.run_check("front_doors.py")[0], 0)
+        self.write("firmware/path/line.hpp", "// Lines.\n")
+        status, text = self.run_check("front_doors.py")
+        self.assertEqual(status, 1)
+        self.assertIn("firmware/path has no row", text)
+        self.write("docs/architecture.md", "| firmware/base | `vec.hpp` |\n| firmware/path | `line.hpp` |\n")
+        status, text = self.run_check("front_doors.py")
+        self.assertEqual(status, 1)
+        self.assertIn("firmware/path/line.hpp:1: the opening comment of a front door needs an example", text)
+        self.write("docs/architecture.md", "| firmware/base | `vec.hpp` |\n| firmware/path | `arc.hpp` |\n")
+        self.assertIn("firmware/path/arc.hpp does not exist", self.run_check("front_doors.py")[1])
+
     def test_headers_refuses_one_that_leans_on_its_reader(self):
         self.write("firmware/base/vec.hpp", "#pragma once\nstd::size_t size();\n")
         self.assertEqual(self.run_check("headers.py", "g++")[0], 1)
