@@ -85,6 +85,7 @@ def filtered(lines):
 
 def main(top, folder):
     for place in FOLDERS:
+        (folder / place).mkdir(parents=True, exist_ok=True)
         for header in sorted((top / place).rglob("*.hpp")):
             copy = folder / header.relative_to(top)
             copy.parent.mkdir(parents=True, exist_ok=True)
