@@ -1,5 +1,9 @@
 // Elber and Cohen's adaptive isocurves for models of trimmed NURBS surfaces, and what they are
 // compared with: complete isocurves.
+//
+//     const std::vector<toolpath::PlannedOperation> planned = plan_adaptive_isocurve(job, operation);
+//     planned.front().path.moves;            // of the tool's tip
+//     planned.front().stats.scallop_bound_mm;  // what may be left, at most
 #pragma once
 
 #include <vector>

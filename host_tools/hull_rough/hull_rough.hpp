@@ -1,5 +1,9 @@
 // Layered roughing of B-spline surfaces under their convex hull boxes, after Chuang & Pan.
 //
+//     const std::vector<toolpath::PlannedOperation> planned = plan_hull_rough(job, operation);
+//     planned.front().path.moves;            // of the tool's tip
+//     planned.front().stats.counts;            // layers, patches, boxes
+//
 // The surfaces become Bezier patches by knot insertion; each patch lies in the box of its control
 // points. Tops of boxes divide the stock into layers; in each layer the boxes that reach above its
 // bottom are islands, and the rest is cleared like a pocket, so no surface is ever cut into.

@@ -1,5 +1,10 @@
-// Readers: job files, surfaces, meshes, loops. Everything they return is in millimetres, and
-// checked.
+// Readers of job files, surfaces, meshes and loops. Results are in millimetres, and checked.
+//
+//     const job::Job job = read_job("part.toml");  // with the parts that it names
+//     const std::vector<nurbs::Surface> faces = read_surfaces("part.step");
+//     const job::Loop wall = read_loop("plate.dxf#outline");
+//
+// Every reader throws InputError with file, place, value and limit.
 #pragma once
 
 #include <array>

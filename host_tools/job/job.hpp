@@ -1,4 +1,17 @@
-// A job: what to cut, with which tool, how. Data without a reader. Everything in millimetres.
+// A job: what to cut, with which tool, how. Plain data, everything in millimetres; `import` reads
+// it, strategies and `verify` take it.
+//
+//     job::Job job;
+//     job.feed = 1200;  // mm/min
+//     job::Operation finish;
+//     finish.strategy = "adaptive_isocurve";
+//     finish.floor = surfaces;
+//     finish.tool = {1, toolpath::ToolShape::kBall, 3.0, 3.0};
+//     finish.scallop = 0.02;
+//     finish.floor_tolerance = finish.plan_tolerance = 0.01;
+//     job.operations.push_back(finish);
+//
+// docs/job_file.md explains the keys of the file; each has a member here.
 #pragma once
 
 #include <array>

@@ -1,5 +1,9 @@
 // NURBS curves and surfaces of any size on the host: evaluate, derive, insert knots, split.
 // Millimetres and doubles throughout. Evaluation outside the domain is clamped to it.
+//
+//     const double u = 0.5 * (surface.u_begin() + surface.u_end());
+//     const double v = 0.5 * (surface.v_begin() + surface.v_end());
+//     const SurfacePoint p = derivatives_at(surface, u, v);  // p.point, p.du, p.dv, p.duu ...
 #pragma once
 
 #include <array>

@@ -1,6 +1,13 @@
 // Offsets of regions bounded by lines and true arcs: every level is taken from the source contours,
 // arcs stay arcs, and what is kept is decided by distance, not by the sign of an area.
 //
+//     const RegionOffset walls{region};
+//     for (double distance = 3.0;; distance += 2.0) {
+//         const Region2d level = walls.at(distance);
+//         if (level.contours.empty()) { break; }
+//         ...
+//     }
+//
 // All source contours are offset together, so an island that meets the boundary or another island,
 // a neck that closes and a part that splits need no case of their own: the raw offset pieces are
 // cut where they cross, and a piece belongs to the result exactly where no source edge lies nearer.

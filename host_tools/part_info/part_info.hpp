@@ -1,5 +1,9 @@
-// What a part is, for somebody who has been handed a file: size, faces, loops, steepness, hollows,
-// faults. `inspect_part` reads a file of any kind; text and JSON of what it finds are below.
+// What a part file holds: unit, size, faces, loops, steepness, hollows, faults. The front door of
+// `part_info`; docs/part_info.md explains each line.
+//
+//     const PartInfo info = inspect_part("part.step", {});
+//     fmt::print("{}", text_of(info));  // aligned lines
+//     if (info.ball) { ... }            // the largest ball that reaches everything
 #pragma once
 
 #include <array>

@@ -1,8 +1,14 @@
-// Streamer: sends a program to a Grbl controller line by line, keeps its buffer full, and tells
-// what became of it.
+// Streamer: sends a program to a Grbl controller line by line, keeps its buffer full, and reports
+// how the transfer ended. The front door of `stream`.
 //
-// Flow control is by counting characters (FlowWindow). Realtime bytes go past the lines that wait.
-// Nothing of the program is held but the lines not yet answered.
+//     const std::unique_ptr<Transport> transport = open_transport("/dev/ttyUSB0", 115200);
+//     dialect::ProgramLines program{"part.ngc"};
+//     Streamer streamer{*transport, watcher, {}};  // watcher: your StreamWatcher
+//     const StreamReport report = streamer.run(program, stop);
+//     if (report.outcome == StreamOutcome::kError) { ... report.text ... }
+//
+// Flow control counts characters (FlowWindow). Realtime bytes overtake waiting lines. Only lines
+// that are not yet answered are held in memory.
 #pragma once
 
 #include <atomic>
