@@ -2,7 +2,7 @@
 
 # Builds the product.
 host_packages="g++ cmake ninja-build libcli11-dev libeigen3-dev libfmt-dev libserialport-dev libtomlplusplus-dev
-    nlohmann-json3-dev"
+    nlohmann-json3-dev zlib1g-dev"
 # Also reads STEP and IGES.
 cad_packages="libocct-data-exchange-dev"
 # Builds the images of the boards.

@@ -18,16 +18,16 @@
 
 namespace cusp::cli {
 
+using program_run::ProgramMoveCounts;
+using program_run::ToolTime;
 using simulate::input_named;
 using simulate::parse_line_faults;
-using simulate::ProgramMoveCounts;
 using simulate::read_script;
 using simulate::read_settings_file;
 using simulate::ServeOptions;
 using simulate::SimulationOptions;
 using simulate::SimulationProgress;
 using simulate::SimulationResult;
-using simulate::ToolTime;
 
 namespace {
 

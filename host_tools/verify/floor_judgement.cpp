@@ -281,9 +281,9 @@ void fill_figures(const Sums& sums, std::size_t cells, VerifyFigures& figures)
 
 }  // namespace
 
-std::vector<double> judge_floor(const FloorQuestion& q, VerifyFigures& figures)
+FloorMaps judge_floor(const FloorQuestion& q, VerifyFigures& figures)
 {
-    const PartHeights part = part_heights(q.surfaces, q.mesh, q.grid);
+    PartHeights part = part_heights(q.surfaces, q.mesh, q.grid);
     Ideal ideal = ideal_heights(q, part);
     const double radius = least_radius(q.tools);
     const double bound = q.scallop.value_or(kFar);
@@ -342,7 +342,12 @@ std::vector<double> judge_floor(const FloorQuestion& q, VerifyFigures& figures)
         find_thickest(q, ideal, clear, left, figures);
     }
     fill_figures(sums, cells, figures);
-    return left;
+    for (std::size_t k = 0; k < q.grid.size(); ++k) {
+        if (clear[k] < 0) {
+            part.z[k] = q.top;
+        }
+    }
+    return {std::move(left), std::move(part.z)};
 }
 
 }  // namespace cusp::verify

@@ -77,6 +77,7 @@ struct Verification {
     // for pictures
     HeightGrid grid;
     std::vector<double> left;  // mm above what is reachable; NaN outside the floor, +inf uncut
+    std::vector<double> part;  // z; NaN where there is none, the stock's top beyond walls
     Program program;
 };
 
