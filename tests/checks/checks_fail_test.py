@@ -147,17 +147,17 @@ class ChecksOfTheTree(unittest.TestCase):
     def test_front_doors_need_a_row_and_an_example(self):
         self.assertEqual(self.run_check("front_doors.py")[0], 2)
         self.write("firmware/base/vec.hpp", "// Vectors.\n//\n//   Vec3d v{1, 2, 3};\n#pragma once\n")
-        self.write("docs/architecture.md", "| firmware/base | `vec.hpp` |\n")
+        self.write("docs/architecture.md", "| `firmware/base` | `vec.hpp` |\n")
         self.assertEqual(self.run_check("front_doors.py")[0], 0)
         self.write("firmware/path/line.hpp", "// Lines.\n")
         status, text = self.run_check("front_doors.py")
         self.assertEqual(status, 1)
         self.assertIn("firmware/path has no row", text)
-        self.write("docs/architecture.md", "| firmware/base | `vec.hpp` |\n| firmware/path | `line.hpp` |\n")
+        self.write("docs/architecture.md", "| `firmware/base` | `vec.hpp` |\n| `firmware/path` | `line.hpp` |\n")
         status, text = self.run_check("front_doors.py")
         self.assertEqual(status, 1)
         self.assertIn("firmware/path/line.hpp:1: the opening comment of a front door needs an example", text)
-        self.write("docs/architecture.md", "| firmware/base | `vec.hpp` |\n| firmware/path | `arc.hpp` |\n")
+        self.write("docs/architecture.md", "| `firmware/base` | `vec.hpp` |\n| `firmware/path` | `arc.hpp` |\n")
         self.assertIn("firmware/path/arc.hpp does not exist", self.run_check("front_doors.py")[1])
 
     def test_glossary_refuses_a_noun_that_it_lacks(self):
