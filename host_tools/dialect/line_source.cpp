@@ -1,4 +1,4 @@
-// Reading lines.
+// Splits a file into lines.
 #include "host_tools/dialect/line_source.hpp"
 
 #include <cerrno>
