@@ -20,7 +20,7 @@ namespace {
 constexpr int kUncut = -2;
 constexpr std::size_t kMostCells = 400;  // along the longer side of the picture
 
-// The highest of the values of a square of grid points; an uncut one beats all.
+// The highest value of a square of grid points; an uncut point counts as the highest.
 int step_of_square(
     const Verification& result, std::size_t i0, std::size_t j0, std::size_t size, double highest)
 {
@@ -54,7 +54,7 @@ std::string left_picture(const Job& job, const Verification& result)
         std::max<std::size_t>(1, (std::max(grid.nx, grid.ny) + kMostCells - 1) / kMostCells);
     const double highest =
         result.figures.scallop_bound.value_or(std::max(1e-3, result.figures.scallop_p99));
-    // the last is what was not cut
+    // the last colour marks what was not cut
     ColourRuns runs{kColourSteps + 1};
     const double side = static_cast<double>(size) * grid.pitch;
     for (std::size_t i = 0; i < grid.nx; i += size) {
