@@ -12,8 +12,21 @@ package_packages="$host_packages $cad_packages $image_packages dpkg-dev file hel
 # Runs all tests.
 test_packages="$host_packages $cad_packages $image_packages cpputest libpolyclipping-dev python3 python3-numpy
     clang-format-14 libunicorn-dev qemu-system-arm g++-riscv64-linux-gnu qemu-user clang libclang-rt-14-dev doxygen git"
+# Builds the core in WebAssembly, for the pages and npm.
+wasm_packages="clang lld wasi-libc libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32"
 # Runs the demo and the packages in a bare root.
 fresh_packages="mmdebstrap"
+
+# Bundles the pages of cusp view; the commands may come from elsewhere.
+npm_packages() {
+    command -v node >/dev/null || echo nodejs
+    command -v npm >/dev/null || echo npm
+}
+# Also tests them in a browser.
+view_packages() {
+    npm_packages
+    command -v chromium >/dev/null || echo chromium
+}
 
 # missing_packages PACKAGE...: those that are not installed
 missing_packages() {

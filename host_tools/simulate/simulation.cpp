@@ -35,7 +35,7 @@ public:
                 start_trace(board);
             };
         }
-        if (samples_ || options_.line_started) {
+        if (samples_ || options_.line_started || options_.set_point) {
             run.set_point = [this](const SetPoint& set_point) {
                 take(set_point);
             };

@@ -32,6 +32,8 @@ struct FloorQuestion {
 struct FloorMaps {
     // mm over what can be reached; NaN outside the floor, +infinity where nothing was cut.
     std::vector<double> left;
+    // mm cut below the part inside the walls; 0 where none is.
+    std::vector<double> gouge;
     // z of the part; NaN where it has none. Beyond walls the stock's top.
     std::vector<double> part;
 };

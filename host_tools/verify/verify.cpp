@@ -322,6 +322,7 @@ Verification verify(const Job& job,
          scene.scallop, scene.path_clearance, runs, most_left(scene, tools, spacing)},
         figures);
     result.left = std::move(maps.left);
+    result.gouge = std::move(maps.gouge);
     result.part = std::move(maps.part);
     judge(scene, result);
     return result;

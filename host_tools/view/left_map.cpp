@@ -27,13 +27,21 @@ void put_planes(const std::vector<std::uint16_t>& values, Bytes& out)
     }
 }
 
+// Below 0 where the part is cut into; else what is left over what tools reach; NaN: no floor.
+double over_part(const Verification& v, std::size_t k)
+{
+    return v.gouge[k] > kJudgement ? -v.gouge[k]
+           : std::isnan(v.left[k]) ? v.left[k]
+                                   : std::max(0.0, v.left[k]);
+}
+
 // The value of a square that is farthest from 0; NaN where none has a floor.
 double worst_of_square(const Verification& v, std::size_t i0, std::size_t j0, std::size_t size)
 {
     double worst = std::numeric_limits<double>::quiet_NaN();
     for (std::size_t i = i0; i < std::min(v.grid.nx, i0 + size); ++i) {
         for (std::size_t j = j0; j < std::min(v.grid.ny, j0 + size); ++j) {
-            const double left = v.left[v.grid.index(i, j)];
+            const double left = over_part(v, v.grid.index(i, j));
             if (!std::isnan(left) && !(std::abs(left) <= std::abs(worst))) {
                 worst = left;
             }
@@ -69,8 +77,8 @@ std::vector<WorstPlace> worst_places(const Verification& v, double top)
     const double scallop = std::max(kJudgement, v.figures.scallop_bound.value_or(allowed));
     std::vector<Candidate> all;
     for (std::size_t k = 0; k < v.left.size(); ++k) {
-        const double left = v.left[k];
-        if (left < -kJudgement) {
+        const double left = over_part(v, k);
+        if (left < 0) {
             all.push_back({-left / allowed, k});
         } else if (left > kJudgement) {
             const double over = std::isinf(left) ? top - v.part[k] : left;
@@ -99,7 +107,7 @@ std::vector<WorstPlace> worst_places(const Verification& v, double top)
         if (near_another) {
             continue;
         }
-        const double left = v.left[candidate.k];
+        const double left = over_part(v, candidate.k);
         if (left < 0) {
             places.push_back({"gouge", -left, at});
         } else if (std::isinf(left)) {

@@ -14,6 +14,9 @@ std::string_view page_text(Page page);
 std::string_view why_no_page();
 
 // Where a page takes its figures, before the script, and its data, after it.
+// Whether the pages hold the firmware's core in WebAssembly.
+bool pages_hold_core();
+
 inline constexpr std::string_view kFactsPlace = "@FACTS@\n";
 inline constexpr std::string_view kDataPlace = "@DATA@\n";
 

@@ -7,8 +7,8 @@
 
 namespace cusp::view {
 
-using simulate::SimulationError;
-using simulate::ToolTime;
+using program_run::RunError;
+using program_run::ToolTime;
 using toolpath::Tool;
 using verify::ToolFigures;
 using verify::VerifyFigures;
@@ -55,7 +55,7 @@ Json run_facts(const RunFacts& facts)
 {
     const auto& run = facts.run;
     Json errors = Json::array();
-    for (const SimulationError& error : run.errors) {
+    for (const RunError& error : run.errors) {
         errors.push_back({{"line", error.line}, {"code", error.code}, {"text", error.text}});
     }
     return {{"total_s", run.total_s},

@@ -7,7 +7,7 @@
 
 #include "firmware/base/machine_limits.hpp"
 #include "host_tools/job/job.hpp"
-#include "host_tools/simulate/simulation.hpp"
+#include "host_tools/program_run/program_run.hpp"
 #include "host_tools/verify/verify.hpp"
 #include "host_tools/view/left_map.hpp"
 #include "host_tools/view/program_reading.hpp"
@@ -17,7 +17,7 @@ namespace cusp::view {
 struct RunFacts {
     std::string program;
     const ProgramReading& reading;
-    const simulate::SimulationResult& run;
+    const program_run::RunResult& run;
     const MachineLimits& limits;
     std::uint64_t ticks;
     std::uint64_t start_us;

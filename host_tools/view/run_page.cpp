@@ -17,7 +17,7 @@
 
 namespace cusp::view {
 
-using simulate::SetPoint;
+using program_run::SetPoint;
 using simulate::SimulationOptions;
 using simulate::SimulationProgress;
 using simulate::SimulationResult;
@@ -106,16 +106,16 @@ RunPage run_page(const std::string& program, const RunPageOptions& options)
         throw InputError{fmt::format("cusp view has no page: {}", why_no_page())};
     }
     const ProgramReading reading = read_program_lines(program);
-    std::optional<Verification> verification;
+    std::optional<Verification> own;
     std::string why;
-    if (options.job != nullptr) {
-        verification = cut(program, options, why);
+    if (options.job != nullptr && options.verification == nullptr) {
+        own = cut(program, options, why);
     }
-    const HeightGrid grid = verification ? coarse_grid(verification->grid) : HeightGrid{};
-    RunRecord record{reading, verification ? kSpacingShare * grid.pitch : kAnySpacing};
+    const Verification* cut_part = own ? &*own : options.verification;
+    const HeightGrid grid = cut_part != nullptr ? coarse_grid(cut_part->grid) : HeightGrid{};
+    RunRecord record{reading, cut_part != nullptr ? kSpacingShare * grid.pitch : kAnySpacing};
     const SimulationResult result = run(program, options, record);
 
-    const Verification* cut_part = verification ? &*verification : nullptr;
     RunFacts facts{std::filesystem::path{program}.filename().string(),
                    reading,
                    result,

@@ -13,12 +13,15 @@
 
 #include "firmware/machine/settings.hpp"
 #include "host_tools/job/job.hpp"
+#include "host_tools/verify/verify.hpp"
 
 namespace cusp::view {
 
 struct RunPageOptions {
     machine::Settings settings;
     const job::Job* job{nullptr};  // none: path and tool alone
+    // Of the job and this program; none: run_page() verifies.
+    const verify::Verification* verification{nullptr};
     // Called with the share done of what is named.
     std::function<void(const char* what, double share)> progress;
     std::function<bool()> stop;

@@ -8,7 +8,7 @@
 
 namespace cusp::view {
 
-void RunRecord::add(const simulate::SetPoint& point)
+void RunRecord::add(const program_run::SetPoint& point)
 {
     const auto known = [&](std::uint32_t line) {
         return std::min<std::size_t>(line, reading_.rapid.size() - 1);

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "host_tools/simulate/simulation.hpp"
+#include "host_tools/program_run/program_run.hpp"
 #include "host_tools/view/path_vertices.hpp"
 #include "host_tools/view/program_reading.hpp"
 #include "host_tools/view/sample_blocks.hpp"
@@ -17,7 +17,7 @@ public:
     // spacing  mm between the places that cut the stock
     RunRecord(const ProgramReading& reading, double spacing) : reading_{reading}, path_{spacing} {}
 
-    void add(const simulate::SetPoint& point);
+    void add(const program_run::SetPoint& point);
 
     std::uint64_t ticks() const { return samples_.ticks(); }
     // Of the first set point on the clock of the pulse trace, microseconds.

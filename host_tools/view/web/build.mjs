@@ -82,7 +82,7 @@ for (const name of ["view", "playground"]) {
   const entry = join(here, "src", name + "_page.ts");
   pages[name] = "";
   if (existsSync(entry)) {
-    const style = ["node_modules/uplot/dist/uPlot.min.css", "page.css"]
+    const style = ["node_modules/uplot/dist/uPlot.min.css", "page.css", name + ".css"].filter((file) => existsSync(join(here, file)))
       .map((file) => readFileSync(join(here, file), "utf8").trim()).join("\n");
     pages[name] = page(name, (await bundled(entry)).trim(), style);
     writeFileSync(join(out, name + ".html"), pages[name]);
@@ -106,6 +106,8 @@ ${literal(pages.playground)};
 }
 
 std::string_view why_no_page() { return ""; }
+
+bool pages_hold_core() { return ${core ? "true" : "false"}; }
 
 }  // namespace cusp::view
 `);

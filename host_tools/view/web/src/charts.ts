@@ -1,8 +1,11 @@
 // Charts over time: each axis' velocity, acceleration and jerk as shares of their limits, and the speed along the path.
 import uPlot from "uplot";
 import { axisColours } from "./colours";
+import { element } from "./elements";
 import { kBucket, kBucketStep, kSpeedChannel } from "./run_data";
 import type { Timeline } from "./timeline";
+
+const kTitle = 16;  // px above a plot, as page.css has it
 
 interface Panel { title: string; unit: string; channels: number[]; scale: (channel: number) => number; top: number }
 
@@ -31,9 +34,9 @@ export class Charts {
     const { limits } = this.timeline.facts;
     const share = (limit: number[]) => (channel: number) => 100 / limit[channel % 3];
     return [
-      { title: "Velocity", unit: "% of limit", channels: [0, 1, 2], scale: share(limits.velocity), top: 100 },
-      { title: "Acceleration", unit: "% of limit", channels: [3, 4, 5], scale: share(limits.acceleration), top: 100 },
-      { title: "Jerk", unit: "% of limit", channels: [6, 7, 8], scale: share(limits.jerk), top: 100 },
+      { title: "Velocity", unit: "% of limit", channels: [0, 1, 2], scale: share(limits.velocity), top: 112 },
+      { title: "Acceleration", unit: "% of limit", channels: [3, 4, 5], scale: share(limits.acceleration), top: 112 },
+      { title: "Jerk", unit: "% of limit", channels: [6, 7, 8], scale: share(limits.jerk), top: 112 },
       { title: "Feed", unit: "mm/min", channels: [kSpeedChannel], scale: () => 60, top: 0 },
     ];
   }
@@ -51,13 +54,20 @@ export class Charts {
       box.setAttribute("aria-label", `${panel.title}, ${panel.unit}, over time in seconds`);
       const title = document.createElement("div");
       title.className = "chart-title";
-      title.textContent = `${panel.title}  ${panel.unit}`;
+      title.append(element("span", {}, panel.title, " ", element("small", {}, panel.unit)));
+      if (k === 0) {
+        "XYZ".split("").forEach((axis, c) => {
+          const swatch = element("span", { class: "swatch" });
+          swatch.style.background = colours[c];
+          title.append(element("span", { class: "axis-key" }, swatch, axis));
+        });
+      }
       box.append(title);
       this.host.append(box);
       const last = k === panels.length - 1;
       const axis = { stroke: text, grid: { stroke: grid, width: 1 }, ticks: { show: false }, font: "11px system-ui, sans-serif" };
       const plot = new uPlot({
-        ...this.sizeOf(last), legend: { show: false }, padding: [4, 8, 0, 0],
+        ...this.sizeOf(last), legend: { show: false }, padding: [2, 8, 0, 0],
         cursor: { drag: { x: true, y: false, setScale: false }, y: false, points: { show: false } },
         scales: {
           x: { time: false, auto: false, range: () => [this.from, this.to] },
@@ -65,7 +75,7 @@ export class Charts {
         },
         axes: [
           { ...axis, show: last, size: last ? 24 : 0, values: (_u: uPlot, at: number[]) => at.map((v) => `${+v.toFixed(3)} s`) },
-          { ...axis, size: 44, space: 22, gap: 2 },
+          { ...axis, size: 44, gap: 2, ...(panel.top ? { splits: () => [0, 50, 100] } : { space: 20 }) },
         ],
         series: [{}, ...panel.channels.map((channel) => ({
           stroke: panel.channels.length > 1 ? colours[channel % 3] : (this.dark ? "#d0d6dd" : "#39424d"), width: 1, points: { show: false },
@@ -89,7 +99,7 @@ export class Charts {
 
   private sizeOf(last: boolean): { width: number; height: number } {
     const box = this.host.getBoundingClientRect(), rows = 4;
-    const each = Math.max(Math.floor((box.height - 24) / rows), 40);
+    const each = Math.max(Math.floor((box.height - 26) / rows) - kTitle, 30);
     return { width: Math.max(Math.floor(box.width), 120), height: each + (last ? 24 : 0) };
   }
 

@@ -54,10 +54,10 @@ function boundRows(facts: PageFacts): Content[][] {
   add("Gouge, floor", v.gouge_max_mm, v.floor_tolerance, "mm", judged);
   add("Gouge, ball", v.ball_gouge_max_mm, v.floor_tolerance, "mm", judged);
   add("Gouge, walls", v.wall_gouge_max_mm, v.plan_tolerance, "mm", judged);
-  add("Rapid into metal", v.rapid_cut_max_mm, v.rapid_cut_bound_mm);
+  add("Rapid in metal", v.rapid_cut_max_mm, v.rapid_cut_bound_mm);
   if (v.scallop_bound_mm !== null) {
-    add("Scallop, 99 %", v.scallop_p99_mm, v.scallop_bound_mm);
-    add("Floor over scallop", v.uncovered_share, v.uncovered_bound, "%");
+    add("Scallop (99 %)", v.scallop_p99_mm, v.scallop_bound_mm);
+    add("Over scallop", v.uncovered_share, v.uncovered_bound, "%");
   }
   return rows;
 }
@@ -76,7 +76,6 @@ function warnings(facts: PageFacts, actions: FactsActions): Content[] {
   if (facts.not_verified) say(`The part is not verified: ${facts.not_verified}`);
   for (const broken of facts.verification?.broken ?? []) say(broken);
   if (run.stopped) say("The run was stopped before its end");
-  if (run.pauses > 0) say(`${run.pauses} pause${run.pauses > 1 ? "s" : ""} of the program (M0, M1, M6) went on at once`);
   return out;
 }
 
@@ -85,21 +84,22 @@ export function factsPanel(facts: PageFacts, actions: FactsActions): HTMLElement
   const warned = warnings(facts, actions);
   if (warned.length > 0) out.push(section("Warnings", element("ul", { class: "warnings" }, ...warned)));
   const farthest = run.max_deviation_line > 0
-    ? element("span", {}, `${figure(run.max_deviation_mm, 3)} mm, `, button(`line ${run.max_deviation_line}`, "Go to this line", () => actions.toLine(run.max_deviation_line)))
-    : `${figure(run.max_deviation_mm, 3)} mm`;
+    ? element("span", {}, `${figure(run.max_deviation_mm * 1000, 3)} µm `, button(`line ${run.max_deviation_line}`, "Go to this line", () => actions.toLine(run.max_deviation_line)))
+    : `${figure(run.max_deviation_mm * 1000, 3)} µm`;
   out.push(section("Run", rowsOf([
     ["Time in motion", duration(f.duration_s)],
     ["Length", metres(f.length_mm)],
     ["Moves", `${f.moves}`],
     ["Rapid, line, arc, NURBS", `${run.rapids}, ${run.lines_moved}, ${run.arcs}, ${run.nurbs}`],
-    ["Set points", `${f.ticks}`],
+    ["Set points, 1 ms", `${f.ticks}`],
+    ["Pauses, gone on at once", `${run.pauses}`],
     ["Off the path, most", farthest],
   ])));
-  const limits = section("Greatest, against limits", table(["", "X", "Y", "Z"], limitRows(facts)));
+  const limits = section("Greatest, against limits", table(["Axis", "X", "Y", "Z"], limitRows(facts)));
   limits.append(element("p", { class: "note" }, "Set points are whole nanometres: up to 4000 mm/s³ of jerk is rounding."));
   out.push(limits);
   if (facts.verification) {
-    out.push(section("Bounds of the job, as cut", table(["", "Measured", "Allowed", ""], boundRows(facts))));
+    out.push(section("Bounds of the job, as cut", table(["Bound", "Measured", "Allowed", "Verdict"], boundRows(facts))));
     const worst = f.worst ?? [];
     const places = worst.map((place) => {
       const label = element("span", { class: "kind kind-" + place.kind }, { gouge: "gouge", left: "left", uncut: "uncut" }[place.kind]);
@@ -111,7 +111,7 @@ export function factsPanel(facts: PageFacts, actions: FactsActions): HTMLElement
     out.push(section("Worst places", worst.length > 0 ? element("ol", { class: "worst" }, ...places) : element("p", {}, "None: nothing is gouged or left.")));
   }
   if (facts.tools.length > 0) {
-    out.push(section("Tools", table(["", "Shape", "Time", "Cut", "Deepest"], facts.tools.map((tool) => [
+    out.push(section("Tools", table(["Tool", "Shape", "Time", "Cut", "Deepest"], facts.tools.map((tool) => [
       tool.number > 0 ? `T${tool.number}` : "T–",
       tool.shape ? `${tool.shape} ${figure(2 * tool.radius!)}${tool.shape === "bull" ? ` r${figure(tool.corner_radius!)}` : ""} mm` : "not known",
       duration(tool.time_s),

@@ -7,11 +7,11 @@ import { keyHelp, listenToKeys, readout, sceneTools, transport } from "./control
 import type { Choices } from "./controls";
 import { button, duration, element, metres } from "./elements";
 import { factsPanel } from "./facts_panel";
+import type { RunResult } from "./core/core";
+import { runProgram } from "./core/run_program";
 import { loadRun, pageFacts } from "./page_data";
 import { ProgramList } from "./program_list";
 import type { MainFacts, Triple, WorstPlace } from "./run_data";
-import { runCore } from "./run_core";
-import type { RunResult } from "./run_core";
 import { Scene } from "./scene";
 import { Timeline } from "./timeline";
 import type { RunState } from "./timeline";
@@ -180,7 +180,7 @@ function pickOn(canvas: HTMLCanvasElement, timeline: Timeline, tickAt: (px: numb
 const { help } = frame();
 const early = () => { throw new Error("await cusp.ready first"); };
 window.cusp = {
-  ready: Promise.resolve(), facts: facts.facts, seek: early, state: early, linesAt: early, project: early, lineAt: early, show: early, run: runCore,
+  ready: Promise.resolve(), facts: facts.facts, seek: early, state: early, linesAt: early, project: early, lineAt: early, show: early, run: (text, settings) => runProgram(text, settings),
 };
 window.cusp.ready = open(help).catch(fail);
 window.cusp.ready.catch(() => undefined);
