@@ -1,4 +1,12 @@
 // Vectors of three numbers, and the exact position. Lengths are millimetres unless a name says nm.
+//
+//   Position tail = to_position({10.0, 0.0, -2.5});     // whole nanometres: sums stay exact
+//   double length = norm(to_millimetres(end - tail));   // double where geometry is prepared
+//   Vec3f local = to_float(to_millimetres(end - tail)); // float in the servo tick, from the
+//                                                       // block's start
+//
+// `base` holds the words that all modules share, one idea a header: vectors, axes (axis.hpp),
+// results (result.hpp), errors (error.hpp), pulse frames (pulse_frame.hpp), containers of fixed size.
 #pragma once
 
 #include <cmath>

@@ -81,9 +81,9 @@ constexpr Entry kEntries[] = {
     {3840, Group::kMotion, AxisUse::kMotion, as_value(Motion::kProbeAway)},
     {3850, Group::kMotion, AxisUse::kMotion, as_value(Motion::kProbeAwayQuietly)},
     {4000, Group::kCutterRadius, AxisUse::kNone, 0},
-    {4300, Group::kToolLength, AxisUse::kToolLength, as_value(ToolLength::kFromTable)},
+    {4300, Group::kToolLength, AxisUse::kNone, as_value(ToolLength::kFromTable)},
     {4310, Group::kToolLength, AxisUse::kToolLength, as_value(ToolLength::kDynamic)},
-    {4900, Group::kToolLength, AxisUse::kToolLength, as_value(ToolLength::kCancel)},
+    {4900, Group::kToolLength, AxisUse::kNone, as_value(ToolLength::kCancel)},
     {5300, Group::kNonModal, AxisUse::kNone, as_value(NonModal::kMachineCoordinates)},
     {5400, Group::kCoordinateSystem, AxisUse::kNone, 0},
     {5500, Group::kCoordinateSystem, AxisUse::kNone, 1},
@@ -95,6 +95,7 @@ constexpr Entry kEntries[] = {
     {5920, Group::kCoordinateSystem, AxisUse::kNone, 7},
     {5930, Group::kCoordinateSystem, AxisUse::kNone, 8},
     {6100, Group::kPathControl, AxisUse::kNone, 1},
+    {6110, Group::kPathControl, AxisUse::kNone, 1},
     {6400, Group::kPathControl, AxisUse::kNone, 0},
     {8000, Group::kMotion, AxisUse::kNone, as_value(Motion::kNone)},
     {8100, Group::kMotion, AxisUse::kMotion, as_value(Motion::kDrill)},
@@ -105,8 +106,10 @@ constexpr Entry kEntries[] = {
     {9110, Group::kArcDistance, AxisUse::kNone, 0},
     {9200, Group::kNonModal, AxisUse::kNonModal, as_value(NonModal::kSetCoordinateOffset)},
     {9210, Group::kNonModal, AxisUse::kNone, as_value(NonModal::kClearCoordinateOffset)},
+    {9220, Group::kNonModal, AxisUse::kNone, as_value(NonModal::kClearCoordinateOffset)},
     {9300, Group::kFeedMode, AxisUse::kNone, 1},
     {9400, Group::kFeedMode, AxisUse::kNone, 0},
+    {9700, Group::kSpindleMode, AxisUse::kNone, 0},
     {9800, Group::kReturnLevel, AxisUse::kNone, 0},
     {9900, Group::kReturnLevel, AxisUse::kNone, 1},
 };
@@ -168,6 +171,7 @@ void apply(Command& command, const Entry& entry) noexcept
         case Group::kStop:
         case Group::kToolChange:
         case Group::kSpindle:
+        case Group::kSpindleMode:
         case Group::kCoolant:
             break;
     }
@@ -379,6 +383,21 @@ private:
     std::size_t place_{0};
 };
 
+// Reads what follows the O or colon of a program number, `O1001` or `:1001`: it says nothing to a
+// controller that holds no programs. With any other word the line is a subprogram's.
+Status skip_program_number(Characters& characters, const Command& command) noexcept
+{
+    std::array<char, kMaxNumberLength> buffer{};
+    const std::string_view text = characters.number(buffer);
+    const bool alone = command.groups == 0 && (command.words & ~letter('N')) == 0;
+    bool digits = !text.empty();
+    for (const char c : text) {
+        digits = digits && c >= '0' && c <= '9';
+    }
+    return alone && digits && !characters.skip() ? Status{kDone}
+                                                 : Status{Error::kGcodeUnsupportedCommand};
+}
+
 }  // namespace
 
 Status read_command(std::string_view line, const ModalState& modal, Command& command) noexcept
@@ -393,6 +412,9 @@ Status read_command(std::string_view line, const ModalState& modal, Command& com
             return kDone;
         }
         first = false;
+        if (upper_case == 'O' || upper_case == ':') {
+            return skip_program_number(characters, command);
+        }
         if (upper_case < 'A' || upper_case > 'Z') {
             return Error::kExpectedCommandLetter;
         }

@@ -25,7 +25,7 @@ enum class NonModal : std::uint8_t {
     kStoreSecondHome,        // G30.1
     kMachineCoordinates,     // G53
     kSetCoordinateOffset,    // G92
-    kClearCoordinateOffset,  // G92.1
+    kClearCoordinateOffset,  // G92.1, G92.2
 };
 
 enum class ToolLength : std::uint8_t { kUnchanged, kCancel, kFromTable, kDynamic };
@@ -60,6 +60,7 @@ enum class Group : std::uint8_t {
     kStop,
     kToolChange,
     kSpindle,
+    kSpindleMode,
     kCoolant,
 };
 
@@ -92,7 +93,8 @@ struct Command {
 
 // Reads the words of a line; `modal` is the state before it.
 //
-// Comments in ( ) and after ;, spaces and '/' are skipped; a line that begins with % is blank.
+// Comments in ( ) and after ;, spaces and '/' are skipped; a line that begins with % is blank, and
+// so is a program number alone, O1001 or :1001.
 // Errors, in the order of the words:
 //   kExpectedCommandLetter, kBadNumberFormat       not a letter and a number
 //   kGcodeUnsupportedCommand                       a letter, G or M number that is not known

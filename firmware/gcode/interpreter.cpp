@@ -78,10 +78,24 @@ bool motion_takes_p(const Command& command) noexcept
            motion != Motion::kLine && motion != Motion::kDrill && motion != Motion::kDrillPecking;
 }
 
+// Whether a Q word of the line belongs to another command than G64.
+bool motion_takes_q(const Command& command) noexcept
+{
+    return command.axis_use == AxisUse::kMotion && (command.modal.motion == Motion::kDrillPecking ||
+                                                    command.modal.motion == Motion::kNurbs);
+}
+
 Status check_path_control(LineContext& line) noexcept
 {
     Command& command = line.command;
-    if (!command.names(Group::kPathControl) || command.modal.exact_path || !command.has('P')) {
+    if (!command.names(Group::kPathControl) || command.modal.exact_path) {
+        return kDone;
+    }
+    // Q is LinuxCNC's tolerance for merging lines; here the planner merges none.
+    if (command.has('Q') && !motion_takes_q(command)) {
+        command.use('Q');
+    }
+    if (!command.has('P')) {
         return kDone;
     }
     if (motion_takes_p(command)) {

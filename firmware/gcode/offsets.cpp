@@ -95,8 +95,6 @@ Status set_tool_length(LineContext& line, MotionPlan& plan) noexcept
             return value.error();
         }
         offset = value->rounded();
-    } else if (command.axes() != 0) {
-        return Error::kGcodeAxisWordsExist;
     }
     if (command.tool_length == ToolLength::kFromTable) {
         constexpr std::int64_t kMaxTool = 255;

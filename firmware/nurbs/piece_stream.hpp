@@ -1,5 +1,14 @@
 // A NURBS of any length, point by point, to exact rational Bezier pieces, in fixed memory.
 //
+//   PieceStream stream;
+//   stream.open(KnotSource::kUniform, 4, start);  // cubic
+//   for (const ControlPoint& point : rest) {
+//       stream.add_point(point);
+//       while (stream.next(piece)) { ... }
+//   }
+//   Status status = stream.close();
+//   while (stream.next(piece)) { ... }
+//
 // A span of a curve of order k depends on k control points and 2 (k - 1) knots only, so a piece can
 // leave as soon as those are known: 2 k points and knots are resident, however long the curve.
 #pragma once

@@ -2,6 +2,10 @@
 //
 // All three are relative to the start of the move, in millimetres; start and end themselves are
 // exact positions (Move). Parameters run over [0, length] by arc length where a name says `at`.
+//
+//   ArcWords words{start, end, Plane::kXY, true, 0, -10'000'000, 1};  // G2 I0 J-10
+//   Result<Arc> arc = make_arc(words);
+//   if (arc) { Move move; move.path = *arc; move.start = start; move.end = end; }
 #pragma once
 
 #include <cstdint>

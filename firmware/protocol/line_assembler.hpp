@@ -1,4 +1,16 @@
 // LineAssembler: bytes in, one clean line out: no spaces, no comments, capitals only, as in Grbl.
+// The front door of `protocol`, the serial dialect of docs/protocol.md.
+//
+//   LineAssembler assembler;
+//   while (queue.take(byte)) {                  // ReceiveQueue: bytes that wait
+//       if (assembler.add(byte)) {              // a line is complete
+//           if (!assembler.overflow()) { execute(assembler.line()); }
+//           assembler.begin_line();
+//       }
+//   }
+//
+// Realtime bytes never come here (realtime_command.hpp). A line that begins with '$' goes to
+// parse_system_command(); checked lines to CheckedLines; answers wait in a ReplyQueue.
 #pragma once
 
 #include <array>

@@ -1,4 +1,11 @@
 // Set points become pulse frames: every edge of the step and direction lines with its tick.
+//
+//   PulseMaker maker{settings};
+//   maker.reset(position);
+//   PulseFrame frame;
+//   maker.make_frame(set_point, frame);  // once a servo tick; a HAL plays the frame
+//
+// Integers only. docs/numerics.md, "Steps", derives the times of the edges.
 #pragma once
 
 #include <array>

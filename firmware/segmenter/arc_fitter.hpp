@@ -1,5 +1,14 @@
 // Runs of short lines to arcs and lines within a tolerance: greedy, streaming, in fixed memory.
 //
+//   ArcFitter fitter{settings, buffer};
+//   fitter.start(first);
+//   for (Vec3d vertex : rest) {
+//       while (!fitter.has_room() && fitter.next(move)) { ... }
+//       fitter.push(vertex);
+//   }
+//   fitter.finish();
+//   while (fitter.next(move)) { ... }  // move.is_arc, move.end, move.deviation
+//
 // An arc goes through the first and the last vertex that it replaces. Of all arcs through two
 // points, those that keep a third within its band form an interval of the bulge tan(sweep / 4), and
 // its ends are roots of a quadratic; so the arcs that keep all vertices are the intersection of

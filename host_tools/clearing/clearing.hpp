@@ -1,6 +1,14 @@
 // A plane region to closed passes of the tool's centre: offset loops, their order, and how one is
 // reached from the one before. What all planners share for pockets and layers.
 //
+//     ClearingSettings settings;
+//     settings.wall_clearance = tool.radius;
+//     settings.stepover = 0.5 * tool.radius;
+//     for (const ClearingPass& pass : clear_region(region, settings).passes) {
+//         if (pass.start == PassStart::kLink) { ... pass.link ... }
+//         ... pass.path ...  // a closed loop
+//     }
+//
 // Loops lie at growing distances from the contours. They form trees (a loop's child is the next one
 // inside it), which are cut deepest first, so that the tool works from the inside towards the walls
 // and each loop but the deepest of a branch starts beside metal already cut. Rings around islands

@@ -1,4 +1,10 @@
-// The commands of `cusp`: each adds itself to the command line and hands back its work.
+// The commands of `cusp`: each adds itself to the command line and returns its work.
+//
+//     CLI::App app{"cusp"};
+//     Work work;
+//     add_plan_command(app, work);
+//     app.parse(argc, argv);  // the command that was called sets `work`
+//     return work();
 #pragma once
 
 #include <functional>

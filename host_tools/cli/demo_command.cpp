@@ -52,7 +52,7 @@ struct DemoOptions {
     bool traces{};
 };
 
-// Before anything is computed: a folder that can't be written is known at once.
+// Checked before anything is computed: a folder that can't be written is refused at once.
 void make_folder(const fs::path& folder)
 {
     std::error_code failed;

@@ -77,7 +77,7 @@ int main(int argc, char** argv)
     try {
         return run(argc, argv);
     } catch (const std::exception& error) {
-        // One line, whatever a file's name holds.
+        // One line, whatever characters a file name contains.
         std::string text = error.what();
         std::replace_if(
             text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');

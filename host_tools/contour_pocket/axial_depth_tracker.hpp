@@ -18,7 +18,7 @@ public:
     // box     all places that tools may touch
     // finest  the smaller of the tools: the stock is known at points a 24th of its radius apart
     // top     of the uncut stock, z
-    // max_depth  mm: no cut may be deeper; kUnlimitedDepth where any may
+    // most    mm: no cut may be deeper; kUnlimitedDepth where any may
     AxialDepthTracker(const offset::Box2d& box,
                       const toolpath::Tool& finest,
                       double top,

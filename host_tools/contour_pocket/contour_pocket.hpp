@@ -1,6 +1,10 @@
 // Contour-parallel pocketing with a sculptured floor, after Suh & Lee (1990): offset loops of the
 // boundary and the islands, tool points from the floor, the paper's order.
 //
+//     const std::vector<toolpath::PlannedOperation> planned = plan_contour_pocket(job, operation);
+//     planned.front().path.moves;            // of the tool's tip
+//     planned.front().stats.scallop_bound_mm;  // what may be left, at most
+//
 // What is done differently, and why, is listed in docs/papers.md.
 #pragma once
 

@@ -128,9 +128,9 @@ private:
                 if (places_[index(i, j)] != Place::kBeside || centres_.any_nearer(p, first_)) {
                     continue;
                 }
-                const double floor = floor_.drop(p).z;
-                if (floor != DropCutter::kNoSurface && top - floor > least) {
-                    rest_[index(i, j)] = top - floor;
+                const auto floor = floor_.drop(p);
+                if (floor && top - floor->z > least) {
+                    rest_[index(i, j)] = top - floor->z;
                     by_wall_[index(i, j)] = true;
                 }
             }
@@ -165,7 +165,8 @@ private:
     {
         auto& slope = slopes_[index(i, j)];
         if (!slope) {
-            slope = tips_.drop(centre(i, j), 0.01 * radius_).slope;
+            const auto cl = tips_.drop(centre(i, j), 0.01 * radius_);
+            slope = cl ? cl->slope : Vec2d{};
         }
         return *slope;
     }
@@ -187,8 +188,8 @@ private:
     // floor at p.
     double left_over(Vec2d p)
     {
-        const double floor = floor_.drop(p).z;
-        if (floor == DropCutter::kNoSurface) {
+        const auto floor = floor_.drop(p);
+        if (!floor) {
             return 0.0;
         }
         const double fine = 0.5 * cell_;
@@ -205,7 +206,7 @@ private:
                 }
             }
         }
-        return best < 1e299 ? best - floor - 0.02 * radius_ : 0.0;
+        return best < 1e299 ? best - floor->z - 0.02 * radius_ : 0.0;
     }
 
     double tip_at(int k, int l, Vec2d at)
@@ -216,7 +217,7 @@ private:
         auto& height = heights_[static_cast<std::size_t>(k) * 2 * static_cast<std::size_t>(rows_) +
                                 static_cast<std::size_t>(l)];
         if (!height) {
-            height = walls_.clearance(at) < first_ ? 1e300 : tips_.drop(at, 0.005 * radius_).z;
+            height = walls_.clearance(at) < first_ ? 1e300 : tips_.tip_height(at, 0.005 * radius_);
         }
         return *height;
     }

@@ -1,4 +1,19 @@
-// Answer: one line that a Grbl controller says, understood.
+// The Grbl dialect from the sender's side: what a controller answers (this file), which lines of a
+// program are sent (program_lines.hpp), how many fit into its buffer (flow_window.hpp).
+//
+//     ProgramLines program{"part.ngc"};
+//     FlowWindow window;
+//     while (const std::optional<ProgramLine> line = program.next()) {
+//         const std::size_t size = line->text.size() + 1;
+//         while (!window.fits(size)) {
+//             const Answer answer = parse_answer(receive_line());
+//             if (answer.kind == AnswerKind::kOk) {
+//                 window.answered();
+//             }
+//         }
+//         window.sent(line->number, size);
+//         send(line->text + '\n');
+//     }
 #pragma once
 
 #include <cstdint>
@@ -10,7 +25,7 @@
 
 namespace cusp::dialect {
 
-// A status report `<State[:sub]|MPos:...|...>`. What it does not say is absent.
+// A status report `<State[:sub]|MPos:...|...>`. Fields that it lacks have no value.
 struct ControllerStatus {
     std::string state;  // "Idle", "Run", "Hold", "Jog", "Alarm", "Door", "Check", "Home", "Sleep"
     int substate{-1};
@@ -33,6 +48,7 @@ enum class AnswerKind : std::uint8_t {
     kOther,
 };
 
+// One line from the controller.
 struct Answer {
     AnswerKind kind{AnswerKind::kOther};
     int code{0};
@@ -43,7 +59,7 @@ struct Answer {
 //   line  without its end
 Answer parse_answer(std::string_view line);
 
-// What Grbl's documents say of an error or alarm code; "unknown" where they say nothing.
+// The text of an error or alarm code in Grbl's documents; "unknown" where there is none.
 std::string_view error_text(int code);
 std::string_view alarm_text(int code);
 

@@ -1,4 +1,4 @@
-// Splitting a text into lines.
+// Splits a text into lines.
 #include "host_tools/dialect/line_source.hpp"
 
 #include <algorithm>

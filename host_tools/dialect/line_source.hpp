@@ -25,13 +25,13 @@ public:
     static LineSource of_text(std::string name, std::string_view text);
 
     // The next line without its end; \n, \r\n and \r end lines. None after the last. A line longer
-    // than 64 kB is cut there: whoever reads it refuses it.
+    // than 64 kB is cut there; readers refuse it.
     std::optional<std::string> next();
 
-    // Number of the line that next() gave last, from 1.
+    // Number of the line that next() returned last, from 1.
     std::uint64_t line_number() const { return line_number_; }
 
-    // How much of the text is read, 0 to 1; of no use where its size is not known.
+    // Share of the text that is read, 0 to 1; meaningless where its size is not known.
     double progress() const;
 
     const std::string& name() const { return name_; }

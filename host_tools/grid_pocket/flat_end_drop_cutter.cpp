@@ -43,14 +43,14 @@ FlatEndDropCutter::FlatEndDropCutter(const std::vector<Surface>& floor,
 
 std::optional<double> FlatEndDropCutter::height(Vec2d at) const
 {
-    const double z = floor_.drop(at).z;
-    return z == DropCutter::kNoSurface ? std::nullopt : std::optional<double>{z};
+    const std::optional<DropCutter::ClPoint> cl = floor_.drop(at);
+    return cl ? std::optional{cl->z} : std::nullopt;
 }
 
 double FlatEndDropCutter::over(Vec3d tip) const
 {
     if (known_.x != tip.x || known_.y != tip.y) {
-        known_ = {tip.x, tip.y, floor_.drop({tip.x, tip.y}).z};
+        known_ = {tip.x, tip.y, floor_.tip_height({tip.x, tip.y})};
     }
     return tip.z - known_.z;
 }
@@ -77,10 +77,10 @@ double FlatEndDropCutter::clearance_between(Vec3d a, double over_a, Vec3d b, dou
         }
     } else if (length <= 2 * wider_) {
         const Vec3d middle = (a + b) * 0.5;
-        return std::min({std::min(a.z, b.z) - wide_.drop({middle.x, middle.y}).z, 0.0});
+        return std::min({std::min(a.z, b.z) - wide_.tip_height({middle.x, middle.y}), 0.0});
     }
     const Vec3d middle = (a + b) * 0.5;
-    const double there = middle.z - floor_.drop({middle.x, middle.y}).z;
+    const double there = middle.z - floor_.tip_height({middle.x, middle.y});
     const double first = clearance_between(a, over_a, middle, there);
     return first < kTooLow ? first : std::min(first, clearance_between(middle, there, b, over_b));
 }

@@ -1,6 +1,10 @@
 // Pockets with free-form floors over a grid of cells, after Choi, Cho & Kim: one navigation for
 // rough layers and the finish, a pass along the wall, and optional zigzags.
 //
+//     const std::vector<toolpath::PlannedOperation> planned = plan_grid_pocket(job, operation);
+//     planned.front().path.moves;            // of the tool's tip
+//     planned.front().stats.counts;            // cells, steps back, roughness
+//
 // Better than the paper: heights are exact drops of the tool instead of the floor's height under
 // its axis (which cuts in by R(1 - cos) on every slope), every move is proven clear of the floor,
 // dead ends are left straight, and layers visit only cells that the floor has not reached.

@@ -1,4 +1,7 @@
 // InputError: how host tools refuse input that can't be used.
+//
+//     throw InputError(fmt::format("{}: tool {}: diameter is {:g} mm; it must be above 0", file, n,
+//                                  diameter));
 #pragma once
 
 #include <stdexcept>

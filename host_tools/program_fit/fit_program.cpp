@@ -1,4 +1,4 @@
-// Sorts lines into runs and others, and writes what becomes of them.
+// Sorts lines into runs and others, and writes fitted moves for the runs.
 #include "host_tools/program_fit/fit_program.hpp"
 
 #include <algorithm>
@@ -8,14 +8,14 @@
 
 #include "firmware/gcode/interpreter.hpp"
 #include "firmware/segmenter/arc_fitter.hpp"
-#include "host_tools/dialect/answer.hpp"
+#include "host_tools/dialect/refusal.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/program_fit/fit_check.hpp"
 #include "host_tools/program_fit/fitted_line.hpp"
 
 namespace cusp::program_fit {
 
-using dialect::error_text;
+using dialect::refusal_text;
 
 namespace {
 
@@ -110,7 +110,7 @@ private:
         out_ += '\n';
         ++written_lines_;
     }
-    [[noreturn]] void refuse(Error error) const;
+    [[noreturn]] void refuse(Error error, std::string_view line) const;
 
     std::string name_;
     double tolerance_;
@@ -141,11 +141,11 @@ private:
     unsigned known_axes_{0};
 };
 
-void Fitter::refuse(Error error) const
+void Fitter::refuse(Error error, std::string_view line) const
 {
     throw InputError(name_ + ":" + std::to_string(read_lines_) + ": error " +
                      std::to_string(static_cast<int>(error)) + ": " +
-                     std::string{error_text(static_cast<int>(error))});
+                     refusal_text(static_cast<int>(error), line));
 }
 
 void Fitter::read(std::string_view text)
@@ -158,7 +158,7 @@ void Fitter::read(std::string_view text)
     const ModalState modal_before = interpreter_.modal();
     const Status status = interpreter_.execute(text, static_cast<std::uint32_t>(read_lines_));
     if (!status) {
-        refuse(status.error());
+        refuse(status.error(), text);
     }
     actions_.clear();
     gcode::Action action;
@@ -272,13 +272,13 @@ void Fitter::write(const segmenter::FittedMove& move)
                                        : Motion::kArcCounterClockwise;
 }
 
-// Copies a line, and first what it takes for granted and a fitted move before it has changed.
+// Copies a line; before it come the modal words that it relies on and a fitted move has changed.
 void Fitter::copy(std::string_view text, const ModalState& modal_before)
 {
     Command command;
     const Status status = gcode::read_command(text, modal_before, command);
     if (!status) {
-        refuse(status.error());
+        refuse(status.error(), text);
     }
     if (written_plane_ != modal_before.plane && !command.is_blank()) {
         out_ += plane_word(modal_before.plane);

@@ -4,6 +4,7 @@
 #include "boards/sim/simulated_controller.hpp"
 #include "host_tools/dialect/answer.hpp"
 #include "host_tools/dialect/program_lines.hpp"
+#include "host_tools/dialect/refusal.hpp"
 #include "host_tools/program_run/instruments.hpp"
 #include "host_tools/program_run/mill_setup.hpp"
 
@@ -29,9 +30,12 @@ public:
     {
     }
 
-    void send(const std::string& line, std::uint64_t number)
+    //   line   as it goes to the controller
+    //   block  as the program has it
+    void send(const std::string& line, const std::string& block, std::uint64_t number)
     {
         controller_.board().byte_link.send(line + "\n");
+        block_ = block;
         number_ = number;
         waiting_ = true;
     }
@@ -61,21 +65,23 @@ private:
             waiting_ = false;
         } else if (answer.kind == AnswerKind::kError) {
             waiting_ = false;
-            result_.errors.push_back(
-                {number_, answer.code, std::string{dialect::error_text(answer.code)}});
+            result_.errors.push_back({number_, answer.code,
+                                      dialect::refusal_text(answer.code, block_), block_,
+                                      dialect::refused_word(answer.code, block_)});
         } else if (answer.kind == AnswerKind::kAlarm) {
             result_.alarm = answer.code;
             result_.errors.push_back(
-                {number_, answer.code, "alarm: " + std::string{dialect::alarm_text(answer.code)}});
+                {number_, answer.code, "alarm: " + std::string{dialect::alarm_text(answer.code)}, "", ""});
         } else if (answer.kind == AnswerKind::kBanner && begun_) {
             waiting_ = false;
-            result_.errors.push_back({number_, 0, "the controller was reset"});
+            result_.errors.push_back({number_, 0, "the controller was reset", "", ""});
         }
     }
 
     SimulatedController& controller_;
     RunResult& result_;
     std::string heard_;
+    std::string block_;
     std::uint64_t number_{0};
     bool waiting_{false};
     bool begun_{false};
@@ -100,7 +106,7 @@ public:
         controller_.tick();
         sender_.listen();
         if (options_.settings.on(machine::Setting::kHoming)) {
-            sender_.send("$H", 0);
+            sender_.send("$H", "", 0);
         }
     }
 
@@ -207,7 +213,7 @@ private:
             if (effects_.pauses) {
                 note_pause();
             }
-            sender_.send(numbered, source_.line_number());
+            sender_.send(numbered, *line, source_.line_number());
             return true;
         }
         return false;
@@ -250,7 +256,7 @@ private:
         resting_ticks_ = rests ? resting_ticks_ + 1 : 0;
         if (resting_ticks_ > kPatience) {
             result_.errors.push_back(
-                {source_.line_number(), 0, "the controller rests and answers no more"});
+                {source_.line_number(), 0, "the controller rests and answers no more", "", ""});
         }
     }
 
@@ -266,7 +272,7 @@ private:
         if (instruments_->shadow().in_nurbs() && !sender_.failed()) {
             constexpr int kInvalidTarget = 33;
             result_.errors.push_back(
-                {source_.line_number(), kInvalidTarget, "the program ends inside a NURBS"});
+                {source_.line_number(), kInvalidTarget, "the program ends inside a NURBS", "", ""});
         }
         instruments_->finish(result_);
         result_.lines = source_.line_number();

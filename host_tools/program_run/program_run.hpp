@@ -62,6 +62,8 @@ struct RunError {
     std::uint64_t line;  // of the program
     int code;            // Grbl's; 0 where the fault is not the firmware's
     std::string text;
+    std::string block;  // the line as the program has it; empty where the fault is not a line's
+    std::string word;   // of the block, the one that is refused; empty where no single word is
 };
 
 struct RunResult {

@@ -23,7 +23,7 @@ constexpr int kOver = kColourSteps + 1;
 constexpr const char* kOverColour = "#d7191c";
 constexpr std::size_t kMostCells = 400;  // along the longer side of the picture
 
-// The highest of the values of a square of grid points; an uncut one beats all.
+// The highest value of a square of grid points; an uncut point counts as the highest.
 int step_of_square(
     const Verification& result, std::size_t i0, std::size_t j0, std::size_t size, double highest)
 {

@@ -1,4 +1,11 @@
-// Pictures (SVG) of what a program does and leaves, seen from above.
+// Pictures (SVG) of what a program does and leaves, seen from above. The front door of `report`;
+// part_picture.hpp draws a part by itself.
+//
+//     const verify::Verification result = verify::verify(job, "part.ngc", {}, progress);
+//     files::write_text("path.svg", path_picture(job, result.program));  // a panel for each tool
+//     files::write_text("left.svg", left_picture(job, result));          // black: nothing was cut
+//
+// Every picture has a ruler in mm and a scale of colours. The same input gives the same bytes.
 #pragma once
 
 #include <string>

@@ -1,5 +1,16 @@
-// Simulation: runs a program file through the whole firmware, as fast as it goes, and measures it: a
-// ProgramRun with files.
+// Runs a program through the whole firmware, faster than real time, and measures the motion. The
+// front door of `simulate`; virtual_controller.hpp runs the firmware in real time for a sender.
+//
+//     SimulationOptions options;
+//     options.settings = read_settings_file("mill.settings");
+//     options.vcd_file = "part.vcd";  // every edge of the step and direction lines
+//     const SimulationResult run = simulate("part.ngc", options);
+//     if (run.good()) {
+//         fmt::print("{:.1f} s, off the path by {} mm\n", run.duration_s, run.max_deviation_mm);
+//     }
+//
+// The simulation is the sender too: a line goes out as soon as the one before is answered, in no
+// time. The first error or alarm ends the run.
 #pragma once
 
 #include <cstdint>

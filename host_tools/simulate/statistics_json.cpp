@@ -17,7 +17,11 @@ std::string statistics_json(const SimulationResult& result)
 {
     Json errors = Json::array();
     for (const program_run::RunError& error : result.errors) {
-        errors.push_back({{"line", error.line}, {"code", error.code}, {"text", error.text}});
+        errors.push_back({{"line", error.line},
+                          {"code", error.code},
+                          {"text", error.text},
+                          {"block", error.block},
+                          {"word", error.word}});
     }
     Json tools = Json::array();
     for (const program_run::ToolTime& tool : result.tools) {
@@ -51,7 +55,8 @@ std::string statistics_json(const SimulationResult& result)
         {"tools", tools},
         {"tool_changes", result.tool_changes},
     };
-    return json.dump(2) + "\n";
+    // A program may hold any bytes, JSON no others than UTF-8.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace cusp::simulate

@@ -1,6 +1,9 @@
-// What the controller and the person say, and what follows from it.
+// Handles the controller's answers and the person's keys.
 #include <algorithm>
+#include <filesystem>
 
+#include "host_tools/dialect/line_source.hpp"
+#include "host_tools/dialect/refusal.hpp"
 #include "host_tools/stream/streamer.hpp"
 
 namespace cusp::stream {
@@ -9,8 +12,8 @@ using dialect::alarm_text;
 using dialect::Answer;
 using dialect::AnswerKind;
 using dialect::ControllerStatus;
-using dialect::error_text;
 using dialect::parse_answer;
+using dialect::refusal_text;
 
 namespace {
 
@@ -19,6 +22,22 @@ using std::chrono::milliseconds;
 std::string name_of(const std::string& file, std::uint64_t line)
 {
     return file + ":" + std::to_string(line);
+}
+
+// A line of the program; empty where the file can't be read a second time.
+std::string text_of(const std::string& file, std::uint64_t line)
+{
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) {
+        return "";
+    }
+    dialect::LineSource source{file};
+    while (auto text = source.next()) {
+        if (source.line_number() == line) {
+            return *text;
+        }
+    }
+    return "";
 }
 
 }  // namespace
@@ -147,7 +166,8 @@ void Streamer::take_error(std::uint64_t line, int code)
     const std::string where =
         line == 0 ? std::string{"the way back to the work"} : name_of(file_, line);
     throw Ending{StreamOutcome::kError,
-                 where + ": error:" + std::to_string(code) + ": " + std::string{error_text(code)}};
+                 where + ": error:" + std::to_string(code) + ": " +
+                     refusal_text(code, line == 0 ? "" : text_of(file_, line))};
 }
 
 void Streamer::take_checked(const std::string& line)

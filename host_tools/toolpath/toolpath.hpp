@@ -1,4 +1,12 @@
-// The common result of all planners: passes of the tool tip, and how they are linked and written.
+// The common result of all planners: moves of the tool tip, with what is known about them.
+//
+//     Toolpath path;
+//     path.tool = {1, ToolShape::kBall, 3.0, 3.0};
+//     path.feed = 1200;
+//     path.moves = {{MoveKind::kRapid, LineTo{{0, 0, 5}}}, {MoveKind::kPlunge, LineTo{{0, 0, -1}}},
+//                   {MoveKind::kCut, LineTo{{40, 0, -1}}}, {MoveKind::kRapid, LineTo{{40, 0, 5}}}};
+//     write_program(out, form, {{path, stats}});         // gcode_writer.hpp
+//     measure(path, start).cut_length_mm;          // toolpath_measure.hpp
 #pragma once
 
 #include <cstdint>

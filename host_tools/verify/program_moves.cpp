@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "firmware/gcode/interpreter.hpp"
-#include "host_tools/dialect/answer.hpp"
+#include "host_tools/dialect/refusal.hpp"
 #include "host_tools/files/files.hpp"
 #include "host_tools/input_error/input_error.hpp"
 
@@ -15,7 +15,7 @@
 
 namespace cusp::verify {
 
-using dialect::error_text;
+using dialect::refusal_text;
 using toolpath::MoveCounts;
 
 namespace {
@@ -113,8 +113,8 @@ public:
         const Status status = interpreter_.execute(line, number_);
         if (!status) {
             const int code = static_cast<int>(status.error());
-            throw InputError(fmt::format("{}:{}: {}: error {}: {}", file_, number_, line, code,
-                                         error_text(code)));
+            throw InputError(fmt::format("{}:{}: error {}: {}", file_, number_, code,
+                                         refusal_text(code, line)));
         }
         gcode::Action action;
         while (interpreter_.next(action)) {

@@ -1,4 +1,8 @@
-// Cuts a job's stock with a program, in memory, and compares what stands with the part.
+// Cuts a job's stock with a program, in memory, and compares what is left with the part.
+//
+//     const Verification result = verify(job, "part.ngc", {}, [](double) {});
+//     for (const std::string& bound : result.broken) { fmt::print("broken: {}\n", bound); }
+//     result.figures.gouge_max;  // mm; result.left is the map of what is left
 #pragma once
 
 #include <optional>

@@ -1,4 +1,10 @@
-// The page of one run: what `cusp view` writes.
+// The page of one run, what `cusp view` writes: one HTML file that shows a program as the controller
+// runs it. The front door of `view`; web/ holds the page's own code.
+//
+//     RunPageOptions options;
+//     options.settings = read_settings_file("mill.settings");
+//     const RunPage page = run_page("part.ngc", options);
+//     write_text("run.html", page.html);
 #pragma once
 
 #include <functional>

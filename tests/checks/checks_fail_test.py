@@ -125,11 +125,50 @@ class ChecksOfTheTree(unittest.TestCase):
         self.assertEqual(self.run_check("doc_names.py", "docs/life.md")[0], 0)
         self.write("docs/life.md", "`norm()` then `Vec::dot()`\n")
         self.assertEqual(self.run_check("doc_names.py", "docs/life.md")[0], 1)
+        self.write("firmware/base/vec.hpp", "int norm(int x);\nclass UnitVector;\n")
+        self.write("docs/life.md", "`UnitVector::norm()` of a `UnitVector`\n")
+        self.assertEqual(self.run_check("doc_names.py", "docs/life.md")[0], 0)
+        self.write("docs/life.md", "`UnitVectors`\n")
+        self.assertEqual(self.run_check("doc_names.py", "docs/life.md")[0], 1)
         self.write("docs/life.md", "in `firmware/base/vector.hpp`\n")
         self.assertEqual(self.run_check("doc_names.py", "docs/life.md")[0], 1)
 
     def test_doc_names_needs_the_document(self):
         self.assertEqual(self.run_check("doc_names.py", "docs/none.md")[0], 2)
+
+    def test_line_lengths_refuses_a_long_line(self):
+        self.assertEqual(self.run_check("line_lengths.py", "10", "docs/papers.md")[0], 2)
+        self.write("docs/papers.md", "short\n" + "a" * 10 + "\n")
+        self.assertEqual(self.run_check("line_lengths.py", "10", "docs/papers.md")[0], 0)
+        status, text = self.run_check("line_lengths.py", "9", "docs/papers.md")
+        self.assertEqual(status, 1)
+        self.assertIn("docs/papers.md:2: 10 characters; limit 9", text)
+
+    def test_front_doors_need_a_row_and_an_example(self):
+        self.assertEqual(self.run_check("front_doors.py")[0], 2)
+        self.write("firmware/base/vec.hpp", "// Vectors.\n//\n//   Vec3d v{1, 2, 3};\n#pragma once\n")
+        self.write("docs/architecture.md", "| `firmware/base` | `vec.hpp` |\n")
+        self.assertEqual(self.run_check("front_doors.py")[0], 0)
+        self.write("firmware/path/line.hpp", "// Lines.\n")
+        status, text = self.run_check("front_doors.py")
+        self.assertEqual(status, 1)
+        self.assertIn("firmware/path has no row", text)
+        self.write("docs/architecture.md", "| `firmware/base` | `vec.hpp` |\n| `firmware/path` | `line.hpp` |\n")
+        status, text = self.run_check("front_doors.py")
+        self.assertEqual(status, 1)
+        self.assertIn("firmware/path/line.hpp:1: the opening comment of a front door needs an example", text)
+        self.write("docs/architecture.md", "| `firmware/base` | `vec.hpp` |\n| `firmware/path` | `arc.hpp` |\n")
+        self.assertIn("firmware/path/arc.hpp does not exist", self.run_check("front_doors.py")[1])
+
+    def test_glossary_refuses_a_noun_that_it_lacks(self):
+        self.assertEqual(self.run_check("glossary.py")[0], 2)
+        self.write("docs/glossary.md", "| word | meaning |\n| pencil pass, ring | along a wall |\n")
+        self.write("host_tools/clearing/rings.hpp", "struct PencilRings {\n};\nclass RingWriter : public Base {\n};\n")
+        self.assertEqual(self.run_check("glossary.py")[0], 0)
+        self.write("host_tools/clearing/rings.hpp", "\nclass RingFeeler {\n};\n")
+        status, text = self.run_check("glossary.py")
+        self.assertEqual(status, 1)
+        self.assertIn("rings.hpp:2: RingFeeler: define \"feeler\" in docs/glossary.md", text)
 
     def test_headers_refuses_one_that_leans_on_its_reader(self):
         self.write("firmware/base/vec.hpp", "#pragma once\nstd::size_t size();\n")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that each `function()` and each `path/file` that the documents name exists in the tree.
+"""Checks that each `function()`, each `CamelCaseType` and each `path/file` that the documents name exists in the tree.
 
 usage: doc_names.py TOP DOCUMENT...    (documents relative to TOP)
 Exit status: 0 all exist, 1 some do not, 2 a document can't be read or names no function at all.
@@ -11,21 +11,26 @@ import sys
 FOLDERS = ("firmware", "hal", "boards", "host_tools", "tests", "cmake", "docs")
 FUNCTION = re.compile(r"`(?:[\w:<>]+(?:::|\.))?(~?\w+)\(\)`")
 FILE = re.compile(r"`((?:%s)/[\w./-]+\.\w+)`" % "|".join(FOLDERS))
+TYPE = re.compile(r"`((?:[A-Z][a-z0-9]+){2,})(?:::\w+)?(?:\(\))?`")
 WORD_BEFORE_BRACKET = re.compile(r"\b(\w+)\s*\(")
+CAMEL_CASE = re.compile(r"\b(?:[A-Z][a-z0-9]+){2,}\b")
 
 
 def names_in_sources(top):
-    names = set()
+    """Functions, and words in camel case, of the sources."""
+    names, types = set(), set()
     for folder in FOLDERS:
         for file in (top / folder).rglob("*"):
             if file.suffix in (".hpp", ".cpp", ".py", ".cmake", ".c"):
-                names.update(WORD_BEFORE_BRACKET.findall(file.read_text()))
-    return names
+                text = file.read_text()
+                names.update(WORD_BEFORE_BRACKET.findall(text))
+                types.update(CAMEL_CASE.findall(text))
+    return names, types
 
 
 def main(arguments):
     top, documents = pathlib.Path(arguments[1]), arguments[2:]
-    known, missing, count = names_in_sources(top), [], 0
+    (known, types), missing, count = names_in_sources(top), [], 0
     for document in documents:
         try:
             lines = (top / document).read_text().splitlines()
@@ -37,6 +42,10 @@ def main(arguments):
                 count += 1
                 if name not in known:
                     missing.append(f"{document}:{number}: no function {name}()")
+            for name in TYPE.findall(line):
+                count += 1
+                if name not in types:
+                    missing.append(f"{document}:{number}: no type {name}")
             for name in FILE.findall(line):
                 count += 1
                 if not (top / name).exists():

@@ -223,6 +223,37 @@ TEST(Interpreter, ForgetsOnlyWhatAResetForgets)
     LONGS_EQUAL(1000000, runner.interpreter.parameters().work_offsets[1].x);
 }
 
+TEST(Interpreter, PassesOverWhatSaysNothingHere)
+{
+    run("O1001");
+    run("N5 :1001 (bracket)");
+    run("o0001 ; bracket");
+    run("G97 S2000 M3");
+    run("G64 P0.5 Q0.2");
+    DOUBLES_EQUAL(0.5, static_cast<double>(runner.interpreter.path_tolerance()), 1e-9);
+    run("G64 Q0.2");
+    run("G61.1");
+    DOUBLES_EQUAL(0, static_cast<double>(runner.interpreter.path_tolerance()), 0);
+    run("G64 G83 R1 Z-1 Q0.5 X0 F100");
+    refuse(36, "G1 Q1 X1");
+}
+
+TEST(Interpreter, MovesInALineWithG43)
+{
+    run("G43.1 Z5");
+    run("G0 X1");
+    run("G43 H1 Z50");
+    at(1, 0, 50);
+    run("G49 Z20");
+    at(1, 0, 20);
+    run("G92 X0");
+    run("G92.2");
+    run("X2");
+    at(2, 0, 20);
+    run("G80");
+    refuse(31, "G43 H1 Z50");
+}
+
 TEST(Interpreter, RefusesBadWords)
 {
     run("G1 F100");
@@ -241,7 +272,14 @@ TEST(Interpreter, RefusesBadWords)
     refuse(20, "A1");
     refuse(20, "X1E3");
     refuse(20, "G38.9 X1");
-    refuse(20, "G61.1");
+    refuse(20, "G61.2");
+    refuse(20, "O100 sub");
+    refuse(20, "O<x> call");
+    refuse(20, "G1 O5");
+    refuse(20, "O1.5");
+    refuse(20, ":");
+    refuse(20, "G96 S100");
+    refuse(20, "G92.3");
     refuse(20, "G90.1");
     refuse(23, "G1.5 X1");
     refuse(23, "M3.5");

@@ -1,0 +1,248 @@
+// Finds the refused word by reading the line's beginnings with the controller's own reader.
+#include "host_tools/dialect/refusal.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <vector>
+
+#include "firmware/gcode/command.hpp"
+#include "firmware/gcode/interpreter.hpp"
+#include "host_tools/dialect/answer.hpp"
+
+namespace cusp::dialect {
+namespace {
+
+using gcode::Command;
+using gcode::Interpreter;
+using gcode::ModalState;
+
+constexpr int kUnsupported = 20;
+constexpr int kInvalidTarget = 33;
+constexpr int kUnusedWords = 36;
+
+// Where the words of a line begin, and its end: a letter outside comments, or what is no word.
+std::vector<std::size_t> word_places(std::string_view line)
+{
+    std::vector<std::size_t> places;
+    bool in_number = false;
+    std::size_t place = 0;
+    for (; place < line.size() && line[place] != ';'; ++place) {
+        const char c = line[place];
+        if (c == '(') {
+            place = std::min(line.find(')', place), line.size() - 1);
+            continue;
+        }
+        const bool number = (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+';
+        const bool blank = c == ' ' || c == '\t' || c == '\r' || c == '/';
+        if (!blank && !(number && in_number)) {
+            places.push_back(place);
+            in_number = true;
+        }
+    }
+    places.push_back(place);
+    return places;
+}
+
+// As a message shows it: no longer than a message may be, without control characters.
+std::string shown(std::string_view text)
+{
+    constexpr std::size_t kMostShown = 100;
+    std::string result{text.substr(0, kMostShown)};
+    const auto is_control = [](char c) {
+        return static_cast<unsigned char>(c) < ' ' || c == '\x7f';
+    };
+    std::replace_if(result.begin(), result.end(), is_control, '?');
+    return text.size() > kMostShown ? result + "..." : result;
+}
+
+std::string trimmed(std::string_view text)
+{
+    const std::size_t end = text.find_last_not_of(" \t\r/");
+    return std::string{text.substr(0, end == std::string_view::npos ? 0 : end + 1)};
+}
+
+char capital(char c) { return static_cast<char>(std::toupper(static_cast<unsigned char>(c))); }
+
+std::string word_at(std::string_view line, const std::vector<std::size_t>& places, std::size_t word)
+{
+    return trimmed(line.substr(places[word], places[word + 1] - places[word]));
+}
+
+// The error of a line in a controller that has a feed, 0 for none.
+int error_of(std::string_view line)
+{
+    Interpreter interpreter;
+    static_cast<void>(interpreter.execute("G1 F100", 0));
+    interpreter.discard();
+    const Status status = interpreter.execute(line, 0);
+    return status ? 0 : static_cast<int>(status.error());
+}
+
+// The letters whose word alone can be refused for its value: G10 has L2 and L20 only, and no R.
+bool may_be_unused(int code, char letter)
+{
+    return code == kUnsupported ? letter == 'L' || letter == 'R' : letter != 'G' && letter != 'M';
+}
+
+// The word without which the line has another error, or none.
+std::string word_to_blame(int code, std::string_view line, const std::vector<std::size_t>& places)
+{
+    if (error_of(line) != code) {
+        return "";
+    }
+    for (std::size_t word = 0; word + 1 < places.size(); ++word) {
+        std::string without{line.substr(0, places[word])};
+        without += line.substr(places[word + 1]);
+        if (may_be_unused(code, capital(line[places[word]])) && error_of(without) != code) {
+            return word_at(line, places, word);
+        }
+    }
+    return "";
+}
+
+struct Meaning {
+    std::string_view word;  // a letter, or a letter and its number
+    std::string_view text;
+};
+
+// Words of other controllers that users' programs bring; a word stands before its letter alone.
+constexpr std::array kMeanings{
+    Meaning{"G7", "diameters are a lathe's"},
+    Meaning{"G8", "radii are a lathe's"},
+    Meaning{"G12", "circular pockets are Fanuc's and Mach3's"},
+    Meaning{"G13", "circular pockets are Fanuc's and Mach3's"},
+    Meaning{"G29", "levelling is a 3-D printer's"},
+    Meaning{"G33", "threading needs a spindle with an encoder"},
+    Meaning{"G41", "cutter compensation: let the CAM system offset the path"},
+    Meaning{"G42", "cutter compensation: let the CAM system offset the path"},
+    Meaning{"G50", "scaling is not supported"},
+    Meaning{"G51", "scaling is not supported"},
+    Meaning{"G65", "macros are Fanuc's: let the CAM system write the moves"},
+    Meaning{"G66", "macros are Fanuc's: let the CAM system write the moves"},
+    Meaning{"G68", "rotation: let the CAM system turn the path"},
+    Meaning{"G69", "rotation: let the CAM system turn the path"},
+    Meaning{"G70", "inches are G20 here"},
+    Meaning{"G71", "millimetres are G21 here"},
+    Meaning{"G73", "of the drilling cycles there are G81, G82 and G83"},
+    Meaning{"G74", "tapping needs a spindle with an encoder"},
+    Meaning{"G76", "threading needs a spindle with an encoder"},
+    Meaning{"G84", "tapping needs a spindle with an encoder"},
+    Meaning{"G85", "of the drilling cycles there are G81, G82 and G83"},
+    Meaning{"G86", "of the drilling cycles there are G81, G82 and G83"},
+    Meaning{"G87", "of the drilling cycles there are G81, G82 and G83"},
+    Meaning{"G88", "of the drilling cycles there are G81, G82 and G83"},
+    Meaning{"G89", "of the drilling cycles there are G81, G82 and G83"},
+    Meaning{"G90.1", "arc centres are always from the start of the arc (G91.1)"},
+    Meaning{"G92.3", "a shift that G92.2 has taken away is forgotten; write G92 again"},
+    Meaning{"G95", "feed per revolution needs a spindle with an encoder; G94 is feed per minute"},
+    Meaning{"G96", "constant surface speed is a lathe's; G97 is revolutions per minute"},
+    Meaning{"M19", "orienting needs a spindle with an encoder"},
+    Meaning{"M48", "overrides are always on"},
+    Meaning{"M49", "overrides are always on"},
+    Meaning{"M60", "there is no pallet to change; M0 stops"},
+    Meaning{"M97", "subprograms: let the CAM system write the moves out"},
+    Meaning{"M98", "subprograms: let the CAM system write the moves out"},
+    Meaning{"M99", "subprograms: let the CAM system write the moves out"},
+    Meaning{"M104", "heating is a 3-D printer's"},
+    Meaning{"M106", "fans are a 3-D printer's; M8 is coolant"},
+    Meaning{"M107", "fans are a 3-D printer's; M9 ends coolant"},
+    Meaning{"M109", "heating is a 3-D printer's"},
+    Meaning{"A", "there is no rotary axis: the axes are X, Y and Z"},
+    Meaning{"B", "there is no rotary axis: the axes are X, Y and Z"},
+    Meaning{"C", "there is no rotary axis: the axes are X, Y and Z"},
+    Meaning{"D", "cutter compensation: let the CAM system offset the path"},
+    Meaning{"E", "E drives the extruder of a 3-D printer"},
+    Meaning{"O", "O-words are LinuxCNC's subprograms and loops: let the CAM system write the moves out"},
+    Meaning{"U", "there is no second axis along x: the axes are X, Y and Z"},
+    Meaning{"V", "there is no second axis along y: the axes are X, Y and Z"},
+    Meaning{"W", "there is no second axis along z: the axes are X, Y and Z"},
+    Meaning{"#", "parameters are LinuxCNC's and Fanuc's: let the CAM system write the numbers"},
+    Meaning{"[", "expressions are LinuxCNC's and Fanuc's: let the CAM system write the numbers"},
+};
+
+// `g041` as `G41`: without zeros in front and with a capital.
+std::string plain_word(std::string_view word)
+{
+    std::string plain;
+    for (const char c : word) {
+        if (c != ' ' && c != '\t' && !(c == '0' && plain.size() == 1)) {
+            plain += capital(c);
+        }
+    }
+    return plain;
+}
+
+std::string meaning_of(const std::string& word)
+{
+    if (word.empty()) {
+        return "";
+    }
+    const std::string plain = plain_word(word);
+    for (const Meaning& meaning : kMeanings) {
+        if (plain == meaning.word || (meaning.word.size() == 1 && plain[0] == meaning.word[0])) {
+            return ": " + std::string{meaning.text};
+        }
+    }
+    return "";
+}
+
+// An order of G5.2 or G6.2 that is out of range: the reader has no error of its own for it.
+std::string order_of_nurbs(std::string_view line)
+{
+    constexpr double kLeastOrder = 2;
+    constexpr double kMostOrder = 5;
+    Command command;
+    if (!gcode::read_command(line, ModalState{}, command)) {
+        return "";
+    }
+    const bool uniform = command.modal.motion == gcode::Motion::kUniformNurbs;
+    const bool knotted = command.modal.motion == gcode::Motion::kNurbs;
+    const char letter = uniform ? 'L' : 'P';
+    if (!(uniform || knotted) || !command.has(letter)) {
+        return "";
+    }
+    const double order = gcode::to_double(command.value(letter));
+    if (order >= kLeastOrder && order <= kMostOrder && order == std::floor(order)) {
+        return "";
+    }
+    return std::string{": "} + letter + " is the order of the NURBS, degree + 1: 2 to 5";
+}
+
+}  // namespace
+
+std::string refused_word(int code, std::string_view line)
+{
+    const std::vector<std::size_t> places = word_places(line);
+    std::size_t program_number = places.size();
+    for (std::size_t word = 0; word + 1 < places.size(); ++word) {
+        Command command;
+        const Status status =
+            gcode::read_command(line.substr(0, places[word + 1]), ModalState{}, command);
+        if (!status) {
+            // A program number is no more than that where another word follows it.
+            const std::size_t wrong = std::min(program_number, word);
+            return static_cast<int>(status.error()) == code ? word_at(line, places, wrong) : "";
+        }
+        if (capital(line[places[word]]) == 'O') {
+            program_number = word;
+        }
+    }
+    const bool by_value = code == kUnsupported || code == kUnusedWords;
+    return by_value ? word_to_blame(code, line, places) : "";
+}
+
+std::string refusal_text(int code, std::string_view line)
+{
+    std::string text{error_text(code)};
+    if (line.empty()) {
+        return text;
+    }
+    const std::string word = refused_word(code, line);
+    text += ": " + (word.empty() ? word : shown(word) + " in ");
+    text += '"' + shown(trimmed(line)) + '"';
+    return text + meaning_of(word) + (code == kInvalidTarget ? order_of_nurbs(line) : "");
+}
+
+}  // namespace cusp::dialect

@@ -1,0 +1,73 @@
+// The word that is refused, and what a message says of it.
+#include "host_tools/dialect/refusal.hpp"
+
+#include "CppUTest/TestHarness.h"
+
+using namespace cusp;
+using namespace cusp::dialect;
+
+TEST_GROUP(Refusal){};
+
+namespace {
+
+void check_word(const char* expected, int code, const char* line)
+{
+    STRCMP_EQUAL_TEXT(expected, refused_word(code, line).c_str(), line);
+}
+
+}  // namespace
+
+TEST(Refusal, NamesTheFirstWordThatIsRefused)
+{
+    check_word("E1.5", 20, "G1 X20 E1.5");
+    check_word("G96", 20, "N7 G96 S100");
+    check_word("M98", 20, "M98 P1000");
+    check_word("X", 2, "G0 X Y5");
+    check_word("F-1", 4, "G1 X1 F-1");
+    check_word("G18", 21, "G17 G18");
+    check_word("X2", 25, "X1 X2");
+    check_word("#1", 1, "#1=5");
+    check_word("[2+3", 1, "[2+3]");
+}
+
+TEST(Refusal, PassesOverComments)
+{
+    check_word("E2", 20, "(E1) G1 (E3) X1 E2 ; E4");
+    check_word("", 20, "(all is well");
+}
+
+TEST(Refusal, NamesAWordThatNothingUses)
+{
+    check_word("P5", 36, "G1 X1 P5");
+    check_word("L3", 20, "G10 L3 P1 X0");
+}
+
+TEST(Refusal, NamesNoWordWhereNoneIsAtFault)
+{
+    check_word("", 33, "G2 X5 Y5 I9 J0");
+    check_word("", 22, "G1 X1");
+}
+
+TEST(Refusal, SaysWhatTheWordIsElsewhere)
+{
+    STRCMP_CONTAINS("E1 in \"G1 X2 E1\": E drives the extruder",
+                    refusal_text(20, "G1 X2 E1").c_str());
+    STRCMP_CONTAINS("lathe", refusal_text(20, "g96 s100").c_str());
+    STRCMP_CONTAINS("subprograms", refusal_text(20, "O100 sub").c_str());
+    STRCMP_CONTAINS("millimetres are G21", refusal_text(20, "G71").c_str());
+    STRCMP_CONTAINS("P is the order of the NURBS, degree + 1: 2 to 5",
+                    refusal_text(33, "G6.2 P6 K0 X0 Y0").c_str());
+    STRCMP_CONTAINS("L is the order", refusal_text(33, "G5.2 L9 X1 P1").c_str());
+}
+
+TEST(Refusal, ShowsOnlyWhatFitsAMessage)
+{
+    const std::string text = refusal_text(20, std::string(70000, 'E') + "\x1b[31m");
+    CHECK(text.size() < 300);
+    CHECK(refusal_text(20, "G1 \x1b[31m").find('\x1b') == std::string::npos);
+}
+
+TEST(Refusal, SaysTheCodeAloneWithoutALine)
+{
+    STRCMP_EQUAL("a G or M word is not supported", refusal_text(20, "").c_str());
+}
