@@ -70,8 +70,9 @@ private:
                                       dialect::refused_word(answer.code, block_)});
         } else if (answer.kind == AnswerKind::kAlarm) {
             result_.alarm = answer.code;
-            result_.errors.push_back(
-                {number_, answer.code, "alarm: " + std::string{dialect::alarm_text(answer.code)}, "", ""});
+            result_.errors.push_back({number_, answer.code,
+                                      "alarm: " + std::string{dialect::alarm_text(answer.code)}, "",
+                                      ""});
         } else if (answer.kind == AnswerKind::kBanner && begun_) {
             waiting_ = false;
             result_.errors.push_back({number_, 0, "the controller was reset", "", ""});
