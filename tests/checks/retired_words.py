@@ -78,7 +78,7 @@ WORD, IDENTIFIER = pattern(WORDS), re.compile(r"\b(?:%s)\b" % "|".join(IDENTIFIE
 def files_of(top):
     for folder in FOLDERS:
         for file in sorted((top / folder).rglob("*")):
-            if file.suffix in ENDINGS and not {"decisions", "evidence"} & set(file.parts) and file.name not in (pathlib.Path(__file__).name, "checks_fail_test.py"):
+            if file.suffix in ENDINGS and not {"decisions", "evidence", "node_modules"} & set(file.parts) and file.name not in (pathlib.Path(__file__).name, "checks_fail_test.py"):
                 yield file
 
 
