@@ -37,7 +37,7 @@ test("refused settings and lines are told with their line", async () => {
   assert.match((await settings("$110=-5"))[0].text, /^\$110=-5 is out of range: /);
   assert.match((await settings("fast"))[0].text, /^'fast' is no setting such as \$100=800\.000$/);
   const run = await simulate("G21\nG1 X1 F100\nG1 X2 Q<b>\n");
-  assert.deepEqual(run.errors, [{ in: "program", line: 3, code: 2, text: "error:2: a number is missing or malformed" }]);
+  assert.deepEqual(run.errors, [{ in: "program", line: 3, code: 2, text: 'error:2: a number is missing or malformed: Q in "G1 X2 Q<b>"' }]);
   assert.equal(run.end_mpos_mm[0], 1);
   const alarm = await simulate("G38.2 Z-5 F200\n");
   assert.equal(alarm.alarm, 5);

@@ -98,7 +98,7 @@ TEST(ProgramRun, ComesToRestWhereItIsStopped)
 TEST(ProgramRun, SaysWhatEndedIt)
 {
     const RunResult refused = run("G21\nG1 X1 F100\nG1 X2 Q\n");
-    STRCMP_EQUAL("error:2: a number is missing or malformed",
+    STRCMP_EQUAL("error:2: a number is missing or malformed: Q in \"G1 X2 Q\"",
                  fault_text(refused, refused.errors.at(0)).c_str());
     LONGS_EQUAL(3, refused.errors[0].line);
     const RunResult alarmed = run("G38.2 Z-5 F200\n");
