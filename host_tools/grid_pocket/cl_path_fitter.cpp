@@ -10,9 +10,9 @@
 
 namespace cusp::grid_pocket {
 
+using drop_cutter::DropCutter;
 using nurbs::Surface;
 using offset::Edge;
-using part_model::PartModel;
 using toolpath::ArcPlane;
 using toolpath::ArcTo;
 using toolpath::LineTo;
@@ -36,6 +36,10 @@ constexpr double kTwoSided = 0.95;
 
 // Below this a height is a rounding of the G-code.
 constexpr double kRounding = 2e-4;
+
+// Moves pass the floor this many times the drop cutter's accuracy higher than its drops, so that
+// their clearance can be proven: on a slope of 60 degrees half of a height is clearance.
+constexpr double kReserve = 2.0;
 
 Tool grown_tool(Tool tool, double by)
 {
@@ -71,22 +75,25 @@ void GridMoveWriter::arc(MoveKind kind, const ArcTo& arc)
 }
 
 ClPathFitter::ClPathFitter(const std::vector<Surface>& floor,
-                           std::shared_ptr<const PartModel> model,
                            const Tool& tool,
                            double allowance,
                            FollowSettings settings)
-    : drop_cutter_{floor, std::move(model), grown_tool(tool, allowance),
-                   std::clamp(settings.tolerance / 20, 1e-4, 1e-3)},
+    : accuracy_{std::clamp(settings.tolerance / 20, 1e-4, 1e-3)},
       allowance_{allowance},
       settings_{settings}
 {
+    const auto cutter = std::make_shared<DropCutter>(floor, grown_tool(tool, allowance), accuracy_);
+    if (settings_.both_sides) {
+        cutter->check_edge_gouges(allowed_gouge());
+    }
+    drop_cutter_ = cutter;
 }
 
 std::optional<double> ClPathFitter::height(Vec2d at) const
 {
-    // A tool grown all round by the allowance stands with its end that much lower.
-    const auto low = drop_cutter_.height(at);
-    return low ? std::optional<double>{*low + allowance_} : std::nullopt;
+    // A tool grown all round by the allowance has its tip that much lower.
+    const double z = drop_cutter_->drop(at).z;
+    return z == DropCutter::kNoSurface ? std::nullopt : std::optional{z + allowance_};
 }
 
 ClPathFitter ClPathFitter::above(double level) const
@@ -97,10 +104,12 @@ ClPathFitter ClPathFitter::above(double level) const
     return out;
 }
 
+double ClPathFitter::reserve() const { return kRounding + kReserve * accuracy_; }
+
 // Where the floor ends, the passes go on at its lowest.
 double ClPathFitter::path_height(Vec2d at) const
 {
-    return std::max(min_z_, height(at).value_or(drop_cutter_.lowest()));
+    return std::max(min_z_, height(at).value_or(lowest()));
 }
 
 double ClPathFitter::start_height(Vec2d at) const
@@ -116,10 +125,10 @@ double ClPathFitter::lowest_height(Vec2d at) const
     return settings_.both_sides ? std::max(min_z_, exact - band_height(settings_)) : exact;
 }
 
-double ClPathFitter::move_clearance(Vec3d a, Vec3d b, double sufficient) const
+double ClPathFitter::move_clearance(Vec3d a, Vec3d b, double margin) const
 {
     const Vec3d down{0, 0, -allowance_};
-    return drop_cutter_.move_clearance(a + down, b + down, sufficient);
+    return drop_cutter_->move_clearance(a + down, b + down, margin);
 }
 
 std::vector<BandPoint> ClPathFitter::band(Vec2d a, Vec2d b, double tolerance) const
@@ -149,31 +158,25 @@ std::vector<BandPoint> ClPathFitter::band(Vec2d a, Vec2d b, double tolerance) co
         const double before = i > 0 ? std::abs(z - heights[i - 1]) / step : 0.0;
         const double after = i + 1 < heights.size() ? std::abs(heights[i + 1] - z) / step : 0.0;
         const double slope = std::max(before, after);
-        const double bend = std::pow(1 + slope * slope, 1.5) / bend_radius(drop_cutter_.tool());
-        const double margin =
-            std::min(step * step / 8 * bend + kRounding + drop_cutter_.accuracy(), tolerance / 3);
+        const double bend = std::pow(1 + slope * slope, 1.5) / bend_radius(drop_cutter_->tool());
+        const double margin = std::min(step * step / 8 * bend + reserve(), tolerance / 3);
         out.push_back({static_cast<double>(i) * step, z + margin, z + tolerance});
     }
     return out;
 }
 
-// Lower bound, at most 0, of the room under a straight move above `needed` mm.
-double ClPathFitter::room(Vec3d a, Vec3d b, double needed) const
+// Lower bound, at most 0, of the gap under a move that bulges by up to `sagitta` mm, in its upright
+// plane, from the straight line.
+double ClPathFitter::room(Vec3d a, Vec3d b, double sagitta) const
 {
-    if (!has_flat_end()) {
-        return move_clearance(a, b, needed) - needed;
+    if (drop_cutter_->tool().corner_radius == drop_cutter_->tool().radius) {
+        return move_clearance(a, b, sagitta);
     }
-    // A flat end's room is that along the axis, and bounds nothing of a move that cuts in: such a
-    // move is looked at from as much higher as it may cut.
+    // Along the axis the bulge is longer on slopes.
     const double way = norm(in_plan(b) - in_plan(a));
     const double steep = way > 0 ? norm(b - a) / way : 1.0;
-    const Vec3d down{0, 0, -needed * steep};
-    const double clear = move_clearance(a + down, b + down, 0);
-    if (clear >= kProven || allowed_gouge() == 0) {
-        return clear;
-    }
-    const Vec3d up = down + Vec3d{0, 0, allowed_gouge()};
-    return move_clearance(a + up, b + up, 0) - allowed_gouge();
+    const Vec3d down{0, 0, -sagitta * steep};
+    return move_clearance(a + down, b + down);
 }
 
 void ClPathFitter::chord(GridMoveWriter& moves, Vec3d end, MoveKind kind, int depth)
@@ -190,7 +193,7 @@ void ClPathFitter::chord(GridMoveWriter& moves, Vec3d end, MoveKind kind, int de
     if (depth < kDeepest && norm(end - from) > kShortestPiece) {
         Vec3d middle = (from + end) * 0.5;
         const double exact = std::max(min_z_, height(in_plan(middle)).value_or(middle.z));
-        middle.z = std::max(middle.z, exact + kRounding);
+        middle.z = std::max(middle.z, exact + reserve());
         chord(moves, middle, kind, depth + 1);
         chord(moves, end, kind, depth + 1);
         return;
@@ -345,8 +348,7 @@ bool ClPathFitter::in_band(Vec2d at, double z) const
     if (exact == min_z_) {
         return z == min_z_;
     }
-    const double lowest = settings_.both_sides ? exact - settings_.tolerance
-                                               : exact + kRounding + drop_cutter_.accuracy();
+    const double lowest = settings_.both_sides ? exact - settings_.tolerance : exact + reserve();
     return z >= std::max(min_z_, lowest) && z <= exact + settings_.tolerance;
 }
 
@@ -363,15 +365,14 @@ bool ClPathFitter::follow_level_arc(GridMoveWriter& moves, const Edge& arc, Move
     const double step = 2 * std::sqrt(2 * std::min(sagitta / arc.radius, 0.5));
     const int pieces =
         1 + static_cast<int>(std::max(turned / step, length(arc) / settings_.sample));
-    // On slopes a flat end that stands aside by the sagitta stands higher by more.
-    const double needed = has_flat_end() ? 4 * sagitta : sagitta;
     const double proven = kProven - allowed_gouge();
     Vec3d before = moves.at();
     double least = 0;
     for (int i = 1; i <= pieces; ++i) {
         const Vec2d at = i < pieces ? point_on(arc, static_cast<double>(i) / pieces) : arc.end;
         const Vec3d next{at.x, at.y, z};
-        least = std::min(least, in_band(at, z) ? room(before, next, needed) : 2 * proven - 1);
+        least = std::min(least,
+                         in_band(at, z) ? move_clearance(before, next, sagitta) : 2 * proven - 1);
         if (least < proven) {
             return false;
         }

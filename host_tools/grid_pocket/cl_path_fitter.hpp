@@ -2,10 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 #include <vector>
 
-#include "host_tools/grid_pocket/grid_drop_cutter.hpp"
+#include "host_tools/drop_cutter/drop_cutter.hpp"
 #include "host_tools/grid_pocket/profile_fit.hpp"
 #include "host_tools/job/job.hpp"
 #include "host_tools/offset/contour.hpp"
@@ -49,7 +50,6 @@ class ClPathFitter {
 public:
     // Heights leave `allowance` mm, square to the surface, all over the floor.
     ClPathFitter(const std::vector<nurbs::Surface>& floor,
-                 std::shared_ptr<const part_model::PartModel> model,
                  const toolpath::Tool& tool,
                  double allowance,
                  FollowSettings settings);
@@ -66,11 +66,11 @@ public:
     // The lowest that moves over the point may be.
     double lowest_height(Vec2d at) const;
 
+    // The floor's lowest z: where it ends, passes go on at that height.
+    double lowest() const { return drop_cutter_->lowest(); }
+
     // No move is lower than this.
-    double bottom() const
-    {
-        return std::max(min_z_, drop_cutter_.lowest() + allowance_ - allowed_gouge());
-    }
+    double bottom() const { return std::max(min_z_, lowest() + allowance_ - allowed_gouge()); }
 
     // Cuts along the corners, straight in plan between them, from where the tip stands at the
     // first.
@@ -83,14 +83,9 @@ public:
     // follow() as chords from `start`, along at most `length` mm.
     std::vector<Vec3d> chords(const std::vector<Vec2d>& corners, double length) const;
 
-    // Lower bound of the distance that a straight move keeps from the floor, cut off at
-    // `sufficient`.
-    double move_clearance(Vec3d a, Vec3d b, double sufficient) const;
-
-    bool has_flat_end() const
-    {
-        return drop_cutter_.tool().corner_radius < drop_cutter_.tool().radius;
-    }
+    // Lower bound, at most 0, of the gap under a straight move whose tool may be `margin` mm beside
+    // it; see DropCutter::move_clearance().
+    double move_clearance(Vec3d a, Vec3d b, double margin = 0.0) const;
 
     // Largest depth that any move so far may cut into the floor; 0 where all are proven clear.
     double gouge_bound() const { return gouge_bound_; }
@@ -99,7 +94,8 @@ public:
     void add_bound(double depth) { gouge_bound_ = std::max(gouge_bound_, depth); }
 
 private:
-    GridDropCutter drop_cutter_;  // of the tool grown by the allowance
+    std::shared_ptr<const drop_cutter::DropCutter> drop_cutter_;  // tool grown by the allowance
+    double accuracy_;  // mm: drops are at most this much too high, clearances too low
     double allowance_;
     FollowSettings settings_;
     double min_z_{-1e300};
@@ -107,11 +103,13 @@ private:
 
     // How deep a move may cut: nothing, or the band where it reaches below the floor.
     double allowed_gouge() const { return settings_.both_sides ? band_height(settings_) : 0.0; }
+    // mm over an exact height: moves no lower than that can be proven not to gouge.
+    double reserve() const;
     double path_height(Vec2d at) const;
 
     std::vector<BandPoint> band(Vec2d a, Vec2d b, double tolerance) const;
     void follow_segment(GridMoveWriter& moves, Vec2d a, Vec2d b, toolpath::MoveKind kind);
-    double room(Vec3d a, Vec3d b, double needed) const;
+    double room(Vec3d a, Vec3d b, double sagitta) const;
     bool in_band(Vec2d at, double z) const;
     double arc_room(Vec3d from, const toolpath::ArcTo& arc, double curvature) const;
     std::vector<Vec3d> arc_vertices(Vec2d a, Vec2d b) const;

@@ -240,10 +240,12 @@ bool GridPasses::can_link(Vec2d to) const
     if (last_plane_ > pocket_.job.stock_top || moves_.is_retracted()) {
         return false;
     }
-    const Vec3d from{here().x, here().y, last_plane_};
-    const Vec3d end{to.x, to.y, last_plane_};
+    // The link runs higher than this over the layer above.
+    constexpr double kOver = 0.01;  // mm
+    const Vec3d from{here().x, here().y, last_plane_ + kOver};
+    const Vec3d end{to.x, to.y, last_plane_ + kOver};
     return norm(end - from) < 8 * pocket_.operation.tool.radius && cut_along(from, end) &&
-           pocket_.clear(here(), to) && pocket_.rough.move_clearance(from, end, 0) >= -1e-6;
+           pocket_.clear(here(), to) && pocket_.rough.move_clearance(from, end) >= -1e-6;
 }
 
 bool GridPasses::cut_along(Vec3d from, Vec3d to) const
@@ -337,12 +339,10 @@ GridToolpathWriter::CircleFloor GridPasses::circle_over(const ClPathFitter& floo
                 least = std::min(least,
                                  floor.move_clearance({a.x, a.y, z}, {b.x, b.y, z}, 2 * sagitta));
             }
-            // A flat end's room ends at 0: it stands higher by what the sagitta takes on a slope.
-            const double needed = floor.has_flat_end() ? 0.0 : 2 * sagitta;
-            if (least >= needed - 1e-6) {
-                return z + (floor.has_flat_end() ? 4 * sagitta : 0.0);
+            if (least >= -1e-6) {
+                return z;
             }
-            z += std::max(needed - least, 1e-3) * 1.5;
+            z += std::max(-least, 1e-3) * 1.5;
         }
         return std::nullopt;
     };
@@ -409,7 +409,7 @@ void GridPasses::wall_level(double above, ClPathFitter& floor)
 
 double GridPasses::height_or(Vec2d at) const
 {
-    return pocket_.rough.height(at).value_or(pocket_.model->box_low().z);
+    return pocket_.rough.height(at).value_or(pocket_.rough.lowest());
 }
 
 void GridPasses::cut_level(std::vector<Vec2d>& run, double above, ClPathFitter& floor)

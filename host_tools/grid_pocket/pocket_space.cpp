@@ -15,7 +15,6 @@ using job::OutputForm;
 using job::ToleranceSide;
 using offset::Contour;
 using offset::Edge;
-using part_model::PartModel;
 
 namespace {
 
@@ -119,9 +118,9 @@ PocketSpace::PocketSpace(const Job& j, const Operation& o, const PocketWalls& po
       centres{walls.at(kept + kWallRounding)},
       centre_edges{edges_of(centres)},
       grid{walls, o.grid_x, o.grid_y, kept},
-      model{std::make_shared<PartModel>(o.floor)},
-      finish{o.floor, model, o.tool, 0, follow_settings(o)},
-      rough{o.floor, model, o.tool, o.allowance, follow_settings(o)}
+      finish{o.floor, o.tool, 0, follow_settings(o)},
+      rough{o.allowance > 0 ? ClPathFitter{o.floor, o.tool, o.allowance, follow_settings(o)}
+                            : finish}
 {
 }
 

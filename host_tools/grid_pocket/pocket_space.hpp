@@ -1,7 +1,6 @@
 // The pocket as the passes see it: where the axis may stand, how low, and in which order.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -27,7 +26,6 @@ struct PocketSpace {
     offset::Region2d centres;  // where the pass along the walls runs
     offset::EdgeTree centre_edges;
     CellGrid grid;
-    std::shared_ptr<const part_model::PartModel> model;
     ClPathFitter finish;
     ClPathFitter rough;           // leaves the allowance
     std::vector<double> heights;  // finish heights over cells
