@@ -9,12 +9,12 @@
 #include <numeric>
 #include <optional>
 
+#include "host_tools/adaptive_isocurve/cross_section.hpp"
 #include "host_tools/adaptive_isocurve/equal_scallop_passes.hpp"
 #include "host_tools/adaptive_isocurve/isocurve_extraction.hpp"
 #include "host_tools/adaptive_isocurve/isocurve_floor.hpp"
 #include "host_tools/adaptive_isocurve/isocurve_scallop.hpp"
 #include "host_tools/adaptive_isocurve/isocurve_spacing_bound.hpp"
-#include "host_tools/adaptive_isocurve/isocurve_stepover.hpp"
 #include "host_tools/adaptive_isocurve/mesh_isocurves.hpp"
 #include "host_tools/adaptive_isocurve/offset_curve_trimmer.hpp"
 #include "host_tools/adaptive_isocurve/proved_scallop.hpp"
@@ -23,6 +23,7 @@
 #include "host_tools/finishing/scallop_check.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/part_model/offset_surface.hpp"
+#include "host_tools/toolpath/stepover.hpp"
 
 #include "fmt/format.h"
 
@@ -48,6 +49,7 @@ using part_model::OffsetSurface;
 using part_model::SurfaceCut;
 using toolpath::OperationStats;
 using toolpath::PlannedOperation;
+using toolpath::stepover;
 
 namespace {
 
@@ -222,7 +224,7 @@ private:
         const double radius = operation_.tool.radius;
         return [scallop_height, radius](const SurfacePoint& p) {
             const CrossSection section = cross_section_at(p);
-            return section.speed / isocurve_stepover(radius, scallop_height, section.curvature);
+            return section.speed / stepover(radius, scallop_height, section.curvature);
         };
     }
 
@@ -237,8 +239,8 @@ private:
                 const SurfacePoint p = work_.model().evaluate(
                     surface, s.u_begin() + (s.u_end() - s.u_begin()) * i / kCurvatureLooks,
                     s.v_begin() + (s.v_end() - s.v_begin()) * j / kCurvatureLooks);
-                least = std::min(least, isocurve_stepover(operation_.tool.radius, scallop_height,
-                                                          cross_section_at(p).curvature));
+                least = std::min(least, stepover(operation_.tool.radius, scallop_height,
+                                                 cross_section_at(p).curvature));
             }
         }
         return least;
@@ -374,7 +376,7 @@ private:
         whole_ = whole_ && !trimmed;
         spacing_ = operation_.iso_distance
                        ? *operation_.iso_distance
-                       : isocurve_stepover(operation_.tool.radius, *operation_.scallop, 0);
+                       : stepover(operation_.tool.radius, *operation_.scallop, 0);
         if (trimmed) {
             add_edges(surface);
         }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "host_tools/adaptive_isocurve/isocurve_stepover.hpp"
+#include "host_tools/adaptive_isocurve/cross_section.hpp"
 
 namespace cusp::adaptive_isocurve {
 

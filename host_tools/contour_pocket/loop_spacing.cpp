@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
-#include "host_tools/contour_pocket/stepover.hpp"
+#include "host_tools/contour_pocket/plan_stepover.hpp"
 
 namespace cusp::contour_pocket {
 
@@ -108,7 +108,7 @@ double LoopSpacing::with_partial_loops(const Region2d& level, double step) const
     constexpr double kWorthIt = 0.85;
     constexpr double kApart = 0.5;  // of the tool's radius
     const Tool& tool = floor_.tool();
-    const double flat = stepover(tool, tolerances_.scallop_height, 0.0, 0.0, 0.0);
+    const double flat = plan_stepover(tool, tolerances_.scallop_height, {});
     if (step > kUneven * flat) {
         return 0.0;
     }
@@ -155,8 +155,7 @@ DropCutter::CcPoint LoopSpacing::contact(Vec2d at) const
 double LoopSpacing::allowed(const DropCutter::CcPoint& contact, Vec2d direction) const
 {
     const DropCutter::Section section = DropCutter::section(contact, direction);
-    return stepover(floor_.tool(), tolerances_.scallop_height, section.curvature, section.slope,
-                    section.slope_along);
+    return plan_stepover(floor_.tool(), tolerances_.scallop_height, section);
 }
 
 // The cusp stands half an interval away, where the floor may be bent otherwise.

@@ -34,7 +34,7 @@ public:
     }
 
     // The least distance inward from the level, mm, at which no cusp between is higher than
-    // allowed, by stepover() and the ridge.
+    // allowed, by plan_stepover() and the ridge.
     //
     //   proven  mm: a distance at which nothing too high stands, see LoopScallop. The answer as
     //           soon as some place of the level allows hardly more: others could only allow less.
