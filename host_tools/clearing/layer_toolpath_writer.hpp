@@ -6,6 +6,7 @@
 
 #include "host_tools/job/job.hpp"
 #include "host_tools/offset/contour.hpp"
+#include "host_tools/toolpath/toolpath_writer.hpp"
 
 namespace cusp::clearing {
 
@@ -41,33 +42,28 @@ public:
         double chord_tolerance{};  // mm, > 0
     };
 
-    LayerToolpathWriter(toolpath::Toolpath& path, Settings settings)
-        : path_{path}, settings_{settings}
+    // tool_radius  mm: with what the tool keeps from the part
+    LayerToolpathWriter(toolpath::Toolpath& path, double tool_radius, Settings settings)
+        : writer_{path.moves, {settings.clearance_z, settings.entry, tool_radius}},
+          settings_{settings}
     {
     }
 
     void add(const LayerRun& run, const LayerSpace& layer);
-    void retract();
+    void retract() { writer_.retract(); }
 
-    int retracts() const { return retracts_; }
-    int steep_plunges() const { return steep_plunges_; }
-    Vec2d place() const { return {at_.x, at_.y}; }
-    bool started() const { return started_; }
+    int retracts() const { return writer_.retracts(); }
+    int steep_plunges() const { return writer_.steep_plunges(); }
+    Vec2d place() const { return in_plan(writer_.at()); }
+    bool started() const { return writer_.started(); }
 
 private:
-    toolpath::Toolpath& path_;
+    toolpath::ToolpathWriter writer_;
     Settings settings_;
-    Vec3d at_{};
-    bool started_{false};
-    int retracts_{0};
-    int steep_plunges_{0};
 
-    void line(toolpath::MoveKind kind, Vec3d end);
     void cut(const offset::Edge& edge, double z);
     bool link(Vec2d start, const LayerSpace& layer);
     void enter(const LayerRun& run, const LayerSpace& layer);
-    bool helix(Vec2d start, const LayerSpace& layer);
-    void ramp(const std::vector<Vec2d>& way, double length, double from, double bottom);
 };
 
 }  // namespace cusp::clearing

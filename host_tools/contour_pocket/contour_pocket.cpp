@@ -24,6 +24,7 @@
 
 namespace cusp::contour_pocket {
 
+using clearing::AxialDepthTracker;
 using clearing::ClearedRegion;
 using clearing::ClearingPass;
 using clearing::ClearingSettings;
@@ -78,6 +79,8 @@ constexpr double kWorthIt = 0.97;
 constexpr double kWorthItAtCliffs = 0.8;
 
 constexpr double kLevelsDone = 0.6;  // of the progress
+
+constexpr double kStockPitch = 1.0 / 24;  // of the finest tool's radius: where the stock is known
 
 // Such a floor has no cliffs.
 bool is_one_whole_surface(const Operation& operation)
@@ -379,15 +382,16 @@ private:
 
     void report_depth(OperationStats& stats) const
     {
-        constexpr double kFelt = 0.02;  // mm: no deeper than slivers are
-        if (depth_ == nullptr || depth_->max_depth() == kUnlimitedDepth) {
+        constexpr double kSliver = 0.02;  // mm: no deeper than slivers are
+        if (depth_ == nullptr || !depth_->max_depth()) {
             return;
         }
+        const double max_depth = *depth_->max_depth();
         stats.counts.emplace_back("deepest_cut_mm", depth_->deepest());
-        if (depth_->deepest() > depth_->max_depth() + kFelt) {
+        if (depth_->deepest() > max_depth + kSliver) {
             stats.warnings.push_back("a cut is " + number_text(depth_->deepest()) +
-                                     " mm deep, over the max_depth of " +
-                                     number_text(depth_->max_depth()) + " mm");
+                                     " mm deep, over the max_depth of " + number_text(max_depth) +
+                                     " mm");
         }
     }
 
@@ -446,7 +450,7 @@ private:
     RegionOffset walls_;
     DropCutter floor_;
     LoopScallop loop_scallop_;
-    PocketToolpathWriter moves_;
+    ClPathWriter moves_;
     AxialDepthTracker* depth_;
     double begun_{0.0};  // of the progress
     int loops_{0};
@@ -467,7 +471,7 @@ std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operatio
         const Tool& rougher = operation.tools.empty() ? operation.tool : operation.tools.front();
         const bool finer = rougher.radius < operation.tool.radius;
         depth.emplace(box_of(region), finer ? rougher : operation.tool, job.stock_top,
-                      operation.max_depth.value_or(kUnlimitedDepth));
+                      operation.max_depth, kStockPitch);
     }
     AxialDepthTracker* const cut_depth = depth ? &*depth : nullptr;
     const RoughAndFinish shared = split_between_rough_and_finish(operation, tolerances);

@@ -23,6 +23,7 @@ using offset::line_edge;
 using offset::Region2d;
 using offset::RegionOffset;
 using offset::reversed;
+using toolpath::MoveKind;
 
 namespace {
 
@@ -97,28 +98,45 @@ void PocketPathWriter::enter(const ProjectedPass& cut, const CutSettings& settin
     }
     const double around = helix ? stock_top_around(start, radius) : 0.0;
     // A helix reaches farther than the pass, where metal may stand that no pass has met.
-    const bool shallow = depth_ == nullptr || around - path.start.z <= depth_->max_depth();
+    const bool shallow =
+        depth_ == nullptr || around - path.start.z <= depth_->max_depth().value_or(kUnbounded);
     const bool wide = radius > 0.2 * tool || (radius > 0.02 * tool && 2 * kPi * radius > round);
     if (helix && wide && shallow) {
         heights.raise_over(heights_over(around));
         heights.stock_top = moves_.enter_by_helix(
-            path.start, radius, round < radius, heights,
-            [&](Vec2d at) {
-                return std::max(floor_.drop(at).z + path_settings.allowance, path_settings.min_z);
-            },
-            [&](Vec3d a, Vec3d b) { return floor_.move_clearance(a, b); });
+            {path.start, radius, round < radius, heights},
+            {[&](Vec2d at) {
+                 return std::max(floor_.drop(at).z + path_settings.allowance, path_settings.min_z);
+             },
+             [&](Vec3d a, Vec3d b) {
+                 return floor_.move_clearance(a, b);
+             }});
     }
     moves_.enter_along(path, heights, settings.entry == EntryKind::kPlunge);
 }
 
 double PocketPathWriter::stock_top_around(Vec2d start, double radius) const
 {
-    return depth_ == nullptr ? -1e300 : depth_->stock_top_around(start, radius);
+    return depth_ == nullptr ? -kUnbounded : depth_->stock_top_around(start, radius);
 }
 
 bool PocketPathWriter::too_deep(const ClPath& path, const CutSettings& settings) const
 {
-    return depth_ != nullptr && depth_->allowed_height_over(path, settings.depth_share).has_value();
+    return depth_ != nullptr && allowed_height_over(path, settings).has_value();
+}
+
+// Requires a depth tracker.
+std::optional<double> PocketPathWriter::allowed_height_over(const ClPath& path,
+                                                            const CutSettings& settings) const
+{
+    return depth_->allowed_height_over(path.start, tool_moves(path, MoveKind::kCut),
+                                       settings.depth_share);
+}
+
+// Requires a depth tracker.
+double PocketPathWriter::stock_top_over(const ClPath& path) const
+{
+    return depth_->stock_top_over(path.start, tool_moves(path, MoveKind::kCut));
 }
 
 PocketPathWriter::ProjectedPass PocketPathWriter::project_pass(const ClearingPass& pass,
@@ -165,7 +183,7 @@ void PocketPathWriter::follow_above(const std::vector<Edge>& way,
     ClPathSettings path_settings = settings.path_settings;
     path_settings.nurbs = false;
     path_settings.even = true;
-    const double metal = depth_ != nullptr ? depth_->stock_top_over(project(way, path_settings))
+    const double metal = depth_ != nullptr ? stock_top_over(project(way, path_settings))
                                            : settings.entry_heights(above).stock_top;
     path_settings.min_z = heights_over(std::max({metal, above, moves_.place().z})).stock_top;
     const ClPath path = project(way, path_settings);
@@ -227,7 +245,7 @@ void PocketPathWriter::return_over(const std::vector<ClearingPass>& passes,
         }
     }
     if (is_shorter_than_retract(way)) {
-        follow_above(way, -1e300, settings);
+        follow_above(way, -kUnbounded, settings);
     }
 }
 
@@ -275,15 +293,15 @@ PocketPathWriter::ProjectedPass PocketPathWriter::cut_above(const ProjectedPass&
     ProjectedPass last = project_pass(flat, settings, true);
     CutSettings entering = settings;
     entering.path_settings.nurbs = false;
-    double before = 1e300;
+    double before = kUnbounded;
     for (int i = 0; i < kMostCuts; ++i) {
-        const auto level = depth_->allowed_height_over(last.path, settings.depth_share);
+        const auto level = allowed_height_over(last.path, settings);
         if (!level || *level > before - kWrittenStep) {
             break;
         }
         before = std::max(*level, settings.path_settings.min_z);
         entering.path_settings.min_z = before;
-        entering.entry_heights = [highest = depth_->stock_top_over(last.path)](double pass) {
+        entering.entry_heights = [highest = stock_top_over(last.path)](double pass) {
             return heights_over(std::max(highest, pass));
         };
         begin(project_pass(flat, entering, true), entering);

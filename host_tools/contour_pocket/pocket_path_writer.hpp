@@ -4,10 +4,10 @@
 #include <functional>
 #include <optional>
 
+#include "host_tools/clearing/axial_depth_tracker.hpp"
 #include "host_tools/clearing/clearing.hpp"
-#include "host_tools/contour_pocket/axial_depth_tracker.hpp"
 #include "host_tools/contour_pocket/cl_path.hpp"
-#include "host_tools/contour_pocket/pocket_toolpath_writer.hpp"
+#include "host_tools/contour_pocket/cl_path_writer.hpp"
 #include "host_tools/job/job.hpp"
 
 namespace cusp::contour_pocket {
@@ -27,7 +27,7 @@ struct CutSettings {
     job::EntryKind entry{job::EntryKind::kAuto};
     double wall_clearance{};  // mm: least distance of the tool's centre from the walls
     // Passes that nowhere go deeper than this are left out (cut by the layer above).
-    double skip_above{1e300};
+    double skip_above{kUnbounded};
     // Which passes have paths that are cut at several heights (flattened()); empty: none.
     std::vector<bool> repeated;
     StockBesidePasses stock_beside;
@@ -54,8 +54,8 @@ public:
     PocketPathWriter(const job::Operation& operation,
                      const drop_cutter::DropCutter& floor,
                      const offset::RegionOffset& walls,
-                     PocketToolpathWriter& moves,
-                     AxialDepthTracker* depth)
+                     ClPathWriter& moves,
+                     clearing::AxialDepthTracker* depth)
         : operation_{operation}, floor_{floor}, walls_{walls}, moves_{moves}, depth_{depth}
     {
     }
@@ -99,13 +99,16 @@ private:
     ClPath project(const std::vector<offset::Edge>& plan, const ClPathSettings& path_settings);
     void enter(const ProjectedPass& cut, const CutSettings& settings);
     void track_moves();
+    std::optional<double> allowed_height_over(const ClPath& path,
+                                              const CutSettings& settings) const;
+    double stock_top_over(const ClPath& path) const;
     double stock_top_around(Vec2d start, double radius) const;
 
     const job::Operation& operation_;
     const drop_cutter::DropCutter& floor_;
     const offset::RegionOffset& walls_;
-    PocketToolpathWriter& moves_;
-    AxialDepthTracker* depth_;
+    ClPathWriter& moves_;
+    clearing::AxialDepthTracker* depth_;
     double least_clearance_{0.0};
     int allowed_retracts_{0};  // until now
     std::optional<offset::Region2d> reach_;

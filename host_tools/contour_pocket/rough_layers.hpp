@@ -3,8 +3,8 @@
 
 #include <optional>
 
+#include "host_tools/clearing/axial_depth_tracker.hpp"
 #include "host_tools/clearing/clearing.hpp"
-#include "host_tools/contour_pocket/axial_depth_tracker.hpp"
 #include "host_tools/contour_pocket/pocket_task.hpp"
 
 namespace cusp::contour_pocket {
@@ -29,6 +29,6 @@ std::optional<RoughResult> plan_rough_layers(const job::Job& job,
                                              const job::Operation& operation,
                                              const offset::Region2d& region,
                                              const ToleranceSplit& tolerances,
-                                             AxialDepthTracker* cut_depth);
+                                             clearing::AxialDepthTracker* cut_depth);
 
 }  // namespace cusp::contour_pocket

@@ -15,9 +15,9 @@ using nurbs::Surface;
 using offset::Edge;
 using toolpath::ArcPlane;
 using toolpath::ArcTo;
-using toolpath::LineTo;
 using toolpath::MoveKind;
 using toolpath::Tool;
+using toolpath::ToolpathWriter;
 using toolpath::ToolShape;
 
 namespace {
@@ -58,21 +58,6 @@ double band_height(const FollowSettings& settings)
 }
 
 double bend_radius(const Tool& tool) { return std::max(tool.corner_radius, tool.radius / 2); }
-
-void GridMoveWriter::line(MoveKind kind, Vec3d end)
-{
-    if (!started_ || end != at_) {
-        path_.moves.push_back({kind, LineTo{end}});
-        at_ = end;
-        started_ = true;
-    }
-}
-
-void GridMoveWriter::arc(MoveKind kind, const ArcTo& arc)
-{
-    path_.moves.push_back({kind, arc});
-    at_ = arc.end;
-}
 
 ClPathFitter::ClPathFitter(const std::vector<Surface>& floor,
                            const Tool& tool,
@@ -179,7 +164,7 @@ double ClPathFitter::room(Vec3d a, Vec3d b, double sagitta) const
     return move_clearance(a + down, b + down);
 }
 
-void ClPathFitter::chord(GridMoveWriter& moves, Vec3d end, MoveKind kind, int depth)
+void ClPathFitter::chord(ToolpathWriter& moves, Vec3d end, MoveKind kind, int depth)
 {
     const Vec3d from = moves.at();
     const double proven = kProven - allowed_gouge();
@@ -211,7 +196,7 @@ void ClPathFitter::chord(GridMoveWriter& moves, Vec3d end, MoveKind kind, int de
     gouge_bound_ = std::max(gouge_bound_, -left);
 }
 
-void ClPathFitter::follow_segment(GridMoveWriter& moves, Vec2d a, Vec2d b, MoveKind kind)
+void ClPathFitter::follow_segment(ToolpathWriter& moves, Vec2d a, Vec2d b, MoveKind kind)
 {
     std::vector<BandPoint> places = band(a, b, settings_.tolerance);
     const double z = moves.at().z;
@@ -225,7 +210,7 @@ void ClPathFitter::follow_segment(GridMoveWriter& moves, Vec2d a, Vec2d b, MoveK
     }
 }
 
-void ClPathFitter::follow(GridMoveWriter& moves, const std::vector<Vec2d>& corners, MoveKind kind)
+void ClPathFitter::follow(ToolpathWriter& moves, const std::vector<Vec2d>& corners, MoveKind kind)
 {
     for (std::size_t i = 1; i < corners.size(); ++i) {
         const Vec2d a = corners[i - 1];
@@ -299,7 +284,7 @@ std::vector<Vec3d> ClPathFitter::arc_vertices(Vec2d a, Vec2d b) const
     return out;
 }
 
-bool ClPathFitter::follow_with_arcs(GridMoveWriter& moves, Vec2d a, Vec2d b, MoveKind kind)
+bool ClPathFitter::follow_with_arcs(ToolpathWriter& moves, Vec2d a, Vec2d b, MoveKind kind)
 {
     const bool along_x = std::abs(a.y - b.y) < 1e-9;
     if (!along_x && std::abs(a.x - b.x) >= 1e-9) {
@@ -352,7 +337,7 @@ bool ClPathFitter::in_band(Vec2d at, double z) const
     return z >= std::max(min_z_, lowest) && z <= exact + settings_.tolerance;
 }
 
-bool ClPathFitter::follow_level_arc(GridMoveWriter& moves, const Edge& arc, MoveKind kind)
+bool ClPathFitter::follow_level_arc(ToolpathWriter& moves, const Edge& arc, MoveKind kind)
 {
     constexpr double kShortestArc = 0.05;  // mm
     const double turned = sweep(arc);

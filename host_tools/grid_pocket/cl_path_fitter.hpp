@@ -10,6 +10,7 @@
 #include "host_tools/grid_pocket/profile_fit.hpp"
 #include "host_tools/job/job.hpp"
 #include "host_tools/offset/contour.hpp"
+#include "host_tools/toolpath/toolpath_writer.hpp"
 
 namespace cusp::grid_pocket {
 
@@ -29,22 +30,6 @@ double band_height(const FollowSettings& settings);
 // for a ball that is proven, for a flat end, whose rim follows the floor itself, the proof of each
 // move decides.
 double bend_radius(const toolpath::Tool& tool);
-
-// Where the tip stands and the moves that brought it there.
-class GridMoveWriter {
-public:
-    explicit GridMoveWriter(toolpath::Toolpath& path) : path_{path} {}
-
-    void line(toolpath::MoveKind kind, Vec3d end);
-    void arc(toolpath::MoveKind kind, const toolpath::ArcTo& arc);
-    Vec3d at() const { return at_; }
-    bool started() const { return started_; }
-
-private:
-    toolpath::Toolpath& path_;
-    Vec3d at_{};
-    bool started_{false};
-};
 
 class ClPathFitter {
 public:
@@ -74,11 +59,15 @@ public:
 
     // Cuts along the corners, straight in plan between them, from where the tip stands at the
     // first.
-    void follow(GridMoveWriter& moves, const std::vector<Vec2d>& corners, toolpath::MoveKind kind);
+    void follow(toolpath::ToolpathWriter& moves,
+                const std::vector<Vec2d>& corners,
+                toolpath::MoveKind kind);
 
     // Cuts along an arc in plan from where the tip stands at its start, where the floor is level
     // along it and the arc is proven clear. Returns whether it did.
-    bool follow_level_arc(GridMoveWriter& moves, const offset::Edge& arc, toolpath::MoveKind kind);
+    bool follow_level_arc(toolpath::ToolpathWriter& moves,
+                          const offset::Edge& arc,
+                          toolpath::MoveKind kind);
 
     // follow() as chords from `start`, along at most `length` mm.
     std::vector<Vec3d> chords(const std::vector<Vec2d>& corners, double length) const;
@@ -98,7 +87,7 @@ private:
     double accuracy_;  // mm: drops are at most this much too high, clearances too low
     double allowance_;
     FollowSettings settings_;
-    double min_z_{-1e300};
+    double min_z_{-kUnbounded};
     double gouge_bound_{0};
 
     // How deep a move may cut: nothing, or the band where it reaches below the floor.
@@ -108,13 +97,16 @@ private:
     double path_height(Vec2d at) const;
 
     std::vector<BandPoint> band(Vec2d a, Vec2d b, double tolerance) const;
-    void follow_segment(GridMoveWriter& moves, Vec2d a, Vec2d b, toolpath::MoveKind kind);
+    void follow_segment(toolpath::ToolpathWriter& moves, Vec2d a, Vec2d b, toolpath::MoveKind kind);
     double room(Vec3d a, Vec3d b, double sagitta) const;
     bool in_band(Vec2d at, double z) const;
     double arc_room(Vec3d from, const toolpath::ArcTo& arc, double curvature) const;
     std::vector<Vec3d> arc_vertices(Vec2d a, Vec2d b) const;
-    bool follow_with_arcs(GridMoveWriter& moves, Vec2d a, Vec2d b, toolpath::MoveKind kind);
-    void chord(GridMoveWriter& moves, Vec3d end, toolpath::MoveKind kind, int depth);
+    bool follow_with_arcs(toolpath::ToolpathWriter& moves,
+                          Vec2d a,
+                          Vec2d b,
+                          toolpath::MoveKind kind);
+    void chord(toolpath::ToolpathWriter& moves, Vec3d end, toolpath::MoveKind kind, int depth);
 };
 
 }  // namespace cusp::grid_pocket

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "host_tools/grid_pocket/depth_limiter.hpp"
-#include "host_tools/grid_pocket/grid_toolpath_writer.hpp"
 #include "host_tools/grid_pocket/pocket_space.hpp"
 
 namespace cusp::grid_pocket {
@@ -34,8 +33,8 @@ public:
     int lifts() const { return lifts_; }
     int passes() const { return passes_; }
     int steps() const { return steps_; }
-    int retracts() const { return moves_.retracts(); }
-    const GridToolpathWriter& moves() const { return moves_; }
+    int retracts() const { return writer_.retracts(); }
+    const toolpath::ToolpathWriter& writer() const { return writer_; }
     // mm: none where everything is cut in one layer.
     std::optional<double> deepest_cut() const
     {
@@ -47,10 +46,10 @@ public:
 private:
     PocketSpace& pocket_;
     toolpath::Toolpath& path_;
-    GridToolpathWriter moves_;
+    toolpath::ToolpathWriter writer_;
     std::optional<DepthLimiter> depth_;  // for pockets in layers
     std::vector<float> stock_tops_;      // top of what stands over each cell
-    double last_plane_{1e300};
+    std::optional<double> last_plane_;   // of the layers so far
     std::size_t main_moves_{0};
     int backtracks_{0};
     int dead_ends_{0};
@@ -85,7 +84,7 @@ private:
     bool follow_arc(ClPathFitter& floor, const offset::Edge& arc);
     Vec2d here() const;
     // For helices over what `floor` leaves.
-    GridToolpathWriter::CircleFloor circle_over(const ClPathFitter& floor) const;
+    toolpath::ToolpathWriter::HelixFloor circle_over(const ClPathFitter& floor) const;
     // To the first corner: along the floor where the way is clear, else down at a cell beside it,
     // which the main path has cut.
     void approach(const std::vector<Vec2d>& corners);
