@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host_tools/toolpath/toolpath.hpp"
-#include "host_tools/verify/stock_cutting.hpp"
+#include "host_tools/verify/machined_stock.hpp"
 
 namespace cusp::verify {
 

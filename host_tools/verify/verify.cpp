@@ -286,7 +286,7 @@ Verification verify(const Job& job,
         positions_of(job, result.program, program_file, spacing, figures);
     result.grid = make_grid(job, scene, least_radius, settings.pitch);
 
-    StockHeightMap stock{result.grid, job.stock_top};
+    MachinedStock stock{result.grid, job.stock_top};
     const std::vector<Tool> tools = finishing_tools(job, runs);
     double widest = 0;
     for (const ToolPositions& run : runs) {

@@ -1,5 +1,5 @@
 // Every thread cuts its own band of columns along the whole path.
-#include "host_tools/verify/stock_cutting.hpp"
+#include "host_tools/verify/machined_stock.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -40,11 +40,11 @@ double half_chord(double squared_radius, double distance)
     return std::sqrt(std::max(0.0, squared_radius - distance * distance));
 }
 
-// A level foot on its way from one position to the next: what it leaves on a slope is as low as its
-// rim comes there, between the positions too.
-class FootSweep {
+// The flat bottom of a tool on its way from one position to the next: what it leaves on a slope is as
+// low as its rim comes there, between the positions too.
+class FlatSweep {
 public:
-    FootSweep(Vec3d from, Vec3d to, double radius) : from_{from}, square_{radius * radius}
+    FlatSweep(Vec3d from, Vec3d to, double radius) : from_{from}, square_{radius * radius}
     {
         const double x = to.x - from.x;
         const double y = to.y - from.y;
@@ -59,7 +59,7 @@ public:
         slope_ = (to.z - from.z) / length_;
     }
 
-    // z; infinite where the foot does not come.
+    // z; kUnbounded where the flat bottom does not come.
     double lowest(double x, double y) const
     {
         const double dx = x - from_.x;
@@ -70,11 +70,10 @@ public:
         const double begin = std::max(0.0, along - half);
         const double end = std::min(length_, along + half);
         const double height = from_.z + slope_ * (slope_ > 0.0 ? begin : end);
-        return away * away <= square_ && begin <= end ? height : kNowhere;
+        return away * away <= square_ && begin <= end ? height : kUnbounded;
     }
 
 private:
-    static constexpr double kNowhere = 1e300;
     Vec3d from_;
     Vec2d way_{1.0, 0.0};
     double square_;
@@ -84,7 +83,7 @@ private:
 
 }  // namespace
 
-StockHeightMap::StockHeightMap(const HeightGrid& grid, double top)
+MachinedStock::MachinedStock(const HeightGrid& grid, double top)
     : grid_{grid}, top_{top}, heights_(grid.size(), top), row_x_(grid.ny), row_y_(grid.ny)
 {
     for (std::size_t j = 0; j < grid.ny; ++j) {
@@ -93,11 +92,11 @@ StockHeightMap::StockHeightMap(const HeightGrid& grid, double top)
     }
 }
 
-CutFigures StockHeightMap::cut_band(const ToolPositions& positions,
-                                    double spacing,
-                                    std::size_t begin,
-                                    std::size_t end,
-                                    const Progress& progress)
+CutFigures MachinedStock::cut_band(const ToolPositions& positions,
+                                   double spacing,
+                                   std::size_t begin,
+                                   std::size_t end,
+                                   const Progress& progress)
 {
     const Tool& tool = positions.tool;
     const double less = spacing * spacing / (4 * tool.radius) + 0.002;
@@ -115,7 +114,7 @@ CutFigures StockHeightMap::cut_band(const ToolPositions& positions,
         }
         const double depth = cut_at(tool, tip, less, begin, end);
         if (edged && k > 0 && positions.tips[k - 1].z < top_) {
-            sweep_foot(tool, positions.tips[k - 1], tip, begin, end);
+            sweep_flat(tool, positions.tips[k - 1], tip, begin, end);
         }
         double& worst = positions.rapid[k] ? figures.rapid_cut : figures.cut_depth;
         worst = std::max(worst, depth);
@@ -123,7 +122,7 @@ CutFigures StockHeightMap::cut_band(const ToolPositions& positions,
     return figures;
 }
 
-double StockHeightMap::cut_at(
+double MachinedStock::cut_at(
     const Tool& tool, Vec3d tip, double less, std::size_t begin, std::size_t end)
 {
     // Rows that are looked at together: most stand below the tool's lower side.
@@ -173,13 +172,13 @@ double StockHeightMap::cut_at(
 }
 
 // Under the lower of the two ends all is cut already: a crescent beside it is left.
-void StockHeightMap::sweep_foot(
+void MachinedStock::sweep_flat(
     const Tool& tool, Vec3d from, Vec3d to, std::size_t begin, std::size_t end)
 {
     const double radius = tool.radius - tool.corner_radius;
     const double squared = radius * radius;
     const double max_error = grid_.pitch / 2;
-    const FootSweep sweep{from, to, radius};
+    const FlatSweep sweep{from, to, radius};
     const Vec3d lower = from.z < to.z ? from : to;
     const auto [x_low, x_high] = std::minmax(from.x, to.x);
     const auto [y_low, y_high] = std::minmax(from.y, to.y);
@@ -203,9 +202,9 @@ void StockHeightMap::sweep_foot(
     }
 }
 
-CutFigures StockHeightMap::cut(const ToolPositions& positions,
-                               double spacing,
-                               const Progress& progress)
+CutFigures MachinedStock::cut(const ToolPositions& positions,
+                              double spacing,
+                              const Progress& progress)
 {
     std::vector<CutFigures> bands(band_count(grid_.nx));
     for_each_band(grid_.nx, [&](std::size_t begin, std::size_t end, std::size_t band) {
