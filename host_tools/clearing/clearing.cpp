@@ -88,7 +88,7 @@ double draw_to_suit(NextRing& inner,
     const double widest = 0.5 * settings.stepover;
     std::optional<NextRing> good;
     double good_left = 0.0;
-    double bad = 1e300;
+    bool bad = false;  // a step that leaves too much was tried
     for (int round = 0; settings.scallop_share_between && round < kRounds; ++round) {
         const double step = inner.distance - level.distance;
         const double left = settings.scallop_share_between(
@@ -99,14 +99,14 @@ double draw_to_suit(NextRing& inner,
             good = std::move(inner);
             good_left = left;
             share = std::min(kWider / std::sqrt(left), 2.0);
-            const bool free = !good->by_corners && bad == 1e300;
+            const bool free = !good->by_corners && !bad;
             if (left > kLittle || !free || step * share > widest) {
                 break;
             }
         } else if (good) {
             break;
         } else {
-            bad = step;
+            bad = true;
         }
         inner = next_level(offset, level.distance, share * step, settings.cover_corners);
     }

@@ -26,7 +26,7 @@ public:
     void set_tool(const toolpath::Tool& tool);
 
     // The height at which a tip that comes down over `at` first touches metal, with what of the
-    // tool is within that share of its radius; -1e300 where none stands.
+    // tool is within that share of its radius; -kUnbounded where there is none.
     double contact_height(Vec2d at, double share = 1.0) const;
 
     // Takes what the tool sweeps on a straight move. Returns the deepest that it cuts, mm.

@@ -155,7 +155,7 @@ double shortest_halved(double radius, double lacks, bool steep, const ClPathSett
             return (steep ? kGrazes[0].shortest : graze.shortest) * radius;
         }
     }
-    return 1e300;
+    return kUnbounded;
 }
 
 void halve_move(std::vector<ClMove>& moves, std::size_t i, Vec3d start)

@@ -21,7 +21,7 @@ struct ClPathSettings {
     // mm: kept off the floor, so that certifying a move needs no finer floor
     double clearance_reserve{};
     double allowance{};    // mm: metal left over the floor, measured along the axis
-    double min_z{-1e300};  // mm: the tip stays at or above this z
+    double min_z{-kUnbounded};  // mm: the tip stays at or above this z
     double spacing{};      // mm between the floor heights that moves are made for
     // mm: cubics between lookups no farther apart are good enough; 0: not known
     double lookup_spacing{};

@@ -41,7 +41,7 @@ double HeightAfterPasses::height(Vec2d place)
 {
     const Tool& tool = floor_.tool();
     const double radius = tool.radius;
-    double least = 1e300;
+    double least = kUnbounded;
     const Box2d box{place.x - radius, place.y - radius, place.x + radius, place.y + radius};
     tree_.visit_meeting(box, [&](std::size_t e) {
         std::vector<Vec3d>& tips = tips_[e];

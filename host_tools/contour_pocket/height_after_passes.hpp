@@ -16,7 +16,7 @@ public:
                       const drop_cutter::DropCutter& floor,
                       double share = 0.08);
 
-    // z; 1e300 where no pass comes within the tool's radius.
+    // z; kUnbounded where no pass comes within the tool's radius.
     double height(Vec2d place);
 
 private:

@@ -242,7 +242,7 @@ double LoopScallop::left_at(Vec2d at, Vec2d near) const
 {
     const int i = static_cast<int>(std::floor((near.x - field_.x0) / cell_));
     const int j = static_cast<int>(std::floor((near.y - field_.y0) / cell_));
-    double least = kNotReached;
+    double least = kUnbounded;
     for (int row = std::max(0, j - 1); row <= std::min(rows_ - 1, j + 1); ++row) {
         for (int column = std::max(0, i - 1); column <= std::min(columns_ - 1, i + 1); ++column) {
             for (const std::uint32_t k :
@@ -348,7 +348,7 @@ double LoopScallop::left_under_foot(const Probe& a, const Probe& b) const
         const Vec2d p = i < kRound ? lowest.at + way * foot : lowest.at;
         const double stands =
             std::min({left_at(p, lowest.at), left_at(p, (lowest.at + p) * 0.5), left_at(p, p)});
-        most = stands < kNotReached ? std::max(most, stands) : most;  // else beyond both levels
+        most = stands < kUnbounded ? std::max(most, stands) : most;  // else beyond both levels
     }
     // A step is highest just before the next pass, by up to a place more than was looked at.
     const double unseen = static_cast<double>(places_) / (places_ - 1);

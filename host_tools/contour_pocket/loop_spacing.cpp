@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "firmware/base/math.hpp"
 #include "host_tools/contour_pocket/plan_stepover.hpp"
@@ -79,12 +80,12 @@ double LoopSpacing::found() const { return within_limits(least_); }
 double LoopSpacing::stepover_from(const Region2d& level, double proven)
 {
     constexpr double kWorthIt = 0.95;
-    least_ = 1e300;
+    least_ = kUnbounded;
     const double apart = kSamplesApart * floor_.tool().radius;
     for (const Contour& contour : level.contours) {
-        Vec2d corner{1e300, 1e300};
+        std::optional<Vec2d> corner;
         Vec2d arriving = tangent_at_end(contour.back());
-        since_ = 1e300;
+        since_ = kUnbounded;
         for (const Edge& edge : contour) {
             along(edge);
             if (proven > kWorthIt * found()) {
@@ -92,9 +93,9 @@ double LoopSpacing::stepover_from(const Region2d& level, double proven)
             }
             constexpr double kCorner = 0.995;  // cosine of some 6 degrees
             const bool turns = dot(arriving, tangent_at_start(edge)) < kCorner;
-            if (corners_ && turns && distance(corner, edge.start) > apart) {
+            if (corners_ && turns && (!corner || distance(*corner, edge.start) > apart)) {
                 corner = edge.start;
-                around(corner);
+                around(edge.start);
             }
             arriving = tangent_at_end(edge);
         }

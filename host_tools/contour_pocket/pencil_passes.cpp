@@ -127,7 +127,7 @@ private:
     {
         std::vector<Vec2d> path;
         std::vector<bool> resolution;
-        double since = 1e300;
+        double since = kUnbounded;
         const double apart = kAlong * floor_.tool().radius;
         for (const PencilPoint& point : line.points) {
             const Vec2d p = point.at + point.low_side * off;

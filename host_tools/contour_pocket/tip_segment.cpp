@@ -27,12 +27,12 @@ double cut_over(const Tool& tool, const TipSegment& segment, Vec2d at, double be
     const double away = std::abs(cross(way, at - a));
     const double lowest = std::min(segment.start.z, segment.end.z);
     if (away >= tool.radius || lowest + profile_height(tool, away) >= below) {
-        return kNotReached;
+        return kUnbounded;
     }
     const double slope = (segment.end.z - segment.start.z) / whole;
     // The place lifts a tool that comes past as an edge would that falls away from it.
     const EdgeContact rest = drop_on_edge(tool, -slope, away, -along, whole - along);
-    return rest.lift > kNoContact ? segment.start.z + slope * along - rest.lift : kNotReached;
+    return rest.lift > kNoContact ? segment.start.z + slope * along - rest.lift : kUnbounded;
 }
 
 }  // namespace cusp::contour_pocket

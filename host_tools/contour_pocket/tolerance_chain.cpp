@@ -38,8 +38,8 @@ Wedge wedge_about(Vec2d arm, double apart, double room)
 
 // Slopes of z that a straight rise from a point may have, narrowed by bands farther along.
 struct Rise {
-    double low{-1e300};
-    double high{1e300};
+    double low{-kUnbounded};
+    double high{kUnbounded};
 
     void pass(double along, double from, double to)
     {

@@ -90,7 +90,7 @@ private:
         constexpr double kFarthest = 16.0;  // cells: further is not looked for
         struct Room {
             double least{0.0};
-            double most{1e300};
+            double most{kUnbounded};
         };
         const double near = 1.01 * cell_;
         places_.assign(rest_.size(), Place::kOutside);
@@ -106,7 +106,7 @@ private:
                 if (room.least < first_ && room.most >= first_) {
                     const double farthest = first_ + kFarthest * cell_;
                     room.least = walls_.nearest(p, std::min(farthest, room.most));
-                    room.most = room.least < farthest ? room.least : 1e300;
+                    room.most = room.least < farthest ? room.least : kUnbounded;
                 }
                 beside = room;
                 const bool at_wall = room.least < first_;
@@ -195,7 +195,7 @@ private:
         const int reach = static_cast<int>(radius_ / fine);
         const int i = static_cast<int>((p.x - box_.x0) / fine);
         const int j = static_cast<int>((p.y - box_.y0) / fine);
-        double best = 1e300;
+        double best = kUnbounded;
         for (int k = std::max(0, i - reach); k <= std::min(2 * columns_ - 1, i + reach); ++k) {
             for (int l = std::max(0, j - reach); l <= std::min(2 * rows_ - 1, j + reach); ++l) {
                 const Vec2d at{box_.x0 + fine * k, box_.y0 + fine * l};
@@ -205,7 +205,7 @@ private:
                 }
             }
         }
-        return best < 1e299 ? best - floor - 0.02 * radius_ : 0.0;
+        return best < kUnbounded ? best - floor - 0.02 * radius_ : 0.0;
     }
 
     double tip_at(int k, int l, Vec2d at)
@@ -216,7 +216,7 @@ private:
         auto& height = heights_[static_cast<std::size_t>(k) * 2 * static_cast<std::size_t>(rows_) +
                                 static_cast<std::size_t>(l)];
         if (!height) {
-            height = walls_.clearance(at) < first_ ? 1e300 : tips_.drop(at, 0.005 * radius_).z;
+            height = walls_.clearance(at) < first_ ? kUnbounded : tips_.drop(at, 0.005 * radius_).z;
         }
         return *height;
     }
@@ -265,7 +265,7 @@ private:
     std::vector<bool> by_wall_;
     std::vector<Place> places_;
     std::vector<std::optional<Vec2d>> slopes_;
-    std::vector<std::optional<double>> heights_;  // of the tip, 1e300 where walls are too near
+    std::vector<std::optional<double>> heights_;  // of the tip, kUnbounded where walls are too near
 };
 
 }  // namespace

@@ -245,7 +245,7 @@ std::optional<Cliff> highest_cliff(const PocketSpace& pocket)
 
 LayerPlanes layer_planes(const PocketSpace& pocket)
 {
-    double lowest = 1e300;
+    double lowest = kUnbounded;
     for (const double z : pocket.rough_heights) {
         lowest = std::isnan(z) ? lowest : std::min(lowest, z);
     }
