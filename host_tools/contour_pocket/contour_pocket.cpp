@@ -15,12 +15,11 @@
 #include "host_tools/contour_pocket/pencil_detours.hpp"
 #include "host_tools/contour_pocket/pencil_passes.hpp"
 #include "host_tools/contour_pocket/pocket_path_writer.hpp"
+#include "host_tools/contour_pocket/pocket_report.hpp"
 #include "host_tools/contour_pocket/pocket_task.hpp"
 #include "host_tools/contour_pocket/rough_layers.hpp"
-#include "host_tools/contour_pocket/uncut_regions.hpp"
 #include "host_tools/drop_cutter/drop_cutter.hpp"
 #include "host_tools/offset/offset.hpp"
-#include "host_tools/toolpath/toolpath_measure.hpp"
 
 namespace cusp::contour_pocket {
 
@@ -43,21 +42,12 @@ using offset::EdgeTree;
 using offset::length;
 using offset::Region2d;
 using offset::RegionOffset;
-using toolpath::MoveKind;
 using toolpath::OperationStats;
 using toolpath::PlannedOperation;
 using toolpath::Tool;
-using toolpath::ToolMove;
 using toolpath::Toolpath;
 
 namespace {
-
-// Area of the pocket that the tool's body, its axis among `centres`, can't sweep beside walls,
-// mm^2: corners and necks.
-double unswept_area(const Region2d& region, const Region2d& centres, double radius)
-{
-    return area(region) - (centres.contours.empty() ? 0.0 : area(grown(centres, radius)));
-}
 
 // How much higher than the tip of `tool` metal stands that it left, at most, over a place within
 // `other` at the same axis, less the other's profile, mm.
@@ -364,71 +354,13 @@ private:
             stats.counts.emplace_back("cliff_passes", static_cast<double>(pencil_passes_));
         }
         report_plunges(moves_.steep_plunges(), stats);
-        report_air(stats);
-        report_depth(stats);
-        report_uncut(stats);
-    }
-
-    void report_air(OperationStats& stats) const
-    {
-        const std::vector<ToolMove>& moves = moves_.moves();
-        if (std::none_of(moves.begin(), moves.end(), [&](const ToolMove& move) {
-                return move.kind == MoveKind::kCut && end_of(move).z < job_.stock_top;
-            })) {
-            stats.warnings.push_back("nothing of the floor lies below stock.top, " +
-                                     number_text(job_.stock_top) + " mm: the program cuts air");
+        report_air(moves_.moves(), job_.stock_top, stats);
+        if (depth_ != nullptr) {
+            report_depth(*depth_, stats);
         }
-    }
-
-    void report_depth(OperationStats& stats) const
-    {
-        constexpr double kSliver = 0.02;  // mm: no deeper than slivers are
-        if (depth_ == nullptr || !depth_->max_depth()) {
-            return;
-        }
-        const double max_depth = *depth_->max_depth();
-        stats.counts.emplace_back("deepest_cut_mm", depth_->deepest());
-        if (depth_->deepest() > max_depth + kSliver) {
-            stats.warnings.push_back("a cut is " + number_text(depth_->deepest()) +
-                                     " mm deep, over the max_depth of " + number_text(max_depth) +
-                                     " mm");
-        }
-    }
-
-    // Where the tool does not reach, and how much stays there.
-    void report_uncut(OperationStats& stats) const
-    {
-        constexpr std::size_t kNamed = 5;
-        const Region2d centres = walls_.at(tolerances_.wall_clearance);
-        const double least = std::max(*operation_.scallop, 0.02 * operation_.tool.radius);
-        const std::vector<UncutRegion> places =
-            uncut_regions(walls_, centres, operation_.floor, floor_,
-                          {tolerances_.wall_clearance, job_.stock_top, least,
-                           !loop_scallop_.reaches_floor(region_)});
-        double volume = 0.0;
-        double height = 0.0;
-        for (const UncutRegion& place : places) {
-            volume += place.volume;
-            height = std::max(height, place.height);
-        }
-        stats.counts.emplace_back("rest_area_mm2",
-                                  unswept_area(region_, centres, tolerances_.wall_clearance));
-        stats.counts.emplace_back("rest_places", static_cast<double>(places.size()));
-        stats.counts.emplace_back("rest_volume_mm3", volume);
-        stats.counts.emplace_back("rest_height_max_mm", height);
-        for (std::size_t i = 0; i < std::min(kNamed, places.size()); ++i) {
-            const UncutRegion& place = places[i];
-            stats.warnings.push_back(
-                "the tool does not reach " +
-                std::string{place.at_walls ? "between walls" : "a valley"} + " at (" +
-                number_text(place.at.x) + ", " + number_text(place.at.y) + ") mm: about " +
-                number_text(place.volume) + " mm3 on " + number_text(place.area) +
-                " mm2 stay, up to " + number_text(place.height) + " mm high");
-        }
-        if (places.size() > kNamed) {
-            stats.warnings.push_back(number_text(static_cast<double>(places.size() - kNamed)) +
-                                     " smaller places that the tool does not reach");
-        }
+        report_uncut({job_, operation_, region_, walls_, floor_, tolerances_.wall_clearance,
+                      !loop_scallop_.reaches_floor(region_)},
+                     stats);
     }
 
     void describe(Toolpath& path, const OperationStats& stats) const
