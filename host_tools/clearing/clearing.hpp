@@ -53,9 +53,10 @@ struct ClearingSettings {
     std::function<double(const LoopStrip& strip)> scallop_share_between;
     // Where given: how far inward the next level may lie if partial loops are made where that is
     // too far, mm; 0 where whole loops, `stepover` mm apart, are no longer. And these partial
-    // loops; no value where they do not suffice or add more than `most` mm of path.
+    // loops; no value where they do not suffice or add more than `max_length` mm of path.
     std::function<double(const offset::Region2d& level, double step)> partial_stepover;
-    std::function<std::optional<std::vector<PartialLoop>>(const LoopStrip& strip, double most)>
+    std::function<std::optional<std::vector<PartialLoop>>(const LoopStrip& strip,
+                                                          double max_length)>
         partial_loops;
     job::CutDirection direction{job::CutDirection::kClimb};
     // Draws loops nearer together where corners, necks or the middle would else lie farther than

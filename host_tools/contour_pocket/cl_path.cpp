@@ -1,5 +1,5 @@
-// Looks the floor up along the path, takes the longest moves that stay in the band, certifies every
-// move and lifts what would cut too deep.
+// Looks the floor up along the path, takes the longest moves that stay in the band, proves each of
+// them and raises those that would gouge.
 #include "host_tools/contour_pocket/cl_path.hpp"
 
 #include <algorithm>
@@ -374,19 +374,17 @@ double certify_curves(ClPath& path,
 // The chain with a curve, or lines where none fits, from corner to corner.
 Chain curves_through(const std::vector<Station>& stations,
                      const std::vector<std::size_t>& corners,
-                     double aside,
-                     double low,
-                     double high)
+                     const StationBand& band)
 {
     Chain chain;
     const auto tip = [&](const Station& s) {
-        return Vec3d{s.at.x, s.at.y, s.height + 0.5 * (low + high)};
+        return Vec3d{s.at.x, s.at.y, s.height + band.middle()};
     };
     chain.start = tip(stations.front());
     for (std::size_t c = 1; c < corners.size(); ++c) {
         std::vector<Station> run(stations.begin() + static_cast<std::ptrdiff_t>(corners[c - 1]),
                                  stations.begin() + static_cast<std::ptrdiff_t>(corners[c] + 1));
-        if (auto curve = fit_cubic(run, aside, low, high)) {
+        if (auto curve = fit_cubic(run, band)) {
             for (Vec3d& p : curve->points) {
                 p = written(p);
             }
@@ -394,7 +392,7 @@ Chain curves_through(const std::vector<Station>& stations,
             continue;
         }
         run.back().exact = true;  // the next run starts there
-        const Chain lines = chain_through(run, aside, low, high, false, false);
+        const Chain lines = chain_through(run, band, false, false);
         chain.moves.insert(chain.moves.end(), lines.moves.begin(), lines.moves.end());
     }
     return chain;
@@ -402,18 +400,25 @@ Chain curves_through(const std::vector<Station>& stations,
 
 // Between stations the floor may bend by a little more than at them, and an arc by an eighth.
 constexpr double kUsed = 0.95;
-constexpr double kUsedAside = 0.86;
+constexpr double kUsedInPlan = 0.86;
 
 }  // namespace
 
-double repeated_plan_tolerance(double aside) { return std::min(1e-3, 0.2 * aside); }
-
-std::vector<Edge> flattened(const std::vector<Edge>& plan, double aside, double spacing, bool arcs)
+double repeated_plan_tolerance(double plan_tolerance)
 {
-    const double room = aside - 3.0 * repeated_plan_tolerance(aside);
-    const StationRow row = stations_along(plan, nullptr, {spacing, room, 1.0, false});
+    return std::min(1e-3, 0.2 * plan_tolerance);
+}
+
+std::vector<Edge> flattened(const std::vector<Edge>& plan,
+                            double plan_tolerance,
+                            double spacing,
+                            bool arcs)
+{
+    const double tolerance = plan_tolerance - 3.0 * repeated_plan_tolerance(plan_tolerance);
+    const StationRow row = stations_along(plan, nullptr, {spacing, tolerance, 1.0, false});
     const bool closed = distance(row.stations.front().at, row.stations.back().at) < 1e-9;
-    const Chain chain = chain_through(row.stations, kUsedAside * room, -1.0, 1.0, arcs, closed);
+    const Chain chain =
+        chain_through(row.stations, {kUsedInPlan * tolerance, -1.0, 1.0}, arcs, closed);
     std::vector<Edge> edges;
     Vec2d from{chain.start.x, chain.start.y};
     for (const ClMove& move : chain.moves) {
@@ -451,16 +456,15 @@ double path_over_stations(const std::vector<Edge>& plan,
     }
     const std::vector<Station>& stations = row.stations;
     const bool closed = distance(stations.front().at, stations.back().at) < 1e-9;
-    const double low =
-        settings.one_sided ? settings.clearance_reserve : -kUsed * settings.height_tolerance;
-    const double aside = kUsedAside * settings.plan_tolerance;
-    const double high = kUsed * settings.height_tolerance;
-    const Chain chain =
-        settings.even    ? equal_pieces_chain(plan, floor,
-                                              {aside, low, high, settings.allowance, settings.min_z,
-                                               settings.spacing, settings.arcs})
-        : settings.nurbs ? curves_through(stations, row.corners, aside, low, high)
-                         : chain_through(stations, aside, low, high, settings.arcs, closed);
+    const double most = kUsed * settings.height_tolerance;
+    const StationBand band{kUsedInPlan * settings.plan_tolerance,
+                           settings.one_sided ? settings.clearance_reserve : -most, most};
+    const Chain chain = settings.even
+                            ? equal_pieces_chain(plan, floor,
+                                                 {band, settings.allowance, settings.min_z,
+                                                  settings.spacing, settings.arcs})
+                        : settings.nurbs ? curves_through(stations, row.corners, band)
+                                         : chain_through(stations, band, settings.arcs, closed);
     path.start = written(chain.start);
     path.moves = chain.moves;
     for (ClMove& move : path.moves) {

@@ -67,9 +67,9 @@ class DetourPlaces {
 public:
     DetourPlaces(const ClearedRegion& cleared,
                  const RegionOffset& walls,
-                 double least,
+                 double wall_clearance,
                  double radius)
-        : walls_{walls}, least_{least}, radius_{radius}, tree_{sorted(cleared)}
+        : walls_{walls}, wall_clearance_{wall_clearance}, radius_{radius}, tree_{sorted(cleared)}
     {
     }
 
@@ -89,7 +89,7 @@ public:
                                     ? place.pass > best->pass
                                     : place.apart < best->apart;
             if (better && place.apart < radius_ &&
-                is_path_clear(walls_, line_edge(corner, place.at), least_)) {
+                is_path_clear(walls_, line_edge(corner, place.at), wall_clearance_)) {
                 best = place;
             }
         }
@@ -118,7 +118,7 @@ private:
     }
 
     const RegionOffset& walls_;
-    double least_;
+    double wall_clearance_;
     double radius_;
     std::vector<Owner> owners_;
     EdgeTree tree_;
@@ -202,10 +202,10 @@ void add_pencil_passes(ClearedRegion& cleared,
 std::vector<ClearingPass> add_pencil_detours(ClearedRegion& cleared,
                                              const std::vector<ClearingPass>& pencils,
                                              const RegionOffset& walls,
-                                             double least,
+                                             double wall_clearance,
                                              double radius)
 {
-    const DetourPlaces places{cleared, walls, least, radius};
+    const DetourPlaces places{cleared, walls, wall_clearance, radius};
     std::vector<std::vector<PencilDetour>> detours(cleared.passes.size());
     std::vector<ClearingPass> alone;
     for (const ClearingPass& pencil : pencils) {

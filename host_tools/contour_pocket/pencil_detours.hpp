@@ -14,12 +14,12 @@ namespace cusp::contour_pocket {
 // there, and the way out and back lies between its parts (PassStart::kHere). Returns what has no
 // pass within the radius.
 //
-//   least  mm: distance of the tool's axis from the contours on its way out
+//   wall_clearance  mm: distance of the tool's axis from the contours on its way out
 std::vector<clearing::ClearingPass> add_pencil_detours(
     clearing::ClearedRegion& cleared,
     const std::vector<clearing::ClearingPass>& pencils,
     const offset::RegionOffset& walls,
-    double least,
+    double wall_clearance,
     double radius);
 
 // Adds the passes by themselves behind the last pass in their part of `reach`, so that there is a

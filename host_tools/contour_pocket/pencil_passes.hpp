@@ -17,7 +17,8 @@ struct PencilSettings {
     // Short lines are followed whatever they leave: else only where long ones leave more than
     // `max_uncut`.
     bool fragments{true};
-    ClPathSettings path_settings;  // of passes; chords of a line keep within a third of its `aside`
+    ClPathSettings
+        path_settings;  // of passes; chords of a line keep within a third of its plan_tolerance
 };
 
 // Open and closed passes, all PassStart::kDrop. Where the height of the tip jumps, along all of the

@@ -34,12 +34,12 @@ public:
                const Region2d& centres,
                const std::vector<Surface>& floor,
                const DropCutter& tips,
-               double first)
+               double wall_clearance)
         : walls_{walls},
           centres_{edges_of(centres)},
           tips_{tips},
           floor_{floor, needle(), 0.01 * tips.tool().radius},
-          first_{first},
+          wall_clearance_{wall_clearance},
           radius_{tips.tool().radius},
           box_{box_of(walls.source())}
     {
@@ -54,9 +54,9 @@ public:
 
     std::vector<UncutRegion> run(const UncutSettings& settings)
     {
-        find_rest_at_walls(settings.top, settings.least);
+        find_rest_at_walls(settings.top, settings.min_height);
         if (settings.valleys) {
-            find_valleys(settings.least);
+            find_valleys(settings.min_height);
         }
         std::vector<UncutRegion> places;
         for (int i = 0; i < columns_; ++i) {
@@ -103,14 +103,14 @@ private:
                 const Vec2d p = centre(i, j);
                 room = {std::max(room.least, beside.least) - cell_,
                         std::min(room.most, beside.most) + cell_};
-                if (room.least < first_ && room.most >= first_) {
-                    const double farthest = first_ + kFarthest * cell_;
+                if (room.least < wall_clearance_ && room.most >= wall_clearance_) {
+                    const double farthest = wall_clearance_ + kFarthest * cell_;
                     room.least = walls_.nearest(p, std::min(farthest, room.most));
                     room.most = room.least < farthest ? room.least : kUnbounded;
                 }
                 beside = room;
-                const bool at_wall = room.least < first_;
-                if (j == 0 || (at_wall && room.least < near) || near > first_) {
+                const bool at_wall = room.least < wall_clearance_;
+                if (j == 0 || (at_wall && room.least < near) || near > wall_clearance_) {
                     inside = walls_.contains(p);
                 }
                 if (inside) {
@@ -120,16 +120,17 @@ private:
         }
     }
 
-    void find_rest_at_walls(double top, double least)
+    void find_rest_at_walls(double top, double min_height)
     {
         for (int i = 0; i < columns_; ++i) {
             for (int j = 0; j < rows_; ++j) {
                 const Vec2d p = centre(i, j);
-                if (places_[index(i, j)] != Place::kBeside || centres_.any_nearer(p, first_)) {
+                if (places_[index(i, j)] != Place::kBeside ||
+                    centres_.any_nearer(p, wall_clearance_)) {
                     continue;
                 }
                 const double floor = floor_.drop(p).z;
-                if (floor != DropCutter::kNoSurface && top - floor > least) {
+                if (floor != DropCutter::kNoSurface && top - floor > min_height) {
                     rest_[index(i, j)] = top - floor;
                     by_wall_[index(i, j)] = true;
                 }
@@ -139,13 +140,13 @@ private:
 
     // Where the tool is twice as far apart as cells, it stands on slopes that say where it cannot
     // reach between.
-    void find_valleys(double least)
+    void find_valleys(double min_height)
     {
         slopes_.assign(rest_.size(), std::nullopt);
         for (int i = 0; i + 2 < columns_; i += 2) {
             for (int j = 0; j + 2 < rows_; j += 2) {
                 if (turns_up(i, j, i + 2, j) || turns_up(i, j, i, j + 2)) {
-                    look_around(i, j, least);
+                    look_around(i, j, min_height);
                 }
             }
         }
@@ -170,14 +171,14 @@ private:
         return *slope;
     }
 
-    void look_around(int i, int j, double least)
+    void look_around(int i, int j, double min_height)
     {
         for (int k = std::max(0, i - 1); k <= std::min(columns_ - 1, i + 3); ++k) {
             for (int l = std::max(0, j - 1); l <= std::min(rows_ - 1, j + 3); ++l) {
                 double& rest = rest_[index(k, l)];
                 if (rest == 0.0 && places_[index(k, l)] != Place::kOutside) {
                     const double left = left_over(centre(k, l));
-                    rest = left > least ? left : 0.0;
+                    rest = left > min_height ? left : 0.0;
                 }
             }
         }
@@ -216,7 +217,8 @@ private:
         auto& height = heights_[static_cast<std::size_t>(k) * 2 * static_cast<std::size_t>(rows_) +
                                 static_cast<std::size_t>(l)];
         if (!height) {
-            height = walls_.clearance(at) < first_ ? kUnbounded : tips_.drop(at, 0.005 * radius_).z;
+            height = walls_.clearance(at) < wall_clearance_ ? kUnbounded
+                                                            : tips_.drop(at, 0.005 * radius_).z;
         }
         return *height;
     }
@@ -255,7 +257,7 @@ private:
     EdgeTree centres_;
     const DropCutter& tips_;
     DropCutter floor_;
-    double first_;
+    double wall_clearance_;
     double radius_;
     Box2d box_;
     double cell_{};

@@ -16,7 +16,7 @@ struct UncutRegion {
     bool at_walls{};  // a corner or a neck of the walls; else a valley of the floor
 };
 
-// Places of the region that no position of the tool sweeps down to `least` (mm) over the floor,
+// Places of the region that no position of the tool sweeps down to `min_height` (mm) over the floor,
 // the largest volume first.
 //
 //   walls    contours of the region
@@ -31,7 +31,7 @@ struct UncutRegion {
 struct UncutSettings {
     double wall_clearance;
     double top;
-    double least;
+    double min_height;
     bool valleys;
 };
 std::vector<UncutRegion> uncut_regions(const offset::RegionOffset& walls,

@@ -152,7 +152,7 @@ std::vector<BandPoint> ClPathFitter::band(Vec2d a, Vec2d b, double tolerance) co
 
 // Lower bound, at most 0, of the gap under a move that bulges by up to `sagitta` mm, in its upright
 // plane, from the straight line.
-double ClPathFitter::room(Vec3d a, Vec3d b, double sagitta) const
+double ClPathFitter::bulged_clearance(Vec3d a, Vec3d b, double sagitta) const
 {
     if (drop_cutter_->tool().corner_radius == drop_cutter_->tool().radius) {
         return move_clearance(a, b, sagitta);
@@ -168,7 +168,7 @@ void ClPathFitter::chord(ToolpathWriter& moves, Vec3d end, MoveKind kind, int de
 {
     const Vec3d from = moves.at();
     const double proven = kProven - allowed_gouge();
-    const double kept = room(from, end, 0);
+    const double kept = bulged_clearance(from, end, 0);
     if (kept >= proven) {
         gouge_bound_ = std::max(gouge_bound_, settings_.both_sides ? -kept : 0.0);
         moves.line(kind, end);
@@ -186,10 +186,10 @@ void ClPathFitter::chord(ToolpathWriter& moves, Vec3d end, MoveKind kind, int de
     // On slopes a lift along the axis gains less than its length: it is doubled until it does.
     constexpr int kMostLifts = 10;
     Vec3d lift{0, 0, (proven - kept) * 1.5};
-    double left = room(from + lift, end + lift, 0);
+    double left = bulged_clearance(from + lift, end + lift, 0);
     for (int i = 0; i < kMostLifts && left < proven; ++i) {
         lift.z *= 2;
-        left = room(from + lift, end + lift, 0);
+        left = bulged_clearance(from + lift, end + lift, 0);
     }
     moves.line(kind, from + lift);
     moves.line(kind, end + lift);
@@ -224,9 +224,8 @@ void ClPathFitter::follow(ToolpathWriter& moves, const std::vector<Vec2d>& corne
     }
 }
 
-// Lower bound of the room along the arc, at most 0; once that is too little the rest is not looked
-// at.
-double ClPathFitter::arc_room(Vec3d from, const ArcTo& arc, double curvature) const
+// Lower bound of the gap along the arc, at most 0; where it gouges too deep the rest is left out.
+double ClPathFitter::arc_clearance(Vec3d from, const ArcTo& arc, double curvature) const
 {
     // Chords of the arc, moved by the sagitta to the side that the arc bulges to when that is down.
     const double radius = 1 / std::abs(curvature);
@@ -254,7 +253,7 @@ double ClPathFitter::arc_room(Vec3d from, const ArcTo& arc, double curvature) co
             (along_x ? p.x : p.y) = (along_x ? arc.centre.x : arc.centre.y) + radius * std::cos(a);
             p.z = arc.centre.z + radius * std::sin(a);
         }
-        least = std::min(least, room(before, p, needed));
+        least = std::min(least, bulged_clearance(before, p, needed));
         if (least < kProven - allowed_gouge()) {
             break;
         }
@@ -316,7 +315,7 @@ bool ClPathFitter::follow_with_arcs(ToolpathWriter& moves, Vec2d a, Vec2d b, Mov
                         piece.clockwise};
         const double radius = norm(centre - from);
         const double curvature = (centre.z > (from.z + piece.end.z) / 2 ? 1 : -1) / radius;
-        const double kept = arc_room(from, arc, curvature);
+        const double kept = arc_clearance(from, arc, curvature);
         if (kept >= kProven - allowed_gouge()) {
             gouge_bound_ = std::max(gouge_bound_, settings_.both_sides ? -kept : 0.0);
             moves.arc(kind, arc);

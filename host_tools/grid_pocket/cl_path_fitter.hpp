@@ -98,9 +98,9 @@ private:
 
     std::vector<BandPoint> band(Vec2d a, Vec2d b, double tolerance) const;
     void follow_segment(toolpath::ToolpathWriter& moves, Vec2d a, Vec2d b, toolpath::MoveKind kind);
-    double room(Vec3d a, Vec3d b, double sagitta) const;
+    double bulged_clearance(Vec3d a, Vec3d b, double sagitta) const;
     bool in_band(Vec2d at, double z) const;
-    double arc_room(Vec3d from, const toolpath::ArcTo& arc, double curvature) const;
+    double arc_clearance(Vec3d from, const toolpath::ArcTo& arc, double curvature) const;
     std::vector<Vec3d> arc_vertices(Vec2d a, Vec2d b) const;
     bool follow_with_arcs(toolpath::ToolpathWriter& moves,
                           Vec2d a,

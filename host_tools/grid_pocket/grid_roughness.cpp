@@ -20,7 +20,6 @@ constexpr int kMostHeights = 20000;
 // Squares ranked this much under the highest found are not looked at.
 constexpr double kRankDoubt = 1.35;
 
-
 // Between the places looked at a ridge may be this much higher, as a share of it; the rim of a flat
 // end makes steps that fall between them.
 constexpr double kBetween = 1.03;

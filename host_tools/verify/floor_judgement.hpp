@@ -7,8 +7,8 @@
 
 #include "host_tools/toolpath/toolpath.hpp"
 #include "host_tools/verify/height_grid.hpp"
-#include "host_tools/verify/part_heights.hpp"
 #include "host_tools/verify/machined_stock.hpp"
+#include "host_tools/verify/part_heights.hpp"
 #include "host_tools/verify/verify.hpp"
 #include "host_tools/verify/wall_distance.hpp"
 

@@ -18,10 +18,10 @@ struct Profile {
     double corner;  // radius of the corner
     double reach;   // squared radius of the whole tool
 
-    explicit Profile(const Tool& tool, double less)
-        : flat{}, corner{std::max(0.0, tool.corner_radius - less)}, reach{}
+    explicit Profile(const Tool& tool, double shrink)
+        : flat{}, corner{std::max(0.0, tool.corner_radius - shrink)}, reach{}
     {
-        const double radius = std::max(0.0, tool.radius - less);
+        const double radius = std::max(0.0, tool.radius - shrink);
         flat = std::max(0.0, radius - corner);
         reach = radius * radius;
     }
@@ -99,7 +99,7 @@ CutFigures MachinedStock::cut_band(const ToolPositions& positions,
                                    const Progress& progress)
 {
     const Tool& tool = positions.tool;
-    const double less = spacing * spacing / (4 * tool.radius) + 0.002;
+    const double shrink = spacing * spacing / (4 * tool.radius) + 0.002;
     // Rounder corners leave no more between positions than the square of their distance.
     const bool edged = tool.radius > tool.corner_radius && tool.corner_radius < spacing;
     constexpr std::size_t kReport = 4096;
@@ -112,7 +112,7 @@ CutFigures MachinedStock::cut_band(const ToolPositions& positions,
         if (tip.z >= top_) {
             continue;
         }
-        const double depth = cut_at(tool, tip, less, begin, end);
+        const double depth = cut_at(tool, tip, shrink, begin, end);
         if (edged && k > 0 && positions.tips[k - 1].z < top_) {
             sweep_flat(tool, positions.tips[k - 1], tip, begin, end);
         }
@@ -123,12 +123,12 @@ CutFigures MachinedStock::cut_band(const ToolPositions& positions,
 }
 
 double MachinedStock::cut_at(
-    const Tool& tool, Vec3d tip, double less, std::size_t begin, std::size_t end)
+    const Tool& tool, Vec3d tip, double shrink, std::size_t begin, std::size_t end)
 {
     // Rows that are looked at together: most stand below the tool's lower side.
     constexpr std::size_t kRun = 16;
     const Profile profile{tool, 0};
-    const Profile probe{tool, less};
+    const Profile probe{tool, shrink};
     const double steepness = profile.steepness();
     const double* row_x = row_x_.data();
     const double* row_y = row_y_.data();
@@ -161,7 +161,7 @@ double MachinedStock::cut_at(
 #pragma omp simd reduction(max : deepest)
             for (std::size_t j = j0; j < j1; ++j) {
                 const double squared = squared_at(j);
-                const double tracked = height[j] - tip.z - less - probe.at(squared);
+                const double tracked = height[j] - tip.z - shrink - probe.at(squared);
                 deepest = std::max(deepest, squared <= probe.reach ? tracked : 0.0);
                 const double lower = tip.z + profile.at(squared);
                 height[j] = squared <= profile.reach ? std::min(lower, height[j]) : height[j];

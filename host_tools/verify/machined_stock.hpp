@@ -45,9 +45,9 @@ private:
                         std::size_t begin,
                         std::size_t end,
                         const Progress& progress);
-    // Returns how deep, mm. less: what the measuring tool is smaller by.
+    // Returns how deep, mm. shrink: what the measuring tool is smaller by.
     double cut_at(
-        const toolpath::Tool& tool, Vec3d tip, double less, std::size_t begin, std::size_t end);
+        const toolpath::Tool& tool, Vec3d tip, double shrink, std::size_t begin, std::size_t end);
     void sweep_flat(
         const toolpath::Tool& tool, Vec3d from, Vec3d to, std::size_t begin, std::size_t end);
 

@@ -11,9 +11,9 @@
 
 #include "host_tools/job/job.hpp"
 #include "host_tools/verify/height_grid.hpp"
+#include "host_tools/verify/machined_stock.hpp"
 #include "host_tools/verify/part_heights.hpp"
 #include "host_tools/verify/program_moves.hpp"
-#include "host_tools/verify/machined_stock.hpp"
 
 namespace cusp::verify {
 
