@@ -14,8 +14,9 @@ namespace {
 constexpr double kSlack = 1e-5;  // mm
 constexpr double kHardly = 0.1;  // mm: less off the contours, places may lie on either side
 
-// A corner is nearest abreast of the middle between two places h apart: by h^2 / (8 clearance) nearer
-// than both on a straight way, on an arc by its height over the chord, h^2 / (8 radius), more.
+// A corner is nearest abreast of the middle between two places h apart: by h^2 / (8 clearance)
+// nearer than both on a straight way, on an arc by its height over the chord, h^2 / (8 radius),
+// more.
 double spacing(const Edge& way, double clearance)
 {
     const double bend = way.turn == 0 ? 0.0 : 1.0 / way.radius;

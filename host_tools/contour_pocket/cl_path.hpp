@@ -1,5 +1,5 @@
-// A path of the tool in plan, dropped onto the floor: a chain of straight moves and arcs of the tip that
-// stay within the tolerances and above the floor.
+// A path of the tool in plan, dropped onto the floor: a chain of straight moves and arcs of the tip
+// that stay within the tolerances and above the floor.
 #pragma once
 
 #include <variant>

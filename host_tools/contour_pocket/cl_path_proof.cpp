@@ -1,4 +1,5 @@
-// A move that gouges is raised by what it lacks, or halved first where only a part of it lacks much.
+// A move that gouges is raised by what it lacks, or halved first where only a part of it lacks
+// much.
 #include "host_tools/contour_pocket/cl_path_proof.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // Writes CL paths over a floor: entries that follow an uneven floor, cuts and links.
 //
-// What ToolpathWriter's entries need, a level circle or a run whose beginning lies at depth, a floor
-// seldom offers. Here a helix goes as low as the floor allows on each side, and the slope runs round
-// the whole pass.
+// What ToolpathWriter's entries need, a level circle or a run whose beginning lies at depth, a
+// floor seldom offers. Here a helix goes as low as the floor allows on each side, and the slope
+// runs round the whole pass.
 #pragma once
 
 #include <functional>

@@ -96,7 +96,7 @@ bool LoopScallop::reaches_floor(const Region2d& region) const
 // distance h is w h^2 / 32 off at most: its remainder is the integral of the second derivative with
 // a kernel that straight lines vanish under, of the absolute integral h^2 / 16. That of the tip's
 // z: see proven_reach().
-double LoopScallop::lookup_spacing(const Region2d& region, double off) const
+double LoopScallop::lookup_spacing(const Region2d& region, double max_error) const
 {
     const BendBounds bounds = bounds_.near(box_of(region));
     const double radius = floor_.tool().radius;
@@ -104,7 +104,7 @@ double LoopScallop::lookup_spacing(const Region2d& region, double off) const
         return 0.0;
     }
     const double width = bounds.up / (1.0 - bounds.up * radius) + bounds.down;
-    return std::min(std::sqrt(32.0 * off / std::max(width, 1e-12)), 4.0 * radius);
+    return std::min(std::sqrt(32.0 * max_error / std::max(width, 1e-12)), 4.0 * radius);
 }
 
 double LoopScallop::relative_scallop(const LoopStrip& strip)

@@ -1,4 +1,5 @@
-// Stepover in plan, where loops are offset: of a ball over a slope, and of flat and bull-nose tools.
+// Stepover in plan, where loops are offset: of a ball over a slope, and of flat and bull-nose
+// tools.
 #pragma once
 
 #include "host_tools/drop_cutter/drop_cutter.hpp"

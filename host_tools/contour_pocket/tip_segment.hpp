@@ -12,8 +12,8 @@ struct TipSegment {
     Vec3d end;
 };
 
-// How low the tool, moved along the segment, cuts over the plan position: z, mm; kUnbounded where it
-// does not get there, or where it is known soon that it is not lower than `below`.
+// How low the tool, moved along the segment, cuts over the plan position: z, mm; kUnbounded where
+// it does not get there, or where it is known soon that it is not lower than `below`.
 double cut_over(const toolpath::Tool& tool,
                 const TipSegment& segment,
                 Vec2d at,

@@ -40,8 +40,8 @@ double half_chord(double squared_radius, double distance)
     return std::sqrt(std::max(0.0, squared_radius - distance * distance));
 }
 
-// The flat bottom of a tool on its way from one position to the next: what it leaves on a slope is as
-// low as its rim comes there, between the positions too.
+// The flat bottom of a tool on its way from one position to the next: what it leaves on a slope is
+// as low as its rim comes there, between the positions too.
 class FlatSweep {
 public:
     FlatSweep(Vec3d from, Vec3d to, double radius) : from_{from}, square_{radius * radius}

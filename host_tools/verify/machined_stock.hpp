@@ -29,8 +29,8 @@ class MachinedStock {
 public:
     MachinedStock(const HeightGrid& grid, double top);
 
-    // Removes what the tool sweeps, position by position; under a flat bottom with a sharp edge also
-    // what it takes between them.
+    // Removes what the tool sweeps, position by position; under a flat bottom with a sharp edge
+    // also what it takes between them.
     //
     // spacing  mm between positions: depths are measured with a tool that is smaller by what the
     //          slivers between two positions can be high

@@ -19,7 +19,8 @@ public:
     // mm from a place in the metal to the nearest position of a tool. High by at most what stands
     // between two positions.
     //
-    // max_distance  mm: what is known to be more than the answer, as the height of metal over the place
+    // max_distance  mm: what is known to be more than the answer, as the height of metal over the
+    // place
     // sufficient  mm: thicknesses up to this may be inexact
     double at(Vec3d place, double max_distance, double sufficient) const;
 
