@@ -1,4 +1,4 @@
-// Moves that go down into metal: over cliffs of a floor, down steep slopes.
+// Limits the feed of cuts and links that go down into stock: over cliffs, down steep slopes.
 #pragma once
 
 #include <vector>

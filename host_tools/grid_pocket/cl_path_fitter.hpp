@@ -1,4 +1,4 @@
-// Moves of the tip over the floor: heights by exact drop, few moves, each proven not to cut in.
+// Fits moves to the CL heights of a path in plan: few moves, each proven not to gouge.
 #pragma once
 
 #include <algorithm>
@@ -20,15 +20,15 @@ struct FollowSettings {
     bool arcs{};              // G18 and G19 arcs on runs along an axis
     double arc_tolerance{};   // mm, > 0: the band's height where arcs are fitted
     double max_arc_radius{};  // mm: flatter arcs become lines
-    double sample{};          // mm, > 0: between looked-at places
+    double sample{};          // mm, > 0: between heights along a run
 };
 
 // How far a move may be from the exact height, mm.
 double band_height(const FollowSettings& settings);
 
-// The height of a tip over a smooth floor is taken to bend no tighter than with this radius, mm:
-// for a ball that is proven, for a flat end, whose rim follows the floor itself, the proof of each
-// move decides.
+// The CL height over a smooth floor is assumed to bend no tighter than with this radius, mm. For a
+// ball that is proven. The rim of a flat end follows the floor itself: there the proof of each move
+// decides.
 double bend_radius(const toolpath::Tool& tool);
 
 class ClPathFitter {
@@ -39,7 +39,7 @@ public:
                  double allowance,
                  FollowSettings settings);
 
-    // The same, but never below a level: the floor of a roughing layer.
+    // A fitter that stays at `level` (z) or above: the floor of a roughing layer.
     ClPathFitter above(double level) const;
 
     // Exact height of the tip over (x, y); none where no surface lies under the tool.
@@ -57,14 +57,13 @@ public:
     // No move is lower than this.
     double bottom() const { return std::max(min_z_, lowest() + allowance_ - allowed_gouge()); }
 
-    // Cuts along the corners, straight in plan between them, from where the tip stands at the
-    // first.
+    // Cuts along the corners, straight in plan between them; the tip is at the first.
     void follow(toolpath::ToolpathWriter& moves,
                 const std::vector<Vec2d>& corners,
                 toolpath::MoveKind kind);
 
-    // Cuts along an arc in plan from where the tip stands at its start, where the floor is level
-    // along it and the arc is proven clear. Returns whether it did.
+    // Cuts along an arc in plan, with the tip at its start, where the floor is level along it and
+    // the arc is proven clear. Returns whether it did.
     bool follow_level_arc(toolpath::ToolpathWriter& moves,
                           const offset::Edge& arc,
                           toolpath::MoveKind kind);
@@ -79,7 +78,7 @@ public:
     // Largest depth that any move so far may cut into the floor; 0 where all are proven clear.
     double gouge_bound() const { return gouge_bound_; }
 
-    // Lets that depth count here, too: of moves over this floor as another follower saw it.
+    // Includes the gouge bound of another fitter over this floor.
     void add_bound(double depth) { gouge_bound_ = std::max(gouge_bound_, depth); }
 
 private:

@@ -1,5 +1,5 @@
-// Runs over the floor that are never cut deeper than max_depth: where one would be, passes above it
-// take the metal first.
+// Limits the axial depth of cut of runs over the floor: where a run would cut deeper than
+// max_depth, passes above it cut first.
 #pragma once
 
 #include <optional>
@@ -26,7 +26,7 @@ public:
                bool link,
                const toolpath::ToolpathWriter::HelixFloor& circle);
 
-    // As ClPathFitter::follow(), from where the tip stands at the first corner or over it.
+    // As ClPathFitter::follow(), with the tip at the first corner or over it.
     void follow(ClPathFitter& floor,
                 const std::vector<Vec2d>& corners,
                 const toolpath::ToolpathWriter::HelixFloor& circle);

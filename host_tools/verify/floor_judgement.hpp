@@ -1,4 +1,4 @@
-// What stands after cutting, compared with the part: gouge, scallop, uncut floor.
+// The stock after cutting compared with the part: gouge, scallop, uncut floor.
 #pragma once
 
 #include <array>

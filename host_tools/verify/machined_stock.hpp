@@ -17,7 +17,7 @@ struct ToolPositions {
 };
 
 struct CutFigures {
-    double rapid_cut{};  // mm: the deepest that a rapid move runs into metal
+    double rapid_cut{};  // mm: the deepest that a rapid move cuts into stock
     double cut_depth{};  // mm: the deepest that a feed move does
 };
 
