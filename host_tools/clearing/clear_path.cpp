@@ -1,4 +1,4 @@
-// Steps as long as there is room, or so short that no corner stands out between two places.
+// Steps as long as there is room, or so short that no corner reaches in between two places.
 #include "host_tools/clearing/clear_path.hpp"
 
 #include <algorithm>

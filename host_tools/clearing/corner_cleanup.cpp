@@ -54,7 +54,7 @@ public:
     {
     }
 
-    // In the order of the contour; near ends of stretches that lead beyond reach they stand close.
+    // In the order of the contour; near ends of stretches beyond reach they are close together.
     std::vector<Way> lines_from(const Contour& border)
     {
         std::vector<Way> ways;

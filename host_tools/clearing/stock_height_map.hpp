@@ -25,8 +25,8 @@ public:
     // Another tool cuts from here on.
     void set_tool(const toolpath::Tool& tool);
 
-    // z at which a tip that comes down over `at` first touches stock, with the part of the
-    // tool is within that share of its radius; -kUnbounded where there is none.
+    // z at which a tip that comes down over `at` first touches stock, with the part of the tool
+    // within that share of its radius; -kUnbounded where there is none.
     double contact_height(Vec2d at, double share = 1.0) const;
 
     // Takes what the tool sweeps on a straight move. Returns the deepest that it cuts, mm.

@@ -49,8 +49,8 @@ using toolpath::Toolpath;
 
 namespace {
 
-// How much higher than the tip of `tool` metal stands that it left, at most, over a place within
-// `other` at the same axis, less the other's profile, mm.
+// mm: the largest rise of the profile of `tool` over that of `other` on one axis: how much higher
+// than its tip `tool` leaves stock that `other` meets.
 double highest_over(const Tool& tool, const Tool& other)
 {
     constexpr int kPlaces = 16;
@@ -62,8 +62,8 @@ double highest_over(const Tool& tool, const Tool& other)
     return most;
 }
 
-// Whether partial loops are worth it, as shares of the path; entries count. With them more metal
-// stands at cliffs.
+// Limits of the cost of partial loops, as shares of the path with entries. With them more stock is
+// left at cliffs.
 constexpr double kDoubtful = 0.5;
 constexpr double kWorthIt = 0.97;
 constexpr double kWorthItAtCliffs = 0.8;
@@ -231,7 +231,7 @@ private:
         return result;
     }
 
-    // Passes along cliffs lie in metal that loops have cut down to where it is known.
+    // Pencil passes are left out: loops have cut the stock there to where the map shows it.
     std::vector<bool> stock_beside(const ClearedRegion& cleared, std::vector<bool> beside) const
     {
         for (std::size_t i = 0; operation_.max_depth && i < beside.size(); ++i) {
@@ -240,8 +240,8 @@ private:
         return beside;
     }
 
-    // Which passes meet metal that roughing did not reach: the allowance beside the walls, corners,
-    // necks and valleys of the floor that its tool does not fit into. Loops of its tool leave metal
+    // Which passes meet stock that roughing did not reach: the allowance beside the walls, corners,
+    // necks and valleys of the floor that its tool does not fit into. Loops of its tool leave stock
     // at cliffs, too.
     std::vector<bool> beside_roughing(const ClearedRegion& cleared, const RoughResult& rough) const
     {
@@ -328,7 +328,7 @@ private:
         const double top = job_.stock_top;
         settings.entry_heights = [top, roughed](double pass) {
             const double metal = std::max(top, pass);
-            // What roughing has left is met at the plunge feed: beside walls it stands full height.
+            // What roughing left is entered at the plunge feed: beside walls it has full height.
             const double slope = roughed ? std::min(metal, pass + *roughed + 0.5) : metal;
             return EntryHeights{heights_over(metal).rapid, heights_over(slope).stock_top};
         };
@@ -398,7 +398,7 @@ std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operatio
     const Region2d region = make_region(operation, tolerances.fit);
     check_work(job, operation, region, tolerances);
     std::optional<AxialDepthTracker> depth;
-    // Entries beside cliffs of the floor and beside what roughing left need to know the metal.
+    // Entries beside cliffs of the floor and beside what roughing left depend on the stock.
     if (operation.max_depth || !operation.layers.empty() || !is_one_whole_surface(operation)) {
         const Tool& rougher = operation.tools.empty() ? operation.tool : operation.tools.front();
         const bool finer = rougher.radius < operation.tool.radius;

@@ -1,4 +1,4 @@
-// Each edge's tips are dropped when a place near it is first asked for.
+// Each edge's CL points are computed when the height of a place near it is first needed.
 #include "host_tools/contour_pocket/height_after_passes.hpp"
 
 #include <algorithm>

@@ -27,12 +27,12 @@ using toolpath::Tool;
 namespace {
 
 constexpr double kAlong = 1.0 / 6.0;         // of the tool's radius: ways are no farther apart
-constexpr double kNearestWays = 1.0 / 48.0;  // of it: where what stands changes
+constexpr double kNearestWays = 1.0 / 48.0;  // of it: where the scallop changes
 constexpr double kFine = 0.02;               // of the tool's radius: places on a way are no closer
 constexpr double kEnough = 4.0;              // more need not be known
 
-// Beside the rim of a flat foot what stands is low enough over a sickle only: as deep as the cusp
-// on a steep floor, and as long as the chord there.
+// Beside the rim of a flat bottom the scallop is low enough over a crescent only: as deep as the
+// scallop on a steep floor, and as long as the chord there.
 double cross_lines_apart(const Tool& tool, double scallop_height)
 {
     constexpr double kShare = 0.3;
@@ -59,7 +59,7 @@ LoopScallop::LoopScallop(const DropCutter& floor,
 {
 }
 
-// How far from a pass nothing too high stands, mm.
+// mm from a pass within which no scallop is too high.
 double LoopScallop::proven(const BendBounds& bounds) const
 {
     if (!ball_ || !std::isfinite(bounds.slope)) {
@@ -257,12 +257,12 @@ double LoopScallop::left_at(Vec2d at, Vec2d near) const
     return least;
 }
 
-// On a slope a move beside its path stands higher over the floor, and is raised where it would cut:
-// by no more than half again what it strays, square to the floor.
+// On a slope a move beside its path is higher over the floor, or is raised where it would gouge: by
+// no more than half again its distance from the path, square to the floor.
 double LoopScallop::allowed(double secant) const
 {
     constexpr double kRaised = 1.5;
-    constexpr double kLeast = 0.3;  // of what may stand on a level floor
+    constexpr double kLeast = 0.3;  // of the height allowed on a level floor
     const double cosine = 1.0 / secant;
     const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
     const double on_slope =
@@ -270,7 +270,7 @@ double LoopScallop::allowed(double secant) const
     return std::max(tolerances_.scallop_height + on_slope, kLeast * tolerances_.scallop_height);
 }
 
-// Square to the floor, where the tool touches it; as a share of what may stand.
+// Square to the floor, where the tool touches it; as a share of the height allowed.
 double LoopScallop::uncut(const Probe& probe, bool stretches) const
 {
     if (probe.floor == DropCutter::kNoSurface) {
@@ -325,9 +325,9 @@ double LoopScallop::left_under(const Probe& a, const Probe& b) const
     return most;
 }
 
-// Over a valley whose bottom a foot does not reach: what the paths leave over its middle and its
-// rim where it stands lowest between two neighbouring places. Down along the valley its rim cuts
-// steps.
+// Over a valley whose bottom a flat end does not reach: what the paths leave over the middle and
+// the rim of the flat at its lowest position between two neighbouring places. Down along the valley
+// the rim cuts steps.
 double LoopScallop::left_under_foot(const Probe& a, const Probe& b) const
 {
     constexpr double kTurned = 0.1;  // slope: from where on it is no bend

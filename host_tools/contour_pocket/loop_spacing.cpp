@@ -1,4 +1,4 @@
-// Sections of the floor across every loop, in every direction at corners.
+// Sections of the floor across every loop, and in every direction at corners.
 #include "host_tools/contour_pocket/loop_spacing.hpp"
 
 #include <algorithm>
@@ -147,7 +147,7 @@ double LoopSpacing::with_partial_loops(const Region2d& level, double step) const
     return best;
 }
 
-// To a fiftieth of the cusp.
+// To a fiftieth of the scallop's height.
 DropCutter::CcPoint LoopSpacing::contact(Vec2d at) const
 {
     return floor_.cc_point(at, 0.02 * tolerances_.scallop_height);
@@ -159,7 +159,7 @@ double LoopSpacing::allowed(const DropCutter::CcPoint& contact, Vec2d direction)
     return plan_stepover(floor_.tool(), tolerances_.scallop_height, section);
 }
 
-// The cusp stands half an interval away, where the floor may be bent otherwise.
+// The scallop is half a stepover away, where the floor may have another curvature.
 void LoopSpacing::across(Vec2d at, const DropCutter::CcPoint& here, Vec2d direction)
 {
     const double first = allowed(here, direction);

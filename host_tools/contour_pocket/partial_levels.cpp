@@ -17,7 +17,7 @@ using offset::Edge;
 
 namespace {
 
-// A part of the strip in which too much may stand, inward from `feet`.
+// A part of the strip in which the scallop may be too high, inward from `feet`.
 struct Part {
     std::vector<Edge> feet;
     double from;

@@ -122,7 +122,7 @@ private:
         return length < kLifted * floor_.tool().radius;
     }
 
-    // The line's places that passes may stand on, and which of them are worth it.
+    // The places of the curve where passes may run, and where they cut enough.
     std::vector<ClearingPass> along(const PencilCurve& line, double off)
     {
         std::vector<Vec2d> path;

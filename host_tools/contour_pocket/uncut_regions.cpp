@@ -138,8 +138,8 @@ private:
         }
     }
 
-    // Where the tool is twice as far apart as cells, it stands on slopes that say where it cannot
-    // reach between.
+    // Where contacts of neighbouring cells are twice as far apart as the cells, the tool does not
+    // reach between them.
     void find_valleys(double min_height)
     {
         slopes_.assign(rest_.size(), std::nullopt);

@@ -1,4 +1,4 @@
-// Bands stand over exact heights with a margin for what lies between them; proofs catch the rest.
+// Bands begin over exact heights by a margin for what lies between them; each move is then proven.
 #include "host_tools/grid_pocket/cl_path_fitter.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ constexpr double kProven = -1e-6;
 // Moves shorter than this are lifted rather than divided.
 constexpr double kShortestPiece = 0.02;
 
-// How far arcs may be from the chords that stand for them in proofs, over their tolerance.
+// Distance of arcs from the chords that replace them in proofs, over their tolerance.
 constexpr double kArcSagitta = 0.025;
 
 // Of a two-sided tolerance: the rest is for what lies between vertices.

@@ -15,10 +15,10 @@ using toolpath::ToolpathWriter;
 
 namespace {
 
-// Shorter than this is no way, mm.
+// Shorter segments are left out, mm.
 constexpr double kNoWay = 1e-9;
 
-// Heights of the floor are asked for at every so many places of a run; between them only where the
+// Heights of the floor are computed at every so many places of a run; between them only where the
 // depth may be over the limit by this share of it.
 constexpr int kSparse = 8;
 constexpr double kNearLimit = 0.4;
@@ -182,7 +182,7 @@ void DepthLimiter::lower(ClPathFitter& floor,
             highest = std::max(highest, stretch.min_z);
             lowest = std::min(lowest, stretch.low);
         }
-        // Beside a cliff moves stay higher than the floor's places, and so does the metal.
+        // Beside a cliff moves are higher than the floor, and so is the stock.
         const double level = last ? std::min(highest, *last - *depth_.max_depth()) : highest;
         if (level <= lowest) {
             break;

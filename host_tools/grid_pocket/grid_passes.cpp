@@ -109,7 +109,7 @@ void GridPasses::enter(ClPathFitter& floor,
 void GridPasses::layer(double plane)
 {
     // What the layers above have brought down to the floor is left alone; the rest is followed as
-    // low as the layer and the floor allow, so that no fin stands between layers on a slope.
+    // low as the layer and the floor allow, so that no fin is left between layers on a slope.
     const double above = std::min(last_plane_.value_or(kUnbounded), pocket_.job.stock_top);
     NavigationRules rules;
     rules.free = [&](Cell c) {
@@ -228,7 +228,7 @@ double GridPasses::stock_top_under(Vec2d at) const
 {
     const CellGrid& grid = pocket_.grid;
     const Tool& tool = pocket_.operation.tool;
-    // What stands between cells: ridges, and a cell's own height up to its corners.
+    // Between cells the stock has scallops, and a cell's own height up to its corners.
     const double half = std::hypot(grid.gx(), grid.gy()) / 2;
     const double corner = tool.corner_radius;
     const double in = std::min(half, corner);

@@ -1,5 +1,5 @@
-// Where the axis stands at c, between tracks, the tool touches the surface at q, aside of c towards
-// the rising side. What stands over q is the lowest of the tools on the tracks around.
+// With its axis at c, between tracks, the tool would touch the surface at q, beside c towards the
+// rising side. The height left over q is the lowest of the tool on the tracks around.
 #include "host_tools/grid_pocket/grid_roughness.hpp"
 
 #include <algorithm>

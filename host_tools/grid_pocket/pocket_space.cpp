@@ -48,8 +48,8 @@ void add_corner(const Edge& arc, std::vector<Vec2d>& out)
     }
 }
 
-// How much higher metal stands beside a new track between cells than beside one that repeats: the
-// tool stood over the cells only.
+// How much higher the stock is beside a new track between cells than beside a repeated one: the
+// tool was over the cells only.
 double ridge_over_tracks(const Operation& operation)
 {
     const double corner = operation.tool.corner_radius;

@@ -125,7 +125,7 @@ CutFigures MachinedStock::cut_band(const ToolPositions& positions,
 double MachinedStock::cut_at(
     const Tool& tool, Vec3d tip, double shrink, std::size_t begin, std::size_t end)
 {
-    // Rows that are looked at together: most stand below the tool's lower side.
+    // Rows that are compared together: most are below the tool's lower side.
     constexpr std::size_t kRun = 16;
     const Profile profile{tool, 0};
     const Profile probe{tool, shrink};

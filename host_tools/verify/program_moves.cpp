@@ -113,8 +113,8 @@ public:
         const Status status = interpreter_.execute(line, number_);
         if (!status) {
             const int code = static_cast<int>(status.error());
-            throw InputError(fmt::format("{}:{}: error {}: {}", file_, number_, code,
-                                         refusal_text(code, line)));
+            throw InputError(
+                fmt::format("{}:{}: error {}: {}", file_, number_, code, refusal_text(code, line)));
         }
         gcode::Action action;
         while (interpreter_.next(action)) {
