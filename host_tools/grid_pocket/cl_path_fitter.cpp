@@ -37,8 +37,8 @@ constexpr double kTwoSided = 0.95;
 // Below this a height is a rounding of the G-code.
 constexpr double kRounding = 2e-4;
 
-// Moves pass the floor this many times the drop cutter's accuracy higher than its drops, so that
-// their clearance can be proven: on a slope of 60 degrees half of a height is clearance.
+// Moves stay this many times the drop cutter's accuracy inside their band, so that they can be
+// proven: on a slope of 60 degrees half of a height is clearance.
 constexpr double kReserve = 2.0;
 
 Tool grown_tool(Tool tool, double by)
@@ -63,7 +63,7 @@ ClPathFitter::ClPathFitter(const std::vector<Surface>& floor,
                            const Tool& tool,
                            double allowance,
                            FollowSettings settings)
-    : accuracy_{std::clamp(settings.tolerance / 20, 1e-4, 1e-3)},
+    : accuracy_{std::clamp(settings.tolerance / 40, 1e-4, 5e-4)},
       allowance_{allowance},
       settings_{settings}
 {
@@ -90,6 +90,11 @@ ClPathFitter ClPathFitter::above(double level) const
 }
 
 double ClPathFitter::reserve() const { return kRounding + kReserve * accuracy_; }
+
+double ClPathFitter::used_of(double tolerance) const
+{
+    return std::max(kTwoSided * tolerance - reserve(), tolerance / 2);
+}
 
 // Where the floor ends, the passes go on at its lowest.
 double ClPathFitter::path_height(Vec2d at) const
@@ -129,8 +134,8 @@ std::vector<BandPoint> ClPathFitter::band(Vec2d a, Vec2d b, double tolerance) co
     for (std::size_t i = 0; i < heights.size(); ++i) {
         const double z = heights[i];
         if (settings_.both_sides) {
-            out.push_back(
-                {static_cast<double>(i) * step, std::max(min_z_, z - tolerance), z + tolerance});
+            const double used = used_of(tolerance);
+            out.push_back({static_cast<double>(i) * step, std::max(min_z_, z - used), z + used});
             continue;
         }
         if (z == min_z_ && (i == 0 || heights[i - 1] == min_z_) &&
@@ -292,7 +297,7 @@ bool ClPathFitter::follow_with_arcs(ToolpathWriter& moves, Vec2d a, Vec2d b, Mov
     std::vector<Vec3d> vertices = arc_vertices(a, b);
     vertices.front() = moves.at();
     const double aside =
-        settings_.both_sides ? kTwoSided * settings_.arc_tolerance : settings_.arc_tolerance / 2;
+        settings_.both_sides ? used_of(settings_.arc_tolerance) : settings_.arc_tolerance / 2;
     segmenter::FitSettings fit;
     fit.left = aside;
     fit.right = aside;

@@ -93,6 +93,8 @@ private:
     double allowed_gouge() const { return settings_.both_sides ? band_height(settings_) : 0.0; }
     // mm over an exact height: moves no lower than that can be proven not to gouge.
     double reserve() const;
+    // mm: the part of a two-sided tolerance that bands take.
+    double used_of(double tolerance) const;
     double path_height(Vec2d at) const;
 
     std::vector<BandPoint> band(Vec2d a, Vec2d b, double tolerance) const;
