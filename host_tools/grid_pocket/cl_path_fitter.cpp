@@ -159,7 +159,7 @@ std::vector<BandPoint> ClPathFitter::band(Vec2d a, Vec2d b, double tolerance) co
 // plane, from the straight line.
 double ClPathFitter::bulged_clearance(Vec3d a, Vec3d b, double sagitta) const
 {
-    if (drop_cutter_->tool().corner_radius == drop_cutter_->tool().radius) {
+    if (is_ball()) {
         return move_clearance(a, b, sagitta);
     }
     // Along the axis the bulge is longer on slopes.
@@ -207,12 +207,43 @@ void ClPathFitter::follow_segment(ToolpathWriter& moves, Vec2d a, Vec2d b, MoveK
     const double z = moves.at().z;
     places.front().low = std::min(places.front().low, z);
     places.front().high = std::max(places.front().high, z);
-    const double length = norm(b - a);
-    const std::vector<ProfilePoint> points = fit_chords(places, z);
-    for (std::size_t i = 1; i < points.size(); ++i) {
-        const Vec2d at = a + (b - a) * (points[i].s / length);
-        chord(moves, {at.x, at.y, points[i].z}, kind, 0);
+    const auto point = [&, length = norm(b - a)](const ProfilePoint& p) {
+        const Vec2d at = a + (b - a) * (p.s / length);
+        return Vec3d{at.x, at.y, p.z};
+    };
+    std::vector<ProfilePoint> points = fit_chords(places, z);
+    constexpr int kMostRaises = 6;
+    for (int i = 0; i < kMostRaises && raise_band(places, points, point); ++i) {
+        points = fit_chords(places, z);
     }
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        chord(moves, point(points[i]), kind, 0);
+    }
+}
+
+// The rim of a flat end follows the floor itself, which may bend more between places than the band
+// allows for. Raises the band under each chord by what that lacks; returns whether any lacks some.
+bool ClPathFitter::raise_band(std::vector<BandPoint>& places,
+                              const std::vector<ProfilePoint>& points,
+                              const std::function<Vec3d(const ProfilePoint&)>& point) const
+{
+    constexpr double kRaise = 1.5;
+    if (is_ball()) {
+        return false;
+    }
+    const double proven = kProven - allowed_gouge();
+    bool raised = false;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const double lacks = proven - move_clearance(point(points[i - 1]), point(points[i]));
+        for (BandPoint& place : places) {
+            const bool under = place.s >= points[i - 1].s && place.s <= points[i].s;
+            if (under && lacks > 0 && lacks < settings_.tolerance && place.low < place.high) {
+                place.low = std::min(place.low + kRaise * lacks, place.high);
+                raised = true;
+            }
+        }
+    }
+    return raised;
 }
 
 void ClPathFitter::follow(ToolpathWriter& moves, const std::vector<Vec2d>& corners, MoveKind kind)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -93,11 +94,18 @@ private:
     double allowed_gouge() const { return settings_.both_sides ? band_height(settings_) : 0.0; }
     // mm over an exact height: moves no lower than that can be proven not to gouge.
     double reserve() const;
+    bool is_ball() const
+    {
+        return drop_cutter_->tool().corner_radius == drop_cutter_->tool().radius;
+    }
     // mm: the part of a two-sided tolerance that bands take.
     double used_of(double tolerance) const;
     double path_height(Vec2d at) const;
 
     std::vector<BandPoint> band(Vec2d a, Vec2d b, double tolerance) const;
+    bool raise_band(std::vector<BandPoint>& places,
+                    const std::vector<ProfilePoint>& points,
+                    const std::function<Vec3d(const ProfilePoint&)>& point) const;
     void follow_segment(toolpath::ToolpathWriter& moves, Vec2d a, Vec2d b, toolpath::MoveKind kind);
     double bulged_clearance(Vec3d a, Vec3d b, double sagitta) const;
     bool in_band(Vec2d at, double z) const;
