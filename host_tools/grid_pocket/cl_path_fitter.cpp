@@ -49,6 +49,14 @@ Tool grown_tool(Tool tool, double by)
     return tool;
 }
 
+// The tool, smaller all round.
+Tool shrunk_tool(Tool tool, double by)
+{
+    tool.radius -= by;
+    tool.corner_radius = std::max(0.0, tool.corner_radius - by);
+    return tool;
+}
+
 }  // namespace
 
 double band_height(const FollowSettings& settings)
@@ -67,11 +75,12 @@ ClPathFitter::ClPathFitter(const std::vector<Surface>& floor,
       allowance_{allowance},
       settings_{settings}
 {
-    const auto cutter = std::make_shared<DropCutter>(floor, grown_tool(tool, allowance), accuracy_);
-    if (settings_.both_sides) {
-        cutter->check_edge_gouges(allowed_gouge());
+    const Tool grown = grown_tool(tool, allowance);
+    drop_cutter_ = std::make_shared<DropCutter>(floor, grown, accuracy_);
+    if (settings_.both_sides && allowed_gouge() < grown.radius / 2) {
+        gouge_cutter_ =
+            std::make_shared<DropCutter>(floor, shrunk_tool(grown, allowed_gouge()), accuracy_);
     }
-    drop_cutter_ = cutter;
 }
 
 std::optional<double> ClPathFitter::height(Vec2d at) const
@@ -118,7 +127,15 @@ double ClPathFitter::lowest_height(Vec2d at) const
 double ClPathFitter::move_clearance(Vec3d a, Vec3d b, double margin) const
 {
     const Vec3d down{0, 0, -allowance_};
-    return drop_cutter_->move_clearance(a + down, b + down, margin);
+    const double clear = drop_cutter_->move_clearance(a + down, b + down, margin);
+    const double allowed = allowed_gouge();
+    if (!gouge_cutter_ || clear >= kProven - allowed) {
+        return clear;
+    }
+    // A bound of a deep gouge is good to a tenth only. What a tool shrunk by the gouge allowed keeps
+    // clear of, the tool gouges by no more than that.
+    const Vec3d up{0, 0, allowed - allowance_};
+    return std::max(clear, gouge_cutter_->move_clearance(a + up, b + up, margin) - allowed);
 }
 
 std::vector<BandPoint> ClPathFitter::band(Vec2d a, Vec2d b, double tolerance) const
@@ -327,8 +344,10 @@ bool ClPathFitter::follow_with_arcs(ToolpathWriter& moves, Vec2d a, Vec2d b, Mov
     }
     std::vector<Vec3d> vertices = arc_vertices(a, b);
     vertices.front() = moves.at();
+    const double share = settings_.both_sides ? kTwoSided : 0.5;
     const double aside =
-        settings_.both_sides ? used_of(settings_.arc_tolerance) : settings_.arc_tolerance / 2;
+        std::max(settings_.arc_tolerance / 2,
+                 std::min(share * settings_.arc_tolerance, settings_.arc_tolerance - reserve()));
     segmenter::FitSettings fit;
     fit.left = aside;
     fit.right = aside;

@@ -84,6 +84,8 @@ public:
 
 private:
     std::shared_ptr<const drop_cutter::DropCutter> drop_cutter_;  // tool grown by the allowance
+    // Of a two-sided tolerance: that tool, smaller by the gouge allowed.
+    std::shared_ptr<const drop_cutter::DropCutter> gouge_cutter_;
     double accuracy_;  // mm: drops are at most this much too high, clearances too low
     double allowance_;
     FollowSettings settings_;
