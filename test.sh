@@ -14,6 +14,11 @@ passed=0
 failed=0
 
 install_packages $test_packages
+view_tests=AUTO
+if [ "$all" = yes ]; then
+    install_packages $wasm_packages $(view_packages)
+    view_tests=ON
+fi
 
 # quietly LOG COMMAND...: the output goes to LOG and is shown where the command fails
 quietly() {
@@ -60,11 +65,13 @@ leave_out() {
     echo "left to ./test.sh --all: $(ctest --preset dev -N -L long | sed -n 's/^Total Tests: //p') long tests" \
         "($(ctest --preset dev -N -L long | sed -n 's/^ *Test *#[0-9]*: //p' | tr '\n' ' ' | sed 's/ $//'))," \
         "ASan and UBSan, fuzzing, the packages, bare roots"
+    sed -n 's/^-- \(left out: \)/\1/p' build/configure-dev.log
 }
 
 mkdir -p build
 echo "building (dev)"
-quietly build/configure-dev.log cmake --preset dev -DCUSP_TARGET_TESTS=ON
+quietly build/configure-dev.log cmake --preset dev -DCUSP_TARGET_TESTS=ON -DCUSP_VIEW_TESTS=$view_tests \
+    -DCUSP_WASM=$view_tests
 quietly build/build-dev.log cmake --build --preset dev -j "$jobs"
 
 if [ "$all" = no ]; then
@@ -84,10 +91,11 @@ else
     echo "building without Eigen and Open CASCADE, with clang and make"
     quietly build/configure-least.log cmake -S . -B build/least -G "Unix Makefiles" -DCMAKE_CXX_COMPILER=clang++ \
         -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 -DBUILD_TESTING=OFF -DCUSP_EIGEN=OFF -DCUSP_OCCT=OFF \
+        -DCUSP_VIEW=OFF \
         -DCUSP_UNITY=ON
     quietly build/build-least.log cmake --build build/least -j "$jobs" --target cusp
     echo "making the packages"
-    install_packages $package_packages $fresh_packages
+    install_packages $package_packages $wasm_packages $(npm_packages) $fresh_packages
     quietly build/package.log .ci/package
     step packages tests/fresh/lint.sh out/packages
     step "bare roots" tests/fresh/fresh_test.sh out/packages

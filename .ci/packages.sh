@@ -2,7 +2,7 @@
 
 # Builds the product.
 host_packages="g++ cmake ninja-build libcli11-dev libeigen3-dev libfmt-dev libserialport-dev libtomlplusplus-dev
-    nlohmann-json3-dev"
+    nlohmann-json3-dev zlib1g-dev"
 # Also reads STEP and IGES.
 cad_packages="libocct-data-exchange-dev"
 # Builds the images of the boards.
@@ -11,9 +11,22 @@ image_packages="gcc-arm-none-eabi libnewlib-dev libstdc++-arm-none-eabi-dev"
 package_packages="$host_packages $cad_packages $image_packages dpkg-dev file help2man lintian"
 # Runs all tests.
 test_packages="$host_packages $cad_packages $image_packages cpputest libpolyclipping-dev python3 python3-numpy
-    clang-format-14 qemu-system-arm g++-riscv64-linux-gnu qemu-user clang libclang-rt-14-dev doxygen git"
+    clang-format-14 libunicorn-dev qemu-system-arm g++-riscv64-linux-gnu qemu-user clang libclang-rt-14-dev doxygen git"
+# Builds the core in WebAssembly, for the pages and npm.
+wasm_packages="clang lld wasi-libc libc++-14-dev-wasm32 libclang-rt-14-dev-wasm32"
 # Runs the demo and the packages in a bare root.
 fresh_packages="mmdebstrap"
+
+# Bundles the pages of cusp view; the commands may come from elsewhere.
+npm_packages() {
+    command -v node >/dev/null || echo nodejs
+    command -v npm >/dev/null || echo npm
+}
+# Also tests them in a browser.
+view_packages() {
+    npm_packages
+    command -v chromium >/dev/null || echo chromium
+}
 
 # missing_packages PACKAGE...: those that are not installed
 missing_packages() {

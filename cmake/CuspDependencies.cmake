@@ -4,7 +4,8 @@
 
 # A package and a header of it.
 set(product_headers libcli11-dev CLI/CLI.hpp libfmt-dev fmt/format.h libserialport-dev libserialport.h
-  libtomlplusplus-dev toml++/toml.h nlohmann-json3-dev nlohmann/json.hpp)
+  libtomlplusplus-dev toml++/toml.h nlohmann-json3-dev nlohmann/json.hpp
+  zlib1g-dev zlib.h)
 set(test_headers cpputest CppUTest/TestHarness.h libpolyclipping-dev polyclipping/clipper.hpp)
 set(benchmark_headers libbenchmark-dev benchmark/benchmark.h)
 
@@ -104,6 +105,7 @@ if(CUSP_HOST_TOOLS)
   set(TOMLPLUSPLUS_INCLUDE ${CUSP_libtomlplusplus_dev})
   # Debian's libserialport and polyclipping have no CMake package, and CppUTest's names a folder that isn't there.
   cusp_import_library(cusp_serialport ${CUSP_libserialport_dev} serialport)
+  cusp_import_library(cusp_zlib ${CUSP_zlib1g_dev} z)
   if(CUSP_TESTS)
     cusp_import_library(cusp_cpputest ${CUSP_cpputest} CppUTest)
     cusp_import_library(cusp_polyclipping ${CUSP_libpolyclipping_dev} polyclipping)

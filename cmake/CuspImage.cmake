@@ -19,6 +19,6 @@ function(cusp_image)
     -nostartfiles -nostdlib -T ${script} -L ${PROJECT_SOURCE_DIR}
     -Wl,--gc-sections -Wl,-Map=${out}/${ARG_NAME}.map -Wl,--print-memory-usage)
   add_custom_command(TARGET ${ARG_NAME} POST_BUILD
-    COMMAND ${CMAKE_OBJCOPY} -O binary $<TARGET_FILE:${ARG_NAME}> ${out}/${ARG_NAME}.bin
+    COMMAND ${CMAKE_OBJCOPY} -O binary --gap-fill 0xff $<TARGET_FILE:${ARG_NAME}> ${out}/${ARG_NAME}.bin
     COMMAND ${CMAKE_OBJCOPY} -O ihex $<TARGET_FILE:${ARG_NAME}> ${out}/${ARG_NAME}.hex)
 endfunction()

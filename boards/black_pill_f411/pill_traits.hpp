@@ -6,22 +6,22 @@
 
 #include "boards/mill3/chip_start.hpp"
 #include "boards/mill3/mill_panel.hpp"
+#include "hal/stm32f4/dma_link.hpp"
 #include "hal/stm32f4/dma_pulse_player.hpp"
 #include "hal/stm32f4/flash_settings.hpp"
-#include "hal/stm32f4/usart_link.hpp"
 
 namespace cusp::boards {
 
 // The six step and direction lines: pins 0 to 5 of port A.
 template <class Chip>
 struct PillStepPort {
-    static constexpr PulseLines kInvertedLines = 0;
     static auto& gpio() noexcept { return Chip::port_a(); }
 };
 
 inline constexpr PanelPins kPillPins{
     {{{'B', 5}, {'B', 6}, {'B', 7}, {'B', 8}}},
     {{{'B', 9}, {'B', 10}, {'B', 1}, {'B', 0}}},
+    {{{'B', 15}, {'B', 3}}},
     {'B', 12},
     {'B', 13},
     {'B', 14},
@@ -34,11 +34,10 @@ struct PillTraits : ChipStart<PillTraits> {
     using StepPort = PillStepPort<Chip>;
     using Pace = hal::stm32f4::Timer1Pace<Chip>;
     using PulsePlayer = hal::stm32f4::DmaPulsePlayer<Chip, StepPort, Pace>;
-    using ByteLink = hal::stm32f4::UsartLink<Chip, PillTraits>;
+    using ByteLink = hal::stm32f4::DmaLink<Chip>;
     using Panel = MillPanel<Chip, PillTraits>;
     using SettingsStore = hal::stm32f4::FlashSettings<Chip>;
 
-    static constexpr bool kTransmitInterrupt = true;
     static constexpr bool kSpindleTimer = true;
     static constexpr const PanelPins& kPanelPins = kPillPins;
     static constexpr hal::stm32f4::ClockPlan kClocks{25000000, 100000000, 3, 1, 2, 3};

@@ -29,7 +29,9 @@ struct ChipStart {
     static void start(Board& board) noexcept
     {
         using namespace hal::stm32f4;
-        if (start_clocks<Chip>(Own::kClocks) == ClockSource::kNone) {
+        note_reset_cause<Chip>();
+        clock_source_ = start_clocks<Chip>(Own::kClocks);
+        if (clock_source_ == ClockSource::kNone) {
             fault("the clock did not start", __FILE__, __LINE__);
         }
         start_peripherals<Chip>(Own::Pace::kClockBit);
@@ -37,6 +39,7 @@ struct ChipStart {
         set_pin_function(Chip::port_a(), 9, 7);
         set_pin_function(Chip::port_a(), 10, 7);
         enable_interrupt<Chip>(kUsart1Interrupt, kSerialPriority);
+        enable_interrupt<Chip>(kTransmitStreamInterrupt, kSerialPriority);
         board.byte_link.start(Own::kClocks.fast_bus_hz(), Own::kBaud);
         set_field(Chip::system().shpr3, 16, 8, kServoTickPriority);
     }
@@ -49,13 +52,21 @@ struct ChipStart {
         hal::stm32f4::reset_chip<Chip>();
     }
 
+    // After each servo tick: what a reset from now on means for the position.
+    template <class Board>
+    static void after_tick(const Board& board) noexcept
+    {
+        hal::stm32f4::mark_motion(board.pulse_player.moving());
+    }
+
     template <class Board, class Application>
     [[noreturn]] static void run(Board& board, Application& application) noexcept
     {
         using namespace hal::stm32f4;
-        report_last_fault(board.byte_link);
+        report_reset(board.byte_link, clock_source_);
         enable_interrupt<Chip>(player_interrupt(), kPlayerPriority);
-        board.pulse_player.start(Own::kClocks.fast_timer_hz());
+        board.pulse_player.start(Own::kClocks.fast_timer_hz(), Own::kClocks.slow_timer_hz(),
+                                 reset_amid_motion());
         start_watchdog<Chip>();
         for (;;) {
             feed_watchdog<Chip>();
@@ -64,6 +75,9 @@ struct ChipStart {
             }
         }
     }
+
+private:
+    static inline hal::stm32f4::ClockSource clock_source_{hal::stm32f4::ClockSource::kNone};
 };
 
 }  // namespace cusp::boards

@@ -17,27 +17,42 @@ class MillImage {
     static_assert(hal::is_board<Board>());
 
 public:
-    void servo_tick() noexcept { application_.tick(); }
+    void servo_tick() noexcept
+    {
+        application_.tick();
+        Traits::after_tick(board_);
+        finish_stores();
+    }
     void player_interrupt() noexcept
     {
         if (board_.pulse_player.on_interrupt() && Traits::live()) {
             hal::stm32f4::pend_servo_tick<typename Traits::Chip>();
         }
+        finish_stores();
     }
-    void serial_interrupt() noexcept { board_.byte_link.on_interrupt(); }
+    void serial_interrupt() noexcept
+    {
+        board_.byte_link.on_interrupt();
+        finish_stores();
+    }
     [[noreturn]] void run() noexcept { Traits::run(board_, application_); }
 
     static constexpr hal::stm32f4::VectorTable vectors() noexcept
     {
-        const std::array<hal::stm32f4::InterruptEntry, 2> interrupts{{
+        const std::array<hal::stm32f4::InterruptEntry, 3> interrupts{{
             {Traits::player_interrupt(), cusp_player_interrupt},
             {hal::stm32f4::kUsart1Interrupt, cusp_serial_interrupt},
+            {hal::stm32f4::kTransmitStreamInterrupt, cusp_serial_interrupt},
         }};
         return hal::stm32f4::make_vectors(&cusp_stack_top, cusp_reset, cusp_exception,
                                           cusp_servo_tick, interrupts);
     }
 
 private:
+    // Erratum 838869 of the Cortex-M4: with a store under way at the end of an exception the next
+    // may be entered by a wrong vector.
+    static void finish_stores() noexcept { __asm volatile("dsb" ::: "memory"); }
+
     Board board_;
     app::App<Board> application_{board_};
 };

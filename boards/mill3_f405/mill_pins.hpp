@@ -8,13 +8,13 @@ namespace cusp::boards {
 // The six step and direction lines: pins 0 to 5 of port C, so that one word moves any of them.
 template <class Chip>
 struct MillStepPort {
-    static constexpr PulseLines kInvertedLines = 0;
     static auto& gpio() noexcept { return Chip::port_c(); }
 };
 
 inline constexpr PanelPins kMillPins{
     {{{'B', 12}, {'B', 13}, {'B', 14}, {'B', 15}}},
     {{{'B', 8}, {'B', 9}, {'B', 6}, {'B', 7}}},
+    {{{'B', 10}, {'B', 11}}},
     {'C', 6},
     {'C', 7},
     {'C', 8},

@@ -56,6 +56,11 @@ struct QemuTraits {
         board.pulse_player.start(arguments.real_pace());
     }
 
+    template <class Board>
+    static void after_tick(const Board& /*board*/) noexcept
+    {
+    }
+
     // QEMU's virtual time is exact to the instruction only where the core never sleeps.
     static void idle() noexcept { __asm volatile("nop"); }
 

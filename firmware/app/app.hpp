@@ -27,7 +27,7 @@ public:
         : board_{board}, log_{board.settings_store}, machine_{factory}
     {
         machine_.start(log_.load(machine_.stored().bytes()));
-        board_.panel.set(machine_.outputs());
+        set_outputs(machine_.outputs());
     }
     App(const App&) = delete;
     App& operator=(const App&) = delete;
@@ -54,6 +54,12 @@ private:
     bool read_bytes() noexcept;
     bool write_bytes() noexcept;
     void store_settings() noexcept;
+    void set_outputs(const OutputLevels& outputs) noexcept
+    {
+        outputs_ = outputs;
+        board_.panel.set(outputs);
+        board_.pulse_player.invert(outputs.inverted_lines);
+    }
 
     Board& board_;
     machine::SettingsLog<decltype(Board::settings_store)> log_;
@@ -74,8 +80,7 @@ bool App<Board>::poll() noexcept
     const bool worked = machine_.poll();
     const OutputLevels outputs = machine_.outputs();
     if (!(outputs == outputs_)) {
-        outputs_ = outputs;
-        board_.panel.set(outputs);
+        set_outputs(outputs);
     }
     const bool stores = machine_.wants_store();
     if (stores) {

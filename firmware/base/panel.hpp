@@ -17,10 +17,21 @@ enum InputBit : std::uint16_t {
     kHoldButton = 1U << 5U,
     kStartButton = 1U << 6U,
     kResetButton = 1U << 7U,
+    kEmergencyStop = 1U << 8U,
+    kMotorFault = 1U << 9U,
 };
 
-inline constexpr unsigned kInputCount = 8;
+inline constexpr unsigned kInputCount = 10;
 inline constexpr std::uint16_t kLimitInputs = kLimitX | kLimitY | kLimitZ;
+
+// Outputs that settings 15 and 16 may invert.
+enum OutputBit : std::uint8_t {
+    kFloodOutput = 1U << 0U,
+    kMistOutput = 1U << 1U,
+    kSpindleOnOutput = 1U << 2U,
+    kSpindleReverseOutput = 1U << 3U,
+    kSpindlePulsesOutput = 1U << 4U,
+};
 
 // What the outputs other than steps shall be.
 struct OutputLevels {
@@ -30,16 +41,19 @@ struct OutputLevels {
     bool flood{false};
     bool mist{false};
     bool drives_enabled{false};
-    // Settings 2, 3 and 4: lines that the board inverts at the pin; frames stay logical.
+    // Settings 2, 3, 4, 15 and 16: what the board inverts at the pin; frames and levels stay
+    // logical.
     PulseLines inverted_lines{0};
     bool drives_enabled_inverted{false};
+    std::uint8_t inverted_outputs{0};  // bits of OutputBit
 
     friend constexpr bool operator==(const OutputLevels& a, const OutputLevels& b) noexcept
     {
         return a.spindle_on == b.spindle_on && a.spindle_reverse == b.spindle_reverse &&
                a.spindle_pwm == b.spindle_pwm && a.flood == b.flood && a.mist == b.mist &&
                a.drives_enabled == b.drives_enabled && a.inverted_lines == b.inverted_lines &&
-               a.drives_enabled_inverted == b.drives_enabled_inverted;
+               a.drives_enabled_inverted == b.drives_enabled_inverted &&
+               a.inverted_outputs == b.inverted_outputs;
     }
 };
 

@@ -58,6 +58,11 @@ OutputLevels output_levels(const Accessories& accessories,
     const unsigned directions = settings.whole(Setting::kDirectionInvert) & kAxes;
     levels.inverted_lines = static_cast<PulseLines>(steps | directions << kAxisCount);
     levels.drives_enabled_inverted = settings.on(Setting::kEnableInvert);
+    const unsigned coolant = settings.whole(Setting::kCoolantInvert) & (kFloodOutput | kMistOutput);
+    constexpr unsigned kSpindleOutputs = 7;
+    constexpr unsigned kFirstOfSpindle = 2;
+    const unsigned spindle = settings.whole(Setting::kSpindleInvert) & kSpindleOutputs;
+    levels.inverted_outputs = static_cast<std::uint8_t>(coolant | spindle << kFirstOfSpindle);
     return levels;
 }
 

@@ -113,6 +113,7 @@ bool Machine::follow_motion() noexcept
 {
     if (!motion_.settled()) {
         still_since_ = motion_.ticks();
+        has_moved_ = true;
     }
     if (jog_cancelled_) {
         if (!motion_.at_rest()) {
@@ -217,6 +218,10 @@ void Machine::enter_alarm(Alarm alarm) noexcept
     if (alarm == Alarm::kHardLimit || alarm == Alarm::kSoftLimit) {
         critical_ = true;
         message("Reset to continue");
+    } else if (alarm == Alarm::kEmergencyStop || alarm == Alarm::kMotorFault) {
+        critical_ = true;
+        message(alarm == Alarm::kMotorFault ? "Motor fault: clear it, then reset"
+                                            : "Emergency stop: clear it, then reset");
     }
 }
 
@@ -280,11 +285,13 @@ void Machine::resynchronise() noexcept
 
 OutputLevels Machine::outputs() const noexcept
 {
-    // $1: the drives stay on that long after the last step; 255 is for ever.
+    // $1: the drives stay on that long after the last step; 255 is for ever. Before the first move
+    // they are off unless it is for ever.
     constexpr std::uint32_t kAlwaysOn = 255;
     const std::uint32_t idle_lock = stored_.settings.whole(Setting::kIdleLock);
     const bool still = motion_.settled() && motion_.ticks() - still_since_ >= idle_lock;
-    const bool drives = state_ != State::kSleep && (idle_lock == kAlwaysOn || !still);
+    const bool stopped = state_ == State::kSleep || alarm_ == Alarm::kEmergencyStop;
+    const bool drives = !stopped && (idle_lock == kAlwaysOn || (has_moved_ && !still));
     Accessories accessories = accessories_;
     if (state_ == State::kSleep) {
         accessories = Accessories{};

@@ -120,6 +120,13 @@ private:
     {
         return (motion_.inputs().steady() & input) != 0;
     }
+    // What stops everything: an alarm while its input is on.
+    Alarm protector() const noexcept
+    {
+        return input_on(kEmergencyStop) ? Alarm::kEmergencyStop
+               : input_on(kMotorFault)  ? Alarm::kMotorFault
+                                        : Alarm::kNone;
+    }
     bool limit_on() const noexcept { return (motion_.inputs().steady() & kLimitInputs) != 0; }
     void message(std::string_view text) noexcept;
 
@@ -208,6 +215,7 @@ private:
     Overrides overrides_;
     Accessories accessories_;
     std::uint32_t still_since_{0};  // tick when motion settled last
+    bool has_moved_{false};         // since power-up
     std::uint32_t last_byte_tick_{0};
     std::uint32_t last_text_tick_{0};
 

@@ -93,6 +93,10 @@ bool Machine::handle_events() noexcept
         raise(Alarm::kHardLimit);
         return true;
     }
+    if (protector() != Alarm::kNone && !critical_) {
+        raise(protector());
+        return true;
+    }
     if (frame_missed_) {
         frame_missed_ = false;
         message("A pulse frame was missing");

@@ -19,16 +19,17 @@ enum class State : std::uint8_t {
 
 enum class Alarm : std::uint8_t {
     kNone = 0,
-    kHardLimit = 1,        // a limit switch was hit; the position may be lost
-    kSoftLimit = 2,        // a move would leave the travel; the position is kept
-    kAbortInMotion = 3,    // reset or underrun while moving; the position may be lost
-    kProbeInitial = 4,     // the probe was not as it should be before its move
-    kProbeContact = 5,     // the probe's move ended without contact
-    kHomingReset = 6,      // reset during homing
-    kHomingDoor = 7,       // the door opened during homing
-    kHomingPullOff = 8,    // a switch stayed closed after the pull-off
-    kHomingApproach = 9,   // no switch within the search distance
-    kHomingDualAxis = 10,  // Grbl's second switch of an axis; this machine has one each
+    kHardLimit = 1,       // a limit switch was hit; the position may be lost
+    kSoftLimit = 2,       // a move would leave the travel; the position is kept
+    kAbortInMotion = 3,   // reset or underrun while moving; the position may be lost
+    kProbeInitial = 4,    // the probe was not as it should be before its move
+    kProbeContact = 5,    // the probe's move ended without contact
+    kHomingReset = 6,     // reset during homing
+    kHomingDoor = 7,      // the door opened during homing
+    kHomingPullOff = 8,   // a switch stayed closed after the pull-off
+    kHomingApproach = 9,  // no switch within the search distance
+    kEmergencyStop = 10,  // grblHAL's number; the input is on until it is cleared, then a reset
+    kMotorFault = 17,     // grblHAL's number; a drive says that it has failed
 };
 
 }  // namespace cusp::machine

@@ -5,6 +5,30 @@
 #include <cmath>
 
 namespace cusp::machine {
+namespace {
+
+// The inputs of $14's bits, which are grblHAL's.
+unsigned control_inputs(unsigned mask) noexcept
+{
+    struct Bit {
+        unsigned setting;
+        InputBit input;
+    };
+    constexpr std::array<Bit, 6> kBits{{{1U << 0U, kResetButton},
+                                        {1U << 1U, kHoldButton},
+                                        {1U << 2U, kStartButton},
+                                        {1U << 3U, kDoor},
+                                        {1U << 6U, kEmergencyStop},
+                                        {1U << 8U, kMotorFault}}};
+    unsigned inputs = 0;
+    for (const Bit& bit : kBits) {
+        inputs |= (mask & bit.setting) != 0 ? unsigned{bit.input} : 0U;
+    }
+    return inputs;
+}
+
+}  // namespace
+
 Motion::Motion(const Settings& settings) noexcept
     : planner_{settings.limits()}, pulses_{settings.steps()}
 {
@@ -29,7 +53,8 @@ void Motion::configure(const Settings& settings) noexcept
     }
     const unsigned limit_bits = settings.on(Setting::kLimitInvert) ? kLimitInputs : 0U;
     const unsigned probe_bit = settings.on(Setting::kProbeInvert) ? unsigned{kProbe} : 0U;
-    inverted_inputs_ = static_cast<std::uint16_t>(limit_bits | probe_bit);
+    const unsigned control_bits = control_inputs(settings.whole(Setting::kControlInvert));
+    inverted_inputs_ = static_cast<std::uint16_t>(limit_bits | probe_bit | control_bits);
     filter_ticks_ = static_cast<std::uint8_t>(settings.whole(Setting::kLimitFilter));
     inputs_.set_ticks(filter_ticks_);
     gate_shut_.store(false, std::memory_order_release);

@@ -1,7 +1,7 @@
 // Settings: what a person sets once for a machine, by Grbl's numbers.
 //
 // A value is a float and a number in a table; `$$` lists them in the table's order. Numbers that
-// are not Grbl's ($29, $790 and up) stand after Grbl's own.
+// are not Grbl's ($14 to $16 and $29 as in grblHAL, $790 and up) stand after Grbl's own.
 #pragma once
 
 #include <array>
@@ -44,7 +44,11 @@ enum class Setting : std::uint8_t {
     kMaxRate = kStepsPerMillimetre + 3,  // $110 mm/min
     kAcceleration = kMaxRate + 3,        // $120 mm/s^2
     kTravel = kAcceleration + 3,         // $130 mm
-    kDirectionSetup = kTravel + 3,       // $29 us
+    kControlInvert = kTravel + 3,        // $14 mask: 1 reset, 2 hold, 4 start, 8 door,
+                                         // 64 emergency stop, 256 motor fault
+    kCoolantInvert,                      // $15 mask: 1 flood, 2 mist
+    kSpindleInvert,                      // $16 mask: 1 on, 2 reverse, 4 pulses
+    kDirectionSetup,                     // $29 us
     kLimitFilter,                        // $790 ms
     kLinkWatchdog,                       // $791 ms; 0: off
     kStopOnError,                        // $792

@@ -62,7 +62,9 @@ void write_pins(std::uint16_t inputs, ReplyQueue& out) noexcept
                                                   {kDoor, 'D'},
                                                   {kHoldButton, 'H'},
                                                   {kResetButton, 'R'},
-                                                  {kStartButton, 'S'}}};
+                                                  {kStartButton, 'S'},
+                                                  {kEmergencyStop, 'E'},
+                                                  {kMotorFault, 'M'}}};
     if (inputs == 0) {
         return;
     }

@@ -19,12 +19,15 @@ namespace cusp::hal {
 //   underrun()       whether a frame was missing while motion went on: steps are low, and the
 //                    player plays nothing more until clear_underrun(). Context: any.
 //   clear_underrun() Context: main loop.
+//   invert(lines)    lines whose pin is low where the line is high, from the next silence on.
+//                    Context: main loop.
 template <class T>
 constexpr bool is_pulse_player()
 {
     static_assert(std::is_same_v<decltype(&T::try_play), bool (T::*)(const PulseFrame&) noexcept>);
     static_assert(std::is_same_v<decltype(&T::underrun), bool (T::*)() const noexcept>);
     static_assert(std::is_same_v<decltype(&T::clear_underrun), void (T::*)() noexcept>);
+    static_assert(std::is_same_v<decltype(&T::invert), void (T::*)(PulseLines) noexcept>);
     return true;
 }
 
@@ -49,10 +52,12 @@ constexpr bool is_byte_link()
 // filters them as the settings say.
 using cusp::InputBit;
 using cusp::kDoor;
+using cusp::kEmergencyStop;
 using cusp::kHoldButton;
 using cusp::kLimitX;
 using cusp::kLimitY;
 using cusp::kLimitZ;
+using cusp::kMotorFault;
 using cusp::kProbe;
 using cusp::kResetButton;
 using cusp::kStartButton;

@@ -30,6 +30,7 @@ public:
     bool try_play(const PulseFrame& frame) noexcept;
     bool underrun() const noexcept { return underrun_.load(std::memory_order_relaxed); }
     void clear_underrun() noexcept { underrun_.store(false, std::memory_order_relaxed); }
+    void invert(PulseLines lines) noexcept { inverted_ = lines; }
 
     // Nothing is in flight.
     bool silent() const noexcept
@@ -48,7 +49,7 @@ public:
 
     static void stop() noexcept
     {
-        Port::gpio().bsrr.write(stm32f4::port_word(0, stm32f4::kStepLines, Port::kInvertedLines));
+        Port::gpio().bsrr.write(stm32f4::port_word(0, stm32f4::kStepLines, inverted_));
     }
 
 private:
@@ -70,6 +71,7 @@ private:
     std::uint64_t frame_start_{0};  // ticks since the first frame
     PulseLines levels_{0};
     std::atomic<bool> underrun_{false};
+    static inline PulseLines inverted_{0};
     std::atomic<std::uint32_t> frames_played_{0};
     bool real_pace_{false};
     bool active_{false};            // a frame plays
@@ -161,7 +163,7 @@ bool EdgePlayer<Chip, Port, Trace>::on_interrupt() noexcept
     if (active_ && next_edge_ < edges.size()) {
         const PulseEdge edge = edges[next_edge_];
         ++next_edge_;
-        Port::gpio().bsrr.write(stm32f4::port_word(edge.raise, edge.lower, Port::kInvertedLines));
+        Port::gpio().bsrr.write(stm32f4::port_word(edge.raise, edge.lower, inverted_));
         levels_ = static_cast<PulseLines>((levels_ | edge.raise) & ~edge.lower);
         trace_.note(frame_start_ + edge.tick, levels_);
     } else {

@@ -31,6 +31,9 @@ public:
     bool try_play(const PulseFrame& frame) noexcept;
     bool underrun() const noexcept { return underrun_; }
     void clear_underrun() noexcept { underrun_ = false; }
+    // Listeners learn of lines, not of pins.
+    void invert(PulseLines lines) noexcept { inverted_ = lines; }
+    PulseLines inverted() const noexcept { return inverted_; }
 
     // One servo tick passes: the playing frame is over, the ready one starts. A frame missing right
     // after one with edges is an underrun: steps are lowered, and nothing is played any more.
@@ -69,6 +72,7 @@ private:
     bool underrun_{false};
     bool lose_next_{false};
     PulseLines levels_{0};
+    PulseLines inverted_{0};
     std::vector<FrameListener*> listeners_;
 };
 

@@ -2,8 +2,6 @@
 #include "hal/sim/simulated_store.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <system_error>
 
 namespace cusp::hal {
 namespace {
@@ -25,7 +23,7 @@ void SimulatedStore::read(unsigned sector,
                           Span<std::uint8_t> bytes) const noexcept
 {
     CUSP_ASSERT(sector < 2 && offset + bytes.size() <= kSectorSize);
-    std::copy_n(sectors_[sector].begin() + offset, bytes.size(), bytes.begin());
+    std::copy_n(sectors_[sector].data() + offset, bytes.size(), bytes.begin());
 }
 
 bool SimulatedStore::write(unsigned sector,
@@ -58,24 +56,6 @@ bool SimulatedStore::erase(unsigned sector) noexcept
     return save();
 }
 
-bool SimulatedStore::keep_in(const std::filesystem::path& file)
-{
-    file_ = file;
-    std::error_code failed;
-    if (!std::filesystem::exists(file, failed)) {
-        return save();
-    }
-    if (std::filesystem::file_size(file, failed) != 2 * kSectorSize || failed) {
-        return false;
-    }
-    std::ifstream in{file, std::ios::binary};
-    for (auto& sector : sectors_) {
-        // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): how iostreams take bytes.
-        in.read(reinterpret_cast<char*>(sector.data()), kSectorSize);
-    }
-    return in.good();
-}
-
 void SimulatedStore::damage(unsigned sector, std::uint32_t offset, std::uint8_t bits)
 {
     CUSP_ASSERT(sector < 2 && offset < kSectorSize);
@@ -92,28 +72,6 @@ bool SimulatedStore::spend_word() noexcept
     }
     ++words_written_;
     return true;
-}
-
-bool SimulatedStore::save() const noexcept
-{
-    if (file_.empty()) {
-        return true;
-    }
-    const std::filesystem::path fresh = file_.string() + ".new";
-    {
-        std::ofstream out{fresh, std::ios::binary | std::ios::trunc};
-        for (const auto& sector : sectors_) {
-            // NOLINTNEXTLINE(cppcoreguidelines-pro-type-reinterpret-cast): as above.
-            out.write(reinterpret_cast<const char*>(sector.data()), kSectorSize);
-        }
-        out.flush();
-        if (!out.good()) {
-            return false;
-        }
-    }
-    std::error_code failed;
-    std::filesystem::rename(fresh, file_, failed);
-    return !failed;
 }
 
 }  // namespace cusp::hal

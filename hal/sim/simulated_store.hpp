@@ -4,8 +4,9 @@
 
 #include <array>
 #include <cstdint>
-#include <filesystem>
+#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "hal/contract/board.hpp"
@@ -28,7 +29,7 @@ public:
     // another size is refused.
     //
     // Returns false where the file can't be read or written.
-    bool keep_in(const std::filesystem::path& file);
+    bool keep_in(const std::string& file);
 
     // Fault injection: after this many more words (an erased sector counts as one) the power fails;
     // nothing is written from then on, and every write says so. None: never.
@@ -42,12 +43,15 @@ public:
 
 private:
     bool spend_word() noexcept;
-    bool save() const noexcept;
+    bool save() const { return !keep_ || keep_(sectors_); }
 
-    std::array<std::vector<std::uint8_t>, 2> sectors_;
+    using Sectors = std::array<std::vector<std::uint8_t>, 2>;
+
+    Sectors sectors_;
     std::optional<std::uint64_t> words_left_;
     std::uint64_t words_written_{0};
-    std::filesystem::path file_;
+    // Writes all sectors to a file; none: they are kept nowhere.
+    std::function<bool(const Sectors&)> keep_;
 };
 
 static_assert(is_settings_store<SimulatedStore>());

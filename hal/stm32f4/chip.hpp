@@ -29,8 +29,10 @@ struct Chip {
     static Timer<Word>& timer3() noexcept { return block_at<Timer<Word>>(0x40000400); }
     static Timer<Word>& timer5() noexcept { return block_at<Timer<Word>>(0x40000C00); }
     static Timer<Word>& timer8() noexcept { return block_at<Timer<Word>>(0x40010400); }
+    static Timer<Word>& timer11() noexcept { return block_at<Timer<Word>>(0x40014800); }
     static Usart<Word>& usart1() noexcept { return block_at<Usart<Word>>(0x40011000); }
     static Watchdog<Word>& watchdog() noexcept { return block_at<Watchdog<Word>>(0x40003000); }
+    static Debug<Word>& debug() noexcept { return block_at<Debug<Word>>(0xE0042000); }
     static InterruptController<Word>& interrupts() noexcept
     {
         return block_at<InterruptController<Word>>(0xE000E100);
@@ -57,6 +59,7 @@ struct Chip {
 
 inline constexpr unsigned kTimer2Interrupt = 28;
 inline constexpr unsigned kUsart1Interrupt = 37;
+inline constexpr unsigned kTransmitStreamInterrupt = 70;  // DMA2 stream 7
 inline constexpr unsigned kInterruptCount = 82;
 
 // Priorities: the higher the number, the less urgent; the chip has sixteen steps of 16.

@@ -27,9 +27,10 @@ struct ClockPlan {
 };
 
 enum class ClockSource : std::uint8_t {
-    kCrystal,     // 50 ppm or so: what the board is made for
-    kOscillator,  // 1 %: the crystal did not start; moves are right, times are not
-    kNone,        // the multiplier did not lock: the chip runs at 16 MHz, no motion is possible
+    kCrystal,    // 50 ppm or so: what the board is made for
+    kNoCrystal,  // it did not start: the chip's oscillator; moves are right, times off by up to 4 %
+    kOtherCrystal,  // it is not the one of the plan: likewise
+    kNone,          // the multiplier did not lock: the chip runs at 16 MHz, no motion is possible
 };
 
 namespace detail {
@@ -46,6 +47,40 @@ bool wait_for(Word& word, std::uint32_t mask, std::uint32_t value) noexcept
         }
     }
     return false;
+}
+
+// Whether the crystal that runs is the planned one, within what the chip's own oscillator is good
+// for. The core and timer 11 run from that oscillator, 16 MHz; timer 11 captures each eighth edge of
+// the crystal divided by 31 (RTCPRE). RM0090 sections 7.2.10 and 19.5.11.
+template <class Chip>
+bool crystal_is(std::uint32_t hz) noexcept
+{
+    constexpr std::uint32_t kTimer11Clock = 1U << 18U;
+    constexpr std::uint32_t kDivisor = 31;
+    constexpr std::uint32_t kFromDividedCrystal = 2;
+    constexpr std::uint32_t kEachEighthEdge = 1U | 3U << 2U;
+    constexpr std::uint32_t kCaptured = 2;
+    constexpr std::uint32_t kOscillatorHz = 16000000;
+    auto& rcc = Chip::rcc();
+    auto& timer = Chip::timer11();
+    set_bits(rcc.apb2enr, kTimer11Clock);
+    static_cast<void>(rcc.apb2enr.read());
+    set_field(rcc.cfgr, 16, 5, kDivisor);
+    timer.option.write(kFromDividedCrystal);
+    timer.ccmr1.write(kEachEighthEdge);
+    timer.ccer.write(1);
+    timer.cr1.write(1);
+    // The first capture begins the measurement.
+    bool there = wait_for(timer.sr, kCaptured, kCaptured);
+    const std::uint32_t begin = timer.ccr1.read();
+    there = wait_for(timer.sr, kCaptured, kCaptured) && there;
+    const std::uint32_t counts = (timer.ccr1.read() - begin) & 0xFFFFU;
+    timer.cr1.write(0);
+    clear_bits(rcc.apb2enr, kTimer11Clock);
+    const std::uint32_t wanted = kOscillatorHz / 1000 * kDivisor * 8 / (hz / 1000);
+    // The oscillator is off by 4 % at most; the nearest other crystals in use by 20.
+    const std::uint32_t allowed = wanted / 10;
+    return there && counts >= wanted - allowed && counts <= wanted + allowed;
 }
 
 // Back to the chip's own oscillator, the multiplier off: its settings can't be changed while it
@@ -85,6 +120,7 @@ ClockSource start_clocks(const ClockPlan& plan) noexcept
 {
     constexpr std::uint32_t kCrystalOn = 1U << 16U;
     constexpr std::uint32_t kCrystalReady = 1U << 17U;
+    constexpr std::uint32_t kSecurityOn = 1U << 19U;
     constexpr std::uint32_t kMultiplierOn = 1U << 24U;
     constexpr std::uint32_t kMultiplierReady = 1U << 25U;
     constexpr std::uint32_t kFromCrystal = 1U << 22U;
@@ -98,7 +134,11 @@ ClockSource start_clocks(const ClockPlan& plan) noexcept
     }
     detail::set_regulator<Chip>(plan.regulator_scale);
     set_bits(rcc.cr, kCrystalOn);
-    const bool crystal = detail::wait_for(rcc.cr, kCrystalReady, kCrystalReady);
+    const bool starts = detail::wait_for(rcc.cr, kCrystalReady, kCrystalReady);
+    const bool crystal = starts && detail::crystal_is<Chip>(plan.crystal_hz);
+    if (!crystal) {
+        clear_bits(rcc.cr, kCrystalOn);
+    }
     const std::uint32_t divisor = (crystal ? plan.crystal_hz : kOscillatorHz) / kInputHz;
     const std::uint32_t multiplier = 2 * plan.core_hz / kInputHz;
     rcc.pllcfgr.write(divisor | multiplier << 6U | (crystal ? kFromCrystal : 0U) | kUnusedDivisor);
@@ -117,7 +157,12 @@ ClockSource start_clocks(const ClockPlan& plan) noexcept
     if (!detail::wait_for(rcc.cfgr, 3U << 2U, 2U << 2U)) {
         return ClockSource::kNone;
     }
-    return crystal ? ClockSource::kCrystal : ClockSource::kOscillator;
+    if (!crystal) {
+        return starts ? ClockSource::kOtherCrystal : ClockSource::kNoCrystal;
+    }
+    // A crystal that stops from now on is an NMI, which is a fault like any other (RM0090 7.2.7).
+    set_bits(rcc.cr, kSecurityOn);
+    return ClockSource::kCrystal;
 }
 
 }  // namespace cusp::hal::stm32f4

@@ -8,6 +8,7 @@ namespace hal::stm32f4 {
 
 // The start-up code does not touch this section.
 __attribute__((section(".retained"))) FaultRecord last_fault;
+__attribute__((section(".retained"))) ResetRecord last_reset;
 
 void core_fault(std::uint32_t exception,
                 std::uint32_t program_counter,

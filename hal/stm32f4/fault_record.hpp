@@ -21,6 +21,15 @@ struct FaultRecord {
     std::uint32_t fault_status;  // CFSR, PM0214 section 4.4.10
 };
 
+// What outlives a reset beside it: whether something moved, and why the last reset came.
+struct ResetRecord {
+    static constexpr std::uint32_t kMoving = 0x4D4F5645;
+
+    std::uint32_t motion;  // kMoving while frames with edges are on their way
+    std::uint32_t cause;   // RCC_CSR of this start
+};
+extern ResetRecord last_reset;
+
 // The record that the last fault has left; its mark is kWritten if there was one.
 extern FaultRecord last_fault;
 

@@ -95,13 +95,14 @@ static_assert(sizeof(Dma<DeviceWord>) == 0xD0);
 template <class Word>
 struct Timer {
     Word cr1, cr2, smcr, dier, sr, egr, ccmr1, ccmr2, ccer, cnt, psc, arr, rcr;
-    Word ccr1, ccr2, ccr3, ccr4, bdtr;
+    Word ccr1, ccr2, ccr3, ccr4, bdtr, dcr, dmar, option;
 };
 static_assert(offsetof(Timer<DeviceWord>, dier) == 0x0C);
 static_assert(offsetof(Timer<DeviceWord>, egr) == 0x14);
 static_assert(offsetof(Timer<DeviceWord>, arr) == 0x2C);
 static_assert(offsetof(Timer<DeviceWord>, ccr1) == 0x34);
 static_assert(offsetof(Timer<DeviceWord>, bdtr) == 0x44);
+static_assert(offsetof(Timer<DeviceWord>, option) == 0x50);
 
 // Section 30.6: serial port.
 template <class Word>
@@ -114,6 +115,12 @@ static_assert(offsetof(Usart<DeviceWord>, cr1) == 0x0C);
 template <class Word>
 struct Watchdog {
     Word kr, pr, rlr, sr;
+};
+
+// Section 38.16: what stops while a debugger holds the core.
+template <class Word>
+struct Debug {
+    Word idcode, cr, apb1_freeze, apb2_freeze;
 };
 
 // The core's own blocks (PM0214): sections 4.3 and 4.4.

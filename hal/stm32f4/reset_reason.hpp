@@ -1,10 +1,11 @@
-// Says over the serial line why the firmware stopped last time, if it did.
+// Says over the serial line why the firmware stopped last time, if it did, and what its clock is.
 #pragma once
 
 #include <cstdint>
 #include <string_view>
 
 #include "firmware/base/span.hpp"
+#include "hal/stm32f4/clock_tree.hpp"
 #include "hal/stm32f4/fault_record.hpp"
 
 namespace cusp::hal::stm32f4 {
@@ -69,6 +70,58 @@ void report_last_fault(Link& link) noexcept
         write_number(link, last_fault.fault_status, 16);
     }
     write_text(link, "]\r\n");
+}
+
+namespace detail {
+
+inline constexpr std::uint32_t kBrownOut = 1U << 25U;  // RCC_CSR, RM0090 section 7.3.21
+inline constexpr std::uint32_t kPowerUp = 1U << 27U;
+inline constexpr std::uint32_t kSoftware = 1U << 28U;
+inline constexpr std::uint32_t kWatchdogs = 3U << 29U;
+
+}  // namespace detail
+
+// Keeps the flags of the reset and clears them for the next one. Call before anything moves.
+template <class Chip>
+void note_reset_cause() noexcept
+{
+    constexpr std::uint32_t kRemove = 1U << 24U;
+    last_reset.cause = Chip::rcc().csr.read();
+    Chip::rcc().csr.write(kRemove);
+    // After a loss of power the memory says nothing.
+    if ((last_reset.cause & detail::kPowerUp) != 0) {
+        last_reset.motion = 0;
+        last_fault.mark = 0;
+    }
+}
+
+inline void mark_motion(bool moving) noexcept
+{
+    last_reset.motion = moving ? ResetRecord::kMoving : 0U;
+}
+inline bool reset_amid_motion() noexcept { return last_reset.motion == ResetRecord::kMoving; }
+
+// The messages of a start: a fault, a watchdog, a supply that broke down, a clock that is not the
+// planned one.
+template <class Link>
+void report_reset(Link& link, ClockSource clock) noexcept
+{
+    using detail::write_text;
+    report_last_fault(link);
+    const std::uint32_t cause = last_reset.cause;
+    if ((cause & detail::kWatchdogs) != 0) {
+        write_text(link, "[MSG:Reset by the watchdog]\r\n");
+    } else if ((cause & detail::kBrownOut) != 0 && (cause & detail::kPowerUp) == 0) {
+        write_text(link, "[MSG:Reset: the supply broke down]\r\n");
+    }
+    if (reset_amid_motion()) {
+        write_text(link, "[MSG:Reset amid motion: the position is lost]\r\n");
+    }
+    if (clock == ClockSource::kNoCrystal) {
+        write_text(link, "[MSG:Clock: no crystal, times are off by up to 4 %]\r\n");
+    } else if (clock == ClockSource::kOtherCrystal) {
+        write_text(link, "[MSG:Clock: another crystal, times are off by up to 4 %]\r\n");
+    }
 }
 
 }  // namespace cusp::hal::stm32f4

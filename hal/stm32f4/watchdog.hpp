@@ -38,13 +38,13 @@ template <class Chip>
     }
 }
 
-// Switches on the ports A to C, DMA2, timer 3, USART1, and the timer of the pulses by its bit.
+// Switches on the ports A to C, DMA2, timers 2 and 3, USART1, and the timer of the pulses by its bit.
 template <class Chip>
 void start_peripherals(unsigned pulse_timer_bit) noexcept
 {
     auto& rcc = Chip::rcc();
     set_bits(rcc.ahb1enr, 1U << 0U | 1U << 1U | 1U << 2U | 1U << 22U);
-    set_bits(rcc.apb1enr, 1U << 1U | 1U << 28U);
+    set_bits(rcc.apb1enr, 1U << 0U | 1U << 1U | 1U << 28U);
     set_bits(rcc.apb2enr, 1U << pulse_timer_bit | 1U << 4U);
     // The clock arrives two bus cycles after the bit is set.
     static_cast<void>(rcc.apb2enr.read());

@@ -1,20 +1,15 @@
-// From a job to passes, surface by surface; then edges where surfaces meet; then links.
-// Over 500 lines: the one class here owns what all steps add to (passes, coverage, ridges).
+// From an operation to passes: curves of each surface, edges where surfaces meet, passes where the
+// scallop is still too high, links.
 #include "host_tools/adaptive_isocurve/adaptive_isocurve.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 
-#include "host_tools/adaptive_isocurve/cross_section.hpp"
-#include "host_tools/adaptive_isocurve/equal_scallop_passes.hpp"
-#include "host_tools/adaptive_isocurve/isocurve_extraction.hpp"
 #include "host_tools/adaptive_isocurve/isocurve_floor.hpp"
-#include "host_tools/adaptive_isocurve/isocurve_scallop.hpp"
-#include "host_tools/adaptive_isocurve/isocurve_spacing_bound.hpp"
+#include "host_tools/adaptive_isocurve/isocurve_selection.hpp"
 #include "host_tools/adaptive_isocurve/mesh_isocurves.hpp"
 #include "host_tools/adaptive_isocurve/offset_curve_trimmer.hpp"
 #include "host_tools/adaptive_isocurve/proved_scallop.hpp"
@@ -46,37 +41,25 @@ using nurbs::Surface;
 using nurbs::SurfacePoint;
 using part_model::OffsetRequest;
 using part_model::OffsetSurface;
-using part_model::SurfaceCut;
 using toolpath::OperationStats;
 using toolpath::PlannedOperation;
 using toolpath::stepover;
 
 namespace {
 
-constexpr int kRidgeLooks = 200;
-// Of a ridge on one smooth surface, for what passes bend between places that are compared: cells
-// over what would be open cost more than passes that much nearer.
-constexpr double kSpared = 0.99;
-// Of the domain: where more is open, passes are laid anew by ridges that follow them, which takes
-// twice as long.
+// Share of the domain: where the scallop is too high on more, curves are chosen again with scallops
+// that follow the passes, which takes twice as long.
 constexpr double kOpenShare = 0.01;
-constexpr int kCurvatureLooks = 60;
-// Of what the scallop leaves for the ridge: the rest is for bends of passes along their way.
-constexpr double kRidgeShare = 0.99;
-// The same where cells prove it: those need room between the ridge and the scallop.
-constexpr double kProvedShare = 0.97;
-// Of the band, for how far an approximated offset is from the exact one.
+// Share of the band for the error of an approximated offset.
 constexpr double kOffsetShare = 0.9;
-constexpr int kHandLooks = 8;
-constexpr int kNeighbourRounds = 5;
-constexpr double kNearer = 0.9998;       // than the bound asks for
+constexpr int kNormalSamples = 8;        // along u and v
 constexpr double kShortestPiece = 1e-3;  // mm
 constexpr double kSameEdge = 0.1;        // in steps: edges nearer than this are one
 
-// Of the progress.
+// Shares of the progress.
 constexpr double kPassesDone = 0.4;
-constexpr double kLookedDone = 0.5;
-constexpr double kGapsDone = 0.95;
+constexpr double kCheckDone = 0.5;
+constexpr double kMissingDone = 0.95;
 
 class IsocurvePlanner {
 public:
@@ -85,11 +68,9 @@ public:
           operation_{operation},
           work_{job, operation, surfaces_along_u(operation)},
           tracer_{work_.surfaces(), work_.path_fitter()},
-          tool_{operation.tool.radius, work_.outward()}
+          plain_{work_.surfaces().size() == 1 && is_plain(work_.surfaces().front())},
+          selection_{operation, work_, plain_}
     {
-        const std::vector<Surface>& surfaces = work_.surfaces();
-        plain_ = surfaces.size() == 1 && is_plain(surfaces.front());
-        scallop_share_ = plain_ ? kRidgeShare : kProvedShare;
         if (operation.scallop && !operation.iso_distance) {
             scallop_check_.emplace(work_.surfaces(), work_.path_fitter(), *operation.scallop,
                                    work_.path_off());
@@ -106,10 +87,10 @@ public:
         std::size_t uncovered = 0;
         bool unseen = false;
         if (scallop_check_ && !(plain_ && whole_ && open_.empty())) {
-            look_over_cells();
+            check_scallops();
             scallop_check_->add_missing_passes(
                 [&](const Points& pass) { add_pass(pass); },
-                [&](double share) { report(kLookedDone + (kGapsDone - kLookedDone) * share); });
+                [&](double share) { report(kCheckDone + (kMissingDone - kCheckDone) * share); });
             uncovered = scallop_check_->uncovered();
             scallop_ = std::max(*operation_.scallop, scallop_check_->most_left());
             unseen = scallop_check_->overflowed();
@@ -126,7 +107,7 @@ public:
             scallop_check_->add_rim_passes(static_cast<int>(k),
                                            [&](const Points& pass) { add_pass(pass); });
         }
-        report(kGapsDone);
+        report(kMissingDone);
         PlannedOperation planned = work_.finish(spacing_, scallop_);
         report_uncovered_points(planned.stats, uncovered, unseen);
         planned.stats.counts.emplace_back("isocurves", static_cast<double>(curves));
@@ -134,10 +115,11 @@ public:
             planned.stats.counts.emplace_back("cells_share", cells_share_);
         }
         report_left_beside_edges(planned.stats);
-        if (apart_ > 0) {
-            planned.stats.counts.emplace_back("iso_distance_bound_mm", apart_);
+        const double apart = selection_.spacing_bound();
+        if (apart > 0) {
+            planned.stats.counts.emplace_back("iso_distance_bound_mm", apart);
         }
-        if (apart_ > operation_.iso_distance.value_or(apart_)) {
+        if (apart > operation_.iso_distance.value_or(apart)) {
             planned.stats.warnings.push_back(
                 "neighbouring passes are not proved to be within iso_distance everywhere");
         }
@@ -191,11 +173,11 @@ private:
         }
     }
 
-    // All of the surfaces, or only where strips between passes of one leave too much.
-    void look_over_cells()
+    // Examines all surfaces, or of one smooth surface only the strips with too high a scallop.
+    void check_scallops()
     {
         const std::vector<Surface>& surfaces = work_.surfaces();
-        cells_share_ = share_of(open_, surfaces.front());
+        cells_share_ = share_of_domain(open_, surfaces.front());
         if (plain_ && whole_ && cells_share_ < 1) {
             for (const IsocurveScallop::Strip& strip : open_) {
                 scallop_check_->check(0, {strip.u0, strip.v0}, {strip.u1, strip.v1});
@@ -205,139 +187,21 @@ private:
         cells_share_ = 1;
         for (std::size_t k = 0; k < surfaces.size(); ++k) {
             const double share = static_cast<double>(k) / static_cast<double>(surfaces.size());
-            report(kPassesDone + (kLookedDone - kPassesDone) * share);
+            report(kPassesDone + (kCheckDone - kPassesDone) * share);
             scallop_check_->check(static_cast<int>(k));
         }
-    }
-
-    SurfaceFunction surface_function(int surface) const
-    {
-        return [this, surface](double u, double v) {
-            return work_.model().evaluate(surface, u, v);
-        };
-    }
-
-    // Steps for which the ridge has the height asked for, less what the tolerance takes.
-    StepDensity density() const
-    {
-        const double scallop_height = scallop_share_ * (*operation_.scallop - work_.outward());
-        const double radius = operation_.tool.radius;
-        return [scallop_height, radius](const SurfacePoint& p) {
-            const CrossSection section = cross_section_at(p);
-            return section.speed / stepover(radius, scallop_height, section.curvature);
-        };
-    }
-
-    // The least step that any place of the surface needs.
-    double least_step(int surface) const
-    {
-        const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
-        const double scallop_height = scallop_share_ * (*operation_.scallop - work_.outward());
-        double least = 2 * operation_.tool.radius;
-        for (int i = 0; i <= kCurvatureLooks; ++i) {
-            for (int j = 0; j <= kCurvatureLooks; ++j) {
-                const SurfacePoint p = work_.model().evaluate(
-                    surface, s.u_begin() + (s.u_end() - s.u_begin()) * i / kCurvatureLooks,
-                    s.v_begin() + (s.v_end() - s.v_begin()) * j / kCurvatureLooks);
-                least = std::min(least, stepover(operation_.tool.radius, scallop_height,
-                                                 cross_section_at(p).curvature));
-            }
-        }
-        return least;
-    }
-
-    std::vector<DomainCurve> curves_of(int surface, bool complete, bool follow)
-    {
-        const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
-        if (complete) {
-            const double step =
-                operation_.iso_distance ? *operation_.iso_distance : 0.99 * least_step(surface);
-            return complete_isocurves(s, surface, step);
-        }
-        const SurfaceFunction at = surface_function(surface);
-        if (operation_.iso_distance && operation_.even_steps) {
-            return neighbours_within(*operation_.iso_distance, surface, at);
-        }
-        if (operation_.iso_distance) {
-            apart_ = std::max(apart_, *operation_.iso_distance);
-            return adaptive_isocurves(s, surface, *operation_.iso_distance);
-        }
-        const double scallop = *operation_.scallop;
-        IsocurveScallop scallops{work_.model(), surface, tool_};
-        const double allowed = (plain_ ? kSpared : 1.0) * (scallop - tool_.outward);
-        const StripJudge judge = [&](double u, CurvePlace low, CurvePlace high, double sufficient) {
-            if (!follow) {
-                low.curve = high.curve = nullptr;
-            }
-            const double scallop_height =
-                scallops.between(u, low, high, tool_.outward + sufficient * sufficient * allowed);
-            const double over = (scallop_height - tool_.outward) / allowed;
-            return std::min(1.5, std::sqrt(std::max(0.0, over)));
-        };
-        return equal_scallop_passes(s, surface, at, density(), judge).curves;
-    }
-
-    // Even passes, nearer to each other by what the bound everywhere asks for.
-    std::vector<DomainCurve> neighbours_within(double delta, int surface, const SurfaceFunction& at)
-    {
-        const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
-        const IsocurveSpacingBound bound{s, work_.model(), surface};
-        std::vector<DomainCurve> curves;
-        std::optional<SurfaceCut> cut;
-        double cut_at = 0;
-        double asked = delta;
-        double apart = 0;
-        for (int round = 0; round < kNeighbourRounds; ++round) {
-            const StepDensity steps = [asked](const SurfacePoint& p) {
-                return norm(p.dv) / asked;
-            };
-            const StripJudge judge = [&](double u, CurvePlace low, CurvePlace high, double) {
-                if (!cut || u != cut_at) {
-                    cut.emplace(work_.model().cut_at(surface, u));
-                    cut_at = u;
-                }
-                return norm(cut->at(high.v).point - cut->at(low.v).point) / asked;
-            };
-            curves = equal_scallop_passes(s, surface, at, steps, judge).curves;
-            apart = bound.over(curves, delta);
-            if (apart <= delta) {
-                break;
-            }
-            asked *= kNearer * delta / apart;
-        }
-        apart_ = std::max(apart_, apart);
-        return curves;
-    }
-
-    IsocurveScallop::Highest highest_between(int surface,
-                                             const std::vector<DomainCurve>& curves) const
-    {
-        const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
-        return IsocurveScallop{work_.model(), surface, tool_}.highest(
-            curves, s.u_begin(), s.u_end(), kRidgeLooks,
-            scallop_check_ ? *operation_.scallop : std::numeric_limits<double>::infinity());
-    }
-
-    // Of the domain.
-    static double share_of(const std::vector<IsocurveScallop::Strip>& strips, const Surface& s)
-    {
-        double area = 0;
-        for (const IsocurveScallop::Strip& strip : strips) {
-            area += (strip.u1 - strip.u0) * (strip.v1 - strip.v0);
-        }
-        return area / ((s.u_end() - s.u_begin()) * (s.v_end() - s.v_begin()));
     }
 
     std::size_t add_surface(int surface, bool complete)
     {
         const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
-        std::vector<DomainCurve> curves = curves_of(surface, complete, false);
-        IsocurveScallop::Highest highest = highest_between(surface, curves);
-        if (plain_ && share_of(highest.open, s) > kOpenShare) {
-            curves = curves_of(surface, complete, true);
-            highest = highest_between(surface, curves);
+        std::vector<DomainCurve> curves = selection_.curves_of(surface, complete, false);
+        IsocurveScallop::Highest highest = selection_.highest_between(surface, curves);
+        if (plain_ && share_of_domain(highest.open, s) > kOpenShare) {
+            curves = selection_.curves_of(surface, complete, true);
+            highest = selection_.highest_between(surface, curves);
         }
-        const double passes_done = plain_ ? kGapsDone : kPassesDone;
+        const double passes_done = plain_ ? kMissingDone : kPassesDone;
         if (operation_.traversal == Traversal::kOneWay) {
             put_in_cutting_order(surface, curves);
         }
@@ -350,21 +214,21 @@ private:
             offset_points_ += offset->control_points();
         }
         bool trimmed = false;
-        bool hopeful = s.trims.empty() && operation_.output == OutputForm::kLines;
+        bool may_be_clear = s.trims.empty() && operation_.output == OutputForm::kLines;
         std::size_t traced_curves = 0;
         for (const DomainCurve& curve : curves) {
             const double share =
                 static_cast<double>(traced_curves++) / static_cast<double>(curves.size());
             report(passes_done * (surface + share) / static_cast<double>(work_.surfaces().size()));
             work_.model().forget_many_cells();
-            if (hopeful && add_whole(curve)) {
+            if (may_be_clear && add_whole(curve)) {
                 continue;
             }
             const TracedCurve traced = tracer_.trace(curve);
             const bool whole = traced.pieces.size() == 1 && !traced.blocked &&
                                reaches_ends(curve, traced.pieces.front().points);
             trimmed = trimmed || !whole;
-            hopeful = hopeful && whole;
+            may_be_clear = may_be_clear && whole;
             unreached_ += traced.blocked ? 1 : 0;
             for (const TracedPiece& piece : traced.pieces) {
                 const std::optional<Curve> exact =
@@ -385,7 +249,7 @@ private:
         return curves.size();
     }
 
-    // Where the tool is free from end to end there is nothing to look for.
+    // Quick case: the tool is clear of everything else from end to end.
     bool add_whole(const DomainCurve& curve)
     {
         const TracedPiece piece = tracer_.whole(curve);
@@ -400,7 +264,7 @@ private:
         return points.has_value();
     }
 
-    // The piece on the approximated offset, where the curve is an isocurve.
+    // The pass on the approximated offset, where the curve is an isocurve.
     std::optional<Curve> tip_isocurve(const OffsetSurface& offset,
                                       const DomainCurve& curve,
                                       const TracedPiece& piece) const
@@ -418,16 +282,16 @@ private:
         return tip;
     }
 
-    // Climb: what is not cut yet lies to the right of the way, since the tool turns clockwise.
+    // Climb milling: the uncut stock lies to the right of the path, since the tool turns clockwise.
     void put_in_cutting_order(int surface, std::vector<DomainCurve>& curves) const
     {
         const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
         double up = 0;
-        for (int i = 1; i < kHandLooks; ++i) {
-            for (int j = 1; j < kHandLooks; ++j) {
+        for (int i = 1; i < kNormalSamples; ++i) {
+            for (int j = 1; j < kNormalSamples; ++j) {
                 const SurfacePoint p = work_.model().evaluate(
-                    surface, s.u_begin() + (s.u_end() - s.u_begin()) * i / kHandLooks,
-                    s.v_begin() + (s.v_end() - s.v_begin()) * j / kHandLooks);
+                    surface, s.u_begin() + (s.u_end() - s.u_begin()) * i / kNormalSamples,
+                    s.v_begin() + (s.v_end() - s.v_begin()) * j / kNormalSamples);
                 up += cross(p.du, p.dv).z;
             }
         }
@@ -443,7 +307,7 @@ private:
                          });
     }
 
-    // An edge where the tool touches two surfaces belongs to both: it is cut once.
+    // An edge where the tool touches two surfaces is found for both and cut once.
     void add_edges(int surface)
     {
         const double near = kSameEdge * spacing_;
@@ -458,7 +322,7 @@ private:
                     run.push_back(tip);
                     continue;
                 }
-                // One place more, so that the runs meet.
+                // One point more, so that the runs meet.
                 run.push_back(tip);
                 add_run(run);
             }
@@ -499,20 +363,19 @@ private:
     const Operation& operation_;
     SurfaceOperation work_;
     OffsetCurveTrimmer tracer_;
-    ScallopTool tool_;
+    // One smooth surface: where all its passes are whole, it has no other scallops than those
+    // between neighbours.
+    bool plain_;
+    IsocurveSelection selection_;
     std::optional<ScallopCheck> scallop_check_;
-    std::vector<Points> cut_;           // where there is no coverage
-    std::optional<SweptVolume> edges_;  // of free parts, as thin balls
+    std::vector<Points> cut_;           // the passes, where there is no scallop check
+    std::optional<SweptVolume> edges_;  // of the parts that the tool can finish, as thin balls
     bool whole_{true};                  // all passes run from end to end
-    // One smooth surface: where all its passes are whole, the ridges between them are all there is.
-    bool plain_{};
-    double scallop_share_{};
     double spacing_{};
-    double apart_{};  // mm: the bound of neighbours at equal u, by iso_distance
     double scallop_{};
-    std::vector<IsocurveScallop::Strip> open_;  // of one smooth surface, where they leave too much
-    double cells_share_{};   // of the surfaces' domains, that cells were asked about
-    double beside_edges_{};  // mm: left there where there is no coverage
+    std::vector<IsocurveScallop::Strip> open_;  // of one smooth surface: the scallop is too high
+    double cells_share_{};   // of the surfaces' domains: examined by the scallop check
+    double beside_edges_{};  // mm: left there where there is no scallop check
     int unreached_{};
     int exact_curves_{};
     double offset_error_{};

@@ -1,4 +1,4 @@
-// Quintics through six neighbours; the error falls with the sixth power of the spacing.
+// Quintic interpolation through six neighbours: its error is of sixth order in the spacing.
 #include "host_tools/adaptive_isocurve/dense_tips.hpp"
 
 #include <algorithm>
@@ -16,15 +16,15 @@ namespace {
 
 constexpr std::size_t kNodes = 6;
 constexpr double kRight = 0.02;  // of the band
-constexpr double kFinerBy =
-    6;  // of the error, at half the spacing: 8 where a third derivative jumps
-constexpr double kSagShare = 0.06;  // of the band, between dense tips
+// How much less the error is at half the spacing; 8 where a third derivative jumps.
+constexpr double kFinerBy = 6;
+constexpr double kSagShare = 0.06;  // of the band: between dense tips
 constexpr std::size_t kMost = 64;   // dense tips between two exact ones
 constexpr int kDeepest = 12;        // halvings
 
 using Weights = std::array<double, kNodes>;
 
-// Lagrange's, at a place among nodes 0 to 5.
+// Lagrange weights at a place among nodes 0 to 5.
 Weights weights_at(double place)
 {
     Weights out;
@@ -49,13 +49,13 @@ Vec3d mean(const Vec3d* nodes, const Weights& weights)
     return sum;
 }
 
-// The first of six nodes about the span from one to the next.
+// The first of six nodes around a span between two nodes.
 std::size_t first_about(std::size_t span, std::size_t count)
 {
     return std::min(span < 2 ? 0 : span - 2, count - kNodes);
 }
 
-// Weights for parts of a span, by where it lies among its six nodes.
+// Weights for the parts of a span, by the position of the span among its six nodes.
 class Parts {
 public:
     const std::vector<Weights>& of(std::size_t offset, std::size_t parts)

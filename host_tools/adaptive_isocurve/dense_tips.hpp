@@ -1,4 +1,4 @@
-// Dense tips along a curve from few exact ones.
+// Dense tips along a curve, interpolated between few exact ones.
 #pragma once
 
 #include <functional>
@@ -14,11 +14,11 @@ struct DenseTips {
     std::vector<double> u;
 };
 
-// Tips along a function of u as `GougeFreePathFitter::sample` gives them, most of them by quintic
-// interpolation: right to a fiftieth of the band. It is checked against the tip in the middle
-// between every two breaks; where it is off, tips there are exact.
+// Tips along a function of u as by `GougeFreePathFitter::sample`, most of them by quintic
+// interpolation, accurate to a fiftieth of the band. The interpolation is checked at the middle
+// between every two breaks; where it is not accurate, tips are exact.
 //
-// breaks  even
+// breaks  equally spaced
 DenseTips dense_tips(const finishing::GougeFreePathFitter& path_fitter,
                      const std::function<Vec3d(double)>& at,
                      const std::vector<double>& breaks);

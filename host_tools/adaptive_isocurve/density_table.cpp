@@ -1,4 +1,4 @@
-// The density at the nodes, and how it follows what the strips between curves ask for.
+// The density at the nodes, fitted to what the strips between curves require.
 #include "host_tools/adaptive_isocurve/density_table.hpp"
 
 #include <algorithm>
@@ -17,11 +17,11 @@ namespace {
 constexpr std::size_t kLeastNodes = 160;
 constexpr std::size_t kNodesInSpan = 4;
 constexpr std::size_t kMostNodes = 800;
-constexpr double kLeastFitted = 0.4;  // steps: narrower strips say little of the density
-constexpr double kMostFitted = 1.2;   // times as dense, or as wide, in a round
+constexpr double kLeastFitted = 0.4;  // steps: narrower strips are not fitted
+constexpr double kMostFitted = 1.2;   // largest change of the density in a round
 constexpr double kFullStep = 0.998;   // the rest is for the interpolation between nodes
 
-// All distinct knots, and equal parts between them.
+// All distinct knots, and equally spaced nodes between them.
 std::vector<double> nodes_of(const std::vector<double>& knots, double begin, double end)
 {
     const std::vector<double> breaks = knots_between(knots, begin, end);

@@ -1,4 +1,4 @@
-// The number of steps between passes over (u, v), in a table.
+// A table over (u, v) of the number of steps between passes.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace cusp::adaptive_isocurve {
 
-// Steps and metric on the nodes.
+// Density of steps and metric at the nodes of a grid over the domain.
 class DensityTable {
 public:
     DensityTable(const nurbs::Surface& surface,
@@ -25,7 +25,7 @@ public:
         return cubic(i, j, (at - v[j]) / h);
     }
 
-    // The v at which so many steps are passed; it may lie a little outside the surface.
+    // The inverse of steps(): the v of a number of steps. It may lie a little outside the surface.
     double inverse(std::size_t i, double wanted) const
     {
         const auto row = sum_.begin() + static_cast<std::ptrdiff_t>(i * v.size());
@@ -33,7 +33,7 @@ public:
             std::upper_bound(row + 1, row + static_cast<std::ptrdiff_t>(v.size()) - 1, wanted);
         const std::size_t j = static_cast<std::size_t>(next - row) - 1;
         const std::size_t end = i * v.size() + v.size() - 1;
-        // Outside by the density at the side: passes that begin early begin there.
+        // Outside the density is that at the border, for passes that begin there.
         if (wanted < 0) {
             return v.front() + wanted / std::max(kLeastDensity, density_[i * v.size()]);
         }
@@ -50,21 +50,21 @@ public:
         return v[j] + t * h;
     }
 
-    // Length of a short move in the domain near the node.
+    // Length of a short move (du, dv) near the node, mm.
     double length(std::size_t i, double at, double du, double dv) const
     {
         const std::array<double, 3>& g = metric_[i * v.size() + cell(at)];
         return std::sqrt(std::max(0.0, g[0] * du * du + 2 * g[1] * du * dv + g[2] * dv * dv));
     }
 
-    // The density as the strips between the curves ask for it: where passes slant, steps may be
-    // wider than across isocurves, and where the bend changes between them, narrower.
+    // Fits the density to what the strips between the curves require: slanting passes may be
+    // farther apart than isocurves, and passes with changing curvature between them closer.
     void fit(const std::vector<DomainCurve>& curves, const StripJudge& judge);
 
-    // The factor asked for between nodes of u, at a place of v; kept for `tighten`.
+    // Records a factor required between the nodes i and i + 1 of u, at v = `at`, for tighten().
     void ask(std::size_t i, double at, double factor);
 
-    // Denser where it was asked for and round about.
+    // Multiplies the density by the recorded factors, smoothed over the nodes around.
     void tighten();
 
     void integrate()
@@ -84,14 +84,15 @@ public:
 private:
     static constexpr double kLeastDensity = 1e-6;
 
-    // Mean of each value, doubled, and its neighbours, along lines of values `stride` apart.
+    // Replaces each value by a weighted mean with its neighbours (1, 2, 1), along lines of values
+    // `stride` apart.
     static void smooth(std::vector<double>& values,
                        std::size_t stride,
                        std::size_t line_stride,
                        std::size_t count,
                        std::size_t lines);
 
-    // The largest of each value and its neighbours.
+    // Replaces each value by the largest of itself and its neighbours.
     static void raise(std::vector<double>& values,
                       std::size_t stride,
                       std::size_t line_stride,
@@ -104,7 +105,7 @@ private:
         return static_cast<std::size_t>(next - v.begin()) - 1;
     }
 
-    // The integral of the density, itself linear between nodes.
+    // The integral of the density, which is linear between nodes.
     double cubic(std::size_t i, std::size_t j, double t) const
     {
         const std::size_t k = i * v.size() + j;

@@ -27,7 +27,7 @@ double slope_at(const DomainCurve& c, std::size_t k)
     return (before * h_after + after * h_before) / (h_before + h_after);
 }
 
-// Nodes are mostly even: from where the place would be if they were.
+// Nodes are usually equally spaced: the search starts where they would be.
 std::size_t span_of(const std::vector<double>& u, double at)
 {
     const double spans = static_cast<double>(u.size() - 1);

@@ -1,4 +1,4 @@
-// A curve over u in the domain of a surface: an isocurve, or one whose v varies slowly.
+// A curve in the domain of a surface, as v over u: an isocurve, or a curve of slowly varying v.
 #pragma once
 
 #include <vector>
@@ -7,14 +7,14 @@ namespace cusp::adaptive_isocurve {
 
 struct DomainCurve;
 
-// A curve at some u: where it is and how it goes on.
+// A curve at some u: its v and slope.
 struct CurvePlace {
     double v{};
     double slope{};                     // of v by u
     const DomainCurve* curve{nullptr};  // null: not known
 };
 
-// v over increasing u, at least two nodes; between nodes a cubic. Two nodes of equal v: an
+// v at increasing u: at least two nodes, with a cubic between them. Two nodes of equal v are an
 // isocurve.
 struct DomainCurve {
     int surface{};
@@ -26,7 +26,7 @@ struct DomainCurve {
     CurvePlace place_at(double at) const;
 };
 
-// All curves that pass u, in order of v; the places know their curves.
+// The places of all curves that pass u, in order of v, with their curves.
 std::vector<CurvePlace> places_at(const std::vector<DomainCurve>& curves, double u);
 
 DomainCurve isocurve(int surface, double v, double u_begin, double u_end);

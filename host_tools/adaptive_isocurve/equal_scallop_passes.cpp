@@ -1,10 +1,9 @@
-// Level lines of the number of steps over (u, v), strip by strip, are the passes.
+// Passes are level lines of the number of steps over (u, v), strip by strip.
 #include "host_tools/adaptive_isocurve/equal_scallop_passes.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "host_tools/adaptive_isocurve/density_table.hpp"
 
@@ -15,18 +14,18 @@ using nurbs::Surface;
 namespace {
 
 constexpr int kJudgeRounds = 24;
-constexpr std::size_t kLooksAtNode = 2;  // of u, up to the next
-constexpr double kJudged = 0.996;        // of what is allowed: the rest is for places between looks
+constexpr std::size_t kSamplesPerNode = 2;  // of u
+constexpr double kJudged = 0.996;           // of what is allowed: reserve between samples
 constexpr double kNearlyRight = 1.001;
 constexpr double kTighter = 1.0005;
-constexpr std::size_t kTightened = 6;    // spans beside one that is made denser
-constexpr std::size_t kLengthNodes = 4;  // of u, from one that counts to the next
+constexpr std::size_t kTightened = 6;    // spans beside one that becomes denser
+constexpr std::size_t kLengthNodes = 4;  // lengths are measured at every fourth node of u
 constexpr int kFitRounds = 2;
 constexpr double kFitFailed = 1.05;
-constexpr double kOverlap =
-    0.15;  // steps: how early a pass begins, for the interpolation of its end
+// In steps: how early a pass begins, for the interpolation of its end.
+constexpr double kOverlap = 0.15;
 
-// Isocurves that cut the surface into strips of equal numbers of steps, on the average over u.
+// Isocurves that divide the surface into strips of equal numbers of steps, on average over u.
 std::vector<double> strip_sides(const DensityTable& table, int strips)
 {
     std::vector<double> sides{table.v.front()};
@@ -41,8 +40,8 @@ std::vector<double> strip_sides(const DensityTable& table, int strips)
     return sides;
 }
 
-// An end that was found between nodes is only nearly right: close to a node it would bend the
-// curve.
+// An end found between nodes is not exact: close to a node it would bend the curve. Such a node is
+// dropped.
 void drop_crowded_nodes(DomainCurve& curve)
 {
     constexpr double kCrowded = 0.4;
@@ -101,15 +100,15 @@ public:
         return out;
     }
 
-    // About, to tell one plan from another.
+    // The approximate length of the passes, to compare plans.
     double length() const
     {
         const bool from_middle = anchor_ == Anchor::kMiddle;
         const int side = from_middle ? 0 : 1;
         const double widest = *std::max_element(width_.begin(), width_.end());
         const std::size_t most = static_cast<std::size_t>(std::max(0.0, std::floor(0.5 * widest)));
-        // Of the passes below, above and in the middle, at the last node and at this one; a pass
-        // that was not there at the last node has no place.
+        // v of the passes in the middle, below and above, at the last node and at this one;
+        // kNoPlace where there is no such pass.
         std::vector<double> last(2 * most + 1, kNoPlace);
         std::vector<double> here(last.size(), kNoPlace);
         double sum = 0;
@@ -140,22 +139,22 @@ public:
     }
 
 private:
-    static constexpr double kEndless = std::numeric_limits<double>::infinity();
-    static constexpr double kNoPlace = std::numeric_limits<double>::infinity();
+    static constexpr double kEndless = kInfinite;
+    static constexpr double kNoPlace = kInfinite;
     struct Range {
         double above;
         double up_to;
     };
     static constexpr Range kAlways{-1, kEndless};
 
-    // side -1: from the low side, 0: from the middle, 1: from the high side.
+    // The v at `steps` from a side of the strip. side  -1: low side, 0: middle, 1: high side
     double v_of(std::size_t i, int side, double steps) const
     {
         const double from = first_[i] + 0.5 * (side + 1) * width_[i];
         return table_.inverse(i, from + steps);
     }
 
-    // One curve for each run of u over which the strip's width lies in the range.
+    // Adds a curve for each interval of u in which the strip's width lies in the range.
     void trace(int side, double steps, Range range, std::vector<DomainCurve>& out) const
     {
         DomainCurve curve{number_, {}, {}};
@@ -186,7 +185,7 @@ private:
         close();
     }
 
-    // Where the width enters or leaves the range between two nodes; it is taken as linear there.
+    // Adds the ends where the width enters or leaves the range between two nodes, as if linear.
     template <class Add, class Close>
     void add_crossings(std::size_t i,
                        int side,
@@ -211,7 +210,7 @@ private:
         for (std::size_t k = 0; k < count; ++k) {
             const double t = at[k];
             const double u = table_.u[i] + t * (table_.u[i + 1] - table_.u[i]);
-            // Both nodes know the level even where the pass is beyond the middle there.
+            // v_of() is defined at both nodes, even where the pass would be beyond the middle.
             const double v = v_of(i, side, steps) * (1 - t) + v_of(i + 1, side, steps) * t;
             add(u, v);
             in = !in;
@@ -240,7 +239,7 @@ Plan shortest_plan(const DensityTable& table)
     for (std::size_t i = 0; i < table.u.size(); ++i) {
         most = std::max(most, table.steps(i, table.v.back()));
     }
-    Plan best{{}, {}, std::numeric_limits<double>::infinity()};
+    Plan best{{}, {}, kInfinite};
     for (int strips = 1; strips == 1 || strips * 4 <= most; strips *= 2) {
         Plan plan{strip_sides(table, strips), {}, 0};
         for (std::size_t k = 0; k + 1 < plan.sides.size(); ++k) {
@@ -281,9 +280,9 @@ std::vector<DomainCurve> curves_of(const DensityTable& table, const Plan& plan, 
     return out;
 }
 
-// The largest factor asked for, at the nodes of u and between them.
+// Returns the largest factor of the judge, at the nodes of u and between them.
 //
-// look  spans between nodes of u to look at; then those that `tighten` changes
+// look  the spans between nodes of u to be judged; set to those that tighten() will change
 double judge_strips(DensityTable& table,
                     const std::vector<DomainCurve>& curves,
                     const StripJudge& judge,
@@ -292,9 +291,9 @@ double judge_strips(DensityTable& table,
     double worst = 0;
     std::vector<bool> changed(look.size(), false);
     for (std::size_t i = 0; i < look.size(); ++i) {
-        const std::size_t looks = i + 1 < look.size() ? kLooksAtNode : kLooksAtNode + 1;
-        for (std::size_t n = 0; look[i] && n < looks; ++n) {
-            const double t = static_cast<double>(n) / static_cast<double>(kLooksAtNode);
+        const std::size_t samples = i + 1 < look.size() ? kSamplesPerNode : kSamplesPerNode + 1;
+        for (std::size_t n = 0; look[i] && n < samples; ++n) {
+            const double t = static_cast<double>(n) / static_cast<double>(kSamplesPerNode);
             const double u = table.u[i] * (1 - t) + table.u[i + 1] * t;
             const std::vector<CurvePlace> across = places_at(curves, u);
             for (std::size_t k = 1; k < across.size(); ++k) {
@@ -339,7 +338,7 @@ EqualScallopPasses equal_scallop_passes(const Surface& surface,
             break;
         }
         if (round == 0 && out.worst > kFitFailed) {
-            // Passes that slant much slant more with every fit.
+            // Fitting fails for steep slants: each round makes passes slant more.
             table = unfitted;
             plan = first;
             look.assign(look.size(), true);

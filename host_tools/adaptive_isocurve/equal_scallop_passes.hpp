@@ -1,5 +1,5 @@
-// Passes a full step apart everywhere: where the surface widens, passes begin between others, and
-// each follows its neighbour rather than an isocurve.
+// Passes a full stepover apart everywhere: each follows its neighbour rather than an isocurve, and
+// where the surface widens new passes begin between others.
 #pragma once
 
 #include <functional>
@@ -10,12 +10,12 @@
 
 namespace cusp::adaptive_isocurve {
 
-// Steps between passes for a unit of v, at a place of the surface: |S_v| over the allowed distance.
+// Steps between passes per unit of v, at a point of the surface: |S_v| over the allowed distance.
 using StepDensity = std::function<double(const nurbs::SurfacePoint&)>;
 
-// What lies between two neighbouring curves at a u, to be refused with the factor by which the
-// density must grow; 1 or less accepts.
-// Any value that is no less than it and no more than `sufficient` will do.
+// Judges the strip between two neighbouring curves at a u: returns the factor by which the density
+// has to grow; 1 or less accepts the strip. A factor of at most `sufficient` may be replaced by any
+// value between it and `sufficient`.
 using StripJudge =
     std::function<double(double u, CurvePlace low, CurvePlace high, double sufficient)>;
 
@@ -23,21 +23,21 @@ using SurfaceFunction = std::function<nurbs::SurfacePoint(double u, double v)>;
 
 struct EqualScallopPasses {
     std::vector<DomainCurve> curves;
-    double worst{};  // largest factor the judge still asked for
+    double worst{};  // largest factor in the last round of the judge
 };
 
-// The surface is cut by isocurves into strips of equal numbers of steps, as many as make the whole
-// shortest. In a strip passes are whole steps away from either side and meet in the middle; the
-// strip's sides are isocurves, and complete. Neighbours are at most a step apart at every u, by the
-// integral of the density over v (exact to the accuracy of a quadrature over `nodes` places).
+// Isocurves divide the surface into strips of equal numbers of steps. The number of strips is the
+// one of least total length. In a strip, passes are whole steps away from either side and meet in
+// the middle; the sides are complete isocurves. Neighbours are at most a step apart at every u, by
+// the integral of the density over v, to the accuracy of the quadrature over the nodes.
 //
-// The judge, where given, is asked at every node of u first, and the density made what it asks for,
-// less as well as more: slanting passes may be farther apart than isocurves. Then it is asked
-// between the nodes, too; places where it asks for more get it, and in the last of eight rounds
-// all does. `worst` says what was asked for last.
+// The judge, if given, is first called at every node of u, and the density becomes what it
+// requires, lower as well as higher: slanting passes may be farther apart than isocurves. Then it
+// is called between the nodes as well, and the density grows where it requires more, in at most 24
+// rounds.
 //
-// Why not isocurves alone: whatever their order, sets of isocurves that grow by insertion are
-// 1/ln 2 = 1.44 times as dense as needed on the average (de Bruijn & Erdos 1949), halving included.
+// Isocurves alone would be longer: sets of isocurves that grow by insertion, halving included, are
+// on average 1/ln 2 = 1.44 times as dense as needed (de Bruijn & Erdos 1949).
 EqualScallopPasses equal_scallop_passes(const nurbs::Surface& surface,
                                         int number,
                                         const SurfaceFunction& at,

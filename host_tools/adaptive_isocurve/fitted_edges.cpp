@@ -1,4 +1,4 @@
-// Edges become vertices, and those what the core's segmenter makes of them.
+// Edges are sampled, and the samples fitted by the firmware's segmenter.
 #include "host_tools/adaptive_isocurve/fitted_edges.hpp"
 
 #include <algorithm>
@@ -14,9 +14,9 @@ using offset::line_edge;
 
 namespace {
 
-constexpr std::size_t kMostVertices = 2000;  // that one move replaces
+constexpr std::size_t kMostVertices = 2000;  // replaced by one move
 
-// The same arc with its centre as far from both ends to the last digit, as offsets need it.
+// The arc with its centre moved so that both ends have exactly one radius, as offsets require.
 Edge exact_arc(Vec2d start, Vec2d end, Vec2d centre, int turn)
 {
     const Vec2d chord = end - start;

@@ -1,4 +1,4 @@
-// Contours of many short edges as few lines and arcs.
+// Contours of many short edges, fitted by few lines and arcs.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace cusp::adaptive_isocurve {
 
-// The edges as few lines and arcs (lines alone where not `arcs`), within the tolerance, mm, on
-// either side; their ends stay.
+// Few lines and arcs (without `arcs` lines only) within the tolerance (mm) of the edges on either
+// side, with the same ends.
 std::vector<offset::Edge> fitted_edges(const std::vector<offset::Edge>& edges,
                                        double tolerance,
                                        bool arcs);

@@ -1,4 +1,4 @@
-// Products of Bernstein polynomials, and their zeros by halving.
+// Products of Bernstein polynomials, and their zeros by bisection.
 #include "host_tools/adaptive_isocurve/iso_distance.hpp"
 
 #include <algorithm>
@@ -100,7 +100,7 @@ void halve(const Coefficients& from, Coefficients& lower, Coefficients& upper)
     }
 }
 
-// Signs of the coefficients bound the zeros: none without a change.
+// Without a change of sign in its coefficients a polynomial has no zero.
 void find_changes(
     const Coefficients& c, double begin, double end, double width, std::vector<double>& out)
 {

@@ -1,5 +1,5 @@
-// The distance between two isocurves at equal parameters, symbolically: a B-spline whose sign says
-// where they are too far apart.
+// The distance between two isocurves at equal parameters, as a spline whose sign shows where they
+// are too far apart.
 #pragma once
 
 #include <vector>
@@ -18,9 +18,9 @@ struct BernsteinPiece {
 // A piecewise polynomial, its pieces in order.
 using ScalarSpline = std::vector<BernsteinPiece>;
 
-// |a(u) - b(u)|^2 - limit^2, times the square of both weights where these are not constant: its
-// sign says which is larger. Precondition: the curves have the same degree and knots, as isocurves
-// of one surface have.
+// |a(u) - b(u)|^2 - limit^2; if weights are not constant, times the square of both. Positive where
+// the curves are farther apart than `limit`.
+// Precondition: the curves have equal degrees and knots, as isocurves of one surface have.
 //
 // Source: Elber & Cohen 1993, equation (1); products as in [10] there.
 ScalarSpline distance_excess(const nurbs::Curve& a, const nurbs::Curve& b, double limit);
@@ -31,8 +31,8 @@ struct ParameterRange {
     bool positive{};
 };
 
-// [begin, end] cut where the sign changes; roots where it only touches zero cut nothing. Zero
-// counts as not positive. The roots are right to 1e-12 of the domain.
+// [begin, end] divided where the sign changes, not where the spline only touches zero. Zero counts
+// as not positive. Roots are accurate to 1e-12 of the domain.
 std::vector<ParameterRange> sign_ranges(const ScalarSpline& spline, double begin, double end);
 
 }  // namespace cusp::adaptive_isocurve

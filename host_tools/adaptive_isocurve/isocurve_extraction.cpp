@@ -1,4 +1,4 @@
-// Halving in v where the symbolic distance says so, and where the bound of the way across does.
+// Divides strips in v where the symbolic distance is too large, or the bound of the length across.
 #include "host_tools/adaptive_isocurve/isocurve_extraction.hpp"
 
 #include <algorithm>
@@ -19,7 +19,12 @@ namespace {
 constexpr int kDeepestHalving = 24;
 constexpr int kMostComplete = 1 << 20;
 
-// Bounds of the speed |S_v| on the cells of a grid, for the length of the surface across v.
+// A rectangle of the domain.
+struct DomainBox {
+    double u_begin, u_end, v_begin, v_end;
+};
+
+// Bounds of the speed |S_v| on the cells of a grid, for lengths on the surface along v.
 class CrossSpeed {
 public:
     explicit CrossSpeed(const Surface& surface)
@@ -29,27 +34,27 @@ public:
         }
     }
 
-    // At least the length of every curve of constant u from v_begin to v_end, u in the range.
-    double most_length(double u_begin, double u_end, double v_begin, double v_end) const
+    // Upper bound of the lengths of all curves of constant u in the rectangle, over its v.
+    double most_length(const DomainBox& box) const
     {
-        std::vector<double> breaks{v_begin, v_end};
+        std::vector<double> breaks{box.v_begin, box.v_end};
         std::vector<const Cell*> near;
         for (const Cell& cell : cells_) {
-            if (cell.u_begin < u_end && cell.u_end > u_begin && cell.v_begin < v_end &&
-                cell.v_end > v_begin) {
+            if (cell.box.u_begin < box.u_end && cell.box.u_end > box.u_begin &&
+                cell.box.v_begin < box.v_end && cell.box.v_end > box.v_begin) {
                 near.push_back(&cell);
-                breaks.push_back(std::clamp(cell.v_begin, v_begin, v_end));
+                breaks.push_back(std::clamp(cell.box.v_begin, box.v_begin, box.v_end));
             }
         }
         std::sort(breaks.begin(), breaks.end());
-        // cells stand in rows: most breaks are the same
+        // Cells lie in rows, so most breaks are equal.
         breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
         double sum = 0;
         for (std::size_t k = 1; k < breaks.size(); ++k) {
             const double middle = 0.5 * (breaks[k - 1] + breaks[k]);
             double most = 0;
             for (const Cell* cell : near) {
-                if (cell->v_begin <= middle && middle <= cell->v_end) {
+                if (cell->box.v_begin <= middle && middle <= cell->box.v_end) {
                     most = std::max(most, cell->speed);
                 }
             }
@@ -58,7 +63,7 @@ public:
         return sum;
     }
 
-    // At least |S_v| anywhere.
+    // Upper bound of |S_v|.
     double most() const
     {
         double most = 0;
@@ -70,10 +75,7 @@ public:
 
 private:
     struct Cell {
-        double u_begin;
-        double u_end;
-        double v_begin;
-        double v_end;
+        DomainBox box;
         double speed;
     };
 
@@ -87,22 +89,17 @@ private:
         }
         const double speed =
             (norm(cell.middle().dv) + cell.spread().dt) / (cell.v_end() - cell.v_begin());
-        cells_.push_back({cell.u_begin(), cell.u_end(), cell.v_begin(), cell.v_end(), speed});
+        cells_.push_back({{cell.u_begin(), cell.u_end(), cell.v_begin(), cell.v_end()}, speed});
     }
 
     std::vector<Cell> cells_;
 };
 
-// Whether the way across a strip may be long, though its sides are near enough at each u: round a
-// closed surface the first curve is the last.
-bool folds(const CrossSpeed& speed,
-           double u_begin,
-           double u_end,
-           double v_begin,
-           double v_end,
-           double distance)
+// Whether the surface across a strip may be long although its sides are near at each u. On a closed
+// surface the first curve is the last.
+bool folds(const CrossSpeed& speed, const DomainBox& strip, double distance)
 {
-    return speed.most_length(u_begin, u_end, v_begin, v_end) >= 2 * distance;
+    return speed.most_length(strip) >= 2 * distance;
 }
 
 class Extraction {
@@ -147,7 +144,7 @@ private:
         const double middle = 0.5 * (a.v + b.v);
         Isocurve between{middle, {}};
         for (const ParameterRange& range : sign_ranges(excess, begin, end)) {
-            if (!range.positive && !folds(speed_, range.begin, range.end, a.v, b.v, distance_)) {
+            if (!range.positive && !folds(speed_, {range.begin, range.end, a.v, b.v}, distance_)) {
                 continue;
             }
             if (between.curve.points.empty()) {
@@ -166,8 +163,8 @@ private:
     std::vector<DomainCurve> out_;
 };
 
-// Whether that is sure without the symbolic distance: what lies between two isocurves of a surface
-// without weights, at equal u, is a curve of what lies between their control points.
+// Fast acceptance without the symbolic distance. For a surface without weights, the difference of
+// two isocurves at equal u is a curve with the differences of their control points.
 bool surely_within(const Curve& a, const Curve& b, double distance)
 {
     constexpr double kRounding = 1e-9;
@@ -185,7 +182,7 @@ bool within(const Surface& surface, const CrossSpeed& speed, int strips, double 
     const double width = (surface.v_end() - v0) / strips;
     const bool slow = width * speed.most() < 2 * distance;
     for (int k = 0; k < strips && !slow; ++k) {
-        if (folds(speed, surface.u_begin(), surface.u_end(), v0 + k * width, v0 + (k + 1) * width,
+        if (folds(speed, {surface.u_begin(), surface.u_end(), v0 + k * width, v0 + (k + 1) * width},
                   distance)) {
             return false;
         }
@@ -219,8 +216,8 @@ std::vector<DomainCurve> complete_isocurves(const Surface& surface, int number, 
 {
     const CrossSpeed speed{surface};
     const double across =
-        speed.most_length(surface.u_begin(), surface.u_end(), surface.v_begin(), surface.v_end());
-    // The mean way across bounds the fewest from neither side; start low, then bisect.
+        speed.most_length({surface.u_begin(), surface.u_end(), surface.v_begin(), surface.v_end()});
+    // This estimate is no bound of the number of curves: it starts low, is doubled, then bisected.
     int few = 0;
     int sufficient =
         std::max(1, static_cast<int>(std::min<double>(kMostComplete, across / distance / 4)));

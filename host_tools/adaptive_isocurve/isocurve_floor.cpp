@@ -1,8 +1,7 @@
-// Surfaces are turned, not the passes: all else knows isocurves of u only.
+// Passes along v are passes along u of transposed surfaces: all other code assumes u.
 #include "host_tools/adaptive_isocurve/isocurve_floor.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/nurbs/knot_insertion.hpp"
@@ -22,10 +21,10 @@ using toolpath::stepover;
 
 namespace {
 
-constexpr int kFloorLooks = 60;
+constexpr int kFloorSamples = 60;
 constexpr double kMostPasses = 20000;
 
-// And reversed: what was to their right is to their left then.
+// Exchanges u and v of the trims and reverses them, so that the inside stays to their left.
 void swap_loops(Surface& surface)
 {
     for (std::vector<Curve>& loop : surface.trims) {
@@ -39,7 +38,7 @@ void swap_loops(Surface& surface)
     }
 }
 
-// The same surface with u and v exchanged.
+// The surface with u and v exchanged.
 Surface transposed(const Surface& s)
 {
     Surface out = s;
@@ -64,8 +63,7 @@ Surface transposed(const Surface& s)
 // The longest side of the box of all control points, or of a mesh, mm.
 double size_of(const Operation& operation)
 {
-    constexpr double kFar = std::numeric_limits<double>::infinity();
-    Vec3d low{kFar, kFar, kFar};
+    Vec3d low{kInfinite, kInfinite, kInfinite};
     Vec3d high = -low;
     const auto take = [&](const Vec3d& p) {
         for (unsigned k = 0; k < 3; ++k) {
@@ -142,13 +140,13 @@ bool is_plain(const Surface& s)
     if (creased(s.knots_u, s.degree_u, s.size_u) || creased(s.knots_v, s.degree_v, s.size_v)) {
         return false;
     }
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinite;
     double most = 0;
-    for (int i = 0; i <= kFloorLooks; ++i) {
-        for (int j = 0; j <= kFloorLooks; ++j) {
+    for (int i = 0; i <= kFloorSamples; ++i) {
+        for (int j = 0; j <= kFloorSamples; ++j) {
             const SurfacePoint p =
-                derivatives_at(s, s.u_begin() + (s.u_end() - s.u_begin()) * i / kFloorLooks,
-                               s.v_begin() + (s.v_end() - s.v_begin()) * j / kFloorLooks);
+                derivatives_at(s, s.u_begin() + (s.u_end() - s.u_begin()) * i / kFloorSamples,
+                               s.v_begin() + (s.v_end() - s.v_begin()) * j / kFloorSamples);
             const double area = norm(cross(p.du, p.dv));
             least = std::min(least, area);
             most = std::max(most, area);

@@ -1,9 +1,8 @@
-// One pass leaves more the farther from it, the other less: the ridge is where both leave the same.
+// The ridge between two passes is the point over which both leave the same height.
 #include "host_tools/adaptive_isocurve/isocurve_scallop.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "host_tools/adaptive_isocurve/cross_section.hpp"
 
@@ -14,17 +13,17 @@ using part_model::centre_slopes;
 
 namespace {
 
-constexpr double kUnreached = std::numeric_limits<double>::infinity();
+constexpr double kUnreached = kInfinite;
 constexpr int kTurns = 8;
-constexpr double kBeside = 0.01;  // of the way to the neighbour
+constexpr double kBeside = 0.01;  // of the distance to the neighbour
 constexpr double kLeastShare = 0.1;
 constexpr double kResolution = 0.995;
-constexpr int kFollowed = 4;  // times along a pass
-// Of the radius times what is left: so far on, squared, a pass as tight as the ball is off its
-// tangent by a hundredth of what is left.
+constexpr int kFollowed = 4;  // steps along a pass
+// Share of radius times height left: a pass as tightly curved as the ball, so far along (squared),
+// deviates from its tangent by a hundredth of the height.
 constexpr double kStraight = 0.02;
 
-// How far on a line from `q` along `n` meets a ball about the origin first.
+// The parameter at which the line from `q` along `n` enters a ball around the origin.
 double entry(Vec3d q, Vec3d n, double radius)
 {
     const double a = dot(n, n);
@@ -40,13 +39,13 @@ IsocurveScallop::Sweep IsocurveScallop::sweep_at(double u, CurvePlace place, dou
     const SurfacePoint p =
         u == u_ ? cut_->bends_at(place.v) : model_.evaluate(surface_, u, place.v);
     Vec3d normal = upward_normal(p);
-    // Rounding decides which side of a level normal is up: the surface beside it tells.
+    // Rounding decides the sign of a horizontal normal: the surface beside it is used instead.
     if (normal.z < kLevelNormal &&
         dot(normal, upward_normal(model_.tangents(surface_, u,
                                                   place.v + kBeside * (towards - place.v)))) < 0) {
         normal = -normal;
     }
-    // the centre turns away from the tangent of the surface where that is twisted
+    // On a twisted surface the centre does not move along the surface's tangent.
     const double distance = tool_.radius + tool_.outward;
     const auto [by_u, by_v] = centre_slopes(p, normal, distance);
     Vec3d along = by_u + by_v * place.slope;
@@ -73,8 +72,8 @@ bool IsocurveScallop::counts_as_straight(const Uncut& left) const
     return left.ahead * left.ahead <= kStraight * tool_.radius * height;
 }
 
-// Moves the sweep along its pass to where it is nearest, or to the end. Where that does not settle,
-// in bends, what the balls leave that were come by.
+// Moves the sweep along its pass to the nearest point, or to the end. Where that does not converge,
+// in bends, the least height left by the balls on the way.
 double IsocurveScallop::uncut_by_pass(Sweep& sweep, double towards, Vec3d p, Vec3d normal)
 {
     const DomainCurve& curve = *sweep.place.curve;
@@ -123,7 +122,7 @@ double IsocurveScallop::between(double u,
     return alike ? straight : balanced(low, high, sufficient, true);
 }
 
-// Where both leave the same.
+// The scallop height where both passes leave the same.
 double IsocurveScallop::balanced(Sweep low, Sweep high, double sufficient, bool follow)
 {
     const double begin = low.place.v;
@@ -149,7 +148,7 @@ double IsocurveScallop::balanced(Sweep low, Sweep high, double sufficient, bool 
             break;
         }
         (excess > 0 ? to : from) = v;
-        // The difference is nearly linear across, and as large at the ends as the step is wide.
+        // The difference is nearly linear across; its size at the ends is about the stepover.
         const double scale = std::isfinite(excess) ? 2 * std::max(by_low, by_high) : kUnreached;
         const double guess = v - 0.5 * width * excess / (2 * scale);
         v = std::isfinite(guess) && guess > from && guess < to ? guess : 0.5 * (from + to);

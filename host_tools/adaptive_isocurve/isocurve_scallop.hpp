@@ -1,7 +1,6 @@
-// The ridge that a ball leaves between two neighbouring passes of one surface.
+// The scallop that a ball leaves between two neighbouring passes of one surface.
 #pragma once
 
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -12,11 +11,11 @@ namespace cusp::adaptive_isocurve {
 
 struct ScallopTool {
     double radius{};   // mm, of the ball
-    double outward{};  // mm: farthest that the path lies off the surface
+    double outward{};  // mm: maximum distance of the path off the surface
 };
 
-// Ridges between neighbours of one surface; quick where questions at the same u, and between the
-// same passes, follow each other.
+// Quickest where consecutive queries have the same u, or the same passes. Not for use by two
+// threads at once.
 class IsocurveScallop {
 public:
     IsocurveScallop(const part_model::PartModel& model, int surface, const ScallopTool& tool)
@@ -24,30 +23,31 @@ public:
     {
     }
 
-    // Height of what is left at u between two passes, square to the surface; infinity where the
-    // ball of neither pass reaches. The ball's centre counts as moving straight as it does at u;
-    // where the place knows its curve, as at that place of the curve which is nearest.
+    // The scallop height at u between two passes, square to the surface; kInfinite where neither
+    // ball reaches. The centres of the balls are assumed to move straight, as they do at u. If the
+    // places have curves, as they do at the nearest point of the curve.
     //
-    // Returns a bound: never below the ridge where the way across is shorter than the ball is wide.
-    // The first that is no more than `sufficient` will do.
+    // Returns an upper bound where the passes are closer than the ball is wide. The search ends at
+    // a bound of at most `sufficient`.
     double between(double u, CurvePlace low, CurvePlace high, double sufficient = 0);
 
-    // A part of the domain, as low and high as two neighbours are there.
+    // A part of the domain between two neighbours.
     struct Strip {
         double u0, u1, v0, v1;
     };
     struct Highest {
-        double scallop_height;    // over all neighbours but those of `open`
-        std::vector<Strip> open;  // where it is more than was allowed
+        double scallop_height;    // of all neighbours but those of `open`
+        std::vector<Strip> open;  // where it exceeds `allowed`
     };
-    // Over all neighbours at `count` + 1 places along u. What is open reaches to the next places.
+    // The highest scallop between neighbours at `count` + 1 sections along u. Open strips extend to
+    // the next sections.
     //
-    // allowed  mm: scallops below a share of it may be inexact
+    // allowed  mm: scallops below 0.995 of it may be inexact
     Highest highest(const std::vector<DomainCurve>& curves,
                     double u_begin,
                     double u_end,
                     int count,
-                    double allowed = std::numeric_limits<double>::infinity());
+                    double allowed = kInfinite);
 
 private:
     // A ball that moves straight.
@@ -56,9 +56,9 @@ private:
         double u;
         Vec3d centre;
         Vec3d tangent;
-        double rate;  // mm of the way by u
+        double rate;  // mm of the path by u
     };
-    // What a ball leaves over a point along its normal, and how far on along the way it is nearest.
+    // What a ball leaves over a point along its normal, and how far along the path it is nearest.
     struct Uncut {
         double height;
         double ahead;  // mm
@@ -76,7 +76,7 @@ private:
     std::optional<part_model::SurfaceCut> cut_;
     double u_{};
     std::optional<Sweep> last_;  // the upper of the last two
-    double share_{0.5};          // of the way across: where the last ridge was
+    double share_{0.5};          // position of the last ridge between the passes, 0 to 1
 };
 
 }  // namespace cusp::adaptive_isocurve

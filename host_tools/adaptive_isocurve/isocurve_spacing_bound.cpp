@@ -1,4 +1,4 @@
-// Chords of the difference between two curves, halved until their sag is small.
+// Intervals of u, halved until the sag of the difference of two curves is small.
 #include "host_tools/adaptive_isocurve/isocurve_spacing_bound.hpp"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ std::array<Cubic, 2> halves_of(const Cubic& c)
     return {{{c[0], a, e, middle}, {middle, f, d, c[3]}}};
 }
 
-// Between two places that no node of the curve is between.
+// The cubic of the curve from u0 to u1. Precondition: no node of the curve lies between.
 Cubic cubic_of(const DomainCurve& curve, double u0, double u1)
 {
     const CurvePlace from = curve.place_at(u0);
@@ -46,7 +46,7 @@ double most_of(double a, double b, double c)
     return std::max({std::abs(a), std::abs(b), std::abs(c)});
 }
 
-// Whether the second is proved to be nowhere under the first.
+// Whether the second is proved to be nowhere below the first.
 bool in_order(const Cubic& low, const Cubic& high)
 {
     return low[0] <= high[0] && low[1] <= high[1] && low[2] <= high[2] && low[3] <= high[3];
@@ -114,8 +114,8 @@ void IsocurveSpacingBound::collect(const BezierCell& cell,
                    (norm(p.dvv) + e.dtt) / (width_v * width_v)});
 }
 
-// Of the curve on the surface, its second derivative by u. Beyond the sides of the surface a curve
-// runs along them: where it comes in it bends at once, which counts as much as a bend all the way
+// Bound of the second derivative by u of the curve on the surface. Beyond the border of the domain
+// a curve runs along the border. It has a kink where it enters, which counts as a second derivative
 // with the same sag.
 double IsocurveSpacingBound::bend_over(double u0, double u1, const Cubic& v) const
 {
@@ -144,8 +144,8 @@ double IsocurveSpacingBound::bend_over(double u0, double u1, const Cubic& v) con
     return most;
 }
 
-// Strands in order of v at the middle. Where some may cross, each of them may be the neighbour of
-// each, and of what is beyond.
+// strands  in order of v at the middle. Those that may cross form a group; all members of a group
+//          count as neighbours of each other and of the next group's members
 double IsocurveSpacingBound::over_interval(
     double u0, double u1, const std::vector<Strand>& strands, double allowed, int depth) const
 {
@@ -175,7 +175,7 @@ double IsocurveSpacingBound::over_interval(
         }
     }
     if (std::find(open.begin(), open.end(), true) != open.end()) {
-        // Groups as a whole: what crosses an open strand is needed beside it.
+        // Open groups are divided as a whole, since their strands may cross.
         for (std::size_t g = 0; g + 1 < first.size(); ++g) {
             const auto from = open.begin() + static_cast<std::ptrdiff_t>(first[g]);
             const auto to = open.begin() + static_cast<std::ptrdiff_t>(first[g + 1]);
@@ -214,7 +214,8 @@ double IsocurveSpacingBound::over_halves(
                     over_interval(middle, u1, upper, allowed, depth));
 }
 
-// Numbers of strands that everything before is proved to be under, and the end.
+// The indices of the first strands of all groups, and the end: everything before such a strand is
+// proved to be below it.
 std::vector<std::size_t> IsocurveSpacingBound::first_of_groups(const std::vector<Strand>& strands)
 {
     std::vector<Cubic> least_from(strands.size());

@@ -1,10 +1,10 @@
-// How far neighbouring curves are apart at equal u, bounded everywhere, not at samples.
+// Upper bound of the distance between neighbouring curves at equal u, everywhere, not at samples.
 //
-// Proof: between two places of u the difference D of two curves on the surface leaves the straight
-// way between its ends by at most (u1 - u0)^2 / 8 times the largest D'', and the length of what is
-// on a straight way is largest at an end. D'' comes from bounds of the surface's derivatives on the
-// cells that the curves pass (convex hulls of control points) and from the cubics that v follows
-// over u. Where that proves too little the way is halved.
+// Proof: let D be the difference of two curves on the surface. Between u0 and u1 it deviates from
+// its chord by at most (u1 - u0)^2 / 8 times the largest D'', and the length of a vector along a
+// chord is largest at an end. D'' follows from bounds of the surface's derivatives on the cells
+// that the curves cross (convex hulls of control points) and from the cubics of v over u. Where
+// this proves too little, the interval is halved.
 #pragma once
 
 #include <array>
@@ -20,20 +20,22 @@ namespace cusp::adaptive_isocurve {
 
 class IsocurveSpacingBound {
 public:
-    // surface  of the model, that number
+    // surface  the one of that number in the model
     IsocurveSpacingBound(const nurbs::Surface& surface,
                          const part_model::PartModel& model,
                          int number);
 
-    // curves   of that surface; at each u those that pass it are neighbours in order of v
-    // allowed  mm: the bound is sharp to a thousandth of it where neighbours are farther apart
+    // The bound, mm, over all neighbours. At each u, the curves that pass it are neighbours in
+    // order of v.
     //
-    // Returns the bound, mm.
-    // Accuracy: at least the distance everywhere, but for rounding (`IsocurveSpacingBound` tests).
+    // allowed  mm: where neighbours are farther apart, the bound is accurate to a thousandth of
+    //          this
+    //
+    // Accuracy: never below the distance but for rounding (`IsocurveSpacingBound` tests).
     double over(const std::vector<DomainCurve>& curves, double allowed) const;
 
 private:
-    // Largest lengths of derivatives on a part of the domain.
+    // Bounds of the lengths of derivatives on a part of the domain.
     struct Leaf {
         double u0, u1, v0, v1;
         double dv, duu, duv, dvv;

@@ -1,4 +1,4 @@
-// Rows for level ground first; strips between two rows are halved where they have to be.
+// Rows spaced for level ground first; strips between two rows are halved where necessary.
 #include "host_tools/adaptive_isocurve/mesh_isocurves.hpp"
 
 #include <algorithm>
@@ -27,14 +27,16 @@ using toolpath::stepover;
 
 namespace {
 
-constexpr double kRowShare = 0.9;        // of the distance that level ground allows
-constexpr double kLookShare = 0.5;       // of it, between places looked at along a row
-constexpr double kNarrowest = 1.0 / 64;  // of it, between neighbours
-// Of the scallop, in the middle between neighbours: beside it a little more stands.
+constexpr double kRowShare = 0.9;        // of the stepover on level ground
+constexpr double kSampleShare = 0.5;     // of it: between samples along a row
+constexpr double kNarrowest = 1.0 / 64;  // of it: between neighbours
+// Share of the scallop allowed in the middle between neighbours: the ridge is a little higher.
 constexpr double kMiddleShare = 0.85;
 constexpr int kRowEndHalvings = 20;
-constexpr double kFacing = 0.985;    // cosine: beside the mesh the ball touches it squarely, or not
-constexpr double kOutside = 0.9995;  // the same beyond its box
+// Cosine between the normal and the direction to the centre, from which on a ball beside the mesh
+// touches a facet, not a rim; and beyond its box.
+constexpr double kFacing = 0.985;
+constexpr double kOutside = 0.9995;
 constexpr double kShortestRun = 1e-3;  // mm
 constexpr double kRowsDone = 0.2;      // of the progress
 constexpr double kStripsDone = 0.7;
@@ -44,14 +46,14 @@ struct Range {
     double to;
 };
 
-// Between two neighbours, where a middle is looked for.
+// A strip between two neighbours, with the ranges in which a middle may be missing.
 struct Strip {
     double low;
     double high;
     std::vector<Range> ranges;
 };
 
-// What passes at a distance leave between them on level ground, the tolerance included.
+// The scallop of passes iso_distance apart on level ground, the tolerance included.
 double scallop_of(const Operation& operation, double outward)
 {
     if (!operation.iso_distance) {
@@ -85,7 +87,7 @@ public:
         if (operation.iso_distance) {
             row_ = std::min(row_, 0.999 * *operation.iso_distance);
         }
-        look_ = kLookShare * row_;
+        sample_pitch_ = kSampleShare * row_;
     }
 
     PlannedOperation plan()
@@ -119,8 +121,7 @@ private:
         return found;
     }
 
-    // Beside the mesh, where it only rolls off its rim, or stands beside a wall, nothing is to be
-    // cut.
+    // Beside the mesh, a ball that touches a rim or a wall only has nothing to cut.
     bool is_on(const Dropped& at, double s, double t) const
     {
         const double facing = dot(at.centre - at.point, at.normal) / radius_;
@@ -132,7 +133,7 @@ private:
 
     void add_rows()
     {
-        // A ball on a slope that ends in the rim stands beyond it.
+        // A ball on a slope that ends in a rim is beyond the rim.
         const int rows = std::max(1, static_cast<int>(std::ceil(width_ / row_)));
         const int beyond = static_cast<int>(std::ceil(radius_ / row_));
         std::vector<Strip> strips;
@@ -162,7 +163,7 @@ private:
         }
         std::vector<Range> missing;
         for (const Range& range : strip.ranges) {
-            look_along(range, strip, missing);
+            find_missing(range, strip, missing);
         }
         if (missing.empty()) {
             return;
@@ -174,16 +175,18 @@ private:
         out.push_back({middle, strip.high, missing});
     }
 
-    // The parts of a range where a pass is missing in the middle of the strip, and a step more.
-    void look_along(const Range& range, const Strip& strip, std::vector<Range>& missing) const
+    // The parts of a range, a sample longer, where a pass is missing in the middle of the strip.
+    void find_missing(const Range& range, const Strip& strip, std::vector<Range>& missing) const
     {
-        const int looks = std::max(1, static_cast<int>(std::ceil((range.to - range.from) / look_)));
-        for (int k = 0; k <= looks; ++k) {
-            const double s = range.from + (range.to - range.from) * k / looks;
+        const int samples =
+            std::max(1, static_cast<int>(std::ceil((range.to - range.from) / sample_pitch_)));
+        for (int k = 0; k <= samples; ++k) {
+            const double s = range.from + (range.to - range.from) * k / samples;
             if (!is_missing(s, strip)) {
                 continue;
             }
-            const Range around{std::max(whole().from, s - look_), std::min(whole().to, s + look_)};
+            const Range around{std::max(whole().from, s - sample_pitch_),
+                               std::min(whole().to, s + sample_pitch_)};
             if (!missing.empty() && around.from <= missing.back().to) {
                 missing.back().to = std::max(missing.back().to, around.to);
             } else {
@@ -203,7 +206,7 @@ private:
                (operation_.iso_distance && too_far_apart(s, strip));
     }
 
-    // Where the height of the tip, or the place it touches, jumps, no distance is small enough.
+    // Where the tip or its contact jumps, no distance is small enough: such places do not count.
     bool too_far_apart(double s, const Strip& strip) const
     {
         const std::optional<Dropped> low = drop_at(s, strip.low);
@@ -216,15 +219,16 @@ private:
         return low && high && (far(low->centre, high->centre) || far(low->point, high->point));
     }
 
-    // Passes along a row, as far as the tool is on the mesh.
+    // Adds passes along a row where the tool is on the mesh.
     void cut(const Range& range, double t)
     {
-        const int looks = std::max(1, static_cast<int>(std::ceil((range.to - range.from) / look_)));
+        const int samples =
+            std::max(1, static_cast<int>(std::ceil((range.to - range.from) / sample_pitch_)));
         bool was_on = false;
         double begin = range.from;
         double last = range.from;
-        for (int k = 0; k <= looks; ++k) {
-            const double s = range.from + (range.to - range.from) * k / looks;
+        for (int k = 0; k <= samples; ++k) {
+            const double s = range.from + (range.to - range.from) * k / samples;
             const bool on = drop_at(s, t).has_value();
             if (on && !was_on) {
                 begin = k > 0 ? edge(last, s, t) : s;
@@ -258,7 +262,7 @@ private:
 
     void add_pencil_passes()
     {
-        for (const Points& crease : mesh_pencil_curves(work_.path_fitter(), look_)) {
+        for (const Points& crease : mesh_pencil_curves(work_.path_fitter(), sample_pitch_)) {
             add_pass(crease);
         }
     }
@@ -293,8 +297,8 @@ private:
     Vec3d origin_;
     double length_{};
     double width_{};
-    double row_{};   // mm between first rows
-    double look_{};  // mm
+    double row_{};           // mm between first rows
+    double sample_pitch_{};  // mm along rows
     int curves_{};
 };
 

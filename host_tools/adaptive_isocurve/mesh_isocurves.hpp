@@ -1,4 +1,4 @@
-// Adaptive isocurves of a mesh: of the height field that the tip of a ball makes over it.
+// Adaptive isocurves of a mesh: of the height field of a ball's tip over it.
 #pragma once
 
 #include <vector>
@@ -7,11 +7,11 @@
 
 namespace cusp::adaptive_isocurve {
 
-// Algorithm 1 of Elber and Cohen on the offset of the mesh, which is exact: a ball dropped on the
-// triangles. Isocurves run along x (`direction` "v": along y); where two neighbours leave more than
-// the scallop under the way in the middle, that part of it is added, and so on. Passes along
-// `mesh_pencil_curves()` follow, and what `MeshScallopCheck` finds bare. `operation.mesh` holds the
-// triangles.
+// Algorithm 1 of Elber & Cohen on the exact offset of the mesh: a ball dropped on the triangles of
+// `operation.mesh`. Isocurves run along x (`direction` "v": along y). Where two neighbours leave
+// more than the scallop half way between them, that part of the middle isocurve is added, and so
+// on. Passes along mesh_pencil_curves() follow, then those over uncovered cells of
+// `MeshScallopCheck`.
 toolpath::PlannedOperation plan_mesh_isocurves(const job::Job& job,
                                                const job::Operation& operation);
 

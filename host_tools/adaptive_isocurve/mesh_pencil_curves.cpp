@@ -1,4 +1,4 @@
-// Sides of a grid that a crease crosses, halved down to it; cells chain them.
+// Finds the sides of a grid that a pencil curve crosses, bisects them and chains them by cells.
 #include "host_tools/adaptive_isocurve/mesh_pencil_curves.hpp"
 
 #include <algorithm>
@@ -22,14 +22,14 @@ using part_model::PartModel;
 namespace {
 
 constexpr double kTurned = 0.94;      // cosine between normals on both sides
-constexpr double kApart = 0.05;       // radii between contacts
-constexpr double kFound = 1e-5;       // mm
-constexpr double kSag = 0.2;          // of the lift, between places of a crease
-constexpr int kCrossingHalvings = 6;  // halvings between two crossings
+constexpr double kApart = 0.05;       // radii: between contacts on both sides
+constexpr double kFound = 1e-5;       // mm: accuracy of a crossing
+constexpr double kSag = 0.2;          // of the band's offset: between points of a curve
+constexpr int kCrossingHalvings = 6;  // between two crossings
 constexpr double kShortest = 0.05;    // radii
 constexpr std::size_t kMostGrid = 700;
 
-using Rest = PartModel::DroppedBall;
+using Dropped = PartModel::DroppedBall;
 
 class PencilCurveFinder {
 public:
@@ -42,7 +42,7 @@ public:
         ny_ = count(high.y - low.y, pitch);
         for (std::size_t i = 0; i < nx_; ++i) {
             for (std::size_t j = 0; j < ny_; ++j) {
-                // Out of step with the part, so that its edges fall on no line of the grid.
+                // Shifted, so that edges of the part do not coincide with lines of the grid.
                 const double x = (static_cast<double>(i) + 0.37) / static_cast<double>(nx_);
                 const double y = (static_cast<double>(j) + 0.41) / static_cast<double>(ny_);
                 places_.push_back({low.x + (high.x - low.x) * x, low.y + (high.y - low.y) * y});
@@ -82,18 +82,18 @@ private:
         return std::clamp<std::size_t>(static_cast<std::size_t>(length / pitch) + 2, 4, kMostGrid);
     }
 
-    std::optional<Rest> drop_at(Vec2d at) const
+    std::optional<Dropped> drop_at(Vec2d at) const
     {
         return path_fitter_.model().drop_ball(at.x, at.y, radius_);
     }
 
-    // How much farther apart two contacts are than the centres.
-    static double jump(const Rest& a, const Rest& b)
+    // How much farther apart two contacts are than their centres.
+    static double jump(const Dropped& a, const Dropped& b)
     {
         return norm(b.point - a.point) - norm(b.centre - a.centre);
     }
 
-    bool turned(const Rest& a, const Rest& b) const
+    bool turned(const Dropped& a, const Dropped& b) const
     {
         const double square = radius_ * radius_;
         return dot(a.centre - a.point, b.centre - b.point) < kTurned * square &&
@@ -102,18 +102,18 @@ private:
 
     std::optional<Crossing> crossing(Vec2d from, Vec2d to) const
     {
-        const std::optional<Rest> at_from = drop_at(from);
-        const std::optional<Rest> at_to = drop_at(to);
+        const std::optional<Dropped> at_from = drop_at(from);
+        const std::optional<Dropped> at_to = drop_at(to);
         if (!at_from || !at_to || !turned(*at_from, *at_to)) {
             return std::nullopt;
         }
-        Rest a = *at_from;
-        Rest b = *at_to;
+        Dropped a = *at_from;
+        Dropped b = *at_to;
         Vec2d low = from;
         Vec2d high = to;
         while (std::hypot(high.x - low.x, high.y - low.y) > kFound) {
             const Vec2d middle = (low + high) * 0.5;
-            const std::optional<Rest> m = drop_at(middle);
+            const std::optional<Dropped> m = drop_at(middle);
             if (!m) {
                 return std::nullopt;
             }
@@ -149,7 +149,8 @@ private:
         std::vector<Crossing> at;
         for (const GridSide& side : chain) {
             Crossing next = *crossings_[side];
-            // The same side of the crease first, so that ways between two lead across it.
+            // `from` is on the same side of the curve everywhere, so segments between two crossings
+            // cross the curve.
             if (!at.empty() && farther(at.back(), next)) {
                 std::swap(next.from, next.to);
             }
@@ -193,7 +194,7 @@ private:
     std::size_t nx_{};
     std::size_t ny_{};
     std::vector<Vec2d> places_;
-    std::vector<std::optional<Rest>> dropped_;
+    std::vector<std::optional<Dropped>> dropped_;
     std::map<GridSide, std::optional<Crossing>> crossings_;
 };
 

@@ -1,5 +1,5 @@
-// Where a ball dropped on a mesh touches two places at once: along the feet of walls and in
-// sharp concave edges passes across leave metal that only a pass along can take.
+// Pencil curves of a mesh, along which a ball touches two points at once: feet of walls and sharp
+// concave edges. Passes across them leave stock that only a pass along them removes.
 #pragma once
 
 #include <vector>
@@ -8,11 +8,10 @@
 
 namespace cusp::adaptive_isocurve {
 
-// Tips along creases of the ball's way over the mesh: on one side it rests on another place than on
-// the other, and the normals there differ by more than 20 degrees. Where its height jumps, they
-// stand on the lower side.
+// Tips along the curves at which the contact of a dropped ball jumps and its normal turns by more
+// than 20 degrees. Where the height jumps as well, the tips are on the lower side.
 //
-// pitch  mm: of the grid on which they are looked for; shorter ones may be missed
+// pitch  mm, of the grid of the search; shorter curves may be missed
 std::vector<finishing::Points> mesh_pencil_curves(const finishing::GougeFreePathFitter& path_fitter,
                                                   double pitch);
 

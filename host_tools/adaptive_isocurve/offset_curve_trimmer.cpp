@@ -1,4 +1,4 @@
-// Isocurves keep their parameters on the offset; the model decides which parts are kept.
+// Isocurves keep their parameters on the offset; the model decides which parts remain.
 #include "host_tools/adaptive_isocurve/offset_curve_trimmer.hpp"
 
 #include <algorithm>
@@ -20,13 +20,13 @@ using part_model::PartModel;
 
 namespace {
 
-constexpr double kLookSpacing = 1.0;  // mm between places where freedom is looked at
-constexpr int kLeastLooks = 4;
+constexpr double kTrimSpacing = 1.0;  // mm between points that are checked
+constexpr int kFewestChecks = 4;
 constexpr int kEdgeHalvings = 22;
 constexpr int kEdgeDeepest = 6;
-constexpr double kEdgeFound = 0.01;  // of the band: how far an edge may be from where it is found
-constexpr double kShortestPiece = 1e-3;  // mm
-constexpr std::size_t kMostLooks = 500;
+constexpr double kEdgeFound = 0.01;       // of the band: accuracy of an edge
+constexpr double kShortestTraced = 1e-3;  // mm
+constexpr std::size_t kMostChecks = 500;
 
 double length_along(const PartModel& model, int surface, Vec2d from, Vec2d to)
 {
@@ -70,7 +70,7 @@ TracedPiece OffsetCurveTrimmer::along(const DomainCurve& curve, double from, dou
     const double length = length_along(path_fitter_.model(), curve.surface,
                                        {from, curve.v_at(from)}, {to, curve.v_at(to)});
     const std::size_t parts =
-        std::max<std::size_t>(2, static_cast<std::size_t>(length / (1.5 * kLookSpacing)));
+        std::max<std::size_t>(2, static_cast<std::size_t>(length / (1.5 * kTrimSpacing)));
     DenseTips tips = dense_tips(
         path_fitter_, [&](double u) { return tip(curve.surface, u, curve.v_at(u)); },
         even(from, to, 2 * parts));
@@ -88,44 +88,44 @@ TracedCurve OffsetCurveTrimmer::trace(const DomainCurve& curve) const
     const double length = length_along(path_fitter_.model(), curve.surface, {u0, curve.v.front()},
                                        {u1, curve.v.back()});
     const std::size_t parts =
-        static_cast<std::size_t>(std::max<double>(kLeastLooks, std::ceil(length / kLookSpacing)));
-    const std::vector<double> looks = even(u0, u1, parts);
+        static_cast<std::size_t>(std::max<double>(kFewestChecks, std::ceil(length / kTrimSpacing)));
+    const std::vector<double> checks = even(u0, u1, parts);
     const auto free = [&](double u) {
         return is_clear_at(curve.surface, u, curve.v_at(u));
     };
     TracedCurve out;
-    const auto look_at_blocked = [&](double u) {
+    const auto note_blocked = [&](double u) {
         out.blocked =
             out.blocked || path_fitter_.model().inside_trims(curve.surface, u, curve.v_at(u));
     };
     double begin = u0;
     bool was_free = free(u0);
     if (!was_free) {
-        look_at_blocked(u0);
+        note_blocked(u0);
     }
     const auto close = [&](double end) {
         if (end > begin) {
             TracedPiece piece = along(curve, begin, end);
-            if (length_of(piece.points) > kShortestPiece) {
+            if (length_of(piece.points) > kShortestTraced) {
                 out.pieces.push_back(std::move(piece));
             }
         }
     };
-    for (std::size_t k = 1; k < looks.size(); ++k) {
-        const bool is_free = free(looks[k]);
+    for (std::size_t k = 1; k < checks.size(); ++k) {
+        const bool is_free = free(checks[k]);
         if (!is_free) {
-            look_at_blocked(looks[k]);
+            note_blocked(checks[k]);
         }
         if (is_free == was_free) {
             continue;
         }
-        double inside = is_free ? looks[k] : looks[k - 1];
-        double outside = is_free ? looks[k - 1] : looks[k];
+        double inside = is_free ? checks[k] : checks[k - 1];
+        double outside = is_free ? checks[k - 1] : checks[k];
         for (int turn = 0; turn < kEdgeHalvings; ++turn) {
             const double middle = 0.5 * (inside + outside);
             (free(middle) ? inside : outside) = middle;
         }
-        look_at_blocked(outside);
+        note_blocked(outside);
         if (is_free) {
             begin = inside;
         } else {
@@ -146,7 +146,7 @@ std::vector<Points> OffsetCurveTrimmer::clear_region_edges(int surface, double s
     const double u_middle = 0.5 * (s.u_begin() + s.u_end());
     const double v_middle = 0.5 * (s.v_begin() + s.v_end());
     const auto parts = [&](double length) {
-        return std::clamp<std::size_t>(static_cast<std::size_t>(length / spacing), 8, kMostLooks);
+        return std::clamp<std::size_t>(static_cast<std::size_t>(length / spacing), 8, kMostChecks);
     };
     const std::vector<double> us =
         even(s.u_begin(), s.u_end(),
@@ -186,14 +186,14 @@ std::vector<Points> OffsetCurveTrimmer::clear_region_edges(int surface, double s
             dense.insert(dense.end(), piece.begin() + 1, piece.end());
             model.forget_many_cells();
         }
-        if (length_of(dense) > kShortestPiece) {
+        if (length_of(dense) > kShortestTraced) {
             out.push_back(std::move(dense));
         }
     }
     return out;
 }
 
-// The last free tip on the way out.
+// The last clear tip towards the blocked point.
 Vec3d OffsetCurveTrimmer::edge_tip(int surface, const EdgeSide& side) const
 {
     double inside = 0;
@@ -213,8 +213,8 @@ Vec3d OffsetCurveTrimmer::edge_tip(int surface, const EdgeSide& side) const
     return tip(surface, at.x, at.y);
 }
 
-// Between two places the edge is looked for on ways between theirs. Drops would stand on the brink
-// where the edge is one of an overhang.
+// Between two segments the edge is searched on interpolated segments. Dropped tips would rest on
+// top of an overhang's edge; they are used only where the interpolated segment starts blocked.
 Points OffsetCurveTrimmer::edge_points(
     int surface, const EdgeSide& from, const EdgeSide& to, Vec3d a, Vec3d b) const
 {

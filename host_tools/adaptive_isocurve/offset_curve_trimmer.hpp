@@ -1,4 +1,4 @@
-// Curves of the domain mapped to the offset of the surface, and trimmed there by the whole model.
+// Curves of the domain, mapped to the offset of the surface and trimmed there by the whole model.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace cusp::adaptive_isocurve {
 
-// A part of a curve where the tool is free, as dense tips.
+// A part of a curve along which the tool is clear, as dense tips.
 struct TracedPiece {
     finishing::Points points;
     finishing::CcParameterList cc_parameters;
@@ -18,7 +18,7 @@ struct TracedPiece {
 
 struct TracedCurve {
     std::vector<TracedPiece> pieces;
-    bool blocked{};  // somewhere by another place of the model, not by a trim only
+    bool blocked{};  // somewhere by another part of the model, not by a trim only
 };
 
 class OffsetCurveTrimmer {
@@ -29,36 +29,36 @@ public:
     {
     }
 
-    // The tip of the ball that touches the surface at (u, v), lifted by the band's lift.
+    // The tip of the ball whose contact is (u, v), off the surface by the band's offset.
     Vec3d tip(int surface, double u, double v) const;
 
-    // Whether (u, v) is in the trimmed domain and the tool there is free of the rest of the model.
+    // Whether (u, v) is inside the trims and the tool there is clear of the rest of the model.
     bool is_clear_at(int surface, double u, double v) const;
 
-    // The parts of the curve where the tool is free. A loss of less than 1 mm that
-    // hides between free places is not trimmed here: the proof of the path lifts over it.
+    // The parts of the curve where the tool is clear. A blocked part shorter than 1 mm may remain:
+    // the proof of the path lifts the tool over it.
     TracedCurve trace(const DomainCurve& curve) const;
 
-    // All of the curve, free or not.
+    // The whole curve, clear or not.
     TracedPiece whole(const DomainCurve& curve) const
     {
         return along(curve, curve.u.front(), curve.u.back());
     }
 
-    // Lines along the edge of the free part of the surface, on the model: where offsets of two
-    // surfaces meet, and trimmed edges. Empty where all is free.
+    // Tips along the edge of the clear part of the surface, on the model: trimmed edges, and curves
+    // where the offsets of two surfaces meet. Empty where all is clear.
     //
-    // spacing  mm: of the grid on which the edge is looked for
+    // spacing  mm, of the grid on which the edge is searched
     std::vector<finishing::Points> clear_region_edges(int surface, double spacing) const;
 
 private:
-    // A way in the domain from a free place to one that is not.
+    // A segment in the domain from a clear point to a blocked one.
     struct EdgeSide {
         Vec2d free;
         Vec2d blocked;
     };
     Vec3d edge_tip(int surface, const EdgeSide& side) const;
-    // From the tip of one side's edge to the other's.
+    // Tips along the edge from one segment, with tip `a`, to the next, with tip `b`.
     finishing::Points edge_points(
         int surface, const EdgeSide& from, const EdgeSide& to, Vec3d a, Vec3d b) const;
     TracedPiece along(const DomainCurve& curve, double from, double to) const;

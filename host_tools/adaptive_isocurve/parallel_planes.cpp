@@ -1,4 +1,4 @@
-// Each plane's pass is the drop of the tool along a line.
+// The pass of a plane is the tool dropped along a line.
 #include "host_tools/adaptive_isocurve/parallel_planes.hpp"
 
 #include <algorithm>
@@ -28,26 +28,27 @@ using toolpath::stepover;
 
 namespace {
 
-constexpr int kSlopeLooks = 150;
-constexpr double kPlaneLooks = 1 / 3.0;  // of what the tool reaches
+constexpr int kSlopeSamples = 150;
+constexpr double kPlaneSamples = 1 / 3.0;  // of the reach of the tool
 constexpr int kPlaneEndHalvings = 20;
 constexpr double kShortestPlaneRun = 1e-3;  // mm
-// Of the step on level ground: places that ask for less (75 degrees steep, or nearly as hollow as
-// the ball) don't set it.
+// Share of the stepover on level ground: points that require less (75 degrees steep, or nearly as
+// hollow as the ball) are ignored.
 constexpr double kLeastPlaneShare = 0.25;
-constexpr double kMeshShare = 0.9;  // of what a flat facet allows: meshes bend
-constexpr double kPlaneRidgeShare =
-    0.99;  // of what the scallop leaves: the rest is for bends along the way
+constexpr double kMeshShare = 0.9;           // of the stepover on a flat facet: meshes bend
+constexpr double kPlaneScallopShare = 0.99;  // the rest is for bends along the path
 constexpr double kMostPlanes = 20000;
-constexpr std::size_t kMostBare = 4000;  // cells, till nothing is proved
-constexpr double kPlanesDone = 0.9;      // of the progress
+constexpr std::size_t kMostUncovered = 4000;  // cells; with more nothing is proved
+constexpr double kPlanesDone = 0.9;           // of the progress
 
-// Of a unit across the planes, what lies in the tangent plane: its length is the cosine of the
-// slope.
+// The projection of a unit vector across the planes onto the tangent plane: its length is the
+// cosine of the slope.
 Vec3d along_slope(Vec3d across, Vec3d normal) { return across - normal * dot(across, normal); }
 
-// Spacing of planes for the ridge at one place: that of the ball's centres, seen in plan across the
-// planes. `across` is a horizontal unit. None where the surface has no normal to tell.
+// Spacing of planes for the scallop at one point: that of the ball's centres, in plan across the
+// planes. None where the surface has no normal.
+//
+// across  a horizontal unit vector
 std::optional<double> plane_step(const SurfacePoint& p,
                                  Vec3d across,
                                  double radius,
@@ -71,7 +72,7 @@ std::optional<double> plane_step(const SurfacePoint& p,
     const double b = (dot(step, p.dv) * e - dot(step, p.du) * f) / det;
     const double curvature =
         -dot(normal, p.duu * (a * a) + p.duv * (2 * a * b) + p.dvv * (b * b)) / square;
-    // Contacts lie that far apart, centres nearer in hollows and farther over hills.
+    // Contacts are a stepover apart; centres are closer in hollows and farther over hills.
     const double apart = stepover(radius, scallop_height, curvature) * (1 + radius * curvature);
     return std::clamp(apart, 0.0, 2 * radius) * std::sqrt(square);
 }
@@ -103,7 +104,7 @@ public:
                 std::ceil((width + 2 * reach_) / step), kMostPlanes));
         }
         const int planes = std::max(1, static_cast<int>(std::ceil(width / step)));
-        // A ball on a slope that ends in a rim stands beyond it.
+        // A ball on a slope that ends in a rim is beyond the rim.
         const double lean = std::min(step, 0.5 * reach_) / reach_;
         least_facing_ = std::sqrt(1 - lean * lean);
         const int beyond = static_cast<int>(std::ceil(reach_ / step));
@@ -136,14 +137,14 @@ private:
         return planned;
     }
 
-    // By cells of the surfaces. The step is from places only, and from one at a time.
+    // Whether ScallopCheck proves the scallop: the stepover is from sampled points only.
     bool leaves_no_more()
     {
         if (!operation_.scallop || operation_.step_over || work_.surfaces().empty() || steep_) {
             return false;
         }
         ScallopCheck cells{work_.surfaces(), work_.path_fitter(), *operation_.scallop,
-                           work_.path_off(), kMostBare};
+                           work_.path_off(), kMostUncovered};
         for (const Points& pass : cut_) {
             cells.add(pass);
         }
@@ -159,7 +160,7 @@ private:
 
     double step_for_scallop()
     {
-        const double scallop_height = kPlaneRidgeShare * (*operation_.scallop - work_.outward());
+        const double scallop_height = kPlaneScallopShare * (*operation_.scallop - work_.outward());
         const double level = stepover(operation_.tool.radius, scallop_height, 0);
         double least = level;
         const auto ask = [&](double step) {
@@ -172,10 +173,10 @@ private:
         }
         for (std::size_t k = 0; k < work_.surfaces().size(); ++k) {
             const Surface& s = work_.surfaces()[k];
-            for (int i = 0; i <= kSlopeLooks; ++i) {
-                for (int j = 0; j <= kSlopeLooks; ++j) {
-                    const double u = s.u_begin() + (s.u_end() - s.u_begin()) * i / kSlopeLooks;
-                    const double v = s.v_begin() + (s.v_end() - s.v_begin()) * j / kSlopeLooks;
+            for (int i = 0; i <= kSlopeSamples; ++i) {
+                for (int j = 0; j <= kSlopeSamples; ++j) {
+                    const double u = s.u_begin() + (s.u_end() - s.u_begin()) * i / kSlopeSamples;
+                    const double v = s.v_begin() + (s.v_end() - s.v_begin()) * j / kSlopeSamples;
                     const int surface = static_cast<int>(k);
                     if (const auto step = plane_step(work_.model().evaluate(surface, u, v), across_,
                                                      operation_.tool.radius, scallop_height);
@@ -190,8 +191,8 @@ private:
 
     Vec3d place(double s, double t) const { return low_ + along_ * s + across_ * t; }
 
-    // Whether the tool dropped there meets the model. Beyond its box it may lean over the rim by a
-    // step: the last pass before is less than one from it.
+    // Whether the tool dropped there touches the model. Beyond the model's box it may overhang the
+    // rim by a step, since the last pass is less than a step from the rim.
     bool is_clear(double s, double t)
     {
         const Vec3d at = place(s, t);
@@ -201,12 +202,12 @@ private:
         return found && (over_box || found->facing >= least_facing_);
     }
 
-    // The parts of the plane at t over which the tool stands on the model.
+    // Adds the parts of the plane at t where the tool is on the model.
     void add_plane(double t)
     {
         const double from = -reach_;
         const double to = dot(size_, along_) + reach_;
-        const int parts = static_cast<int>(std::ceil((to - from) / (kPlaneLooks * reach_)));
+        const int parts = static_cast<int>(std::ceil((to - from) / (kPlaneSamples * reach_)));
         double begin = from;
         double last = from;
         bool was_on = is_clear(from, t);
@@ -253,7 +254,7 @@ private:
     Vec3d along_;
     Vec3d low_;
     Vec3d size_;
-    double reach_{};  // mm beyond the box that the tool can touch the model from
+    double reach_{};  // mm: how far beyond the box the tool can touch the model
     double least_facing_{};
     std::vector<Points> cut_;
     bool steep_{};  // somewhere too steep or hollow for the step

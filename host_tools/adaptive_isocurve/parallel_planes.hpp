@@ -1,4 +1,4 @@
-// Passes in parallel planes, equally spaced: what most CAM does, to compare with.
+// Finishing in equally spaced parallel planes, for comparison: the usual strategy of CAM.
 #pragma once
 
 #include <vector>
@@ -8,11 +8,11 @@
 
 namespace cusp::adaptive_isocurve {
 
-// Passes along x (direction "u") or y ("v") over the upper side of all surfaces, or of a mesh, and
-// beyond its rims where the ball stands there; `step_over` apart, without it as far apart as the
-// place that needs most allows for `scallop`. Ground that falls off by more than 75 degrees across
-// the planes does not count. Proved free of gouges as `plan_adaptive_isocurve`; scallop_bound_mm is
-// the scallop where cells of the surfaces prove it, else the tool's radius, with a warning.
+// Passes along x (direction "u") or y ("v") over the upper side of all surfaces or of a mesh, and
+// beyond rims that the ball overhangs. They are `step_over` apart, or as far as `scallop` allows at
+// the most demanding point; ground steeper than 75 degrees across the planes does not count. Proved
+// free of gouges as by `plan_adaptive_isocurve`. scallop_bound_mm is the scallop if `ScallopCheck`
+// proves it, else the tool's radius, with a warning.
 //
 // Errors: InputError as `SurfaceOperation`; neither step_over nor scallop given; more than 20 000
 // planes.

@@ -1,4 +1,4 @@
-// Bounds are tried upward; cells that one holds for are done, only the others see the next.
+// Tries increasing bounds; only cells for which one fails are checked with the next.
 #include "host_tools/adaptive_isocurve/proved_scallop.hpp"
 
 #include <algorithm>
@@ -15,11 +15,10 @@ using nurbs::Surface;
 
 namespace {
 
-// Cells that passes of a given distance leave bare.
-constexpr std::size_t kMostMeasured = 4000;
-constexpr double kProvedMore = 1.04;     // cells need some room over the ridges
-constexpr double kBetweenPlaces = 1.25;  // what may stand between places measured in them
-constexpr double kMoreExpected = 1.06;   // at first
+constexpr std::size_t kMostMeasured = 4000;  // uncovered cells
+constexpr double kProvedMore = 1.04;         // room above the ridges for the proof by cells
+constexpr double kBetweenPlaces = 1.25;      // allowance for points between those measured
+constexpr double kMoreExpected = 1.06;       // first growth of a bound that fails
 
 std::vector<ScallopCheck::Part> whole_domains(const std::vector<Surface>& surfaces)
 {
@@ -62,7 +61,7 @@ ProvedScallop proved_scallop(const std::vector<Surface>& surfaces,
             cells.check(part.surface, part.low, part.high);
         }
         if (cells.overflowed()) {
-            // More is left than was expected, perhaps far more.
+            // More is left than expected, perhaps far more.
             bound *= more;
             more *= more;
             continue;

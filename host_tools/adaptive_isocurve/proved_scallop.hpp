@@ -1,28 +1,28 @@
-// The scallop that passes laid at a given distance leave: no scallop was asked for, cells prove
-// one.
+// The scallop proved for passes at a given distance, where the job requests no scallop.
 #pragma once
 
 #include "host_tools/finishing/gouge_free_path.hpp"
 
 namespace cusp::adaptive_isocurve {
 
-// What the search for a bound begins with, all in mm.
+// The start of the search for a bound, all in mm.
 struct ScallopGuess {
-    double scallop_height;  // between neighbours, where that is known; else 0 or infinite
+    double scallop_height;  // between neighbours if known, else 0 or kInfinite
     double spacing;         // of neighbours
     double radius;          // of the ball
-    double outward;         // how far passes may stay above the surface
+    double outward;         // maximum distance of passes off the surface
 };
 
 struct ProvedScallop {
     double bound;         // mm
-    double beside_edges;  // mm: Coverage::left_beside_edges
+    double beside_edges;  // mm: ScallopCheck::left_beside_edges()
 };
 
-// About the least bound for which Coverage leaves no cell bare where the tool can touch, at most
-// the radius. Where the tool can't touch, what is left is measured at places, and a quarter added.
+// Nearly the least bound for which `ScallopCheck` leaves no cell uncovered where the tool can touch
+// the surface; at most the radius. Where it cannot touch, the stock left is measured at points, and
+// a quarter is added.
 //
-// path_off  mm: how far the path that is cut may be from the passes given
+// path_off  mm: maximum distance between the path that is cut and the passes given
 // cut       all passes, by their tips
 ProvedScallop proved_scallop(const std::vector<nurbs::Surface>& surfaces,
                              const finishing::GougeFreePathFitter& path_fitter,

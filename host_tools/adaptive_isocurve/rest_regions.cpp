@@ -1,4 +1,4 @@
-// Edges are halved until both ends settle all between them.
+// Edges are halved until the clearance at both ends decides everything between.
 #include "host_tools/adaptive_isocurve/rest_regions.hpp"
 
 #include <algorithm>
@@ -12,9 +12,9 @@ using offset::Edge;
 
 namespace {
 
-constexpr double kLook = 4e-3;       // mm: shorter ways that nothing settles count as metal
-constexpr double kShortGap = 2.0;    // radii: less than a way out and in takes
-constexpr std::size_t kMost = 2000;  // the order of more is left as it is
+constexpr double kShortestPart = 4e-3;  // mm: shorter undecided parts count as stock
+constexpr double kShortGap = 2.0;       // radii: shorter than a retract and an entry
+constexpr std::size_t kMost = 2000;     // more runs keep their order
 
 struct Part {
     Edge edge;
@@ -31,7 +31,7 @@ public:
     void add(const Edge& edge)
     {
         const double way = length(edge);
-        bool metal = true;
+        bool is_stock = true;
         for (const ClearedPlaces& by : before_) {
             const double begin = by.region->clearance(edge.start) + by.rest_offset;
             const double end = by.region->clearance(edge.end) + by.rest_offset;
@@ -39,9 +39,9 @@ public:
                 out_.push_back({edge, true});
                 return;
             }
-            metal = metal && begin < 0 && end < 0 && begin + end <= -way;
+            is_stock = is_stock && begin < 0 && end < 0 && begin + end <= -way;
         }
-        if (metal || way < kLook) {
+        if (is_stock || way < kShortestPart) {
             out_.push_back({edge, false});
             return;
         }
@@ -72,8 +72,8 @@ void keep_short_gaps(std::vector<Part>& parts, double most)
     }
 }
 
-// Neighbours that halving made of one edge become one again.
-bool goes_on(const Edge& last, const Edge& next)
+// Whether two parts of a halved edge can be joined again.
+bool continues(const Edge& last, const Edge& next)
 {
     if (last.turn != next.turn) {
         return false;
@@ -90,7 +90,7 @@ bool goes_on(const Edge& last, const Edge& next)
 
 void append(std::vector<Edge>& edges, const Edge& next)
 {
-    if (!edges.empty() && goes_on(edges.back(), next)) {
+    if (!edges.empty() && continues(edges.back(), next)) {
         edges.back().end = next.end;
     } else {
         edges.push_back(next);
@@ -116,7 +116,7 @@ void add_parts(const LayerRun& run, const std::vector<Part>& parts, std::vector<
     if (part.edges.empty()) {
         return;
     }
-    // A closed way has no end: what reaches its seam from both sides is one.
+    // Parts on both sides of a closed run's seam are one.
     const bool closed = norm(run.edges.front().start - run.edges.back().end) < 1e-9;
     if (closed && out.size() > first && !parts.front().done) {
         std::vector<Edge>& begin = out[first].edges;

@@ -1,4 +1,4 @@
-// What of a cutter's passes on a level is still to be cut where others were before.
+// Rest machining: the parts of a cutter's passes on a level that earlier cutters have left.
 #pragma once
 
 #include <vector>
@@ -8,15 +8,17 @@
 
 namespace cusp::adaptive_isocurve {
 
-// Where a cutter has been on the level: the places of its axis, and how far outside them (negative:
-// inside) another finds nothing, by rest_offset_between_tools().
+// The region of a cutter's axis on the level, and how far outside it (negative: inside) another
+// cutter finds no stock, by rest_offset_between_tools().
 struct ClearedPlaces {
     const offset::RegionOffset* region;
     double rest_offset;  // mm
 };
 
-// The parts of the runs that leave the places where nothing is left, to some micrometres and never
-// less; short ways between two of them are kept, too. radius: of the cutter, mm.
+// The parts of the runs outside the cleared places, to some micrometres and never less. Short gaps
+// between two parts are kept as well.
+//
+// radius  mm, of the cutter
 std::vector<clearing::LayerRun> rest_regions(const std::vector<clearing::LayerRun>& runs,
                                              double radius,
                                              const std::vector<ClearedPlaces>& before);

@@ -1,9 +1,9 @@
-// Equal levels between the stock's top and the lowest place; the rest of max_depth is for ridges.
+// Equal levels between the top of the stock and the lowest point; the rest of max_depth is for
+// scallops.
 #include "host_tools/adaptive_isocurve/rough_depths.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "host_tools/input_error/input_error.hpp"
 
@@ -17,12 +17,12 @@ using toolpath::Tool;
 
 namespace {
 
-constexpr double kWritten = 2e-3;  // mm: what rounding of two levels in the program may take
+constexpr double kWritten = 2e-3;  // mm: rounding of two levels in the program
 constexpr double kMaxRings = 1e4;
-constexpr double kSame = 1e-9;         // mm
-constexpr double kRidgeOfDepth = 0.2;  // ridges of round corners are kept to this share of a level
-constexpr double kLeastRidge = 0.02;   // the same where depths leave them no more
-constexpr double kRestOfRidge = 0.25;  // with several cutters
+constexpr double kSame = 1e-9;           // mm
+constexpr double kScallopOfDepth = 0.2;  // of the depth: scallops of round corners
+constexpr double kLeastScallop = 0.02;   // of the depth: scallops where levels leave no more
+constexpr double kRestOfScallop = 0.25;  // of the scallop: rest height of several cutters
 
 [[noreturn]] void refuse(const Job& job, const std::string& what)
 {
@@ -102,9 +102,9 @@ RoughDepths rough_depths(const Job& job,
                                 "the stock's top at {:g} mm: nothing is to be roughed",
                                 operation.allowance, bottom, top));
     }
-    const double rests = tools.size() > 1 ? 1.0 + kRestOfRidge : 1.0;
-    const double wanted = rests * std::min(kRidgeOfDepth * depth, 0.15 * roundest(tools));
-    const double least = std::min(wanted, kLeastRidge * depth);
+    const double rests = tools.size() > 1 ? 1.0 + kRestOfScallop : 1.0;
+    const double wanted = rests * std::min(kScallopOfDepth * depth, 0.15 * roundest(tools));
+    const double least = std::min(wanted, kLeastScallop * depth);
     RoughDepths out;
     out.heights = given_levels(job, operation, top, bottom);
     double thickest = 0;
@@ -127,14 +127,14 @@ RoughDepths rough_depths(const Job& job,
             out.heights.push_back(top - deep * k / count);
         }
     }
-    out.thinnest = std::numeric_limits<double>::infinity();
+    out.thinnest = kInfinite;
     double above = top;
     for (const double z : out.heights) {
         thickest = std::max(thickest, above - z);
         out.thinnest = std::min(out.thinnest, above - z);
         above = z;
     }
-    // Only depths that the job names are limits for the ridges, too.
+    // Depths that the job gives limit the scallops as well.
     const double left =
         operation.max_depth || operation.layers.empty() ? depth - kWritten - thickest : wanted;
     const double scallops = std::max(least, std::min(wanted, left));

@@ -1,4 +1,4 @@
-// How deep roughing levels are cut, and how high ridges between passes may stand for that.
+// Depths of roughing levels, and the scallops between passes that they allow.
 #pragma once
 
 #include <vector>
@@ -9,28 +9,28 @@ namespace cusp::adaptive_isocurve {
 
 struct RoughDepths {
     std::vector<double> heights;  // z of the tip, level by level, falling
-    double scallop_height{};      // mm: what passes of one cutter may leave between them
-    double rest_height{};  // mm over its own underside that a cutter after another one leaves uncut
-    double thinnest{};     // mm: the level of least depth
+    double scallop_height{};      // mm: between passes of one cutter
+    double rest_height{};         // mm: stock that a later cutter may leave above its own underside
+    double thinnest{};            // mm: the least depth of a level
 };
 
 struct PassSpacing {
     double stepover;        // mm between passes
-    double scallop_height;  // mm left between them, at most what was asked for
+    double scallop_height;  // mm left between them, at most the value given
 };
 
-// A flat part clears all it covers; round corners leave ridges.
+// The stepover of a roughing cutter: by its flat, which leaves no scallops, or by its corners.
 PassSpacing pass_spacing(const toolpath::Tool& tool, double scallop_height);
 
-// Levels from `top` down to `bottom` (z): as few as max_depth allows, each as deep as the others,
-// or where the job's `layers` lie. No cut is deeper than max_depth (default: the least radius), the
-// ridges of the level above included. Where levels would be thinner than min_depth, ridges are made
-// lower and levels fewer, as far as max_depth lets them.
+// Levels from `top` down to `bottom` (z): as few of equal depth as max_depth allows, or the job's
+// `layers`. No cut is deeper than max_depth (default: the least radius), the scallops of the level
+// above included. Where levels would be thinner than min_depth, scallops become lower and levels
+// fewer, as far as max_depth allows.
 //
-// tools  all that rough; not empty
+// tools  all roughing tools; not empty
 //
-// Errors: InputError where max_depth is no depth or makes too many levels, or `layers` go below the
-// bottom, deeper than max_depth or less deep than min_depth; where nothing is to be roughed.
+// Errors: InputError where max_depth is not above 0.002 mm or makes too many levels; where `layers`
+// lie below the bottom or violate max_depth or min_depth; where there is nothing to rough.
 RoughDepths rough_depths(const job::Job& job,
                          const job::Operation& operation,
                          const std::vector<toolpath::Tool>& tools,

@@ -1,4 +1,4 @@
-// Checks come first, and name what is wrong with its value and limit.
+// Checks of the input first; then passes in the requested form, links and statistics.
 #include "host_tools/adaptive_isocurve/surface_operation.hpp"
 
 #include <algorithm>
@@ -37,10 +37,10 @@ using toolpath::ToolShape;
 
 namespace {
 
-constexpr double kOverStock = 1.0;   // mm over uncut metal where rapids end
+constexpr double kOverStock = 1.0;   // mm above the stock at which rapids end
 constexpr double kLeastSize = 1e-6;  // mm
 constexpr double kLeastRise = 1e-6;  // z of a normal
-constexpr double kChordShare = 0.2;  // of the band, between arcs or curves and their chords
+constexpr double kChordShare = 0.2;  // of the band: between arcs or curves and their chords
 
 std::string file_of(const Operation& operation)
 {
@@ -82,7 +82,7 @@ SurfaceOperation::SurfaceOperation(const Job& job,
     path_fitter_->check_edge_gouges(surfaces_);
 }
 
-// Keys without effect are refused, never left out silently.
+// Keys without effect are errors, never ignored.
 void SurfaceOperation::check_form() const
 {
     if (operation_.roughing && operation_.strategy == "parallel_planes") {
@@ -141,16 +141,16 @@ void SurfaceOperation::check_surfaces()
 {
     for (std::size_t k = 0; k < surfaces_.size(); ++k) {
         const Surface& s = surfaces_[k];
-        constexpr int kLooks = 8;
+        constexpr int kSamples = 8;
         double area = 0;
         double most_up = 0;
-        for (int i = 0; i < kLooks; ++i) {
-            for (int j = 0; j < kLooks; ++j) {
-                const SurfacePoint p =
-                    derivatives_at(s, s.u_begin() + (s.u_end() - s.u_begin()) * (i + 0.5) / kLooks,
-                                   s.v_begin() + (s.v_end() - s.v_begin()) * (j + 0.5) / kLooks);
+        for (int i = 0; i < kSamples; ++i) {
+            for (int j = 0; j < kSamples; ++j) {
+                const SurfacePoint p = derivatives_at(
+                    s, s.u_begin() + (s.u_end() - s.u_begin()) * (i + 0.5) / kSamples,
+                    s.v_begin() + (s.v_end() - s.v_begin()) * (j + 0.5) / kSamples);
                 area += norm(cross(p.du, p.dv)) * (s.u_end() - s.u_begin()) *
-                        (s.v_end() - s.v_begin()) / (kLooks * kLooks);
+                        (s.v_end() - s.v_begin()) / (kSamples * kSamples);
                 most_up = std::max(most_up, upward_normal(p).z);
             }
         }
@@ -172,8 +172,6 @@ double SurfaceOperation::outward() const
 {
     return path_fitter_->band().offset + path_fitter_->band().half_width;
 }
-
-double SurfaceOperation::allowed_scallop() const { return operation_.scallop.value_or(0); }
 
 Points SurfaceOperation::add_pass(const Points& wanted,
                                   const std::optional<Curve>& exact,

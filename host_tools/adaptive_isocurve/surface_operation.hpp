@@ -1,5 +1,5 @@
-// What the strategies that run a ball over surfaces share: checks of the job, the model, the way
-// from dense passes to a planned operation.
+// The common part of strategies that finish surfaces with a ball: checks of the job, the model, and
+// the conversion of dense passes to a planned operation.
 #pragma once
 
 #include <memory>
@@ -7,23 +7,22 @@
 #include <string>
 #include <vector>
 
-#include "host_tools/finishing/gouge_free_path.hpp"
-#include "host_tools/finishing/pass_links.hpp"
+#include "host_tools/finishing/finishing.hpp"
 #include "host_tools/job/job.hpp"
 
 namespace cusp::adaptive_isocurve {
 
-// Error: the model is higher than rapid moves are made.
+// Throws InputError where the model is higher than the clearance height of rapid moves.
 void check_clearance(const job::Job& job,
                      const job::Operation& operation,
                      const part_model::PartModel& model);
 
 class SurfaceOperation {
 public:
-    // surfaces  none: the operation's mesh, on which a tolerance is one-sided always
+    // surfaces  empty: the operation's mesh, for which a tolerance is always one-sided
     //
-    // Throws InputError for a job this cannot do: another tool than a ball, a boundary, a surface
-    // without area, a part that rises over the clearance height.
+    // Throws InputError for a job that it cannot plan: another tool than a ball, a boundary, a
+    // surface without area, a part higher than the clearance height.
     SurfaceOperation(const job::Job& job,
                      const job::Operation& operation,
                      std::vector<nurbs::Surface> surfaces);
@@ -32,31 +31,27 @@ public:
     const part_model::PartModel& model() const { return *model_; }
     finishing::GougeFreePathFitter& path_fitter() { return *path_fitter_; }
 
-    // How far the path may lie off the surface at most, mm.
+    // The maximum distance of the path off the surface, mm.
     double outward() const;
-    // What the scallop leaves for the ridges between passes, mm.
-    double allowed_scallop() const;
 
-    // Fits the pass in the form the job asks for. Returns points of the path that will be cut,
-    // which stays within `path_off()` of the lines through them.
+    // Fits the pass in the form that the job requests. Returns points of the path that will be cut;
+    // it stays within path_off() of the lines through them.
     //
-    // exact  where the job asks for NURBS: the same pass as a cubic within the band, taken as it is
-    //        where it is proved to be free
-    // cc_parameters  where the tool touches at the dense points, if known: makes the proof of lines
-    //                quick
+    // exact          for output as NURBS: the pass as a cubic within the band, used if it is proved
+    //                free of gouges
+    // cc_parameters  the contacts at the dense points, if known: a quicker proof of lines
     finishing::Points add_pass(const finishing::Points& wanted,
                                const std::optional<nurbs::Curve>& exact = std::nullopt,
                                const finishing::CcParameterList& cc_parameters = {});
-    // The same where the job asks for lines and the tool is proved to be free all along; none, and
-    // no pass, where not.
+    // As add_pass(), for output as lines and a tool proved clear all along; otherwise none, and no
+    // pass is added.
     std::optional<finishing::Points> add_clear_pass(
         const finishing::Points& dense, const finishing::CcParameterList& cc_parameters);
     double path_off() const;
-    // Whether some pass stands off a rim or crease by more than its place on the surface asks for.
+    // Whether some pass was moved off an edge that the tool would gouge from the side.
     bool moved_off_edges() const { return moved_off_edges_; }
-    std::size_t pass_count() const { return passes_.size(); }
 
-    // Links all passes; `spacing` (mm) is about the distance of neighbours.
+    // Links all passes. `spacing` (mm) is the approximate distance of neighbours.
     toolpath::PlannedOperation finish(double spacing, double scallop_bound);
 
 private:
@@ -72,13 +67,13 @@ private:
     std::unique_ptr<finishing::GougeFreePathFitter> path_fitter_;
     std::vector<finishing::SurfacePass> passes_;
     bool moved_off_edges_{};
-    int upright_{};  // surfaces
+    int upright_{};  // number of upright surfaces
 };
 
-// Warns of places that may keep more than the scallop.
+// Adds warnings of points that may keep more than the scallop.
 //
-// uncovered  how many stay uncovered
-// unseen  whether the look for them ended early
+// uncovered  number of uncovered cells
+// unseen     whether the check ended early
 void report_uncovered_points(toolpath::OperationStats& stats, std::size_t uncovered, bool unseen);
 
 }  // namespace cusp::adaptive_isocurve

@@ -1,11 +1,10 @@
-// Slices, clears, takes what is left, and writes level by level; then asks the model about every
-// move.
+// Slices the model, clears the slices, selects what is left and writes it, level by level. Then
+// measures the clearance of every move.
 #include "host_tools/adaptive_isocurve/waterline_rougher.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -48,14 +47,14 @@ using toolpath::Toolpath;
 namespace {
 
 constexpr double kFirst = 2e-3;  // mm from the edge of a slice to the outermost pass
-constexpr double kFit = 1.5e-3;  // mm: of the edges of slices by lines and arcs
-// Each level keeps this much more than the one above, mm: else it would meet slivers at walls, as
-// wide as the fits of the two differ.
+constexpr double kFit = 1.5e-3;  // mm: tolerance of the edges of slices as lines and arcs
+// mm: how much more each level keeps off walls than the one above. Without it a level would cut
+// slivers at walls, as wide as the fits of both levels differ.
 constexpr double kTaper = 1e-3;
-constexpr double kChord = 1e-3;      // mm: where arcs are written as lines
-constexpr double kProofStep = 1e-3;  // mm: how far below the truth a proved clearance may be
-// mm by which a cutter is in the clear where another was, over what fits may take: the halves of
-// ways beside walls need not be short.
+constexpr double kChord = 1e-3;      // mm: tolerance of arcs written as lines
+constexpr double kProofStep = 1e-3;  // mm: how much too low a proved clearance may be
+// mm: how far a cutter is clear where another was, beyond the tolerance of fits. Without it many
+// short parts beside walls would have to be examined.
 constexpr double kMargin = 6e-3;
 
 double beside(const Box2d& box, Vec2d p)
@@ -100,13 +99,13 @@ public:
             work_.job.report_progress(work_.share_before + work_.share * static_cast<double>(k) /
                                                                static_cast<double>(heights.size()));
             const std::optional<Level> level = cleared_level(slices, k);
-            work_.model.forget_cells();  // the next level asks at other heights
+            work_.model.forget_cells();  // the next level needs cells at other heights
             if (!level) {
                 break;
             }
             result_.levels.regions.push_back(std::make_unique<RegionOffset>(level->region));
             write_level(*level, k, above, moves);
-            // Ridges of passes, and rests of other cutters, stand over the level.
+            // Scallops of passes and the rest of other cutters are higher than the level.
             above = heights[k] + scallops();
         }
         moves.retract();
@@ -115,14 +114,14 @@ public:
     }
 
 private:
-    // mm over a level that is cleared.
+    // mm: the height of stock left above a cleared level.
     double scallops() const
     {
         const double round = tool_.corner_radius > 0 ? step_.scallop_height : 0.0;
         return before_.empty() ? round : work_.depths.scallop_height + work_.depths.rest_height;
     }
 
-    // Of smooth walls, all levels and fits taken together.
+    // The largest distance of the slices from smooth walls, over all levels and fits.
     double most_kept(double pitch) const
     {
         const double core = tool_.corner_radius + clearance_;
@@ -132,8 +131,8 @@ private:
                6.0 * kFit + kChord + kTaper * levels + kFirst + kMargin;
     }
 
-    // Straight ways in the region: as far from its edge at both ends and at places between as the
-    // places are apart.
+    // Whether a segment lies in the region: divided until the clearances at both ends of each part
+    // are together at least its length.
     static bool line_inside(const RegionOffset& region, Vec2d from, Vec2d to)
     {
         const double room_from = region.clearance(from);
@@ -146,14 +145,14 @@ private:
             return true;
         }
         if (length < 2.0 * kChord) {
-            return true;  // out by no more than chords may be
+            return true;  // outside by no more than the tolerance of chords
         }
         const Vec2d middle = (from + to) * 0.5;
         return line_inside(region, from, middle) && line_inside(region, middle, to);
     }
 
-    // Links are looked at for themselves: what makes them takes looks a tenth of a millimetre
-    // apart.
+    // Whether a link lies in the region. Links are made from samples 0.1 mm apart, which is no
+    // proof.
     static bool line_inside(const RegionOffset& region, const std::vector<Edge>& way)
     {
         return std::all_of(way.begin(), way.end(), [&](const Edge& edge) {
@@ -187,8 +186,8 @@ private:
         return out;
     }
 
-    // None where the tool fits nowhere. Offsets of a level may fail on edges that nearly coincide:
-    // edges fitted otherwise, and other steps, are as good.
+    // The cleared level; none where the tool fits nowhere. Offsets may fail on edges that nearly
+    // coincide: other fits and other stepovers are tried then.
     std::optional<Level> cleared_level(const WaterlineSlices& slices, std::size_t k) const
     {
         for (const double share : {1.0, 0.96, 0.9}) {
@@ -216,10 +215,11 @@ private:
                         work_.job.file, work_.depths.heights[k]));
     }
 
-    // The levels below count on this one: a place left out would be met at twice the depth.
+    // Whether the passes cover the level. At a point left out the next level would cut twice the
+    // depth.
     bool covers(const Level& level, double step) const
     {
-        constexpr double kReach = 0.55;  // of a step; a half is what is asked for
+        constexpr double kReach = 0.55;  // of the stepover; planned is a half
         std::vector<Edge> edges;
         for (const ClearingPass& pass : level.cleared.passes) {
             edges.insert(edges.end(), pass.path.begin(), pass.path.end());
@@ -257,7 +257,7 @@ private:
                 linked = false;
                 continue;
             }
-            // The outermost passes stay as they are: the levels below count on them.
+            // The outermost passes are not fitted: levels below depend on them.
             const std::vector<Edge> edges =
                 arcs || pass.ring == 0 ? pass.path : fitted_edges(pass.path, inner_fit_, false);
             if (linked && pass.start == PassStart::kLink && line_inside(region, pass.link)) {
@@ -272,12 +272,12 @@ private:
         return out;
     }
 
-    // Where the cutters before leave nothing for this one on the level.
+    // The places where the cutters before leave no stock for this one on the level.
     std::vector<ClearedPlaces> cleared_before(std::size_t k) const
     {
         std::vector<ClearedPlaces> out;
         for (const RoughedWaterlines& other : before_) {
-            // A rest counts once: what the later ones found it under is not left higher by them.
+            // The rest height counts once: later cutters leave no more above it.
             const double rest = out.empty() ? work_.depths.rest_height : 0.0;
             const auto reach = rest_offset_between_tools(other.tool, tool_, rest);
             if (k < other.regions.size() && reach) {
@@ -316,10 +316,10 @@ private:
         levels_ += runs.empty() ? 0 : 1;
     }
 
-    // The least clearance of all moves but those at the clearance height.
+    // The least clearance of all moves below the clearance height.
     double least_clearance() const
     {
-        double least = std::numeric_limits<double>::infinity();
+        double least = kInfinite;
         Vec3d at{};
         bool started = false;
         for (const ToolMove& move : result_.planned.path.moves) {
@@ -364,7 +364,7 @@ private:
         stats.cl_points = static_cast<int>(path.moves.size());
         stats.retracts = moves.retracts();
         stats.gouge_bound_mm = std::max(0.0, -least);
-        // Slices bound what is cut, not what is left: only the height of the stock does.
+        // Slices bound what is cut, not what is left: the only bound of that is the stock's height.
         stats.scallop_bound_mm = work_.stock.top - work_.stock.bottom;
         stats.counts = {{"layers", levels_},
                         {"loops", result_.loops},

@@ -1,4 +1,4 @@
-// One cutter's way through the levels of a roughing, after the cutters before it.
+// Waterline roughing with one cutter, after the cutters before it.
 #pragma once
 
 #include <memory>
@@ -17,32 +17,32 @@ struct RoughStock {
     double bottom;
 };
 
-// Where a cutter has been, level by level; fewer levels where it fits no deeper.
+// The regions of a cutter's axis, level by level; fewer levels where it fits no deeper.
 struct RoughedWaterlines {
     toolpath::Tool tool;
     std::vector<std::unique_ptr<offset::RegionOffset>> regions;
 };
 
-// What the cutters of one operation share.
+// Data common to the cutters of one operation.
 struct RoughWork {
     const job::Job& job;
     const job::Operation& operation;
     const part_model::PartModel& model;
     RoughStock stock;
     RoughDepths depths;
-    double least_pitch;   // mm: of the lattices of slices
-    double share_before;  // of the progress
-    double share;
+    double least_pitch;   // mm, of the lattices of slices
+    double share_before;  // of the progress: before this cutter
+    double share;         // of the progress: of this cutter
 };
 
 struct RoughedTool {
     toolpath::PlannedOperation planned;
     RoughedWaterlines levels;
-    double keeps{};  // mm that the slices may keep from smooth walls, all in all
-    int loops{};     // 0: nothing was left for this cutter, or it fits nowhere
+    double keeps{};  // mm: largest distance of the slices from smooth walls
+    int loops{};     // 0: no stock was left for this cutter, or it fits nowhere
 };
 
-// clearance  mm that the slices keep from the model at least, without what fits take
+// clearance  mm: least distance of the slices from the model, without the tolerance of fits
 RoughedTool rough_with(const RoughWork& work,
                        const toolpath::Tool& tool,
                        double clearance,

@@ -1,4 +1,4 @@
-// Checks the input, then lets every cutter take what those before it left, the largest first.
+// Checks the input, then roughs with one cutter after another, the largest first.
 #include "host_tools/adaptive_isocurve/waterline_roughing.hpp"
 
 #include <algorithm>
@@ -21,8 +21,8 @@ using toolpath::Tool;
 
 namespace {
 
-constexpr double kRounded = 1e-3;      // mm: what rounding in the program may take, and more
-constexpr double kPitchOfRadius = 15;  // a lattice no finer than the radius over this
+constexpr double kRounded = 1e-3;      // mm: more than rounding in the program
+constexpr double kPitchOfRadius = 15;  // radius over the finest pitch of a lattice
 
 RoughStock stock_of(const Job& job, const PartModel& model, double allowance)
 {
@@ -44,7 +44,7 @@ RoughStock stock_of(const Job& job, const PartModel& model, double allowance)
     return stock;
 }
 
-// The largest first, of equal ones the one with the flattest end.
+// The cutters in order: the largest first, among equal radii the one with the flattest end.
 std::vector<Tool> cutters_of(const Operation& operation)
 {
     std::vector<Tool> tools = operation.tools;
@@ -88,8 +88,7 @@ std::vector<PlannedOperation> plan_waterline_roughing(const Job& job, const Oper
     std::vector<std::string> warnings;
     double keep = operation.allowance + kRounded;
     for (const Tool& tool : tools) {
-        // Where a smaller tool follows, what the slices of a larger one keep in excess is not for
-        // it.
+        // A coarser lattice is sufficient if a smaller tool follows.
         work.least_pitch = std::max(tools.back().radius, 0.5 * tool.radius) / kPitchOfRadius;
         RoughedTool roughed = rough_with(work, tool, keep, before);
         work.share_before += share;

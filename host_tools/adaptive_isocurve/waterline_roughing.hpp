@@ -1,5 +1,5 @@
-// Roughing before adaptive isocurves: parallel planes slice the offset of the model, and each level
-// is cleared like a pocket.
+// Waterline roughing before adaptive isocurves: horizontal planes slice the offset of the model,
+// and each slice is cleared like a pocket.
 #pragma once
 
 #include <vector>
@@ -9,21 +9,21 @@
 
 namespace cusp::adaptive_isocurve {
 
-// Levels of equal depth from the top of the stock down to the lowest place of the model
-// (`rough_depths`: max_depth, min_depth, layers), for the tools of operation.tools, of any shapes,
-// the largest first: one result for each that finds metal, none where none fits into the stock.
+// Levels of equal depth from the top of the stock down to the lowest point of the model
+// (`rough_depths`: max_depth, min_depth, layers), for operation.tools of any shapes, the largest
+// first. One result for each tool that finds stock; none where no tool fits into the stock.
 // operation.allowance stays on the model, along its normal.
 //
-// A smaller tool cuts where it reaches deeper than a quarter of the ridges below what the larger
-// ones left. Beside walls it keeps off by as much more as their slices may have kept, so that it
-// does not follow them for a sliver.
+// Rest machining: a smaller tool cuts where it removes more than a quarter of the scallop height.
+// It keeps off walls by as much more as the slices of larger tools may have, so that it does not
+// follow walls for a sliver.
 //
-// No place of the tool's axis leaves the slices of `WaterlineSlices`, so no cut comes nearer to the
-// model than the allowance; each move is measured against the model once more, and
-// stats.gouge_bound_mm comes from that. A slice lies in the one above, so no cut is deeper than
-// max_depth, ridges between passes of a ball and what tools leave to each other included.
+// The tool's axis never leaves the slices of `WaterlineSlices`, so no cut is nearer to the model
+// than the allowance. stats.gouge_bound_mm is from a separate measurement of each move. A slice
+// lies in the one above, so no cut is deeper than max_depth, scallops and rests of other tools
+// included.
 //
-// Errors: InputError where depth, tool or tolerance can't be used, or nothing is to be roughed.
+// Errors: InputError where depth, tool or tolerance cannot be used, or there is nothing to rough.
 // Source: Elber & Cohen 1993, section 4.
 std::vector<toolpath::PlannedOperation> plan_waterline_roughing(const job::Job& job,
                                                                 const job::Operation& operation);

@@ -1,5 +1,4 @@
-// Nodes far from the contour are settled by the block: the distance changes no faster than the
-// place.
+// Nodes far from the contour are decided in blocks: a distance changes no faster than the position.
 #include "host_tools/adaptive_isocurve/waterline_slices.hpp"
 
 #include <algorithm>
@@ -20,10 +19,10 @@ namespace {
 
 constexpr double kMostNodes = 4e6;
 constexpr std::size_t kBlock = 16;  // nodes, each way: a power of two
-// Contours cross sides at least this share from their ends: no edge of a contour is too short.
+// Share of a side: contours cross sides no nearer to their ends, so no edge is too short.
 constexpr double kNearestEnd = 0.01;
-// How far below the truth distances may be: at a block's middle, in its reach, and at a node, in
-// `excess`.
+// How much too low distances may be: at a block's middle, in reaches of the block, and at a node,
+// in `excess`.
 constexpr double kBlockSlack = 0.05;
 constexpr double kNodeSlack = 0.05;
 
@@ -59,7 +58,7 @@ Contour contour_of(const std::vector<Vec2d>& loop)
 
 }  // namespace
 
-// Squared distances of the core at the nodes of one slice; never above the true ones.
+// Squared distances of the core at the nodes of one slice; never too high.
 struct WaterlineSlices::Levels {
     double z;
     double least;                // squared distance on the contour
@@ -98,16 +97,17 @@ Vec2d WaterlineSlices::node(std::size_t i, std::size_t j) const
             settings_.field.y0 + pitch_y_ * static_cast<double>(j)};
 }
 
-// Whether the core cuts the model all around the place: one that is smaller by the way, and so lies
-// in all of them, does.
+// Whether the core intersects the model everywhere within `reach` of the point: a core smaller by
+// that lies in all of them, and intersects the model.
 bool WaterlineSlices::buried(Vec2d middle, double reach, const Levels& levels) const
 {
     Tool smaller = tool_;
     smaller.radius -= reach + std::hypot(pitch_x_, pitch_y_);
-    constexpr double kCertain = 0.01;  // mm: distances below count as a cut
+    constexpr double kCertain = 0.01;  // mm: smaller distances count as an intersection
     return smaller.radius >= tool_.corner_radius &&
-           model_.distance_within(smaller, {middle.x, middle.y, levels.z}, -tool_.corner_radius,
-                                  kCertain, kBlockSlack * kCertain) <= -tool_.corner_radius;
+           model_.distance_within(smaller, {middle.x, middle.y, levels.z},
+                                  {-tool_.corner_radius, kCertain, kBlockSlack * kCertain}) <=
+               -tool_.corner_radius;
 }
 
 void WaterlineSlices::fill(Levels& levels) const
@@ -132,12 +132,13 @@ void WaterlineSlices::fill(Levels& levels) const
         const Vec2d middle{corner.x + half * pitch_x_, corner.y + half * pitch_y_};
         const double reach = half * std::hypot(pitch_x_, pitch_y_);
         const double low = std::max(kBlockSlack * reach, max_excess());
-        // Below `deep` nothing is asked but whether the tool cuts at all.
+        // Below `deep` it only matters whether the tool intersects the model.
         const double within = std::max(0.0, levels.deep - reach - low - 1e-9);
         const double distance =
-            levels.corner + model_.distance_within(tool_, {middle.x, middle.y, levels.z},
-                                                   within - levels.corner,
-                                                   levels.far + reach - levels.corner + 1e-6, low);
+            levels.corner +
+            model_.distance_within(
+                tool_, {middle.x, middle.y, levels.z},
+                {within - levels.corner, levels.far + reach - levels.corner + 1e-6, low});
         const bool settled = distance - reach >= levels.far ||
                              distance + low + reach < levels.deep ||
                              (block.size > 1 && distance <= 0.0 && buried(middle, reach, levels));
@@ -155,7 +156,7 @@ void WaterlineSlices::fill(Levels& levels) const
         }
         for (std::size_t i = block.i; i < std::min(nx_, block.i + block.size); ++i) {
             for (std::size_t j = block.j; j < std::min(ny_, block.j + block.size); ++j) {
-                // Outside the field the axis does not go.
+                // The axis stays inside the field.
                 const bool border = i == 0 || j == 0 || i + 1 == nx_ || j + 1 == ny_;
                 levels.square[i * ny_ + j] = border ? 0.0 : std::min(value, levels.most);
             }
@@ -165,7 +166,7 @@ void WaterlineSlices::fill(Levels& levels) const
 
 namespace {
 
-// Follows the contour from triangle to triangle, what is free on its left.
+// Follows the contour from triangle to triangle, with the clear side on its left.
 class ContourWalk {
 public:
     ContourWalk(std::size_t nx, std::size_t ny, const std::vector<double>& square, double least)
@@ -173,7 +174,7 @@ public:
     {
     }
 
-    // A side of the lattice by its free and its blocked node.
+    // A side of the lattice by its clear and its blocked node.
     struct Side {
         std::size_t free;
         std::size_t blocked;
@@ -181,7 +182,7 @@ public:
 
     bool free(std::size_t node) const { return square_[node] >= least_; }
 
-    // Where the contour crosses the side: share of the way from the free node.
+    // Where the contour crosses the side: from 0 at the clear node to 1.
     double share(const Side& side) const
     {
         const double over = square_[side.free] - least_;
@@ -214,15 +215,16 @@ private:
     }
     bool seen(std::size_t a, std::size_t b) const { return seen_[slot(a, b)]; }
 
-    // The third node of the triangle to the left of the way from a to b. Every square is cut along
-    // the diagonal from its node (i, j) to (i + 1, j + 1).
+    // The third node of the triangle to the left of the side from a to b. Every square is divided
+    // along the diagonal from its node (i, j) to (i + 1, j + 1).
     std::size_t left_of(std::size_t a, std::size_t b) const
     {
         const auto from = std::pair{a / ny_, a % ny_};
         const auto to = std::pair{b / ny_, b % ny_};
         const int dx = static_cast<int>(to.first) - static_cast<int>(from.first);
         const int dy = static_cast<int>(to.second) - static_cast<int>(from.second);
-        // Turned left by 45 degrees where that is a side, else by 90, the third is beside a or b.
+        // Turned left by 45 degrees if that is a side, else by 90, the third node is next to a or
+        // b.
         const std::array<std::array<int, 4>, 6> turns{{{1, 0, 1, 1},
                                                        {1, 1, 0, 1},
                                                        {0, 1, -1, 0},

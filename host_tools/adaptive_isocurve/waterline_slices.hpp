@@ -1,5 +1,5 @@
-// The offset of a model cut by a horizontal plane: where a tool's axis may stand with its tip at
-// that height, as contours that are proved to keep their distance.
+// Waterline slices: the region of a tool's axis with its tip at a height, by contours that are
+// proved to keep their distance from the model.
 #pragma once
 
 #include <algorithm>
@@ -11,33 +11,33 @@ namespace cusp::adaptive_isocurve {
 
 struct SliceSettings {
     double clearance{};    // mm >= 0: least distance of the tool from the model
-    double excess{};       // mm > 0: what the contours may keep more than that, on smooth walls
-    double least_pitch{};  // mm > 0: no finer lattice, whatever `excess` asks for
-    offset::Box2d field;   // where the axis may stand at all
+    double excess{};       // mm > 0: how much larger the distance may be at smooth walls
+    double least_pitch{};  // mm > 0: finest pitch of the lattice, whatever `excess` requires
+    offset::Box2d field;   // limits of the axis
 };
 
-// Slices on one lattice of triangles, by the distance of the tool from the model at its nodes.
+// Slices on one lattice of triangles, from the distances of the tool from the model at its nodes.
 //
-// Proof: let D be the distance of the model from the tool's core (the tool less its corner radius
-// all round, which only shifts as the tool goes in the plane). D^2 - |x|^2 is the least of
-// functions that are linear in x, hence concave: between the corners of a triangle D^2 is at least
-// its linear interpolation less a quarter of the squared longest side. Contours are the linear
-// interpolation's, so much higher; there is nothing to check afterwards. And because D grows with
-// the height, a slice lies in the one above it, exactly, whatever the lattice.
+// Proof: let D be the distance of the model from the tool's core (the tool offset inward by its
+// corner radius), with the axis at x in the plane. D^2 - |x|^2 is a minimum of functions linear in
+// x, hence concave. So in a triangle D^2 is at least its linear interpolation less a quarter of the
+// squared longest side. Contours are level lines of the linear interpolation, higher by that much,
+// so no later check is necessary. D grows with the height, so a slice lies exactly in the one
+// above it, on any lattice.
 //
-// What this loses lies across places where the nearest part of the model changes (the middle of a
-// valley): at most a side of the lattice.
+// Where the nearest part of the model changes, as in the middle of a valley, a slice may be smaller
+// than the true one by up to a side of the lattice.
 class WaterlineSlices {
 public:
     WaterlineSlices(const part_model::PartModel& model,
                     const toolpath::Tool& tool,
                     const SliceSettings& settings);
 
-    // The places whose axis keeps `clearance` + `more` (mm >= 0; slices of greater `more` lie in
-    // those of less) with the tip at height z.
+    // The region of the axis with the tip at height z, at least `clearance` + `more` (mm >= 0) off
+    // the model. A slice of greater `more` lies in one of less.
     offset::Region2d at(double z, double more) const;
 
-    // How far below the truth the distances are at most, mm: contours keep so much more.
+    // mm: how much too low the distances may be; contours keep so much more.
     double max_excess() const;
 
     double pitch() const { return std::max(pitch_x_, pitch_y_); }

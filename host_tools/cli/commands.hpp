@@ -31,6 +31,7 @@ void add_demo_command(CLI::App& app, Work& work);
 void add_fit_command(CLI::App& app, Work& work);
 void add_info_command(CLI::App& app, Work& work);
 void add_plan_command(CLI::App& app, Work& work);
+void add_view_command(CLI::App& app, Work& work);
 void add_verify_command(CLI::App& app, Work& work);
 void add_sim_command(CLI::App& app, Work& work);
 void add_stream_command(CLI::App& app, Work& work);

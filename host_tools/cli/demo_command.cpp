@@ -17,6 +17,8 @@
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/job/job.hpp"
 #include "host_tools/simulate/settings_file.hpp"
+#include "host_tools/view/page_text.hpp"
+#include "host_tools/view/run_page.hpp"
 
 #include "CLI/CLI.hpp"
 #include "fmt/format.h"
@@ -31,6 +33,11 @@ using simulate::SimulationOptions;
 using simulate::SimulationProgress;
 using simulate::SimulationResult;
 using verify::Verification;
+using view::Page;
+using view::page_text;
+using view::run_page;
+using view::RunPageOptions;
+using view::why_no_page;
 
 namespace {
 
@@ -45,7 +52,7 @@ struct DemoOptions {
     bool traces{};
 };
 
-// Before anything is computed: a folder that can't be written is known at once.
+// Checked before anything is computed: a folder that can't be written is refused at once.
 void make_folder(const fs::path& folder)
 {
     std::error_code failed;
@@ -57,6 +64,26 @@ void make_folder(const fs::path& folder)
         throw InputError(
             fmt::format("--out {}: can't be written: {}", folder.string(), failed.message()));
     }
+}
+
+// Returns what to say of it.
+std::string write_page(const fs::path& folder,
+                       const fs::path& program,
+                       const Job& job,
+                       const SimulationOptions& mill,
+                       const Verification& cut)
+{
+    if (page_text(Page::kView).empty()) {
+        return fmt::format("no RUN.html: {}\n", why_no_page());
+    }
+    RunPageOptions options;
+    options.settings = mill.settings;
+    options.job = &job;
+    options.verification = &cut;
+    options.progress = [](const char*, double) {
+    };
+    write_text(folder / "RUN.html", run_page(program, options).html);
+    return "RUN.html shows the run: any browser opens it\n";
 }
 
 int run_demo(const DemoOptions& options)
@@ -86,14 +113,15 @@ int run_demo(const DemoOptions& options)
     };
     const SimulationResult run = run_program(program, mill, out / "sim.json");
     bar(1.0);
+    const std::string page = write_page(out, program, job, mill, cut);
 
     fmt::print("\nPocket with a curved floor and an island: {}\n\n{}", job.file,
                demo_summary(plan, run, cut));
     fmt::print(
         "\nIn {}: pocket.ngc (G-code), path.svg left.svg (pictures),\n"
-        "plan.json sim.json verify.json verify.txt (figures){}\n",
+        "plan.json sim.json verify.json verify.txt (figures){}\n{}",
         out.string(),
-        options.traces ? ", pocket.vcd (pulses, for GTKWave), samples.csv (set points)" : "");
+        options.traces ? ", pocket.vcd (pulses, for GTKWave), samples.csv (set points)" : "", page);
     std::fflush(stdout);
     print_faults(program, run);
     for (const std::string& broken : cut.broken) {

@@ -8,8 +8,8 @@
 
 namespace cusp::cli {
 
+using program_run::ToolTime;
 using simulate::SimulationResult;
-using simulate::ToolTime;
 using toolpath::PlannedOperation;
 using verify::ToolFigures;
 using verify::Verification;

@@ -1,4 +1,4 @@
-// What the demo says when it is done.
+// The summary that ends the demo.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Looks upwards from the executable.
+// Searches the folders above the executable.
 #include "host_tools/cli/examples_folder.hpp"
 
 #include <system_error>

@@ -1,4 +1,4 @@
-// Where the examples lie that come with the program.
+// Finds the examples that come with the program.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// cusp info: what a part is, for a machinist who has been handed a file.
+// cusp info: describes a part file.
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -41,7 +41,7 @@ void write_or_remove(const std::string& file, const std::string& text)
     }
 }
 
-// Both or none is left behind.
+// Either both files are written or none.
 void write_outputs(const InfoOptions& options, const std::vector<PartInfo>& parts)
 {
     const std::string picture = options.picture.empty() ? "" : part_picture(parts.front());

@@ -1,4 +1,4 @@
-// Counts Ctrl-C instead of dying of it, so that machines are stopped and files are ended.
+// Counts Ctrl-C instead of ending the process, so that machines are stopped and files completed.
 #pragma once
 
 #include <atomic>

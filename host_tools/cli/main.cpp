@@ -27,6 +27,7 @@ constexpr const char* kDescription =
     "  cusp plan JOB.toml -o part.ngc        plan the operations of a job\n"
     "  cusp verify JOB.toml part.ngc         cut it in memory: gouge, scallop, what is left\n"
     "  cusp sim part.ngc --stats run.json    run it: time, limits, pulses\n"
+    "  cusp view part.ngc -o run.html        see it: path, speeds, limits, in any browser\n"
     "  cusp fit part.ngc -o arcs.ngc --tolerance 0.01\n"
     "                                        short lines to arcs and lines\n"
     "  cusp stream /dev/ttyUSB0 part.ngc     send it to a controller\n";
@@ -40,8 +41,9 @@ constexpr const char* kFooter =
 const std::vector<AddCommand>& commands()
 {
     static const std::vector<AddCommand> all{
-        add_demo_command, add_info_command, add_plan_command,   add_verify_command,
-        add_sim_command,  add_fit_command,  add_stream_command, add_settings_command,
+        add_demo_command,   add_info_command,   add_plan_command,
+        add_verify_command, add_sim_command,    add_view_command,
+        add_fit_command,    add_stream_command, add_settings_command,
     };
     return all;
 }
@@ -75,7 +77,7 @@ int main(int argc, char** argv)
     try {
         return run(argc, argv);
     } catch (const std::exception& error) {
-        // One line, whatever a file's name holds.
+        // One line, whatever characters a file name contains.
         std::string text = error.what();
         std::replace_if(
             text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');

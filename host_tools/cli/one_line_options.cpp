@@ -1,4 +1,4 @@
-// Values are checked where the job is built: there they have units.
+// Declares the options. Values are checked where the job is built, since units are known there.
 #include "host_tools/cli/one_line_options.hpp"
 
 #include <algorithm>

@@ -25,9 +25,9 @@ struct PlanCall {
 
 void add_one_line_options(CLI::App& command, PlanCall& call);
 
-// Tells parts from a job and fills in the request. Call it once, after parsing.
+// Distinguishes parts from a job and fills in the request. Call it once, after parsing.
 //
-// Errors: InputError where both are named, or an option for parts stands beside a job.
+// Errors: InputError where both are named, or an option for parts comes with a job.
 void sort_call(const CLI::App& command, PlanCall& call);
 
 }  // namespace cusp::cli

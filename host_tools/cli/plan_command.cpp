@@ -29,7 +29,7 @@ struct PlanOptions {
     PlanOutput output;
 };
 
-// The job that parts and options amount to; printed, and read as if it were a file.
+// Builds the job from parts and options, prints it, and reads it as if it were a file.
 Job one_line_job_of(const PlanOptions& options)
 {
     PartFiles parts;
@@ -50,7 +50,7 @@ int run_plan(PlanOptions& options)
     if (options.output.program.empty() && !call.print_job) {
         throw InputError("plan: -o is required: the G-code to write, such as -o part.ngc");
     }
-    // where a job is printed, the standard output is its file
+    // where a job is printed, the standard output holds nothing else
     options.output.said = call.print_job ? stderr : stdout;
     Job job = call.is_one_line() ? one_line_job_of(options) : read_job(call.files.front());
     if (options.output.program.empty()) {

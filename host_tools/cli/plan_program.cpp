@@ -1,4 +1,4 @@
-// Operation by operation; files are written when all are planned.
+// Plans operation by operation; writes files when all are planned.
 #include "host_tools/cli/plan_program.hpp"
 
 #include <chrono>
@@ -34,7 +34,7 @@ Plan plan_job(Job& job, const MachineRates& rates, std::FILE* said)
 {
     constexpr double kQuiet = 0.5;  // s
     Plan plan;
-    // where the tool stands is not known before the first rapid move
+    // the position of the tool is unknown before the first rapid move
     Vec3d at{0, 0, job.stock_top + job.clearance};
     for (std::size_t i = 0; i < job.operations.size(); ++i) {
         const Operation& operation = job.operations[i];

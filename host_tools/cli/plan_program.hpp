@@ -1,4 +1,4 @@
-// What `cusp plan` does with a job: plans its operations and writes program and statistics.
+// Plans the operations of a job and writes program and statistics, for `cusp plan`.
 #pragma once
 
 #include <cstdio>
@@ -16,9 +16,9 @@ struct PlanOutput {
     std::FILE* said{stdout};  // gets a line an operation
 };
 
-// The job only learns whom to tell of its progress: a copy of large meshes takes much memory.
+// Changes nothing in the job but `progress`; it is no copy, since meshes may be large.
 //
-// title  what the program is made of, for its first comment
+// title  the origin of the program, for its first comment
 //
 // Throws InputError where an operation can't be planned, none leaves anything to cut, or a file
 // can't be written.

@@ -1,4 +1,4 @@
-// Statistics by the names of their keys, from what planners counted and what was measured.
+// Statistics as JSON and as a summary.
 #include "host_tools/cli/plan_statistics.hpp"
 
 #include <algorithm>
@@ -53,7 +53,7 @@ Json operation_stats(const PlannedOperation& operation, const PathMeasure& measu
     return out;
 }
 
-// What holds for the whole program, under the same names as for an operation.
+// Totals of the program, with the names of an operation's figures.
 Json totals(const Plan& plan)
 {
     MoveCounts moves;

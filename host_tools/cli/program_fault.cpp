@@ -1,4 +1,4 @@
-// What a broken promise of our own code means in the host program: it says so and ends.
+// A broken assertion of the core ends the host program with a message.
 #include <cstdio>
 #include <cstdlib>
 

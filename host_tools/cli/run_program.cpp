@@ -9,7 +9,7 @@
 namespace cusp::cli {
 
 using files::write_text;
-using simulate::SimulationError;
+using program_run::RunError;
 using simulate::SimulationOptions;
 using simulate::SimulationResult;
 
@@ -30,11 +30,8 @@ SimulationResult run_program(const std::string& program,
 
 void print_faults(const std::string& program, const SimulationResult& result)
 {
-    for (const SimulationError& error : result.errors) {
-        const std::string code = error.code == 0     ? ""
-                                 : result.alarm != 0 ? fmt::format("ALARM:{}: ", error.code)
-                                                     : fmt::format("error:{}: ", error.code);
-        fmt::print(stderr, "{}:{}: {}{}\n", program, error.line, code, error.text);
+    for (const RunError& error : result.errors) {
+        fmt::print(stderr, "{}:{}: {}\n", program, error.line, fault_text(result, error));
     }
     if (result.stopped) {
         fmt::print(stderr, "stopped before the end\n");

@@ -1,4 +1,4 @@
-// What `cusp sim` does with a program: runs it until Ctrl-C at most, and writes its statistics.
+// Runs a program until its end or Ctrl-C and writes its statistics, for `cusp sim`.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ simulate::SimulationResult run_program(const std::string& program,
                                        simulate::SimulationOptions options,
                                        const std::string& stats);
 
-// What ended the run before its time, on the standard error stream.
+// Prints what ended the run early on the standard error stream.
 void print_faults(const std::string& program, const simulate::SimulationResult& result);
 
 }  // namespace cusp::cli

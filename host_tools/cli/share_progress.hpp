@@ -1,4 +1,4 @@
-// How far a computation is: a bar on a terminal, four plain lines elsewhere.
+// Progress of a computation: a bar on a terminal, four plain lines elsewhere.
 #pragma once
 
 #include <chrono>
@@ -8,8 +8,8 @@ namespace cusp::cli {
 
 class ShareProgress {
 public:
-    // what     it is that goes on, one word
-    // quiet_s  s: what is done sooner is not worth a line
+    // what     names the computation, one word
+    // quiet_s  s: shorter computations print nothing
     explicit ShareProgress(std::string what, double quiet_s = 0.0);
 
     void operator()(double share);  // of the work that is done, 0 to 1

@@ -10,7 +10,10 @@
 #include "host_tools/cli/commands.hpp"
 #include "host_tools/cli/interruption.hpp"
 #include "host_tools/cli/run_program.hpp"
+#include "host_tools/files/files.hpp"
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/program_run/motion_profile.hpp"
+#include "host_tools/report/motion_picture.hpp"
 #include "host_tools/simulate/fault_command.hpp"
 #include "host_tools/simulate/settings_file.hpp"
 #include "host_tools/simulate/simulation.hpp"
@@ -18,16 +21,20 @@
 
 namespace cusp::cli {
 
+using files::write_text;
+using program_run::MotionProfile;
+using program_run::ProgramMoveCounts;
+using program_run::SetPoint;
+using program_run::ToolTime;
+using report::motion_picture;
 using simulate::input_named;
 using simulate::parse_line_faults;
-using simulate::ProgramMoveCounts;
 using simulate::read_script;
 using simulate::read_settings_file;
 using simulate::ServeOptions;
 using simulate::SimulationOptions;
 using simulate::SimulationProgress;
 using simulate::SimulationResult;
-using simulate::ToolTime;
 
 namespace {
 
@@ -38,6 +45,7 @@ struct SimArguments {
     std::string samples_file;
     std::string script_file;
     std::string stats_file;
+    std::string picture_file;
     std::optional<double> probe_z;
     std::uint32_t bits_per_second{0};
     bool serve{false};
@@ -122,7 +130,16 @@ int run_once(const SimArguments& arguments)
     if (on_terminal) {
         options.progress = show_progress;
     }
+    MotionProfile profile;
+    if (!arguments.picture_file.empty()) {
+        options.set_point = [&profile](const SetPoint& point) {
+            profile.add(point.at, point.line);
+        };
+    }
     const SimulationResult result = run_program(arguments.program, options, arguments.stats_file);
+    if (!arguments.picture_file.empty()) {
+        write_text(arguments.picture_file, motion_picture(profile, options.settings.limits()));
+    }
     if (on_terminal) {
         fmt::print(stderr, "\r\x1b[K");
     }
@@ -247,10 +264,13 @@ void add_sim_command(CLI::App& app, Work& work)
     command->add_option("--settings", arguments->settings_file,
                         "Grbl settings, one $N=v a line; `cusp settings` prints the defaults");
     command->add_option("--vcd", arguments->vcd_file, "Write every step and direction edge");
-    command->add_option("--samples", arguments->samples_file, "Write the set point of every ms");
+    command->add_option("--samples", arguments->samples_file,
+                        "Write the set point and the line of every ms");
     command->add_option("--script", arguments->script_file,
                         "Lines 'tick byte': realtime bytes and the servo ticks (ms) they come at");
     command->add_option("--stats", arguments->stats_file, "Write the figures as JSON");
+    command->add_option("--picture", arguments->picture_file,
+                        "Draw speed over time, and v, a, j of each axis against its limits (SVG)");
     command->add_option("--probe-z", arguments->probe_z,
                         "Height of a probe plate, mm from where the machine starts");
     command->add_option("--baud", arguments->bits_per_second,

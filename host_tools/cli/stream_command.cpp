@@ -111,7 +111,7 @@ int status_of(StreamOutcome outcome)
     return outcome == StreamOutcome::kDone ? kDone : kFoundWrong;
 }
 
-// The record of the transfer that was interrupted, or as good a one as a line number gives.
+// The record of the interrupted transfer, or one made from a line number.
 TransferRecord record_to_resume(const StreamArguments& arguments)
 {
     const auto kept = read_record(arguments.program);

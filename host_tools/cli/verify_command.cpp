@@ -1,4 +1,4 @@
-// cusp verify: cuts a program in memory and judges what stands.
+// cusp verify: cuts a program in memory and compares what is left with the part.
 #include <memory>
 
 #include "host_tools/cli/commands.hpp"

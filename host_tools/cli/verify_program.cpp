@@ -1,4 +1,4 @@
-// Figures by the names of their keys.
+// Figures as JSON, one key each.
 #include "host_tools/cli/verify_program.hpp"
 
 #include <cmath>

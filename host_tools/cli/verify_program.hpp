@@ -1,4 +1,4 @@
-// What `cusp verify` does: cuts a program in memory and writes figures and pictures of it.
+// Cuts a program in memory and writes figures and pictures, for `cusp verify`.
 #pragma once
 
 #include <string>

@@ -261,8 +261,8 @@ private:
         };
         const double bottom = rough.heights.empty() ? job_.stock_top : rough.heights.back();
         const auto roughed = [&](Vec2d p) {
-            const double left = std::max(roughed_floor.drop(p, slack).z, bottom) + higher;
-            return fits(p) && left < floor_.drop(p, slack).z + depth;
+            const double left = std::max(roughed_floor.tip_height(p, slack), bottom) + higher;
+            return fits(p) && left < floor_.tip_height(p, slack) + depth;
         };
         std::vector<bool> beside;
         for (const ClearingPass& pass : cleared.passes) {

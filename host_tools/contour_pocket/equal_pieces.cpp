@@ -76,7 +76,7 @@ public:
 private:
     double lowest(Vec2d at) const
     {
-        return std::max(floor_.drop(at).z + settings_.allowance, settings_.min_z);
+        return std::max(floor_.tip_height(at) + settings_.allowance, settings_.min_z);
     }
 
     const Edge& edge_;

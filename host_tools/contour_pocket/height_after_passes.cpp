@@ -49,7 +49,7 @@ double HeightAfterPasses::height(Vec2d place)
             const int n = 1 + static_cast<int>(length(edges_[e]) / apart_);
             for (int i = 0; i <= n; ++i) {
                 const Vec2d at = point_on(edges_[e], static_cast<double>(i) / n);
-                tips.push_back({at.x, at.y, floor_.drop(at).z});
+                tips.push_back({at.x, at.y, floor_.tip_height(at)});
             }
         }
         for (const Vec3d& tip : tips) {

@@ -227,14 +227,14 @@ LoopScallop::Probe LoopScallop::probe(Vec2d at) const
             return {at, contact.z, touched, p.z, {-n.x / n.z, -n.y / n.z}, 1.0 / n.z};
         }
     }
-    const DropCutter::ClPoint rest = floor_.drop(at, slack);
-    if (rest.z == DropCutter::kNoSurface) {
-        return {at, rest.z, at, rest.z, {}, 1.0};
+    const std::optional<DropCutter::ClPoint> cl = floor_.drop(at, slack);
+    if (!cl) {
+        return {at, -kUnbounded, at, std::nullopt, {}, 1.0};
     }
-    const Vec2d touched = inside_rim(at, floor_.cc_place(at, rest));
-    const double side = rest.z + profile_height(tool, distance(at, touched));
-    const double secant = std::sqrt(1.0 + dot(rest.slope, rest.slope));
-    return {at, rest.z, touched, side, rest.slope, secant};
+    const Vec2d touched = inside_rim(at, floor_.cc_place(at, *cl));
+    const double side = cl->z + profile_height(tool, distance(at, touched));
+    const double secant = std::sqrt(1.0 + dot(cl->slope, cl->slope));
+    return {at, cl->z, touched, side, cl->slope, secant};
 }
 
 // What the paths beside `near` leave at `at`: z.
@@ -273,10 +273,10 @@ double LoopScallop::allowed(double secant) const
 // Square to the floor, where the tool touches it; as a share of the height allowed.
 double LoopScallop::uncut(const Probe& probe, bool stretches) const
 {
-    if (probe.floor == DropCutter::kNoSurface) {
+    if (!probe.floor) {
         return 0.0;
     }
-    const double share = std::max(0.0, left_at(probe.touched, probe.at) - probe.floor) /
+    const double share = std::max(0.0, left_at(probe.touched, probe.at) - *probe.floor) /
                          (probe.secant * strayed_ * allowed(probe.secant));
     return stretches && ball_ && share > 1.0 && clear_square_to(probe) ? 1.0 : share;
 }
@@ -303,7 +303,7 @@ double LoopScallop::left_under(const Probe& a, const Probe& b) const
     constexpr double kFar = 0.1;  // of the tool's radius: nearer ones hide nothing
     const Tool& tool = floor_.tool();
     const double apart = distance(a.touched, b.touched);
-    const bool known = a.floor != DropCutter::kNoSurface && b.floor != DropCutter::kNoSurface;
+    const bool known = a.floor && b.floor;
     if (!known || apart < std::max(kFar * tool.radius, 3.0 * distance(a.at, b.at))) {
         return 0.0;
     }
@@ -333,7 +333,7 @@ double LoopScallop::left_under_foot(const Probe& a, const Probe& b) const
     constexpr double kTurned = 0.1;  // slope: from where on it is no bend
     constexpr int kRound = 12;       // places on the rim
     constexpr double kInside = 0.9999;
-    const bool known = a.floor != DropCutter::kNoSurface && b.floor != DropCutter::kNoSurface;
+    const bool known = a.floor && b.floor;
     const Vec2d move = b.at - a.at;
     if (!known || dot(b.gradient - a.gradient, move) <= kTurned * std::sqrt(dot(move, move))) {
         return 0.0;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "host_tools/clearing/clearing.hpp"
@@ -65,7 +66,7 @@ private:
         Vec2d at;
         double tip;  // z
         Vec2d touched;
-        double floor;  // z of what is touched
+        std::optional<double> floor;  // z of the contact; none where no surface lies under the tool
         Vec2d gradient;
         double secant;
     };

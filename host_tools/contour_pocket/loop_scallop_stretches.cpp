@@ -90,7 +90,7 @@ bool LoopScallop::clear_square_to(const Probe& probe) const
     const double high = strayed_ * allowed(probe.secant);
     const Vec2d way = probe.gradient * (-1.0 / probe.secant);
     const Vec2d place = probe.touched + way * high;
-    return left_at(place, probe.at) <= probe.floor + high / probe.secant;
+    return left_at(place, probe.at) <= *probe.floor + high / probe.secant;
 }
 
 }  // namespace cusp::contour_pocket

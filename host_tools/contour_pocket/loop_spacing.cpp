@@ -200,11 +200,11 @@ double LoopSpacing::by_scallop(Vec2d at, Vec2d direction, double most) const
     const auto low_enough = [&](double apart) {
         std::vector<double> heights;
         for (int i = 0; i <= kPlaces; ++i) {
-            const double height = floor_.drop(at + direction * (apart * i / kPlaces)).z;
-            if (height == DropCutter::kNoSurface) {
+            const auto cl = floor_.drop(at + direction * (apart * i / kPlaces));
+            if (!cl) {
                 return true;
             }
-            heights.push_back(height);
+            heights.push_back(cl->z);
         }
         // The level's interval may turn out smaller: a valley that this pass clears would then lie
         // between two passes.

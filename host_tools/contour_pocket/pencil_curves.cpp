@@ -82,8 +82,8 @@ private:
         if (!search_.inside(at)) {
             return std::nullopt;
         }
-        const DropCutter::ClPoint rest = floor_.drop(at);
-        return rest.z == DropCutter::kNoSurface ? std::nullopt : std::optional{Look{at, rest}};
+        const std::optional<DropCutter::ClPoint> cl = floor_.drop(at);
+        return cl ? std::optional{Look{at, *cl}} : std::nullopt;
     }
 
     struct GridPlace {

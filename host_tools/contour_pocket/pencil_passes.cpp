@@ -115,7 +115,7 @@ private:
         Vec3d from = path.start;
         for (const ClMove& move : path.moves) {
             const Vec3d middle = (from + move.end) * 0.5;
-            const bool lifted = middle.z > floor_.drop({middle.x, middle.y}).z + most;
+            const bool lifted = middle.z > floor_.tip_height({middle.x, middle.y}) + most;
             length += lifted ? distance(in_plan(from), {move.end.x, move.end.y}) : 0.0;
             from = move.end;
         }
@@ -156,11 +156,11 @@ private:
         constexpr double kRings[] = {0.0, 0.3, 0.55, 0.75, 0.9, 0.985};
         constexpr int kSpokes = 16;
         const Tool& tool = floor_.tool();
-        const DropCutter::ClPoint rest = floor_.drop(q);
-        const double level = 1.0 / std::sqrt(1.0 + dot(rest.slope, rest.slope));
+        const auto cl = floor_.drop(q).value_or(DropCutter::ClPoint{-kUnbounded, {}, 0});
+        const double level = 1.0 / std::sqrt(1.0 + dot(cl.slope, cl.slope));
         for (const double ring : kRings) {
             const double out = ring * tool.radius;
-            const double cut = rest.z + profile_height(tool, out);
+            const double cut = cl.z + profile_height(tool, out);
             for (int spoke = 0; spoke < (ring > 0.0 ? kSpokes : 1); ++spoke) {
                 const double angle = 2 * kPi * spoke / kSpokes;
                 const Vec2d p = q + Vec2d{std::cos(angle), std::sin(angle)} * out;

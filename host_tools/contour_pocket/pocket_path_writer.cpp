@@ -106,7 +106,8 @@ void PocketPathWriter::enter(const ProjectedPass& cut, const CutSettings& settin
         heights.stock_top = moves_.enter_by_helix(
             {path.start, radius, round < radius, heights},
             {[&](Vec2d at) {
-                 return std::max(floor_.drop(at).z + path_settings.allowance, path_settings.min_z);
+                 return std::max(floor_.tip_height(at) + path_settings.allowance,
+                                 path_settings.min_z);
              },
              [&](Vec3d a, Vec3d b) {
                  return floor_.move_clearance(a, b);

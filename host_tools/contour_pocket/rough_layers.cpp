@@ -107,7 +107,7 @@ double lowest_tip(const ClearedRegion& cleared, const DropCutter& floor)
             const int n = 1 + static_cast<int>(length(edge) / floor.tool().radius);
             for (int i = 0; i < n; ++i) {
                 const Vec2d p = point_on(edge, static_cast<double>(i) / n);
-                lowest = std::min(lowest, floor.drop(p).z);
+                lowest = std::min(lowest, floor.tip_height(p));
             }
         }
     }

@@ -153,11 +153,12 @@ private:
         if (floor_ == nullptr) {
             return {at, 0.0, {}, bend};
         }
-        const DropCutter::ClPoint rest = floor_->drop(at);
-        if (rest.z == DropCutter::kNoSurface) {
+        const std::optional<DropCutter::ClPoint> cl = floor_->drop(at);
+        if (!cl) {
             row_.missing = at;
+            return {at, -kUnbounded, {}, bend};
         }
-        return {at, rest.z, rest.slope, bend};
+        return {at, cl->z, cl->slope, bend};
     }
 
     // A station with its place and direction along the plan.

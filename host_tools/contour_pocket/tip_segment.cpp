@@ -9,8 +9,6 @@
 namespace cusp::contour_pocket {
 
 using drop_cutter::drop_on_edge;
-using drop_cutter::EdgeContact;
-using drop_cutter::kNoContact;
 using offset::distance;
 using toolpath::Tool;
 
@@ -31,8 +29,8 @@ double cut_over(const Tool& tool, const TipSegment& segment, Vec2d at, double be
     }
     const double slope = (segment.end.z - segment.start.z) / whole;
     // The place lifts a tool that comes past as an edge would that falls away from it.
-    const EdgeContact rest = drop_on_edge(tool, -slope, away, -along, whole - along);
-    return rest.lift > kNoContact ? segment.start.z + slope * along - rest.lift : kUnbounded;
+    const auto edge = drop_on_edge(tool, {-slope, away, -along, whole - along});
+    return edge ? segment.start.z + slope * along - edge->lift : kUnbounded;
 }
 
 }  // namespace cusp::contour_pocket

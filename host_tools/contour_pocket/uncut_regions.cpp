@@ -129,9 +129,9 @@ private:
                     centres_.any_nearer(p, wall_clearance_)) {
                     continue;
                 }
-                const double floor = floor_.drop(p).z;
-                if (floor != DropCutter::kNoSurface && top - floor > min_height) {
-                    rest_[index(i, j)] = top - floor;
+                const auto floor = floor_.drop(p);
+                if (floor && top - floor->z > min_height) {
+                    rest_[index(i, j)] = top - floor->z;
                     by_wall_[index(i, j)] = true;
                 }
             }
@@ -166,7 +166,8 @@ private:
     {
         auto& slope = slopes_[index(i, j)];
         if (!slope) {
-            slope = tips_.drop(centre(i, j), 0.01 * radius_).slope;
+            const auto cl = tips_.drop(centre(i, j), 0.01 * radius_);
+            slope = cl ? cl->slope : Vec2d{};
         }
         return *slope;
     }
@@ -188,8 +189,8 @@ private:
     // floor at p.
     double left_over(Vec2d p)
     {
-        const double floor = floor_.drop(p).z;
-        if (floor == DropCutter::kNoSurface) {
+        const auto floor = floor_.drop(p);
+        if (!floor) {
             return 0.0;
         }
         const double fine = 0.5 * cell_;
@@ -206,7 +207,7 @@ private:
                 }
             }
         }
-        return best < kUnbounded ? best - floor - 0.02 * radius_ : 0.0;
+        return best < kUnbounded ? best - floor->z - 0.02 * radius_ : 0.0;
     }
 
     double tip_at(int k, int l, Vec2d at)
@@ -218,7 +219,7 @@ private:
                                 static_cast<std::size_t>(l)];
         if (!height) {
             height = walls_.clearance(at) < wall_clearance_ ? kUnbounded
-                                                            : tips_.drop(at, 0.005 * radius_).z;
+                                                            : tips_.tip_height(at, 0.005 * radius_);
         }
         return *height;
     }

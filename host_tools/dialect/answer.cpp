@@ -3,7 +3,8 @@
 
 #include <array>
 #include <charconv>
-#include <cstdlib>
+
+#include "host_tools/dialect/leading_number.hpp"
 
 namespace cusp::dialect {
 namespace {
@@ -29,12 +30,8 @@ std::string_view split_off(std::string_view& text, char separator)
 
 std::optional<double> decimal(std::string_view text)
 {
-    double number = 0;
-    const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (failed != std::errc{} || end == text.data()) {
-        return std::nullopt;
-    }
-    return number;
+    const auto number = leading_number(text);
+    return number ? std::optional{number->value} : std::nullopt;
 }
 
 std::optional<Vec3d> vector_of(std::string_view text)

@@ -25,7 +25,7 @@
 
 namespace cusp::dialect {
 
-// A status report `<State[:sub]|MPos:...|...>`. What it does not say is absent.
+// A status report `<State[:sub]|MPos:...|...>`. Fields that it lacks have no value.
 struct ControllerStatus {
     std::string state;  // "Idle", "Run", "Hold", "Jog", "Alarm", "Door", "Check", "Home", "Sleep"
     int substate{-1};
@@ -59,7 +59,7 @@ struct Answer {
 //   line  without its end
 Answer parse_answer(std::string_view line);
 
-// What Grbl's documents say of an error or alarm code; "unknown" where they say nothing.
+// The text of an error or alarm code in Grbl's documents; "unknown" where there is none.
 std::string_view error_text(int code);
 std::string_view alarm_text(int code);
 

@@ -11,7 +11,7 @@ namespace cusp::dialect {
 // characters of the unanswered lines keeps the buffer full and never overfull.
 class FlowWindow {
 public:
-    // What a stock Grbl holds.
+    // Bytes that a stock Grbl holds.
     static constexpr std::size_t kGrblBuffer = 128;
 
     explicit FlowWindow(std::size_t capacity = kGrblBuffer) : capacity_{capacity} {}
@@ -30,7 +30,7 @@ public:
         used_ += size;
     }
 
-    // The line that an answer is for; none where no answer was due.
+    // The number of the line that an answer is for; no value where none was due.
     std::optional<std::uint64_t> answered()
     {
         if (lines_.empty()) {

@@ -1,38 +1,36 @@
-// Reading lines.
+// Splits a text into lines.
 #include "host_tools/dialect/line_source.hpp"
 
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <system_error>
-
-#include "host_tools/input_error/input_error.hpp"
+#include <algorithm>
+#include <utility>
 
 namespace cusp::dialect {
 namespace {
 
 constexpr std::size_t kLongestLine = 1 << 16;
+constexpr std::size_t kBlock = 1 << 13;
+constexpr int kEnd = -1;
 
 }  // namespace
 
-LineSource::LineSource(const std::string& file) : name_{file}, in_{file, std::ios::binary}
+LineSource::LineSource(std::string name, ByteReader reader, std::uint64_t size)
+    : name_{std::move(name)}, reader_{std::move(reader)}, size_{size}, block_(kBlock)
 {
-    std::error_code failed;
-    if (std::filesystem::is_directory(file, failed)) {
-        throw InputError{name_ + ": is a folder, not a file"};
-    }
-    if (!in_) {
-        throw InputError{name_ + ": can't be read: " + std::strerror(errno)};
-    }
-    size_ = std::filesystem::file_size(file, failed);
-    if (failed) {
-        size_ = 0;
-    }
+}
+
+LineSource LineSource::of_text(std::string name, std::string_view text)
+{
+    const ByteReader reader = [text](char* place, std::size_t room) mutable {
+        const std::size_t count = std::min(room, text.size());
+        std::copy_n(text.begin(), count, place);
+        text.remove_prefix(count);
+        return count;
+    };
+    return {std::move(name), reader, text.size()};
 }
 
 std::optional<std::string> LineSource::next()
 {
-    constexpr int kEnd = std::char_traits<char>::eof();
     std::string line;
     int character = take();
     if (after_return_ && character == '\n') {
@@ -40,9 +38,6 @@ std::optional<std::string> LineSource::next()
     }
     after_return_ = false;
     if (character == kEnd) {
-        if (in_.bad()) {
-            throw InputError{name_ + ": can't be read: " + std::strerror(errno)};
-        }
         return std::nullopt;
     }
     while (character != kEnd && character != '\n' && character != '\r') {
@@ -63,11 +58,15 @@ double LineSource::progress() const
 
 int LineSource::take()
 {
-    const int character = in_.rdbuf()->sbumpc();
-    if (character != std::char_traits<char>::eof()) {
-        ++taken_;
+    if (next_ == end_) {
+        next_ = 0;
+        end_ = reader_(block_.data(), block_.size());
+        if (end_ == 0) {
+            return kEnd;
+        }
     }
-    return character;
+    ++taken_;
+    return static_cast<unsigned char>(block_[next_++]);
 }
 
 }  // namespace cusp::dialect

@@ -1,4 +1,4 @@
-// ProgramLines: the lines of a program as they go over the wire: without comments and blanks.
+// ProgramLines: the lines of a program as they are sent: without comments and blanks.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace cusp::dialect {
 
-// What is left of a line without comments, blanks and the % of tapes; $ commands are left alone.
+// The line without comments, blanks and the % of tapes; $ commands are unchanged.
 std::string bare_line(std::string_view line);
 
 // The same line with `number` as its only line number, so that the controller's reports name the
-// line of the file. $ commands and lines whose own number is malformed are left alone.
+// line of the file. $ commands and lines whose own number is malformed are unchanged.
 std::string numbered_line(std::string_view uncovered, std::uint64_t number);
 
 struct ProgramLine {
@@ -27,7 +27,7 @@ public:
     // Throws InputError, as next() does.
     explicit ProgramLines(const std::string& file) : source_{file} {}
 
-    // The next line that says something.
+    // The next line that is not empty.
     std::optional<ProgramLine> next();
 
     double progress() const { return source_.progress(); }

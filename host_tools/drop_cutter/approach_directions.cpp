@@ -1,4 +1,4 @@
-// |point + R n - contact| < R': linear in n, as n has length 1.
+// A contact blocks n where |point + R n - contact| < R', which is linear in n since |n| = 1.
 #include "host_tools/drop_cutter/approach_directions.hpp"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ ApproachDirections::BlockedCap ApproachDirections::blocked_cap(std::size_t conta
     return {way, std::max(0.0, least), contact};
 }
 
-// Contacts that bar nothing are left out: most of the ground below.
+// Contacts that block nothing, such as most below the point, are left out.
 std::size_t ApproachDirections::add(Vec3d contact)
 {
     contacts_.push_back(contact);
@@ -60,17 +60,17 @@ std::array<ApproachDirections::Triangle, 4> ApproachDirections::quarters(const T
 
 Vec3d ApproachDirections::middle(const Triangle& t) { return unit(t[0] + t[1] + t[2]); }
 
-// What lies under the upper half of a ball round the contact is convex; the triangle lies between
-// its corners and those stretched until the plane through them touches the sphere.
-bool ApproachDirections::blocks_shank(const BlockedCap& barrier, const Triangle& triangle) const
+// The points below the upper half of a ball around the contact form a convex set. The triangle lies
+// in the hull of its corners and of these corners stretched until their plane touches the sphere.
+bool ApproachDirections::blocks_shank(const BlockedCap& cap, const Triangle& triangle) const
 {
     const auto under = [&](Vec3d centre) {
-        const double room = square(contact_radius_) - square(centre.x - barrier.direction.x) -
-                            square(centre.y - barrier.direction.y);
-        const double over = centre.z - barrier.direction.z;
+        const double room = square(contact_radius_) - square(centre.x - cap.direction.x) -
+                            square(centre.y - cap.direction.y);
+        const double over = centre.z - cap.direction.z;
         return room > 0 && (over <= 0 || square(over) < room);
     };
-    // Mostly a corner is not.
+    // Fast rejection: usually some corner is not.
     for (const Vec3d& corner : triangle) {
         if (!under(corner * radius_)) {
             return false;
@@ -82,14 +82,13 @@ bool ApproachDirections::blocks_shank(const BlockedCap& barrier, const Triangle&
                        [&](Vec3d corner) { return under(corner * (radius_ * stretch)); });
 }
 
-bool ApproachDirections::blocks(const BlockedCap& barrier, const Triangle& t) const
+bool ApproachDirections::blocks(const BlockedCap& cap, const Triangle& t) const
 {
     const auto passed = [&](Vec3d corner) {
-        return dot(corner, barrier.direction) > barrier.least;
+        return dot(corner, cap.direction) > cap.least;
     };
     return (passed(t[0]) && passed(t[1]) && passed(t[2])) ||
-           (barrier.direction.z > radius_ * std::min({t[0].z, t[1].z, t[2].z}) &&
-            blocks_shank(barrier, t));
+           (cap.direction.z > radius_ * std::min({t[0].z, t[1].z, t[2].z}) && blocks_shank(cap, t));
 }
 
 bool ApproachDirections::blocks(std::size_t contact, const Triangle& triangle) const
@@ -97,7 +96,7 @@ bool ApproachDirections::blocks(std::size_t contact, const Triangle& triangle) c
     return blocks(blocked_cap(contact), triangle);
 }
 
-// The one that does is looked at first the next time: mostly the same few do.
+// A contact that blocks moves to the front: usually the same few block the next triangle.
 std::optional<std::size_t> ApproachDirections::blocking(const Triangle& triangle)
 {
     for (std::size_t k = 0; k < blocked_caps_.size(); ++k) {

@@ -1,285 +1,55 @@
-// Bezier patches, halved when needed, each with its box and the plane over it.
+// The public face of the drop cutter: each query is one of its state.
 #include "host_tools/drop_cutter/drop_cutter.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include "host_tools/drop_cutter/drop_cutter_state.hpp"
 
 namespace cusp::drop_cutter {
 
-using nurbs::BezierPatch;
 using nurbs::Surface;
 using toolpath::Tool;
 
-namespace {
-
-constexpr double kSteepest = 60.0;  // planes beyond this slope are not used as z(x, y)
-
-// Halves `stride` Bezier polynomials, whose coefficients stand one behind the other `count` times,
-// by de Casteljau: the first points of each level are the first half's, in place of the whole, the
-// last ones the other's.
-template <class Coefficient>
-void halve_line(Coefficient* low, Coefficient* high, std::size_t count, std::size_t stride)
-{
-    constexpr std::size_t kCubic = 4;
-    if (count == kCubic) {
-        for (std::size_t k = 0; k < stride; ++k) {
-            const Coefficient a = low[k];
-            const Coefficient b = low[k + stride];
-            const Coefficient c = low[k + 2 * stride];
-            const Coefficient d = low[k + 3 * stride];
-            const Coefficient ab = 0.5 * (a + b);
-            const Coefficient bc = 0.5 * (b + c);
-            const Coefficient cd = 0.5 * (c + d);
-            const Coefficient abc = 0.5 * (ab + bc);
-            const Coefficient bcd = 0.5 * (bc + cd);
-            low[k + stride] = ab;
-            low[k + 2 * stride] = abc;
-            low[k + 3 * stride] = high[k] = 0.5 * (abc + bcd);
-            high[k + stride] = bcd;
-            high[k + 2 * stride] = cd;
-            high[k + 3 * stride] = d;
-        }
-        return;
-    }
-    std::copy_n(low, count * stride, high);
-    for (std::size_t level = 1; level < count; ++level) {
-        std::copy(high, high + stride, low + (level - 1) * stride);
-        for (std::size_t k = 0; k < (count - level) * stride; ++k) {
-            high[k] = 0.5 * (high[k] + high[k + stride]);
-        }
-    }
-    std::copy(high, high + stride, low + (count - 1) * stride);
-}
-
-}  // namespace
-
 DropCutter::DropCutter(const std::vector<Surface>& surfaces, const Tool& tool, double accuracy)
-    : tool_{tool}, accuracy_{accuracy}, surfaces_{surfaces}
+    : tool_{tool}, state_{std::make_unique<State>(surfaces, tool, accuracy)}
 {
-    constexpr std::size_t kManyPieces = 20000;  // moving fewer of them costs more than the room
-    pieces_.reserve(kManyPieces);
-    nets_.reserve(8 * kManyPieces);
-    std::vector<Piece> whole;  // patches
-    if (std::any_of(surfaces_.begin(), surfaces_.end(),
-                    [](const Surface& s) { return !s.trims.empty(); })) {
-        for (const Surface& surface : surfaces_) {
-            trims_.emplace_back(surface, 0.5 * accuracy);
-        }
-    }
-    for (std::uint32_t s = 0; s < surfaces_.size(); ++s) {
-        for (const BezierPatch& patch : bezier_patches(surfaces_[s])) {
-            const Surface& bezier = patch.surface;
-            Piece piece{};
-            piece.patch = static_cast<std::uint32_t>(patches_.size());
-            piece.net = static_cast<std::uint32_t>(nets_.size());
-            piece.u = piece.v = {0.0F, 1.0F};
-            const bool even = std::all_of(bezier.weights.begin(), bezier.weights.end(),
-                                          [](double w) { return w == 1.0; });
-            for (std::size_t i = 0; i < bezier.points.size(); ++i) {
-                nets_.push_back(bezier.points[i] * bezier.weights[i]);
-            }
-            if (!even) {
-                weights_.resize(piece.net);
-                weights_.insert(weights_.end(), bezier.weights.begin(), bezier.weights.end());
-            }
-            patches_.push_back({s, static_cast<std::uint32_t>(bezier.degree_u + 1),
-                                static_cast<std::uint32_t>(bezier.degree_v + 1), !even,
-                                patch.u_begin, patch.u_end, patch.v_begin, patch.v_end});
-            constexpr double kSame = 1e-12;
-            const Surface& whole_surface = surfaces_[s];
-            const auto at_edge = [](double a, double b, std::uint8_t bit) {
-                return std::abs(a - b) < kSame ? bit : std::uint8_t{0};
-            };
-            piece.border = static_cast<std::uint8_t>(
-                at_edge(patch.u_begin, whole_surface.u_begin(), kFirstRow) |
-                at_edge(patch.u_end, whole_surface.u_end(), kLastRow) |
-                at_edge(patch.v_begin, whole_surface.v_begin(), kFirstColumn) |
-                at_edge(patch.v_end, whole_surface.v_end(), kLastColumn));
-            measure(piece);
-            piece.cut = !trims_.empty() && trims_[s].trimmed();
-            trim(piece);
-            whole.push_back(piece);
-            lowest_ = std::min(lowest_, piece.z0);
-            highest_ = std::max(highest_, piece.z1);
-        }
-    }
-    pieces_.resize(kRoot + 1);  // child 0 means none
-    gather(kRoot, kRoot, whole.data(), whole.data() + whole.size());
-    whole_ = {pieces_, nets_, weights_, outlines_};
 }
 
-// What a long series of questions at new places has halved would stay, gigabytes for a large steep
-// floor; where the next ones need it, it is halved again.
-void DropCutter::make_room() const
+DropCutter::~DropCutter() = default;
+DropCutter::DropCutter(DropCutter&&) noexcept = default;
+DropCutter& DropCutter::operator=(DropCutter&&) noexcept = default;
+
+std::optional<DropCutter::ClPoint> DropCutter::drop(Vec2d at, double max_error) const
 {
-    constexpr std::size_t kMostHalves = 100000;  // some 50 MB
-    if (pieces_.size() < whole_.pieces.size() + kMostHalves) {
-        return;
-    }
-    pieces_ = whole_.pieces;
-    nets_ = whole_.nets;
-    weights_ = whole_.weights;
-    outlines_ = whole_.outlines;
-    last_ = kRoot;
-    beside_ = kRoot;
+    return state_->drop(at, max_error);
 }
 
-// Makes pieces_[place], a child of `parent`, of the patches [first, last): halves beside each
-// other, by the places of their middles.
-void DropCutter::gather(std::uint32_t place, std::uint32_t parent, Piece* first, Piece* last)
+double DropCutter::tip_height(Vec2d at, double max_error) const
 {
-    if (last - first == 1) {
-        pieces_[place] = *first;
-        pieces_[place].parent = parent;
-        return;
-    }
-    Piece group{};
-    group.patch = kGroup;
-    group.parent = parent;
-    group.x0 = group.y0 = group.z0 = 1e300;
-    group.x1 = group.y1 = group.z1 = -1e300;
-    for (const Piece* piece = first; piece != last; ++piece) {
-        group.x0 = std::min(group.x0, piece->x0);
-        group.y0 = std::min(group.y0, piece->y0);
-        group.z0 = std::min(group.z0, piece->z0);
-        group.x1 = std::max(group.x1, piece->x1);
-        group.y1 = std::max(group.y1, piece->y1);
-        group.z1 = std::max(group.z1, piece->z1);
-    }
-    if (first != last) {
-        const bool by_x = group.x1 - group.x0 > group.y1 - group.y0;
-        Piece* const middle = first + (last - first) / 2;
-        std::nth_element(first, middle, last, [by_x](const Piece& a, const Piece& b) {
-            return by_x ? a.x0 + a.x1 < b.x0 + b.x1 : a.y0 + a.y1 < b.y0 + b.y1;
-        });
-        group.child = static_cast<std::uint32_t>(pieces_.size());
-        pieces_.resize(pieces_.size() + 2);
-        gather(group.child, place, first, middle);
-        gather(group.child + 1, place, middle, last);
-    }
-    pieces_[place] = group;
+    const std::optional<ClPoint> cl = state_->drop(at, max_error);
+    return cl ? cl->z : -kUnbounded;
 }
 
-void DropCutter::measure(Piece& piece) const
+Vec2d DropCutter::cc_place(Vec2d at, const ClPoint& cl) const { return state_->cc_place(at, cl); }
+
+void DropCutter::check_edge_gouges(double allowed) { state_->check_edge_gouges(allowed); }
+
+double DropCutter::move_clearance(Vec3d a, Vec3d b, double margin) const
 {
-    const Patch& patch = patches_[piece.patch];
-    const std::size_t size = std::size_t{patch.rows} * patch.columns;
-    if (patch.weighted) {
-        unweighted_.resize(size);
-        for (std::size_t i = 0; i < size; ++i) {
-            unweighted_[i] = nets_[piece.net + i] / weights_[piece.net + i];
-        }
-    }
-    const Vec3d* const points = points_of(piece);
-    Vec3d low = points[0];
-    Vec3d high = low;
-    for (std::size_t i = 1; i < size; ++i) {
-        const Vec3d& p = points[i];
-        low = {std::min(p.x, low.x), std::min(p.y, low.y), std::min(p.z, low.z)};
-        high = {std::max(p.x, high.x), std::max(p.y, high.y), std::max(p.z, high.z)};
-    }
-    piece.x0 = low.x;
-    piece.y0 = low.y;
-    piece.z0 = low.z;
-    piece.x1 = high.x;
-    piece.y1 = high.y;
-    piece.z1 = high.z;
-    measure_plane(piece);
-    measure_outline(piece);
+    return state_->move_clearance(a, b, margin);
 }
 
-void DropCutter::measure_plane(Piece& piece) const
+bool DropCutter::covers(Vec2d at) const { return state_->covers(at); }
+
+DropCutter::CcPoint DropCutter::cc_point(Vec2d at, double max_error) const
 {
-    const Patch& patch = patches_[piece.patch];
-    const Vec3d* const points = points_of(piece);
-    const std::size_t last = std::size_t{patch.rows} * patch.columns - 1;
-    const Vec3d c00 = points[0];
-    const Vec3d c01 = points[patch.columns - 1];
-    const Vec3d c10 = points[last + 1 - patch.columns];
-    const Vec3d c11 = points[last];
-    Vec3d normal = cross((c10 - c00) + (c11 - c01), (c01 - c00) + (c11 - c10));
-    normal = normal.z < 0.0 ? -normal : normal;
-    piece.graph = normal.z * kSteepest > norm(normal);
-    if (!piece.graph) {
-        return;
-    }
-    const Vec2d g{-normal.x / normal.z, -normal.y / normal.z};
-    piece.gradient = g;
-    const double square = dot(g, g);
-    piece.secant = std::sqrt(1.0 + square);
-    const double slope = std::sqrt(square);
-    const double c = tool_.corner_radius;
-    const double flat = tool_.radius - c;
-    piece.rise = slope * flat + c * (piece.secant - 1.0);
-    piece.contact = (slope > 0.0 ? flat / slope : 0.0) + c / piece.secant;
-    const double run = 1.0 + g.x * g.x;
-    double low = 1e300;
-    double high = -1e300;
-    std::array<double, 4> ends{1e300, -1e300, 1e300, -1e300};
-    for (const Vec3d* p = points; p != points + last + 1; ++p) {
-        const double level = p->z - g.x * p->x - g.y * p->y;
-        low = std::min(level, low);
-        high = std::max(level, high);
-        const double first = p->x + g.x * p->z;
-        const double second = run * p->y + g.y * (p->z - g.x * p->x);
-        ends = {std::min(first, ends[0]), std::max(first, ends[1]), std::min(second, ends[2]),
-                std::max(second, ends[3])};
-    }
-    const double along = 1.0 / std::sqrt(run);
-    const double aside = along / piece.secant;
-    piece.lateral = {along * ends[0], along * ends[1], aside * ends[2], aside * ends[3]};
-    piece.z_at_origin = high;
-    piece.thickness = high - low;
+    return state_->cc_point(at, max_error);
 }
 
-void DropCutter::halve(std::uint32_t index) const
+DropCutter::CcPoint DropCutter::exact_cc_point(Vec2d at, double max_error) const
 {
-    const Piece piece = pieces_[index];
-    const Patch& patch = patches_[piece.patch];
-    const std::size_t rows = patch.rows;
-    const std::size_t columns = patch.columns;
-    const std::size_t size = rows * columns;
-    const auto place = [&](std::size_t i) {
-        const std::size_t at = piece.net + i;
-        return patch.weighted ? nets_[at] / weights_[at] : nets_[at];
-    };
-    // The longer way, by the corners and the middle rows.
-    const double long_u =
-        norm(place((rows - 1) * columns) - place(0)) + norm(place(size - 1) - place(columns - 1));
-    const double long_v =
-        norm(place(columns - 1) - place(0)) + norm(place(size - 1) - place((rows - 1) * columns));
-    const bool by_u = columns == 1 || (rows > 1 && long_u > long_v);
-    // Along u whole rows are halved at once.
-    const std::size_t lines = by_u ? 1 : rows;
-    const std::size_t count = by_u ? rows : columns;
-    const std::size_t stride = by_u ? columns : 1;
-    const std::size_t base = nets_.size();
-    nets_.resize(base + size);
-    if (patch.weighted) {
-        weights_.resize(base + size);
-    }
-    for (std::size_t line = 0; line < lines; ++line) {
-        const std::size_t from = line * count * stride;
-        halve_line(&nets_[piece.net + from], &nets_[base + from], count, stride);
-        if (patch.weighted) {
-            halve_line(&weights_[piece.net + from], &weights_[base + from], count, stride);
-        }
-    }
-    const auto child = static_cast<std::uint32_t>(pieces_.size());
-    pieces_[index].child = child;
-    pieces_.insert(pieces_.end(), 2, piece);
-    Piece& first = pieces_[child];
-    Piece& second = pieces_[child + 1];
-    first.parent = second.parent = index;
-    second.net = static_cast<std::uint32_t>(base);
-    (by_u ? first.u : first.v)[1] = (by_u ? second.u : second.v)[0] =
-        by_u ? 0.5F * (piece.u[0] + piece.u[1]) : 0.5F * (piece.v[0] + piece.v[1]);
-    first.border &= static_cast<std::uint8_t>(by_u ? ~kLastRow : ~kLastColumn);
-    second.border &= static_cast<std::uint8_t>(by_u ? ~kFirstRow : ~kFirstColumn);
-    for (Piece* half : {&first, &second}) {
-        measure(*half);
-        trim(*half);
-    }
+    return state_->exact_cc_point(at, max_error);
 }
+
+double DropCutter::lowest() const { return state_->lowest_; }
+double DropCutter::highest() const { return state_->highest_; }
 
 }  // namespace cusp::drop_cutter

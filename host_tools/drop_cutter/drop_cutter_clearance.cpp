@@ -1,8 +1,8 @@
-// Room of a move: branch and bound over pieces of the floor and of the move.
+// The clearance of a straight move: branch and bound over pieces of the surfaces and of the move.
 #include <algorithm>
 #include <cmath>
 
-#include "host_tools/drop_cutter/drop_cutter.hpp"
+#include "host_tools/drop_cutter/drop_cutter_state.hpp"
 #include "host_tools/nurbs/knot_insertion.hpp"
 #include "host_tools/offset/contour.hpp"
 
@@ -15,9 +15,9 @@ using offset::left_normal;
 
 namespace {
 
-constexpr double kDeepShare = 0.1;
+constexpr double kDeepShare = 0.1;  // how accurate the depth of a deep gouge is
 
-// From the segment from c to d to the one from a to b, where they are nearest to each other.
+// The vector from segment cd to segment ab at their closest points.
 // Source: Ericson, Real-Time Collision Detection, 5.1.9.
 Vec3d between_segments(Vec3d a, Vec3d b, Vec3d c, Vec3d d)
 {
@@ -46,8 +46,7 @@ Vec3d between_segments(Vec3d a, Vec3d b, Vec3d c, Vec3d d)
     return w + u * s - v * t;
 }
 
-// From the segment from a to b to the metal that hangs from the one from c to d: under an edge
-// there is no way.
+// The distance of segment ab from segment cd and everything straight below it.
 double above_edge(Vec3d a, Vec3d b, Vec3d c, Vec3d d)
 {
     const Vec3d off = between_segments(a, b, c, d);
@@ -60,9 +59,9 @@ double above_edge(Vec3d a, Vec3d b, Vec3d c, Vec3d d)
 
 }  // namespace
 
-// How far the piece's box lies beside the line through a and b, in plan, mm: the box of a long move
-// across its own would say less.
-double DropCutter::beside_line(const Piece& piece, const Vec3d& a, const Vec3d& b) const
+// How far the piece's box lies beside the line through a and b, in plan, mm. For a long diagonal
+// move this bound is better than that of the move's box.
+double DropCutter::State::beside_line(const Piece& piece, const Vec3d& a, const Vec3d& b) const
 {
     const Vec2d move{b.x - a.x, b.y - a.y};
     const double along = std::sqrt(dot(move, move));
@@ -76,21 +75,22 @@ double DropCutter::beside_line(const Piece& piece, const Vec3d& a, const Vec3d& 
     return std::max(0.0, std::abs(dot(side, middle)) - half);
 }
 
-// Whether metal below a piece is looked at as well: what ends somewhere could be passed under, as
-// the rest could not. Small pieces of upright walls hang over nothing.
-bool DropCutter::overhangs(const Piece& piece) const
+// Whether the space below a piece counts as solid. A tool could otherwise pass below the border of
+// a surface. Small pieces of upright walls need no such space.
+bool DropCutter::State::overhangs(const Piece& piece) const
 {
     constexpr double kSmall = 0.1;  // of the radius
     const bool ends = piece.patch == kGroup || piece.border != 0 || piece.cut;
     return ends && (piece.graph || extent(piece) > kSmall * tool_.radius);
 }
 
-// Distance from the ball's centre line to the piece's upright box, or component by component to one
-// of its turned boxes, whichever says more; some value of 0 or more where that is clear.
-double DropCutter::ball_clearance(const Piece& piece,
-                                  const Vec3d& a,
-                                  const Vec3d& b,
-                                  double margin) const
+// Lower bound of the clearance of a ball whose centre moves from a to b: the largest of its
+// distances from the piece's upright box and from the boxes and the plate turned with the piece,
+// less its radius. 0 where that is not negative.
+double DropCutter::State::ball_clearance(const Piece& piece,
+                                         const Vec3d& a,
+                                         const Vec3d& b,
+                                         double margin) const
 {
     const auto apart = [](double low, double high, double p, double q) {
         return std::max(0.0, std::max(low - std::max(p, q), std::min(p, q) - high));
@@ -99,7 +99,7 @@ double DropCutter::ball_clearance(const Piece& piece,
     const double ux = apart(piece.x0, piece.x1, a.x, b.x);
     const double uy = apart(piece.y0, piece.y1, a.y, b.y);
     const bool below = overhangs(piece);
-    const double uz = apart(below ? -1e300 : piece.z0, piece.z1, a.z, b.z);
+    const double uz = apart(below ? -kUnbounded : piece.z0, piece.z1, a.z, b.z);
     double square = ux * ux + uy * uy + uz * uz;
     if (square >= reach * reach) {
         return 0.0;
@@ -110,7 +110,8 @@ double DropCutter::ball_clearance(const Piece& piece,
             return p.z - g.x * p.x - g.y * p.y - piece.z_at_origin;
         };
         const double level = 1.0 / piece.secant;
-        const double tz = apart(below ? -1e300 : -piece.thickness, 0.0, over(a), over(b)) * level;
+        const double tz =
+            apart(below ? -kUnbounded : -piece.thickness, 0.0, over(a), over(b)) * level;
         if (tz >= reach) {
             return 0.0;
         }
@@ -142,10 +143,10 @@ double DropCutter::ball_clearance(const Piece& piece,
     return square < reach * reach ? std::sqrt(square) - reach : 0.0;
 }
 
-// No place of a graph lies farther above or below the polygon that its outline cuts out of the
-// middle plane of its slab than half its thickness: how far a straight way from a to b passes over
-// that, or beside it, at least, mm.
-double DropCutter::apart_from_plate(const Piece& piece, Vec3d a, Vec3d b) const
+// Lower bound (mm) of the distance between segment ab and the plate of a piece that is a graph: the
+// polygon that the outline cuts out of the middle plane of the slab, and half the slab's thickness
+// above and below it.
+double DropCutter::State::apart_from_plate(const Piece& piece, Vec3d a, Vec3d b) const
 {
     constexpr double kEndless = 1e200;
     const Outline& outline = outlines_[piece.outline];
@@ -162,9 +163,9 @@ double DropCutter::apart_from_plate(const Piece& piece, Vec3d a, Vec3d b) const
     const auto above = [&](Vec3d p) {
         const double height = over(p);
         if (height < 0.0) {
-            return holds({p.x, p.y}) ? 0.0 : 1e300;
+            return holds({p.x, p.y}) ? 0.0 : kUnbounded;
         }
-        return holds(in_plan(p) + g * (height * level * level)) ? height * level : 1e300;
+        return holds(in_plan(p) + g * (height * level * level)) ? height * level : kUnbounded;
     };
     const double from = over(a);
     const double to = over(b);
@@ -177,8 +178,8 @@ double DropCutter::apart_from_plate(const Piece& piece, Vec3d a, Vec3d b) const
     const double over_a = above(a);
     const double over_b = above(b);
     double least = std::min(over_a, over_b);
-    // Over a slope its upper edge is farther aside than the plane is away.
-    if (std::max(over_a, over_b) < 1e300) {
+    // With both ends over the polygon the plane is nearer than any edge.
+    if (std::max(over_a, over_b) < kUnbounded) {
         return std::max(0.0, least - 0.5 * piece.thickness);
     }
     for (const Side& side : outline) {
@@ -194,13 +195,12 @@ double DropCutter::apart_from_plate(const Piece& piece, Vec3d a, Vec3d b) const
         };
         least = std::min(least, above_edge(a, b, place(side.begin), place(side.end)));
     }
-    return least < 1e300 ? std::max(0.0, least - 0.5 * piece.thickness) : 0.0;
+    return least < kUnbounded ? std::max(0.0, least - 0.5 * piece.thickness) : 0.0;
 }
 
-// Along the axis: how far the tip stays above what the piece asks for while the tool moves from a
-// to b. Over the plane that changes evenly, so the ends tell; the box is met by the tool at its
-// nearest.
-double DropCutter::axial_clearance(const Piece& piece, Vec3d a, Vec3d b, double margin) const
+// Lower bound of the clearance along the axis while the tip moves from a to b. Over the plane the
+// clearance is linear along the move, so its ends decide; for the box the nearest position does.
+double DropCutter::State::axial_clearance(const Piece& piece, Vec3d a, Vec3d b, double margin) const
 {
     const auto apart = [](double low, double high, double p, double q) {
         return std::max(0.0, std::max(low - std::max(p, q), std::min(p, q) - high));
@@ -221,7 +221,7 @@ double DropCutter::axial_clearance(const Piece& piece, Vec3d a, Vec3d b, double 
     }
     const double away = std::max(0.0, apart_in_plan - margin);
     if (away >= r) {
-        return 1e300;
+        return kUnbounded;
     }
     const double out = std::max(0.0, away - (r - c));
     const double profile = c - std::sqrt(std::max(c * c - out * out, 0.0));
@@ -237,28 +237,27 @@ double DropCutter::axial_clearance(const Piece& piece, Vec3d a, Vec3d b, double 
     return std::max(over_box, std::min(over_plane(a), over_plane(b)));
 }
 
-// What to do with a part of a move that comes `here` near to a piece.
+// What to halve for a part of a move whose clearance from a piece is at least `here`.
 //
-//   length  of the part
-//   tilt    by how much it rises more than the piece's plane
-DropCutter::NextLook DropCutter::next_look(const Piece& piece,
-                                           double here,
-                                           double length,
-                                           double tilt) const
+//   length  of the part, mm
+//   tilt    mm: how much the part rises over the piece's plane
+DropCutter::State::NextStep DropCutter::State::next_step(const Piece& piece,
+                                                         double here,
+                                                         double length,
+                                                         double tilt) const
 {
     const bool ball = tool_.corner_radius == tool_.radius;
     const double size = std::max(piece.x1 - piece.x0, piece.y1 - piece.y0);
-    // Of a plate that ends where its piece does all is known but its thickness.
+    // A plate ends where its piece does: only its thickness is uncertain.
     const bool plate = ball && piece.graph && piece.outline != 0;
     const double thin = plate         ? piece.thickness
                         : piece.graph ? piece.thickness / piece.secant
                                       : size;
     const double turned = piece.graph ? std::abs(tilt) / piece.secant : length;
     const bool small = length < accuracy_ && size < accuracy_;
-    // Beyond the piece's rectangle its plane tells of metal that is not there: only a ball's turned
-    // box knows of the rectangle, for other tools the pieces must be small. A long move passes
-    // beside a piece in a corner of the box that it spans, where the piece's plane is not the
-    // floor: what cuts is looked at in short moves.
+    // The plane extends beyond the piece. Only the turned boxes of a ball bound the piece there;
+    // for other tools pieces have to be small. The box of a long move reaches beyond the piece as
+    // well, so a gouge is accepted for short moves only.
     const bool clear = plate || here >= -accuracy_ || length + size < 0.1 * tool_.radius;
     const bool flat = thin < accuracy_ && (plate || turned < accuracy_);
     const bool settled =
@@ -269,20 +268,20 @@ DropCutter::NextLook DropCutter::next_look(const Piece& piece,
     const bool deep =
         whole && here < -accuracy_ && std::max(extent(piece), length) < kDeepShare * -here;
     if ((settled && whole) || deep || small) {
-        return NextLook::kNone;
+        return NextStep::kNone;
     }
-    // Of a piece that an edge cuts the size tells how much is not there.
+    // A piece cut by an edge may be missing as far as it is large.
     const bool halve_move = plate           ? false
                             : !whole        ? length > extent(piece)
                             : settled       ? false
                             : ball && !flat ? turned > thin
                                             : length > size;
-    return halve_move ? NextLook::kHalvesOfMove : NextLook::kHalvesOfPiece;
+    return halve_move ? NextStep::kHalveMove : NextStep::kHalvePiece;
 }
 
-double DropCutter::move_clearance(Vec3d a, Vec3d b, double margin) const
+double DropCutter::State::move_clearance(Vec3d a, Vec3d b, double margin)
 {
-    make_room();
+    forget_many_halves();
     struct Entry {
         std::uint32_t piece;
         double from, to;  // shares of the move
@@ -293,13 +292,13 @@ double DropCutter::move_clearance(Vec3d a, Vec3d b, double margin) const
                        std::max(a.x, b.x) + reach, std::max(a.y, b.y) + reach};
     const bool ball = tool_.corner_radius == tool_.radius;
     const Vec3d start = a + Vec3d{0.0, 0.0, ball ? tool_.radius : 0.0};
-    const Vec3d way = b - a;
-    const double whole_length = norm(way);
+    const Vec3d move = b - a;
+    const double whole_length = norm(move);
     double least = 0.0;
-    double smallest = 1e300;
+    double smallest = kUnbounded;
     std::array<Entry, kStack> stack;
     std::size_t depth = 0;
-    // How deep a deep cut is need not be known better than to a tenth.
+    // The depth of a deep gouge is accurate to a tenth of it.
     const auto matters = [&](double here) {
         return here < (least < -accuracy_ ? (1.0 + kDeepShare) * least : least);
     };
@@ -309,17 +308,17 @@ double DropCutter::move_clearance(Vec3d a, Vec3d b, double margin) const
             piece.y1 < around.y0) {
             return;
         }
-        const Vec3d begin = start + way * from;
-        const Vec3d end = start + way * to;
+        const Vec3d begin = start + move * from;
+        const Vec3d end = start + move * to;
         const double here = ball ? ball_clearance(piece, begin, end, margin)
                                  : axial_clearance(piece, begin, end, margin);
         if (matters(here)) {
             stack[depth++] = {index, from, to, here};
         }
     };
-    const auto look_at_halves = [&](const Entry& top, NextLook look) {
+    const auto halve_and_consider = [&](const Entry& top, NextStep step) {
         const std::size_t before = depth;
-        if (look == NextLook::kHalvesOfMove) {
+        if (step == NextStep::kHalveMove) {
             const double middle = 0.5 * (top.from + top.to);
             consider(top.piece, top.from, middle);
             consider(top.piece, middle, top.to);
@@ -331,12 +330,12 @@ double DropCutter::move_clearance(Vec3d a, Vec3d b, double margin) const
             consider(child, top.from, top.to);
             consider(child + 1, top.from, top.to);
         }
-        // The deeper half is looked at first.
+        // The deeper half is processed first.
         if (depth == before + 2 && stack[before].here < stack[before + 1].here) {
             std::swap(stack[before], stack[before + 1]);
         }
     };
-    const auto look_into = [&](std::uint32_t index) {
+    const auto search_below = [&](std::uint32_t index) {
         consider(index, 0.0, 1.0);
         while (depth > 0) {
             const Entry top = stack[--depth];
@@ -350,27 +349,27 @@ double DropCutter::move_clearance(Vec3d a, Vec3d b, double margin) const
                 beside_ = top.piece;
             }
             const double part = top.to - top.from;
-            const double tilt = part * (way.z - dot(piece.gradient, in_plan(way)));
-            const NextLook look = next_look(piece, top.here, part * whole_length, tilt);
-            if (look == NextLook::kNone || depth + 2 > kStack) {
+            const double tilt = part * (move.z - dot(piece.gradient, in_plan(move)));
+            const NextStep step = next_step(piece, top.here, part * whole_length, tilt);
+            if (step == NextStep::kNone || depth + 2 > kStack) {
                 least = std::min(least, top.here);
             } else {
-                look_at_halves(top, look);
+                halve_and_consider(top, step);
             }
         }
     };
-    // From a piece that the move before came near to upwards, as in drop().
+    // From the piece that the last move came near to, up to the root, as in drop().
     const std::uint32_t first = beside_;
-    look_into(first);
+    search_below(first);
     for (std::uint32_t piece = first; piece != kRoot; piece = pieces_[piece].parent) {
-        look_into(sibling(piece));
+        search_below(sibling(piece));
     }
     least = least < -accuracy_ ? (1.0 + kDeepShare) * least : least;
     return least < 0.0 && edges_ ? std::min(least, -edges_->cut(a, b, margin)) : least;
 }
 
-// One smooth surface ends beyond the walls.
-void DropCutter::check_edge_gouges(double allowed)
+// A single smooth surface has no crease, and its border lies beyond the walls of the region.
+void DropCutter::State::check_edge_gouges(double allowed)
 {
     const auto smooth = [](const Surface& s) {
         const auto whole = [](const std::vector<double>& knots, int degree, int count) {

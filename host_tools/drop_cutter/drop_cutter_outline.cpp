@@ -1,9 +1,9 @@
-// Where a piece ends with its surface: the box of a rotated piece is larger than it, and the
-// tool would rest on what is not there.
+// Outlines of pieces at the border of a surface: without them a tool would rest on the corners of
+// the box of a rotated piece, where there is no surface.
 #include <algorithm>
 #include <cmath>
 
-#include "host_tools/drop_cutter/drop_cutter.hpp"
+#include "host_tools/drop_cutter/drop_cutter_state.hpp"
 #include "host_tools/drop_cutter/edge_contact.hpp"
 #include "host_tools/offset/contour.hpp"
 
@@ -19,16 +19,16 @@ constexpr double kEven = 1e-9;  // of a unit vector: along an axis
 
 }  // namespace
 
-// Each outer line as far as the lines of the other sides, and by nanometres farther; its end lies
-// before its begin where it is outside of them.
-void DropCutter::end_sides(Outline& outline)
+// Cuts each outer line at the lines of the other sides, a nanometre outside. Where a line lies
+// outside the others its end is less than its begin.
+void DropCutter::State::end_sides(Outline& outline)
 {
     constexpr double kOver = 1e-9;  // mm
     for (std::size_t i = 0; i < outline.count; ++i) {
         Side& side = outline.sides[i];
         const Vec2d along = left_normal(side.across);
-        side.begin = -1e300;
-        side.end = 1e300;
+        side.begin = -kUnbounded;
+        side.end = kUnbounded;
         for (std::size_t k = 0; k < outline.count; ++k) {
             const Side& other = outline.sides[k];
             const double bend = dot(other.across, along);
@@ -38,14 +38,14 @@ void DropCutter::end_sides(Outline& outline)
             } else if (bend < -kEven) {
                 side.begin = std::max(side.begin, room / bend);
             } else if (room < 0.0) {
-                side.end = -1e300;
+                side.end = -kUnbounded;
             }
         }
     }
 }
 
-// The piece's four sides, round it; false where one has no length.
-bool DropCutter::set_sides(const Piece& piece, Outline& outline) const
+// The four sides of a piece, in order; false where one has no length.
+bool DropCutter::State::set_sides(const Piece& piece, Outline& outline) const
 {
     const Vec3d* const points = points_of(piece);
     const Patch& patch = patches_[piece.patch];
@@ -71,11 +71,11 @@ bool DropCutter::set_sides(const Piece& piece, Outline& outline) const
         }
         const Vec2d left = left_normal(unit(b - a));
         const Vec2d across = dot(middle - a, left) > 0.0 ? left * -1.0 : left;
-        Side side{across, 1e300, -1e300, 1e300, -1e300, 0.0, 0.0};
+        Side side = Side::none(across);
         for (std::size_t k = 0; k < last + columns; ++k) {
             widen(side, in_plan(points[k]));
         }
-        // Beside a piece that an edge cuts its surface goes on.
+        // At a piece cut by an edge, the surface continues beyond sides that are not its border.
         for (std::size_t k = 0; k < row.count && (!piece.cut || (piece.border & row.border) != 0);
              ++k) {
             const Vec2d p = in_plan(points[row.first + row.step * k]);
@@ -86,7 +86,7 @@ bool DropCutter::set_sides(const Piece& piece, Outline& outline) const
     return true;
 }
 
-void DropCutter::widen(Side& side, Vec2d p)
+void DropCutter::State::widen(Side& side, Vec2d p)
 {
     const double out = dot(side.across, p);
     const double forth = dot(left_normal(side.across), p);
@@ -96,7 +96,7 @@ void DropCutter::widen(Side& side, Vec2d p)
     side.high = std::max(side.high, forth);
 }
 
-void DropCutter::measure_outline(Piece& piece) const
+void DropCutter::State::measure_outline(Piece& piece)
 {
     piece.outline = 0;
     piece.outlined = false;
@@ -110,42 +110,46 @@ void DropCutter::measure_outline(Piece& piece) const
     outlines_.push_back(outline);
 }
 
-// How far a place lies outside of the outline at least, mm; 0 or less inside.
-double DropCutter::beyond_outline(const Piece& piece, Vec2d at) const
+// Lower bound of the distance of a point outside the outline, mm; 0 or less inside.
+double DropCutter::State::beyond_outline(const Piece& piece, Vec2d at) const
 {
-    double most = -1e300;
+    double most = -kUnbounded;
     for (const Side& side : outlines_[piece.outline]) {
         most = std::max(most, dot(side.across, at) - side.outer);
     }
     return most;
 }
 
-// The highest rest of the tool on the piece's plane inside the outline, where the place at which it
-// touches the plane lies outside: then the best place is on a side that faces it.
-DropCutter::PlaneContact DropCutter::on_outline(const Piece& piece, Vec2d at) const
+// The highest contact of the tool with the sides of the outline that face it, where it touches the
+// piece's plane outside the outline. None where it reaches no such side.
+std::optional<DropCutter::State::PlaneContact> DropCutter::State::on_outline(const Piece& piece,
+                                                                             Vec2d at) const
 {
     const Vec2d g = piece.gradient;
     const double here = piece.z_at_origin + dot(g, at);
     const Vec2d contact = at + g * piece.contact;
-    PlaneContact best{kNoSurface, contact};
+    std::optional<PlaneContact> best;
     for (const Side& side : outlines_[piece.outline]) {
         if (dot(contact, side.across) > side.outer) {
             const Vec2d along = left_normal(side.across);
             const double away = side.outer - dot(at, side.across);
             const double forth = dot(at, along);
-            const EdgeContact rest =
-                drop_on_edge(tool_, dot(g, along), away, side.begin - forth, side.end - forth);
-            const double height = here + dot(g, side.across) * away + rest.lift;
-            if (height > best.height) {
-                best = {height, at + side.across * away + along * rest.forth};
+            const auto edge =
+                drop_on_edge(tool_, {dot(g, along), away, side.begin - forth, side.end - forth});
+            if (!edge) {
+                continue;
+            }
+            const double height = here + dot(g, side.across) * away + edge->lift;
+            if (!best || height > best->height) {
+                best = {height, at + side.across * away + along * edge->along};
             }
         }
     }
     return best;
 }
 
-// Where the tool over `at` touches the piece's plane, or else the edge of the piece.
-Vec2d DropCutter::on_piece(const Piece& piece, Vec2d at) const
+// The place where the tool over `at` touches the piece's plane, or the edge of the piece.
+Vec2d DropCutter::State::on_piece(const Piece& piece, Vec2d at) const
 {
     const Vec2d contact = at + piece.gradient * piece.contact;
     const Vec2d place{std::clamp(contact.x, piece.x0, piece.x1),
@@ -153,21 +157,16 @@ Vec2d DropCutter::on_piece(const Piece& piece, Vec2d at) const
     if (!piece.graph) {
         return place;
     }
-    PlaneContact rest{kNoSurface, place};
-    if (piece.outline != 0) {
-        if (beyond_outline(piece, contact) <= 0.0) {
-            return contact;
-        }
-        rest = on_outline(piece, at);
-    } else {
-        rest = on_edges(piece, at);
+    if (piece.outline != 0 && beyond_outline(piece, contact) <= 0.0) {
+        return contact;
     }
-    return rest.height > kNoSurface ? rest.place : place;
+    const auto edge = piece.outline != 0 ? on_outline(piece, at) : on_edges(piece, at);
+    return edge ? edge->place : place;
 }
 
-// How far a straight way from a to b passes by the box that is turned with the outline, in plan, or
-// over it, at least, mm.
-double DropCutter::apart_from_outline(const Piece& piece, Vec3d a, Vec3d b) const
+// Lower bound (mm) of the distance between segment ab and the boxes turned with the outline, with
+// everything below them.
+double DropCutter::State::apart_from_outline(const Piece& piece, Vec3d a, Vec3d b) const
 {
     const auto apart = [](double low, double high, double p, double q) {
         return std::max(0.0, std::max(low - std::max(p, q), std::min(p, q) - high));

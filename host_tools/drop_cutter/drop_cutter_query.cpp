@@ -1,8 +1,8 @@
-// Drops the tool: branch and bound for the highest place that any piece asks for.
+// The drop: branch and bound for the highest tip that any piece requires.
 #include <algorithm>
 #include <cmath>
 
-#include "host_tools/drop_cutter/drop_cutter.hpp"
+#include "host_tools/drop_cutter/drop_cutter_state.hpp"
 #include "host_tools/drop_cutter/edge_contact.hpp"
 #include "host_tools/offset/contour.hpp"
 
@@ -13,55 +13,65 @@ using offset::distance;
 
 namespace {
 
-constexpr double kOnPiece = 0.01;         // of the radius: pieces beside the contact touch as well
+constexpr double kOnPiece = 0.01;         // of the radius: how near a contact is on the piece
 constexpr double kSteepestSide = 1000.0;  // slope
 
 double square_of(double x) { return x * x; }
 
 }  // namespace
 
-// The highest rest of the tool on a plane above a rectangle; kNothing where the place at which the
-// tool touches the plane, `reach` slopes from its axis, lies inside. The tip's height is concave
-// over the rectangle: where its top lies outside, the best place inside is on an edge that faces
-// it.
+// The highest contact of the tool with the edges of a rectangle cut out of a plane. None where the
+// tool misses the edges, or touches the plane inside the rectangle: `reach` slopes from its axis.
+// The tip's height is a concave function of the contact. So where its maximum over the plane lies
+// outside the rectangle, its maximum over the rectangle is on an edge that faces it.
 //
 //   here  height of the plane at the tool's axis
-DropCutter::PlaneContact DropCutter::on_edges(
+std::optional<DropCutter::State::PlaneContact> DropCutter::State::on_edges(
     const Rectangle& part, Vec2d slope, double here, double reach, Vec2d at) const
 {
     const Vec2d contact = at + slope * reach;
-    PlaneContact best{kNoSurface, contact};
+    std::optional<PlaneContact> best;
     if (contact.x < part.x0 || contact.x > part.x1) {
         const double x = (contact.x < part.x0 ? part.x0 : part.x1) - at.x;
-        const EdgeContact rest = drop_on_edge(tool_, slope.y, x, part.y0 - at.y, part.y1 - at.y);
-        best = {here + slope.x * x + rest.lift, at + Vec2d{x, rest.forth}};
+        if (const auto edge = drop_on_edge(tool_, {slope.y, x, part.y0 - at.y, part.y1 - at.y})) {
+            best = {here + slope.x * x + edge->lift, at + Vec2d{x, edge->along}};
+        }
     }
     if (contact.y < part.y0 || contact.y > part.y1) {
         const double y = (contact.y < part.y0 ? part.y0 : part.y1) - at.y;
-        const EdgeContact rest = drop_on_edge(tool_, slope.x, y, part.x0 - at.x, part.x1 - at.x);
-        const double height = here + slope.y * y + rest.lift;
-        best = height > best.height ? PlaneContact{height, at + Vec2d{rest.forth, y}} : best;
+        if (const auto edge = drop_on_edge(tool_, {slope.x, y, part.x0 - at.x, part.x1 - at.x})) {
+            const double height = here + slope.y * y + edge->lift;
+            if (!best || height > best->height) {
+                best = {height, at + Vec2d{edge->along, y}};
+            }
+        }
     }
     return best;
 }
 
-DropCutter::PlaneContact DropCutter::on_edges(const Piece& piece, Vec2d at) const
+std::optional<DropCutter::State::PlaneContact> DropCutter::State::on_edges(const Piece& piece,
+                                                                           Vec2d at) const
 {
     const double here = piece.z_at_origin + dot(piece.gradient, at);
     return on_edges({piece.x0, piece.x1, piece.y0, piece.y1}, piece.gradient, here, piece.contact,
                     at);
 }
 
-// Height of the tip on the piece's plane, which goes on for ever.
-double DropCutter::over_plane(const Piece& piece, Vec2d at)
+// Height of the tip on the piece's plane, taken as unlimited.
+double DropCutter::State::over_plane(const Piece& piece, Vec2d at)
 {
     const Vec2d g = piece.gradient;
-    return piece.graph ? piece.z_at_origin + g.x * at.x + g.y * at.y + piece.rise : 1e300;
+    return piece.graph ? piece.z_at_origin + g.x * at.x + g.y * at.y + piece.rise : kUnbounded;
 }
 
-// Upper bound of the tip's height that the piece asks for, as far as it is above `best`; tight
-// where halving it would change it by no more than its thickness.
-double DropCutter::bound(const Piece& piece, const Query& query, double best, bool& tight) const
+// Upper bound of the tip's height over this piece; -kUnbounded where the tool does not reach it, or
+// where the bound is known not to exceed `best`.
+//
+//   tight  set to whether halving the piece would lower the bound by its thickness at most
+double DropCutter::State::bound(const Piece& piece,
+                                const Query& query,
+                                double best,
+                                bool& tight) const
 {
     tight = false;
     const Vec2d at = query.at;
@@ -73,13 +83,13 @@ double DropCutter::bound(const Piece& piece, const Query& query, double best, bo
     const double dy = excess(piece.y0, piece.y1, at.y);
     double square = dx * dx + dy * dy;
     if (square >= r * r) {
-        return kNoSurface;
+        return -kUnbounded;
     }
     if (piece.outline != 0) {
         const double beyond = beyond_outline(piece, at);
         square = std::max(square, beyond > 0.0 ? beyond * beyond : 0.0);
         if (square >= r * r) {
-            return kNoSurface;
+            return -kUnbounded;
         }
     }
     const Vec2d contact = at + g * piece.contact;
@@ -94,7 +104,7 @@ double DropCutter::bound(const Piece& piece, const Query& query, double best, bo
     const double up = best - piece.z1 + c;
     const double room = std::max(c * c - far, 0.0);
     if (up >= 0.0 && room <= up * up) {
-        return kNoSurface;
+        return -kUnbounded;
     }
     const double by_box = piece.z1 - (c - std::sqrt(room));
     const bool whole = is_whole(piece, query.thin);
@@ -106,21 +116,27 @@ double DropCutter::bound(const Piece& piece, const Query& query, double best, bo
     tight = whole && piece.thickness <= query.thin;
     double least = std::min(by_plane, by_box);
     if (!in_box) {
-        least = std::min(least, on_edges(piece, at).height);
+        const std::optional<PlaneContact> edge = on_edges(piece, at);
+        if (!edge) {
+            return -kUnbounded;
+        }
+        least = std::min(least, edge->height);
     }
     if (piece.outline != 0 && beyond_outline(piece, contact) > 0.0) {
-        const PlaneContact rest = on_outline(piece, at);
-        least = std::min(least, rest.height);
-        // On a steep side of the tool what stands over in plan counts as many times.
-        const double steep = std::max(1.0, side_slope(distance(rest.place, at)));
+        const std::optional<PlaneContact> edge = on_outline(piece, at);
+        if (!edge) {
+            return -kUnbounded;
+        }
+        least = std::min(least, edge->height);
+        // The slope of the tool's side multiplies an error in plan.
+        const double steep = std::max(1.0, side_slope(distance(edge->place, at)));
         tight = tight && (!piece.cut || is_whole(piece, query.thin / steep));
     }
     return least;
 }
 
-// The smallest piece, of those that there are, with the place that the tool would touch if the
-// slope were what it was where it rested last.
-std::uint32_t DropCutter::guess(Vec2d at) const
+// The smallest existing piece that holds the contact predicted by the slope of the last drop.
+std::uint32_t DropCutter::State::guess(Vec2d at) const
 {
     const Vec2d place = at + pieces_[last_].gradient * pieces_[last_].contact;
     const auto holds = [&](std::uint32_t index) {
@@ -141,9 +157,9 @@ std::uint32_t DropCutter::guess(Vec2d at) const
     return index;
 }
 
-DropCutter::ClPoint DropCutter::drop(Vec2d at, double max_error) const
+std::optional<DropCutter::ClPoint> DropCutter::State::drop(Vec2d at, double max_error)
 {
-    make_room();
+    forget_many_halves();
     const Query query{at, std::max(accuracy_, max_error)};
     const double r = tool_.radius;
     const Box2d around{at.x - r, at.y - r, at.x + r, at.y + r};
@@ -153,7 +169,7 @@ DropCutter::ClPoint DropCutter::drop(Vec2d at, double max_error) const
     };
     std::array<Entry, kStack> stack;
     std::size_t depth = 0;
-    ClPoint best{kNoSurface, {0.0, 0.0}, 0};
+    ClPoint best{-kUnbounded, {0.0, 0.0}, 0};
     const auto consider = [&](std::uint32_t index) {
         const Piece& piece = pieces_[index];
         const bool far = piece.x0 >= around.x1 || piece.x1 <= around.x0 || piece.y0 >= around.y1 ||
@@ -169,7 +185,7 @@ DropCutter::ClPoint DropCutter::drop(Vec2d at, double max_error) const
             stack[depth++] = {height, index};
         }
     };
-    const auto look_into = [&](std::uint32_t piece) {
+    const auto search_below = [&](std::uint32_t piece) {
         consider(piece);
         while (depth > 0) {
             const Entry top = stack[--depth];
@@ -183,36 +199,37 @@ DropCutter::ClPoint DropCutter::drop(Vec2d at, double max_error) const
             const std::size_t before = depth;
             consider(child);
             consider(child + 1);
-            // The more promising half is looked at first.
+            // The half with the higher bound is processed first.
             if (depth == before + 2 && stack[before].height > stack[before + 1].height) {
                 std::swap(stack[before], stack[before + 1]);
             }
         }
     };
-    // From where the tool should rest upwards: what contains that place need not be looked at
-    // itself, only what lies beside it. A flat foot rests on its rim: where it did last is as good.
+    // The search starts at the predicted contact and climbs to the root: a parent adds only the
+    // sibling of the piece before. A tool with a flat rests on the rim of that, which the slope
+    // does not predict: its search starts at the last contact.
     const bool ball = tool_.corner_radius == r;
     const std::uint32_t first = ball ? guess(at) : last_;
-    look_into(first);
+    search_below(first);
     for (std::uint32_t piece = first; piece != kRoot; piece = pieces_[piece].parent) {
-        look_into(sibling(piece));
+        search_below(sibling(piece));
     }
-    if (best.z != kNoSurface) {
-        last_ = best.piece;
-        best.slope = slope_of(pieces_[best.piece], at);
+    if (best.z == -kUnbounded) {
+        return std::nullopt;
     }
+    last_ = best.piece;
+    best.slope = slope_of(pieces_[best.piece], at);
     return best;
 }
 
-Vec2d DropCutter::cc_place(Vec2d at, const ClPoint& rest) const
+Vec2d DropCutter::State::cc_place(Vec2d at, const ClPoint& cl) const
 {
-    const Piece& piece = pieces_[rest.piece];
-    return on_piece(piece, at);
+    return on_piece(pieces_[cl.piece], at);
 }
 
-// The slope of the tip's height: of the piece's plane, or where the tool touches beyond the piece,
-// on an edge, of the tool's side there.
-Vec2d DropCutter::slope_of(const Piece& piece, Vec2d at) const
+// The slope of the tip's height: that of the piece's plane, or of the tool's side where the tool
+// touches an edge.
+Vec2d DropCutter::State::slope_of(const Piece& piece, Vec2d at) const
 {
     const Vec2d contact = at + piece.gradient * piece.contact;
     const Vec2d place = on_piece(piece, at);
@@ -226,8 +243,8 @@ Vec2d DropCutter::slope_of(const Piece& piece, Vec2d at) const
     return slope > 0.0 ? arm * (slope / away) : Vec2d{0.0, 0.0};
 }
 
-// Of the tool's lower side at this distance from its axis.
-double DropCutter::side_slope(double away) const
+// Slope of the tool's profile at this distance from its axis.
+double DropCutter::State::side_slope(double away) const
 {
     const double c = tool_.corner_radius;
     const double out = away - (tool_.radius - c);

@@ -1,9 +1,9 @@
-// What the floor is like under the tool: covered or not, slopes and curvatures.
+// The surface under the tool: whether there is one, and its contact, slopes and curvatures.
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "host_tools/drop_cutter/drop_cutter.hpp"
+#include "host_tools/drop_cutter/drop_cutter_state.hpp"
 #include "host_tools/offset/contour.hpp"
 
 namespace cusp::drop_cutter {
@@ -17,8 +17,8 @@ double middle_of(std::array<float, 2> ends) { return 0.5 * static_cast<double>(e
 
 }  // namespace
 
-// Of a piece whose outline is not known nothing is known but the box, which must be small.
-bool DropCutter::covers(Vec2d at) const
+// A piece without a known outline counts once its box is small.
+bool DropCutter::State::covers(Vec2d at)
 {
     const double fine = 0.1 * tool_.radius;
     std::vector<std::uint32_t> stack{kRoot};
@@ -45,11 +45,11 @@ bool DropCutter::covers(Vec2d at) const
     return false;
 }
 
-// u, v: shares of the piece's patch.
-DropCutter::CcPoint DropCutter::cc_point_on(const Piece& piece,
-                                            double height,
-                                            double u,
-                                            double v) const
+// u, v  of the piece's patch, 0 to 1
+DropCutter::CcPoint DropCutter::State::cc_point_on(const Piece& piece,
+                                                   double height,
+                                                   double u,
+                                                   double v) const
 {
     const Patch& patch = patches_[piece.patch];
     const SurfacePoint s =
@@ -60,30 +60,31 @@ DropCutter::CcPoint DropCutter::cc_point_on(const Piece& piece,
     return {height, s, n, std::abs(bend) >= 1e-12 && n.z >= 1e-3};
 }
 
-DropCutter::CcPoint DropCutter::cc_point(Vec2d at, double max_error) const
+DropCutter::CcPoint DropCutter::State::cc_point(Vec2d at, double max_error)
 {
-    const ClPoint rest = drop(at, max_error);
-    if (rest.z == kNoSurface) {
-        return {kNoSurface, {}, {}, false};
+    const std::optional<ClPoint> cl = drop(at, max_error);
+    if (!cl) {
+        return {-kUnbounded, {}, {}, false};
     }
-    const Piece& piece = pieces_[rest.piece];
-    return cc_point_on(piece, rest.z, middle_of(piece.u), middle_of(piece.v));
+    const Piece& piece = pieces_[cl->piece];
+    return cc_point_on(piece, cl->z, middle_of(piece.u), middle_of(piece.v));
 }
 
-// Two steps towards where a floor with the slope at hand would be touched, in the piece's plane.
-DropCutter::CcPoint DropCutter::exact_cc_point(Vec2d at, double max_error) const
+// Two steps of Newton's method, from the middle of the piece, towards the place whose normal leads
+// to the tool.
+DropCutter::CcPoint DropCutter::State::exact_cc_point(Vec2d at, double max_error)
 {
-    const ClPoint rest = drop(at, max_error);
-    if (rest.z == kNoSurface) {
-        return {kNoSurface, {}, {}, false};
+    const std::optional<ClPoint> cl = drop(at, max_error);
+    if (!cl) {
+        return {-kUnbounded, {}, {}, false};
     }
     constexpr int kSteps = 2;
-    const Piece& piece = pieces_[rest.piece];
+    const Piece& piece = pieces_[cl->piece];
     const Patch& patch = patches_[piece.patch];
     const double corner = tool_.corner_radius;
     double u = middle_of(piece.u);
     double v = middle_of(piece.v);
-    CcPoint contact = cc_point_on(piece, rest.z, u, v);
+    CcPoint contact = cc_point_on(piece, cl->z, u, v);
     for (int i = 0; i < kSteps && contact.found; ++i) {
         const SurfacePoint& s = contact.surface;
         const Vec3d n = contact.normal;
@@ -95,27 +96,27 @@ DropCutter::CcPoint DropCutter::exact_cc_point(Vec2d at, double max_error) const
         v += (s.du.x * aside.y - s.du.y * aside.x) / (bend * (patch.v1 - patch.v0));
         u = std::clamp(u, static_cast<double>(piece.u[0]), static_cast<double>(piece.u[1]));
         v = std::clamp(v, static_cast<double>(piece.v[0]), static_cast<double>(piece.v[1]));
-        contact = cc_point_on(piece, rest.z, u, v);
+        contact = cc_point_on(piece, cl->z, u, v);
     }
     return contact;
 }
 
-DropCutter::Section DropCutter::section(const CcPoint& contact, Vec2d along)
+DropCutter::Section DropCutter::section(const CcPoint& contact, Vec2d direction)
 {
     if (!contact.found) {
         return {0.0, 0.0, 0.0, false};
     }
     const SurfacePoint& s = contact.surface;
     const Vec3d n = contact.normal;
-    // du : dv of the plan direction: along = x_u du + x_v dv in plan.
+    // du : dv of the direction, which is x_u du + x_v dv in plan.
     const double bend = s.du.x * s.dv.y - s.du.y * s.dv.x;
-    const double du = (along.x * s.dv.y - along.y * s.dv.x) / bend;
-    const double dv = (s.du.x * along.y - s.du.y * along.x) / bend;
+    const double du = (direction.x * s.dv.y - direction.y * s.dv.x) / bend;
+    const double dv = (s.du.x * direction.y - s.du.y * direction.x) / bend;
     const Vec3d tangent = s.du * du + s.dv * dv;
     const Vec3d second = s.duu * (du * du) + s.duv * (2.0 * du * dv) + s.dvv * (dv * dv);
     const Vec2d gradient{-n.x / n.z, -n.y / n.z};
-    return {-dot(second, n) / dot(tangent, tangent), tangent.z, dot(gradient, left_normal(along)),
-            true};
+    return {-dot(second, n) / dot(tangent, tangent), tangent.z,
+            dot(gradient, left_normal(direction)), true};
 }
 
 }  // namespace cusp::drop_cutter

@@ -1,9 +1,9 @@
-// What the edges of a trimmed surface leave of a piece: where one line along the edge tells that,
-// the line is a side of the piece's outline.
+// Pieces at the edge of a trimmed surface: what the edge leaves of a piece is bounded by one line
+// along the edge, which becomes a side of the piece's outline.
 #include <algorithm>
 #include <cmath>
 
-#include "host_tools/drop_cutter/drop_cutter.hpp"
+#include "host_tools/drop_cutter/drop_cutter_state.hpp"
 #include "host_tools/offset/contour.hpp"
 
 namespace cusp::drop_cutter {
@@ -15,12 +15,12 @@ using part_model::TrimRegion;
 
 namespace {
 
-constexpr std::size_t kMostPlaces = 200;  // of an edge: more of them are no line
+constexpr std::size_t kMostPoints = 200;  // of an edge: with more of them it is no line
 constexpr double kRounding = 1e-9;        // mm
 
 }  // namespace
 
-DropCutter::Domain DropCutter::domain_of(const Piece& piece) const
+DropCutter::State::Domain DropCutter::State::domain_of(const Piece& piece) const
 {
     const Patch& patch = patches_[piece.patch];
     const auto share = [](double from, double to, float at) {
@@ -30,9 +30,8 @@ DropCutter::Domain DropCutter::domain_of(const Piece& piece) const
             share(patch.v0, patch.v1, piece.v[0]), share(patch.v0, patch.v1, piece.v[1])};
 }
 
-// Of a piece that an edge may cut, whether it still does. One that is trimmed away becomes a box
-// that nothing meets.
-void DropCutter::trim(Piece& piece) const
+// Updates whether an edge cuts the piece. A piece trimmed away becomes an empty box.
+void DropCutter::State::trim(Piece& piece)
 {
     if (!piece.cut) {
         return;
@@ -42,7 +41,7 @@ void DropCutter::trim(Piece& piece) const
         trims_[patches_[piece.patch].surface].part(domain.u0, domain.u1, domain.v0, domain.v1);
     piece.cut = part == TrimRegion::Part::kCut;
     if (part == TrimRegion::Part::kInside) {
-        // What lies beside it may be trimmed away.
+        // The surface beside it may be trimmed away.
         piece.border = kAllSides;
         measure_outline(piece);
     }
@@ -51,15 +50,15 @@ void DropCutter::trim(Piece& piece) const
     }
     if (part == TrimRegion::Part::kOutside) {
         piece.graph = false;
-        piece.x0 = piece.y0 = piece.z0 = 1e300;
-        piece.x1 = piece.y1 = piece.z1 = -1e300;
+        piece.x0 = piece.y0 = piece.z0 = kUnbounded;
+        piece.x1 = piece.y1 = piece.z1 = -kUnbounded;
     }
 }
 
-// The piece is the parallelogram A(s, t) of its corners, s and t the shares of its domain, but for
-// its control points' distances from A at their own shares: those bound what the piece bends. Where
-// weights differ, the places lie no farther off in s and t than their ratio tells.
-DropCutter::Remnant DropCutter::remnant_of(const Piece& piece) const
+// The piece differs from the parallelogram A(s, t) of its corners, s and t from 0 to 1 over its
+// domain, by no more than its control points differ from A at their own s and t. Weights that
+// differ shift s and t by a bound from their ratio.
+DropCutter::State::Remnant DropCutter::State::remnant_of(const Piece& piece) const
 {
     const Patch& patch = patches_[piece.patch];
     const std::size_t rows = patch.rows;
@@ -77,7 +76,7 @@ DropCutter::Remnant DropCutter::remnant_of(const Piece& piece) const
         return middle + by_s * (s - 0.5) + by_t * (t - 0.5);
     };
     Remnant left{{}, 0, 0.0};
-    double least = 1e300;
+    double least = kUnbounded;
     double most = 0.0;
     for (std::size_t k = 0; k < size; ++k) {
         const double s = static_cast<double>(k / columns) / static_cast<double>(rows - 1);
@@ -94,23 +93,24 @@ DropCutter::Remnant DropCutter::remnant_of(const Piece& piece) const
         return on_plane((at.x - d.u0) / (d.u1 - d.u0), (at.y - d.v0) / (d.v1 - d.v0));
     };
     for (const Vec2d at : remnant.corners) {
-        left.places.push_back(place(at));
+        left.points.push_back(place(at));
     }
-    left.edge = left.places.size();
+    left.edge = left.points.size();
     for (const Vec2d at : remnant.edge) {
-        left.places.push_back(place(at));
+        left.points.push_back(place(at));
     }
     return left;
 }
 
-// Along the edge's ends, on the side where less stands over it.
+// The line along the edge's two ends, on the side beyond which less of the edge lies.
 //
-//   bow  how much the edge lies within the side, mm
-std::optional<DropCutter::Side> DropCutter::side_along(const Remnant& left, double& bow)
+//   bow  set to how far the edge lies inside the side, mm
+std::optional<DropCutter::State::Side> DropCutter::State::side_along(const Remnant& left,
+                                                                     double& bow)
 {
-    const auto from = left.places.begin() + static_cast<std::ptrdiff_t>(left.edge);
+    const auto from = left.points.begin() + static_cast<std::ptrdiff_t>(left.edge);
     const auto farthest = [&](Vec2d p) {
-        return in_plan(*std::max_element(from, left.places.end(), [&](Vec3d a, Vec3d b) {
+        return in_plan(*std::max_element(from, left.points.end(), [&](Vec3d a, Vec3d b) {
             return distance(in_plan(a), p) < distance(in_plan(b), p);
         }));
     };
@@ -121,15 +121,15 @@ std::optional<DropCutter::Side> DropCutter::side_along(const Remnant& left, doub
         return std::nullopt;
     }
     std::optional<Side> best;
-    bow = 1e300;
+    bow = kUnbounded;
     const Vec2d normal = left_normal(unit(other - one));
     for (const Vec2d across : {normal, normal * -1.0}) {
-        Side side{across, 1e300, -1e300, 1e300, -1e300, 0.0, 0.0};
-        for (const Vec3d& p : left.places) {
+        Side side = Side::none(across);
+        for (const Vec3d& p : left.points) {
             widen(side, in_plan(p));
         }
-        double least = 1e300;
-        std::for_each(from, left.places.end(),
+        double least = kUnbounded;
+        std::for_each(from, left.points.end(),
                       [&](Vec3d p) { least = std::min(least, dot(across, in_plan(p))); });
         if (side.outer - least < bow) {
             bow = side.outer - least;
@@ -139,7 +139,7 @@ std::optional<DropCutter::Side> DropCutter::side_along(const Remnant& left, doub
     return best;
 }
 
-void DropCutter::measure_remnant(Piece& piece) const
+void DropCutter::State::measure_remnant(Piece& piece)
 {
     const bool measured = piece.outline != 0;
     Outline outline{};
@@ -149,13 +149,13 @@ void DropCutter::measure_remnant(Piece& piece) const
         return;
     }
     const Remnant left = remnant_of(piece);
-    if (left.edge == left.places.size() || left.places.size() > kMostPlaces) {
+    if (left.edge == left.points.size() || left.points.size() > kMostPoints) {
         piece.outline = 0;
         return;
     }
-    Vec3d low = left.places.front();
+    Vec3d low = left.points.front();
     Vec3d high = low;
-    for (const Vec3d& p : left.places) {
+    for (const Vec3d& p : left.points) {
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
@@ -167,8 +167,8 @@ void DropCutter::measure_remnant(Piece& piece) const
     piece.z1 = std::min(piece.z1, high.z + left.off);
     for (std::size_t i = 0; i < outline.count; ++i) {
         Side& side = outline.sides[i];
-        Side within{side.across, 1e300, -1e300, 1e300, -1e300, 0.0, 0.0};
-        for (const Vec3d& p : left.places) {
+        Side within = Side::none(side.across);
+        for (const Vec3d& p : left.points) {
             widen(within, in_plan(p));
         }
         side.inner = std::max(side.inner, within.inner - left.off);

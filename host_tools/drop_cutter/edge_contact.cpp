@@ -1,4 +1,4 @@
-// The profile is convex, so what an edge lifts the tip by has one top.
+// The tool's profile is convex, so the tip's height over an edge has one maximum.
 #include "host_tools/drop_cutter/edge_contact.hpp"
 
 #include <algorithm>
@@ -8,22 +8,24 @@ namespace cusp::drop_cutter {
 
 using toolpath::Tool;
 
-// Where the top lies inside, false position finds it to nanometres in few steps, at most forty.
-EdgeContact drop_on_edge(const Tool& tool, double slope, double away, double low, double high)
+// A maximum between the ends is found by false position: to nanometres, in at most forty steps.
+std::optional<EdgeContact> drop_on_edge(const Tool& tool, const EdgeBeside& edge)
 {
+    const double slope = edge.slope;
+    const double away = edge.away;
     const double r = tool.radius;
     const double c = tool.corner_radius;
     const double room = r * r - away * away;
     if (room <= 0.0) {
-        return {kNoContact, 0.0};
+        return std::nullopt;
     }
     const double reach = std::sqrt(room);
-    low = std::max(low, -reach);
-    high = std::min(high, reach);
+    const double low = std::max(edge.low, -reach);
+    const double high = std::min(edge.high, reach);
     if (low > high) {
-        return {kNoContact, 0.0};
+        return std::nullopt;
     }
-    const auto rest_at = [&](double y) {
+    const auto contact_at = [&](double y) {
         const double out = std::max(0.0, std::sqrt(away * away + y * y) - (r - c));
         return EdgeContact{slope * y - (c - std::sqrt(std::max(c * c - out * out, 0.0))), y};
     };
@@ -31,17 +33,17 @@ EdgeContact drop_on_edge(const Tool& tool, double slope, double away, double low
         return one.lift < other.lift ? other : one;
     };
     if (c == 0.0) {
-        return higher(rest_at(low), rest_at(high));
+        return higher(contact_at(low), contact_at(high));
     }
     if (c == r) {
         const double secant = std::sqrt(1.0 + slope * slope);
         const double top = slope * reach / secant;
         const double y = std::clamp(top, low, high);
-        return {
+        return EdgeContact{
             y == top ? reach * secant - c : slope * y - c + std::sqrt(std::max(room - y * y, 0.0)),
             y};
     }
-    // Positive where the value rises.
+    // Positive where the height rises with y.
     const auto rise = [&](double y) {
         const double d = std::sqrt(away * away + y * y);
         const double out = std::max(0.0, d - (r - c));
@@ -52,15 +54,15 @@ EdgeContact drop_on_edge(const Tool& tool, double slope, double away, double low
     double rise_a = rise(a);
     double rise_b = rise(b);
     if (rise_a <= 0.0 || rise_b >= 0.0) {
-        return higher(rest_at(low), rest_at(high));
+        return higher(contact_at(low), contact_at(high));
     }
-    // False position, where one end stays its weight is halved. The top is flat: a hundred
-    // thousandth of the radius off it misses its height by the square of that.
+    // False position; the weight of an end that stays is halved (Illinois algorithm). An error of
+    // 1e-5 radii in y changes the height at the maximum by its square only.
     constexpr int kRounds = 40;
     const double near = 1e-5 * r;
     int stayed = 0;
     for (int i = 0; i < kRounds && b - a > near; ++i) {
-        // Now and then by half, which no shape of the tool slows down.
+        // Every eighth step bisects: that converges for every shape of tool.
         const double share = i % 8 == 7 ? 0.5 : rise_a / (rise_a - rise_b);
         const double y = a + share * (b - a);
         const double here = rise(y);
@@ -78,7 +80,7 @@ EdgeContact drop_on_edge(const Tool& tool, double slope, double away, double low
             stayed = -1;
         }
     }
-    return higher(higher(rest_at(a), rest_at(b)), higher(rest_at(low), rest_at(high)));
+    return higher(higher(contact_at(a), contact_at(b)), higher(contact_at(low), contact_at(high)));
 }
 
 }  // namespace cusp::drop_cutter

@@ -1,4 +1,4 @@
-// Contours first, then a lattice between them.
+// Samples the contours first, then a grid between them.
 #include "host_tools/drop_cutter/floor_coverage.hpp"
 
 #include <algorithm>
@@ -20,10 +20,10 @@ std::optional<Vec2d> uncovered_inside(const Region2d& region,
                                       const DropCutter& floor,
                                       double tool_radius)
 {
-    constexpr double kMostPlaces = 250.0;  // a side
+    constexpr double kMostSamples = 250.0;  // a side
     const Box2d box = box_of(region);
     const double longest = std::max(box.x1 - box.x0, box.y1 - box.y0);
-    const double spacing = std::max(0.25 * tool_radius, longest / kMostPlaces);
+    const double spacing = std::max(0.25 * tool_radius, longest / kMostSamples);
     const EdgeTree walls{edges_of(region)};
     for (double x = box.x0 + 0.5 * spacing; x < box.x1; x += spacing) {
         for (double y = box.y0 + 0.5 * spacing; y < box.y1; y += spacing) {
@@ -35,15 +35,15 @@ std::optional<Vec2d> uncovered_inside(const Region2d& region,
     return std::nullopt;
 }
 
-// Whether two opposite sides meet.
+// Whether two opposite sides of the surface meet.
 bool closes(const Surface& s)
 {
     constexpr double kSame = 1e-3;  // mm
-    constexpr int kLooks = 4;
+    constexpr int kSamples = 4;
     bool in_u = true;
     bool in_v = true;
-    for (int k = 0; k <= kLooks; ++k) {
-        const double t = static_cast<double>(k) / kLooks;
+    for (int k = 0; k <= kSamples; ++k) {
+        const double t = static_cast<double>(k) / kSamples;
         const double u = s.u_begin() + (s.u_end() - s.u_begin()) * t;
         const double v = s.v_begin() + (s.v_end() - s.v_begin()) * t;
         in_u = in_u && norm(point_at(s, s.u_begin(), v) - point_at(s, s.u_end(), v)) < kSame;

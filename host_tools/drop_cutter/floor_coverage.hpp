@@ -1,4 +1,4 @@
-// Whether a floor lies under all of a region.
+// Whether a floor lies below a whole region.
 #pragma once
 
 #include <optional>
@@ -9,12 +9,13 @@
 
 namespace cusp::drop_cutter {
 
-// A place of the region, its contours included, that no surface lies under; nothing where none was
-// found. Contours are looked at a tool radius apart; the places between them, at least a quarter
-// radius apart and at most 250 a side, where the floor may have gaps: one whole surface that does
-// not close on itself (a ring does) and lies under all contours lies under what is between.
+// A point of the region, its contours included, with no surface below it; none if none is found.
+// Contours are sampled a tool radius apart. If the floor may have gaps, the area between them is
+// sampled on a grid: a quarter radius apart at least, and at most 250 points a side. A single
+// untrimmed surface that does not close on itself (as a ring does) has no gaps.
 //
 // surfaces  those of `floor`
+// tool_radius  mm
 std::optional<Vec2d> point_without_floor(const offset::Region2d& region,
                                          const DropCutter& floor,
                                          const std::vector<nurbs::Surface>& surfaces,

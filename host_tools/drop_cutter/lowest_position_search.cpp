@@ -1,4 +1,4 @@
-// Contacts bound the drop from below, each exact drop adds one.
+// Contacts bound the drop from below; each exact drop adds a contact.
 #include "host_tools/drop_cutter/lowest_position_search.hpp"
 
 #include <algorithm>
@@ -13,24 +13,24 @@ using toolpath::Tool;
 
 namespace {
 
-constexpr int kMostDrops = 10;          // from a start
-constexpr std::size_t kMostStarts = 3;  // apart from each other
-constexpr double kApart = 0.3;          // radii
-constexpr double kFinest = 1e-3;        // of the pitch
-// Where no walk leads lower.
-constexpr std::size_t kMostTriangles = 600;  // of directions that are looked at
-constexpr int kMostWalks = 10;               // to what the contacts known leave open
-constexpr int kMostTries = 40;               // drops for nothing but a contact
-constexpr double kBeside = 0.25;             // of a triangle's edge: as good as its middle
-constexpr int kMostHalvings = 8;             // of the pitch: key_of() tells 2^21 pitches apart
-constexpr std::size_t kLongestProof = 1500;  // parts; longer ones have become too fine
+constexpr int kMostDrops = 10;  // from one start
+constexpr std::size_t kMostStarts = 3;
+constexpr double kApart = 0.3;    // radii: distance of starts
+constexpr double kFinest = 1e-3;  // of the pitch
+// The division of directions.
+constexpr std::size_t kMostTriangles = 600;
+constexpr int kMostImprovements = 10;        // of positions that known contacts leave open
+constexpr int kMostTries = 40;               // drops that can only add a contact
+constexpr double kBeside = 0.25;             // of a triangle's edge: as near as its middle
+constexpr int kMostHalvings = 8;             // of the pitch: key_of() distinguishes 2^21 pitches
+constexpr std::size_t kLongestProof = 1500;  // parts; longer proofs are not kept
 constexpr std::size_t kMostParts = 200'000;  // of all proofs: 16 MB
 constexpr std::size_t kMostNodes = 200'000;  // 16 MB
-constexpr double kMoreGained = 0.25;         // of what is gained: worth another search
+constexpr double kMoreGained = 0.25;         // of the gain: least gain of another search
 
 double square(double a) { return a * a; }
 
-// The square of how far a place is from the tool's flat, seen from above.
+// The square of the distance in plan between a point and the tool's flat.
 double square_off_flat(double flat, Vec2d axis, Vec3d place)
 {
     const double away = square(place.x - axis.x) + square(place.y - axis.y);
@@ -76,7 +76,7 @@ const LowestPositionSearch::DroppedTool& LowestPositionSearch::node(int halvings
         .first->second;
 }
 
-// Of a grid no coarser than a length.
+// The nearest node of a grid whose pitch is at most `length`.
 const LowestPositionSearch::DroppedTool& LowestPositionSearch::node_near(double x,
                                                                          double y,
                                                                          double length)
@@ -125,7 +125,7 @@ std::vector<LowestPositionSearch::Position> LowestPositionSearch::starts_over(Ve
     return out;
 }
 
-// What a tool that stands on the contacts known leaves over the place: never above the truth.
+// How low a tool resting on the known contacts cuts over the point: a lower bound.
 double LowestPositionSearch::lowest_known(Vec3d place, Vec2d at) const
 {
     double centre = -kNowhere;
@@ -138,14 +138,14 @@ double LowestPositionSearch::lowest_known(Vec3d place, Vec2d at) const
     return height_under({at.x, at.y, centre}, place);
 }
 
-// A place where `lowest_known` is least, near the one given.
+// A local minimum of lowest_known() near `at`.
 Vec2d LowestPositionSearch::improved(Vec3d place, Vec2d at)
 {
     double best = lowest_known(place, at);
     const double corner_square = square(contact_corner_);
     const double flat = flat_;
-    // True where no contact keeps the tool as high as `best`. The one that does is looked at first
-    // the next time: mostly the same few are in the way.
+    // True where no contact keeps the tool as high as `best`. A contact that does moves to the
+    // front: usually the same few decide.
     const auto lower = [&](Vec2d to) {
         const double under = square(corner_) - square_off_flat(flat_, to, place);
         if (under < 0) {
@@ -164,7 +164,7 @@ Vec2d LowestPositionSearch::improved(Vec3d place, Vec2d at)
                 return false;
             }
         }
-        // Rounding may have let it pass at the same height: no walk goes on for ever.
+        // Rounding may give an equal height, which must not count: the search would never end.
         const bool found = centre - depth < best;
         best = std::min(best, centre - depth);
         return found;
@@ -186,9 +186,9 @@ void LowestPositionSearch::improve_from(const Position& start,
     Vec2d at{start.centre.x, start.centre.y};
     for (int drops = 0; drops < kMostDrops; ++drops) {
         const Vec2d to = improved(place, at);
-        const double hoped = lowest_known(place, to);
-        // The contacts know that this start leads no lower than what is known or asked for.
-        if (hoped > resolution || hoped > best->height - agreement_) {
+        const double bound = lowest_known(place, to);
+        // From this start nothing lower than the best or the resolution can be reached.
+        if (bound > resolution || bound > best->height - agreement_) {
             return;
         }
         const DroppedTool rest = drop_(to.x, to.y);
@@ -198,14 +198,15 @@ void LowestPositionSearch::improve_from(const Position& start,
         const double height = height_under(rest.centre, place);
         take({rest.centre, height});
         contacts_.push_back(rest.contact);
-        if (height - hoped < agreement_) {
+        if (height - bound < agreement_) {
             return;
         }
         at = to;
     }
 }
 
-// Under a tool without a corner single contacts are steps of a stair: no slope leads on.
+// For a tool without a corner radius the bound by contacts is piecewise constant, without a slope
+// to follow: the search uses drops instead.
 void LowestPositionSearch::improve_by_drops(Vec3d place, Position& best)
 {
     const auto lower = [&](Vec2d to) {
@@ -231,20 +232,20 @@ std::uint64_t LowestPositionSearch::key_of(int halvings, std::int64_t i, std::in
            (static_cast<std::uint64_t>(j) & kPlaces);
 }
 
-// Contacts that bar nothing are left out.
-LowestPositionSearch::Proof LowestPositionSearch::proof_of(std::vector<BlockedPart> barred,
+// Contacts that block nothing are left out.
+LowestPositionSearch::Proof LowestPositionSearch::proof_of(std::vector<BlockedPart> blocked,
                                                            const ApproachDirections& directions)
 {
     Proof proof;
     std::unordered_map<std::size_t, std::size_t> numbers;
-    for (BlockedPart& part : barred) {
+    for (BlockedPart& part : blocked) {
         const auto [at, is_new] = numbers.try_emplace(part.contact, proof.contacts.size());
         if (is_new) {
             proof.contacts.push_back(directions.contact(part.contact));
         }
         part.contact = at->second;
     }
-    proof.parts = std::move(barred);
+    proof.parts = std::move(blocked);
     return proof;
 }
 
@@ -259,12 +260,12 @@ void LowestPositionSearch::store(Vec3d place, Proof proof)
     last = std::move(proof);
 }
 
-// Walks from a few starts miss narrow ways between cliffs. The directions that no contact bars are
-// quartered, large parts first, and their middles are tried: whether the ball gets lower than a
-// height, and the first place found where it does. What bars them is kept for the next place near:
-// mostly the same contacts bar the same directions there.
+// A position of the ball lower than `height`, if one is found. A descent from a few starts misses
+// narrow gaps between cliffs. So directions that no contact blocks are divided into four, large
+// parts first, and the ball is dropped at their middles. The blocked parts are kept for the next
+// point nearby, where usually the same contacts block the same directions.
 //
-// exact  tries are made in the middles themselves, not in what was tried beside them
+// exact  drops are made exactly at the middles, not at the nearest node of a grid
 //
 // Precondition: the tool is a ball
 std::optional<LowestPositionSearch::Position> LowestPositionSearch::divided(double height,
@@ -278,11 +279,11 @@ std::optional<LowestPositionSearch::Position> LowestPositionSearch::divided(doub
     for (const Vec3d& contact : contacts_) {
         directions.add(contact);
     }
-    std::vector<BlockedPart> barred;
+    std::vector<BlockedPart> blocked;
     std::vector<ApproachDirections::Triangle> open;
     for (const BlockedPart& part : last.parts) {
         if (directions.blocks(part.contact, part.triangle)) {
-            barred.push_back(part);
+            blocked.push_back(part);
         } else {
             open.push_back(part.triangle);
         }
@@ -292,12 +293,12 @@ std::optional<LowestPositionSearch::Position> LowestPositionSearch::divided(doub
         open.assign(whole.begin(), whole.end());
     }
     const std::size_t most = open.size() + kMostTriangles;
-    int walks = 0;
+    int improvements = 0;
     int tries = 0;
     for (std::size_t k = 0; k < open.size() && k < most; ++k) {
         const ApproachDirections::Triangle triangle = open[k];
         if (const auto contact = directions.blocking(triangle)) {
-            barred.push_back({triangle, *contact});
+            blocked.push_back({triangle, *contact});
             continue;
         }
         const Vec3d middle = directions.centre(ApproachDirections::middle(triangle));
@@ -305,7 +306,7 @@ std::optional<LowestPositionSearch::Position> LowestPositionSearch::divided(doub
         const bool open_middle = lowest_known(place, at) < height;
         const double edge = norm(triangle[0] - triangle[1]) * radius_;
         std::optional<Position> lower;
-        // Whether its contact bars the triangle.
+        // Returns whether the contact blocks the triangle.
         const auto try_drop = [&](const DroppedTool& rest) {
             if (!std::isfinite(rest.centre.z)) {
                 return false;
@@ -314,25 +315,26 @@ std::optional<LowestPositionSearch::Position> LowestPositionSearch::divided(doub
             lower = there.height < height ? std::optional{there} : std::nullopt;
             contacts_.push_back(rest.contact);
             const std::size_t contact = directions.add(rest.contact);
-            const bool bars = !lower && directions.blocks(contact, triangle);
-            if (bars) {
-                barred.push_back({triangle, contact});
+            const bool is_blocked = !lower && directions.blocks(contact, triangle);
+            if (is_blocked) {
+                blocked.push_back({triangle, contact});
             }
-            return bars;
+            return is_blocked;
         };
-        bool bars = false;
+        bool is_blocked = false;
         if (open_middle) {
-            at = ++walks < kMostWalks ? improved(place, at) : at;
-            bars = try_drop(drop_(at.x, at.y));
+            at = ++improvements < kMostImprovements ? improved(place, at) : at;
+            is_blocked = try_drop(drop_(at.x, at.y));
         } else if (edge < pitch_ && ++tries < kMostTries) {
-            // Among nodes too few contacts are known. One beside the middle has mostly been found
-            // for another place.
-            bars = try_drop(exact ? drop_(at.x, at.y) : node_near(at.x, at.y, kBeside * edge));
+            // Parts smaller than the grid need contacts between its nodes. One near the middle is
+            // usually known from another point.
+            is_blocked =
+                try_drop(exact ? drop_(at.x, at.y) : node_near(at.x, at.y, kBeside * edge));
         }
         if (lower) {
             return lower;
         }
-        if (bars) {
+        if (is_blocked) {
             continue;
         }
         const auto parts = ApproachDirections::quarters(triangle);
@@ -341,7 +343,7 @@ std::optional<LowestPositionSearch::Position> LowestPositionSearch::divided(doub
     proved = open.size() <= most;
     if (proved) {
         store(place,
-              barred.size() <= kLongestProof ? proof_of(std::move(barred), directions) : Proof{});
+              blocked.size() <= kLongestProof ? proof_of(std::move(blocked), directions) : Proof{});
     }
     return std::nullopt;
 }
@@ -373,7 +375,7 @@ std::optional<LowestPositionSearch::Position> LowestPositionSearch::lowest_over(
     }
     const bool ball = flat_ == 0;
     std::optional<Position> best;
-    // Mostly there is nothing better, and that is told at once.
+    // Fast rejection: usually nothing lower exists.
     if (ball && !starts.empty() &&
         std::none_of(starts.begin(), starts.end(),
                      [&](const Position& start) { return start.height < resolution; })) {
@@ -407,15 +409,15 @@ std::optional<LowestPositionSearch::Position> LowestPositionSearch::lowest_over(
 
 LowestPositionSearch::DroppedTool drop_tool(const DropCutter& floor, double x, double y)
 {
-    const DropCutter::ClPoint rest = floor.drop({x, y});
-    if (rest.z == DropCutter::kNoSurface) {
+    const std::optional<DropCutter::ClPoint> cl = floor.drop({x, y});
+    if (!cl) {
         return {{x, y, LowestPositionSearch::kNowhere}, {}};
     }
     const Tool& tool = floor.tool();
-    const Vec2d touched = floor.cc_place({x, y}, rest);
+    const Vec2d touched = floor.cc_place({x, y}, *cl);
     const double away = std::min(tool.radius, std::hypot(touched.x - x, touched.y - y));
-    return {{x, y, rest.z + tool.corner_radius},
-            {touched.x, touched.y, rest.z + profile_height(tool, away)}};
+    return {{x, y, cl->z + tool.corner_radius},
+            {touched.x, touched.y, cl->z + profile_height(tool, away)}};
 }
 
 }  // namespace cusp::drop_cutter

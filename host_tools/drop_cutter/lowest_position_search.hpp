@@ -1,10 +1,9 @@
-// How low a tool gets over a place that it can't touch: the best position of the tool in valleys,
-// concave edges and under overhangs.
+// The lowest position of a tool over a point that it cannot touch: in valleys, at concave edges and
+// under overhangs.
 #pragma once
 
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -16,58 +15,61 @@
 
 namespace cusp::drop_cutter {
 
-// Drops of the tool on a grid, made where first asked for, say where to begin. From there the
-// position is improved over all contacts found so far, which are the floor that the tool stands on,
-// dropped, and so on until drop and contacts agree (Kelley's way). For a ball all directions from
-// which it may get lower are looked at, too: those that a contact bars are out
-// (`ApproachDirections`), the others are divided until all are, or something better is found.
+// The search starts from drops of the tool on a grid, computed when first needed. It minimizes the
+// height over all contacts found so far, drops the tool at the minimum, which adds a contact, and
+// repeats until drop and contacts agree (Kelley's cutting-plane method). For a ball the search also
+// divides all approach directions (`ApproachDirections`) until contacts block each part, or a lower
+// position is found.
 //
-// Not quite a proof: the division ends after some hundred parts, and for other tools a better
-// position may hide between the places of the grid.
+// Not a proof: the division ends after some hundred parts, and for other tools a lower position may
+// lie between points of the grid.
+//
+// Not for use by two threads at once.
 class LowestPositionSearch {
 public:
-    // Where a dropped tool touches.
+    // A dropped tool and its contact.
     struct DroppedTool {
-        Vec3d centre;  // straight over the tip by the tool's corner radius, a ball's middle; z is
-                       // kNowhere where the tool meets nothing, or may not stand
+        Vec3d centre;  // corner radius above the tip: the centre of a ball; z is kNowhere where
+                       // the tool touches nothing, or where it is not allowed
         Vec3d contact;
     };
-    static constexpr double kNowhere = std::numeric_limits<double>::infinity();
+    static constexpr double kNowhere = kInfinite;
     using Drop = std::function<DroppedTool(double x, double y)>;
 
     // tool      that cuts
-    // growth    mm: how much larger all round the tool of `drop` is
+    // growth    mm: how much the tool of `drop` is larger all round
     // pitch     mm, of the grid
-    // agrees    mm: a search ends where drop and contacts differ by less; more than drops are high
+    // agrees    mm: a search ends where drop and contacts differ by less; greater than the error of
+    //           drops
     LowestPositionSearch(
         const toolpath::Tool& tool, double growth, double pitch, double agrees, Drop drop);
 
     struct Position {
         Vec3d centre;
-        double height;  // mm: what the tool leaves straight above or below the place
+        double height;  // z, mm: how low the tool cuts straight above or below the point
     };
-    // resolution  mm: heights above this may be inexact; a low one saves most of the time
-    // enough mm: the search ends at heights below this
-    // guess  in plan: where the tool may get low
+    // The lowest position over the point; none where the tool has no position over it.
     //
-    // None where the tool can't stand over the place.
+    // resolution  mm: heights above this may be inexact; a low one saves most of the time
+    // sufficient  mm: the search ends at heights below this
+    // guess       in plan: where a low position is expected
     std::optional<Position> lowest_over(Vec3d place,
                                         double resolution,
-                                        double sufficient = -1e300,
+                                        double sufficient = -kUnbounded,
                                         std::optional<Vec2d> guess = std::nullopt);
 
-    // Places of the grid where the tool gets lowest, apart from each other.
+    // The lowest positions of the grid over the point, at most three, apart from each other.
     std::vector<Position> starts_over(Vec3d place);
 
     DroppedTool drop_at(double x, double y) const { return drop_(x, y); }
 
-    // What the tool leaves over the place where its centre is there; infinite where it misses it.
+    // How low the tool with this centre cuts over the point: z, mm; kNowhere where it misses it.
     double height_under(Vec3d centre, Vec3d place) const;
     double pitch() const { return pitch_; }
 
 private:
-    // That no ball gets lower over a place: parts of all directions, and the contacts that bar
-    // them.
+    // Certificate that no lower ball position exists: parts of all directions, each with the
+    // contact that blocks it.
     struct BlockedPart {
         ApproachDirections::Triangle triangle;
         std::size_t contact;
@@ -89,10 +91,10 @@ private:
                       std::optional<Position>& best);
 
     void improve_by_drops(Vec3d place, Position& best);
-    // proved  set to whether none is found because there is none
+    // proved  set to true where none is found and none exists
     std::optional<Position> lower_than(double height, Vec3d place, bool& proved);
     std::optional<Position> divided(double height, Vec3d place, bool exact, bool& proved);
-    static Proof proof_of(std::vector<BlockedPart> barred, const ApproachDirections& directions);
+    static Proof proof_of(std::vector<BlockedPart> blocked, const ApproachDirections& directions);
     void store(Vec3d place, Proof proof);
 
     double radius_;
@@ -103,13 +105,13 @@ private:
     double agreement_;
     Drop drop_;
     std::unordered_map<std::uint64_t, DroppedTool> nodes_;
-    std::vector<Vec3d> contacts_;                      // near the place asked for
-    std::unordered_map<std::uint64_t, Proof> proofs_;  // by square of the grid: the last one
+    std::vector<Vec3d> contacts_;                      // near the point of the query
+    std::unordered_map<std::uint64_t, Proof> proofs_;  // the last one of each square of the grid
     std::size_t parts_{};                              // of all proofs
 };
 
-// The floor's tool dropped on it. The contact is where the tool is stopped, as far above the
-// surface as the floor's accuracy.
+// Drops the cutter's tool. The contact is on the tool, above the surface by up to the accuracy of
+// the drop.
 LowestPositionSearch::DroppedTool drop_tool(const DropCutter& floor, double x, double y);
 
 }  // namespace cusp::drop_cutter

@@ -14,8 +14,8 @@ namespace cusp::files {
 // A file's whole text. Throws InputError with the file's name and the system's reason.
 std::string text_of_file(const std::string& file);
 
-// An output file written through one large buffer. Throws InputError where the file can't be made or
-// written (the disk is full).
+// An output file written through one large buffer. Throws InputError where the file can't be made
+// or written (the disk is full).
 class TextFile {
 public:
     explicit TextFile(const std::string& file);

@@ -1,4 +1,4 @@
-// The firmware's segmenter finds the arcs; each is proved like any other move.
+// Arcs from the firmware's segmenter, each proved free of gouges like any other move.
 #include <algorithm>
 #include <vector>
 
@@ -17,9 +17,9 @@ using toolpath::ToolMove;
 
 namespace {
 
-constexpr double kFitShare = 0.8;         // of the band: the fitter may be off a tenth between
-constexpr double kChordShare = 0.05;      // of the band, between an arc and the chords proved
-constexpr std::size_t kMostLines = 1000;  // that one move replaces
+constexpr double kFitShare = 0.8;         // of the band: the fitter adds a tenth between points
+constexpr double kChordShare = 0.05;      // of the band: between an arc and the chords proved
+constexpr std::size_t kMostLines = 1000;  // replaced by one move
 
 ArcPlane plane_of(path::Plane plane)
 {

@@ -1,4 +1,4 @@
-// Newton's method from the last foot; after a drop from the place that it ended on.
+// Newton's method from the last contact, or from the contact of a drop.
 #include "host_tools/finishing/contact_tracker.hpp"
 
 namespace cusp::finishing {

@@ -1,5 +1,5 @@
-// A ball dropped at neighbouring places: its contact is followed over the surface, and proved
-// to be the only one; the search over the whole model is for where that fails.
+// A ball dropped at neighbouring points: its contact is tracked over the surface and proved to be
+// the only one. Where that fails, the whole model is searched.
 #pragma once
 
 #include <optional>
@@ -16,13 +16,13 @@ public:
     struct BallPosition {
         Vec3d tip;
         CcParameters contact;
-        // Cosine between the way to the centre and the surface's normal where it rests: less than 1
-        // where the ball leans over a rim or a crease.
+        // Cosine of the angle between the normal at the contact and the direction to the centre:
+        // less than 1 on a rim or a crease.
         double facing{1};
     };
 
-    // As `GougeFreePathFitter::dropped`, with the foot where the ball touches one smooth place
-    // only. Places beside the last one are quickest.
+    // The ball of `GougeFreePathFitter::drop`, with its contact where it touches one smooth point
+    // only. Quickest near the last point.
     std::optional<BallPosition> at(double x, double y);
 
 private:

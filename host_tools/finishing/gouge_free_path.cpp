@@ -1,4 +1,4 @@
-// Longest chords by doubling, then the bound of the clearance along each.
+// Longest fitting chords by doubling, then the bound of the clearance along each.
 #include "host_tools/finishing/gouge_free_path.hpp"
 
 #include <algorithm>
@@ -21,11 +21,11 @@ namespace {
 
 constexpr int kDeepestHalving = 12;
 constexpr double kDropPiece = 3.2;      // in widths of a dip as deep as the band
-constexpr int kDropHalvings = 7;        // of such a piece, where the tool may fall off
-constexpr double kSampleShare = 0.08;   // of the band, for what lies between samples
+constexpr int kDropHalvings = 7;        // of such a piece: dropped tips may jump
+constexpr double kSampleShare = 0.08;   // of the band: deviation between samples
 constexpr double kEdgeMargin = 1.05;    // of the band
 constexpr double kShortestLine = 0.01;  // mm
-constexpr double kContactSlack = 5e-6;  // mm: nearer than this is the contact itself
+constexpr double kContactSlack = 5e-6;  // mm: rounding of the contact itself
 
 double distance_to_chord(Vec3d p, Vec3d a, Vec3d b)
 {
@@ -121,8 +121,7 @@ bool GougeFreePathFitter::clears_edges(Vec3d a, Vec3d b) const
 
 bool GougeFreePathFitter::is_clear(Vec3d tip) const
 {
-    // A surface's own trimmed edge is no other place, but the polyline for it is not quite the
-    // edge.
+    // The contact may lie on a trimmed edge, whose polyline deviates from it by edge_error().
     const double sufficient = band_.offset - std::max(kContactSlack, 2 * model_.edge_error());
     return model_.is_distance_at_least(tool_, tip, sufficient - 1e-9);
 }
@@ -170,7 +169,7 @@ Points GougeFreePathFitter::sample(const std::function<Vec3d(double)>& at,
                                    int deepest,
                                    std::vector<double>* parameters) const
 {
-    // The middle is kept, too: what lies between is off by a quarter of this.
+    // The middle is kept as well, so the deviation between points is a quarter of this.
     const double sag = std::max(1e-5, 3 * kSampleShare * band_.half_width);
     Points out{at(breaks.front())};
     const auto add = [&](double parameter, Vec3d tip) {
@@ -203,12 +202,12 @@ Points GougeFreePathFitter::sample(const std::function<Vec3d(double)>& at,
 Points GougeFreePathFitter::sample_dropped(Vec3d a, Vec3d b, CcParameterList* cc_parameters) const
 {
     ContactTracker ball{*this};
-    std::map<double, CcParameters> foot_at;
+    std::map<double, CcParameters> contact_at;
     const auto tip = [&](double t) {
         const Vec3d p = a + (b - a) * t;
         const auto found = ball.at(p.x, p.y);
         if (cc_parameters != nullptr && found) {
-            foot_at[t] = found->contact;
+            contact_at[t] = found->contact;
         }
         return found ? found->tip : Vec3d{p.x, p.y, std::min(a.z, b.z)};
     };
@@ -223,7 +222,7 @@ Points GougeFreePathFitter::sample_dropped(Vec3d a, Vec3d b, CcParameterList* cc
     Points out =
         sample(tip, breaks, kDropHalvings, cc_parameters != nullptr ? &parameters : nullptr);
     for (const double t : parameters) {
-        cc_parameters->push_back(foot_at[t]);
+        cc_parameters->push_back(contact_at[t]);
     }
     return out;
 }
@@ -260,7 +259,7 @@ void GougeFreePathFitter::append_clear_line(Vec3d a, Vec3d b, int depth, Points&
     }
     const double length = norm(b - a);
     if (length < kShortestLine || depth > kDeepestHalving) {
-        // Both ends stand free; what is left between is lifted over.
+        // Both ends are clear: the tool is lifted over what lies between.
         const double up = std::max(length, kShortestLine);
         const double top = std::max(a.z, b.z) + up;
         for (const Vec3d& next : {Vec3d{a.x, a.y, top}, Vec3d{b.x, b.y, top}, b}) {
@@ -336,7 +335,7 @@ Points GougeFreePathFitter::fit_lines(const Points& dense, const CcParameterList
     std::size_t from = 0;
     std::size_t guess = 4;
     while (from + 1 < dense.size()) {
-        if (!last) {  // a contact knows its cell
+        if (!last) {  // the model knows the cells of the last contacts
             model_.forget_many_cells();
         }
         const std::size_t to = chord_end(dense, from, guess);

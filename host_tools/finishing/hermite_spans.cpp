@@ -1,4 +1,4 @@
-// Two steps of Newton's method find the place of a span that is nearest to a dense point.
+// Hermite spans; two steps of Newton's method find the parameter nearest to a dense point.
 #include "host_tools/finishing/hermite_spans.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Cubic pieces through dense points, with the points' tangents at their ends.
+// Cubic Hermite spans through dense points: Bezier pieces with the points' tangents at their ends.
 #pragma once
 
 #include <array>
@@ -12,21 +12,21 @@ namespace cusp::finishing {
 
 struct HermiteSpan {
     std::array<Vec3d, 4> bezier;
-    double length;  // mm, along the points
+    double length;  // mm, of the polyline through the points
 };
 
 // Unit tangent at a dense point from its neighbours (derivative of the parabola through three).
 Vec3d tangent_at(const Points& p, std::size_t k);
 
-// way      mm, of each point along all of them
-// tangent  unit, at each point
+// way      mm, of each point: the length of the polyline up to it
+// tangent  of each point, a unit vector
 HermiteSpan hermite_span(const Points& p,
                          const std::vector<double>& way,
                          const Points& tangent,
                          std::size_t from,
                          std::size_t to);
 
-// Whether the points between its ends lie within `allowed` mm of the span.
+// Whether the points `from` to `to` lie within `allowed` mm of the span.
 bool hermite_span_fits(const HermiteSpan& span,
                        const Points& p,
                        const std::vector<double>& way,
@@ -34,7 +34,7 @@ bool hermite_span_fits(const HermiteSpan& span,
                        std::size_t to,
                        double allowed);
 
-// One curve of at least one span, each starting where the one before ends.
+// The curve through consecutive spans, at least one.
 nurbs::Curve joined(const std::vector<HermiteSpan>& spans);
 
 }  // namespace cusp::finishing

@@ -1,5 +1,5 @@
-// Parts of all directions that no contact bars are quartered; where one stays open the ball is let
-// down from there, for the contact that is missing.
+// Directions that no contact blocks are divided. Where one stays open, the ball is dropped from
+// there to find the contact that is missing.
 #include "host_tools/finishing/lower_position_proof.hpp"
 
 #include <algorithm>
@@ -13,12 +13,12 @@ using drop_cutter::ApproachDirections;
 
 namespace {
 
-constexpr std::size_t kMostParts = 150;  // of the directions: the search that follows knows more
+constexpr std::size_t kMostParts = 150;  // of the directions; then a search is quicker
 constexpr int kMostDrops = 3;
 constexpr std::size_t kMostBlocks = 100'000;  // 40 MB
 constexpr double kLeastRise = 0.05;           // of a unit vector
 
-// Of the half sphere of vectors that do not point down.
+// Eight parts, around `towards`, of the half sphere of vectors that do not point down.
 std::array<ApproachDirections::Triangle, 8> fan(Vec3d towards)
 {
     constexpr double kEighth = 0.70710678118654752;  // of a turn: its sine and cosine

@@ -1,5 +1,5 @@
-// A quick answer to whether a ball gets lower over a place of a mesh than what passes leave there:
-// mostly none does where the ball can't touch the place, and the search for the lowest is spared.
+// Certificate that no lower position of a ball exists over a point of a mesh. Where the ball cannot
+// touch the point there is usually none, and the certificate replaces the search for the lowest.
 #pragma once
 
 #include <array>
@@ -11,33 +11,34 @@
 
 namespace cusp::finishing {
 
-// Contacts of a ball dropped on a grid, made where first needed, block directions
-// (`ApproachDirections`); all directions are parted round the one that the lowest ball known comes
-// from, since only near that one contacts bar little more than they have to.
+// Contacts of a ball dropped on a grid, computed when first needed, block directions
+// (`ApproachDirections`). All directions are divided around that of the lowest ball known, because
+// near it a contact blocks hardly more than is necessary.
 //
 // Not for use by two threads at once.
 class LowerPositionProof {
 public:
-    // path_fitter  passes over a mesh
-    // pitch      mm, of the grid
+    // path_fitter  of passes over a mesh; must outlive this
+    // pitch        mm, of the grid
     LowerPositionProof(const GougeFreePathFitter& path_fitter, double pitch);
 
     enum class Verdict : std::uint8_t { kNone, kOne, kUnknown };
-    // Whether a free ball passes through the point or straight below it; both answers are proved.
+    // Whether a ball clear of the mesh passes through the point or straight below it. kNone and
+    // kOne are proved.
     //
-    // centre  of a ball that passes straight above the point, not much higher
+    // centre  of a ball that passes a little above the point
     Verdict verdict_over(Vec3d point, Vec3d centre);
 
 private:
-    static constexpr std::int64_t kSide = 4;  // places of the grid, each way
-    using Block = std::vector<Vec3d>;         // what its places' contacts are, each once
+    static constexpr std::int64_t kSide = 4;  // grid points in x and in y
+    using Block = std::vector<Vec3d>;         // distinct contacts of its grid points
 
     const Block& block(std::int64_t i, std::int64_t j);
 
     const GougeFreePathFitter& path_fitter_;
     double pitch_;
     double radius_;
-    double contact_radius_;  // mm: of a ball that touches what the tool keeps `offset` off
+    double contact_radius_;  // mm: of the ball grown by the band's offset, which touches the model
     std::unordered_map<std::uint64_t, Block> blocks_;
 };
 

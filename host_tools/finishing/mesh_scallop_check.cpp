@@ -1,4 +1,4 @@
-// Triangles are halved across their longest side as long as one move covers each half.
+// Triangles are halved across their longest side until one move covers each half.
 #include "host_tools/finishing/mesh_scallop_check.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ constexpr int kFacetRounds = 5;
 constexpr int kFacetHalvings = 60;
 constexpr std::size_t kMostGaps = 300000;
 
-// Exactly on a side of a cell the neighbour's normal counts as much.
+// A point exactly on a side would have the normals of two facets.
 Vec3d place_beside(Vec3d corner, Vec3d middle) { return corner + (middle - corner) * 1e-3; }
 
 }  // namespace
@@ -85,7 +85,7 @@ MeshScallopCheck::Verdict MeshScallopCheck::judge(const Cell& cell) const
             }
         }
     }
-    // Halves with a bare corner would be no less bare.
+    // Halving would not cover an uncovered corner.
     if (!each) {
         return Verdict::kUncovered;
     }
@@ -106,7 +106,7 @@ bool MeshScallopCheck::settled(const Cell& cell) const
            !is_hidden(middle) && places_.settled(middle, cell.normal);
 }
 
-// Whether what stands straight over the corners is no more than the scallop, square to the facet.
+// Whether the stock straight over the corners is no higher than the scallop, square to the facet.
 bool MeshScallopCheck::low_enough(const Cell& cell) const
 {
     return std::all_of(cell.corners.begin(), cell.corners.end(), [&](Vec3d corner) {
@@ -129,8 +129,8 @@ void MeshScallopCheck::check_cell(const Cell& cell, int depth)
             blocked_area_ += 0.5 * norm(cross(cell.corners[1] - cell.corners[0],
                                               cell.corners[2] - cell.corners[0]));
         }
-        // Mostly nothing is to be done where the tool can't touch, and rough ground has no end of
-        // such cells.
+        // Where the tool cannot touch there is usually no lower position. Rough ground has very
+        // many such cells.
         if (verdict == Verdict::kSettled ||
             (verdict == Verdict::kBlocked && !may_be_uncovered(cell))) {
             return;
@@ -166,8 +166,8 @@ void MeshScallopCheck::check()
     checking_ = false;
 }
 
-// The tip that is missing at a place; none where nothing is, or the tool can't touch and
-// `where_blocked` is false.
+// A tip that would cut the stock over a point down to the scallop; none where the point is covered,
+// or where the tool cannot touch it and `where_blocked` is false.
 std::optional<Vec3d> MeshScallopCheck::missing_tip(const Place& at, bool where_blocked) const
 {
     if (at.normal.z < kUprightNormal || is_covered(at.point, at.normal, kPlaceShare) ||
@@ -181,7 +181,7 @@ std::optional<Vec3d> MeshScallopCheck::missing_tip(const Place& at, bool where_b
     return where_blocked ? places_.lower_tip(at.point, at.normal).tip : std::nullopt;
 }
 
-// A place of the cell that lacks a pass.
+// A point of the cell where a pass is missing.
 std::optional<MeshScallopCheck::Place> MeshScallopCheck::uncovered_point(const Cell& cell) const
 {
     const Place middle{cell.middle(), cell.normal};
@@ -197,7 +197,7 @@ std::optional<MeshScallopCheck::Place> MeshScallopCheck::uncovered_point(const C
     return std::nullopt;
 }
 
-// As `uncovered_point`, but told at once: true where it would have to be searched for.
+// A quick form of uncovered_point(): false only where that would find none.
 bool MeshScallopCheck::may_be_uncovered(const Cell& cell) const
 {
     const Vec3d middle = cell.middle();
@@ -216,7 +216,7 @@ bool MeshScallopCheck::may_be_uncovered(const Cell& cell) const
     });
 }
 
-// From place to place of the mesh as seen from above, both ways, as far as tips are missing.
+// The missing tips along a line over the mesh in plan, both ways, as far as tips are missing.
 Points MeshScallopCheck::trace(const Place& from, Vec3d way) const
 {
     Points out;

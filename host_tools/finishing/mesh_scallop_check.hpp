@@ -1,5 +1,5 @@
-// Whether passes of a ball leave no more than the scallop over a mesh, proved triangle by triangle;
-// and the passes that are missing where they do leave more.
+// Proof that passes of a ball leave no more than the scallop over a mesh, triangle by triangle, and
+// the missing passes where they leave more.
 #pragma once
 
 #include <array>
@@ -11,15 +11,17 @@
 
 namespace cusp::finishing {
 
-// As `Coverage`, for facets: what one straight move removes is convex, so a move that removes all
-// three corners of a triangle, raised by the scallop, removes all of the triangle raised. Triangles
-// that no one move covers are halved. Facets that stand upright, and what lies under others, are
-// not looked at.
+// The counterpart of `ScallopCheck` for facets. The volume that one straight move removes is
+// convex. So a move that removes all three corners of a triangle, raised by the scallop, removes
+// the whole raised triangle. Triangles that no single move covers are halved. Upright facets and
+// facets hidden under others are not checked.
+//
+// Not for use by two threads at once.
 class MeshScallopCheck {
 public:
-    // path_fitter  passes over a mesh: the one of `triangles`
-    // scallop    mm: what may be left
-    // path_off   mm: how far the path that is cut may be from the points given to `add`
+    // path_fitter  of passes over the mesh of `triangles`
+    // scallop      mm: allowed height of uncut stock
+    // path_off     mm: maximum distance between the path that is cut and the points given to add()
     MeshScallopCheck(const std::vector<std::array<Vec3d, 3>>& triangles,
                      const GougeFreePathFitter& path_fitter,
                      double scallop,
@@ -28,32 +30,32 @@ public:
     // A pass that will be cut, by its tips.
     void add(const Points& tips) { places_.add(tips); }
 
-    // Whether what stands over a place of the mesh is taken off to a share of the scallop.
+    // Whether the stock over a point of the mesh is cut down to a share of the scallop.
     //
-    // normal  unit, upward
+    // normal  unit vector, upward
     bool is_covered(Vec3d place, Vec3d normal, double share) const
     {
         return places_.is_covered(place, normal, share);
     }
 
-    // mm: between passes on level ground that leave the scallop
+    // mm: stepover on level ground that leaves the scallop
     double step() const { return places_.step(); }
 
-    // Looks over all triangles; what is not covered is kept for `add_missing_passes`.
+    // Checks all triangles. Uncovered cells are kept for add_missing_passes().
     void check();
 
-    // Passes for what is not covered, each handed to `cut`, which must `add` what it makes of it.
+    // Adds passes over uncovered cells. Each is given to `cut`, which must add() the path it cuts.
     void add_missing_passes(const std::function<void(const Points&)>& cut);
 
-    // mm2 of facets, square to them, that keep more than the scallop because the tool can't touch
-    // them: feet of walls, concave edges, valleys narrower than the tool.
+    // mm2 of facets with more than the scallop left because the tool cannot touch them: feet of
+    // walls, concave edges, valleys narrower than the tool.
     double blocked_area() const { return blocked_area_; }
 
-    // Whether the look ended early because too many cells are bare.
+    // Whether the check ended early because of too many uncovered cells.
     bool overflowed() const { return overflowed_; }
-    // Cells that stay uncovered, after `add_missing_passes`.
+    // Cells still uncovered after add_missing_passes().
     std::size_t uncovered() const { return uncovered_.size(); }
-    // The most that was found left there over what the tool can reach, mm.
+    // The highest stock measured there above what the tool can reach, mm.
     double most_left() const { return most_left_; }
 
 private:
@@ -67,7 +69,7 @@ private:
 
         Vec3d middle() const { return (corners[0] + corners[1] + corners[2]) / 3.0; }
     };
-    // kSettled: the tool can't touch it, and nothing is to be done.
+    // kSettled: the tool cannot touch it and has no lower position over it.
     enum class Verdict : std::uint8_t { kCovered, kHalve, kBlocked, kSettled, kUncovered };
 
     void check_cell(const Cell& cell, int depth);

@@ -1,5 +1,4 @@
-// Passes where too much stands: where a place lacks one, it is traced along the surface's
-// parameters.
+// Missing passes: where the scallop is too high, a pass is traced along the surface's parameters.
 #include <algorithm>
 #include <cmath>
 
@@ -12,9 +11,8 @@ using nurbs::SurfacePoint;
 
 namespace {
 
-constexpr double kNearCell =
-    0.03;  // cells in steps between passes, where nearly the scallop stands
-constexpr double kLeastNear = 0.7;  // of the scallop: beside less it is not worth the search
+constexpr double kNearCell = 0.03;  // in stepovers: smallest cell that nearly keeps the scallop
+constexpr double kLeastNear = 0.7;  // of the scallop: neighbours of less are not searched
 constexpr int kRounds = 5;
 constexpr int kMoreHalvings = 10;  // a round
 
@@ -31,7 +29,7 @@ std::optional<Vec3d> ScallopCheck::missing_tip(int surface,
     }
     if (is_covered(at)) {
         if (where_blocked) {
-            lower_tip(at);  // that is none, but what stands may be nearly the scallop
+            lower_tip(at);  // returns none, but records stock that is nearly the scallop
         }
         return std::nullopt;
     }
@@ -43,7 +41,7 @@ std::optional<Vec3d> ScallopCheck::missing_tip(int surface,
 
 std::optional<Vec3d> ScallopCheck::lower_tip(const Corner& at) const
 {
-    // On upright walls heights say nothing.
+    // On upright walls heights are meaningless.
     if (at.normal.z < kUprightNormal || is_hidden(at)) {
         return std::nullopt;
     }
@@ -69,7 +67,7 @@ Points ScallopCheck::trace(int surface, Place place, bool along_u) const
         for (int k = 0; k < kMostTraced; ++k) {
             const std::optional<Vec3d> tip = missing_tip(surface, at_u, at_v, true);
             if (k == 0 && sign > 0) {
-                // the start is there already
+                // the first direction has added the start
             } else if (tip) {
                 out.push_back(*tip);
             } else {
@@ -93,15 +91,15 @@ Points ScallopCheck::trace(int surface, Place place, bool along_u) const
     return out;
 }
 
-// Its middle, then its corners.
+// The middle of the cell, then its corners.
 std::array<ScallopCheck::Place, 5> ScallopCheck::places_of(const Cell& cell) const
 {
     return {Place{0.5 * (cell.u0 + cell.u1), 0.5 * (cell.v0 + cell.v1)}, Place{cell.u0, cell.v0},
             Place{cell.u1, cell.v0}, Place{cell.u0, cell.v1}, Place{cell.u1, cell.v1}};
 }
 
-// Whether the middle of the next cell beyond a corner that is seen is hidden as that of this one
-// is: else what is seen is looked at there.
+// Whether the visible corner of a cell with a hidden middle lies in an opening narrower than cells:
+// the middle of the next cell beyond the corner is hidden too. Otherwise that cell is checked.
 bool ScallopCheck::in_narrow_opening(int surface,
                                      const Place& middle,
                                      const Place& corner_place) const
@@ -113,12 +111,12 @@ bool ScallopCheck::in_narrow_opening(int surface,
            is_hidden(corner(surface, u, v));
 }
 
-// A place of the cell that lacks a pass. Ridges between passes that leave the scallop rise by two
-// scallops a step beside them: what is between two places may be so much more.
+// A point of the cell where a pass is missing. Beside a ridge of the scallop's height the stock
+// changes by two scallops a stepover, so the height between two points may exceed theirs by that.
 std::optional<ScallopCheck::Place> ScallopCheck::uncovered_point(const Cell& cell) const
 {
     const Surface& s = surfaces_[static_cast<std::size_t>(cell.surface)];
-    // Beyond a border no other cell says what is left.
+    // No neighbouring cell checks a border.
     const auto on_border = [&](const Place& at) {
         return at.u == s.u_begin() || at.u == s.u_end() || at.v == s.v_begin() || at.v == s.v_end();
     };
@@ -161,7 +159,7 @@ void ScallopCheck::add_missing_passes(const std::function<void(const Points&)>& 
         std::vector<Cell> changed;
         std::size_t looked = 0;
         for (const Cell& cell : open) {
-            // A round has half the work of the one before.
+            // A round takes about half as long as the one before.
             const double rest =
                 1 - 0.5 * static_cast<double>(looked++) / static_cast<double>(open.size());
             progress(1 - std::ldexp(rest, -round));
@@ -172,7 +170,7 @@ void ScallopCheck::add_missing_passes(const std::function<void(const Points&)>& 
                 if (moved_clear_) {
                     beside_edges.push_back(cell);
                 }
-                // Passes cut since may have made what stands steep.
+                // Passes cut since may have left a steep step.
                 const std::array<Corner, 4> at = corners_of(cell);
                 if (is_steep(at)) {
                     changed.push_back(cell);
@@ -215,7 +213,7 @@ double ScallopCheck::scallop_over_reachable(const Corner& at, double resolution)
     return left.reachable;
 }
 
-// Cells where nothing is left to do but by tips that passes are kept off.
+// Measures cells where the only lower tips are those that would gouge an edge from the side.
 void ScallopCheck::measure_beside_edges(const std::vector<Cell>& cells)
 {
     for (const Cell& cell : cells) {

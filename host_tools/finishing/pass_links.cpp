@@ -1,9 +1,8 @@
-// Greedy order, or the one given; a link lies on the model, or it is a retract.
+// Greedy order, or the one given. A link lies on the model, or is a retract and an entry.
 #include "host_tools/finishing/pass_links.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <variant>
 
 #include "host_tools/toolpath/toolpath_measure.hpp"
@@ -21,7 +20,7 @@ using toolpath::ToolpathWriter;
 namespace {
 
 constexpr double kSamePlace = 1e-6;   // mm
-constexpr double kLongestDetour = 3;  // times the direct way, before a retract is better
+constexpr double kLongestDetour = 3;  // times the distance; beyond it a retract is better
 
 double plan_distance(Vec3d a, Vec3d b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
@@ -154,7 +153,7 @@ LinkedPasses link_passes(std::vector<SurfacePass> passes,
             continue;
         }
         const Vec3d at = passes[next].points.back();
-        double nearest = std::numeric_limits<double>::infinity();
+        double nearest = kInfinite;
         bool turned = false;
         for (std::size_t k = 0; k < passes.size(); ++k) {
             if (done[k]) {

@@ -1,4 +1,4 @@
-// Puts passes in an order and joins them: along the model where they are near, else over it.
+// Order and links of passes: along the model between near ends, else over it at clearance height.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace cusp::finishing {
 
-// A pass as it will be written: the curve where there is one, else the moves from the first point
-// where there are any, else lines through the points. The points stay near whichever it is.
+// A pass as it will be written: the curve if there is one, else the moves from the first point if
+// there are any, else lines through the points. The points always lie within the band of the path.
 struct SurfacePass {
     Points points;
     std::optional<nurbs::Curve> curve;
@@ -18,21 +18,22 @@ struct SurfacePass {
 };
 
 struct LinkRules {
-    double stay_down{};    // mm in plan: nearer passes are joined on the model
-    double clearance_z{};  // height of rapids
-    double plunge_from{};  // height from which the tool goes down at the plunge feed
+    double stay_down{};    // mm in plan: ends nearer than this are linked on the model
+    double clearance_z{};  // mm: height of rapids
+    double plunge_from{};  // mm: height from which the tool descends at the plunge feed
     bool one_way{false};   // passes keep their order and their direction
 };
 
 struct LinkedPasses {
     std::vector<toolpath::ToolMove> moves;
     int retracts{};
-    double cut_length{};   // mm, passes
-    double link_length{};  // mm, at feed between passes
-    int points{};
+    double cut_length{};   // mm, of all passes
+    double link_length{};  // mm, of links at feed
+    int points{};          // end points of moves
 };
 
-// Zigzag: nearest end first, from the first pass on; passes may be turned round. O(n^2).
+// Links the passes in order, or without `one_way` always to the nearest end, reversing passes where
+// that is nearer. O(n^2) for n passes.
 LinkedPasses link_passes(std::vector<SurfacePass> passes,
                          const LinkRules& rules,
                          GougeFreePathFitter& path_fitter);

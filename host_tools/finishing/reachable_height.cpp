@@ -1,5 +1,5 @@
-// `LowestPositionSearch` over drops of the tool that passes are planned with; its answer is dropped
-// exactly.
+// `LowestPositionSearch` with drops of the tool that passes are planned with. The position found is
+// dropped exactly.
 #include "host_tools/finishing/reachable_height.hpp"
 
 #include <cmath>
@@ -14,7 +14,7 @@ using part_model::EdgeGougeCheck;
 
 namespace {
 
-// Away from the brink of a cliff.
+// Distances from the brink of a cliff.
 constexpr double kLeastOffBrink = 5e-4;  // mm
 constexpr double kMostOffBrink = 0.1;    // of the pitch
 constexpr int kWays = 8;
@@ -41,7 +41,7 @@ ReachableHeight::ReachableHeight(const std::vector<Surface>& surfaces,
 {
 }
 
-// An edge that the tool keeps off is one more contact.
+// An edge that the tool would gouge counts as one more contact.
 LowestPositionSearch::DroppedTool ReachableHeight::drop_at(double x, double y, Edges edges)
 {
     LowestPositionSearch::DroppedTool rest{{x, y, LowestPositionSearch::kNowhere}, {}};
@@ -50,7 +50,7 @@ LowestPositionSearch::DroppedTool ReachableHeight::drop_at(double x, double y, E
             rest = {on_mesh->centre, on_mesh->point};
         }
     } else {
-        // Most models never ask.
+        // Made when first needed, which is never for most models.
         if (!floor_) {
             floor_.emplace(surfaces_, path_fitter_.offset_tool(), accuracy_);
         }
@@ -82,7 +82,7 @@ std::optional<ReachableHeight::Position> ReachableHeight::lowest_clear_of_edges(
     Vec3d place, const Position& near, double resolution)
 {
     const std::optional<LowestPositionSearch::Position> best = search_clear_of_edges_.lowest_over(
-        place, resolution, -1e300, Vec2d{near.tip.x, near.tip.y});
+        place, resolution, -kUnbounded, Vec2d{near.tip.x, near.tip.y});
     if (!best || best->height > resolution) {
         return std::nullopt;
     }
@@ -116,8 +116,8 @@ std::optional<ReachableHeight::Position> ReachableHeight::exact_over(Vec3d place
     return Position{*tip, search_.height_under(*tip + Vec3d{0, 0, radius_}, place)};
 }
 
-// The lowest position is often on the brink of a cliff that the ball just misses, and exactly
-// dropped it stands on top. A little away it is hardly higher.
+// The lowest position is often beside a cliff that the ball just misses; an exact drop there rests
+// on top of the cliff. A little away from the cliff the position is hardly higher.
 std::optional<ReachableHeight::Position> ReachableHeight::beside(Vec3d place,
                                                                  Vec3d brink,
                                                                  double resolution,

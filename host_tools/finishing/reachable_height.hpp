@@ -1,5 +1,5 @@
-// How low a ball gets over a place that it can't touch: the best position of the tool in valleys,
-// concave edges and under overhangs.
+// Reachable height over a point that the ball cannot touch: the lowest position of the tool in
+// valleys, at concave edges and under overhangs.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@
 
 namespace cusp::finishing {
 
-// `LowestPositionSearch` for passes: its drops are bounds from above, a little high; the answer's
-// is exact. A search, not a proof.
+// `LowestPositionSearch` for passes. Its drops are upper bounds, a little high; the tip returned is
+// dropped exactly. A search, not a proof. Not for use by two threads at once.
 class ReachableHeight {
 public:
-    // surfaces  of the model that the passes are certified on; none: it is a mesh
+    // surfaces  of the fitter's model; empty if it is a mesh
     // pitch     mm, of the grid
-    // accuracy  mm: how high drops may be
+    // accuracy  mm: how much too high drops may be
     ReachableHeight(const std::vector<nurbs::Surface>& surfaces,
                     const GougeFreePathFitter& path_fitter,
                     double pitch,
@@ -28,25 +28,24 @@ public:
 
     struct Position {
         Vec3d tip;
-        double height;  // mm: what this tip leaves straight above or below the place
+        double height;  // mm: z that this tip leaves straight above or below the point
     };
-    // resolution  mm: heights above this and their tips may be inexact; a low one
-    //             saves
-    //        most of the time
+    // resolution  mm: heights above this and their tips may be inexact; a low one saves most of
+    //             the time
     //
-    // None where the tool can't stand over the place.
+    // None where the tool has no position over the point.
     std::optional<Position> lowest_over(Vec3d place, double resolution);
 
-    // As lowest_over() for a tool that keeps clear of edges as passes do; none where no tip is
-    // found that leaves less than `resolution`.
+    // As lowest_over(), for tips that gouge no edge from the side; none where no such tip is found
+    // that leaves less than `resolution`.
     //
-    // near  `lowest_over`'s answer, that does not
+    // near  the answer of lowest_over(), which gouges an edge
     std::optional<Position> lowest_clear_of_edges(Vec3d place,
                                                   const Position& near,
                                                   double resolution);
 
 private:
-    // Whether the tool keeps clear of rims and creases.
+    // Whether tips that gouge rims and creases from the side are excluded.
     enum class Edges : std::uint8_t { kIgnored, kMovedClear };
 
     drop_cutter::LowestPositionSearch::DroppedTool drop_at(double x, double y, Edges edges);
@@ -62,7 +61,7 @@ private:
     std::optional<drop_cutter::DropCutter> floor_;
     double accuracy_;
     double radius_;
-    double contact_radius_;  // mm: of a ball that touches what the tool keeps `offset` off
+    double contact_radius_;  // mm: of the ball grown by the band's offset, which touches the model
     drop_cutter::LowestPositionSearch search_;
     drop_cutter::LowestPositionSearch search_clear_of_edges_;
 };

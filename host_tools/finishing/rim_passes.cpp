@@ -1,5 +1,5 @@
-// Passes over open rims of upright walls: the sliver that the tolerance keeps on such a wall stands
-// up to the stock's top until the ball has gone over its rim.
+// Passes over open rims of upright walls. The tolerance leaves a sliver on such a wall, up to the
+// top of the stock. A pass along the rim removes it.
 #include <algorithm>
 #include <cmath>
 
@@ -12,9 +12,9 @@ using part_model::PartModel;
 
 namespace {
 
-constexpr double kUprightRim = 0.2;  // z of the normal: below, cells are proved along the normal
-constexpr double kRimStep = 0.125;   // in steps between passes
-constexpr int kLeastRim = 16;        // places
+constexpr double kUprightRim = 0.2;  // z of the normal: less is proved along the normal
+constexpr double kRimStep = 0.125;   // in stepovers
+constexpr int kLeastRim = 16;        // points
 constexpr int kMostRim = 4000;
 
 double length_between(const PartModel& model, int surface, Vec2d from, Vec2d to)
@@ -32,7 +32,7 @@ double length_between(const PartModel& model, int surface, Vec2d from, Vec2d to)
 
 }  // namespace
 
-// The tip over a place of a rim, where that takes away more than what may be left.
+// The tip over a point of a rim; none where it would remove no more than the scallop.
 std::optional<Vec3d> ScallopCheck::tip_over_rim(int surface, Vec2d place) const
 {
     if (!path_fitter_.model().inside_trims(surface, place.x, place.y)) {

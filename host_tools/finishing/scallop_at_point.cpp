@@ -1,4 +1,4 @@
-// Moves near the place are tried one by one; best tips come from `ReachableHeight`.
+// Tests the moves near a point one by one; the best tips come from `ReachableHeight`.
 #include "host_tools/finishing/scallop_at_point.hpp"
 
 #include <algorithm>
@@ -10,16 +10,16 @@ using nurbs::Surface;
 
 namespace {
 
-constexpr double kReachStep = 0.25;    // in steps between passes
+constexpr double kReachStep = 0.25;    // in stepovers
 constexpr double kReachPitch = 0.125;  // radii, at least
-// How high drops may be: mm, but no less and no more than shares of the scallop. A part of metres
-// would be cut to millions of pieces otherwise.
+// How much too high drops may be: mm, within shares of the scallop. A part of metres would be cut
+// into millions of pieces otherwise.
 constexpr double kDropAccuracy = 1e-4;
 constexpr double kLeastDropShare = 0.001;
 constexpr double kMostDropShare = 0.005;
-constexpr double kAgrees = 3;        // of the accuracy of drops: what searches tell apart
-constexpr double kTraceApart = 0.3;  // in steps between passes, of tips that one line may join
-constexpr double kFarApart = 0.5;    // radii, of tips that one pass may join
+constexpr double kAgrees = 3;        // of the accuracy of drops: resolution of searches
+constexpr double kTraceApart = 0.3;  // in stepovers: tips that one line may join
+constexpr double kFarApart = 0.5;    // radii: tips that one pass may join
 constexpr double kShortest = 1e-3;   // mm
 
 }  // namespace
@@ -66,8 +66,8 @@ bool ScallopAtPoint::is_covered(Vec3d point, Vec3d normal, double share) const
                        [&](std::uint32_t move) { return swept_.removes(move, top, path_off_); });
 }
 
-// What is told at once of whether a ball takes off more than a share of the scallop, by what
-// searches tell apart.
+// Fast test whether some ball removes more than a share of the scallop, within the resolution of
+// searches.
 LowerPositionProof::Verdict ScallopAtPoint::quick_verdict(Vec3d point,
                                                           Vec3d normal,
                                                           double share,
@@ -162,8 +162,8 @@ ScallopAtPoint::Uncut ScallopAtPoint::uncut_at(Vec3d point, Vec3d normal, double
 
 std::vector<Points> ScallopAtPoint::runs_of(const Points& tips) const
 {
-    // A place that is at the limit may have its tip when asked once and none the next time: drops
-    // are right to a micrometre only.
+    // Drops are accurate to a micrometre only: a point at the limit may have had a tip in one query
+    // and none in the next.
     if (tips.empty()) {
         return {};
     }

@@ -1,4 +1,5 @@
-// What passes of a ball leave over single places of a model, and the tip that would take it off.
+// The stock that passes of a ball leave over a single point of a model, and the tip that would
+// remove it.
 #pragma once
 
 #include <optional>
@@ -11,38 +12,40 @@
 
 namespace cusp::finishing {
 
-// Where metal may stand at most over a place, with `scallop` left. On all but steep ground it is
-// measured upright and turned square: over sharp ridges that asks for more than the way along the
-// normal.
+// The highest point that stock may reach over a point of the surface. The scallop is measured along
+// the normal on steep ground. Elsewhere (`upright`) it is measured vertically and multiplied by the
+// cosine of the slope, which over sharp ridges is stricter.
 Vec3d raised(Vec3d point, Vec3d normal, double scallop, bool upright);
 
-// The centre of a ball that touches the surface under where the metal may stand: raised upright
-// over a steep wall that is up the wall from the place itself.
+// The centre of a ball that touches the surface under raised(). On a steep wall that is above the
+// point itself.
 Vec3d centre_under(Vec3d top, Vec3d normal, double scallop, double radius);
 
-// Least z of a normal for metal to be measured upright.
+// Least z of a normal for which the scallop is measured vertically.
 constexpr double kSteepNormal = 0.2;
-// Least z of a normal where heights say anything.
+// Least z of a normal for which heights are meaningful.
 constexpr double kUprightNormal = 0.05;
-// Of the scallop: what is asked of places that stand for a smallest cell.
+// Share of the scallop allowed at points that represent a smallest cell.
 constexpr double kPlaceShare = 0.98;
-// In steps between passes: a smallest cell where the tool can't touch.
+// In stepovers: the smallest cell where the tool cannot touch the surface.
 constexpr double kBlockedCell = 0.25;
-// The same where none of its corners can be touched and next to nothing could be taken off at its
-// middle; and how much that is, of the scallop.
+// In stepovers: the smallest such cell where the tool can touch no corner, and could remove at its
+// middle no more than this share of the scallop.
 constexpr double kSettledCell = 0.5;
 constexpr double kSettledShare = 0.25;
-// In steps between passes: between places that a missing pass is traced by.
+// In stepovers: the distance of points along a missing pass.
 constexpr double kTraceStep = 0.125;
 constexpr int kMostTraced = 4000;
-// mm: how far a surface must lie over a place to hide it.
+// mm: how far a surface has to lie over a point to hide it.
 constexpr double kHidden = 1e-3;
+
+// Not for use by two threads at once.
 
 class ScallopAtPoint {
 public:
     // surfaces  none for a mesh
-    // scallop   mm: what may be left
-    // path_off  mm: how far the path that is cut may be from the points given to `add`
+    // scallop   mm: allowed height of uncut stock
+    // path_off  mm: maximum distance between the path that is cut and the points given to add()
     ScallopAtPoint(const std::vector<nurbs::Surface>& surfaces,
                    const GougeFreePathFitter& path_fitter,
                    double scallop,
@@ -53,44 +56,44 @@ public:
 
     const SweptVolume& swept() const { return swept_; }
 
-    // mm, between passes on flat ground that leave the scallop.
+    // mm: stepover on level ground that leaves the scallop.
     double step() const { return step_; }
 
-    // The tip of a ball that rests on the place, lifted as passes are.
+    // The tip of a ball that touches the point, raised by the band's offset as passes are.
     Vec3d touching_tip(Vec3d point, Vec3d normal) const;
 
-    // Whether what stands over the place is taken off to a share of the scallop.
+    // Whether the stock over the point is cut down to a share of the scallop.
     //
-    //   normal  unit, upward
+    // normal  unit vector, upward
     bool is_covered(Vec3d point, Vec3d normal, double share = kPlaceShare) const;
 
     struct LowerTip {
-        std::optional<Vec3d> tip;  // none where no tip takes more than the share off
-        double left{};             // mm: what it takes off
-        bool moved_clear{};        // there is one, but passes keep off the edge beside it
+        std::optional<Vec3d> tip;  // none where no tip removes more than the share
+        double left{};             // mm: what it removes
+        bool moved_clear{};        // there is one, but it would gouge an edge from the side
     };
-    // Where the tool would stand lowest over the place, if that takes off more than a share of the
+    // The lowest position of the tool over the point, if it removes more than a share of the
     // scallop.
     // Precondition: normal.z >= kUprightNormal
     LowerTip lower_tip(Vec3d point, Vec3d normal, double share = 1) const;
 
-    // Whether it is told at once that `lower_tip` has none. False says nothing.
+    // Fast rejection: true only where lower_tip() has none.
     bool has_no_lower_tip(Vec3d point, Vec3d normal) const;
 
-    // Whether no tip would take off more than `kSettledShare`, those that passes keep off included.
+    // Whether no tip removes more than `kSettledShare`, tips that would gouge an edge included.
     bool settled(Vec3d point, Vec3d normal) const;
 
     struct Uncut {
-        double reachable{};     // mm: over the best that passes can do
-        double beside_edges{};  // mm: over the best that the tool could do, where passes keep off
-                                // an edge of which it would take too much
+        double reachable{};     // mm: above the lowest position that passes may take
+        double beside_edges{};  // mm: above the lowest position of the tool, where passes may not
+                                // take that since it would gouge an edge from the side
     };
-    // What is left at a place, square to the surface; at most the radius. May be inexact below
-    // `resolution`, which saves most of the search.
+    // The stock left at a point, square to the surface; at most the radius. Values below
+    // `resolution` may be inexact, which saves most of the search.
     Uncut uncut_at(Vec3d point, Vec3d normal, double resolution) const;
 
-    // Passes of best tips of neighbouring places. They may lie apart (two sides of a ridge):
-    // between those that do the tool follows the model, or it is lifted.
+    // Passes through the best tips of neighbouring points. Tips may lie apart (on two sides of a
+    // ridge): then the pass follows the model between them, or ends.
     std::vector<Points> runs_of(const Points& tips) const;
 
 private:
@@ -109,7 +112,7 @@ private:
     double path_off_;
     double step_;
     SweptVolume swept_;
-    double accuracy_;  // mm: how high drops may be
+    double accuracy_;  // mm: how much too high drops may be
     mutable ReachableHeight reach_;
     mutable std::optional<LowerPositionProof> lower_position_;  // over a mesh
     mutable std::vector<std::uint32_t> near_;

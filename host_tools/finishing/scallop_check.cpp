@@ -1,4 +1,4 @@
-// Cells are halved across the passes as long as one move covers each half.
+// Cells are halved across the passes until one move covers each half.
 #include "host_tools/finishing/scallop_check.hpp"
 
 #include <algorithm>
@@ -15,12 +15,14 @@ using nurbs::SurfacePoint;
 
 namespace {
 
-constexpr double kSmallest = 1.0 / 96;  // cells, in steps between passes
-constexpr double kLargest = 4;          // the same
-constexpr double kBorderCell = 0.03;    // the same across a border, where a ball reaches over it
-constexpr double kSteepCell = 0.04;     // the same where what stands is steep
-constexpr double kSteepShare = 4.0;     // of the scallop, between corners: steep
-constexpr double kGapCell = 0.125;      // the same where gaps are looked for, over places
+// Sizes of cells, in stepovers.
+constexpr double kSmallest = 1.0 / 96;
+constexpr double kLargest = 4;
+constexpr double kBorderCell = 0.03;  // smallest across a border that the ball overhangs
+constexpr double kSteepCell = 0.04;   // smallest where the stock left has a steep step
+constexpr double kGapCell = 0.125;    // smallest below a gap between surfaces
+// Share of the scallop: a step between corners so high is steep.
+constexpr double kSteepShare = 4.0;
 constexpr int kDeepest = 40;
 constexpr double kBorderSlack = 1e-6;  // of a surface's domain
 
@@ -45,7 +47,7 @@ ScallopCheck::ScallopCheck(const std::vector<Surface>& surfaces,
 
 void ScallopCheck::add(const Points& tips)
 {
-    if (looked_) {
+    if (has_checked_) {
         places_.add(tips);
     } else {
         waiting_.push_back(tips);
@@ -59,7 +61,7 @@ ScallopCheck::Corner ScallopCheck::corner(int surface, double u, double v) const
     return out;
 }
 
-// Whether a place belongs to the surface. Trims that run along a border may miss it by rounding.
+// Whether a point belongs to the surface. Trims along a border may miss it by rounding.
 bool ScallopCheck::inside_trims(int surface, double u, double v) const
 {
     const Surface& s = surfaces_[static_cast<std::size_t>(surface)];
@@ -70,7 +72,7 @@ bool ScallopCheck::inside_trims(int surface, double u, double v) const
         std::clamp(v, s.v_begin() + slack_v, s.v_end() - slack_v));
 }
 
-// Whether a ball can touch the place.
+// Whether a ball can touch the point.
 bool ScallopCheck::is_clear(const Corner& at) const
 {
     return dot(at.normal, at.normal) > 0 &&
@@ -99,7 +101,7 @@ std::array<ScallopCheck::Cell, 2> ScallopCheck::halves_of(const Cell& cell, bool
     return out;
 }
 
-// mm, straight, from its first corner.
+// mm: distances of the first corner from its two neighbours.
 std::array<double, 2> ScallopCheck::sides_of(const Cell& cell) const
 {
     const auto at = [&](double u, double v) {
@@ -145,7 +147,7 @@ ScallopCheck::Verdict ScallopCheck::judge(const Cell& cell, const std::array<Cor
     for (std::size_t k = 0; k < 4; ++k) {
         tops[k] = raised(at[k].point.point, at[k].normal, scallop_, upright);
     }
-    // One bit a corner, of the moves that cover it.
+    // together[bits]: some move covers exactly these corners.
     std::array<bool, 16> together{};
     for (const std::uint32_t move : near_) {
         unsigned covers = 0;
@@ -199,8 +201,8 @@ ScallopCheck::Verdict ScallopCheck::judge(const Cell& cell, const std::array<Cor
     return longer;
 }
 
-// From beyond a border the ball gets the lower the nearer to it a place is, and beside cliffs what
-// stands at one place says nothing of the next.
+// Refines cells with blocked corners where one point does not represent the next: at borders, where
+// the ball gets lower the nearer a point is, and beside cliffs.
 ScallopCheck::Verdict ScallopCheck::thinned(const Cell& cell,
                                             const std::array<Corner, 4>& at,
                                             double long_u,
@@ -214,7 +216,7 @@ ScallopCheck::Verdict ScallopCheck::thinned(const Cell& cell,
         if (std::max(long_u, long_v) > kGapCell * places_.step()) {
             return longer;
         }
-        // The other corners are those of cells beside it.
+        // Neighbouring cells check the other corners.
         if (is_hidden(middle_of(cell)) && is_hidden(at.front())) {
             return Verdict::kCovered;
         }
@@ -230,8 +232,8 @@ ScallopCheck::Verdict ScallopCheck::thinned(const Cell& cell,
     return is_steep(at) ? longer : Verdict::kUncovered;
 }
 
-// Whether a cell is wide for one where some of the corners are trimmed away and others not, or far
-// more stands over some.
+// Whether the cell is wider than kSteepCell, and either a trim separates its corners or the stock
+// over them differs steeply.
 bool ScallopCheck::is_steep(const std::array<Corner, 4>& at) const
 {
     const double wide = kSteepCell * places_.step();
@@ -239,7 +241,7 @@ bool ScallopCheck::is_steep(const std::array<Corner, 4>& at) const
         norm(at[2].point.point - at[0].point.point) < wide) {
         return false;
     }
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinite;
     double most = -least;
     int outside = 0;
     for (const Corner& c : at) {
@@ -257,14 +259,14 @@ bool ScallopCheck::is_steep(const std::array<Corner, 4>& at) const
     return (outside > 0 && outside < 4) || most - least > kSteepShare * scallop_;
 }
 
-// Whether some corner is bare because the tool can't touch it, or is trimmed away.
+// Whether some corner is uncovered and the tool cannot touch it.
 bool ScallopCheck::blocked_somewhere(const std::array<Corner, 4>& at) const
 {
     return std::any_of(at.begin(), at.end(), [&](const Corner& c) { return blocked(c); });
 }
 
-// Whether nothing has been at any of the corners, which the tool can touch: cut there before cells
-// are halved.
+// Whether all corners are uncovered and the tool can touch them: a pass is cut there before the
+// cell is halved.
 bool ScallopCheck::is_uncovered(const std::array<Corner, 4>& at) const
 {
     return std::all_of(at.begin(), at.end(), [&](const Corner& c) {
@@ -272,8 +274,8 @@ bool ScallopCheck::is_uncovered(const std::array<Corner, 4>& at) const
     });
 }
 
-// Whether the tool can touch none of the cell and there is nothing to be done in it: away from
-// borders, where the ball gets the lower the nearer a place is, and from cliffs.
+// Whether the tool can touch no corner of the cell and could remove next to nothing at its middle.
+// Never at borders and beside cliffs, where one point does not represent the next.
 bool ScallopCheck::settled(const Cell& cell,
                            const std::array<Corner, 4>& at,
                            const Corner& middle) const
@@ -290,15 +292,15 @@ bool ScallopCheck::settled(const Cell& cell,
            places_.settled(middle.point.point, middle.normal);
 }
 
-// Whether the place is trimmed away or lies well under another surface.
+// Whether the point is trimmed away or hidden under a surface.
 bool ScallopCheck::is_hidden(const Corner& at) const
 {
     return !inside_trims(at.surface, at.u, at.v) ||
            visibility().is_hidden(at.point.point, at.normal);
 }
 
-// Whether a cell lies well under other surfaces, but for gaps between those. One that is trimmed
-// away in its middle may be there beside it.
+// Whether the cell lies under other surfaces, gaps between these aside. False where its middle is
+// trimmed away.
 bool ScallopCheck::lies_under_others(const Cell& cell, const std::array<Corner, 4>& at) const
 {
     const VisibilityFromAbove& places = visibility();
@@ -313,7 +315,7 @@ bool ScallopCheck::lies_under_others(const Cell& cell, const std::array<Corner, 
            inside_trims(cell.surface, middle.u, middle.v);
 }
 
-// Whether the cell's own surface, which is whole, lies over it: just under the equator of a ball.
+// Whether the cell's own surface, untrimmed, lies over it, as just below the equator of a sphere.
 bool ScallopCheck::lies_under_itself(const std::array<Corner, 4>& at, const Corner& middle) const
 {
     const auto under = [&](const Corner& c) {
@@ -323,7 +325,7 @@ bool ScallopCheck::lies_under_itself(const std::array<Corner, 4>& at, const Corn
            std::all_of(at.begin(), at.end(), under);
 }
 
-// Whether some of a cell may be seen through a gap that misses its corners.
+// Whether a part of the cell may be visible through a gap that misses its corners.
 bool ScallopCheck::silhouette_above(const std::array<Corner, 4>& at) const
 {
     return visibility().silhouette_above(
@@ -378,12 +380,12 @@ void ScallopCheck::check(int surface)
 
 void ScallopCheck::check(int surface, Vec2d low, Vec2d high)
 {
-    if (!looked_) {
+    if (!has_checked_) {
         for (const Points& tips : waiting_) {
             places_.add(tips);
         }
         waiting_.clear();
-        looked_ = true;
+        has_checked_ = true;
     }
     const Surface& s = surfaces_[static_cast<std::size_t>(surface)];
     const std::vector<double> us =
@@ -421,7 +423,7 @@ ScallopCheck::Unproved ScallopCheck::unproved()
     return out;
 }
 
-// Highest places first: most of the others are told to be lower without a search.
+// Highest points first: most others are then rejected without a search.
 double ScallopCheck::most_left_in(const std::vector<Cell>& cells)
 {
     struct High {

@@ -1,5 +1,5 @@
-// Whether passes of a ball leave no more than the scallop, proved cell by cell of the surfaces; and
-// the passes that are missing where they do leave more.
+// Proof that passes of a ball leave no more than the scallop over surfaces, cell by cell, and the
+// missing passes where they leave more.
 #pragma once
 
 #include <array>
@@ -12,22 +12,24 @@
 
 namespace cusp::finishing {
 
-// What is left at a place is measured upright and turned square to the surface (steep walls: along
-// the normal), where the tool can touch it. Where it
-// can't (valleys, concave edges), by what the best position of the tool would leave.
+// Where the tool can touch the surface, the stock left is measured vertically and multiplied by the
+// cosine of the slope; on steep walls along the normal. Elsewhere (valleys, concave edges) it is
+// measured above the lowest position of the tool.
 //
-// Proof for a cell of the domain: what one straight move removes is convex. Where it holds all four
-// corners raised by the scallop, it holds all of the cell raised, by a ball smaller by how far the
-// cell is from flat. Cells that no one move covers are halved. The smallest are covered where each
-// corner is, with a share of the scallop kept for the slope between.
+// Proof for a cell of the domain: the volume that one straight move removes is convex. If it holds
+// all four corners raised by the scallop, it holds the whole raised cell, for a ball smaller by the
+// cell's deviation from flat. Cells that no single move covers are halved. The smallest cells are
+// covered if each corner is, with a share of the scallop reserved for the slope between.
 //
-// How far a cell is from flat is taken from the second derivatives at its corners, doubled. Places
-// that the tool can't touch are looked at a quarter of a step apart and not proved between.
+// The deviation from flat is twice that by the second derivatives at the corners. Points that the
+// tool cannot touch are checked a quarter of a stepover apart; nothing is proved between them.
+//
+// Not for use by two threads at once.
 class ScallopCheck {
 public:
-    // scallop   mm: what may be left
-    // path_off  mm: how far the path that is cut may be from the points given to `add`
-    // most_gaps cells not covered that are kept
+    // scallop    mm: allowed height of uncut stock
+    // path_off   mm: maximum distance between the path that is cut and the points given to add()
+    // most_gaps  uncovered cells that are kept
     ScallopCheck(const std::vector<nurbs::Surface>& surfaces,
                  const GougeFreePathFitter& path_fitter,
                  double scallop,
@@ -37,21 +39,22 @@ public:
     // A pass that will be cut, by its tips.
     void add(const Points& tips);
 
-    // Looks over one surface; what is not covered is kept for `add_missing_passes`.
+    // Checks one surface. Uncovered cells are kept for add_missing_passes().
     void check(int surface);
-    // The same of what lies between two corners of the domain.
+    // Checks a rectangle of the surface's domain.
     void check(int surface, Vec2d low, Vec2d high);
 
-    // Whether a look ended early because more cells are bare than are kept.
+    // Whether a check ended early because of more uncovered cells than are kept.
     bool overflowed() const { return overflowed_; }
 
-    // Passes for what is not covered, each handed to `cut`, which must `add` what it makes of it.
-    // progress  called with the share that is done, about
+    // Adds passes over uncovered cells. Each is given to `cut`, which must add() the path it cuts.
+    //
+    // progress  called with about the share that is done
     void add_missing_passes(const std::function<void(const Points&)>& cut,
                             const std::function<void(double)>& progress);
 
-    // Passes over the borders of one surface where it stands upright and open: what the path keeps
-    // off such a wall is a sliver that no pass beside it can take down. Trimmed edges have none.
+    // Adds passes along the borders of one surface that are the open rim of an upright wall. The
+    // tolerance leaves a sliver on such a wall that no pass beside it removes. Trims get none.
     void add_rim_passes(int surface, const std::function<void(const Points&)>& cut);
 
     // A part of a surface's domain.
@@ -60,24 +63,24 @@ public:
         Vec2d low;
         Vec2d high;
     };
-    // What is left where no pass may be added, measured at middles and corners of the cells not
-    // covered. What lies between can be higher.
+    // The stock left in uncovered cells, measured at their middles and corners. It may be higher
+    // between these.
     struct Unproved {
-        std::vector<Part> parts;  // where the tool can touch
-        double left{};            // mm: the most there
-        double blocked_left{};    // mm: the most in the other cells, over what the tool can reach
+        std::vector<Part> parts;  // where the tool can touch the surface
+        double left{};            // mm: the highest there
+        double blocked_left{};    // mm: the highest elsewhere, above what the tool can reach
     };
     Unproved unproved();
 
-    // Cells that stay uncovered, after `add_missing_passes`.
+    // Cells still uncovered after add_missing_passes().
     std::size_t uncovered() const { return uncovered_.size(); }
 
-    // The most that was found left there over what the tool can reach, mm.
+    // The highest stock measured there above what the tool can reach, mm.
     double most_left() const { return most_left_; }
 
-    // The most that was found standing beside rims and creases over what the tool could reach, mm,
-    // since passes keep off those so as not to cut into them from beside; at most as wide as they
-    // keep off. Not part of what is left elsewhere; 0 for a one-sided tolerance.
+    // The highest stock measured beside rims and creases above what the tool can reach, mm. Passes
+    // are moved off these edges so as not to gouge them from the side. Not counted as left
+    // elsewhere; 0 for a one-sided tolerance.
     double left_beside_edges() const { return left_beside_edges_; }
 
 private:
@@ -124,8 +127,8 @@ private:
     const VisibilityFromAbove& visibility() const;
     bool in_narrow_opening(int surface, const Place& middle, const Place& corner_place) const;
     std::optional<Place> uncovered_point(const Cell& cell) const;
-    // The tip that is missing at a place; none where nothing is, or the tool can't touch and
-    // `where_blocked` is false.
+    // A tip that would cut the stock over a point down to the scallop; none where the point is
+    // covered, or where the tool cannot touch it and `where_blocked` is false.
     std::optional<Vec3d> missing_tip(int surface, double u, double v, bool where_blocked) const;
     std::optional<Vec3d> lower_tip(const Corner& at) const;
     std::array<Place, 5> places_of(const Cell& cell) const;
@@ -150,16 +153,16 @@ private:
     double path_off_;
     std::size_t max_uncovered_;
     ScallopAtPoint places_;
-    std::vector<Points> waiting_;  // passes given before the first look
-    bool looked_{};
-    mutable std::optional<VisibilityFromAbove> visibility_;  // many parts need none
+    std::vector<Points> waiting_;  // passes added before the first check
+    bool has_checked_{};
+    mutable std::optional<VisibilityFromAbove> visibility_;  // made when first needed
     std::vector<Cell> uncovered_;
     double most_left_{};
     double left_beside_edges_{};
     bool overflowed_{};
-    mutable bool nearly_uncovered_{};  // what some better tip would take off is nearly the scallop
-    mutable double near_share_{1};     // of the scallop: nearly
-    mutable bool moved_clear_{};       // some better tip was none, since passes keep off edges
+    mutable bool nearly_uncovered_{};  // some tip would remove nearly the scallop
+    mutable double near_share_{1};     // share of the scallop that counts as nearly
+    mutable bool moved_clear_{};       // some tip was refused since it would gouge an edge
     mutable std::vector<std::uint32_t> near_;
 };
 

@@ -1,11 +1,10 @@
-// Patches are sampled as densely as their widest derivative asks for.
+// Patches are sampled as densely as their longest row of control points requires.
 #include "host_tools/finishing/silhouette_map.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 namespace cusp::finishing {
 
@@ -18,11 +17,11 @@ namespace {
 
 constexpr double kMostSquares = 4e6;
 constexpr std::size_t kMostSamples = 1000;  // of a patch, each way
-constexpr double kOpen = -std::numeric_limits<double>::infinity();
+constexpr double kOpen = -kInfinite;
 
 enum class Facing : std::uint8_t { kUnknown, kTrimmed, kUp, kDown };
 
-// Bound of the lengths of a patch along u and v, by its control points.
+// Upper bound of the length of a patch along u or v, from its control points.
 double longest_row(const Surface& s, bool along_u)
 {
     double most = 0;
@@ -71,8 +70,8 @@ std::size_t SilhouetteMap::square_of(Vec3d p) const
     return along(p.x - x0_, nx_) * ny_ + along(p.y - y0_, ny_);
 }
 
-// A sample at the end of its surface, or that differs from the last one beside it in being there,
-// or in the way it faces, tells of an outline.
+// A silhouette passes a sample at the border of its surface, and a sample that differs from its
+// neighbour in facing up or down, or in being trimmed away.
 void SilhouetteMap::sample(const Surface& whole,
                            int surface,
                            const BezierPatch& patch,
@@ -125,7 +124,7 @@ double SilhouetteMap::least_around(double x, double y) const
     }
     const double* first =
         &top_[(static_cast<std::size_t>(at_x) - 1) * ny_ + static_cast<std::size_t>(at_y) - 1];
-    double least = std::numeric_limits<double>::infinity();
+    double least = kInfinite;
     for (int i = 0; i < 3; ++i, first += ny_) {
         least = std::min({least, first[0], first[1], first[2]});
     }

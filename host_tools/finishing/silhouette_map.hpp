@@ -1,5 +1,5 @@
-// How high the model reaches, seen from above, square by square, and where its outlines run: what
-// lies under it can't be seen, but through gaps between those.
+// Map of the model's height and of its silhouettes from above, square by square: what is hidden
+// below the model, gaps between silhouettes aside.
 #pragma once
 
 #include <cstddef>
@@ -9,25 +9,24 @@
 
 namespace cusp::finishing {
 
-// Highest samples, two a square each way; a square that no sample falls into counts as open.
-//
-// The model must outlive it.
+// The highest of samples half a square apart; a square without a sample counts as open. The model
+// must outlive the map.
 class SilhouetteMap {
 public:
-    // pitch  mm, side of the squares; made larger for parts of more than some million squares
+    // pitch  mm, side of the squares; larger for parts of more than 4 million squares
     SilhouetteMap(const std::vector<nurbs::Surface>& surfaces,
                   const part_model::PartModel& model,
                   double pitch);
 
-    // The least of the square and its eight neighbours.
+    // The least height of the square and its eight neighbours; -kInfinite where one is open.
     double least_around(double x, double y) const;
-    // The highest outline in the squares of a box, and in those beside it: borders, edges of trims,
-    // and where a surface turns from facing up to facing down. None: -infinity.
+    // The highest silhouette in the squares of a box and their neighbours; -kInfinite if none.
+    // Silhouettes are borders, edges of trims, and lines where a surface turns from up to down.
     double highest_silhouette(Vec2d low, Vec2d high) const;
-    // Whether a place of the model straight over this one, higher by more than `by` (mm, at least
-    // 0), is found from the samples around it. Never where there is none.
+    // Whether a point of the model straight above, by more than `by` (mm, >= 0), is found from the
+    // samples around. True is certain, false is not.
     //
-    // surface  that it has to belong to; -1: any
+    // surface  the one it has to belong to; -1: any
     bool finds_over(Vec3d place, double by, int surface = -1) const;
     double pitch() const { return pitch_; }
 
@@ -38,7 +37,7 @@ private:
                 const part_model::PartModel& model);
     std::size_t square_of(Vec3d p) const;
 
-    // Where the highest sample of a square is.
+    // The highest sample of a square.
     struct Place {
         float u, v;
         int surface;

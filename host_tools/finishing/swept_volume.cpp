@@ -1,15 +1,14 @@
-// Moves are kept in squares seen from above, squares in blocks; each knows how low its moves are.
+// Moves are sorted into squares in plan, squares into blocks, each with the lowest of its moves.
 #include "host_tools/finishing/swept_volume.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace cusp::finishing {
 namespace {
 
 constexpr double kUprightWay = 1e-9;  // mm, seen from above
-// In squares: a move may cut the corner of one between the places where it was put down.
+// In squares: a move may cross the corner of one between the points at which it was sorted.
 constexpr double kCutCorner = 0.13;
 constexpr int kBlockBits = 3;
 
@@ -23,7 +22,7 @@ double square_to_move(Vec3d p, const SweptVolume::Move& move)
     return dot(rest, rest);
 }
 
-// The same to the move and all that lies straight above it.
+// Whether the point lies within the radius of the move or straight above such a point.
 bool lies_within(double square_radius, Vec3d p, const SweptVolume::Move& move)
 {
     if (square_to_move(p, move) <= square_radius) {
@@ -125,8 +124,9 @@ bool SweptVolume::passes_near(std::uint32_t move, Vec3d point) const
     return square_to_move(point, moves_[move]) <= radius_ * radius_;
 }
 
-// The lower side of a ball swept along a line is a tilted cylinder's, cut off at the ends. Seen in
-// the upright plane through the way: z0 + m s - sqrt(r^2 - (s - s0)^2), least where that is level.
+// The lower side of a ball swept along a line is that of a tilted cylinder with ends. In the
+// vertical plane through the move it is z0 + m s - sqrt(r^2 - (s - s0)^2), least where its slope is
+// zero.
 std::optional<double> SweptVolume::lowest_share(const Move& move, double x, double y) const
 {
     const Vec3d way = move.to - move.from;
@@ -166,7 +166,7 @@ void SweptVolume::try_move(std::uint32_t number, double x, double y, Lowest& bes
     }
 }
 
-// Whether centres over a square, none under `low`, may leave less than so much at a place.
+// Whether a ball with its centre over a square, not below `low`, may cut lower than `than` at `at`.
 bool SweptVolume::may_be_lower(double low, Vec2d corner, double side, Vec2d at, double than) const
 {
     const double max_error = kCutCorner * pitch_;
@@ -182,7 +182,7 @@ bool SweptVolume::may_be_lower(double low, Vec2d corner, double side, Vec2d at, 
 
 SweptVolume::Lowest SweptVolume::lowest(double x, double y) const
 {
-    Lowest best{std::numeric_limits<double>::infinity(), {}};
+    Lowest best{kInfinite, {}};
     if (moves_.empty()) {
         return best;
     }

@@ -1,9 +1,8 @@
-// The metal that straight moves of a ball remove, and the moves near a place.
+// The volume that straight moves of a ball remove, and the moves near a point.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <unordered_map>
 #include <vector>
@@ -12,8 +11,8 @@
 
 namespace cusp::finishing {
 
-// Moves by the centres of the ball. What one removes, a ball and its shank swept along a line, is
-// convex.
+// Moves are those of the ball's centre. The volume removed by one, a ball and its shank swept along
+// a line, is convex.
 //
 // Not for use by two threads at once.
 class SweptVolume {
@@ -24,23 +23,23 @@ public:
     };
 
     // radius  mm, of the ball
-    // reach   mm: how near to a centre moves are looked for
+    // reach   mm: how far near() searches around a centre
     SweptVolume(double radius, double reach);
 
-    // Straight moves through tips of the tool.
+    // Adds straight moves through tips of the tool.
     void add(const std::vector<Vec3d>& tips);
 
-    // The numbers of all moves that pass within `reach` of the centre, and some more.
+    // The numbers of all moves that pass within `reach` of the centre, and of some others.
     void near(Vec3d centre, std::vector<std::uint32_t>& out) const;
 
-    // Whether the point lies in what the move removes, by a tool that is smaller by `shrink`.
+    // Whether the move removes the point, with a tool smaller by `shrink` (mm).
     bool removes(std::uint32_t move, Vec3d point, double shrink) const;
 
-    // Whether the ball itself comes to the point.
+    // Whether the ball, without its shank, reaches the point.
     bool passes_near(std::uint32_t move, Vec3d point) const;
 
-    // The lowest point that all moves leave free of metal straight above (x, y), and the centre of
-    // the ball that does; height is infinite where there is none.
+    // The top of the stock at (x, y) after all moves, and the centre of the ball that cut it;
+    // height is kInfinite where no move comes.
     struct Lowest {
         double height;
         Vec3d centre;
@@ -51,11 +50,11 @@ private:
     using Key = std::uint64_t;
     static constexpr std::int64_t kBlock = 8;  // squares, each way
     struct Square {
-        double low{std::numeric_limits<double>::infinity()};  // mm: least height of a centre
+        double low{kInfinite};  // mm: least height of a centre
         std::vector<std::uint32_t> moves;
     };
     struct Block {
-        double low{std::numeric_limits<double>::infinity()};
+        double low{kInfinite};
         std::array<Square, kBlock * kBlock> squares;
     };
     // Share of the move where the ball is lowest straight over (x, y); none where it misses.
@@ -70,7 +69,7 @@ private:
     double pitch_;
     std::vector<Move> moves_;
     std::unordered_map<Key, Block> blocks_;
-    mutable std::uint32_t last_{};  // the move that was lowest: mostly it is beside the place, too
+    mutable std::uint32_t last_{};  // the lowest move of the last query: usually low here too
 };
 
 }  // namespace cusp::finishing

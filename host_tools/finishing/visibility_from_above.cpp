@@ -1,4 +1,4 @@
-// Outlines bound what is hidden: between them all or nothing is.
+// Silhouettes bound hidden areas: between silhouettes either all points are hidden or none.
 #include "host_tools/finishing/visibility_from_above.hpp"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ VisibilityFromAbove::VisibilityFromAbove(const std::vector<Surface>& surfaces,
 {
 }
 
-// The squares around one that lies on a slope are higher than it.
+// On a slope the neighbouring squares of a point's own surface are higher than the point.
 double VisibilityFromAbove::roof_over(double z) const { return z + kHidden + 2 * tops_.pitch(); }
 
 bool VisibilityFromAbove::under_others(Vec3d place) const
@@ -46,7 +46,7 @@ bool VisibilityFromAbove::is_hidden(Vec3d place, Vec3d normal) const
     if (!(tops_.highest_silhouette(at, at) > roof_over(place.z))) {
         return true;
     }
-    // The needle's shank meets what lies over the place.
+    // A needle touches any surface over the point with its shank.
     const Tool needle{0, ToolShape::kBall, kNeedle, kNeedle};
     const double rise = kHidden + kNeedle * (1 / std::max(normal.z, kUprightNormal) - 1);
     return !path_fitter_.model().is_distance_at_least(needle, place + Vec3d{0, 0, rise}, 0.0);

@@ -1,4 +1,5 @@
-// Which places of a model no tool can come near from above, since other surfaces lie over them.
+// Which points of a model are hidden from above by surfaces over them, so that no tool reaches
+// them.
 #pragma once
 
 #include <array>
@@ -9,8 +10,8 @@
 
 namespace cusp::finishing {
 
-// A map of heights tells most; beside the model's outlines, where there may be gaps narrower than
-// its squares, the model itself is asked.
+// Most points are decided by a map of heights. Near silhouettes, where gaps may be narrower than
+// the map's squares, the model itself decides.
 class VisibilityFromAbove {
 public:
     // pitch  mm, of the map
@@ -18,20 +19,21 @@ public:
                         const GougeFreePathFitter& path_fitter,
                         double pitch);
 
-    // Whether the place lies under some surface, as far as that is found. Gaps narrower than 0.02
-    // mm count as closed.
+    // Whether the point lies under some surface. Gaps narrower than 0.02 mm count as closed. True
+    // is certain but for these; some hidden points are missed.
     //
-    //   normal  of the model there, unit, upward
+    // normal  of the model there, a unit vector, upward
     bool is_hidden(Vec3d place, Vec3d normal) const;
 
-    // The same by more than two squares of the map are wide, but for gaps narrower than three.
+    // Whether some surface lies over the point by more than two squares of the map. Gaps narrower
+    // than three squares count as closed.
     bool under_others(Vec3d place) const;
 
-    // Whether the surface that the place belongs to is found to lie over it, too.
+    // Whether the surface of the point is found to lie over it as well.
     bool under_itself(Vec3d place, int surface) const;
 
-    // Whether outlines of the model run over a part of a surface, given by its corners, well above
-    // it: what is hidden at all its corners may be seen between them.
+    // Whether silhouettes cross a part of a surface, given by its corners, well above it: then it
+    // may be visible between corners that are hidden.
     bool silhouette_above(const std::array<Vec3d, 4>& corners) const;
 
 private:

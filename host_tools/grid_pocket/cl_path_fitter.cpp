@@ -86,8 +86,8 @@ ClPathFitter::ClPathFitter(const std::vector<Surface>& floor,
 std::optional<double> ClPathFitter::height(Vec2d at) const
 {
     // A tool grown all round by the allowance has its tip that much lower.
-    const double z = drop_cutter_->drop(at).z;
-    return z == DropCutter::kNoSurface ? std::nullopt : std::optional{z + allowance_};
+    const std::optional<DropCutter::ClPoint> cl = drop_cutter_->drop(at);
+    return cl ? std::optional{cl->z + allowance_} : std::nullopt;
 }
 
 ClPathFitter ClPathFitter::above(double level) const

@@ -1,5 +1,5 @@
-// A sweep along x holds how many boxes cover each stretch of y. Sides of the union are where that
-// count leaves or reaches zero; their ends are its corners.
+// A sweep along x counts the boxes that cover each interval of y. The union has a side where the
+// count leaves or reaches zero; the ends of sides are its corners.
 #include "host_tools/hull_rough/box_union.hpp"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ std::vector<Event> sorted_events(const std::vector<Rectangle>& boxes)
             events.push_back({box.x_max, false, box.y_min, box.y_max});
         }
     }
-    // Boxes that begin come before those that end at the same x: where both meet is no side.
+    // At equal x, boxes that begin come before boxes that end: there is no side between them.
     std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) {
         return std::make_tuple(a.x, !a.begins, a.y_min, a.y_max) <
                std::make_tuple(b.x, !b.begins, b.y_min, b.y_max);
@@ -41,10 +41,10 @@ struct Stretch {
     double y_max;
 };
 
-// How many boxes cover each stretch of y; the count of a key holds up to the next key.
+// The number of boxes that cover each interval of y; the count of a key holds up to the next key.
 class Coverage {
 public:
-    // Adds or takes away one box; returns the stretches whose count left or reached zero.
+    // Adds or removes one box; returns the intervals whose count left or reached zero.
     std::vector<Stretch> change(const Event& event)
     {
         const auto first = split(event.y_min);
@@ -79,7 +79,8 @@ private:
         return counts_.emplace_hint(next, y, count);
     }
 
-    // Keys that no longer change the count go, so that the map stays as small as what is active.
+    // Removes keys that no longer change the count, so that the map's size is that of the active
+    // boxes.
     void merge(double y_min, double y_max)
     {
         auto here = counts_.lower_bound(y_min);
@@ -122,7 +123,7 @@ struct Corner {
     bool leaves;  // the loop runs away from this corner along its upright side
 };
 
-// Joins touching sides at one x that run the same way, so that loops have no idle corners.
+// Joins touching sides at one x with the same direction, so that loops have no needless corners.
 std::vector<Side> joined(std::vector<Side> sides)
 {
     std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
@@ -140,9 +141,9 @@ std::vector<Side> joined(std::vector<Side> sides)
     return out;
 }
 
-// For every side the side that follows it in its loop. On each y, corners sorted by x are ends of
-// level sides by turns. Where parts touch in a point two corners are equal and either order would
-// close loops; this order turns away from the part, so that both become one loop.
+// For every side, the next one in its loop. At each y, the corners in order of x are alternately
+// the left and right ends of horizontal sides. Where parts touch in a point, two corners are equal;
+// this order makes both parts one loop.
 std::vector<std::size_t> followers(const std::vector<Side>& sides)
 {
     std::vector<Corner> corners;

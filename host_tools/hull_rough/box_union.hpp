@@ -1,5 +1,4 @@
-// Exact union of axis-aligned rectangles: area and outline by a sweep that only compares
-// coordinates.
+// Exact union of axis-aligned rectangles: its area and outline, by a sweep.
 #pragma once
 
 #include <vector>
@@ -15,13 +14,13 @@ struct Rectangle {
     double y_max{};
 };
 
-// Area of the part of the union inside `window`. O(n log n) for boxes of similar size.
+// Area, mm^2, of the part of the union inside `window`. O(n log n) for boxes of similar size.
 double union_area(const std::vector<Rectangle>& boxes, const Rectangle& window);
 
-// The outline of the union as closed loops of corners (the last joins the first), sides along x and
-// y in turn; outer loops counter-clockwise, holes clockwise. Parts that touch in a point make one
-// loop, as in Chuang & Pan, section 5.3. No arithmetic: every coordinate is one of the input's.
-// Rectangles without area are left out.
+// The outline of the union as closed loops of corners (the last joins the first), with sides along
+// x and y alternately. Outer loops are counter-clockwise, holes clockwise. Parts that touch in a
+// point are one loop, as in Chuang & Pan, section 5.3. Coordinates are only compared: each is one
+// of the input. Rectangles without area are ignored.
 std::vector<std::vector<Vec2d>> union_outline(const std::vector<Rectangle>& boxes);
 
 }  // namespace cusp::hull_rough

@@ -1,4 +1,4 @@
-// Rows of boxes make both questions local; the distance of convex figures is taken at a corner.
+// Rows of boxes make both queries local; the distance of two convex polygons is that of a corner.
 #include "host_tools/hull_rough/clear_zone.hpp"
 
 #include <algorithm>
@@ -106,7 +106,7 @@ std::vector<Interval> ClearZone::on_line(double y) const
 
 bool ClearZone::distance_holds(Vec2d a, Vec2d b, double least) const
 {
-    // A hair under the radius: stretches that on_line() gives end on it, to rounding.
+    // Slightly less than the radius, since intervals of on_line() end exactly at that.
     constexpr double kRounding = 1e-9;
     if (!inside_field(a) || !inside_field(b)) {
         return false;

@@ -1,5 +1,5 @@
-// Where the axis of a cutter may stand in one layer: inside a field, the radius away from every
-// box.
+// The clear zone of one layer: the points of a field that are at least the cutter's radius from
+// every box.
 #pragma once
 
 #include <vector>
@@ -15,24 +15,25 @@ struct Interval {
 
 class ClearZone {
 public:
-    // boxes: what must not be touched; field: where the axis may stand at all; radius of the
-    // cutter, > 0.
+    // boxes   not to be touched
+    // field   limits of the axis
+    // radius  mm, > 0, of the cutter
     ClearZone(const std::vector<Rectangle>& boxes, const Rectangle& field, double radius);
 
-    // The stretches of the level line at y where the axis may stand, ascending in x. Exact: the
-    // union of the boxes grown by the radius is the union of the grown boxes.
+    // The intervals of the line at y in the zone, in order of x. Exact: the union of the boxes,
+    // grown by the radius, is the union of the grown boxes.
     std::vector<Interval> on_line(double y) const;
 
-    // True where the axis may move straight from a to b: the swept cutter meets no box. Exact.
+    // Whether the straight move of the axis from a to b stays in the zone. Exact.
     bool clear(Vec2d a, Vec2d b) const { return distance_holds(a, b, radius_); }
 
-    // The same for a cutter smaller by `less` mm.
-    bool nearly_clear(Vec2d a, Vec2d b, double less) const
+    // Whether it does for a cutter smaller by `shrink` mm.
+    bool nearly_clear(Vec2d a, Vec2d b, double shrink) const
     {
-        return distance_holds(a, b, radius_ - less);
+        return distance_holds(a, b, radius_ - shrink);
     }
 
-    // True where a cutter grown by `extra` mm meets no box at the point, and the field holds it.
+    // Whether a cutter grown by `extra` mm touches no box at the point, and the field holds it.
     bool room(Vec2d point, double extra) const;
 
     const Rectangle& field() const { return field_; }
@@ -41,7 +42,7 @@ public:
 private:
     Rectangle field_;
     double radius_;
-    // boxes by the rows, 2 radii high, that they reach into
+    // Boxes by rows, 2 radii high, that they intersect.
     std::vector<std::vector<Rectangle>> rows_;
 
     bool distance_holds(Vec2d a, Vec2d b, double distance) const;
@@ -49,7 +50,7 @@ private:
     std::size_t row_at(double y) const;
 };
 
-// Distance between the segment and the rectangle; 0 where they meet.
+// Distance between the segment and the rectangle, mm; 0 where they intersect.
 double distance(Vec2d a, Vec2d b, const Rectangle& box);
 
 }  // namespace cusp::hull_rough

@@ -1,11 +1,10 @@
-// Tops of boxes divide the stock; the better planes come from a height map of the quartered
+// The tops of boxes divide the stock; better planes are found with a height map of the quartered
 // patches.
 #include "host_tools/hull_rough/depth_layers.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <map>
 #include <utility>
 
@@ -15,8 +14,8 @@ namespace {
 // Tops nearer than this are one plane; far below any depth of cut, far above rounding.
 constexpr double kSamePlane = 1e-6;
 
-// A quartered corner patch can keep its top for ever: after this many times the layer is divided
-// equally.
+// A corner patch may keep its top however often it is quartered: after so many times the layer is
+// divided equally.
 constexpr int kMostQuarterings = 8;
 
 // Patches by the height of their boxes' tops, and the layers between them.
@@ -41,14 +40,14 @@ public:
         return out;
     }
 
-    // Quarters the patches whose boxes end at `plane`. Returns false where all have had enough.
+    // Quarters the patches whose boxes end at `plane`; false where none may be quartered again.
     bool quarter_at(double plane)
     {
         std::vector<std::pair<HullPatch, int>> found;
         const auto first = by_top_.lower_bound(plane - kSamePlane);
         const auto last = by_top_.upper_bound(plane + kSamePlane);
         for (auto it = first; it != last;) {
-            // Quarters of a flat patch are as high as it is.
+            // Quarters of a flat patch have its height.
             const auto& [patch, times] = it->second;
             if (times < kMostQuarterings && patch.top - patch.bottom > kSamePlane) {
                 found.push_back(std::move(it->second));
@@ -93,7 +92,7 @@ private:
     }
 };
 
-// Splits from the top down; what stays too thick after all quarterings is divided equally.
+// Splits from the top down; layers still too thick after all quarterings are divided equally.
 std::vector<double> split_thick(Slices& slices, double top, double bottom, double most)
 {
     std::vector<double> planes{top};
@@ -127,8 +126,8 @@ void merge_thin(std::vector<double>& planes, DepthLimits limits)
     }
 }
 
-// Share of the plan view that the patches cover at each height, from tops of small boxes on a
-// raster. It only chooses where planes lie; what is cut comes from the exact boxes.
+// The share of the plan view that the patches cover at each height, from the tops of small boxes on
+// a raster. It only chooses planes; the exact boxes decide what is cut.
 class CoveredShare {
 public:
     CoveredShare(const std::vector<HullPatch>& patches, double bottom)
@@ -186,7 +185,7 @@ private:
     }
 };
 
-// Heights that a plane may take, descending: all of the plan's own, and a fine ladder.
+// Candidate heights of planes, descending: those of the plan, and equally spaced ones.
 std::vector<double> candidates(const LayerPlan& plan, DepthLimits limits)
 {
     const double top = plan.planes.front();
@@ -235,8 +234,8 @@ std::vector<double> least_leftover_planes(const LayerPlan& plan, DepthLimits lim
     const std::vector<double> z = candidates(plan, limits);
     const CoveredShare share{plan.patches, plan.planes.back()};
     const std::size_t layers = plan.planes.size() - 1;
-    const double impossible = std::numeric_limits<double>::infinity();
-    // cost[k][j]: least volume left over the part by k layers that end at z[j].
+    const double impossible = kInfinite;
+    // cost[k][j]: the least volume left over the part by k layers that end at z[j].
     std::vector<std::vector<double>> cost(layers + 1, std::vector<double>(z.size(), impossible));
     std::vector<std::vector<std::size_t>> from(layers + 1, std::vector<std::size_t>(z.size(), 0));
     std::vector<double> covered;

@@ -1,4 +1,4 @@
-// Control nets in homogeneous form are halved by averages; hull parts come from pairs of points.
+// Homogeneous control nets are halved by averages; a part of a hull follows from pairs of points.
 #include "host_tools/hull_rough/hull_patch.hpp"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ Homogeneous middle(const Homogeneous& a, const Homogeneous& b)
 
 using Net = std::vector<Homogeneous>;
 
-// Halves `count` control points that lie `stride` apart from `first`, into both nets.
+// Halves the polynomial of `degree` + 1 control points, `stride` apart from `first` on.
 void halve(Net net, Net& low, Net& high, std::size_t first, std::size_t stride, int degree)
 {
     const auto at = [&](int i) {
@@ -117,7 +117,7 @@ void add_kept(HullPatch patch, std::vector<HullPatch>& out)
     out.push_back(std::move(patch));
 }
 
-// Quarters that no edge crosses stay whole.
+// Adds the patch, quartered where an edge crosses it.
 void add_fitted(HullPatch patch, int levels, std::vector<HullPatch>& out)
 {
     std::vector<HullPatch> kept;
@@ -201,8 +201,8 @@ std::optional<Rectangle> plan_box_above(const HullPatch& patch, double plane)
             continue;
         }
         include(box, points[i].x, points[i].y);
-        // The hull's part above the plane is spanned by the points above it and by where the
-        // segments from them to the points below meet it.
+        // The part of the hull above the plane is the hull of the points above and of the
+        // intersections of the plane with segments to the points below.
         for (const Vec3d& below : points) {
             if (below.z <= plane) {
                 const double t = (plane - below.z) / (points[i].z - below.z);

@@ -1,4 +1,4 @@
-// Bezier patches and the boxes of their control points: a patch lies inside its convex hull.
+// Bezier patches and their convex hull boxes: a patch lies in the hull of its control points.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace cusp::hull_rough {
 
-// One Bezier patch by its control points alone; weights are positive, so the hull property holds.
+// A Bezier patch by its control points; weights are positive, so the hull property holds.
 struct HullPatch {
     int degree_u{};
     int degree_v{};
@@ -20,34 +20,33 @@ struct HullPatch {
     std::vector<double> weights;
     double bottom{};  // least and greatest z of the control points
     double top{};
-    // none where no edge of its surface crosses it
+    // Null where no edge of the surface crosses the patch.
     std::shared_ptr<const part_model::TrimRegion> trims{};
-    std::array<double, 2> u{};  // the patch in its surface's domain
+    std::array<double, 2> u{};  // domain of the patch in its surface
     std::array<double, 2> v{};
 };
 
-// How far from the true edge of a trimmed surface a piece may be taken to be trimmed away, mm: the
-// tolerance that every layer keeps is larger.
+// mm: error of the edges of trimmed surfaces. The tolerance of every layer is larger.
 constexpr double kTrimError = 5e-4;
 
-// The Bezier patches of all surfaces. Patches that are trimmed away are left out; those that an
-// edge crosses are quartered up to four times, and the quarters that are trimmed away left out.
+// The Bezier patches of all surfaces, without those trimmed away. Patches crossed by an edge are
+// quartered up to four times, and quarters trimmed away are left out.
 std::vector<HullPatch> hull_patches(const std::vector<nurbs::Surface>& surfaces);
 
-// The quarters of a patch, by de Casteljau at the middle of both parameters, without those that are
-// trimmed away.
+// The quarters of a patch, by de Casteljau's algorithm at the middle of both parameters, without
+// those trimmed away.
 std::vector<HullPatch> quarters(const HullPatch& patch);
 
-// Plan view of the convex hull box.
+// The convex hull box in plan.
 Rectangle plan_box(const HullPatch& patch);
 
-// Plan view of what the convex hull has above `plane`; nothing where all of it lies at or below.
-// Tighter than the box of the whole hull, and as safe: the surface above the plane lies in it.
+// The box in plan of the convex hull's part above `plane`; none if the whole hull is at or below.
+// It is smaller than the box of the whole hull, and the surface above the plane lies in it.
 std::optional<Rectangle> plan_box_above(const HullPatch& patch, double plane);
 
-// Plan boxes that together cover every point of the patches above `plane`, after up to `levels`
-// quarterings of the patches that cross it. With no level it is the paper's rule: the whole box of
-// each patch whose top is above the plane. Boxes for a lower plane cover those for a higher one.
+// Plan boxes that together cover every point of the patches above `plane`. Patches that cross the
+// plane are quartered up to `levels` times. levels = 0 is the paper's rule: the whole box of each
+// patch with its top above the plane. Boxes for a lower plane cover those for a higher one.
 std::vector<Rectangle> boxes_above(const std::vector<HullPatch>& patches, double plane, int levels);
 
 }  // namespace cusp::hull_rough

@@ -1,4 +1,4 @@
-// Checks the input, slices, and clears every layer with every cutter offered.
+// Checks the input, plans layers, and clears every layer with every cutter.
 #include "host_tools/hull_rough/hull_rough.hpp"
 
 #include <algorithm>
@@ -22,13 +22,13 @@ using toolpath::ToolShape;
 
 namespace {
 
-// A change by hand on a small mill; only the choice of cutters uses it.
+// Time of a manual tool change on a small mill, for the choice of cutters.
 constexpr double kChangeSeconds = 60.0;
 
 constexpr int kMostSubdivisions = 8;
 
-// Lines exactly a diameter apart leave fins of no width that stand through all layers: they overlap
-// by at least this share of the diameter.
+// Lines exactly a diameter apart would leave fins of no width through all layers: they overlap by
+// at least this share of the diameter.
 constexpr double kLeastOverlap = 0.01;
 
 [[noreturn]] void refuse(const Job& job, const std::string& what)
@@ -84,7 +84,8 @@ DepthLimits depth_limits(const Job& job, const Operation& operation, const Tool&
     return {most, least};
 }
 
-// Width that the cutter clears but for ridges of this height, which a round corner leaves.
+// The width that the cutter clears to a scallop of this height; less than its diameter for a tool
+// with a corner radius.
 double cleared_width(const Tool& tool, double scallop_height)
 {
     const double corner = tool.shape == ToolShape::kFlat ? 0.0 : tool.corner_radius;
@@ -92,11 +93,11 @@ double cleared_width(const Tool& tool, double scallop_height)
     return 2 * (tool.radius - corner + std::sqrt(height * (2 * corner - height)));
 }
 
-// The box of all hulls, of what is trimmed away too, widened to the job's stock and raised to its
-// top where that is higher.
+// The box of all hulls, trimmed parts included, extended to the job's stock and to its top if that
+// is higher.
 StockBox stock_of(const Job& job, std::vector<Surface> surfaces)
 {
-    StockBox stock{{1e300, 1e300, -1e300, -1e300}, -1e300, 1e300};
+    StockBox stock{{kUnbounded, kUnbounded, -kUnbounded, -kUnbounded}, -kUnbounded, kUnbounded};
     for (Surface& surface : surfaces) {
         surface.trims.clear();
     }
@@ -159,8 +160,8 @@ LayerPlan planned_layers(const Job& job,
     return plan;
 }
 
-// Written to the digits of G-code a plane may not sink: planes lie on those digits, rounded up, and
-// up once more where a layer would become thicker than most_depth (mm) by that.
+// Rounds planes up to the digits of G-code, so that writing does not lower them; and up once more
+// where a layer would become thicker than most_depth (mm).
 void round_up(LayerPlan& plan, double most_depth, bool inch)
 {
     const double digit = inch ? 25.4e-5 : 1e-4;
@@ -200,8 +201,8 @@ void clear_layers(Roughing& work)
             cleared += made.cleared_area;
         }
     }
-    constexpr double kNothing = 1e-6;  // mm^2
-    if (cleared < kNothing) {
+    constexpr double kNoArea = 1e-6;  // mm^2
+    if (cleared < kNoArea) {
         refuse(work.job, "no cutter reaches into the stock in any layer; the smallest has radius " +
                              plain_number(work.tools.back().radius) + " mm, with an allowance of " +
                              plain_number(operation.allowance) + " mm");
@@ -215,8 +216,8 @@ LayerSettings layer_settings(const Roughing& work, std::size_t layer, const Tool
 {
     const Operation& operation = work.operation;
     LayerSettings settings;
-    // The overlap is that of the cutter; what it clears to the ridge is narrower already.
-    settings.clears = cleared_width(tool, work.ridge(layer) - work.rest_ridge(layer)) / 2;
+    // The overlap is that of the whole cutter; the width cleared to the scallop is smaller.
+    settings.clears = cleared_width(tool, work.scallop_height(layer) - work.rest_height(layer)) / 2;
     settings.step = std::min(std::max(2 * tool.radius - operation.overlap, tool.radius / 50),
                              2 * settings.clears * (1 - kLeastOverlap));
     settings.tolerance = std::max(operation.plan_tolerance, kLeastTolerance);

@@ -1,4 +1,4 @@
-// Lines come from exact stretches, outlines from the offset of the region between the boxes.
+// Lines are exact intervals of the clear zone, outlines offsets of the region between the boxes.
 #include "host_tools/hull_rough/layer_clearing.hpp"
 
 #include <algorithm>
@@ -75,7 +75,7 @@ std::vector<Edge> edges_of(const Chain& chain)
     return out;
 }
 
-// The contour begun anew at a point on its edge `wall_clearance`.
+// The contour, starting at a point on its edge `first`.
 std::vector<Edge> begun_at(const Contour& contour, std::size_t first, Vec2d point)
 {
     std::vector<Edge> out;
@@ -92,7 +92,7 @@ std::vector<Edge> begun_at(const Contour& contour, std::size_t first, Vec2d poin
     return out;
 }
 
-// For each contour an end of a cut line that lies on it, so that it can be entered in cut metal.
+// For each contour an end of a cut line on it, so that it is entered in cleared stock.
 class Beginnings {
 public:
     explicit Beginnings(const std::vector<Contour>& contours)
@@ -149,8 +149,8 @@ std::vector<LayerRun> outline_runs(const std::vector<Contour>& outlines,
         const auto& begin = beginnings.of(i);
         LayerRun run{begin ? begun_at(outlines[i], begin->first, begin->second) : outlines[i],
                      begin.has_value()};
-        // The contour has the free region on its left, the island on its right: climb with a
-        // spindle that turns clockwise.
+        // The contour has the region on its left and the island on its right: climb milling for a
+        // clockwise spindle.
         if (!climb) {
             run.edges = reversed(run.edges);
         }
@@ -159,10 +159,10 @@ std::vector<LayerRun> outline_runs(const std::vector<Contour>& outlines,
     return out;
 }
 
-// Next the run whose start is nearest; lines may be cut either way.
+// Greedy order by the nearest start; with `either_way` runs may be reversed.
 std::vector<LayerRun> in_near_order(std::vector<LayerRun> runs, bool either_way)
 {
-    // Quadratic: beyond this many the order of the lines, which is near too, stays.
+    // Quadratic: more runs keep the order of the lines, which is nearly as good.
     constexpr std::size_t kMost = 2000;
     if (runs.size() > kMost) {
         return runs;
@@ -171,10 +171,10 @@ std::vector<LayerRun> in_near_order(std::vector<LayerRun> runs, bool either_way)
         const Vec2d here = runs[done - 1].edges.back().end;
         std::size_t best = done;
         bool turn = false;
-        double least = 1e300;
+        double least = kUnbounded;
         for (std::size_t i = done; i < runs.size(); ++i) {
             const double forth = norm(runs[i].edges.front().start - here);
-            const double back = either_way ? norm(runs[i].edges.back().end - here) : 1e300;
+            const double back = either_way ? norm(runs[i].edges.back().end - here) : kUnbounded;
             if (std::min(forth, back) < least) {
                 least = std::min(forth, back);
                 best = i;
@@ -198,7 +198,7 @@ double length_of(const std::vector<LayerRun>& runs)
     return sum;
 }
 
-// Of what a cutter clears when its axis goes everywhere in the field, the part beside the stock.
+// The area beside the stock that a cutter sweeps with its axis everywhere in the field, mm^2.
 double area_outside(const Rectangle& stock, const Rectangle& field, double radius)
 {
     const double width = field.x_max - field.x_min + 2 * radius;
@@ -207,7 +207,7 @@ double area_outside(const Rectangle& stock, const Rectangle& field, double radiu
     return width * depth - corners - (stock.x_max - stock.x_min) * (stock.y_max - stock.y_min);
 }
 
-// Whether the axis keeps its distance all along, to the tolerance.
+// Whether the whole path stays in the zone, to the tolerance.
 bool keeps_clear(const std::vector<Edge>& path, const ClearZone& zone, double tolerance)
 {
     return std::all_of(path.begin(), path.end(), [&](const Edge& edge) {
@@ -227,8 +227,8 @@ bool keeps_clear(const std::vector<Edge>& path, const ClearZone& zone, double to
     });
 }
 
-// Loops parallel to the outlines, in the order of the project's pockets; linked ones make one run.
-// Loops on the border of the field run outside the stock and are left out.
+// Loops parallel to the outlines, in the order of clear_region(); linked loops are one run. Loops
+// on the border of the field are outside the stock and left out.
 std::vector<LayerRun> parallel_runs(const Region2d& region,
                                     const ClearZone& zone,
                                     const LayerSettings& settings)
@@ -238,7 +238,7 @@ std::vector<LayerRun> parallel_runs(const Region2d& region,
     clearing.stepover = settings.step;
     clearing.direction = settings.direction;
     std::vector<LayerRun> out;
-    bool linked = false;  // the pass before was cut, so that a link from it is one
+    bool linked = false;  // the pass before is cut, so a link from it is possible
     for (const ClearingPass& pass : clear_region(region, clearing).passes) {
         const bool inside = !on_border(pass.path, zone.field());
         if (inside && linked && pass.start == PassStart::kLink &&
@@ -281,7 +281,7 @@ LayerClearing clear_layer(const std::vector<Rectangle>& boxes,
                           const LayerSettings& settings)
 {
     // Chuang & Pan, section 5: the periphery is the stock expanded by 2.1 radii, so that islands at
-    // its edge do not meet it and the cutter turns outside.
+    // the edge of the stock do not touch it and the cutter turns outside.
     const double kept = radius + settings.tolerance + settings.side_allowance;
     const Rectangle field = grown_box(stock, 1.1 * kept);
     LayerClearing out;
@@ -301,7 +301,7 @@ LayerClearing clear_layer(const std::vector<Rectangle>& boxes,
     out.islands = static_cast<int>(outlines.size());
     if (settings.contour) {
         out.runs = parallel_runs(region, *out.zone, settings);
-        // Offsets have no proof of their own: each pass is checked against the boxes.
+        // Loops have no proof of clearance: each pass is checked against the boxes.
         out.by_contours = std::all_of(out.runs.begin(), out.runs.end(), [&](const LayerRun& run) {
             return keeps_clear(run.edges, *out.zone, settings.tolerance);
         });
@@ -333,8 +333,8 @@ std::vector<LayerRun> uncut_runs(const LayerClearing& clearing,
                                  double radius,
                                  const std::vector<ClearedBy>& before)
 {
-    // A point is done where the places of a cutter before are so near. Between looked-at points the
-    // distance changes by no more than the way between them.
+    // A point is cleared if the region of an earlier cutter is near enough. Between samples the
+    // distance changes by no more than the distance between them.
     const double step = radius / 16;
     const auto done_by = [&](const ClearedBy& by, Vec2d from, Vec2d to) {
         const double least = step / 2 - by.rest_offset;

@@ -1,5 +1,5 @@
-// What one cutter does in one layer: zigzag over the free part, then along the outlines of the
-// islands.
+// Clearing of one layer by one cutter: a zigzag over the clear zone, then passes along the outlines
+// of the islands.
 #pragma once
 
 #include <memory>
@@ -15,27 +15,27 @@ namespace cusp::hull_rough {
 
 struct LayerSettings {
     double step{};       // mm between lines, > 0, at most twice `clears`
-    double clears{};     // mm to either side that the cutter clears flat enough; at most its radius
-    double tolerance{};  // mm, > 0: what chords on rounded corners may take from the distance kept
-    double side_allowance{};
+    double clears{};     // mm: half the width cleared to the scallop height; at most the radius
+    double tolerance{};  // mm, > 0: of chords on rounded corners
+    double side_allowance{};  // mm
     bool one_way{};
     bool contour{};  // loops parallel to the outlines instead of lines
     job::CutDirection direction{};
 };
 
 // Every point of the layer that a cutter of this radius can reach without touching a box is
-// cleared: it lies within the radius of a line, or of an outline, whatever the islands are. Proof
-// in docs/papers.md, "Chuang & Pan". Loops parallel to the outlines have no such proof: what
-// uncovered_spots() finds that they leave is cleared by the parts of lines and outlines around it.
+// cleared: for any islands it lies within the radius of a line or of an outline. Proof in
+// docs/papers.md, "Chuang & Pan". Loops parallel to the outlines have no such proof: the spots that
+// uncovered_spots() finds are cleared by nearby parts of lines and outlines.
 struct LayerClearing {
     std::shared_ptr<ClearZone> zone;
-    std::shared_ptr<offset::RegionOffset> centres;  // the region where the axis may stand
+    std::shared_ptr<offset::RegionOffset> centres;  // the region of the axis
     std::vector<clearing::LayerRun> runs;
-    bool by_contours{};     // as asked for; else by zigzag
+    bool by_contours{};     // by contours as requested; else by zigzag
     double length{};        // mm of cut
-    UncoveredSpots left;    // what could be cleared and is not
-    double closed_area{};   // mm^2 that contours left and parts of lines and outlines cleared
-    double cleared_area{};  // mm^2 of the stock's plan view
+    UncoveredSpots left;    // reachable spots that are not cleared
+    double closed_area{};   // mm^2 left by contours, then cleared by parts of lines and outlines
+    double cleared_area{};  // mm^2 of the stock in plan
     int islands{};
 };
 
@@ -44,15 +44,16 @@ LayerClearing clear_layer(const std::vector<Rectangle>& boxes,
                           double radius,
                           const LayerSettings& settings);
 
-// A cutter that has cleared a layer, and how far others may stand from its places:
+// A cutter that has cleared a layer, and how far outside its region another one finds no stock, by
 // rest_offset_between_tools().
 struct ClearedBy {
     const LayerClearing* clearing{};
     double rest_offset{};
 };
 
-// The parts of the runs where the cutter takes metal that none of the cutters before has taken.
-// radius: of the cutter, mm.
+// The parts of the runs where the cutter removes stock that the cutters before have left.
+//
+// radius  mm, of the cutter
 std::vector<clearing::LayerRun> uncut_runs(const LayerClearing& clearing,
                                            double radius,
                                            const std::vector<ClearedBy>& before);

@@ -1,4 +1,4 @@
-// The distance to a run changes by no more than the way: a square's middle decides on all of it.
+// A distance changes by no more than the position, so a square's middle decides the whole square.
 #include "host_tools/hull_rough/layer_coverage.hpp"
 
 #include <algorithm>
@@ -20,8 +20,8 @@ namespace {
 
 constexpr double kSmallestSquare = 1.0 / 64;  // of the reach
 
-// The outermost of what can be reached lies beside the outlines, which are runs themselves.
-constexpr double kReachLooked = 0.97;  // of the reach
+// Share of the reach that is checked: beyond it lie only points beside outlines, which are runs.
+constexpr double kReachChecked = 0.97;
 
 std::vector<Edge> edges_of(const std::vector<LayerRun>& runs)
 {
@@ -92,22 +92,22 @@ private:
             return;
         }
         const double inside = centres_.clearance(m);
-        if (inside < -(kReachLooked * reach_ + corner)) {
+        if (inside < -(kReachChecked * reach_ + corner)) {
             return;
         }
         if (square.side > kSmallestSquare * reach_) {
             for (const Vec2d way : {Vec2d{-1, -1}, Vec2d{1, -1}, Vec2d{-1, 1}, Vec2d{1, 1}}) {
                 stack_.push_back({m + way * (half / 2), half});
             }
-        } else if (inside > -(kReachLooked * reach_ - corner) && !tree_.any_nearer(m, reach_)) {
+        } else if (inside > -(kReachChecked * reach_ - corner) && !tree_.any_nearer(m, reach_)) {
             found_.squares.push_back({m.x - half, m.y - half, m.x + half, m.y + half});
             found_.area += square.side * square.side;
         }
     }
 
-    // What a straight run clears is convex. Two convex figures that hold the border of a square
-    // hold the square: a point in neither would lie in a wedge that neither meets, and the wedge
-    // leaves the square somewhere.
+    // A straight run clears a convex set. Two convex sets that cover the border of a square cover
+    // the square: a point in neither would lie in a wedge outside both, and the wedge would cross
+    // the border.
     bool two_lines_clear(const Square& square) const
     {
         if (square.side > reach_ || edges_.empty()) {
@@ -134,7 +134,7 @@ private:
 
     bool clears(std::size_t edge, Vec2d p) const { return distance_to(edges_[edge], p) <= reach_; }
 
-    // Whether the two runs together clear the straight way from a to b.
+    // Whether the two runs together clear the segment from a to b.
     bool both_clear(std::size_t first, std::size_t second, Vec2d a, Vec2d b) const
     {
         if (!clears(first, a)) {
@@ -149,7 +149,7 @@ private:
         if (!clears(second, b)) {
             return false;
         }
-        // The last place that the first one clears: the second must hold it too.
+        // The last point that the first run clears: the second run has to clear it too.
         Vec2d held = a;
         Vec2d open = b;
         for (int i = 0; i < 24; ++i) {

@@ -1,4 +1,4 @@
-// Layers to moves: what each cutter clears, after what the cutters before it left.
+// Writes the moves of all layers: each cutter clears its layers and the rest of earlier cutters.
 #include <algorithm>
 #include <utility>
 
@@ -20,8 +20,8 @@ using toolpath::Toolpath;
 
 namespace {
 
-// The cutters that have cleared each layer so far, in order. What the first leaves is known to the
-// height of its ridges; what the others leave, to that of `rest_ridge` too.
+// The cutters that have cleared each layer so far, in order. The first leaves scallops; the others
+// leave rest_height() in addition.
 using Cutters = std::vector<std::vector<std::size_t>>;
 
 // Writes layers of one cutter from the first on, after what other cutters have cleared.
@@ -40,15 +40,15 @@ public:
 
     void clear(std::size_t layer) { add(work_.clearings[layer][tool_].runs, layer); }
 
-    // What the cutters before left of a layer, so that this one can work below it. Returns false
-    // where they left nothing.
+    // Clears the rest of a layer that earlier cutters have left, so that this one can cut below;
+    // false where they left nothing.
     bool clear_uncut(std::size_t layer, const std::vector<std::size_t>& before)
     {
         const Tool& tool = work_.tools[tool_];
         std::vector<ClearedBy> cleared;
         for (std::size_t i = 0; i < before.size(); ++i) {
             const Tool& other = work_.tools[before[i]];
-            const double scallop_height = i == 0 ? work_.rest_ridge(layer) : 0.0;
+            const double scallop_height = i == 0 ? work_.rest_height(layer) : 0.0;
             if (before[i] == tool_ || leaves_no_rest(other, tool, scallop_height)) {
                 return false;
             }

@@ -1,4 +1,4 @@
-// What a plan tells: what the paper counts, what is bounded, what is left.
+// The report of a plan: counts of the paper, bounds, and stock left.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,7 +16,7 @@ using toolpath::Tool;
 
 namespace {
 
-// What the cutter meets at most: how deep, how wide, and on its way in.
+// Adds the largest engagement of the cutter: depth, width, and entries.
 void add_engagement(const Roughing& work, PlannedOperation& operation)
 {
     const Tool& tool = operation.path.tool;
@@ -58,7 +58,7 @@ std::string plain_number(double value)
 
 void add_report(const Roughing& work, std::vector<PlannedOperation>& out, double seconds)
 {
-    double thinnest = 1e300;
+    double thinnest = kUnbounded;
     double thickest = 0;
     int islands = 0;
     int zigzags = 0;
@@ -83,7 +83,7 @@ void add_report(const Roughing& work, std::vector<PlannedOperation>& out, double
     const Rectangle& plan = work.stock.plan;
     const double volume = (plan.x_max - plan.x_min) * (plan.y_max - plan.y_min) *
                           (work.stock.top - work.plan.planes.back());
-    // Where no cutter clears every layer alone there is nothing to compare with.
+    // There is no comparison if no cutter clears every layer alone.
     const double saved = std::isfinite(work.choice.seconds_with_one)
                              ? work.choice.seconds_with_one - work.choice.seconds
                              : 0.0;
@@ -92,7 +92,7 @@ void add_report(const Roughing& work, std::vector<PlannedOperation>& out, double
         stats.strategy = "hull_rough";
         stats.roughing = true;
         stats.gouge_bound_mm = 0;
-        // Hulls bound what is cut, not what is left: only the height of the stock does.
+        // Hulls bound what is cut, not what is left: the only bound of that is the stock's height.
         stats.scallop_bound_mm = work.stock.top - work.plan.planes.back();
         stats.planning_s = seconds / static_cast<double>(out.size());
         stats.counts = {{"layers", static_cast<double>(work.layers())},
@@ -121,7 +121,7 @@ void add_report(const Roughing& work, std::vector<PlannedOperation>& out, double
             stats.warnings.push_back(plain_number(left) +
                                      " mm2 of layers are left uncleared, first at " + left_place);
         }
-        // Each fits in one line of G-code.
+        // Each comment fits in one line of G-code.
         operation.path.comments = {
             "hull_rough: " + std::to_string(work.layers()) + " layers of " +
                 plain_number(thinnest) + " to " + plain_number(thickest) + " mm",

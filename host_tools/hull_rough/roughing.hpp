@@ -1,4 +1,4 @@
-// One roughing operation amid its planning: what slicing, clearing, writing and the report share.
+// The state of one roughing operation during planning, common to its steps.
 #pragma once
 
 #include <string>
@@ -12,10 +12,10 @@
 
 namespace cusp::hull_rough {
 
-// Chords on rounded corners keep this much, mm, so that G-code rounded to a micrometre still does.
+// mm: least tolerance of chords on rounded corners, for G-code rounded to a micrometre.
 constexpr double kLeastTolerance = 2e-3;
 
-// Of the height of ridges, with several cutters: what one may leave where another has been.
+// Share of the scallop height, with several cutters: what one may leave where another has been.
 constexpr double kRestShare = 0.25;
 
 struct StockBox {
@@ -24,17 +24,17 @@ struct StockBox {
     double bottom;
 };
 
-// Everything about one operation that its steps share.
+// Filled step by step: layers, clearings, choice of cutters.
 struct Roughing {
     const job::Job& job;
     const job::Operation& operation;
     std::vector<toolpath::Tool> tools;  // largest first
     StockBox stock;
     LayerPlan plan;
-    double most_depth;                                  // mm: of a layer
+    double most_depth;                                  // mm: limit of a layer's thickness
     std::vector<std::vector<LayerClearing>> clearings;  // layers x tools
     ToolChoice choice;
-    double left_under_boxes{};  // mm^3 of the stock that the boxes keep
+    double left_under_boxes{};  // mm^3 of stock inside the boxes
     std::size_t boxes{};
 
     double top(std::size_t layer) const { return plan.planes[layer]; }
@@ -42,29 +42,30 @@ struct Roughing {
     std::size_t layers() const { return plan.planes.size() - 1; }
     double thickness(std::size_t layer) const { return top(layer) - bottom(layer); }
 
-    // How high ridges may stand in a layer: the next one cuts them with its own depth, which stays
-    // within the limit where a tenth of it allows that.
-    double ridge(std::size_t layer) const
+    // mm: the allowed scallop height of a layer. The next layer cuts the scallops in addition to
+    // its own depth, together within the limit unless they would be less than a tenth of it.
+    double scallop_height(std::size_t layer) const
     {
         const double next = layer + 1 < layers() ? thickness(layer + 1) : 0.0;
         return std::min(thickness(layer) / 4, std::max(most_depth - next, most_depth / 10));
     }
 
+    // Whether some tool has a corner radius.
     bool round() const
     {
         return std::any_of(tools.begin(), tools.end(),
                            [](const toolpath::Tool& t) { return t.corner_radius > 0; });
     }
 
-    // How much of a ridge one cutter may leave that another counts as cleared; the rest of the
-    // ridge is what each leaves between its own lines.
-    double rest_ridge(std::size_t layer) const
+    // mm: the part of the scallop height that one cutter may leave where another has cleared; the
+    // other part is for scallops between the lines of each cutter.
+    double rest_height(std::size_t layer) const
     {
-        return tools.size() > 1 ? kRestShare * ridge(layer) : 0.0;
+        return tools.size() > 1 ? kRestShare * scallop_height(layer) : 0.0;
     }
 
-    // What may stand over the bottom of a layer where it is cleared.
-    double left_over(std::size_t layer) const { return round() ? ridge(layer) : 0.0; }
+    // mm: the height of stock left over the bottom of a cleared layer.
+    double left_over(std::size_t layer) const { return round() ? scallop_height(layer) : 0.0; }
 
     double deepest_cut() const
     {
@@ -76,17 +77,19 @@ struct Roughing {
     }
 };
 
-// How the cutter clears the layer: steps that leave no higher ridges than the layer may have.
+// Settings with a stepover that leaves at most the allowed scallop height.
 LayerSettings layer_settings(const Roughing& work, std::size_t layer, const toolpath::Tool& tool);
 
-// Writes all layers with the cutters chosen: one result for each run of layers with the same
+// Writes all layers with the chosen cutters: one result for each run of layers with the same
 // cutter.
 std::vector<toolpath::PlannedOperation> write_layers(const Roughing& work);
 
-// Adds the statistics, warnings and comments to all results. seconds: that planning took.
+// Adds statistics, warnings and comments to all results.
+//
+// seconds  time of planning
 void add_report(const Roughing& work, std::vector<toolpath::PlannedOperation>& out, double seconds);
 
-// A number for people, without idle zeros.
+// A number for messages, without trailing zeros.
 std::string plain_number(double value);
 
 }  // namespace cusp::hull_rough

@@ -1,13 +1,12 @@
-// Shortest path through the layers, one node for each fit cutter, a change as the cost of an edge.
+// A shortest path through the layers, with a node for each fit cutter and a cost for each change.
 #include "host_tools/hull_rough/tool_choice.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace cusp::hull_rough {
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kNever = kInfinite;
 
 double cost(const std::vector<ToolOffer>& layer, std::size_t tool)
 {

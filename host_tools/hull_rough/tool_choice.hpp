@@ -1,4 +1,4 @@
-// Which cutter clears which layer: Chuang & Pan's second piece of future work.
+// The choice of a cutter for each layer (future work in Chuang & Pan).
 #pragma once
 
 #include <cstddef>
@@ -15,13 +15,13 @@ struct ToolChoice {
     std::vector<std::size_t> of_layer;  // index of the cutter for each layer
     int changes{};                      // between layers; the first cutter is not one
     double seconds{};                   // of clearing and changes
-    double seconds_with_one{};          // with the one cutter that does best alone
+    double seconds_with_one{};          // with the best single cutter; kInfinite if there is none
 };
 
-// Chooses by least time, changes included. A cutter is fit for a layer when it clears at least
-// `kLeastShare` of what the best one clears there.
+// Chooses by least time, tool changes included. A cutter is fit for a layer if it clears at least
+// `kLeastShare` of the area that the best one clears there.
 //
-//   offers  layers x cutters; not empty
+// offers  layers x cutters; not empty
 constexpr double kLeastShare = 0.99;
 ToolChoice choose_tools(const std::vector<std::vector<ToolOffer>>& offers, double change_seconds);
 

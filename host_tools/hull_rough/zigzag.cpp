@@ -1,5 +1,5 @@
-// Chains grow line by line: each takes at most one stretch of the next line, the first it can
-// reach.
+// Chains grow line by line: each is extended by at most one interval of the next line, the first
+// that it can reach.
 #include "host_tools/hull_rough/zigzag.hpp"
 
 #include <algorithm>
@@ -12,11 +12,11 @@ namespace {
 
 struct OpenChain {
     Chain points;
-    bool towards_plus;  // the last stretch was cut towards +x
+    bool towards_plus;  // the last interval was cut towards +x
 };
 
-// The points after the chain's end that lead to `start` without leaving the zone: directly, or
-// along either line first. Nothing where none of these is clear.
+// The points that lead from the chain's end to `start` inside the zone: directly, or along either
+// line first. None where no such path is clear.
 std::optional<Chain> way(const ClearZone& zone, Vec2d end, Vec2d start)
 {
     if (zone.clear(end, start)) {
@@ -34,7 +34,7 @@ class ChainBuilder {
 public:
     explicit ChainBuilder(const ClearZone& zone) : zone_{zone} {}
 
-    // Adds the stretches of one line.
+    // Adds the intervals of one line.
     void add_line(double y)
     {
         std::vector<Interval> stretches = zone_.on_line(y);

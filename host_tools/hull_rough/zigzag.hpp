@@ -7,23 +7,22 @@
 
 namespace cusp::hull_rough {
 
-// A run of the cutter that never leaves the zone: consecutive points are joined by clear straight
-// moves.
+// A run of the cutter inside the zone: consecutive points are joined by clear straight moves.
 using Chain = std::vector<Vec2d>;
 
 struct ZigzagLayout {
     double first_line{};  // y
     double spacing{};     // > 0
     int lines{};
-    bool one_way{false};  // every stretch is a chain of its own and runs towards +x
+    bool one_way{false};  // every interval is a chain of its own, towards +x
 };
 
-// Lines at equal distances, at most `step` apart, that cover y_min to y_max with a cutter that
-// clears `step` in width.
+// Equally spaced lines, at most `step` apart, that cover y_min to y_max with a cutter that clears a
+// width of `step`.
 ZigzagLayout zigzag_layout(double y_min, double y_max, double step);
 
-// The stretches of the lines in the zone, joined to chains as long as a clear way leads on to the
-// next line. Every stretch is in exactly one chain.
+// The intervals of the lines in the zone, joined to chains while a clear path leads to the next
+// line. Every interval is in exactly one chain.
 std::vector<Chain> zigzag_chains(const ClearZone& zone, const ZigzagLayout& layout);
 
 }  // namespace cusp::hull_rough

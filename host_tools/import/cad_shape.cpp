@@ -1,5 +1,5 @@
-// Reads STEP and IGES with no more repairs than a file needs, and survives files that Open CASCADE
-// does not.
+// Reads STEP and IGES with no more repairs than a file needs, and refuses files that crash Open
+// CASCADE.
 #include "host_tools/import/cad_shape.hpp"
 
 #include <memory>
@@ -33,8 +33,8 @@
 namespace cusp::import {
 namespace {
 
-// Open CASCADE's repairs as they are by default, but for the orientation of wires: where a seam
-// ends in a pole on the edge of a face they cut the seam off, and keep the wrong part of a ball.
+// Open CASCADE's default repairs without the orientation of wires: where a seam ends in a pole on
+// the edge of a face, that repair cuts the seam off and keeps the wrong part of a ball.
 class GentleRepairs : public XSAlgo_AlgoContainer {
 public:
     TopoDS_Shape ProcessShape(const TopoDS_Shape& shape,
@@ -61,7 +61,7 @@ public:
     }
 };
 
-// Whether the shape can be made without a crash, tried in a process of its own.
+// Whether the shape can be made without a crash: a child process tries it.
 bool survives_transfer(XSControl_Reader& reader)
 {
     const pid_t child = fork();
@@ -78,8 +78,8 @@ bool survives_transfer(XSControl_Reader& reader)
     return child < 0 || (waitpid(child, &status, 0) == child && status == 0);
 }
 
-// Open CASCADE follows references to what it could not read. Many files with faults are read well,
-// so only those that it does not survive are refused.
+// Open CASCADE follows references to entities that it could not read. Many files with faults are
+// read well, so only those that crash it are refused.
 void check_faults(const std::string& file, XSControl_Reader& reader)
 {
     Interface_CheckIterator faults = reader.WS()->ModelCheckList(true).Extract(Interface_CheckFail);

@@ -1,4 +1,4 @@
-// A CAD file as Open CASCADE reads it. Only libcusp_cad.so knows this header.
+// A CAD file as Open CASCADE reads it. Only libcusp_cad.so includes this header.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace cusp::import {
 
-// kGentle: as Open CASCADE does by default, but that wires are not turned.
+// kGentle: the default repairs of Open CASCADE, but wires are not reversed.
 enum class Repairs : std::uint8_t { kGentle, kAll };
 
 struct ReadShape {
@@ -17,7 +17,7 @@ struct ReadShape {
 };
 
 // Errors: InputError with the file: it can't be read, is no STEP or IGES, holds no shape, or has
-// faults that Open CASCADE does not survive.
+// faults that crash Open CASCADE.
 ReadShape read_shape(const std::string& file, Repairs repairs);
 
 }  // namespace cusp::import

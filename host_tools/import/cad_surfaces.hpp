@@ -1,7 +1,8 @@
 // Faces of STEP and IGES models as trimmed NURBS surfaces, by Open CASCADE.
 //
 // Open CASCADE is loaded when the first such file is read: linking it would add 25 ms to the start
-// of every command. The module that knows it, libcusp_cad.so, is built where it is installed.
+// of every command. Only the module libcusp_cad.so uses it; it is built where Open CASCADE is
+// installed.
 #pragma once
 
 #include <cstddef>
@@ -13,32 +14,32 @@
 namespace cusp::import {
 
 // The unit is the file's own; the result is in mm. Analytic faces become rational B-splines,
-// exactly; their edges' curves in (u, v) are Open CASCADE's. Faces of solids that look nowhere up
-// are left out: no tool from above reaches them, and what covers them is in the model. Loose faces
-// that close a volume count as a solid.
+// exactly; their edges' curves in (u, v) are Open CASCADE's. Faces of solids that face up nowhere
+// are left out: no tool from above reaches them, and the faces above them are in the model. Loose
+// faces that close a volume count as a solid.
 //
 // Errors: InputError with the file and the reason: no such file, no STEP or IGES, no face that
-// looks up, trims that contradict each other, no libcusp_cad.so.
+// faces up, trims that contradict each other, no libcusp_cad.so.
 std::vector<nurbs::Surface> read_cad_surfaces(const std::string& file);
 
-// A model's faces, with what the file says of them.
+// The faces of a model, and facts about the file.
 struct CadModel {
-    std::string unit;      // of the file, as it names it
+    std::string unit;      // of length, as named in the file
     std::size_t solids{};  // volumes that faces close
-    std::size_t unread{};  // faces of solids that look nowhere up and have broken edges
+    std::size_t unread{};  // faces of solids that face up nowhere and have broken edges
     std::vector<nurbs::Surface> faces;  // all others, in mm
-    std::vector<double> outwards;  // of each: +1 where du x dv points out of its solid, -1 where
-                                   // in; 0: it belongs to none
+    std::vector<double> outwards;       // a face each: +1 where du x dv points out of its solid, -1
+                                        // where in; 0: it belongs to no solid
 };
 
-// As read_cad_surfaces(), but faces of solids that look nowhere up are kept.
+// As read_cad_surfaces(), but faces of solids that face up nowhere are kept.
 CadModel read_cad_model(const std::string& file);
 
 }  // namespace cusp::import
 
-// The door of libcusp_cad.so. Its other calls are answered by the program that loads it.
+// The entry point of libcusp_cad.so. The program that loads it provides all that it calls.
 //
-// all_faces  those of solids that look nowhere up, too
+// all_faces  also those of solids that face up nowhere
 extern "C" void cusp_read_cad_model(const std::string& file,
                                     bool all_faces,
                                     cusp::import::CadModel& model);

@@ -1,4 +1,4 @@
-// Turns every face of a CAD model into a B-spline and hands surface and trimming curves over.
+// Converts every face of a CAD model into a B-spline surface with trimming curves.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -44,7 +44,7 @@ using nurbs::SurfacePoint;
 
 namespace {
 
-// Normals below this rise stand upright.
+// A face whose normals rise less than this is upright.
 constexpr double kLeastRise = 1e-6;
 constexpr double kSewing = 1e-3;  // mm
 
@@ -134,7 +134,7 @@ Surface surface_of(const TopoDS_Face& face)
     double low_v = 0;
     double high_v = 0;
     spline->Bounds(low_u, high_u, low_v, high_v);
-    // Bounds of a face reach over a whole turn by some tolerance: there its edges say where it
+    // The bounds of a face exceed a whole turn by some tolerance: then its edges say where it
     // begins.
     const gp_Pnt2d first = least_corner(face);
     const auto keep_within = [](bool periodic, double low, double high, double least, double& from,
@@ -188,7 +188,7 @@ Curve trim_of(const TopoDS_Edge& edge, const TopoDS_Face& face, const std::strin
     return edge.Orientation() == TopAbs_REVERSED ? reversed(curve) : curve;
 }
 
-// On a surface that closes on itself the trims may stand whole periods away from the piece.
+// On a surface that closes on itself the trims may lie whole periods away from the piece.
 void shift_into_domain(std::vector<Curve>& curves, const TopoDS_Face& face, const Surface& s)
 {
     const Handle(Geom_Surface) whole = BRep_Tool::Surface(face);
@@ -280,7 +280,7 @@ void add_trims(const TopoDS_Face& face, const std::string& place, Surface& surfa
     }
 }
 
-// Whether a face of a solid looks up somewhere; `outwards` is +1 where du x dv points out.
+// Whether a face of a solid faces up somewhere; `outwards` is +1 where du x dv points out.
 bool looks_up(const Surface& s, double outwards)
 {
     constexpr int kLooks = 16;
@@ -319,7 +319,7 @@ void add_face(const SolidFace& found, bool all_faces, const std::string& place, 
     const TopoDS_Shape converted =
         BRepBuilderAPI_NurbsConvert{found.face.Oriented(TopAbs_FORWARD), true}.Shape();
     const TopoDS_Face face = TopoDS::Face(converted.Oriented(TopAbs_FORWARD));
-    // Sewing has turned such a face, too: it would seem to look down.
+    // Sewing has reversed such a face, too: it would seem to face down.
     if (area_of(face) < 0) {
         throw InputError(place + ": its edges run round it the wrong way");
     }
@@ -363,7 +363,7 @@ CadModel model_of(const std::string& file, Repairs repairs, bool all_faces)
     return model;
 }
 
-// A file whose wires do need turning is read again with all repairs, unless those lose some of it.
+// A file whose wires do need reversing is read again with all repairs, unless those lose a part.
 CadModel model_with_fewest_repairs(const std::string& file, bool all_faces)
 {
     constexpr double kSamePart = 1e-3;

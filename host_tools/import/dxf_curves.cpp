@@ -1,4 +1,4 @@
-// The curves that a drawing's objects are; blocks are drawn where they are inserted.
+// Objects of a drawing to curves; blocks are drawn where they are inserted.
 #include "host_tools/import/dxf_curves.hpp"
 
 #include <algorithm>
@@ -75,7 +75,7 @@ std::string_view layer_of(const DxfEntity& entity, std::string_view within)
 bool CurveMaker::shown(const DxfEntity& entity, std::string_view within) const
 {
     const std::string_view layer = layer_of(entity, within);
-    // What a reference holds may be on the layer asked for, whatever its own.
+    // A block's objects may be on the wanted layer, whatever the layer of its reference.
     const bool chosen =
         layer_.empty() ? !drawing_.hidden(layer) : layer == layer_ || entity.type == "INSERT";
     constexpr int kPaperSpace = 67;
@@ -143,7 +143,7 @@ void CurveMaker::add_ellipse(const DxfEntity& entity)
     double sweep = std::fmod(drawing_.value(entity, 42, 2 * kPi) - start, 2 * kPi);
     constexpr double kWhole = 1e-9;
     sweep += sweep <= kWhole ? 2 * kPi : 0;
-    // unlike an arc's its points are never mirrored: a drawing from below turns the short axis
+    // unlike an arc, its points are never mirrored: extrusion towards -z reverses the short axis
     const double turn = ratio * side_of(drawing_.value(entity, 230, 1));
     const Vec2d minor{-turn * major.y, turn * major.x};
     Curve curve = arc_curve({0, 0}, 1, start, sweep);
@@ -249,7 +249,7 @@ void CurveMaker::add_spline(const DxfEntity& entity)
 
 void CurveMaker::add(const DxfEntity& entity)
 {
-    // what draws no outline
+    // these draw no outline
     static const std::array<std::string_view, 11> kSkipped{"ATTRIB",    "SEQEND", "TEXT",  "MTEXT",
                                                            "DIMENSION", "HATCH",  "POINT", "LEADER",
                                                            "VIEWPORT",  "ATTDEF", "IMAGE"};

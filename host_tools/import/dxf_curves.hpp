@@ -11,12 +11,12 @@
 namespace cusp::import {
 
 // millimetres  of one unit of the drawing, unless its $INSUNITS says millimetres or inches itself
-//              (other units are what drawing programs write unasked)
-// layer        whose curves are wanted; "": all layers that are neither off nor frozen
+//              (drawing programs write other units by default)
+// layer        its name; "": all layers that are neither off nor frozen
 //
-// Returns the curves of the ENTITIES section, put in order where each continues the one before,
-// as drawings keep no order; arcs become rational quadratics, exactly.
-// What a block has on layer "0" is on the layer of its INSERT.
+// Returns the curves of the ENTITIES section, chained end to start, since drawings keep no order.
+// Arcs become rational quadratics, exactly. Objects of a block on layer "0" are on the layer of its
+// INSERT.
 // Errors: InputError with the line of the file: no DXF, an unknown block, blocks more than 16 deep,
 // broken numbers, an entity of another kind (hatches, text and dimensions are skipped), a mesh, a
 // spline without control points.
@@ -29,7 +29,7 @@ struct DxfLayer {
     std::string name;
     bool hidden{};                     // switched off or frozen
     std::vector<nurbs::Curve> curves;  // in the order of the file
-    std::string problem;               // why it can't be read, with the line; "": it can
+    std::string problem;               // why it can't be read, with the line; else empty
 };
 
 struct DxfLayers {

@@ -1,4 +1,4 @@
-// Sections are found by their names; unknown ones are passed over.
+// Sections are found by their names; unknown ones are skipped.
 #include "host_tools/import/dxf_drawing.hpp"
 
 #include <cctype>

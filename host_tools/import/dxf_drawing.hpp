@@ -29,8 +29,8 @@ struct DxfBlock {
     std::vector<DxfEntity> entities;
 };
 
-// Reads a file; what it hands out stays valid as long as it does. All errors are InputError with
-// file and line.
+// Reads a file. References that it returns are valid as long as it lives. All errors are InputError
+// with file and line.
 class DxfDrawing {
 public:
     // millimetres  of one unit, where $INSUNITS doesn't name millimetres or inches
@@ -39,7 +39,7 @@ public:
     DxfDrawing& operator=(const DxfDrawing&) = delete;
 
     const std::vector<DxfEntity>& entities() const { return entities_; }
-    // Names are the same whatever their case; none: nullptr.
+    // Names match in any case; no such block: nullptr.
     const DxfBlock* block(std::string_view name) const;
     double unit() const { return unit_; }  // mm
     // Whether the drawing names millimetres or inches itself.

@@ -70,7 +70,7 @@ public:
         if (up < kUpright) {
             return false;
         }
-        // Its least width seen from above.
+        // The least width of the facet seen from above.
         const Triangle t = triangle(facet);
         double longest = 0;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -212,8 +212,8 @@ double turn_left(Vec3d in, Vec3d out)
     return std::atan2(in.x * out.y - in.y * out.x, in.x * out.x + in.y * out.y);
 }
 
-// Closed ways along the sides that only one facet of the group has. Where several go on from a
-// corner it is the leftmost: loops may touch, they do not cross.
+// Closed loops along the sides that only one facet of the group has. Where several continue from a
+// corner the leftmost is taken: loops may touch, but do not cross.
 std::vector<std::vector<Vec3d>> outline(const Mesh& mesh, const std::vector<std::size_t>& group)
 {
     const std::vector<Side> sides = sides_of(mesh, group);
@@ -289,7 +289,7 @@ bool simple(const std::vector<std::vector<Vec3d>>& loops)
     return !loops.empty() && !crossing_of(plan);
 }
 
-// Thinner than can be told from an upright wall.
+// Too thin to be distinguished from an upright wall.
 bool has_width(const std::vector<std::vector<Vec3d>>& loops)
 {
     double area = 0;

@@ -1,4 +1,4 @@
-// A mesh's facets that look up, in groups that are smooth and meet at edges only.
+// Groups of a mesh's upward facets; each is smooth, and they meet at edges only.
 #pragma once
 
 #include <optional>
@@ -11,15 +11,15 @@ namespace cusp::import {
 
 struct FacetGroup {
     Facets facets;
-    // Its edge seen from above, what belongs to it on the left: outer loops counter-clockwise.
+    // The group's edge seen from above: outer loops counter-clockwise, holes clockwise.
     std::vector<std::vector<Vec3d>> loops;
 };
 
-// Facets that look down, and walls that stand upright to some micrometres, are in no group: from
-// above nothing of them is seen but the edge over them. Groups end at edges where the slope jumps
-// by more than 35 degrees, so that each can be followed by a smooth surface.
+// Facets that face down, and walls that are upright within micrometres, are in no group: from above
+// only the edge over them is visible. Groups end at edges where the slope jumps by more than 35
+// degrees, so that a smooth surface can follow each.
 //
-// None where that can't be told: facets whose sides run against each other, groups that lie over
+// No value where facets can't be grouped: sides that run against each other, groups that overlap
 // themselves, more than 200 groups.
 std::optional<std::vector<FacetGroup>> facet_groups(const Facets& facets);
 

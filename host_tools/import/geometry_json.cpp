@@ -66,7 +66,7 @@ std::vector<double> numbers(const Json& object, const char* key, const std::stri
     return out;
 }
 
-// Points of 2 or 3 coordinates, all of as many; absent weights are 1.
+// Points of 2 or 3 coordinates, the same number in all; absent weights are 1.
 void read_control_points(const Json& shape,
                          double millimetres,
                          const std::string& place,

@@ -174,7 +174,7 @@ void Field::sample()
     open_share_ = static_cast<double>(open) / static_cast<double>(samples_.size());
 }
 
-// From the known heights beside a knot: straight on where two in a row are known.
+// Continues the known heights beside a knot: linearly where two in a row are known.
 double Field::gone_on(int i, int j) const
 {
     const auto known = [&](int a, int b) {
@@ -202,7 +202,7 @@ double Field::gone_on(int i, int j) const
     return straights > 0 ? straight / straights : besides > 0 ? beside / besides : kNone;
 }
 
-// Over as many knots as reach into the cells with facets.
+// Extends the samples over as many knots as act on cells with facets.
 void Field::go_on()
 {
     constexpr int kRings = 4;
@@ -226,7 +226,7 @@ void Field::fit()
     const auto sample_at = [&](int i, int j) {
         return samples_[static_cast<std::size_t>(i * (ny_ + 1) + j)];
     };
-    // beyond the box the samples go on straight
+    // beyond the box the samples continue linearly
     const auto along_y = [&](int i, int j) {
         return j < 0 ? sample_at(i, 0) + j * (sample_at(i, 1) - sample_at(i, 0))
                : j > ny_
@@ -322,7 +322,7 @@ LowPlane plane_below(const std::array<double, 16>& cell, int p, int q, double sx
     return {level, rise_x * kParts / sx, rise_y * kParts / sy};
 }
 
-// How far facets rise over the planes below the surface, the most of each cell.
+// The most that facets of each cell rise over the planes below the surface.
 Field::Missing Field::missing() const
 {
     const double px = sx_ / kParts;
@@ -420,7 +420,7 @@ Surface Field::surface() const
     return clamped(s);
 }
 
-// Facets that look down and do not lie on the base; none where the whole mesh is turned over.
+// Facets that face down and do not lie on the base; none where the whole mesh is inside out.
 double overhang(const Facets& facets, double base)
 {
     constexpr double kOnBase = 1e-3;  // mm
@@ -437,7 +437,7 @@ double overhang(const Facets& facets, double base)
     return any_up ? area : 0;
 }
 
-// Over sharp edges between facets what is missing shrinks with the cells, elsewhere faster.
+// Over sharp edges between facets the error shrinks with the cells, elsewhere faster.
 int next_cells(int cells, double too_much)
 {
     constexpr double kSpare = 1.1;
@@ -456,7 +456,7 @@ HeightField finest(const Facets& facets, double tolerance, bool goes_on)
         field.lift(tolerance);
         out = {field.surface(),          field.step(),      field.most_lift(), field.loose_share(),
                overhang(facets, box.z0), field.open_share()};
-        // a step stays a step in any cells: the finest would only take planning time
+        // finer cells do not follow a step any closer: they would only take planning time
         constexpr double kNoBetter = 0.75;
         if (out.loose_share == 0 || (cells >= kMostCells / 2 && out.lift > kNoBetter * before)) {
             break;

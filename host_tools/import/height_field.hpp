@@ -17,9 +17,9 @@ struct HeightField {
     double open_share{};     // of the box, where no facet lies: taken as the mesh's lowest height
 };
 
-// Why one smooth surface: passes run across it without a break, its bounds come from its control
-// points, and every strategy takes it. Cells are halved until nothing is added beyond `tolerance`,
-// at most down to a 192nd of the box (a 96th where steps in the mesh get no closer by it).
+// One smooth surface lets passes run across it without a break, is bounded by its control points,
+// and suits every strategy. Cells are halved until nothing is added beyond `tolerance`, down to a
+// 192nd of the box (a 96th where finer cells do not follow steps in the mesh any closer).
 //
 // tolerance  mm, > 0: how far the surface may lie above the mesh where the mesh is smooth
 //
@@ -28,8 +28,8 @@ struct HeightField {
 // missing is added to every control point that acts there, and B-splines add up to 1.
 HeightField height_field(const Facets& facets, double tolerance);
 
-// The same for facets that do not fill their box: beyond them the surface goes on as smoothly as it
-// can and is to be trimmed away; `lift` and `loose_share` count along the facets' normals.
+// As height_field(), for facets that do not fill their box: beyond them the surface continues
+// smoothly, to be trimmed away; `lift` and `loose_share` count along the facets' normals.
 HeightField height_patch(const Facets& facets, double tolerance);
 
 // mm^2, seen from below: facets that look down over the mesh's base.

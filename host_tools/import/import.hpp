@@ -26,19 +26,19 @@ struct JobText {
     std::string folder;  // that paths in it are relative to; "": the current one
 };
 class PartFiles;
-// The same from text, with parts that may be read already.
+// As above, from text; `parts` may have been read already.
 job::Job read_job(const JobText& job, PartFiles& parts);
 
-// Geometry by itself, with clamped ends. Throws InputError.
+// Geometry without a job, with clamped ends. Throws InputError.
 //
 // millimetres     of one unit of the file: 1 or 25.4; STEP and IGES name their own
 // mesh_tolerance  mm: how closely a mesh (STL) is followed, never below it (height_field.hpp)
-// notes           gets what was left out or changed; may be null
+// notes           gets sentences on what was left out or changed; may be null
 std::vector<nurbs::Surface> read_surfaces(const std::string& file,
                                           double millimetres = 1.0,
                                           double mesh_tolerance = 0.01,
                                           std::vector<std::string>* notes = nullptr);
-// The triangles of an STL file, in mm. `notes` gets what was left out and what overhangs.
+// The triangles of an STL file, in mm. `notes` gets sentences on facets left out and overhangs.
 std::vector<std::array<Vec3d, 3>> read_mesh(const std::string& file,
                                             double millimetres,
                                             std::vector<std::string>* notes = nullptr);

@@ -166,7 +166,7 @@ void JobReader::read_cutting(JobTable& top)
     }
     JobTable keys{*table, file_, "cutting"};
     job_.feed = keys.required_number("feed", kFeed) * unit_;
-    // a quarter of the feed is what cutter makers give for plunging where they give nothing else
+    // cutter makers recommend a quarter of the feed for plunging where they give no figure
     job_.plunge_feed = length(keys, "plunge_feed", kFeed, job_.feed / 4);
     job_.spindle = keys.number("spindle", kNotNegative).value_or(0);
     keys.refuse_unknown_keys();
@@ -331,7 +331,7 @@ void JobReader::read_strategy_keys(JobTable& table, Operation& operation)
     operation.step_over = length(table, "step_over", kPositive);
 }
 
-// Some run over a mesh itself; what its height field keeps off it is no matter then.
+// Whether the strategy runs over the triangles themselves, without a height field.
 bool JobReader::takes_mesh(const Operation& operation, const std::vector<std::string>& floor) const
 {
     return (operation.strategy == "adaptive_isocurve" || operation.strategy == "parallel_planes") &&
@@ -341,11 +341,11 @@ bool JobReader::takes_mesh(const Operation& operation, const std::vector<std::st
 
 const std::vector<Surface>& JobReader::surfaces_of(const std::string& path, double floor_tolerance)
 {
-    // half of what the floor may be off goes to a mesh's height field
+    // half of the floor tolerance goes to a mesh's height field
     return parts_.surfaces(path, unit_, floor_tolerance / 2);
 }
 
-// What is left of the floor under every one of `bodies`.
+// Intersects the floor with every one of `bodies`.
 void JobReader::intersect(JobTable& table,
                           const std::vector<std::string>& bodies,
                           Operation& operation)

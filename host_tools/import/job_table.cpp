@@ -1,4 +1,4 @@
-// Typed access to a TOML table, with places in every complaint.
+// Typed access to a TOML table; every error names its place.
 #include "host_tools/import/job_table.hpp"
 
 #include <algorithm>

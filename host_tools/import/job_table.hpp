@@ -1,5 +1,5 @@
-// One table of a job file: each key is asked for once, with its range, and what was never asked
-// for is refused.
+// One table of a job file: each key is read once, with its range; keys that were never read are
+// refused.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 #include "host_tools/import/number_ranges.hpp"
 
-// toml++ asserts in debug builds on some broken files that it refuses properly in release ones.
+// In debug builds toml++ asserts on some broken files that release builds refuse properly.
 #define TOML_ASSERT(condition) static_cast<void>(0)
 #include "toml++/toml.h"
 
@@ -16,7 +16,7 @@ namespace cusp::import {
 
 class JobTable {
 public:
-    // place  of the table in the file's terms, such as "operation 2"; "" for the file itself
+    // place  how messages name the table, such as "operation 2"; "" for the file itself
     JobTable(const toml::table& table, std::string file, std::string place);
 
     // Each returns nothing where the key is absent and throws InputError where its value is of

@@ -1,14 +1,14 @@
-// What may stand in a job file before any TOML is read from it.
+// Checks the characters of a job file before TOML is parsed.
 #pragma once
 
 #include <string>
 
 namespace cusp::import {
 
-// Letters beyond ASCII belong into strings and comments only: in TOML no key or value has others,
-// and toml++ 3.3 runs into a place it calls unreachable where one follows a value.
+// Letters beyond ASCII may occur in strings and comments only: no TOML key or value has others, and
+// toml++ 3.3 aborts where one follows a value.
 //
-// Throws InputError with the line. A byte order mark at the start is no letter.
+// Throws InputError with the line. A byte order mark at the start is allowed.
 void check_plain_text(const std::string& text, const std::string& file);
 
 }  // namespace cusp::import

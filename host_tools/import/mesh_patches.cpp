@@ -1,4 +1,4 @@
-// Planes in a frame of their own, so that steep ones are no harder than level ones.
+// Fits planes in their own frame, so that steep ones are as accurate as level ones.
 #include "host_tools/import/mesh_patches.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A mesh seen from above as trimmed surfaces that never lie below it: walls stay walls.
+// Covers a mesh, seen from above, with trimmed surfaces that never lie below it and keep its walls.
 #pragma once
 
 #include <optional>
@@ -18,12 +18,12 @@ struct MeshPatches {
 };
 
 // One surface for each of facet_groups(): a plane exactly, anything else as height_patch(), both
-// trimmed along the group's edge, to 1e-5 mm. Upright walls have no surface. The edge over them
-// keeps a tool off: its shank is straight.
+// trimmed along the group's edge, to 1e-5 mm. Upright walls have no surface: the edge over them
+// keeps the tool off, since its shank is straight.
 //
 // tolerance  mm, > 0: how far surfaces may lie over the mesh where it is smooth
 //
-// None where facet_groups() finds none: height_field() takes any mesh.
+// No value where facet_groups() has none; height_field() takes any mesh.
 std::optional<MeshPatches> mesh_patches(const Facets& facets, double tolerance);
 
 }  // namespace cusp::import

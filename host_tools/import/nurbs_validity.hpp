@@ -1,4 +1,4 @@
-// What a curve or surface must fulfil before anything here computes with it.
+// Conditions that a curve or surface must meet before it is used.
 #pragma once
 
 #include <string>
@@ -12,13 +12,13 @@ namespace cusp::import {
 // nanometres up to there.
 inline constexpr double kLargestCoordinate = 1e6;
 
-// Of the largest weight over the smallest: what is beyond is a corner, for which there are knots.
+// Largest weight over the smallest. A larger ratio makes a corner, for which there are knots.
 inline constexpr double kLargestWeightRatio = 1000;
 
-// Of the length of a domain, and one over it the least.
+// Greatest length of a domain; its reciprocal is the least.
 inline constexpr double kLargestDomain = 1e9;
 
-// Knots that differ by rounding only (1e-15 of the whole) become the same.
+// Makes knots equal that differ by rounding only (1e-15 of the domain).
 void merge_close_knots(std::vector<double>& knots);
 
 // Both throw InputError that starts with `place` (file and which curve or surface) and names the

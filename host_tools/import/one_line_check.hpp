@@ -1,4 +1,4 @@
-// What a one-line job may be asked for.
+// Checks what the command line asks of a one-line job.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Numbers first, then the part is measured, then roughing is judged by both.
+// Chooses numbers first, measures the part, then decides on roughing.
 #include "host_tools/import/one_line_choice.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace cusp::import {
 namespace {
 
-// What is chosen where nothing is asked for, in the unit of the job.
+// Defaults, in the unit of the job.
 struct Defaults {
     const char* unit;
     double millimetres;       // of one unit
@@ -22,7 +22,7 @@ struct Defaults {
     double clearance;         // over the stock
     double feed;              // a minute, at most
     double steps;             // of one unit: the stock's box is rounded outwards to them
-    double least_rough;       // over the allowance, that roughing is worth
+    double least_rough;       // over the allowance: less is not roughed
     double feed_of_diameter;  // a minute and unit of the diameter
 };
 constexpr Defaults kMetric{"mm", 1.0, 0.01, 0.3, 5.0, 1200.0, 1e3, 0.01, 200.0};
@@ -30,7 +30,7 @@ constexpr Defaults kInch{"inch", 25.4, 4e-4, 0.012, 0.2, 47.0, 1e4, 4e-4, 200.0}
 
 constexpr double kSpindle = 12000;  // rpm
 constexpr double kAllowanceOfDiameter = 0.05;
-constexpr double kOverRounding = 0.15;  // of the step: what the measured box may be too large by
+constexpr double kOverRounding = 0.15;  // of the step: how much too large the measured box may be
 
 double three_digits(double value) { return std::stod(fmt::format("{:.3g}", value)); }
 
@@ -93,7 +93,7 @@ void OneLineChooser::choose_numbers()
     choice_.clearance = request_.clearance.value_or(defaults_.clearance);
 }
 
-// Reads the parts in the form that the strategy asks for: nothing is read twice.
+// Reads the parts in the form that the strategy takes, so that nothing is read twice.
 void OneLineChooser::measure()
 {
     const double unit = defaults_.millimetres;

@@ -1,4 +1,4 @@
-// What a one-line job leaves open: chosen by the part and its tools.
+// Chooses what a one-line job leaves open, by the part and its tools.
 #pragma once
 
 #include <string>
@@ -28,9 +28,9 @@ struct OneLineChoice {
     double max_depth{};
     double allowance{};
 
-    // To the step that the stock is rounded to.
+    // Rounded to the step of the stock.
     std::string words(double length) const;
-    // All but the last; the only one.
+    // All tools but the last; the only one where there is one.
     std::vector<NamedTool> roughing_tools() const;
 };
 

@@ -1,4 +1,4 @@
-// Writes what was asked for and chosen, as a job file and in words.
+// Writes the job file, and sentences that say what was chosen.
 #include "host_tools/import/one_line_job.hpp"
 
 #include <algorithm>

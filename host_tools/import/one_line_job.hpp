@@ -1,4 +1,4 @@
-// A job out of one command line: parts, tools and a scallop; the rest is chosen and said.
+// Builds a job from one command line: parts, tools and a scallop. The rest is chosen and reported.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace cusp::import {
 
-// What is asked for. Lengths in `inch` or mm, feeds in them a minute; nothing: chosen.
+// The request. Lengths in inches or mm, feeds in them a minute; no value: it is chosen.
 struct OneLineRequest {
     std::vector<std::string> parts;  // files of surfaces
     std::vector<std::string> tools;  // as `tool_of_text` reads them; the last finishes
@@ -39,7 +39,7 @@ struct OneLineJob {
 // bottom the lowest. Where the part is deeper than half the diameter of the tools that rough, or
 // several tools are given, all but the last rough in layers of at most that depth.
 //
-// parts  keeps what is read here for `read_job`
+// parts  keeps the files read here for `read_job`
 //
 // Errors: InputError that names the option or the file.
 OneLineJob one_line_job(const OneLineRequest& request, PartFiles& parts);

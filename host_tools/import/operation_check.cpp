@@ -1,4 +1,4 @@
-// Strategy by strategy.
+// Checks an operation as a whole, strategy by strategy.
 #include "host_tools/import/operation_check.hpp"
 
 #include "host_tools/input_error/input_error.hpp"
@@ -32,7 +32,7 @@ void check_islands(const Operation& operation)
     }
 }
 
-// Of the strategies that always finish: without layers there is but one depth of cut.
+// For strategies that always finish: without layers there is only one depth of cut.
 void check_least_depth(const JobTable& table, const Operation& operation)
 {
     if (!operation.min_depth) {
@@ -54,7 +54,7 @@ void check_least_depth(const JobTable& table, const Operation& operation)
     }
 }
 
-// Of contour_pocket: what only roughing uses is not passed over in silence.
+// For contour_pocket: keys that only roughing uses are refused where nothing is roughed.
 void check_roughing(const JobTable& table, const Operation& operation)
 {
     const std::vector<Tool>& tools = operation.tools;

@@ -1,4 +1,4 @@
-// What an operation's values have to be together, beyond the range of each.
+// Checks the values of an operation against each other, beyond the range of each.
 #pragma once
 
 #include "host_tools/import/job_table.hpp"
@@ -6,8 +6,8 @@
 
 namespace cusp::import {
 
-// Throws InputError where the strategy misses a value, where values contradict each other or would
-// be passed over, and where an island lies outside the boundary.
+// Throws InputError where the strategy lacks a value, where values contradict each other or would
+// have no effect, and where an island lies outside the boundary.
 //
 // table  that the operation was read from: errors name its place
 void check_operation(const JobTable& table, const job::Operation& operation);

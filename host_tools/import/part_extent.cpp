@@ -1,4 +1,4 @@
-// A model turned so that a side of its box looks up has its highest place on that side.
+// Measures each side of the box as the highest place of a model that is turned so that it is up.
 #include "host_tools/import/part_extent.hpp"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ Vec3d greatest(Vec3d a, Vec3d b)
 }
 
 // The highest place after `turn`, which maps the points of the surfaces. No surface rises over its
-// control points, so those are asked first that might rise most, and few are asked at all.
+// control points, so surfaces that might rise most come first, and few are evaluated.
 template <class Turn>
 double highest_after(const Turn& turn, const std::vector<Surface>& surfaces)
 {

@@ -1,4 +1,4 @@
-// PartFiles: the parts of a job by their files, each read once however often it is asked for.
+// PartFiles: the parts of a job by their files; each file is read once.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@ using Triangles = std::vector<std::array<Vec3d, 3>>;
 
 // Errors, here and below: InputError, as `read_surfaces`, `read_mesh` and `read_loop` throw it.
 //
-// millimetres  of one unit of a file that names no unit: 1 or 25.4; the same in all calls
+// millimetres  of one unit of a file that names no unit: 1 or 25.4; equal in all calls
 class PartFiles {
 public:
     // mesh_tolerance  mm: how closely surfaces over an STL mesh follow it
@@ -26,11 +26,11 @@ public:
     const Triangles& mesh(const std::string& file, double millimetres);
     const job::Loop& loop(const std::string& file, double millimetres);
 
-    // What the readers left out or changed so far, in words.
+    // Sentences on what the readers left out or changed so far.
     const std::vector<std::string>& notes() const { return notes_; }
 
 private:
-    // by tolerance, too
+    // by file and tolerance
     std::map<std::pair<std::string, double>, std::vector<nurbs::Surface>> surfaces_;
     std::map<std::string, Triangles> meshes_;
     std::map<std::string, job::Loop> loops_;

@@ -1,4 +1,4 @@
-// What a file's name ends in, to tell formats apart.
+// The ending of a file name, which selects the reader.
 #pragma once
 
 #include <string>

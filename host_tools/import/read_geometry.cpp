@@ -1,4 +1,4 @@
-// Geometry files by their ending, and text files.
+// Selects the reader by the ending of the file, and describes meshes in words.
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -35,7 +35,7 @@ std::string path_ending(const std::string& file)
 
 namespace {
 
-// What becomes of a mesh, in words, where it is more than smooth facets.
+// Sentences on how a mesh is taken, where it is more than smooth facets.
 void describe(const std::string& file,
               const Facets& facets,
               double overhangs,

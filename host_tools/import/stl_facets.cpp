@@ -41,11 +41,11 @@ double float_at(const std::string& bytes, std::size_t at)
     return static_cast<double>(value);
 }
 
-// place()  where it stands, in words
+// place()  the place of the value, in words
 template <class Place>
 void check_coordinate(double value, std::size_t axis, const Place& place)
 {
-    if (!(std::abs(value) <= kLargestCoordinate)) {  // also refuses what is no number
+    if (!(std::abs(value) <= kLargestCoordinate)) {  // also refuses NaN
         throw InputError(fmt::format("{}: a corner has {} = {} mm, the limit is {:g}", place(),
                                      kAxes[axis], value, kLargestCoordinate));
     }

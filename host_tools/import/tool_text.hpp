@@ -5,7 +5,7 @@
 
 namespace cusp::import {
 
-// In the unit that was asked for.
+// Lengths in the unit of the request.
 struct NamedTool {
     std::string shape;  // as in job files: "ball", "flat", "bull"
     double diameter{};
@@ -15,7 +15,7 @@ struct NamedTool {
 // text  SHAPE:DIAMETER or bull:DIAMETER:CORNER_RADIUS; each length may end in "mm" or "in"
 // inch  whether lengths without an ending are inches, and those of the result
 //
-// Errors: InputError that names the text, what is wrong with it and how it is written.
+// Errors: InputError with the text, its fault and the right form.
 NamedTool tool_of_text(const std::string& text, bool inch);
 
 // "ball 6 mm", "bull 10 mm with corners of 1.5 mm".

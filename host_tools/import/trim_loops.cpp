@@ -37,7 +37,7 @@ Curve parameter_line(Vec2d a, Vec2d b)
     return {1, {0, 0, 1, 1}, {{a.x, a.y, 0}, {b.x, b.y, 0}}, {1, 1}};
 }
 
-// A loop narrower than rounding on the average encloses nothing.
+// A loop whose mean width is below rounding encloses nothing.
 void check_area(const std::vector<Vec2d>& closed,
                 std::size_t number,
                 double allowed,
@@ -77,7 +77,7 @@ void check_inside(const Loop& loop, const Domain& d, double allowed, const std::
     }
 }
 
-// Loops as they follow from the ends of the curves.
+// Groups curves into loops by their ends.
 std::vector<Loop> grouped(const std::vector<Curve>& curves,
                           double allowed,
                           const std::string& place)

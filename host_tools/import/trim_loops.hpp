@@ -8,8 +8,8 @@
 
 namespace cusp::import {
 
-// curves  in order, as the file lists them; each closed alone or with those after it. Their
-//         direction says what stays: outer loops counter-clockwise, holes clockwise.
+// curves  in order, as the file lists them; each closed alone or with those after it. Outer
+//         loops run counter-clockwise, holes clockwise.
 //
 // Returns the loops, an outer one first; where the file gives holes only, the edge of the domain is
 // the outer loop.

@@ -1,4 +1,4 @@
-// Everything near enough is the same; near poles curves become chords.
+// Merges ends that nearly meet; near poles curves become chords.
 #include "host_tools/import/trim_repair.hpp"
 
 #include <algorithm>
@@ -24,8 +24,7 @@ bool lies_inside(Vec3d p, const Surface& s)
     return p.x >= s.u_begin() && p.x <= s.u_end() && p.y >= s.v_begin() && p.y <= s.v_end();
 }
 
-// Points just outside the domain, and those near a pole, where a parameter is worth next to
-// nothing.
+// Points just outside the domain, and those near a pole, where a parameter hardly moves the point.
 Vec3d pulled_inside(Vec3d p, const Surface& s)
 {
     const Vec3d inside{std::clamp(p.x, s.u_begin(), s.u_end()),
@@ -38,7 +37,7 @@ Vec3d pulled_inside(Vec3d p, const Surface& s)
     return near || off_u * norm(at.du) + off_v * norm(at.dv) <= kNearPole ? inside : p;
 }
 
-// How far the place lies outside, as a share of the domain.
+// Distance of the place from the domain, as a share of it.
 double outside(Vec3d p, const Surface& s)
 {
     const double off_u = std::max({0.0, s.u_begin() - p.x, p.x - s.u_end()});
@@ -46,8 +45,8 @@ double outside(Vec3d p, const Surface& s)
     return std::max(off_u / (s.u_end() - s.u_begin()), off_v / (s.v_end() - s.v_begin()));
 }
 
-// Control points of a curve inside may lie outside: only what is as far out as the curve itself is
-// moved. Towards a pole the control points of a converted curve swing far out, the curve hardly:
+// Control points of a curve inside may lie outside: only points as far out as the curve itself are
+// moved. Towards a pole the control points of a converted curve lie far outside, the curve hardly:
 // there it becomes chords.
 void pull_inside(Curve& curve, const Surface& s)
 {

@@ -1,4 +1,4 @@
-// Looks at the normals along isolines of each span.
+// Samples the normals along isolines of each span.
 #include "host_tools/import/turning_knots.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ constexpr int kMostParts = 32;
 constexpr int kLines = 9;
 constexpr int kLooks = 9;
 
-// Radians that the normal turns between two places of the domain, on the way over a few between.
+// Turn of the normal between two places of the domain, radians, summed over places between.
 template <class Place>
 double turn_between(const Surface& s, double from, double to, Place place)
 {

@@ -42,16 +42,18 @@ struct Operation {
     std::string strategy;
     std::vector<nurbs::Surface> floor;
     std::vector<std::string> floor_files;
-    // Of bodies that the floor was intersected with: `floor` is what is left.
+    // Bodies that the floor was intersected with; `floor` is the result.
     std::vector<std::string> intersect_files;
-    // adaptive_isocurve, where all of the floor is STL: its triangles, and no `floor`.
+    // The triangles, where all of the floor is STL and the strategy is adaptive_isocurve or
+    // parallel_planes; `floor` is empty then.
     std::vector<std::array<Vec3d, 3>> mesh;
     std::optional<Loop> boundary;
     std::string boundary_file;
     std::vector<Loop> islands;
     std::vector<std::string> island_files;
     toolpath::Tool tool;
-    std::vector<toolpath::Tool> tools;  // hull_rough: the choice; else just `tool`
+    // Those that rough, or that hull_rough may choose from; else `tool` alone.
+    std::vector<toolpath::Tool> tools;
     OutputForm output{OutputForm::kLines};
     double plan_tolerance{};
     double floor_tolerance{};
@@ -84,7 +86,7 @@ struct Operation {
     std::optional<double> step_over;
 };
 
-// Of an operation's progress, where a finish follows.
+// Share of an operation's progress at which roughing ends, where a finish follows.
 inline constexpr double kRoughingDone = 0.5;
 
 struct Job {
@@ -100,12 +102,12 @@ struct Job {
     std::optional<std::array<double, 2>> stock_x;
     std::optional<std::array<double, 2>> stock_y;
     std::vector<Operation> operations;
-    std::vector<std::string> notes;  // what the readers left out or changed, in words
-    // Called by planners now and then with the share of an operation that is done, 0 to 1, about;
-    // may be empty.
+    std::vector<std::string> notes;  // sentences on what the readers left out or changed
+    // Planners call it now and then with the approximate share of an operation that is done, 0 to
+    // 1; may be empty.
     std::function<void(double)> progress;
 
-    // begun  the share that was done before the part that `share` is of
+    // begun  share of the operation that was done before this part began
     void report_progress(double share, double begun = 0.0) const
     {
         if (progress) {

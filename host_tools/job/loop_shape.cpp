@@ -1,4 +1,4 @@
-// Chains curves into loops and looks at the loops from above.
+// Chains curves into loops; tests on their polylines.
 #include "host_tools/job/loop_shape.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kAllowedGap = 1e-3;  // mm
 constexpr double kLeastLength = 1e-6;
-// Chords for the questions of inside and of crossings.
+// Chord tolerance for tests of inside and crossings.
 constexpr double kChordTolerance = 1e-4;
 
 double gap(Vec3d a, Vec3d b) { return norm(in_plan(a) - in_plan(b)); }
@@ -50,8 +50,8 @@ double distance_to_chord(Vec2d p, Vec2d a, Vec2d b)
     return norm(p - (a + foot * along));
 }
 
-// Chords of a Bezier piece, which is halved until its control points say that it is flat; the depth
-// bounds the work on wild ones.
+// Chords of a Bezier piece, which is halved until its control points prove it flat. The depth
+// bounds the work.
 class PieceChords {
 public:
     PieceChords(const Curve& piece, double tolerance, std::vector<Vec2d>& out)

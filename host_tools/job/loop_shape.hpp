@@ -15,10 +15,10 @@ namespace cusp::job {
 // last point is the first one again.
 std::vector<Vec2d> loop_polyline(const Loop& loop, double tolerance);
 
-// Twice-covered areas count twice; positive where the polyline runs counter-clockwise.
+// Areas covered twice count twice; positive where the polyline runs counter-clockwise.
 double signed_area(const std::vector<Vec2d>& closed);
 
-// Where closed polylines cross themselves or each other; none where they only touch.
+// A crossing of closed polylines with themselves or each other; no value where they only touch.
 std::optional<Vec2d> crossing_of(const std::vector<std::vector<Vec2d>>& closed);
 
 // Even-odd test against a closed polyline.

@@ -155,8 +155,8 @@ std::vector<double> crease_knots(const std::vector<double>& knots, int degree, s
     return out;
 }
 
-// As `insert_to_degree` for each knot in order, but what lies behind a knot is taken over when its
-// turn comes, not moved on with each insertion before it.
+// As insert_to_degree() for each knot in order, in one pass: rows behind a knot are copied once,
+// not moved by every insertion before.
 void insert_all_to_degree(ControlRows& rows)
 {
     const auto p = static_cast<std::size_t>(rows.degree);
@@ -207,7 +207,7 @@ void clamp_ends(ControlRows& rows)
     insert_to_degree(rows, begin);
     insert_to_degree(rows, end);
     const auto width = static_cast<std::ptrdiff_t>(rows.width);
-    // the last knot at the begin and the first at the end bound the spans that stay
+    // The spans between the last knot at the begin and the first one at the end remain.
     const auto last = std::upper_bound(rows.knots.begin(), rows.knots.end(), begin) - 1;
     const auto first = std::lower_bound(rows.knots.begin(), rows.knots.end(), end);
     const auto first_row = (last - rows.knots.begin()) - p;

@@ -1,4 +1,5 @@
-// Boehm's knot insertion on rows of homogeneous control points: one row a curve, many a surface.
+// Boehm's knot insertion on rows of homogeneous control points: one row for a curve, many for a
+// surface.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +13,7 @@ struct HomogeneousPoint {
     double x, y, z, w;  // x, y, z carry the factor w
 };
 
-// One direction of a tensor product: control row i is points[i * width] ... of `width` points.
+// One direction of a tensor product: control row i is `width` points from points[i * width] on.
 struct ControlRows {
     int degree{};
     std::vector<double> knots;
@@ -29,12 +30,12 @@ ControlRows control_rows_along_v(const Surface& surface);
 
 Curve to_curve(const ControlRows& rows);
 
-// The surface with its ends clamped in both directions, if they are not already.
+// The shape with knots of multiplicity degree + 1 at all ends.
 Surface clamped(const Surface& surface);
 Curve clamped(const Curve& curve);
 
-// The same shape with more knots, each once more than it is listed in the surface.
-// Precondition: they lie inside the domain, and none gets over the degree.
+// The shape with more knots: each one given raises a multiplicity by 1.
+// Precondition: knots are inside the domain, with multiplicities of at most the degree afterwards.
 Surface with_knots(const Surface& surface,
                    const std::vector<double>& more_u,
                    const std::vector<double>& more_v);
@@ -46,20 +47,20 @@ std::size_t multiplicity(const std::vector<double>& knots, double u);
 // Precondition: u in the domain.
 void insert_to_degree(ControlRows& rows, double u);
 
-// Both ends of a part of the domain, and the distinct knots between them, rising.
+// `from`, the distinct knots between, and `to`, increasing.
 std::vector<double> knots_between(const std::vector<double>& knots, double from, double to);
 
 // The distinct knots of the domain, its ends included.
 std::vector<double> distinct_knots(const std::vector<double>& knots, int degree, std::size_t count);
 
-// Of those the ends, and the knots where the tangent may jump: of multiplicity degree or more.
+// The ends of the domain and the knots where the tangent may jump: of multiplicity degree or more.
 std::vector<double> crease_knots(const std::vector<double>& knots, int degree, std::size_t count);
 
-// Inserts every knot of the domain to the degree. Span [knots[s], knots[s + 1]] then is a Bezier
-// piece of rows s - degree to s.
+// Inserts every knot of the domain up to multiplicity degree. A span [knots[s], knots[s + 1]] is
+// then the Bezier piece of rows s - degree to s.
 void insert_all_to_degree(ControlRows& rows);
 
-// Cuts the rows to their domain: knots of multiplicity degree + 1 at both ends, the same shape.
+// Restricts the rows to their domain, with knots of multiplicity degree + 1 at both ends.
 void clamp_ends(ControlRows& rows);
 
 }  // namespace cusp::nurbs

@@ -1,9 +1,15 @@
-// NURBS curves and surfaces of any size on the host: evaluate, derive, insert knots, split.
-// Millimetres and doubles throughout. Evaluation outside the domain is clamped to it.
+// NURBS curves and surfaces of any size on the host: evaluation, derivatives, splitting, Bezier
+// pieces. Millimetres and doubles throughout.
 //
-//     const double u = 0.5 * (surface.u_begin() + surface.u_end());
-//     const double v = 0.5 * (surface.v_begin() + surface.v_end());
-//     const SurfacePoint p = derivatives_at(surface, u, v);  // p.point, p.du, p.dv, p.duu ...
+//     const Curve line{1, {0, 0, 1, 1}, {{0, 0, 0}, {10, 0, 0}}, {1, 1}};
+//     const Vec3d middle = point_at(line, 0.5);                  // (5, 0, 0)
+//     const auto [left, right] = split_at(line, 0.25);
+//     for (const BezierPatch& patch : bezier_patches(surface)) {
+//         const SurfacePoint p = derivatives_at(patch.surface, patch.u_begin, patch.v_begin);
+//         const Vec3d normal = upward_normal(p);
+//     }
+//
+// Parameters outside the domain are clamped to it. knot_insertion.hpp has the operations on knots.
 #pragma once
 
 #include <array>
@@ -15,8 +21,8 @@
 
 namespace cusp::nurbs {
 
-// A rational B-spline curve. Invariants (checked by the reader in host_tools/import, assumed here):
-// degree >= 1, points.size() == weights.size() >= degree + 1, knots.size() == points.size() +
+// A rational B-spline curve. Invariants, checked by the readers in host_tools/import and assumed
+// here: degree >= 1, points.size() == weights.size() >= degree + 1, knots.size() == points.size() +
 // degree + 1, knots non-decreasing, domain not empty, weights > 0.
 struct Curve {
     int degree{};
@@ -47,7 +53,7 @@ std::vector<Curve> bezier_pieces(const Curve& curve);
 
 Curve reversed(const Curve& curve);
 
-// A rational tensor-product surface; control point (i, j) stands at points[i * size_v + j].
+// A rational tensor-product surface; control point (i, j) is points[i * size_v + j].
 struct Surface {
     int degree_u{};
     int degree_v{};
@@ -57,8 +63,8 @@ struct Surface {
     int size_v{};
     std::vector<Vec3d> points;
     std::vector<double> weights;
-    // Trimming loops in (u, v): curves in order, z = 0; the outer loop first, counter-clockwise.
-    // Empty: not trimmed.
+    // Trimming loops of curves in (u, v), z = 0; the outer loop first, counter-clockwise. Empty:
+    // not trimmed.
     std::vector<std::vector<Curve>> trims;
 
     double u_begin() const { return knots_u[static_cast<std::size_t>(degree_u)]; }
@@ -80,15 +86,15 @@ struct SurfacePoint {
 Vec3d point_at(const Surface& surface, double u, double v);
 SurfacePoint derivatives_at(const Surface& surface, double u, double v);
 
-// Whether a first derivative, du or dv, is rounding: where a side of the surface is drawn together
-// to a point. Beside it the derivative is duv times the way from it.
+// Whether a first derivative, du or dv, is zero but for rounding: at a pole, where a side of the
+// surface degenerates to a point. Near a pole the derivative is duv times the distance from it.
 bool at_pole(Vec3d derivative, const SurfacePoint& s);
 
-// Unit normal, pointing up (z >= 0); for a vertical tangent plane to the left of du. At a pole the
-// one beside it on the way there. Zero where the derivatives are parallel.
+// The unit normal that points up (z >= 0); for a vertical tangent plane, to the left of du. At a
+// pole the limit of the normals beside it. Zero where the derivatives are parallel.
 Vec3d upward_normal(const SurfacePoint& s);
 
-// Rational Bezier patches of the surface, row by row in u then v; each with its box of the domain.
+// The rational Bezier patches of the surface, row by row in u then v, with their domains.
 struct BezierPatch {
     Surface surface;  // one span in u and v
     double u_begin, u_end, v_begin, v_end;

@@ -8,11 +8,11 @@
 namespace cusp::nurbs {
 namespace {
 
-// The control points of an isocurve: rows of a surface's, blended by the functions of a basis at
-// one parameter.
+// The control points of an isocurve: rows of control points of the surface, blended by the basis
+// functions at one parameter.
 //
 // knots    across the isocurve, of `count` rows
-// place    place(row, k): where the surface keeps the k-th control point of a row
+// place    place(row, k): index of the k-th control point of a row in the surface
 // along    of the isocurve: degree, knots, and room for its points
 template <class Place>
 Curve blended(const Surface& surface,
@@ -47,7 +47,7 @@ std::vector<double> bezier_knots(int degree, double begin, double end)
     return knots;
 }
 
-// The rows that carry one span, as a patch that is a single span along the rows' direction.
+// The rows of one span, as a patch of a single span along the direction of the rows.
 struct Strip {
     double begin, end;
     std::vector<HomogeneousPoint> points;
@@ -183,7 +183,7 @@ bool at_pole(Vec3d derivative, const SurfacePoint& s)
 
 Vec3d upward_normal(const SurfacePoint& s)
 {
-    // Below this share of |du| |dv| the cross product is rounding.
+    // Share of |du| |dv|: a smaller cross product is rounding.
     constexpr double kParallel = 1e-12;
     const Vec3d du = at_pole(s.du, s) ? s.duv : s.du;
     const Vec3d dv = at_pole(s.dv, s) ? s.duv : s.dv;

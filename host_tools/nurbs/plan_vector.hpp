@@ -9,9 +9,9 @@
 namespace cusp {
 
 inline constexpr double kInfinite = std::numeric_limits<double>::infinity();
-// A coordinate or distance beyond every real one, in mm: what a search for the least starts at, or a limit that is not
-// set. Finite, so that 0 * kUnbounded and kUnbounded - kUnbounded are 0, where kInfinite gives NaN. "Nothing found" is
-// a std::optional instead.
+// A coordinate or distance beyond every real one, in mm: what a search for the least starts at, or
+// a limit that is not set. Finite, so that 0 * kUnbounded and kUnbounded - kUnbounded are 0, where
+// kInfinite gives NaN. "Nothing found" is a std::optional instead.
 inline constexpr double kUnbounded = 1e300;
 
 struct Vec2d {

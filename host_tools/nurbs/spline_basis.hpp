@@ -1,4 +1,4 @@
-// The B-spline functions that are not zero at a parameter, with derivatives, without allocation.
+// The nonzero B-spline functions at a parameter, with derivatives, without allocation.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace cusp::nurbs {
 
-// Curves and surfaces of a higher degree are refused by the reader.
+// The readers refuse curves and surfaces of a higher degree.
 inline constexpr int kMaximumDegree = 25;
 
 // The degree + 1 functions at u belong to control points first, first + 1, ...
@@ -19,14 +19,13 @@ struct SplineBasis {
     Row second_derivative;
 };
 
-// The span of the domain in which u lies: knots[span] <= u < knots[span + 1]; the last one at the
-// domain's end.
+// The span of the domain that holds u: knots[span] <= u < knots[span + 1]; at the end of the domain
+// the last one.
 //
 // count  number of control points
 std::size_t span_at(const std::vector<double>& knots, int degree, std::size_t count, double u);
 
-// Fills `value` and, where `derivatives` says so, both rows of derivatives. u is clamped to the
-// domain.
+// Fills `value` and, if `derivatives`, both rows of derivatives. u is clamped to the domain.
 //
 // Source: Piegl and Tiller, The NURBS Book, A2.2; derivatives by (2.7), applied twice.
 void evaluate_basis(const std::vector<double>& knots,

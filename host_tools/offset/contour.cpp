@@ -9,16 +9,16 @@ namespace {
 
 double cross_from(Vec2d origin, Vec2d a, Vec2d b) { return cross(a - origin, b - origin); }
 
-// True where the point lies in the wedge that the arc spans about its centre.
+// Whether the point lies in the wedge that the arc spans around its centre.
 bool in_wedge(const Edge& arc, Vec2d point)
 {
     return cross_from(arc.centre, arc.start, point) * arc.turn >= 0.0 &&
            cross_from(arc.centre, point, arc.end) * arc.turn >= 0.0;
 }
 
-// Which side of the chord the point lies on, > 0 on the left. A point on the chord's line counts as
-// moved by an infinitesimal step up, and one beside a chord that its ray meets as moved right: the
-// same choice for the chord's polygon and the arc's segment, or parities would not add up.
+// The side of the chord on which the point lies, > 0 on the left. A point on the chord's line
+// counts as moved up by an infinitesimal step; one beside a chord that its ray meets as moved
+// right. The chord's polygon and the arc's segment need the same choice for consistent parities.
 double side_of_chord(const Edge& edge, bool straddles, Vec2d p)
 {
     const double side = cross_from(edge.start, edge.end, p);
@@ -148,15 +148,15 @@ Contour reversed(const Contour& contour)
     return result;
 }
 
-// The chord's ray crossing, corrected by the circular segment that the point lies in.
+// The crossing of the ray with the chord, corrected if the point lies in the circular segment.
 bool crossed_by_ray(const Edge& edge, Vec2d point)
 {
     const bool rises = edge.end.y > point.y;
     const bool straddles = (edge.start.y > point.y) != rises;
     const double side = side_of_chord(edge, straddles, point);
     const bool by_chord = straddles && (side > 0.0) == rises;
-    // Below half a turn a segment lies in the circle over its chord. Of an arc without length the
-    // chord's direction, and so the side, is rounding.
+    // Below half a turn a segment lies in the circle over its chord. The side of an arc of zero
+    // length would be rounding.
     const bool in_segment = edge.turn != 0 && side * edge.turn < 0.0 &&
                             dot(point - edge.start, point - edge.end) <= 0.0 &&
                             distance(point, edge.centre) < edge.radius;
@@ -183,7 +183,7 @@ bool contains(const Region2d& region, Vec2d point)
 
 double distance_to(const Region2d& region, Vec2d point)
 {
-    double best = 1e300;
+    double best = kUnbounded;
     for (const Contour& contour : region.contours) {
         for (const Edge& edge : contour) {
             best = std::min(best, distance_to(edge, point));

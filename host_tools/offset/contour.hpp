@@ -18,10 +18,10 @@ struct Edge {
     int turn{};
 };
 
-// A closed chain: each edge starts where the one before ends; the last ends where the first starts.
+// A closed chain: each edge starts at the end of the one before, the first at the end of the last.
 using Contour = std::vector<Edge>;
 
-// mm: points of a region no farther apart are one.
+// mm: points of a region no farther apart than this are the same.
 inline constexpr double kSamePoint = 1e-7;
 
 // The points to the left of all contours: outer contours run counter-clockwise, holes clockwise.
@@ -72,24 +72,24 @@ double area(const Contour& contour);  // mm^2, > 0 where it runs counter-clockwi
 double area(const Region2d& region);  // mm^2, holes taken off
 Contour reversed(const Contour& contour);
 
-// True where a ray from the point to the right counts the edge an odd number of times: over all
-// edges of a contour, the parity says whether the contour runs around the point.
+// Whether a ray from the point to the right crosses the edge an odd number of times. The parity
+// over all edges of a contour tells whether the contour runs around the point.
 bool crossed_by_ray(const Edge& edge, Vec2d point);
 
-// True where the contour runs around the point, whichever way.
+// Whether the contour runs around the point, in either direction.
 bool surrounds(const Contour& contour, Vec2d point);
 
-// True where the point belongs to the region; points on a contour count either way.
+// Whether the point belongs to the region; undefined on a contour.
 bool contains(const Region2d& region, Vec2d point);
 
-// Least distance from the point to the contours' edges, by brute force.
+// The least distance from the point to the contours' edges, by brute force.
 double distance_to(const Region2d& region, Vec2d point);
 
 struct Box2d {
-    double x0{1e300};
-    double y0{1e300};
-    double x1{-1e300};
-    double y1{-1e300};
+    double x0{kUnbounded};
+    double y0{kUnbounded};
+    double x1{-kUnbounded};
+    double y1{-kUnbounded};
 };
 Box2d box_of(const Edge& edge);
 Box2d box_of(const Region2d& region);

@@ -1,4 +1,4 @@
-// Recognises lines and circles by their points, and fits biarcs by halving.
+// Recognizes lines and circles by samples; fits other curves by biarcs with bisection.
 #include "host_tools/offset/contour_fit.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ struct CurveStation {
     Vec2d tangent;
 };
 
-// Where the derivative vanishes (coincident control points), the tangent is taken a little inside.
+// Where the derivative vanishes (coincident control points), the tangent is that a little inside.
 CurveStation station(const Curve& curve, double u, double toward)
 {
     CurvePoint at = derivatives_at(curve, u);
@@ -72,7 +72,7 @@ std::optional<Vec2d> centre_of(Vec2d a, Vec2d b, Vec2d c)
     return a + Vec2d{w.y, -w.x} * (1.0 / twice);
 }
 
-// Arcs through the samples where all lie on one circle; empty where they do not.
+// Arcs through the samples if all lie on one circle; else empty.
 std::vector<Edge> as_arcs(const std::vector<Vec2d>& points)
 {
     const std::size_t n = points.size() - 1;
@@ -166,7 +166,7 @@ void fit_piece(const Curve& curve,
     }
     if (dot(a.tangent, b.tangent) > 0.2) {
         const auto pair = biarc(a, b);
-        // 0.7: the samples miss the very worst point.
+        // 0.7: samples miss the point of largest deviation.
         if (pair && fits(curve, u0, u1, *pair, 0.7 * tolerance)) {
             edges.insert(edges.end(), pair->begin(), pair->end());
             return;
@@ -181,8 +181,8 @@ void fit_piece(const Curve& curve,
     fit_piece(curve, middle, u1, tolerance, halvings + 1, edges);
 }
 
-// Ends that differ by rounding are moved together; wider gaps get a line, so that no arc leaves its
-// circle.
+// Ends that differ by rounding are moved together; wider gaps become lines, so that arcs remain on
+// their circles.
 Contour closed_up(const Contour& chain)
 {
     constexpr double kRounding = 1e-7;

@@ -1,5 +1,5 @@
-// Crossings of lines and arcs without trigonometry: circles are cut, then points are kept by their
-// side of the chord.
+// Intersections of lines and arcs without trigonometry: those of lines and circles, of which the
+// points on the edges are kept by their side of the chord.
 #include "host_tools/offset/edge_crossings.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ bool near(Vec2d a, Vec2d b, double slack)
     return std::abs(a.x - b.x) <= slack && std::abs(a.y - b.y) <= slack;
 }
 
-// True where a point of the edge's line or circle belongs to the edge itself.
+// Whether a point of the edge's line or circle belongs to the edge itself.
 bool within(const Edge& edge, Vec2d p, double slack)
 {
     if (near(p, edge.start, slack) || near(p, edge.end, slack)) {
@@ -34,7 +34,7 @@ void keep(Crossings& found, const Edge& a, const Edge& b, Vec2d p, double slack)
     }
 }
 
-// Both edges on one line or circle: the ends of each that lie on the other.
+// For edges on one line or circle: the ends of each that lie on the other.
 Crossings common_ends(const Edge& a, const Edge& b, double slack)
 {
     Crossings found;
@@ -97,8 +97,7 @@ Crossings of_arcs(const Edge& a, const Edge& b, double slack)
         gap < std::abs(a.radius - b.radius) - slack) {
         return found;
     }
-    // Distance from a's centre to the common chord, in the form that loses no digits for equal
-    // radii.
+    // Distance from a's centre to the common chord, in a form without cancellation for equal radii.
     const double along = 0.5 * (gap + (a.radius - b.radius) * (a.radius + b.radius) / gap);
     const double square = (a.radius - along) * (a.radius + along);
     const double half = std::sqrt(std::max(square, 0.0));

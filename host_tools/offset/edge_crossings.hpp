@@ -1,4 +1,4 @@
-// Where two edges meet.
+// Intersections of two edges.
 #pragma once
 
 #include "firmware/base/static_vector.hpp"
@@ -6,8 +6,8 @@
 
 namespace cusp::offset {
 
-// Points common to both edges: crossings and touches, or, where the edges run over each other, the
-// ends of the common part. `slack` (mm) is how far beyond an end a crossing still counts.
+// Points common to both edges: crossings and touches, or the ends of a common part. `slack` (mm) is
+// how far beyond an end a crossing still counts.
 using Crossings = StaticVector<Vec2d, 4>;
 Crossings crossings(const Edge& a, const Edge& b, double slack);
 

@@ -1,4 +1,4 @@
-// Builds the tree by halving at the median of the longer side; halving keeps its depth below 40.
+// The tree is built by halving at the median along the longer side, so its depth is below 40.
 #include "host_tools/offset/edge_tree.hpp"
 
 #include <algorithm>
@@ -106,7 +106,8 @@ bool EdgeTree::any_nearer(Vec2d point, double reach) const
     return false;
 }
 
-// Visits edges that may be nearer than the best so far, near boxes first. better(i) updates it.
+// Calls better(i), which updates `best`, for edges that may be nearer than `best`, near boxes
+// first.
 template <class Better>
 void EdgeTree::search(Vec2d point, const double& best, Better better) const
 {
@@ -150,7 +151,7 @@ std::optional<Vec2d> EdgeTree::some_nearer(Vec2d point, double reach) const
 bool EdgeTree::surrounds(Vec2d point) const
 {
     bool inside = false;
-    visit_sorted({point.x, point.y, 1e300, point.y},
+    visit_sorted({point.x, point.y, kUnbounded, point.y},
                  [&](std::uint32_t i) { inside ^= crossed_by_ray(edges_[i], point); });
     return inside;
 }
@@ -165,7 +166,7 @@ double EdgeTree::nearest(Vec2d point, double limit) const
 
 EdgeTree::Nearest EdgeTree::nearest_edge(Vec2d point) const
 {
-    double best = 1e150;
+    double best = kUnbounded;
     std::uint32_t at = 0;
     search(point, best, [&](std::uint32_t i) {
         const double apart = distance_to(edges_[i], point);

@@ -1,4 +1,4 @@
-// A static tree of boxes over edges: nearest distance in O(log n) for edges spread over the plane.
+// A static tree of boxes over edges: nearest distance in O(log n) for evenly spread edges.
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,15 @@ public:
 
     std::size_t size() const { return edges_.size(); }  // edges
 
-    // True where some edge lies nearer to the point than `reach`.
+    // Whether some edge is nearer to the point than `reach`.
     bool any_nearer(Vec2d point, double reach) const;
 
-    // Least distance to an edge, at most `limit`.
+    // The smaller of `limit` and the least distance to an edge.
     double nearest(Vec2d point, double limit) const;
 
-    // True where the edges run around the point an odd number of times: for the contours of a
-    // region, where it belongs to the region. As cusp::offset::contains(), in O(log n + edges to
-    // its right).
+    // Whether the edges run around the point an odd number of times: for the contours of a region,
+    // whether the point belongs to it. As cusp::offset::contains(), in O(log n + edges to the right
+    // of the point).
     bool surrounds(Vec2d point) const;
 
     struct Nearest {
@@ -34,10 +34,10 @@ public:
     // Precondition: there are edges.
     Nearest nearest_edge(Vec2d point) const;
 
-    // Some edge's nearest point within `reach` of the point: the first that is found.
+    // The nearest point of the first edge found within `reach` of the point.
     std::optional<Vec2d> some_nearer(Vec2d point, double reach) const;
 
-    // Indices of the edges whose boxes meet the given one.
+    // Calls visit(index) for the edges whose boxes intersect the given one.
     template <class Visit>
     void visit_meeting(const Box2d& box, Visit visit) const;
 

@@ -1,5 +1,5 @@
-// Cuts the raw offset at its crossings, keeps the runs that no source edge comes nearer to, and
-// joins them end to end.
+// Cuts the raw offset at its crossings, keeps the runs to which no source edge is nearer than the
+// distance, and joins them.
 #include "host_tools/offset/offset.hpp"
 
 #include <algorithm>
@@ -29,9 +29,9 @@ struct Cut {
     Vec2d point;
 };
 
-// Pieces between two crossings: they are all kept, or none is. A run with an open end is never
-// kept: raw pieces come apart only at inner corners and where an arc has vanished, and there their
-// ends lie nearer to the next edge than the distance.
+// The pieces between two crossings: all are kept or none. A run with an open end is never kept: raw
+// pieces are disconnected only at inner corners and where an arc has vanished, and these ends are
+// nearer to the next edge than the distance.
 struct Run {
     std::vector<Edge> edges;
     std::vector<std::uint32_t> origins;  // of its pieces
@@ -77,8 +77,8 @@ std::vector<std::uint32_t> successors(const std::vector<RawPiece>& pieces)
     return next;
 }
 
-// Every crossing of two pieces, by a sweep along x. No value where more pairs than `most` of the
-// boxes overlap in x.
+// All crossings of two pieces, by a sweep along x; none where more than `most` pairs of boxes
+// overlap in x.
 std::optional<std::vector<Cut>> find_cuts(const std::vector<RawPiece>& pieces, std::size_t most)
 {
     const std::vector<std::uint32_t> next = successors(pieces);
@@ -115,7 +115,7 @@ std::optional<std::vector<Cut>> find_cuts(const std::vector<RawPiece>& pieces, s
     return cuts;
 }
 
-// Walks the raw contours and opens a new run at each crossing and each gap.
+// Divides the raw contours into runs at crossings and gaps.
 class RunBuilder {
 public:
     explicit RunBuilder(std::vector<Run>& runs) : runs_{runs} {}
@@ -152,7 +152,7 @@ public:
             runs_.push_back(std::move(run_));
             return;
         }
-        // The contour's last run goes on into its first.
+        // The contour's last run continues in its first.
         Run& head = runs_[contour_begin_];
         head.open_end = head.open_end || run_.open_end;
         head.edges.insert(head.edges.begin(), run_.edges.begin(), run_.edges.end());
@@ -167,7 +167,7 @@ private:
     bool cut_{};
 };
 
-// For each contour of the raw offset, whether its last piece leads into its first.
+// For each contour of the raw offset, whether its last piece joins its first.
 std::vector<bool> closing_joints(const std::vector<RawPiece>& pieces)
 {
     std::vector<bool> joints;
@@ -224,8 +224,8 @@ Vec2d middle_of(const Run& run)
     return longest->centre + unit(chord_middle - longest->centre) * longest->radius;
 }
 
-// Joins runs at common ends. Where several leave a vertex, the sharpest left turn keeps parts that
-// only touch apart. Empty where an end finds no partner.
+// Joins runs at common ends. If several start at a vertex, the sharpest left turn separates parts
+// that only touch. None where an end has no partner.
 std::optional<Region2d> joined(std::vector<Run>& runs)
 {
     std::vector<std::size_t> by_x;
@@ -247,7 +247,7 @@ std::optional<Region2d> joined(std::vector<Run>& runs)
         auto at = std::lower_bound(by_x.begin(), by_x.end(), last.end.x - kSameVertex,
                                    [&](std::size_t i, double x) { return start_of(i).x < x; });
         std::optional<std::size_t> best;
-        double best_turn = -1e300;
+        double best_turn = -kUnbounded;
         const Vec2d arriving = tangent_at_end(last);
         for (; at != by_x.end() && start_of(*at).x <= last.end.x + kSameVertex; ++at) {
             if (used[*at] || std::abs(start_of(*at).y - last.end.y) > kSameVertex) {
@@ -291,7 +291,7 @@ std::optional<Region2d> joined(std::vector<Run>& runs)
     return region;
 }
 
-// Segments of arcs are no larger than half discs over their chords: mostly the chords tell.
+// Fast test by chords: the segment of an arc is no larger than the half disc over its chord.
 bool encloses_nothing(const Contour& contour)
 {
     constexpr double kHalfPi = 0.5 * kPi;
@@ -310,8 +310,8 @@ bool encloses_nothing(const Contour& contour)
     return std::abs(area(contour)) <= 1e-6 * length(contour);
 }
 
-// Source contours that touch or share edges put runs upon each other, and runs on their wrong side
-// that no other edge is nearer to. This removes both; elsewhere it finds nothing to do.
+// Source contours that touch or share edges give coincident runs, and runs on the wrong side to
+// which no other edge is nearer. This removes both; for other contours it has no effect.
 void remove_wrong_and_double(const EdgeTree& source, std::vector<Run>& runs)
 {
     std::vector<Vec2d> middles;  // by x
@@ -331,7 +331,7 @@ void remove_wrong_and_double(const EdgeTree& source, std::vector<Run>& runs)
     runs.erase(std::remove_if(runs.begin(), runs.end(), wrong_or_double), runs.end());
 }
 
-// True where two contours have a point in common.
+// Whether two contours have a point in common.
 bool contours_touch(const Region2d& source, const EdgeTree& tree)
 {
     std::vector<std::size_t> contour_of;
@@ -365,7 +365,7 @@ KeptRuns kept_runs(const Region2d& source,
     std::vector<RawPiece> pieces = living_pieces(raw_offset(source, distance), gone, distance);
     std::vector<std::uint32_t> looked_at;
     for (const RawPiece& piece : pieces) {
-        // Of a short one all may be less than a run holds.
+        // A run may skip a whole short piece.
         if (cusp::offset::distance(piece.edge.start, piece.edge.end) > kSameVertex) {
             looked_at.push_back(piece.origin);
         }
@@ -376,7 +376,7 @@ KeptRuns kept_runs(const Region2d& source,
         cuts = find_cuts(pieces, SIZE_MAX);
     }
     KeptRuns kept{split_into_runs(pieces, *cuts), {}};
-    // What is too near to one run mostly is to the next one, too.
+    // A point too near to one run is usually too near to the next one.
     std::optional<Vec2d> nearer;
     const auto too_near = [&](const Run& run) {
         if (run.open_end || run.edges.empty()) {
@@ -429,14 +429,14 @@ RegionOffset::RegionOffset(Region2d source)
     : source_{std::move(source)},
       tree_{edges_of(source_)},
       touching_{contours_touch(source_, tree_)},
-      gone_(kOrigins * tree_.size(), 1e300)
+      gone_(kOrigins * tree_.size(), kUnbounded)
 {
 }
 
 Region2d RegionOffset::at(double distance) const
 {
-    // Where several pieces meet in one point to within rounding, another distance nearby is as
-    // good: the steps stay below the promised 1e-6 mm.
+    // If rounding at a common point of several pieces defeats the joining, a distance nearby is
+    // used. The steps are below the promised accuracy of 1e-6 mm.
     constexpr double kSteps[] = {0.0, 1e-8, -1e-8, 3e-8, 1e-7, -1e-7, 3e-7, -3e-7, 8e-7, -8e-7};
     for (const double step : kSteps) {
         if (auto region = offset_once(source_, tree_, distance + step, touching_, gone_)) {
@@ -448,7 +448,7 @@ Region2d RegionOffset::at(double distance) const
 
 double RegionOffset::clearance(Vec2d point) const
 {
-    const double apart = tree_.nearest(point, 1e300);
+    const double apart = tree_.nearest(point, kUnbounded);
     return contains(point) ? apart : -apart;
 }
 

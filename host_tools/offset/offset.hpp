@@ -1,16 +1,18 @@
-// Offsets of regions bounded by lines and true arcs: every level is taken from the source contours,
-// arcs stay arcs, and what is kept is decided by distance, not by the sign of an area.
+// Offsets of regions bounded by lines and true arcs. Each offset is computed from the source
+// contours, arcs remain arcs, and distances decide what is kept, not signs of areas.
 //
-//     const RegionOffset walls{region};
-//     for (double distance = 3.0;; distance += 2.0) {
-//         const Region2d level = walls.at(distance);
-//         if (level.contours.empty()) { break; }
-//         ...
+//     const RegionOffset pocket{region};              // contours with the region on their left
+//     for (double d = 1.0;; d += 2.0) {
+//         const Region2d ring = pocket.at(d);         // points at least d mm from all contours
+//         if (ring.contours.empty()) {
+//             break;
+//         }
 //     }
+//     pocket.clearance({3, 4});                       // mm from the nearest contour; < 0: outside
 //
-// All source contours are offset together, so an island that meets the boundary or another island,
-// a neck that closes and a part that splits need no case of their own: the raw offset pieces are
-// cut where they cross, and a piece belongs to the result exactly where no source edge lies nearer.
+// All source contours are offset together. So an island that meets the boundary or another island,
+// a neck that closes, and a part that splits need no case of their own. Raw offset pieces are cut
+// where they cross. A piece belongs to the result exactly where no source edge is nearer.
 #pragma once
 
 #include <vector>
@@ -20,28 +22,28 @@
 
 namespace cusp::offset {
 
+// Not for use by two threads at once, const members included: at() remembers pieces that vanished.
 class RegionOffset {
 public:
-    // The contours must not cross themselves or each other (see region_check.hpp).
+    // Precondition: contours cross neither themselves nor each other (see region_check.hpp).
     explicit RegionOffset(Region2d source);
 
     // The points of the region at least `distance` (mm, > 0) from its contours, as contours with
-    // the region on their left; empty where no such point is left. Every point of the result lies
-    // within 1e-6 mm of that distance (tests/property/offset). Cost O(n log n) for n edges spread
-    // evenly; less where a nearer level has been asked for, with what is left of the edges there.
-    // Not for two threads at once.
+    // the region on their left; empty if there is none. Every point of the result is within 1e-6 mm
+    // of that distance from the source (tests/property/offset). Cost O(n log n) for n evenly spread
+    // edges; less after a smaller distance, which excludes edges.
     Region2d at(double distance) const;
 
     // Distance from the nearest contour; negative outside the region.
     double clearance(Vec2d point) const;
 
-    // True where the point belongs to the region; points on a contour count either way.
+    // Whether the point belongs to the region; undefined on a contour.
     bool contains(Vec2d point) const { return tree_.surrounds(point); }
 
-    // True where the distance from the nearest contour is below `reach`.
+    // Whether the nearest contour is nearer than `reach`.
     bool any_nearer(Vec2d point, double reach) const { return tree_.any_nearer(point, reach); }
 
-    // Distance from the nearest contour on either side, or `limit` where that is less.
+    // The smaller of `limit` and the distance from the nearest contour, on either side.
     double nearest(Vec2d point, double limit) const { return tree_.nearest(point, limit); }
 
     const Region2d& source() const { return source_; }
@@ -50,12 +52,11 @@ private:
     Region2d source_;
     EdgeTree tree_;
     bool touching_;  // two contours have a point in common
-    // Of each raw piece (RawPiece::origin): a distance from which on nothing of it is left. A const
-    // query only adds to it.
+    // For each raw piece (RawPiece::origin), a distance from which on nothing of it is left.
     mutable std::vector<double> gone_;
 };
 
-// The region grown by `distance` (mm, > 0), corners rounded.
+// The region grown by `distance` (mm, > 0), with rounded corners.
 Region2d grown(const Region2d& region, double distance);
 
 }  // namespace cusp::offset

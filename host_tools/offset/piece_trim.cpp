@@ -1,5 +1,5 @@
-// From both ends inward, then from the middle outward: each step takes away all of a piece that
-// lies in a disc about one point of the source.
+// Trims from both ends inward, then from the middle outward. Each step removes the part of a piece
+// in a disc around one point of the source.
 #include "host_tools/offset/piece_trim.hpp"
 
 #include <algorithm>
@@ -11,9 +11,9 @@ namespace cusp::offset {
 
 namespace {
 
-constexpr double kNearerBy = 1e-5;  // mm: what is trimmed is nearer to the source by this at least
+constexpr double kNearerBy = 1e-5;  // mm: trimmed parts are nearer to the source by this at least
 constexpr int kSteps = 12;          // discs at one end
-constexpr int kDepth = 6;           // of halves
+constexpr int kDepth = 6;           // halvings
 
 // A piece by a parameter: length along a line, angle along an arc.
 class Track {
@@ -50,7 +50,7 @@ public:
         double to;
     };
 
-    // The stretch about t that lies in the disc. Precondition: t does.
+    // The interval around t inside the disc. Precondition: the point at t is inside.
     Range in_disc(double t, Vec2d centre, double radius) const
     {
         if (edge_.turn == 0) {
@@ -81,13 +81,13 @@ private:
 
 class PieceTrimmer {
 public:
-    // guess: a point of the source, mostly near enough; becomes the last one that was.
+    // guess  a point of the source that is usually near enough; updated to the last one that was
     PieceTrimmer(const Edge& edge, const EdgeTree& source, double reach, Vec2d& guess)
         : track_{edge}, source_{source}, reach_{reach}, guess_{guess}
     {
     }
 
-    // What stays, in order.
+    // The remaining intervals, in order.
     const std::vector<Track::Range>& run()
     {
         keep(0.0, track_.size(), 0);
@@ -96,7 +96,7 @@ public:
     const Track& track() const { return track_; }
 
 private:
-    // The stretch about t that is too near for one point of the source.
+    // The interval around t that is too near to one point of the source.
     std::optional<Track::Range> too_near(double t) const
     {
         const Vec2d p = track_.at(t);
@@ -154,10 +154,10 @@ std::vector<RawPiece> trimmed(const std::vector<RawPiece>& pieces,
 {
     std::vector<RawPiece> result;
     std::size_t contour = 0;   // where the contour begins in the result
-    bool whole_start = false;  // its first piece still begins where it did
-    bool whole_end = false;    // the piece before still ends where it did
+    bool whole_start = false;  // the start of its first piece is not trimmed
+    bool whole_end = false;    // the end of the piece before is not trimmed
     bool first = true;
-    Vec2d guess{1e300, 1e300};
+    Vec2d guess{kUnbounded, kUnbounded};
     for (const RawPiece& piece : pieces) {
         PieceTrimmer trimmer{piece.edge, source, distance - kNearerBy, guess};
         const auto& kept = trimmer.run();

@@ -1,5 +1,5 @@
-// Cuts off raw offset pieces what lies nearer to the source than the distance, before crossings are
-// looked for.
+// Trims parts of raw offset pieces that are nearer to the source than the offset distance, before
+// the search for crossings.
 #pragma once
 
 #include "host_tools/offset/edge_tree.hpp"
@@ -7,13 +7,13 @@
 
 namespace cusp::offset {
 
-// The pieces without most of their parts that lie nearer than `distance` (mm) to an edge of the
-// source, whose tree is given. Only what is nearer by 1e-5 mm goes, so every place where a piece
-// comes out of the rest, and every crossing there, is still to be found; a new end is one that lies
-// too near. O(log n) a piece where source edges are spread out.
+// The pieces without most of the parts that are nearer than `distance` (mm) to an edge of the
+// source, whose tree is given. Only parts nearer by at least 1e-5 mm are removed. So all points
+// where a piece becomes valid, and the crossings there, remain; new ends are always too near.
+// O(log n) per piece for spread source edges.
 //
-// For regions of many small curves: at a distance of many curve lengths each raw piece crosses as
-// many others, nearly all of it in vain.
+// This is for regions of many small curves. At a distance of many curve lengths each raw piece
+// crosses as many others, nearly all of them without effect.
 std::vector<RawPiece> trimmed(const std::vector<RawPiece>& pieces,
                               const EdgeTree& source,
                               double distance);

@@ -1,4 +1,4 @@
-// Offsets edge by edge and closes outer corners with arcs about the corner.
+// Offsets edge by edge; arcs around outer corners close the gaps.
 #include "host_tools/offset/raw_offset.hpp"
 
 #include "firmware/base/math.hpp"
@@ -7,8 +7,8 @@ namespace cusp::offset {
 
 namespace {
 
-// What the offset makes of an edge: an arc may shrink to its centre, which still joins its
-// neighbours, or turn inside out.
+// The offset of an edge. An arc may shrink to its centre, which still joins its neighbours, or turn
+// inside out.
 enum class Fate { kKept, kPoint, kLost };
 
 Fate fate_of(const Edge& edge, double distance)
@@ -24,7 +24,7 @@ Edge moved(const Edge& edge, Vec2d start, Vec2d end, double distance)
     return {start, end, edge.centre, edge.radius - edge.turn * distance, edge.turn};
 }
 
-// The arc about the corner from one offset end to the next start, in halves where it turns far.
+// Adds the arc around a corner from one offset end to the next start, in two halves if it is long.
 void add_corner(std::vector<RawPiece>& pieces,
                 Vec2d corner,
                 Vec2d from,
@@ -35,7 +35,7 @@ void add_corner(std::vector<RawPiece>& pieces,
     const Vec2d a = unit(from - corner);
     const Vec2d b = unit(to - corner);
     if (dot(a, b) < -0.5) {
-        // Halfway round clockwise; for an exact reversal the sum of a and b says nothing.
+        // Half way round clockwise; for an exact reversal the sum of a and b has no direction.
         const Vec2d ahead = left_normal(a) * -1.0;
         const double turned = std::atan2(cross(b, a), dot(a, b));
         const double half = 0.5 * (turned < 0.0 ? turned + 2 * kPi : turned);
@@ -49,7 +49,7 @@ void add_corner(std::vector<RawPiece>& pieces,
 
 class ContourOffset {
 public:
-    // origin: of the first edge's piece
+    // origin  of the first edge's piece
     ContourOffset(const Contour& contour,
                   double distance,
                   std::uint32_t origin,
@@ -70,7 +70,7 @@ public:
         }
         if (pieces_.size() > first_) {
             pieces_.back().last = true;
-            // What the walk says of its end is about the contour's first edge.
+            // The joint at its end is that with the contour's first edge.
             pieces_.back().joined =
                 pieces_.back().joined && fate_of(contour_[0], distance_) != Fate::kLost;
         }

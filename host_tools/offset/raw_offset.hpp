@@ -11,19 +11,19 @@ struct RawPiece {
     Edge edge;
     bool joined;             // its end is the start of the next piece
     bool last;               // the next piece of this contour is its first one
-    std::uint32_t origin{};  // below kOrigins times the number of edges; the same at any distance
+    std::uint32_t origin{};  // identifies the piece at any distance; < kOrigins * number of edges
 };
 
-// Pieces that a source edge may have: its own, and two halves of the corner behind it.
+// Pieces per source edge: its own, and two halves of the corner behind it.
 constexpr std::uint32_t kOrigins = 3;
 
 // Pieces of all contours, contour by contour, `distance` (mm, > 0) to the left of the source. Arcs
-// whose radius the offset would turn inside out are left out: each of their points lies nearer to
-// the arc than `distance`.
+// that the offset would turn inside out are left out: all of their points are nearer to the source
+// arc than `distance`.
 std::vector<RawPiece> raw_offset(const Region2d& source, double distance);
 
-// The pieces of which something may be left at this distance, and how they join: the farther inward
-// an edge's point is moved, the more other edges are nearer than its own.
+// The pieces of which a part may be left at this distance, with their joints. The farther inward a
+// point of an edge moves, the more other edges are nearer than its own: what vanished stays so.
 //
 // gone  for each origin the distance, mm, from which on nothing of its piece is left
 std::vector<RawPiece> living_pieces(std::vector<RawPiece> pieces,

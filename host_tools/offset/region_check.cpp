@@ -15,8 +15,8 @@ struct Place {
     std::size_t edge;
 };
 
-// Whether the edges cross for certain: not where one only ends on the other. Contours that cross in
-// their corners are found by probing the middles of their edges.
+// Whether the edges certainly cross: false where one only ends on the other. Contours that cross at
+// corners are found by probing the middles of their edges.
 bool passes_through(const Edge& a, const Edge& b, Vec2d p)
 {
     const bool end_of_a = distance(p, a.start) < kSamePoint || distance(p, a.end) < kSamePoint;
@@ -66,10 +66,9 @@ std::optional<RegionFault> find_crossing(const Region2d& region)
     return fault;
 }
 
-// A point of the hole on the wrong side of another contour. Contours do not cross between corners
-// here, so an edge lies on one side with its middle; an edge that runs along the other contour
-// tells nothing.
-// Of two contours that are the same, every point does.
+// A point of the hole on the wrong side of another contour. Precondition: contours do not cross
+// between corners, so an edge lies on the same side as its middle. Edges along the other contour
+// are skipped; for two equal contours every point counts.
 std::optional<Vec2d> stray_point(const Contour& hole, const EdgeTree& other, bool should_surround)
 {
     bool apart = false;

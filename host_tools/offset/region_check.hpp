@@ -1,4 +1,4 @@
-// Whether contours bound a region: closed, free of crossings, holes inside.
+// Checks that contours bound a region: no crossings, and holes inside.
 #pragma once
 
 #include <cstdint>
@@ -23,8 +23,8 @@ struct RegionFault {
     Vec2d where;
 };
 
-// The first fault of a region whose first contour is the outer one and all others are holes in it.
-// Contours that only touch in a point are no fault.
+// The first fault of a region whose first contour is the outer one and all others are its holes.
+// Contours may touch in a point.
 std::optional<RegionFault> find_fault(const Region2d& region);
 
 }  // namespace cusp::offset

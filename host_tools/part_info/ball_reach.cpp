@@ -1,5 +1,5 @@
-// Each place is asked whether the best ball so far reaches it; where not, the ball shrinks until it
-// does. In a random order that happens some ten times, however many places there are.
+// Tests at each place whether the best ball so far reaches it; where not, the ball shrinks until it
+// does. In a random order that happens some ten times, whatever the number of places.
 #include "host_tools/part_info/ball_reach.hpp"
 
 #include <algorithm>
@@ -21,19 +21,19 @@ using toolpath::ToolShape;
 namespace {
 
 constexpr double kPrecision = 5e-4;  // of the radius
-// Places are asked for a ball so much smaller: one that follows a hollow exactly is near all of it,
-// and asking takes ten times as long. Those around the tightest one are then asked again.
+// Places are tested with a ball smaller by this: one that fits a hollow exactly is near all of it,
+// and the test takes ten times as long. Places around the tightest one are then tested again.
 constexpr double kAskedFor = 0.95;
 constexpr double kAskedAgain = 0.995;
 constexpr std::size_t kAgain = 100;
-// Places that are asked in any case, and facets that may be looked at for all others.
+// Places that are tested in any case, and facets that may be examined for all others.
 constexpr std::size_t kFirst = 300;
 constexpr double kWork = 1e8;
 constexpr double kLeastWork = 1000;  // each
 // Of the touching direction along the normal: a ball beside the part's border touches an edge, but
 // not from above.
 constexpr double kLeastFacing = 0.1;
-// Of the tolerance: touching is no cut.
+// As a share of the tolerance: touching is no cut.
 constexpr double kTouching = 0.02;
 
 // How much a ball of one radius leaves at one place.
@@ -67,8 +67,8 @@ public:
     }
 
 private:
-    // From the ball that touches the place: pushed out of what it cuts, again and again, it mostly
-    // ends beside the place.
+    // Starts with the ball that touches the place. Pushed out of what it cuts, again and again, it
+    // mostly ends beside the place.
     bool settles(double allowed) const
     {
         constexpr int kPushes = 12;
@@ -90,7 +90,7 @@ private:
         return false;
     }
 
-    // From the best place so far; ends early where it leaves little enough.
+    // Starts at the best place so far; ends early where it leaves little enough.
     bool searched(double allowed)
     {
         constexpr double kFirstStep = 0.25;
@@ -190,7 +190,7 @@ struct Trial {
     }
 };
 
-// The first as they are, the likeliest; the others shuffled, always the same way.
+// The first, likeliest places in their order; the others shuffled with a fixed seed.
 std::vector<std::size_t> order_of(std::size_t count)
 {
     std::vector<std::size_t> order(count);

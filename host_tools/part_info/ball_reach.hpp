@@ -12,7 +12,7 @@ namespace cusp::part_info {
 
 struct BallReach {
     double leaves{};  // mm: what it may leave at a place, the tolerance asked for
-    // mm; none: every ball, up to the radius asked for, reaches everything.
+    // mm; no value: every ball up to the radius asked for reaches everything.
     std::optional<double> radius;
     Vec3d at;              // where larger ones leave more
     bool corner{};         // sharp: half the ball leaves more than a quarter of the tolerance there

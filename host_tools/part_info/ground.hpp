@@ -1,4 +1,4 @@
-// The part as places to look at, and what they say of the ground: how steep, level, hidden.
+// Ground: slopes, level places and undercuts of a part, from sampled places.
 #pragma once
 
 #include <functional>
@@ -9,18 +9,18 @@
 
 namespace cusp::part_info {
 
-// One place of the part with the piece of it that it stands for.
+// One place of the part with the area that it represents.
 struct GroundPlace {
     Vec3d point;
     Vec3d normal;      // unit: out of a solid; upwards where there is none
     double area{};     // mm^2; 0: an edge or a corner
-    bool two_sided{};  // upright, and which side is metal is not known
-    bool below{};      // of the solid, looking down
+    bool two_sided{};  // upright, and the side of the material is not known
+    bool below{};      // the underside of a solid
 };
 
 struct Ground {
     double area{};  // mm^2, of everything
-    // Of what looks up and nothing stands over; degrees from level.
+    // Steepest of what faces up and is visible from above; degrees from level.
     double steepest{};
     Vec3d steepest_at;
     // The same without upright walls; none where there is nothing else.
@@ -29,7 +29,7 @@ struct Ground {
     double upright_area{};
     double level_area{};
     std::optional<Vec3d> level_at;  // the highest
-    // Hidden from above, but for the level underside of a solid: a tool from above can't reach it.
+    // Hidden from above, without the level underside of a solid: a tool from above can't reach it.
     double hidden_area{};
     std::optional<Vec3d> hidden_at;  // the place of the largest piece
 };
@@ -44,13 +44,13 @@ double steepness(const GroundPlace& place);
 // Height of the part's highest place at (x, y); none beside it.
 using TopOfPart = std::function<std::optional<double>(double x, double y)>;
 
-// Whether anything stands over the ground a hundredth of a millimetre in front of the place, or the
-// place looks down: a thin tool can't come to it.
+// Whether the part covers a point a hundredth of a millimetre in front of the place, or the place
+// faces down: no thin tool reaches it.
 bool hidden_from_above(const TopOfPart& top, const GroundPlace& place);
 
-// Sums over places; areas are as good as the places are close.
+// Sums over places; areas are as accurate as the places are dense.
 //
-// hidden  of each place, as hidden_from_above()
+// hidden  for each place, by hidden_from_above()
 Ground ground_of(const std::vector<GroundPlace>& places,
                  const std::vector<char>& hidden,
                  double lowest);

@@ -1,4 +1,4 @@
-// The same as JSON. Keys stay: scripts read them.
+// PartInfo as JSON. Its keys are stable: scripts read them.
 #include <cmath>
 
 #include "host_tools/part_info/part_info.hpp"
@@ -160,7 +160,7 @@ std::string json_of(const std::vector<PartInfo>& parts)
     for (const PartInfo& info : parts) {
         out["files"].push_back(part_json(info));
     }
-    // names of files and layers may be of any letters
+    // names of files and layers may contain any characters
     return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

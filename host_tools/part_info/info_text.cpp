@@ -1,4 +1,4 @@
-// What a part is, in lines for a terminal.
+// PartInfo as lines for a terminal.
 #include <cmath>
 
 #include "host_tools/part_info/part_info.hpp"
@@ -172,7 +172,7 @@ std::string area_and_share(double part, double whole)
 void add_ground(const PartInfo& info, Lines& lines)
 {
     const Ground& ground = *info.ground;
-    // Surfaces of a union may run on under each other.
+    // Surfaces of a union may continue under each other.
     const char* const by = info.format == "JSON surfaces"
                                ? " hidden from above, by overhangs or other surfaces, as "
                                : " hidden from above, as ";

@@ -135,7 +135,7 @@ public:
 
     void sort_into(LoopNesting& nesting)
     {
-        // Where a chain ends it begins, too; what is left after those are loops.
+        // Open chains first, from their ends; the remaining curves form loops.
         for (const bool from_open_ends : {true, false}) {
             for (std::size_t e = 0; e < ends_.size(); ++e) {
                 if (!used_[ends_[e].curve] && (!from_open_ends || is_open(e))) {
@@ -258,7 +258,7 @@ PlanBox box_of(const std::vector<Vec2d>& outline)
     return box;
 }
 
-// By three of its places, as loops may touch.
+// Tests three of its points, since loops may touch.
 bool lies_in(const std::vector<Vec2d>& inner, const std::vector<Vec2d>& outer)
 {
     const std::size_t n = inner.size() - 1;

@@ -1,4 +1,4 @@
-// The curves of a drawing as closed loops, which lies in which, and the chains that are open.
+// Groups the curves of a drawing into closed loops, nested in each other, and open chains.
 #pragma once
 
 #include <cstddef>
@@ -39,10 +39,10 @@ struct LoopNesting {
     std::optional<Vec2d> crossing;  // where two loops cross: their nesting means little
 };
 
-// Ends within 1e-3 mm meet, as read_loop() has it. Lengths and areas are integrals over the curves,
+// Ends within 1e-3 mm meet, as in read_loop(). Lengths and areas are integrals over the curves,
 // good to 1e-9 of them for arcs up to a quarter turn a piece.
 //
-// Where more than two ends meet, a chain goes on along any of them.
+// Where more than two ends meet, a chain continues along any of them.
 LoopNesting nest_loops(const std::vector<nurbs::Curve>& curves);
 
 }  // namespace cusp::part_info

@@ -57,7 +57,7 @@ private:
     std::vector<std::uint32_t> table_;
 };
 
-// Sets whose members know whether they run the same way as their root.
+// Sets whose members are marked as oriented like their root, or against it.
 class SidedSets {
 public:
     explicit SidedSets(std::size_t count) : parent_(count), against_(count, 0)

@@ -1,4 +1,4 @@
-// Whether a mesh is sound: holes, edges with three facets, facets the wrong way round, shells.
+// Faults of a mesh: holes, edges with three facets, inverted facets; its shells.
 #pragma once
 
 #include <array>
@@ -15,9 +15,9 @@ struct MeshHealth {
     std::size_t open_edges{};          // with a facet on one side only
     std::size_t holes{};               // connected borders of such edges
     std::size_t non_manifold_edges{};  // with more than two facets
-    std::size_t inverted_facets{};     // that run round against most of their shell
-    std::size_t inside_out_shells{};   // closed ones whose facets look inwards: or hollow spaces
-    std::size_t shells{};              // parts that hang together by edges
+    std::size_t inverted_facets{};     // oriented against most of their shell
+    std::size_t inside_out_shells{};   // closed, with facets that face inwards: or hollow spaces
+    std::size_t shells{};              // parts connected by edges
     bool closed{};                     // no edge open or with more than two facets
     std::optional<Vec3d> hole_at;      // an open edge's middle
     std::optional<Vec3d> non_manifold_at;
@@ -38,7 +38,7 @@ struct WeldedMesh {
     MeshHealth health;
 };
 
-// Corners are the same where their coordinates are, to the last bit, as STL writers repeat them.
+// Corners are equal where their coordinates are, bit by bit, since STL writers repeat them.
 // About 150 bytes and a microsecond a facet.
 WeldedMesh weld(const std::vector<std::array<Vec3d, 3>>& triangles);
 

@@ -18,7 +18,7 @@ Vec3d across_of(const WeldedMesh& mesh, std::size_t facet)
     return cross(mesh.corners[c[1]] - mesh.corners[c[0]], mesh.corners[c[2]] - mesh.corners[c[0]]);
 }
 
-// The same out of its solid; upwards where it bounds none.
+// As above, but out of its solid; upwards where the facet bounds none.
 Vec3d facing(const WeldedMesh& mesh, std::size_t facet)
 {
     const Vec3d across = across_of(mesh, facet);

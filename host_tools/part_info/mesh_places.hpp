@@ -1,4 +1,4 @@
-// A mesh as places to look at: on its facets by area, at its corners and concave edges.
+// Samples a mesh: on facets by area, at corners and concave edges.
 #pragma once
 
 #include <vector>
@@ -8,11 +8,11 @@
 
 namespace cusp::part_info {
 
-// Some 100 000 places: large facets have several, of very many small ones some stand for others.
+// Some 100 000 places: large facets have several; of very many small ones only some have one.
 std::vector<GroundPlace> facet_places(const WeldedMesh& mesh);
 
-// Where a ball may not reach: concave edges, those that turn most over the way across them first,
-// in that order, then corners. At most `most` of each; of more corners every so many.
+// Places where a ball may not reach: concave edges, the sharpest over their width first, then
+// corners. At most `most` of each; of more corners an even selection.
 std::vector<GroundPlace> crease_places(const WeldedMesh& mesh, std::size_t most);
 
 }  // namespace cusp::part_info

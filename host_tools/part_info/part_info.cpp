@@ -1,4 +1,4 @@
-// A reader for each kind of file, then the same questions to all surfaces and meshes.
+// Reads each kind of file, then inspects its surfaces or mesh.
 #include "host_tools/part_info/part_info.hpp"
 
 #include <algorithm>
@@ -36,10 +36,10 @@ using part_model::PartModel;
 
 namespace {
 
-// Balls are asked for up to so many times the part's diagonal.
+// Balls are searched up to so many times the part's diagonal.
 constexpr double kLargestBall = 5;
 constexpr std::size_t kBallPlaces = 20000;
-// Of the tolerance, between faces and the facets that balls are tried on.
+// Share of the tolerance between faces and the facets that balls are tried on.
 constexpr double kFacetShare = 0.25;
 
 PartUnit unit_of(double millimetres, bool assumed)
@@ -140,7 +140,7 @@ std::vector<char> hidden_points(const TopOfPart& top, const std::vector<GroundPl
     return hidden;
 }
 
-// Every so many of the places that are not hidden, so that there are no more than `most` or so.
+// An even selection of the places that are not hidden, about `most` of them.
 void add_seen(const std::vector<GroundPlace>& places,
               const std::vector<char>& hidden,
               std::size_t most,

@@ -28,7 +28,7 @@ struct InspectSettings {
 
 struct PartUnit {
     std::string name;      // "mm", "inch", or as the file has it
-    double millimetres{};  // of one; 0: not told (STEP and IGES are converted on reading)
+    double millimetres{};  // of one; 0: unknown (STEP and IGES are converted on reading)
     bool assumed{};        // the file names none
 };
 
@@ -48,12 +48,12 @@ struct PartInfo {
     // Drawings and curves.
     std::vector<LayerInfo> layers;
 
-    // Surfaces and meshes. Only one of the first two holds something.
+    // Surfaces and meshes. One of the first two is empty.
     std::vector<nurbs::Surface> surfaces;
     std::vector<std::array<Vec3d, 3>> triangles;
     std::size_t pieces{};        // how many surfaces or triangles: their lists may be dropped
     std::size_t solids{};        // STEP and IGES
-    std::size_t unread_faces{};  // that look down and have broken edges
+    std::size_t unread_faces{};  // that face down and have broken edges
     std::size_t degenerate{};    // facets without area
     std::optional<MeshHealth> mesh;
     std::optional<Ground> ground;
@@ -66,8 +66,8 @@ struct PartInfo {
 
 // name  a file; of a drawing "#layer" may follow
 //
-// Errors: InputError with the file, place and reason, as the readers of host_tools/import have it:
-// missing, empty or broken files, an ending that nothing is read from.
+// Errors: InputError with file, place and reason, as in host_tools/import: missing, empty or broken
+// files, an unknown ending.
 PartInfo inspect_part(const std::string& name, const InspectSettings& settings);
 
 // Aligned lines, with a unit on every number.

@@ -116,7 +116,7 @@ private:
         if (points.size() < 3) {
             return;
         }
-        // in shares of the cell, so that both ways count alike
+        // in shares of the cell, so that both directions have equal weight
         for (Vec2d& p : points) {
             p = {(p.x - low.x) / size.x, (p.y - low.y) / size.y};
         }
@@ -141,7 +141,7 @@ private:
         }
     }
 
-    // Whether nothing of the hull is trimmed away, as far as its middles tell.
+    // Whether the hull is untrimmed at the middles of its sides.
     bool is_face(const std::vector<Vec2d>& hull, const TrimRegion& region, double width) const
     {
         Vec2d middle;

@@ -1,4 +1,4 @@
-// NURBS faces as triangles, close enough to try balls on.
+// NURBS faces as triangles, within the tolerance of trial balls.
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@ struct SurfaceFacets {
     double tolerance{};                           // mm, that was kept
 };
 
-// tolerance  mm, > 0: between triangles and surfaces; doubled until fewer than two million will do.
-//            Trimmed edges are kept to five of it, inner corners of trims to 0.05 mm.
+// tolerance  mm, > 0: between triangles and surfaces; doubled until fewer than two million suffice.
+//            Trimmed edges keep to five times that, inner corners of trims to 0.05 mm.
 //
-// Why not PartModel's exact distances: a ball that nearly follows a hollow is as far from all of
-// it, which takes an exact search through every cell. Facets are looked up.
+// PartModel's exact distances are too slow here: a ball that nearly fits a hollow is equally far
+// from all of it, so an exact search visits every cell. Facets are looked up.
 SurfaceFacets surface_facets(const std::vector<nurbs::Surface>& surfaces, double tolerance);
 
 }  // namespace cusp::part_info

@@ -22,7 +22,7 @@ constexpr double kPlacesInAll = 30000;
 constexpr double kUpright = 1e-9;  // z of a normal
 constexpr double kParallel = 1e-12;
 
-// Whether the trims leave the place.
+// Whether the place is inside the trims.
 bool kept(const TrimRegion& region, double u, double v)
 {
     return !region.trimmed() || region.inside(u, v);
@@ -132,7 +132,7 @@ private:
         }
     }
 
-    // Where a trim runs through the cell, its place is one that stays.
+    // Where a trim crosses the cell, its sample is a place inside the trim.
     void add_cell(const Patch& patch, const TrimRegion& region, Vec2d low, Vec2d size)
     {
         constexpr int kParts = 5;
@@ -193,7 +193,7 @@ private:
         }
     }
 
-    // From the outermost places on, as faces bulge between them.
+    // Starts at the outermost places, since faces bulge between them.
     void widen_box()
     {
         for (double Vec3d::*axis : {&Vec3d::x, &Vec3d::y, &Vec3d::z}) {

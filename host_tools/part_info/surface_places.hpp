@@ -1,4 +1,4 @@
-// NURBS faces as places to look at, their box, and their smallest hollow radius.
+// Samples NURBS faces; their box and smallest hollow radius.
 #pragma once
 
 #include <array>
@@ -39,8 +39,8 @@ struct Hollow {
     GroundPlace place;
 };
 
-// The smallest hollow radius of the faces where they can be seen from above, from the places and
-// walks on from the best of them. None: nothing is hollow.
+// The smallest hollow radius of the faces as seen from above: the best place, improved by a local
+// search. No value: nothing is hollow.
 // Accuracy: 1e-6 of the radius at the place; a smaller hollow between places may be missed.
 std::optional<Hollow> smallest_hollow(const std::vector<nurbs::Surface>& surfaces,
                                       const SurfacePlaces& places,

@@ -1,4 +1,4 @@
-// Products with binomials multiplied in; halves by de Casteljau.
+// Products of coefficients scaled by binomials; halves by de Casteljau's algorithm.
 #include "host_tools/part_model/bernstein_patch.hpp"
 
 #include <algorithm>
@@ -16,7 +16,8 @@ std::vector<double> binomials(std::size_t n)
     return out;
 }
 
-// Coefficients times their binomials: those of powers of s / (1 - s) and t / (1 - t).
+// Coefficients times their binomials (or divided, `back`): those of powers of s / (1 - s) and
+// t / (1 - t).
 BernsteinPatch scaled(BernsteinPatch a, bool back)
 {
     const std::vector<double> u = binomials(a.p);

@@ -1,5 +1,5 @@
-// Polynomials over the unit square by their Bernstein coefficients: the range of the coefficients
-// bounds the range of the values.
+// Polynomials over the unit square in Bernstein form: the range of the coefficients bounds the
+// range of the values.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace cusp::part_model {
 
-// Coefficient (i, j) of degree (p, q) stands at [i * (q + 1) + j].
+// Degree (p, q); coefficient (i, j) is c[i * (q + 1) + j].
 struct BernsteinPatch {
     std::size_t p{};
     std::size_t q{};
@@ -19,7 +19,7 @@ struct BernsteinPatch {
 
 BernsteinPatch operator*(const BernsteinPatch& a, const BernsteinPatch& b);
 BernsteinPatch operator*(double k, BernsteinPatch a);
-// Of any degrees; the sum has the higher ones.
+// Degrees may differ; the result has the higher ones.
 BernsteinPatch operator+(const BernsteinPatch& a, const BernsteinPatch& b);
 BernsteinPatch operator-(const BernsteinPatch& a, const BernsteinPatch& b);
 
@@ -29,7 +29,7 @@ BernsteinPatch derivative_t(const BernsteinPatch& a);
 
 double value_at(const BernsteinPatch& a, double s, double t);
 
-// No value over the square is above (below), or farther from 0.
+// Bounds of all values over the square, and of their absolute values.
 double upper_bound(const BernsteinPatch& a);
 double lower_bound(const BernsteinPatch& a);
 double magnitude_bound(const BernsteinPatch& a);

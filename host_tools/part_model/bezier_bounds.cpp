@@ -1,7 +1,6 @@
-// How far a cell and its derivatives spread, by convex hulls of control points.
+// Bounds of the spread of a cell and its derivatives, from convex hulls of control points.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "host_tools/part_model/bezier_cell.hpp"
 #include "host_tools/part_model/enclosure.hpp"
@@ -9,7 +8,7 @@
 namespace cusp::part_model {
 namespace {
 
-// A box of vectors, with the little arithmetic that quotients need.
+// A box of vectors, with the interval arithmetic of the quotient rule.
 struct Box {
     std::array<Enclosure, 3> side{{{0, 0}, {0, 0}, {0, 0}}};
 };
@@ -90,8 +89,7 @@ Box range(const Net<Vec3d>& net)
 {
     Box box;
     for (unsigned axis = 0; axis < 3; ++axis) {
-        Enclosure side{std::numeric_limits<double>::infinity(),
-                       -std::numeric_limits<double>::infinity()};
+        Enclosure side{kInfinite, -kInfinite};
         for (const Vec3d& value : net.values) {
             side = {std::min(side.low, value[axis]), std::max(side.high, value[axis])};
         }
@@ -102,7 +100,7 @@ Box range(const Net<Vec3d>& net)
 
 }  // namespace
 
-// Control points of the derivatives are differences of the patch's; none is kept.
+// Control points of the derivatives are differences of those of the patch, computed on the fly.
 BezierCell::Spread BezierCell::polynomial_spread() const
 {
     const auto square = [](Vec3d a) {
@@ -141,7 +139,7 @@ BezierCell::Spread BezierCell::polynomial_spread() const
             std::sqrt(e.dss),   std::sqrt(e.dst), std::sqrt(e.dtt)};
 }
 
-// With the middle as origin the quotient rule of the derivatives, in interval arithmetic.
+// The quotient rule of the derivatives in interval arithmetic, with the middle as origin.
 BezierCell::Spread BezierCell::rational_spread() const
 {
     Net<Vec3d> net{count_s_, count_t_, points_};

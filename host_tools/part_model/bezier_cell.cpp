@@ -63,7 +63,7 @@ void bernstein(std::size_t degree, double s, Basis& out)
     std::copy_n(row.begin(), degree + 1, out.value.begin());
 }
 
-// The same with the degree known to the compiler, which leaves no loop.
+// The basis of a fixed degree, unrolled.
 template <std::size_t Count>
 struct FixedBasis {
     std::array<double, Count> value;
@@ -97,8 +97,8 @@ Vec3d weighted(const std::array<double, 3 * Count>& row, const std::array<double
     return sum;
 }
 
-// At one s, as curves of t: the control points of the value and of its derivatives by s. Rows are
-// summed as plain numbers, so that the compiler takes several at once.
+// The curves of t at one s: control points of the value and of its derivatives by s. Rows are
+// summed as plain numbers so that the compiler vectorizes the loops.
 template <std::size_t CountS, std::size_t CountT>
 void reduce_to_curves(const Vec3d* points, double s, double* value, double* first, double* second)
 {
@@ -143,7 +143,7 @@ SurfacePoint polynomial_at(const Vec3d* points, double s, double t)
     return on_curves<CountT>(value, first, second, t);
 }
 
-// The same without second derivatives.
+// As reduce_to_curves(), without second derivatives.
 template <std::size_t CountS, std::size_t CountT>
 void reduce_to_curve(const Vec3d* points, double s, double* value, double* first)
 {
@@ -177,7 +177,7 @@ SurfacePoint tangents(const Vec3d* points, double s, double t)
             {}};
 }
 
-// De Casteljau at the middle over `count` values `stride` apart.
+// De Casteljau's algorithm at the middle, for `count` values `stride` apart.
 template <class T>
 void halve(const T* from, T* lower, T* upper, std::size_t count, std::size_t stride)
 {
@@ -269,7 +269,7 @@ SurfacePoint BezierCell::bends_on_cut(const Curve4& cut, double t)
     return on_curves<4>(cut.value, cut.along_s, cut.along_ss, t);
 }
 
-// Of the degree count_s - 1 by count_t - 1.
+// Any degree, and rational cells.
 SurfacePoint BezierCell::at_any_degree(double s, double t) const
 {
     Basis bs;

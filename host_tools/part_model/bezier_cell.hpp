@@ -1,5 +1,4 @@
-// A piece of a Bezier patch that knows bounds of its place and of its derivatives from its control
-// points.
+// A piece of a Bezier patch with bounds of its points and derivatives, from its control points.
 #pragma once
 
 #include <array>
@@ -21,17 +20,18 @@ struct QuadraticForm {
     bool never_negative() const { return a >= 0 && c >= 0 && determinant() >= 0; }
 };
 
+// Not for use by two threads at once: halves() and what follows below it keep what they find.
 class BezierCell {
 public:
-    // A patch with one span each way, as `bezier_patches` makes them.
+    // A patch with one span in u and v, as by bezier_patches().
     //
-    // made  counts the halves made of it and of those, if given; must outlive it
+    // made  if given, is increased for every half made, at all levels; must outlive the cell
     BezierCell(const nurbs::BezierPatch& patch, int surface, std::size_t* made = nullptr);
 
     int surface() const { return surface_; }
     // Point and derivatives by the local parameters, each in [0, 1].
     nurbs::SurfacePoint at(double s, double t) const;
-    // The same; second derivatives may be left out.
+    // The same without second derivatives, which may be zero.
     nurbs::SurfacePoint tangents_at(double s, double t) const;
 
     // A bicubic cell at one s, as control points of a curve of t and of its derivative by s.
@@ -44,7 +44,7 @@ public:
     bool cut_at(double s, Curve4& out) const;
     // Point and first derivatives.
     static nurbs::SurfacePoint on_cut(const Curve4& cut, double t);
-    // Second derivatives, too.
+    // Second derivatives as well.
     static nurbs::SurfacePoint bends_on_cut(const Curve4& cut, double t);
 
     double u(double s) const { return u_begin_ + s * (u_end_ - u_begin_); }
@@ -60,9 +60,9 @@ public:
     Vec3d low() const { return low_; }
     Vec3d high() const { return high_; }
 
-    // The values at the middle, and how far any value in the cell is from them. Proved by the
-    // convex hull of the control points (of the derivatives'; for weights by interval arithmetic on
-    // them).
+    // The values at the middle, and bounds of their distance from all values in the cell. Proved by
+    // the convex hulls of the control points of the values and derivatives; for rational cells by
+    // interval arithmetic.
     struct Spread {
         double point;
         double ds;
@@ -80,31 +80,31 @@ public:
     double box_low(std::size_t k) const { return box_low_[k]; }
     double box_high(std::size_t k) const { return box_high_[k]; }
 
-    // Two halves across the longer side, made when first asked for.
+    // Two halves across the longer side, made when first needed.
     std::array<const BezierCell*, 2> halves() const;
-    // Drops them, and what is known of the surroundings.
+    // Releases the halves and the surroundings.
     void forget() const
     {
         halves_ = {};
         surroundings_.reset();
     }
 
-    // The surface in and round the cell, for `MoveClearanceBound`; kept here once it is known.
+    // The surface in and around the cell, for `MoveClearanceBound`; kept here once it is known.
     struct Surroundings {
         double u_begin, u_end, v_begin, v_end;
-        // For the contact at any place x of the cell, n its upward normal, and any y of the
-        // surroundings, w what lies between them in the domain:
+        // For a contact x in the cell with upward normal n, and any point y of the surroundings, at
+        // the distance w from x in the domain:
         //   (y - x)^2 >= nearness * metric(w),  2 n . (y - x) <= bend(w) + more * metric(w),
         //   (y - x).z^2 <= climb^2 * metric(w).
-        // `more` is infinite where nothing is proved.
+        // `more` is kInfinite where nothing is proved.
         QuadraticForm metric;
         QuadraticForm bend;
         double nearness;
         double more;
         double climb;
-        double top;  // nothing of the surroundings is higher
-        // Patches that are nearer than `range` to a ball's centre at `centre`, over the middle of
-        // the cell, or to anything straight above it.
+        double top;  // upper bound of z in the surroundings
+        // Patches nearer than `range` to the core of a ball (its centre and everything straight
+        // above) at `centre`, over the middle of the cell.
         mutable std::vector<const BezierCell*> patches;
         mutable Vec3d centre;
         mutable double range;

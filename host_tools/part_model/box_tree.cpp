@@ -1,4 +1,4 @@
-// Halved at the median of the middles along the longest side.
+// A node is split at the median of its items' centres, along the longest side.
 #include "host_tools/part_model/box_tree.hpp"
 
 #include <algorithm>
@@ -8,13 +8,13 @@ namespace {
 
 constexpr std::size_t kFacetsALeaf = 4;
 
-// An item that is to be put into a tree: the middle of its box, to sort by.
+// An item to be put into a tree, with the centre of its box as sort key.
 struct Item {
     std::array<float, 3> middle;
     std::uint32_t number;
 };
 
-// box_of(number, low, high) widens a box by that of an item.
+// box_of(number, low, high) extends a box by that of an item.
 template <class BoxOf>
 int build(BoxTree& tree,
           std::vector<Item>& items,
@@ -66,7 +66,7 @@ int build(BoxTree& tree,
     return here;
 }
 
-// box_of(number, low, high) as above, for numbers from 0.
+// The tree over items 0 to count - 1.
 template <class BoxOf>
 BoxTree tree_over(std::size_t count,
                   std::size_t leaf,

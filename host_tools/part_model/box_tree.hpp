@@ -1,4 +1,4 @@
-// A tree of boxes over cells, edges or triangles, for searches of what is near.
+// A tree of boxes over cells, edges or triangles, for nearest searches.
 #pragma once
 
 #include <array>
@@ -17,15 +17,15 @@ struct BoxTree {
         // Children; a leaf has child[0] < 0 and holds child[1] items from -child[0] - 1 on.
         std::array<int, 2> child;
     };
-    std::vector<Node> nodes;  // the first is the top
+    std::vector<Node> nodes;  // the first is the root
 };
 
-// Over boxes given by their corners; items keep their numbers, one a leaf.
+// Over boxes given by their corners; a leaf is one item with its number.
 BoxTree make_box_tree(const std::vector<std::array<Vec3d, 2>>& boxes);
 
-// Over triangles, some a leaf.
+// Over triangles, up to four a leaf.
 //
-// order  set to the triangles' numbers as the tree's items are in order
+// order  set to the triangles' numbers in the order of the tree's items
 BoxTree make_facet_tree(const std::vector<std::array<Vec3d, 3>>& triangles,
                         std::vector<std::uint32_t>& order);
 

@@ -1,4 +1,4 @@
-// Open chains first, from where one cell only knows the side.
+// Open chains first: each starts at a side that only one cell joins.
 #include "host_tools/part_model/cell_chains.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Curves across a grid (marching squares): the sides that they cross, chained cell by cell.
+// Marching squares: the sides of a grid that curves cross, chained cell by cell.
 #pragma once
 
 #include <array>
@@ -9,10 +9,10 @@
 
 namespace cusp::part_model {
 
-// A side of a grid: its lower node, and whether it leads to the next column.
+// A side of a grid: its lower node, and whether it runs to the next column.
 using GridSide = std::pair<std::size_t, bool>;
 
-// rows: nodes in a column
+// rows  nodes in a column
 inline std::size_t end_node(const GridSide& side, std::size_t rows)
 {
     return side.first + (side.second ? rows : 1);
@@ -20,11 +20,11 @@ inline std::size_t end_node(const GridSide& side, std::size_t rows)
 
 class CellChains {
 public:
-    // Joins, two by two, the sides of a cell that are crossed.
+    // Joins the crossed sides of a cell in pairs.
     //
-    //   node     the cell's least in column and row
-    //   rows     nodes in a column
-    //   crossed  of a GridSide, whether
+    // node     the cell's node of lowest column and row
+    // rows     nodes in a column
+    // crossed  crossed(side): whether a curve crosses a GridSide
     template <class Crossed>
     void join(std::size_t node, std::size_t rows, const Crossed& crossed)
     {
@@ -42,7 +42,7 @@ public:
         }
     }
 
-    // Each side once, but for the first of a closed chain, which ends it too.
+    // Every side is in one chain; a closed chain ends with its first side.
     std::vector<std::vector<GridSide>> chains() const;
 
 private:

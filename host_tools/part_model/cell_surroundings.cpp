@@ -1,4 +1,4 @@
-// The bend of a piece of surface and of those around it, from their control points.
+// Bounds on the bend of a cell and its neighbours, from their control points.
 #include "host_tools/part_model/cell_surroundings.hpp"
 
 #include <algorithm>
@@ -21,9 +21,9 @@ bool lies_in(const BezierCell& cell, const BezierCell::Surroundings& box)
 namespace {
 
 constexpr double kMostSkew = 0.9;     // cosine between du and dv
-constexpr double kMostShorter = 0.9;  // of a way in the tangent plane
+constexpr double kMostShorter = 0.9;  // of a length in the tangent plane
 
-// Derivatives by u and v, as those of the cell are by its own parameters.
+// Derivatives by u and v; those of the cell are by its own parameters.
 SurfacePoint scaled_middle(const BezierCell& cell)
 {
     const double width_u = cell.u_end() - cell.u_begin();
@@ -50,7 +50,7 @@ BezierCell::Spread scaled_spread(const BezierCell& cell)
     return e;
 }
 
-// How far derivatives in the surroundings are from those at the middle of the cell.
+// Bounds of the difference between derivatives in the surroundings and at the middle of the cell.
 class BendBound {
 public:
     explicit BendBound(const BezierCell& cell)
@@ -78,7 +78,7 @@ public:
         top_ = std::max(top_, cell.high().z);
     }
 
-    // Into the bounds of the surroundings; nothing is proved where that stays infinite.
+    // Writes the bounds into `box`; leaves `more` at kInfinite where nothing is proved.
     void fill(BezierCell::Surroundings& box) const
     {
         box.top = top_;
@@ -148,7 +148,7 @@ void add_part(const BezierCell& cell,
     if (!overlaps(cell, box)) {
         return;
     }
-    // Beside a pole cells are only halved one way: what would be halved next decides.
+    // Beside a pole cells are halved along one parameter only: the next one to be halved decides.
     const bool small = norm(cell.middle().du) >= norm(cell.middle().dv)
                            ? cell.u_end() - cell.u_begin() <= 1.5 * width_u
                            : cell.v_end() - cell.v_begin() <= 1.5 * width_v;
@@ -161,7 +161,7 @@ void add_part(const BezierCell& cell,
     }
 }
 
-// A width more on either side, up to the next crease.
+// Widened by its width on either side, up to the next crease.
 std::array<double, 2> widened(const std::vector<double>& creases, double begin, double end)
 {
     const double width = 1.001 * (end - begin);

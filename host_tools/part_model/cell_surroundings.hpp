@@ -1,4 +1,4 @@
-// Bounds on how a surface bends around one of its cells: what `MoveClearanceBound` proves by.
+// Bounds on the bend of a surface around one of its cells, for `MoveClearanceBound`.
 #pragma once
 
 #include "host_tools/part_model/bezier_cell.hpp"
@@ -6,12 +6,12 @@
 
 namespace cusp::part_model {
 
-// The cell and a width of it more on either side, up to the next crease, with bounds on metric and
-// bend there. `more` is infinite where nothing can be proved: beside poles, where du and dv are
-// nearly parallel, or where the cell bends too far.
+// The cell, widened by its width on either side up to the next crease, with bounds on metric and
+// bend there. `more` is kInfinite where nothing can be proved: beside poles, where du and dv are
+// nearly parallel, or where the cell bends too much.
 BezierCell::Surroundings find_surroundings(const PartModel::State& state, const BezierCell& cell);
 
-// Whether all of the cell lies within the domain of `box`.
+// Whether the whole cell lies within the domain of `box`.
 bool lies_in(const BezierCell& cell, const BezierCell::Surroundings& box);
 
 }  // namespace cusp::part_model

@@ -1,4 +1,4 @@
-// Contacts of a ball: over a place of a surface, or under a place in plan.
+// Contacts of a ball: at a point of a surface, or under a point in plan.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -14,9 +14,40 @@ namespace {
 
 constexpr int kUnderSteps = 8;         // of Newton's method
 constexpr double kUnderSlack = 1e-10;  // mm in plan
-constexpr double kLeastLean = 1e-9;    // of a unit: below that the offset stands upright in plan
+constexpr double kLeastLean = 1e-9;    // sine: below it the offset is degenerate in plan
+
+bool is_same(Vec3d a, Vec3d b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+bool is_same(const CcPoint& a, const CcPoint& b)
+{
+    return a.u == b.u && a.v == b.v && a.surface == b.surface && a.distance == b.distance &&
+           is_same(a.point, b.point) && is_same(a.normal, b.normal);
+}
 
 }  // namespace
+
+PartModel::State::KnownContact PartModel::State::known(const CcPoint& contact) const
+{
+    for (const std::optional<KnownContact>& known : known_contacts) {
+        if (known && is_same(known->at, contact)) {
+            return *known;
+        }
+    }
+    return {contact};
+}
+
+void PartModel::State::remember(const KnownContact& contact) const
+{
+    for (std::optional<KnownContact>& known : known_contacts) {
+        if (known && is_same(known->at, contact.at)) {
+            known->cell = contact.cell;
+            known->margin = std::max(known->margin, contact.margin);
+            return;
+        }
+    }
+    known_contacts[oldest_contact] = contact;
+    oldest_contact = (oldest_contact + 1) % known_contacts.size();
+}
 
 std::pair<Vec3d, Vec3d> centre_slopes(const SurfacePoint& p, Vec3d normal, double distance)
 {
@@ -52,7 +83,7 @@ Vec3d PartModel::facing_up(int surface, double u, double v, const SurfacePoint& 
     const State::Grid& grid = state_->grids[static_cast<std::size_t>(surface)];
     const auto [u0, u1] = std::pair{grid.creases_u.front(), grid.creases_u.back()};
     const auto [v0, v1] = std::pair{grid.creases_v.front(), grid.creases_v.back()};
-    // Of places beside it that face up clearly the highest: what bulges is met from outside.
+    // The highest neighbouring point that faces up decides: a bulge is touched from outside.
     std::optional<SurfacePoint> best;
     for (const auto& [du, dv] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
         const double at_u = std::clamp(u + kBeside * (u1 - u0) * du, u0, u1);

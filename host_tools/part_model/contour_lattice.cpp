@@ -1,4 +1,4 @@
-// Values of nodes that are not looked at are those of a node beside them: only the sign counts.
+// Nodes that are not evaluated take the value of a neighbour: only the sign matters.
 #include "host_tools/part_model/contour_lattice.hpp"
 
 #include <algorithm>
@@ -16,14 +16,14 @@ constexpr std::size_t kMostCells = std::size_t{1} << 22;
 
 ContourLattice::ContourLattice(Vec2d low,
                                Vec2d size,
-                               DomainSamples looks,
+                               DomainSamples samples,
                                const DomainMargin& margin)
     : margin_{margin},
       low_{low},
       size_{size},
-      pitch_{size.x / looks.u, size.y / looks.v},
-      u_cells_{static_cast<std::size_t>(looks.u) + 1},
-      v_cells_{static_cast<std::size_t>(looks.v) + 1}
+      pitch_{size.x / samples.u, size.y / samples.v},
+      u_cells_{static_cast<std::size_t>(samples.u) + 1},
+      v_cells_{static_cast<std::size_t>(samples.v) + 1}
 {
     origin_ = low_ - (0.5 - kShift) * pitch_;
     values_.resize((u_cells_ + 1) * rows());
@@ -45,7 +45,6 @@ Vec2d ContourLattice::node(std::size_t index) const
             origin_.y + static_cast<double>(index % rows()) * pitch_.y};
 }
 
-// Its lower node.
 std::size_t ContourLattice::cell_of(Vec2d p) const
 {
     const auto at = [](double x, double origin, double pitch, std::size_t cells) {
@@ -72,7 +71,8 @@ bool ContourLattice::is_crossed(std::size_t cell) const
            belongs(cell + rows() + 1) != low;
 }
 
-// By the cells around, too: across a valley or a ridge the corners alone are alike.
+// The cells around are examined as well: across a valley or a ridge all four corners have the same
+// sign.
 bool ContourLattice::is_settled(std::size_t lower_node) const
 {
     const std::size_t column = lower_node / rows();
@@ -106,7 +106,7 @@ bool ContourLattice::halve()
     const std::size_t coarse_rows = rows();
     const std::size_t coarse_u = u_cells_;
     const std::size_t coarse_v = v_cells_;
-    // of cells, by their lower nodes
+    // Of cells, by their lower nodes.
     std::vector<char> settled(values_.size(), 1);
     std::vector<char> crossed(values_.size(), 0);
     for (std::size_t i = 0; i < coarse_u; ++i) {
@@ -122,13 +122,13 @@ bool ContourLattice::halve()
     pitch_ = 0.5 * pitch_;
     values_.resize((u_cells_ + 1) * rows());
 
-    bool news = false;
+    bool is_new = false;
     for (std::size_t i = 0; i <= u_cells_; ++i) {
         for (std::size_t j = 0; j <= v_cells_; ++j) {
             const std::size_t around = (i / 2) * coarse_rows + j / 2;
             double& value = values_[i * rows() + j];
             value = coarse[around];
-            // the cells that a side lies between; outermost ones lie beside one
+            // A node on a side belongs to the cells on both sides of it.
             const bool left = i % 2 == 1 || i == 0 || settled[around - coarse_rows] != 0;
             const bool below = j % 2 == 1 || j == 0 || settled[around - 1] != 0;
             const bool own = i / 2 == coarse_u || j / 2 == coarse_v || settled[around] != 0;
@@ -143,10 +143,10 @@ bool ContourLattice::halve()
                 passed(i / 2 < coarse_u && j / 2 < coarse_v, around) ||
                 passed(i % 2 == 0 && i > 0 && j / 2 < coarse_v, around - coarse_rows) ||
                 passed(j % 2 == 0 && j > 0 && i / 2 < coarse_u, around - 1);
-            news = news || (!expected && (value >= 0) != (coarse[around] >= 0));
+            is_new = is_new || (!expected && (value >= 0) != (coarse[around] >= 0));
         }
     }
-    return news;
+    return is_new;
 }
 
 std::vector<std::vector<GridSide>> ContourLattice::chains() const

@@ -1,4 +1,4 @@
-// Looks at a function over a rectangle of parameters, finer where it is near 0.
+// Samples of a function over a rectangle of parameters, refined where it is near 0.
 #pragma once
 
 #include <cstddef>
@@ -10,32 +10,32 @@
 
 namespace cusp::part_model {
 
-// Of a place, mm: >= 0 where it belongs to what is outlined. Jumps are allowed, and -infinity.
+// The margin of a point in (u, v), mm: >= 0 inside the contour. It may jump, and be -kInfinite.
 using DomainMargin = std::function<double(Vec2d)>;
 
-// How many looks along u and along v tell what there is.
+// Numbers of samples along u and v that resolve the shape.
 struct DomainSamples {
     int u{};
     int v{};
 };
 
-// Nodes stand off the rectangle's edge and its middle, where models like to have edges; the
-// outermost ones outside it.
+// Nodes avoid the rectangle's sides and middle, where models often have edges; the outermost nodes
+// are outside it.
 class ContourLattice {
 public:
-    ContourLattice(Vec2d low, Vec2d size, DomainSamples looks, const DomainMargin& margin);
+    ContourLattice(Vec2d low, Vec2d size, DomainSamples samples, const DomainMargin& margin);
 
-    // -infinity outside the rectangle.
+    // -kInfinite outside the rectangle.
     double margin_at(Vec2d p) const;
 
     bool may_halve() const;
 
-    // Looks at the middles of cells and sides, but where all around is settled: the margin is
-    // farther from 0 than it changes from there to the next cells. Returns whether one of
-    // them tells what is new where the outline did not seem to pass.
+    // Halves the pitch. Nodes are evaluated unless all around is settled: the margin is farther
+    // from 0 than it changes to the next cells. Returns whether a sample changed sign in a cell
+    // that the contour did not seem to cross.
     bool halve();
 
-    // The sides that the outline crosses.
+    // The sides that the contour crosses.
     std::vector<std::vector<GridSide>> chains() const;
 
     std::size_t end_of(const GridSide& side) const { return end_node(side, rows()); }
@@ -43,11 +43,10 @@ public:
     double value(std::size_t node) const { return values_[node]; }
     bool belongs(std::size_t node) const { return values_[node] >= 0; }
 
-    // The lower node of the cell that a place lies in.
+    // The lower node of the cell that holds a point.
     std::size_t cell_of(Vec2d place) const;
 
-    // Whether a place lies in the cell, or in one beside it that the outline does not seem to
-    // cross.
+    // Whether a point lies in the cell, or in a neighbour that the contour does not seem to cross.
     bool may_reach(std::size_t cell, Vec2d place) const;
 
 private:

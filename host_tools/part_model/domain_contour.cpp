@@ -1,4 +1,4 @@
-// Crossings of a lattice's sides, chained and then divided until the sides follow the outline.
+// Crossings of a lattice's sides, chained, then divided until the polyline follows the contour.
 #include "host_tools/part_model/domain_contour.hpp"
 
 #include <algorithm>
@@ -17,17 +17,17 @@ using nurbs::Surface;
 
 namespace {
 
-constexpr double kLookPitch = 0.5;  // mm
-constexpr int kFewestLooks = 24;
-constexpr int kMostLooks = 128;
+constexpr double kSamplePitch = 0.5;  // mm
+constexpr int kFewestSamples = 24;
+constexpr int kMostSamples = 128;
 constexpr int kFewestHalvings = 2;
-constexpr double kRounding = 1e-8;  // of a way in the lattice
-constexpr double kSnap = 1e-9;      // of the domain's sides
-constexpr double kNothing = 1e-7;   // mm
-constexpr int kSecantSteps = 12;    // then by halving: the margin jumps
+constexpr double kRounding = 1e-8;    // of a side of the lattice
+constexpr double kSnap = 1e-9;        // of the domain's sides
+constexpr double kZeroMargin = 1e-7;  // mm
+constexpr int kSecantSteps = 12;      // then by bisection: the margin jumps
 constexpr int kDeepestDivision = 24;
-constexpr double kFirstReach = 1.0 / 32;  // of a side, where the outline is looked for first
-constexpr double kLastReach = 8;          // across a slender tip
+constexpr double kFirstReach = 1.0 / 32;  // of a side: first distance of the search for the contour
+constexpr double kLastReach = 8;          // of a side: last one, across a slender tip
 constexpr std::size_t kMostDropped = 64;  // points in a row that one side replaces
 
 class ContourTracer {
@@ -46,8 +46,8 @@ public:
         std::vector<std::vector<Vec2d>> loops;
         bool followed = false;
         for (int k = 1; !followed && lattice_.may_halve(); ++k) {
-            const bool news = lattice_.halve();
-            if (k >= kFewestHalvings && !(news && lattice_.may_halve())) {
+            const bool is_new = lattice_.halve();
+            if (k >= kFewestHalvings && !(is_new && lattice_.may_halve())) {
                 loops.clear();
                 followed = trace(loops);
             }
@@ -56,12 +56,12 @@ public:
     }
 
 private:
-    // Returns whether the sides follow the outline within the error.
+    // Returns whether the sides follow the contour within the error.
     bool trace(std::vector<std::vector<Vec2d>>& loops)
     {
         follows_ = true;
         for (const std::vector<GridSide>& chain : lattice_.chains()) {
-            std::vector<Vec2d> loop = without_needless(divided(turned_left(chain)));
+            std::vector<Vec2d> loop = simplified(divided(turned_left(chain)));
             if (encloses_something(loop)) {
                 loops.push_back(std::move(loop));
             }
@@ -69,7 +69,7 @@ private:
         return follows_;
     }
 
-    // Not where it is narrower on the average than readers of trims take for rounding.
+    // False where the loop is on average so narrow that readers of trims take it for rounding.
     bool encloses_something(const std::vector<Vec2d>& loop) const
     {
         constexpr double kNarrow = 2e-5;  // of the domain's larger side
@@ -82,9 +82,8 @@ private:
         return std::abs(area) > kNarrow * std::max(size_.x, size_.y) * length;
     }
 
-    // The last place that belongs to it on the way out, or one whose margin is next to nothing.
-    // Ends of the way with their margins. Regula falsi (Illinois), by halves where the margin
-    // jumps.
+    // The last point inside on the segment from `in` to `out`, or one with a margin of nearly 0, by
+    // false position (Illinois algorithm), or by bisection where the margin jumps.
     Vec2d last_within(Vec2d in, double in_margin, Vec2d out, double out_margin) const
     {
         double from = 0;
@@ -93,7 +92,7 @@ private:
         double out_weight = 1;
         bool was_within = false;
         bool was_beyond = false;
-        for (int step = 0; to - from > kRounding && in_margin > kNothing; ++step) {
+        for (int step = 0; to - from > kRounding && in_margin > kZeroMargin; ++step) {
             const double a = in_weight * in_margin;
             const double b = out_weight * out_margin;
             const bool jumps = step >= kSecantSteps || !std::isfinite(a) || !std::isfinite(b);
@@ -117,7 +116,7 @@ private:
         return snapped(in + from * (out - in));
     }
 
-    // On the domain's edge exactly, where it is only rounding away.
+    // Moved onto the domain's border where it differs by rounding only.
     Vec2d snapped(Vec2d p) const
     {
         const auto snap = [](double x, double low, double size) {
@@ -166,8 +165,8 @@ private:
         return out;
     }
 
-    // Parts of a side stay out of the cells of others: loops cross neither themselves nor each
-    // other.
+    // Parts of a side stay out of the cells of other sides, so loops cross neither themselves nor
+    // each other.
     void divide(Vec2d a, Vec2d b, int depth, std::vector<Vec2d>& out)
     {
         const Vec2d middle = 0.5 * (a + b);
@@ -185,15 +184,15 @@ private:
         out.push_back(b);
     }
 
-    // The outline straight beside a side's middle, as seen in shares of the domain; none within
-    // eight times the side's length.
+    // The point of the contour straight beside a side's middle, in the domain scaled to a square;
+    // none within eight times the side's length.
     std::optional<Vec2d> contour_beside(Vec2d a, Vec2d b) const
     {
         const Vec2d way{(b.x - a.x) / size_.x, (b.y - a.y) / size_.y};
         const Vec2d left{-way.y * size_.x, way.x * size_.y};
         const Vec2d middle = 0.5 * (a + b);
         const double here = lattice_.margin_at(middle);
-        const double toward = here >= 0 ? -1.0 : 1.0;  // where the other side of the outline is
+        const double toward = here >= 0 ? -1.0 : 1.0;  // the other side of the contour
         Vec2d last = middle;
         double last_margin = here;
         for (double reach = kFirstReach; reach <= kLastReach; reach *= 2) {
@@ -209,8 +208,8 @@ private:
         return std::nullopt;
     }
 
-    // Points go where a side from before them to behind them passes within a quarter of the error.
-    std::vector<Vec2d> without_needless(const std::vector<Vec2d>& loop) const
+    // Drops points that a side between their neighbours passes within a quarter of the error.
+    std::vector<Vec2d> simplified(const std::vector<Vec2d>& loop) const
     {
         std::vector<Vec2d> out{loop.front()};
         std::size_t from = 0;
@@ -248,17 +247,17 @@ private:
     bool follows_{true};
 };
 
-int looks_along(double length)
+int samples_along(double length)
 {
     return static_cast<int>(
-        std::clamp(length / kLookPitch, double{kFewestLooks}, double{kMostLooks}));
+        std::clamp(length / kSamplePitch, double{kFewestSamples}, double{kMostSamples}));
 }
 
 }  // namespace
 
 DomainSamples samples_over(const Surface& surface)
 {
-    // the longest row and column of control points: isocurves are no longer
+    // Isocurves are no longer than the longest row and column of control points.
     const auto size_u = static_cast<std::size_t>(surface.size_u);
     const auto size_v = static_cast<std::size_t>(surface.size_v);
     double longest_u = 0;
@@ -277,7 +276,7 @@ DomainSamples samples_over(const Surface& surface)
         }
         longest_v = std::max(longest_v, length);
     }
-    return {looks_along(longest_u), looks_along(longest_v)};
+    return {samples_along(longest_u), samples_along(longest_v)};
 }
 
 std::vector<std::vector<Vec2d>> domain_contour(const Surface& surface,

@@ -1,4 +1,4 @@
-// Where a function over a surface's domain is not negative, outlined by loops in (u, v).
+// The contour, by loops in (u, v), of the part of a surface's domain where a function is >= 0.
 #pragma once
 
 #include <vector>
@@ -8,17 +8,17 @@
 
 namespace cusp::part_model {
 
-// Half a millimetre apart, but at least 24 and at most 128.
+// Samples half a millimetre apart, at least 24 and at most 128 along u and v.
 DomainSamples samples_over(const nurbs::Surface& surface);
 
-// Closed polylines, the place outlined to their left; the last point is the first one again.
+// Closed polylines with the inside to their left; the last point repeats the first.
 //
-// edge_error  mm > 0: how far their sides may lie from the outline, on the surface, as probed at
-//             their middles. What is left of a corner is as much.
+// edge_error  mm > 0: maximum distance between the polyline and the contour on the surface, as
+//             probed at the middles of sides; also how much of a corner may be cut off
 //
-// Looks at a lattice (marching squares), which is halved at least twice, and on as long as that
-// tells something new, down to some 2000 looks along each side: narrower pieces that the looks do
-// not hint at are missed.
+// Marching squares on a lattice, which is halved at least twice, and again as long as this finds
+// something new, down to some 2000 samples along each side. Parts narrower than that are missed if
+// no sample hits them.
 std::vector<std::vector<Vec2d>> domain_contour(const nurbs::Surface& surface,
                                                const DomainMargin& margin,
                                                double edge_error);

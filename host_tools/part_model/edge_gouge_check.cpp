@@ -1,9 +1,8 @@
-// Pieces of edges are kept in squares seen from above.
+// Pieces of edges are sorted into squares in plan.
 #include "host_tools/part_model/edge_gouge_check.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "host_tools/nurbs/knot_insertion.hpp"
 
@@ -17,17 +16,17 @@ namespace {
 
 constexpr double kPiece = 0.02;      // radii
 constexpr double kSquare = 0.5;      // radii
-constexpr int kLooks = 8;            // between knots: for a length
-constexpr int kMostPieces = 4000;    // the same
-constexpr double kAside = 1e-6;      // of the domain: which side of a crease is meant
-constexpr double kLeastUp = 1e-3;    // z of the way to the centre
-constexpr double kStepShare = 0.2;   // of the depth, for what lies between places of a move
-constexpr double kTrimShare = 0.05;  // of the depth, between the edge of a trim and its polyline
-constexpr int kMostPlaces = 2000;    // of a move
+constexpr int kLengthSamples = 8;    // between knots
+constexpr int kMostPieces = 4000;    // between knots
+constexpr double kAside = 1e-6;      // of the domain: offset to one side of a crease
+constexpr double kLeastUp = 1e-3;    // z of the unit direction to the centre
+constexpr double kStepShare = 0.2;   // of the depth: between the checked points of a move
+constexpr double kTrimShare = 0.05;  // of the depth: between the edge of a trim and its polyline
+constexpr int kMostPoints = 2000;    // of a move
 constexpr int kMostPushes = 3;       // off edges that meet
-constexpr double kRaised = 1e-7;     // mm
-constexpr double kBeyond = 0.4;      // of that
-constexpr int kHalved = 4;           // steps: one of them halves the bounds
+constexpr double kRaised = 1e-7;     // mm: accuracy of a raised tip
+constexpr double kBeyond = 0.4;      // of kRaised: how far steps aim beyond the root
+constexpr int kHalved = 4;           // every fourth step bisects
 
 Vec3d nearest_on(Vec3d p, Vec3d a, Vec3d b)
 {
@@ -36,9 +35,9 @@ Vec3d nearest_on(Vec3d p, Vec3d a, Vec3d b)
     return a + d * (square > 0 ? std::clamp(dot(p - a, d) / square, 0.0, 1.0) : 0.0);
 }
 
-// From the nearest place of a short piece to the axis of a ball with its shank, that is its centre
-// and all above it: what is higher counts as seen from above.
-Vec3d way_off(Vec3d centre, Vec3d a, Vec3d b)
+// The vector from the nearest point of a short piece to the core of a ball with its shank: its
+// centre and everything straight above. Horizontal for points above the centre.
+Vec3d vector_to_core(Vec3d centre, Vec3d a, Vec3d b)
 {
     Vec3d way = centre - nearest_on(centre, a, b);
     if (way.z < 0) {
@@ -48,7 +47,8 @@ Vec3d way_off(Vec3d centre, Vec3d a, Vec3d b)
     return way;
 }
 
-// Of a ball whose centre moves straight from a to b: how low it reaches over the place p in plan.
+// How low a ball whose centre moves straight from a to b reaches at the point p in plan; kInfinite
+// where it misses p.
 double lowest_over(Vec3d a, Vec3d b, double radius, Vec3d p)
 {
     const double length = std::hypot(b.x - a.x, b.y - a.y);
@@ -60,7 +60,7 @@ double lowest_over(Vec3d a, Vec3d b, double radius, Vec3d p)
     const double low = std::max(0.0, along - half);
     const double high = std::min(length, along + half);
     if (square <= 0 || low > high) {
-        return std::numeric_limits<double>::infinity();
+        return kInfinite;
     }
     if (length == 0) {
         return std::min(a.z, b.z) - std::sqrt(std::max(0.0, square - along * along));
@@ -87,7 +87,7 @@ EdgeGougeCheck::EdgeGougeCheck(const std::vector<Surface>& surfaces, double radi
     }
 }
 
-// As far as they are not trimmed away.
+// Borders and creases inside the trims.
 void EdgeGougeCheck::add_borders(const Surface& s, const TrimRegion& trims)
 {
     const double aside_u = kAside * (s.u_end() - s.u_begin());
@@ -106,7 +106,7 @@ void EdgeGougeCheck::add_borders(const Surface& s, const TrimRegion& trims)
             add_edge(s, trims, {us[k - 1], v}, {us[k], v}, {0, aside});
         }
     };
-    // Both sides of a crease, the inner one of an end.
+    // Both sides of a crease; of a border the inner side.
     for (const double u : crease_knots(s.knots_u, s.degree_u, size_u)) {
         if (u < s.u_end()) {
             along_v(u, aside_u);
@@ -125,14 +125,14 @@ void EdgeGougeCheck::add_borders(const Surface& s, const TrimRegion& trims)
     }
 }
 
-// aside: from the edge into the face, in (u, v); none along the edge of a trim.
+// aside  from the edge into the face, in (u, v); zero along the edge of a trim
 void EdgeGougeCheck::add_edge(
     const Surface& surface, const TrimRegion& trims, Vec2d from, Vec2d to, Vec2d aside)
 {
     double length = 0;
     Vec3d last = point_at(surface, from.x, from.y);
-    for (int k = 1; k <= kLooks; ++k) {
-        const Vec2d at = from + (to - from) * (static_cast<double>(k) / kLooks);
+    for (int k = 1; k <= kLengthSamples; ++k) {
+        const Vec2d at = from + (to - from) * (static_cast<double>(k) / kLengthSamples);
         const Vec3d next = point_at(surface, at.x, at.y);
         length += norm(next - last);
         last = next;
@@ -146,8 +146,8 @@ void EdgeGougeCheck::add_edge(
         const Vec2d inside = place + aside;
         const double up = upward_normal(derivatives_at(surface, inside.x, inside.y)).z;
         const Vec2d middle = place + (from - to) * (0.5 / parts) + aside;
-        const bool stands = norm(aside) == 0 || trims.inside(middle.x, middle.y);
-        if (k > 0 && stands && norm(next - at) > 0) {
+        const bool is_inside = norm(aside) == 0 || trims.inside(middle.x, middle.y);
+        if (k > 0 && is_inside && norm(next - at) > 0) {
             add({at, next, std::max(upright, up)});
         }
         upright = up;
@@ -174,9 +174,9 @@ std::uint64_t EdgeGougeCheck::key(std::int64_t i, std::int64_t j) const
     return (static_cast<std::uint64_t>(i) << 32) ^ (static_cast<std::uint64_t>(j) & 0xffffffffU);
 }
 
-// Pieces of edges that may be nearer than `around`, seen from above.
-template <class Look>
-void EdgeGougeCheck::look_round(Vec3d centre, double around, const Look& look) const
+// Calls visit(piece) for the pieces that may be nearer than `around` in plan.
+template <class Visit>
+void EdgeGougeCheck::visit_around(Vec3d centre, double around, const Visit& visit) const
 {
     around += longest_;
     const std::int64_t j_end = cell(centre.y + around);
@@ -187,13 +187,13 @@ void EdgeGougeCheck::look_round(Vec3d centre, double around, const Look& look) c
                 continue;
             }
             for (const std::uint32_t number : found->second) {
-                look(pieces_[number]);
+                visit(pieces_[number]);
             }
         }
     }
 }
 
-// None where the ball, with `margin` to spare, does not come near to the piece.
+// None where the ball is farther than `margin` from the piece.
 std::optional<EdgeGougeCheck::EdgeViolation> EdgeGougeCheck::violation_at(const Piece& piece,
                                                                           Vec3d centre,
                                                                           double margin) const
@@ -205,7 +205,7 @@ std::optional<EdgeGougeCheck::EdgeViolation> EdgeGougeCheck::violation_at(const 
     if (x * x + y * y > far * far || centre.z - piece.from.z > far) {
         return std::nullopt;
     }
-    const Vec3d way = way_off(centre, piece.from, piece.to);
+    const Vec3d way = vector_to_core(centre, piece.from, piece.to);
     const double distance = norm(way);
     if (distance >= limit || distance <= 0) {
         return std::nullopt;
@@ -215,12 +215,12 @@ std::optional<EdgeGougeCheck::EdgeViolation> EdgeGougeCheck::violation_at(const 
     return EdgeViolation{limit - depth - distance, way, distance, faster};
 }
 
-// The way off the edge where most is missing; nothing where none lacks `margin`.
+// The vector that moves the centre off the edge with the largest violation; zero without violation.
 Vec3d EdgeGougeCheck::missing_clearance(Vec3d centre, double margin) const
 {
     double most = 0;
     Vec3d out;
-    look_round(centre, radius_ + margin, [&](const Piece& piece) {
+    visit_around(centre, radius_ + margin, [&](const Piece& piece) {
         const std::optional<EdgeViolation> violation = violation_at(piece, centre, margin);
         if (violation && violation->amount > most) {
             most = violation->amount;
@@ -230,8 +230,8 @@ Vec3d EdgeGougeCheck::missing_clearance(Vec3d centre, double margin) const
     return out;
 }
 
-// z where a centre that lacks something lacks nothing any more: Newton's way, aimed a little beyond
-// so as to close in from both sides.
+// The z of a centre from which the violation is gone: Newton's method, aimed a little beyond the
+// root so that both bounds converge.
 double EdgeGougeCheck::clear_height(const Piece& piece,
                                     Vec3d centre,
                                     EdgeViolation violation,
@@ -255,13 +255,14 @@ double EdgeGougeCheck::clear_height(const Piece& piece,
     return free;
 }
 
-// A ball of its radius rolls within what an edge bars: distance + depth is constant where it ends.
+// At the border of what an edge blocks, distance plus allowed depth is constant. The tangent ball
+// there is the barrier.
 EdgeGougeCheck::RaisedTip EdgeGougeCheck::raised_clear(Vec3d tip, double band) const
 {
     const Vec3d up{0, 0, 1};
     Vec3d centre = tip + up * radius_;
     const Piece* last = nullptr;
-    look_round(centre, radius_ + band, [&](const Piece& piece) {
+    visit_around(centre, radius_ + band, [&](const Piece& piece) {
         const std::optional<EdgeViolation> violation = violation_at(piece, centre, band);
         if (violation && violation->amount > 0) {
             centre.z = clear_height(piece, centre, *violation, band);
@@ -271,7 +272,7 @@ EdgeGougeCheck::RaisedTip EdgeGougeCheck::raised_clear(Vec3d tip, double band) c
     if (last == nullptr) {
         return {tip, std::nullopt};
     }
-    Vec3d out = way_off(centre, last->from, last->to);
+    Vec3d out = vector_to_core(centre, last->from, last->to);
     const double distance = norm(out);
     const double share = out.z / distance;
     const double faster = max_gouge_ / std::max(kLeastUp, last->upright);
@@ -294,8 +295,8 @@ Vec3d EdgeGougeCheck::moved_clear_of(Vec3d tip, double band) const
     return tip;
 }
 
-// Places between, as long as some of them may have to move: none is farther from the middle than
-// half the way.
+// Moves the points of a segment, inserting middles while some point of it may have to move: none is
+// farther from the middle than half the length.
 bool EdgeGougeCheck::append_moved(Vec3d from, Vec3d to, double band, std::vector<Vec3d>& out) const
 {
     const double length = norm(to - from);
@@ -322,10 +323,10 @@ std::vector<Vec3d> EdgeGougeCheck::moved_clear(const std::vector<Vec3d>& tips, d
 
 bool EdgeGougeCheck::clears(Vec3d from, Vec3d to) const
 {
-    const int places =
-        std::clamp(static_cast<int>(std::ceil(norm(to - from) / step_)), 1, kMostPlaces);
-    for (int k = 0; k <= places; ++k) {
-        const Vec3d tip = from + (to - from) * (static_cast<double>(k) / places);
+    const int points =
+        std::clamp(static_cast<int>(std::ceil(norm(to - from) / step_)), 1, kMostPoints);
+    for (int k = 0; k <= points; ++k) {
+        const Vec3d tip = from + (to - from) * (static_cast<double>(k) / points);
         if (!(missing_clearance(tip + Vec3d{0, 0, radius_}, 0) == Vec3d{})) {
             return false;
         }
@@ -336,16 +337,16 @@ bool EdgeGougeCheck::clears(Vec3d from, Vec3d to) const
 double EdgeGougeCheck::cut(Vec3d from, Vec3d to, double margin) const
 {
     const Vec3d way = to - from;
-    // Squares are looked at round a place: of a long move part by part.
+    // Squares are searched around a point, so a long move is divided.
     const double length = std::hypot(way.x, way.y);
     const int parts = std::max(1, static_cast<int>(std::ceil(length / radius_)));
-    // Between the ends of a piece the ball may reach as much lower as if it were that much larger.
+    // Between the ends of a piece the ball may reach lower: as low as one larger by this sagitta.
     const double round = radius_ * (1 + 0.125 * kPiece * kPiece) + edge_error_ + margin;
     double most = 0;
     for (int k = 0; k < parts; ++k) {
         const Vec3d a = from + way * (static_cast<double>(k) / parts);
         const Vec3d b = from + way * (static_cast<double>(k + 1) / parts);
-        look_round((a + b) * 0.5, round + 0.5 * length / parts, [&](const Piece& piece) {
+        visit_around((a + b) * 0.5, round + 0.5 * length / parts, [&](const Piece& piece) {
             for (const Vec3d p : {piece.from, piece.to}) {
                 const Vec3d up{0, 0, radius_};
                 most =

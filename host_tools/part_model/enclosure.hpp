@@ -1,4 +1,4 @@
-// Arithmetic of enclosures (intervals): every result holds all that the operands can give.
+// Interval arithmetic: every result encloses all results of numbers in the operands.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ inline Enclosure operator/(Enclosure a, Enclosure b)
     return {std::min(a.low / b.low, a.low / b.high), std::max(a.high / b.low, a.high / b.high)};
 }
 
-// Precondition: 0 is not in it.
+// Precondition: 0 is not in the interval.
 inline Enclosure inverse(Enclosure a) { return {1.0 / a.high, 1.0 / a.low}; }
 
 inline double magnitude(Enclosure a) { return std::max(-a.low, a.high); }

@@ -1,4 +1,4 @@
-// Closed forms: the plane first, then sides and corners.
+// Distances in closed form: from the plane first, then from sides and corners.
 #include "host_tools/part_model/facet_distance.hpp"
 
 #include <algorithm>
@@ -15,7 +15,8 @@ double square_in_plan(Vec3d p, double x, double y)
     return (p.x - x) * (p.x - x) + (p.y - y) * (p.y - y);
 }
 
-// The ball on the line through two corners: the upper of two roots, where it touches between them.
+// The ball dropped on the side between two corners: the upper of two roots; none where it touches
+// the line beyond a corner.
 std::optional<FacetContact> drop_ball_on_side(Vec3d a, Vec3d b, double x, double y, double radius)
 {
     const Vec3d d = b - a;
@@ -104,13 +105,13 @@ std::optional<FacetContact> drop_ball_on_facet(
     if (n.z >= kUpright) {
         const double up = (radius - n.x * (x - at[0].x) - n.y * (y - at[0].y)) / n.z;
         const Vec3d centre{x, y, at[0].z + up};
-        // The facet lies under its plane, and so does the ball that rests on it.
+        // A ball on the facet is never higher than one on the facet's plane.
         if (centre.z < least) {
             return std::nullopt;
         }
-        const Vec3d foot = centre - n * radius;
-        if (facet.holds(foot)) {
-            return FacetContact{centre.z, foot};
+        const Vec3d contact = centre - n * radius;
+        if (facet.holds(contact)) {
+            return FacetContact{centre.z, contact};
         }
     }
     std::optional<FacetContact> best;

@@ -1,4 +1,4 @@
-// Triangles as they are: how far a tool keeps from one, and how a ball comes to rest on one.
+// Triangles: the distance of a tool from one, and the drop of a ball on one.
 #pragma once
 
 #include <array>
@@ -19,11 +19,11 @@ struct Facet {
     Vec3d normal;  // unit, never downward
 };
 
-// Distance from the core of a tool to a facet and the nearest point of it, `place`. Exact for a
-// ball; for a disc as `edge_distance`.
+// Distance from the core of a tool to a facet, and the nearest point of the facet, `place`. Exact
+// for a ball; for a disc as accurate as edge_distance().
 //
-// Both are convex: where the way to the facet's plane ends in the facet nothing of it is nearer,
-// else its sides are.
+// Both are convex. If the nearest point of the facet's plane lies in the facet, it is the nearest
+// point; otherwise that is on a side.
 double facet_distance(const ToolCore& core, const Facet& facet, Vec3d& place);
 
 struct FacetContact {
@@ -31,12 +31,12 @@ struct FacetContact {
     Vec3d point;
 };
 
-// A ball dropped at (x, y) on one facet; none where it passes beside it, or
-// where its centre would be below `least`.
+// A ball dropped at (x, y) on one facet; none where it misses the facet, or where its centre would
+// be below `least`.
 std::optional<FacetContact> drop_ball_on_facet(
     const Facet& facet, double x, double y, double radius, double least);
 
-// Height of the facet at (x, y); none beside it, or where it stands upright.
+// Height of the facet at (x, y); none beside it, or where it is upright.
 std::optional<double> height_at(const Facet& facet, double x, double y);
 
 }  // namespace cusp::part_model

@@ -1,4 +1,4 @@
-// Boxes are gone through from the highest that a ball could meet.
+// Boxes are searched in the order of their upper bounds of a ball's height.
 #include "host_tools/part_model/facet_search.hpp"
 
 #include <algorithm>
@@ -9,12 +9,10 @@ namespace {
 
 constexpr double kAlike = 1e-9;  // mm: heights of a ball on facets that share the contact
 
-// The facets in boxes that `bound` puts over the best so far, the most promising first.
+// Calls look(facet) for the facets in boxes whose bound exceeds the best height so far, higher
+// bounds first.
 template <class Bound, class Look>
-void look_at_facets(const PartModel::State& state,
-                    double best,
-                    const Bound& bound,
-                    const Look& look)
+void visit_facets(const PartModel::State& state, double best, const Bound& bound, const Look& look)
 {
     struct Waiting {
         double bound;
@@ -87,9 +85,9 @@ std::optional<MeshContact> drop_ball_on_facets(const PartModel::State& state,
         }
         return best ? best->at.centre : -kInfinite;
     };
-    // Mostly the next question is beside the last one, and so is the answer.
+    // The next query is usually near the last one, and so is its result.
     const double known = state.facets.empty() ? -kInfinite : look(state.last_facet);
-    look_at_facets(state, known, bound, look);
+    visit_facets(state, known, bound, look);
     if (best) {
         state.last_facet = best->facet;
     }
@@ -102,7 +100,7 @@ std::optional<FacetUnder> highest_facet(const PartModel::State& state, double x,
     const auto bound = [&](const BoxTree::Node& box) {
         return square_to_box(box, x, y) > 0 ? -kInfinite : box.high.z;
     };
-    look_at_facets(state, -kInfinite, bound, [&](std::size_t facet) {
+    visit_facets(state, -kInfinite, bound, [&](std::size_t facet) {
         const auto height = height_at(state.facets[facet], x, y);
         if (height && (!best || *height > best->height)) {
             best = FacetUnder{facet, *height};

@@ -1,4 +1,4 @@
-// What of a model's facets a ball comes down on, over the tree of boxes.
+// Drop cutter for balls on meshes, over the tree of boxes.
 #pragma once
 
 #include <optional>
@@ -7,8 +7,8 @@
 
 namespace cusp::part_model {
 
-// A ball dropped at (x, y) on the facets of a model; none where it passes beside all of them.
-// Where several are met at once, the one that faces the ball most.
+// A ball dropped at (x, y) on the facets of a model; none where it misses them all. Where it
+// touches several, the one that faces its centre most.
 struct MeshContact {
     FacetContact at;
     std::size_t facet;

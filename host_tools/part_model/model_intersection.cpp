@@ -1,4 +1,4 @@
-// What a place may not be over is the highest place of each other model there.
+// A surface is trimmed where it lies above the top of another model.
 #include "host_tools/part_model/model_intersection.hpp"
 
 #include <algorithm>
@@ -17,12 +17,12 @@ using nurbs::Surface;
 
 namespace {
 
-// mm: what is higher by less counts as the same height.
+// mm: smaller differences of height count as none.
 constexpr double kSameHeight = 1e-5;
-// mm: a body is that much wider, so that bodies may share an edge.
+// mm: how much a body is widened so that bodies may share an edge.
 constexpr double kSameEdge = 2e-4;
 
-// Of a model; none beside it.
+// The top of a widened model at a point in plan; none beside it.
 std::optional<double> top_at(const SurfaceHeightMap& model, Vec3d p)
 {
     if (const auto top = model.at(p.x, p.y)) {
@@ -60,7 +60,7 @@ public:
     }
 
 private:
-    // How far below the other models a place is; -infinity beside one of them.
+    // How far a point lies below the other models, mm; -kInfinite beside one of them.
     double below_others(Vec3d p, std::size_t own) const
     {
         double least = kInfinite;
@@ -102,16 +102,16 @@ private:
         return part;
     }
 
-    // Whether nothing of it is cut off, inside or along its edges.
+    // Whether no sample of the surface, inside or along its edges, is cut off.
     template <class Below>
     static bool is_whole(const Surface& surface, const TrimRegion& region, const Below& below)
     {
-        const DomainSamples looks = samples_over(surface);
+        const DomainSamples samples = samples_over(surface);
         const Vec2d low{surface.u_begin(), surface.v_begin()};
         const Vec2d size{surface.u_end() - low.x, surface.v_end() - low.y};
-        for (int i = 0; i <= looks.u; ++i) {
-            for (int j = 0; j <= looks.v; ++j) {
-                const Vec2d p{low.x + size.x * i / looks.u, low.y + size.y * j / looks.v};
+        for (int i = 0; i <= samples.u; ++i) {
+            for (int j = 0; j <= samples.v; ++j) {
+                const Vec2d p{low.x + size.x * i / samples.u, low.y + size.y * j / samples.v};
                 if ((!region.trimmed() || region.inside(p.x, p.y)) && below(p) < 0) {
                     return false;
                 }

@@ -1,4 +1,4 @@
-// What is near by the surroundings of a contact's cell; boxes for what is not.
+// Near points by the surroundings of a contact's cell, far points by boxes.
 #include "host_tools/part_model/move_clearance_bound.hpp"
 
 #include <algorithm>
@@ -15,18 +15,18 @@ namespace {
 
 constexpr double kLargestCell = 0.6;    // radii
 constexpr double kSmallestCell = 0.4;   // radii
-constexpr double kSpare = 0.03;         // of the metric: what a form of one end has over for both
-constexpr int kDeepest = 4;             // halvings of a way
-constexpr int kFootSteps = 4;           // of Newton's method
-constexpr double kFootSlack = 1e-5;     // mm off the normal
-constexpr double kLeastBox = 1 / 12.0;  // radii: boxes that small prove nothing if they are near
+constexpr double kSpare = 0.03;         // of the metric: reserve of the form of one end for both
+constexpr int kDeepest = 4;             // halvings of a move
+constexpr int kMiddleSteps = 4;         // of Newton's method
+constexpr double kMiddleSlack = 1e-5;   // mm off the normal
+constexpr double kLeastBox = 1 / 12.0;  // radii: smaller boxes are not divided
 constexpr double kUsualMargin = 0.01;   // radii
 constexpr double kRangeMore = 0.4;      // radii, for other contacts of the same cell
 
 double square(Vec3d a) { return dot(a, a); }
 
-// Below (y - c)^2 - d^2 for the centre c over a contact, d over it, by what lies between the
-// contact and y in the domain.
+// The form q: a lower bound of (y - c)^2 - d^2, by the difference of y and the contact in the
+// domain.
 QuadraticForm rise_of(const BezierCell::Surroundings& near, double distance)
 {
     const double share = near.nearness - distance * near.more;
@@ -35,7 +35,7 @@ QuadraticForm rise_of(const BezierCell::Surroundings& near, double distance)
             share * near.metric.c - distance * near.bend.c};
 }
 
-// The most of one form in terms of another that is positive.
+// The largest ratio of a form to a positive one.
 double most_of(const QuadraticForm& p, const QuadraticForm& metric)
 {
     const double det = metric.determinant();
@@ -48,8 +48,8 @@ QuadraticForm less(const QuadraticForm& p, const QuadraticForm& q, double times)
     return {p.a - times * q.a, p.b - times * q.b, p.c - times * q.c};
 }
 
-// A form that is nowhere above either: the first, less what it is over the second at most in terms
-// of the metric.
+// A form nowhere above either: the first, less the metric times the most by which it exceeds the
+// second.
 QuadraticForm below_both(const QuadraticForm& p,
                          const QuadraticForm& q,
                          const QuadraticForm& metric)
@@ -57,10 +57,11 @@ QuadraticForm below_both(const QuadraticForm& p,
     return less(p, metric, std::max(0.0, most_of(less(p, q, 1), metric)));
 }
 
-// Whether the shank keeps off what of the surroundings is higher than the centres.
-// contact  z in mm of the end that the surroundings are of
-// centre   z in mm of the lower centre
-// apart    mm, between the ends as the metric has it
+// Whether the shank clears the part of the surroundings that is higher than the centres.
+//
+// contact  mm: z of the end whose surroundings these are
+// centre   mm: z of the lower centre
+// apart    mm: distance of the ends in the metric
 bool clears_shank(const QuadraticForm& rise,
                   const BezierCell::Surroundings& near,
                   double contact,
@@ -71,7 +72,7 @@ bool clears_shank(const QuadraticForm& rise,
     if (over <= 0) {
         return true;
     }
-    // At the least so long is w for the lowest and the highest of these places.
+    // Lower bounds of the length of w for the lowest and the highest of these points.
     const double low = (centre - contact) / near.climb - 0.5 * apart;
     const double high = (near.top - contact) / near.climb - 0.5 * apart;
     const double spare = -most_of(less({}, rise, 1), near.metric);
@@ -102,11 +103,24 @@ bool holds(const BezierCell::Surroundings& near, const CcPoint& at)
 
 }  // namespace
 
-const BezierCell& MoveClearanceBound::cell_of(const CcPoint& at) const
+std::optional<double> MoveClearanceBound::move_clearance(const CcPoint& a,
+                                                         const CcPoint& b,
+                                                         double sufficient) const
 {
-    if (at.cell != nullptr) {
-        return *at.cell;
+    KnownContact from = state_.known(a);
+    KnownContact to = state_.known(b);
+    const std::optional<double> found = between(from, to, sufficient, 0);
+    state_.remember(from);
+    state_.remember(to);
+    return found;
+}
+
+const BezierCell& MoveClearanceBound::cell_of(KnownContact& contact) const
+{
+    if (contact.cell != nullptr) {
+        return *contact.cell;
     }
+    const CcPoint& at = contact.at;
     const BezierCell* cell = &state_.cell_at(at.surface, at.u, at.v);
     while (size_of(*cell) > kLargestCell * radius_) {
         cell = &half_at(*cell, at);
@@ -120,24 +134,24 @@ const BezierCell& MoveClearanceBound::cell_of(const CcPoint& at) const
         }
         cell = &half_at(*cell, at);
     }
-    at.cell = cell;
+    contact.cell = cell;
     return *cell;
 }
 
-std::optional<double> MoveClearanceBound::between(const CcPoint& a,
-                                                  const CcPoint& b,
+std::optional<double> MoveClearanceBound::between(KnownContact& a,
+                                                  KnownContact& b,
                                                   double sufficient,
                                                   int depth) const
 {
     const Cells cells{cell_of(a), cell_of(b)};
-    if (!near_rise(a, cells.of_a, b, cells.of_b)) {
+    if (!near_rise(a.at, cells.of_a, b.at, cells.of_b)) {
         return std::nullopt;
     }
-    const double way = square(b.centre() - a.centre());
-    // Far from both ends, or only from one.
+    const double way = square(b.at.centre() - a.at.centre());
+    // Points far from both ends, or only from one.
     const double share = &cells.of_a == &cells.of_b ? 8 : 2;
     const double margin =
-        std::max(kUsualMargin * radius_, way / (share * std::min(a.distance, b.distance)));
+        std::max(kUsualMargin * radius_, way / (share * std::min(a.at.distance, b.at.distance)));
     if (others_are_far(a, cells.of_a, margin) &&
         (way == 0 || others_are_far(b, cells.of_b, margin))) {
         return near_between(a, b, cells, sufficient, depth);
@@ -145,22 +159,22 @@ std::optional<double> MoveClearanceBound::between(const CcPoint& a,
     if (way == 0 || depth == kDeepest) {
         return std::nullopt;
     }
-    const std::optional<MiddleContact> foot = contact_of_middle(a, b);
-    return foot ? parts_between(a, *foot, b, nullptr, sufficient, depth) : std::nullopt;
+    std::optional<MiddleContact> middle = contact_of_middle(a.at, b.at);
+    return middle ? parts_between(a, *middle, b, nullptr, sufficient, depth) : std::nullopt;
 }
 
-// Where all else is known to be far from the way between contacts in `cells`, of which this is a
-// part: of places near both ends only.
+// The bound by near points alone. Precondition: far points are known to be far from the move
+// between contacts in `cells`, of which this is a part.
 std::optional<double> MoveClearanceBound::near_between(
-    const CcPoint& a, const CcPoint& b, const Cells& cells, double sufficient, int depth) const
+    KnownContact& a, KnownContact& b, const Cells& cells, double sufficient, int depth) const
 {
-    const std::optional<QuadraticForm> rise = near_rise(a, cell_of(a), b, cell_of(b));
+    const std::optional<QuadraticForm> rise = near_rise(a.at, cell_of(a), b.at, cell_of(b));
     if (!rise) {
         return std::nullopt;
     }
-    const double way = square(b.centre() - a.centre());
-    const double nearer = std::min(a.distance, b.distance);
-    const double lost = 0.25 * std::max(0.0, way - (*rise)(b.u - a.u, b.v - a.v));
+    const double way = square(b.at.centre() - a.at.centre());
+    const double nearer = std::min(a.at.distance, b.at.distance);
+    const double lost = 0.25 * std::max(0.0, way - (*rise)(b.at.u - a.at.u, b.at.v - a.at.v));
     const double least = std::sqrt(std::max(0.0, nearer * nearer - lost)) - radius_;
     if (least >= sufficient) {
         return least;
@@ -168,33 +182,33 @@ std::optional<double> MoveClearanceBound::near_between(
     if (way == 0 || depth == kDeepest) {
         return std::nullopt;
     }
-    const std::optional<MiddleContact> foot = contact_of_middle(a, b);
-    if (!foot) {
+    std::optional<MiddleContact> middle = contact_of_middle(a.at, b.at);
+    if (!middle) {
         return std::nullopt;
     }
-    const BezierCell& cell = cell_of(foot->contact);
+    const BezierCell& cell = cell_of(middle->contact);
     const bool of_these = &cell == &cells.of_a || &cell == &cells.of_b;
-    return parts_between(a, *foot, b, of_these ? &cells : nullptr, sufficient, depth);
+    return parts_between(a, *middle, b, of_these ? &cells : nullptr, sufficient, depth);
 }
 
-// cells  null: places far from the ends have to be looked at, too
-std::optional<double> MoveClearanceBound::parts_between(const CcPoint& a,
-                                                        const MiddleContact& foot,
-                                                        const CcPoint& b,
+// cells  null: far points have to be checked as well
+std::optional<double> MoveClearanceBound::parts_between(KnownContact& a,
+                                                        MiddleContact& middle,
+                                                        KnownContact& b,
                                                         const Cells* cells,
                                                         double sufficient,
                                                         int depth) const
 {
-    const auto part = [&](const CcPoint& from, const CcPoint& to) {
-        return cells != nullptr ? near_between(from, to, *cells, sufficient + foot.off, depth + 1)
-                                : between(from, to, sufficient + foot.off, depth + 1);
+    const auto part = [&](KnownContact& from, KnownContact& to) {
+        return cells != nullptr ? near_between(from, to, *cells, sufficient + middle.off, depth + 1)
+                                : between(from, to, sufficient + middle.off, depth + 1);
     };
-    const std::optional<double> first = part(a, foot.contact);
+    const std::optional<double> first = part(a, middle.contact);
     if (!first) {
         return std::nullopt;
     }
-    const std::optional<double> second = part(foot.contact, b);
-    return second ? std::optional{std::min(*first, *second) - foot.off} : std::nullopt;
+    const std::optional<double> second = part(middle.contact, b);
+    return second ? std::optional{std::min(*first, *second) - middle.off} : std::nullopt;
 }
 
 std::optional<QuadraticForm> MoveClearanceBound::near_rise(const CcPoint& a,
@@ -225,16 +239,16 @@ std::optional<MoveClearanceBound::MiddleContact> MoveClearanceBound::contact_of_
     const CcPoint& a, const CcPoint& b) const
 {
     const Vec3d middle = (a.centre() + b.centre()) * 0.5;
-    MiddleContact foot{{a.surface, 0.5 * (a.u + b.u), 0.5 * (a.v + b.v), {}, {}, 0}, kInfinite};
-    CcPoint& at = foot.contact;
-    for (int step = 0; step < kFootSteps; ++step) {
+    MiddleContact found{{{a.surface, 0.5 * (a.u + b.u), 0.5 * (a.v + b.v), {}, {}, 0}}, kInfinite};
+    CcPoint& at = found.contact.at;
+    for (int step = 0; step < kMiddleSteps; ++step) {
         const SurfacePoint p = model_.evaluate(at.surface, at.u, at.v);
         const Vec3d r = middle - p.point;
         at.point = p.point;
         at.normal = upward_normal(p);
         at.distance = dot(r, at.normal);
-        foot.off = norm(r - at.normal * at.distance);
-        if (foot.off < kFootSlack) {
+        found.off = norm(r - at.normal * at.distance);
+        if (found.off < kMiddleSlack) {
             break;
         }
         const double uu = dot(p.du, p.du) - dot(r, p.duu);
@@ -252,12 +266,13 @@ std::optional<MoveClearanceBound::MiddleContact> MoveClearanceBound::contact_of_
     const PartModel::State::Grid& grid = state_.grids[static_cast<std::size_t>(at.surface)];
     const bool inside = at.u >= grid.creases_u.front() && at.u <= grid.creases_u.back() &&
                         at.v >= grid.creases_v.front() && at.v <= grid.creases_v.back();
-    return foot.off < kFootSlack && inside && at.distance > 0 ? std::optional{foot} : std::nullopt;
+    return found.off < kMiddleSlack && inside && at.distance > 0 ? std::optional{found}
+                                                                 : std::nullopt;
 }
 
-// Whether all but the surroundings is farther than the contact, by `margin`, from the centre and
-// from all that is straight above it.
-bool MoveClearanceBound::others_are_far(const CcPoint& from,
+// Whether everything but the surroundings is farther from the ball's core than the contact, by at
+// least `margin`.
+bool MoveClearanceBound::others_are_far(KnownContact& from,
                                         const BezierCell& cell,
                                         double margin) const
 {
@@ -265,15 +280,15 @@ bool MoveClearanceBound::others_are_far(const CcPoint& from,
         return true;
     }
     const BezierCell::Surroundings& near = *cell.surroundings();
-    const ToolCore ball{0, from.centre()};
-    const double limit = from.distance + margin;
+    const ToolCore ball{0, from.at.centre()};
+    const double limit = from.at.distance + margin;
     // Distances change by no more than the centre moves.
     if (near.range < limit + norm(ball.end - near.centre)) {
-        find_patches(from, cell, limit);
+        find_patches(from.at, cell, limit);
     }
     const bool far = std::all_of(
         near.patches.begin(), near.patches.end(),
-        [&](const BezierCell* patch) { return cell_is_far(*patch, ball, from, near, limit); });
+        [&](const BezierCell* patch) { return cell_is_far(*patch, ball, from.at, near, limit); });
     if (far) {
         from.margin = margin;
     }

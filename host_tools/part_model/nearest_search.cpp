@@ -1,4 +1,4 @@
-// Best place first by boxes, then Newton on cells where the squared distance is proved convex.
+// Nearest boxes first, then Newton's method on cells where the squared distance is proved convex.
 #include "host_tools/part_model/nearest_search.hpp"
 
 #include <algorithm>
@@ -11,11 +11,10 @@ using nurbs::SurfacePoint;
 namespace {
 
 constexpr int kNewtonSteps = 12;
-constexpr double kDistanceSlack = 2e-7;  // mm that a bound may lie below the truth
-constexpr double kDiscSlack =
-    1e-5;  // the same for flat and bull tools: their distance is not strictly convex
-constexpr double kBeside = 0.01;     // mm over the nearest that still starts the next search
-constexpr double kLeastCell = 1e-7;  // mm
+constexpr double kDistanceSlack = 2e-7;  // mm: how much too low a bound may be
+constexpr double kDiscSlack = 1e-5;      // for flat and bull tools: distances not strictly convex
+constexpr double kBeside = 0.01;         // mm over the nearest that still starts the next search
+constexpr double kLeastCell = 1e-7;      // mm
 
 struct Symmetric {
     double ss;
@@ -29,8 +28,8 @@ double least_eigenvalue(Symmetric m)
     return 0.5 * (m.ss + m.tt) - std::sqrt(half * half + m.st * m.st);
 }
 
-// The second derivative of half the squared distance to the core, by the place, as far as it is
-// diagonal or radial in x and y: (radial, tangential, vertical).
+// The second derivative of half the squared distance from the core, by the point: diagonal in
+// (radial, tangential, vertical).
 struct Stiffness {
     double radial;
     double tangential;
@@ -60,7 +59,7 @@ Stiffness stiffness_at(const ToolCore& core, Vec3d p)
     return {1, 1 - core.radius / away, vertical, out / away};
 }
 
-// From the core's axis to the cell's box, seen from above.
+// From the core's axis to the cell's box, in plan.
 double distance_from_axis(const ToolCore& core, const BezierCell& cell)
 {
     const Vec3d low = cell.low();
@@ -69,14 +68,14 @@ double distance_from_axis(const ToolCore& core, const BezierCell& cell)
                       std::max({low.y - core.end.y, core.end.y - high.y, 0.0}));
 }
 
-// What is below the stiffness everywhere in the cell.
+// A lower bound of the stiffness everywhere in the cell.
 Stiffness least_stiffness(const ToolCore& core, const BezierCell& cell)
 {
     const double vertical = cell.high().z < core.end.z ? 1 : 0;
     if (core.radius == 0) {
         return {1, 1, vertical, {1, 0, 0}};
     }
-    // Beside the disc: across the way to it least, the nearer the less.
+    // Beside the disc it is least in the tangential direction, and less the nearer the point is.
     const double away = distance_from_axis(core, cell);
     const double plane = away > core.radius ? 1 - core.radius / away : 0;
     return {plane, plane, vertical, {1, 0, 0}};
@@ -103,8 +102,8 @@ double least_curvature(const ToolCore& core, const BezierCell& cell)
     return least_eigenvalue(middle) - std::max(ss, tt) - st;
 }
 
-// Whether no place of the cell is the surface's nearest but on edges that cut it: everywhere the
-// way to the core leans to one side, along the borders of the patch too.
+// Whether no point of the cell, edges that cut it aside, is the nearest of the surface: everywhere
+// the direction to the core leans to the same side along u or v.
 bool leans(const ToolCore& core, const BezierCell& cell)
 {
     const SurfacePoint& m = cell.middle();
@@ -132,7 +131,7 @@ struct Step {
     double dt;
 };
 
-// The least of the quadratic model over the unit square: free, then along a blocked side.
+// The step to the minimum of the quadratic model over the unit square: inside, then along a side.
 Step newton_step(Symmetric h, double gs, double gt, double s, double t)
 {
     const double trace = std::abs(h.ss) + std::abs(h.tt) + 1e-300;
@@ -211,7 +210,7 @@ CellMinimum minimize(const ToolCore& core, const BezierCell& cell, double s, dou
     return best;
 }
 
-// Without a step.
+// The middle of the cell, without a step.
 CellMinimum at_middle(const ToolCore& core, const BezierCell& cell)
 {
     const SurfacePoint& p = cell.middle();
@@ -220,7 +219,7 @@ CellMinimum at_middle(const ToolCore& core, const BezierCell& cell)
     return {0.5, 0.5, 0.5 * dot(r, r), below, p.point};
 }
 
-// The square of the way to the farther end of [0, 1].
+// The square of the distance from s to the farther end of [0, 1].
 double farthest_square(double s)
 {
     const double way = std::max(s, 1 - s);
@@ -229,18 +228,13 @@ double farthest_square(double s)
 
 class Search {
 public:
-    // Ends where a place is found nearer than `near_enough`.
-    Search(const PartModel::State& state,
-           const ToolCore& core,
-           double limit,
-           double max_error = 0,
-           double near_enough = -1.0)
+    Search(const PartModel::State& state, const ToolCore& core, const NearestOptions& options)
         : state_{state},
           core_{core},
-          max_error_{std::max(max_error, core.radius > 0 ? kDiscSlack : kDistanceSlack)},
-          near_enough_{near_enough},
-          found_{limit},
-          bound_{limit}
+          max_error_{std::max(options.max_error, core.radius > 0 ? kDiscSlack : kDistanceSlack)},
+          near_enough_{options.near_enough},
+          found_{options.limit},
+          bound_{options.limit}
     {
     }
 
@@ -346,7 +340,7 @@ private:
             return;
         }
         const double bend = std::max(0.0, -least_curvature(core_, cell));
-        // Where that is too much nothing is settled here, but for what the middle tells.
+        // With too much of it the minimum would not settle the cell: the middle is enough.
         const bool settles =
             bend <= max_error_ * norm(core_.reach(cell.middle().point)) || &cell == first_;
         const CellMinimum least = settles ? minimize(core_, cell, s, t) : at_middle(core_, cell);
@@ -378,7 +372,7 @@ private:
             }
             return;
         }
-        // Edges are looked at themselves.
+        // Edges are items of their own.
         if (at_least >= found_ || (cell.trim() == BezierCell::Trim::kCut && leans(core_, cell))) {
             return;
         }
@@ -438,16 +432,14 @@ const BezierCell& PartModel::State::cell_at(int surface, double u, double v) con
 
 NearestResult nearest(const PartModel::State& state,
                       const ToolCore& core,
-                      double limit,
-                      double max_error,
-                      double near_enough)
+                      const NearestOptions& options)
 {
-    return Search{state, core, limit, max_error, near_enough}.run();
+    return Search{state, core, options}.run();
 }
 
 bool is_core_distance_at_least(const PartModel::State& state, const ToolCore& core, double least)
 {
-    return Search{state, core, least, 0, std::nextafter(least, 0.0)}.run().distance >= least;
+    return Search{state, core, {least, 0, std::nextafter(least, 0.0)}}.run().distance >= least;
 }
 
 }  // namespace cusp::part_model

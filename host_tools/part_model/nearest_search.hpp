@@ -1,8 +1,9 @@
-// The search for the place of a model nearest to a tool's core, over a tree of boxes.
+// The search for the point of a model nearest to a tool's core, over a tree of boxes.
 #pragma once
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "host_tools/part_model/bezier_cell.hpp"
@@ -15,17 +16,17 @@
 namespace cusp::part_model {
 
 struct PartModel::State {
-    std::size_t halves{};  // of the cells, and of those
+    std::size_t halves{};  // how many halves of cells exist, at all levels
     std::vector<std::unique_ptr<BezierCell>> cells;
     std::vector<TrimRegion> regions;
     std::vector<std::array<Vec3d, 2>> edges;
     std::vector<int> edge_surface;
     double edge_error{};
-    std::vector<Facet> facets;  // as the tree has them in order
-    BoxTree tree;               // of cells first, then edges; or of facets
+    std::vector<Facet> facets;  // in the order of the tree
+    BoxTree tree;               // over cells first, then edges; or over facets
     Vec3d low;
     Vec3d high;
-    // To find the cell of a parameter pair: breaks of u and v and the first cell, per surface.
+    // The cells of a surface, by their parameters: the breaks of u and v, and the first cell.
     struct Grid {
         std::vector<double> u;
         std::vector<double> v;
@@ -33,35 +34,50 @@ struct PartModel::State {
         // Knots where the tangent may jump, and the ends of the domain.
         std::vector<double> creases_u;
         std::vector<double> creases_v;
-        // The spans of the last answer: the next question is mostly in or beside them.
+        // The spans of the last query: the next one is usually in or beside them.
         mutable std::size_t last_u{};
         mutable std::size_t last_v{};
     };
     std::vector<Grid> grids;
     const BezierCell& cell_at(int surface, double u, double v) const;
     bool outside_trims(const BezierCell& cell) const;
-    // The cell of the last answer: the next question is mostly beside it.
+    // A contact and what move clearances have found around it.
+    struct KnownContact {
+        CcPoint at;
+        const BezierCell* cell{nullptr};  // the piece of surface it lies in; null: not known
+        // mm: all but the surroundings of the cell is farther than the contact by at least this;
+        // negative: not known.
+        double margin{-1};
+    };
+    // The contacts of the last queries: a path queries each contact for the moves to and from it.
+    KnownContact known(const CcPoint& contact) const;
+    void remember(const KnownContact& contact) const;
+    mutable std::array<std::optional<KnownContact>, 4> known_contacts;
+    mutable std::size_t oldest_contact{};
+    // The cell of the last result: the next one is usually near it.
     mutable const BezierCell* last_cell{nullptr};
     mutable double last_s{};
     mutable double last_t{};
     mutable std::size_t last_facet{};
 };
 
-// The lower bound of the distance from the core to the model, cut off at `limit`, and its place.
-//
-// max_error    mm: how low it may be, if that is more than what this takes anyhow
-// near_enough  mm: a result of no more only says that the model is no farther than this
+// All in mm.
+struct NearestOptions {
+    double limit;            // greater distances are returned as this
+    double max_error{0};     // how much too low the distance may be, if more than the method's own
+    double near_enough{-1};  // the search ends at distances up to this
+};
 struct NearestResult {
     double distance;
     NearestPoint place;
 };
+// A lower bound of the distance from the core to the model, and the nearest point.
 NearestResult nearest(const PartModel::State& state,
                       const ToolCore& core,
-                      double limit,
-                      double max_error = 0,
-                      double near_enough = -1);
+                      const NearestOptions& options);
 
-// Whether all of the model is at least so far from the core: ends at the first place that is not.
+// Whether the whole model is at least `least` (mm) from the core: ends at the first point that is
+// not.
 bool is_core_distance_at_least(const PartModel::State& state, const ToolCore& core, double least);
 
 }  // namespace cusp::part_model

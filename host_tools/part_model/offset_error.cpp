@@ -1,4 +1,4 @@
-// E is made homogeneous by the patch's weight, so that everything bounded is a polynomial.
+// E is multiplied by the patch's weight, so that all bounded quantities are polynomials.
 #include "host_tools/part_model/offset_error.hpp"
 
 #include <algorithm>
@@ -48,7 +48,7 @@ Homogeneous homogeneous(const Surface& s)
     return out;
 }
 
-// All that is bounded, over one square.
+// The quantities to be bounded, over one square.
 struct Terms {
     BernsteinPatch weight;
     BernsteinPatch radial;                     // (E . E - distance^2) w^2
@@ -115,7 +115,7 @@ double longest(const Vector& v)
     return most;
 }
 
-// The least of T_u x T_v along the direction it has in the middle.
+// Lower bound of the component of T_u x T_v along its direction at the middle.
 double least_normal(const Terms& terms, Vec3d direction)
 {
     const Vector& a = terms.tangent[0];
@@ -145,7 +145,7 @@ double bound_of(const Terms& terms, double distance, double side)
     const double square = distance * distance;
     const double least = square - radial - along * along;
     if (!(least > 0)) {
-        return kInfinite;  // the sign of what lies across could change
+        return kInfinite;  // the normal component of E could change its sign
     }
     const double across_error =
         std::max(distance - std::sqrt(least), std::sqrt(square + radial) - distance);

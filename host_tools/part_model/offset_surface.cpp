@@ -1,4 +1,4 @@
-// Interpolates, bounds every cell, inserts knots where the bound is not met, and begins again.
+// Interpolates, bounds every cell, inserts knots where the bound is too large, and repeats.
 #include "host_tools/part_model/offset_surface.hpp"
 
 #include <algorithm>
@@ -26,9 +26,9 @@ namespace {
 
 constexpr int kCubic = 3;
 constexpr int kMostRounds = 12;
-constexpr double kLeastSpan = 1.0 / 64;  // of a span of the surface: what is finer has no bound
+constexpr double kLeastSpan = 1.0 / 64;  // of a span of the surface: not divided further
 constexpr std::size_t kMostControlPoints = 40000;
-constexpr int kLooks = 16;
+constexpr int kSamples = 16;
 
 Vec3d normal_at(const SurfacePoint& p, double side)
 {
@@ -37,7 +37,8 @@ Vec3d normal_at(const SurfacePoint& p, double side)
     return length > 0 ? across * (side / length) : Vec3d{};
 }
 
-// Knots of the approximation in one direction: the surface's own as smooth as its offset is.
+// First knots of the approximation in one direction: the surface's own, with multiplicities for the
+// continuity of its offset.
 std::vector<double> first_knots(const std::vector<double>& knots, int degree, std::size_t count)
 {
     const std::vector<double> breaks = distinct_knots(knots, degree, count);
@@ -67,8 +68,8 @@ std::vector<double> greville(const std::vector<double>& knots)
     return out;
 }
 
-// The collocation matrix of cubics at the Greville abscissae, factored. It is totally positive and
-// banded: elimination needs no exchange of rows.
+// The factored collocation matrix of cubics at the Greville abscissae. It is totally positive and
+// banded, so elimination needs no pivoting.
 class Interpolation {
 public:
     explicit Interpolation(const std::vector<double>& knots)
@@ -95,7 +96,7 @@ public:
 
     const std::vector<double>& places() const { return places_; }
 
-    // The values at the places, `stride` apart, become control points.
+    // Replaces the values at the places, `stride` apart, by control points.
     void solve(Vec3d* values, std::size_t stride) const
     {
         const std::size_t n = places_.size();
@@ -126,7 +127,7 @@ private:
     std::vector<Row> rows_;
 };
 
-// How far a cubic through four of five values is from the fifth, in one direction of a cell.
+// The fourth difference of five values along a cell: the deviation from a cubic.
 template <class At>
 double bend_of(const At& at)
 {
@@ -193,12 +194,12 @@ OffsetSurface::OffsetSurface(const Surface& surface, const OffsetRequest& reques
     : source_{clamped(surface)}
 {
     double up = 0;
-    for (int i = 0; i < kLooks; ++i) {
-        for (int j = 0; j < kLooks; ++j) {
+    for (int i = 0; i < kSamples; ++i) {
+        for (int j = 0; j < kSamples; ++j) {
             const SurfacePoint p = derivatives_at(
                 source_,
-                source_.u_begin() + (source_.u_end() - source_.u_begin()) * (i + 0.5) / kLooks,
-                source_.v_begin() + (source_.v_end() - source_.v_begin()) * (j + 0.5) / kLooks);
+                source_.u_begin() + (source_.u_end() - source_.u_begin()) * (i + 0.5) / kSamples,
+                source_.v_begin() + (source_.v_end() - source_.v_begin()) * (j + 0.5) / kSamples);
             up += cross(p.du, p.dv).z;
         }
     }
@@ -216,7 +217,7 @@ OffsetSurface::OffsetSurface(const Surface& surface, const OffsetRequest& reques
 
 namespace {
 
-// One piece while its knots are being found.
+// The approximation of one piece.
 class PieceFit {
 public:
     PieceFit(const Surface& part, const OffsetRequest& request, double side)
@@ -281,7 +282,7 @@ private:
         surface_.weights.assign(surface_.points.size(), 1.0);
     }
 
-    // True where some cell is over the tolerance and worth dividing.
+    // Returns whether some cell exceeds the tolerance.
     bool find_bounds()
     {
         const std::vector<double> us = distinct(knots_u_);
@@ -314,7 +315,8 @@ private:
         return out;
     }
 
-    // Middles of the spans that need it become knots; false where none may.
+    // Inserts knots in the middles of spans that exceed the tolerance; false where none may be
+    // divided.
     bool refine()
     {
         const std::vector<double> us = distinct(knots_u_);
@@ -438,8 +440,8 @@ std::optional<Curve> OffsetSurface::isocurve(double v, double u_begin, double u_
                 return std::nullopt;
             }
         }
-        for (int k = 0; k <= kLooks; ++k) {
-            if (!is_up(u_begin + (u_end - u_begin) * k / kLooks, v)) {
+        for (int k = 0; k <= kSamples; ++k) {
+            if (!is_up(u_begin + (u_end - u_begin) * k / kSamples, v)) {
                 return std::nullopt;
             }
         }

@@ -1,5 +1,4 @@
-// A cubic B-spline surface that stands for the offset of a NURBS surface, with a computed bound of
-// how far it is from the exact one.
+// A cubic B-spline approximation of the offset of a NURBS surface, with a computed error bound.
 #pragma once
 
 #include <optional>
@@ -11,32 +10,33 @@ namespace cusp::part_model {
 
 struct OffsetRequest {
     double distance{};   // mm > 0
-    double tolerance{};  // mm > 0: what the bound is to be below
+    double tolerance{};  // mm > 0: required error bound
 };
 
-// Where the surface has creases (knots of multiplicity degree) its offset is not connected: it is
-// approximated piece by piece. The approximation interpolates the exact offset at the Greville
-// abscissae of its knots; knots are inserted in the spans where the bound is not met. It is as
-// smooth as the offset at the surface's own knots, and C2 elsewhere.
+// At creases (knots of multiplicity degree) the offset is not connected, so it is approximated
+// between them. The approximation interpolates the exact offset at the Greville abscissae of its
+// knots. Knots are inserted in spans with too large an error bound. It is as smooth as the offset
+// at the surface's own knots, and C2 elsewhere.
 //
-// The offset is on the side of the surface that is mostly up. Trims are not looked at.
+// The offset is on the side of the surface that faces up on average. Trims are ignored.
 // Source: Elber & Cohen 1993, section 3, for its use; the bound is ours (offset_error.hpp).
 class OffsetSurface {
 public:
     OffsetSurface(const nurbs::Surface& surface, const OffsetRequest& request);
 
-    // Part of an isocurve of the approximation, a cubic B-spline in u, exactly; none where a cell
-    // on its way has no bound below the tolerance (poles, cusps), it crosses a crease, or the
-    // offset there is on the lower side of the surface.
+    // Part of an isocurve of the approximation, as an exact cubic B-spline in u. None where it
+    // crosses a crease or a cell without a bound below the tolerance (poles, cusps), or where the
+    // offset is on the lower side of the surface.
     //
     // v, u_begin < u_end  in the domain of the surface
     std::optional<nurbs::Curve> isocurve(double v, double u_begin, double u_end) const;
 
-    // The largest bound of the cells that are below the tolerance, mm; and how many are not.
+    // mm: the largest error bound of the cells within the tolerance.
     double error_bound() const { return error_bound_; }
     int cells() const { return cells_; }
+    // The number of cells not within the tolerance.
     int cells_without_bound() const { return without_bound_; }
-    // Of all pieces.
+    // The number of control points of all pieces.
     int control_points() const;
 
 private:

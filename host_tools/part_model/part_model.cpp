@@ -1,9 +1,8 @@
-// Clearance of points and of straight moves, and the drop, all by the search for the nearest place.
+// Distances, clearances of straight moves, and the drop, all by the search for the nearest point.
 #include "host_tools/part_model/part_model.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "host_tools/nurbs/knot_insertion.hpp"
 #include "host_tools/part_model/facet_search.hpp"
@@ -24,7 +23,7 @@ namespace {
 
 constexpr int kMostDropSteps = 400;
 constexpr int kMostClimbs = 6;
-constexpr int kMostSlow = 3;  // steps of a drop that leave more than the share of its room
+constexpr int kMostSlow = 3;  // steps in a row that leave more than kSlowShare of the interval
 constexpr double kSlowShare = 0.75;
 constexpr double kTouching = 1e-9;   // mm
 constexpr double kDropSlack = 5e-7;  // mm above the least height
@@ -51,8 +50,8 @@ void add_cells(const Surface& surface, int number, PartModel::State& state)
     state.grids.push_back(std::move(grid));
 }
 
-// Height of the tip at which the tool, come from above, is nearer than `fat` to the point; none
-// beside it.
+// Height of the tip at which the tool, dropped from above, is `fat` (mm) from the point; none where
+// it passes the point.
 std::optional<double> touch_height(const Tool& tool, double x, double y, Vec3d p, double fat = 0)
 {
     const double away = std::hypot(p.x - x, p.y - y);
@@ -65,7 +64,8 @@ std::optional<double> touch_height(const Tool& tool, double x, double y, Vec3d p
     return p.z - tool.corner_radius + std::sqrt(std::max(0.0, corner * corner - out * out));
 }
 
-// The least distance from the core between two places, `length` apart, where it is d0 and d1.
+// Lower bound of the core's distance between two positions, `length` apart, with distances d0 and
+// d1.
 double least_between(double d0, double d1, double length)
 {
     if (length <= 0) {
@@ -115,7 +115,7 @@ private:
     const Tool& tool_;
     double sufficient_;
     double resolution_;
-    double least_seen_{std::numeric_limits<double>::infinity()};
+    double least_seen_{kInfinite};
 };
 
 }  // namespace
@@ -193,7 +193,7 @@ Vec3d PartModel::box_high() const { return state_->high; }
 
 double PartModel::highest() const
 {
-    // it can't but rest on the highest place
+    // A tool as wide as the model rests on its highest point.
     Tool wide;
     wide.shape = ToolShape::kFlat;
     wide.radius = norm(state_->high - state_->low);
@@ -247,13 +247,14 @@ SurfaceCut PartModel::cut_at(int surface, double u) const { return {*this, *stat
 ToolDistance PartModel::distance(const Tool& tool, Vec3d tip, double limit) const
 {
     const NearestResult found =
-        nearest(*state_, core_of(tool, tip), std::max(0.0, limit + tool.corner_radius));
+        nearest(*state_, core_of(tool, tip), {std::max(0.0, limit + tool.corner_radius)});
     return {found.distance - tool.corner_radius, found.place};
 }
 
 void PartModel::forget_cells() const
 {
     state_->last_cell = nullptr;
+    state_->known_contacts.fill(std::nullopt);
     for (const std::unique_ptr<BezierCell>& cell : state_->cells) {
         cell->forget();
     }
@@ -267,12 +268,11 @@ void PartModel::forget_many_cells() const
     }
 }
 
-double PartModel::distance_within(
-    const Tool& tool, Vec3d tip, double least, double most, double max_error) const
+double PartModel::distance_within(const Tool& tool, Vec3d tip, const DistanceOptions& options) const
 {
-    const NearestResult found =
-        nearest(*state_, core_of(tool, tip), std::max(0.0, most + tool.corner_radius), max_error,
-                least + tool.corner_radius);
+    const NearestResult found = nearest(*state_, core_of(tool, tip),
+                                        {std::max(0.0, options.most + tool.corner_radius),
+                                         options.max_error, options.least + tool.corner_radius});
     return found.distance - tool.corner_radius;
 }
 
@@ -320,15 +320,15 @@ std::optional<PartModel::DroppedCutter> PartModel::drop_cutter(const Tool& tool,
                      : std::nullopt;
     }
     const double floor = state_->low.z - tool.radius - 1;
-    const double nothing = -std::numeric_limits<double>::infinity();
-    // `high` is free of the model; `low` would touch a known place, so the answer is not below it.
+    const double nothing = -kInfinite;
+    // At `high` the tool is clear. At `low` it touches a known point, so the result is not below.
     double high = state_->high.z + 0.01;
     double low = nothing;
     double trial = guess ? std::min(*guess, high) : high;
-    // Mostly the next question is beside the last one, and so is the answer. A flat tool can't tell
-    // how deep it cuts: it comes from above.
-    const bool feels_depth = tool.corner_radius > 0;
-    if (!guess && feels_depth && state_->last_cell != nullptr) {
+    // The next query is usually near the last one, and so is its result. The distance of a flat
+    // tool does not measure its depth, so a flat tool starts from above.
+    const bool measures_depth = tool.corner_radius > 0;
+    if (!guess && measures_depth && state_->last_cell != nullptr) {
         const Vec3d last = state_->last_cell->at(state_->last_s, state_->last_t).point;
         if (const auto touch = touch_height(tool, x, y, last)) {
             low = *touch;
@@ -338,25 +338,24 @@ std::optional<PartModel::DroppedCutter> PartModel::drop_cutter(const Tool& tool,
     const double max_error = tool.corner_radius < tool.radius ? kDiscDropSlack : kDropSlack;
     int deep = 0;
     int slow = 0;
-    double room = std::numeric_limits<double>::infinity();
+    double room = kInfinite;
     NearestPoint place;
     for (int step = 0; step < kMostDropSteps && high - low > max_error; ++step) {
-        const ToolDistance c =
-            distance(tool, {x, y, trial}, std::numeric_limits<double>::infinity());
+        const ToolDistance c = distance(tool, {x, y, trial}, kInfinite);
         if (c.nearest.surface < 0) {
             return std::nullopt;
         }
         place = c.nearest;
         const double was_low = low;
-        // Places are as fat as their distance may be low, trimmed edges above all. One that were
-        // taken for thin would be met at `low` and be free just over it, step after step.
+        // Distances may be too low, near trimmed edges above all. The point counts as thick as this
+        // error: otherwise each step would touch it at `low` and be clear just above, forever.
         const double fat = norm(core_of(tool, {x, y, trial}).reach(c.nearest.point)) -
                            (c.distance + tool.corner_radius);
         if (const auto touch = touch_height(tool, x, y, c.nearest.point, std::max(0.0, fat))) {
             low = std::max(low, *touch);
         }
         if (c.distance >= -kTouching && trial <= high) {
-            // The tool may fall as far as it is from everything.
+            // The tool may drop by its distance from the model.
             high = trial - std::max(0.0, c.distance);
             if (c.distance <= max_error && tool.corner_radius > 0 && trial <= low + kTouching) {
                 return DroppedCutter{trial, place};
@@ -366,17 +365,18 @@ std::optional<PartModel::DroppedCutter> PartModel::drop_cutter(const Tool& tool,
             return std::nullopt;
         }
         const bool cut_a_little = tool.corner_radius > 0 && c.distance > -0.5 * tool.corner_radius;
-        // Beside an upright rim it falls no more at a time than it is off that: then it is tried
-        // half way down. Where it is free it can be lifted out, since all above it is the tool's.
+        // Beside an upright rim each step is as short as the distance from the rim: then the next
+        // trial is half way down. A tool that is clear there can be lifted out, since its shank
+        // covers everything above.
         const double bottom = std::max(low, floor - tool.radius);
         slow = high - bottom > kSlowShare * room ? slow + 1 : 0;
         room = high - bottom;
-        if (feels_depth && slow >= kMostSlow) {
+        if (measures_depth && slow >= kMostSlow) {
             trial = 0.5 * (bottom + high);
             continue;
         }
-        // Cut deep, but what it cuts is known now: up there is a better place to go on.
-        const bool climbs = feels_depth && low > was_low + max_error && ++deep <= kMostClimbs;
+        // A deep gouge, but its point is known now: the next trial touches that.
+        const bool climbs = measures_depth && low > was_low + max_error && ++deep <= kMostClimbs;
         trial =
             low > nothing && (cut_a_little || climbs) && trial != low && low < high ? low : high;
     }

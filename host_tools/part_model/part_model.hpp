@@ -1,13 +1,13 @@
 // The part: trimmed NURBS surfaces or a mesh, and the distance of a tool from it, exact and proved.
 //
 //     const PartModel part{surfaces};
-//     const ToolDistance d = part.distance(tool, tip, 1.0);       // d.nearest.point where d < 1 mm
-//     part.is_distance_at_least(tool, tip, 0.1);                  // quicker than asking how far
-//     part.move_clearance(tool, a, b, 0.1, 1e-4);                 // lower bound along a move
+//     const ToolDistance d = part.distance(tool, tip, 1.0);           // d.nearest: where d < 1 mm
+//     part.is_distance_at_least(tool, tip, 0.1);                      // quicker than distance()
+//     part.move_clearance(tool, a, b, 0.1, 1e-4);                     // lower bound along a move
 //     const std::optional<double> z = part.drop_height(tool, 10, 5);  // drop cutter
 //
-// Surfaces are cut into Bezier cells on which the distance is convex; everything else is pruned by
-// bounds from the control points.
+// Method: branch and bound. Surfaces are divided into Bezier cells until the distance is convex on
+// a cell. Bounds from the control points exclude all other cells.
 #pragma once
 
 #include <array>
@@ -24,22 +24,27 @@ namespace cusp::part_model {
 
 class SurfaceCut;
 
-// The place of the model that is nearest to a tool.
+// The point of the model nearest to a tool.
 struct NearestPoint {
     Vec3d point;
     double u{};
     double v{};
-    int surface{-1};  // number of the surface; -1 where nothing is nearer than the limit asked for
+    int surface{-1};  // number of the surface; -1 where nothing is nearer than the limit
 };
 
 struct ToolDistance {
-    double distance{};  // mm between tool and model; negative: depth of the cut, square to the tool
+    double distance{};  // mm between tool and model; negative: depth of the gouge, along its normal
     NearestPoint nearest;
 };
 
-class BezierCell;
+// What distance_within() may leave inexact, all in mm.
+struct DistanceOptions {
+    double least;      // distances below this may be inexact, but do not exceed it by `max_error`
+    double most;       // greater distances are returned as this
+    double max_error;  // how much too low distances between `least` and `most` may be
+};
 
-// A ball whose centre is straight over a place of a surface, along the upward normal.
+// A ball whose centre is above a point of a surface, along the upward normal.
 struct CcPoint {
     int surface;
     double u;
@@ -47,10 +52,6 @@ struct CcPoint {
     Vec3d point;
     Vec3d normal;
     double distance;  // mm from the point to the centre
-    // The piece of surface it lies in, and how much farther than the contact all but the
-    // surroundings of that is known to be; null and negative: not known.
-    mutable const BezierCell* cell{nullptr};
-    mutable double margin{-1};
 
     Vec3d centre() const { return point + normal * distance; }
 };
@@ -59,18 +60,19 @@ struct CcPoint {
 std::pair<Vec3d, Vec3d> centre_slopes(const nurbs::SurfacePoint& p, Vec3d normal, double distance);
 
 // The tool is the whole rotating body: its end as `Tool` describes it and a cylindrical shank
-// above, so a surface that overhangs the tool is seen, too. Model and tool meet from any side: a
-// tool below a surface is in contact with it.
+// above, so surfaces that overhang the tool count. Model and tool meet from any side: a tool below
+// a surface is in contact with it.
 //
-// Not for use by two threads at once: cells are cut further when a query first needs it.
+// Not for use by two threads at once, const members included: queries divide cells and keep the
+// halves. Threads that work in parallel take one each.
 class PartModel {
 public:
     // surfaces    valid (as the reader in host_tools/import checks them); trims are honoured
-    // edge_error  mm: how far the polylines that stand for trimmed edges may be from the edges;
-    //             distances to trimmed surfaces are low by at most this
+    // edge_error  mm: maximum distance between trimmed edges and the polylines for them; distances
+    //             to trimmed surfaces are too low by at most this
     explicit PartModel(const std::vector<nurbs::Surface>& surfaces, double edge_error = 1e-4);
 
-    // A mesh: its triangles as they are, whichever way they look. None may be without area.
+    // A mesh of triangles in either orientation. Each has an area > 0.
     explicit PartModel(const std::vector<std::array<Vec3d, 3>>& triangles);
     ~PartModel();
     PartModel(PartModel&&) noexcept;
@@ -78,66 +80,67 @@ public:
     PartModel(const PartModel&) = delete;
     PartModel& operator=(const PartModel&) = delete;
 
-    // tip    of the tool, its axis upright
-    // limit  mm: distances beyond it may be inexact
+    // The smaller of `limit` and the distance, with the nearest point. A gouge deeper than the
+    // corner radius, and any gouge of a flat tool, gives -corner_radius.
     //
-    // Returns the smaller of `limit` and the distance. A tool with a corner (ball, bull) that cuts
-    // deeper than its corner radius, or any cut of a flat tool, gives -corner_radius.
-    // Accuracy: never above the true value by more than 1e-9 mm; below it by at most 1e-7 mm plus
-    // `edge_error` near trims (`PartModelDistance` tests).
+    // tip    of the tool, its axis vertical
+    // limit  mm: the search is limited to points nearer than this
+    //
+    // Accuracy: too high by at most 1e-9 mm; too low by at most 1e-7 mm, and `edge_error` near
+    // trims (`PartModelDistance` tests).
     ToolDistance distance(const toolpath::Tool& tool, Vec3d tip, double limit) const;
 
-    // The clearance where it is between `least` and `most`, low by up to `max_error`; `most` where
-    // it is more; else anything up to `least`, which it does not exceed by more than `max_error`.
-    // All in mm. With flat and bull-nose tools, far quicker than the exact one, and with far fewer
-    // cells kept.
-    double distance_within(
-        const toolpath::Tool& tool, Vec3d tip, double least, double most, double max_error) const;
+    // The distance as accurate as the options require. With flat and bull-nose tools this is far
+    // quicker than distance() and keeps far fewer cells.
+    double distance_within(const toolpath::Tool& tool,
+                           Vec3d tip,
+                           const DistanceOptions& options) const;
 
-    // Whether the clearance is at least so much, mm; quicker than asking for it where it is not.
+    // Whether the distance is at least `least` (mm); quicker than distance() where it is not.
     bool is_distance_at_least(const toolpath::Tool& tool, Vec3d tip, double least) const;
 
-    // A lower bound of the clearance all along the straight move from `a` to `b`, never above
-    // `sufficient`, which ends the search early. `resolution` (mm) is how far below the truth the
-    // bound may be: smaller takes longer.
+    // A lower bound of the clearance along the straight move from tip `a` to tip `b`, mm.
     //
-    // Proof: the square of the distance to any set, less the square of the way along a line, is
-    // concave along the line, so two exact distances bound all between them.
+    // sufficient  mm: the search ends once the bound reaches this, which it never exceeds
+    // resolution  mm: how much too low the bound may be; smaller takes longer
+    //
+    // Proof: the squared distance to any set, less the squared arc length along a line, is concave
+    // along the line. So two exact distances bound all distances between them.
     double move_clearance(
         const toolpath::Tool& tool, Vec3d a, Vec3d b, double sufficient, double resolution) const;
 
     CcPoint cc_point(int surface, double u, double v, double distance) const;
 
-    // The contact of a ball whose centre is over (x, y) to 1e-10 mm, by Newton's method from a
-    // place in the domain; none where that does not settle inside the domain.
+    // The contact of a ball whose centre is over (x, y) to 1e-10 mm, by Newton's method from the
+    // parameters `near`; none where that does not converge inside the domain.
     std::optional<CcPoint> cc_point_under(
         double x, double y, int surface, Vec2d near, double distance) const;
 
-    // `upward_normal`, but where it is level, as on the rim of a half torus: the side that faces up
-    // beside it. `p` is the surface at (u, v).
+    // The upward normal. Where it is horizontal, as on the rim of a half torus, the side that faces
+    // up at neighbouring points decides. `p` is the surface at (u, v).
     Vec3d facing_up(int surface, double u, double v, const nurbs::SurfacePoint& p) const;
 
-    // A lower bound of the clearance of a ball along the straight way of its centre between two
-    // contacts, without a search for the nearest place; none where that proves less than
-    // `sufficient`: near creases, in valleys hardly wider than the ball, beside other surfaces.
-    // Proof: see `MoveClearanceBound`.
+    // A lower bound of the clearance of a ball whose centre moves straight between two contacts,
+    // without a search for the nearest point. None where it proves less than `sufficient`: near
+    // creases, in valleys hardly wider than the ball, beside other surfaces. Quickest where moves
+    // share a contact. Proof: see `MoveClearanceBound`.
     std::optional<double> move_clearance_between_contacts(const CcPoint& a,
                                                           const CcPoint& b,
                                                           double radius,
                                                           double sufficient) const;
 
-    // Least height of the tip at (x, y) from which the tool can be lifted out: exact drop of the
-    // tool on the model, shank included. None where it meets nothing.
-    // Accuracy: clearance at the result is in [-1e-8, 1e-6] mm.
+    // Drop cutter: the lowest tip at (x, y) from which the tool, shank included, can be lifted out
+    // of the model. None where the tool misses the model.
+    // Accuracy: the clearance at the result is in [-1e-8, 1e-6] mm.
     //
-    // guess  of the answer, mm: a near one makes the drop several times faster, any other costs
-    //        time only
+    // guess  of the result, mm: a near one makes the drop several times faster, any other one
+    //        slower
     std::optional<double> drop_height(const toolpath::Tool& tool,
                                       double x,
                                       double y,
                                       std::optional<double> guess = std::nullopt) const;
 
-    // The same with the place that the tool rests on, or one near it.
+    // As drop_height(), with the point that the tool rests on, or one near it.
     struct DroppedCutter {
         double tip;
         NearestPoint place;
@@ -152,47 +155,46 @@ public:
     // A ball dropped at (x, y) on a mesh; none where it misses the mesh.
     struct DroppedBall {
         Vec3d centre;
-        Vec3d point;   // that it rests on
+        Vec3d point;   // the contact
         Vec3d normal;  // of the facet there, never downward
     };
     std::optional<DroppedBall> drop_ball(double x, double y, double radius) const;
 
-    // The highest place of a mesh at (x, y). None beside the mesh; upright facets have no height.
+    // The highest point of a mesh at (x, y). None beside the mesh; upright facets have no height.
     struct TopPoint {
         Vec3d point;
         Vec3d normal;
     };
     std::optional<TopPoint> height_at(double x, double y) const;
 
-    // Of the control points.
+    // The box of the control points, or of the mesh.
     Vec3d box_low() const;
     Vec3d box_high() const;
 
-    // Height of the highest place, what trims cut off not counted; as accurate as a drop.
+    // z of the highest point inside the trims; as accurate as a drop.
     double highest() const;
 
-    // Drops the cells that queries have cut so far: they are cut again where they are needed. For
-    // long series of queries at new places, each of which would stay. No `CcPoint` from before and
-    // no `SurfaceCut` may be used after.
+    // Releases the halves of cells that queries have made; later queries make them again. Bounds
+    // the memory of long series of queries at new points. Invalidates every `SurfaceCut`.
     void forget_cells() const;
-    // The same where they are many: between queries of any long series.
+    // forget_cells() if there are many: to be called between queries of any long series.
     void forget_many_cells() const;
 
-    // Whether (u, v) lies in the trimmed domain of the surface.
+    // Whether (u, v) lies inside the trims of the surface.
     bool inside_trims(int surface, double u, double v) const;
 
-    // Whether all of a rectangle of the domain is trimmed away.
+    // Whether a whole rectangle of the domain is trimmed away.
     bool outside_trims(int surface, Vec2d low, Vec2d high) const;
 
-    // mm: how far below the truth distances to trimmed surfaces may be near their edges.
+    // mm: how much too low distances near trimmed edges may be.
     double edge_error() const;
 
-    // Evaluation by the cells: as `derivatives_at`, several times faster.
+    // derivatives_at() by the cells, several times faster.
     nurbs::SurfacePoint evaluate(int surface, double u, double v) const;
-    // The same; second derivatives may be left out.
+    // The same without second derivatives, which may be zero.
     nurbs::SurfacePoint tangents(int surface, double u, double v) const;
 
-    // The surface over one u, for many places of v.
+    // The surface at one u, for queries at many v.
     SurfaceCut cut_at(int surface, double u) const;
 
     struct State;

@@ -1,5 +1,5 @@
-// A search for a lower place in plan that needs no slopes: tries the ways round, halves its step
-// where none leads down.
+// Pattern search in the plan: a minimum without derivatives. Tries eight directions, and halves the
+// step where none leads lower.
 #pragma once
 
 #include <cmath>
@@ -8,18 +8,18 @@
 
 namespace cusp::part_model {
 
-// Walks from `at` to a place where no step leads lower.
+// Returns a point, reached from `at`, from which no step leads lower.
 //
-// step    mm: the first and longest
-// finest  mm: steps end here
-// lower   lower(place): whether that place is lower, by whatever a double tells apart, than the one
-//         the walk stands on; if so the walk goes there
+// step    mm: the first and longest one
+// finest  mm: the search ends with steps of this length
+// lower   lower(point): whether the point is strictly lower than the present one, which it then
+//         replaces
 template <class Lower>
 Vec2d pattern_search(Vec2d at, double step, double finest, const Lower& lower)
 {
     constexpr int kDirections = 8;
     constexpr double kEighth = 0.70710678118654752;  // of a turn: its sine and cosine
-    constexpr double kTurn = 0.41;  // radians, so that no valley lies between all directions
+    constexpr double kTurn = 0.41;                   // radians: rounds try different directions
     for (double turn = 0; step > finest; turn += kTurn) {
         bool moved = false;
         Vec2d way{step * std::cos(turn), step * std::sin(turn)};

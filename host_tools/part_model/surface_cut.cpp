@@ -1,4 +1,4 @@
-// Bicubic cells are reduced to curves of v when a place of theirs is first asked for.
+// Bicubic cells are reduced to curves of v when first queried.
 #include "host_tools/part_model/surface_cut.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A surface over one u: places of the same u follow each other quickly.
+// A surface at one u: quick evaluation at many v.
 #pragma once
 
 #include <vector>
@@ -8,18 +8,19 @@
 
 namespace cusp::part_model {
 
+// Refers to cells of the model: invalid after PartModel::forget_cells().
 class SurfaceCut {
 public:
     SurfaceCut(const PartModel& model, const PartModel::State& state, int surface, double u);
 
     // Point and first derivatives by u and v, as `PartModel::tangents`.
     nurbs::SurfacePoint at(double v);
-    // Second derivatives, too, as `PartModel::evaluate`.
+    // Second derivatives as well, as `PartModel::evaluate`.
     nurbs::SurfacePoint bends_at(double v);
 
 private:
     struct Piece {
-        const BezierCell* cell;  // null: not asked for yet
+        const BezierCell* cell;  // null: not queried yet
         bool bicubic;
         double per_u;  // of the cell's parameters
         double per_v;
@@ -32,7 +33,7 @@ private:
     int surface_;
     double u_;
     std::vector<Piece> pieces_;  // by spans of v
-    std::size_t last_{0};        // the next place is mostly beside the last one
+    std::size_t last_{0};        // the piece of the last query
 };
 
 }  // namespace cusp::part_model

@@ -1,4 +1,4 @@
-// A piece is asked from its nearest sample; one that folds from all of them.
+// Newton's method starts from the nearest sample of a piece; from all samples of one that folds.
 #include "host_tools/part_model/surface_height_map.hpp"
 
 #include <algorithm>
@@ -19,10 +19,10 @@ constexpr std::size_t kBins = 128;     // along each side of the box
 constexpr double kBeyondPiece = 0.25;  // of a piece's size: its edges are not straight
 constexpr int kMostSteps = 20;
 constexpr double kMeet = 1e-7;      // mm
-constexpr double kTooSteep = 1e-3;  // of the cosine: too steep to start from
-constexpr double kSingular = 1e-9;  // the same: no step can be made
+constexpr double kTooSteep = 1e-3;  // cosine of the slope: too steep to start from
+constexpr double kSingular = 1e-9;  // cosine of the slope: no step is possible
 
-// The cosine of the slope, with its sign: which side of the surface is seen from above.
+// The cosine of the slope; its sign says which side of the surface faces up.
 double facing(const SurfacePoint& s)
 {
     const double across = norm(s.du) * norm(s.dv);
@@ -31,7 +31,7 @@ double facing(const SurfacePoint& s)
 
 int parts_along(const Surface& patch, bool along_u, double width)
 {
-    // isocurves are no longer than the control polygons
+    // Isocurves are no longer than the longest row of control points.
     const auto size_u = static_cast<std::size_t>(patch.size_u);
     const auto size_v = static_cast<std::size_t>(patch.size_v);
     const std::size_t rows = along_u ? size_v : size_u;
@@ -142,7 +142,7 @@ std::optional<double> SurfaceHeightMap::at(double x, double y) const
         }
         if (piece.folds) {
             for (const Sample& sample : piece.samples) {
-                if (sample.leans_little) {
+                if (sample.can_start) {
                     raise(piece, sample, x, y, height);
                 }
             }

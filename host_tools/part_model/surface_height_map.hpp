@@ -1,4 +1,4 @@
-// Heights of surfaces over single places, seen from above.
+// The height of surfaces over a point in plan.
 #pragma once
 
 #include <array>
@@ -12,17 +12,18 @@
 
 namespace cusp::part_model {
 
-// Roots of the surfaces' equations (Newton) from a net of samples: each surface is walked in small
-// pieces, and the pieces that may lie over a place are asked. Upright surfaces have no height.
+// Each surface is divided into small pieces with nine samples. A query solves the equations of the
+// pieces that may lie over the point by Newton's method, from a sample. Upright surfaces have no
+// height.
 //
-// Accuracy: 1e-7 mm in x and y. What a piece hides from its nine samples (folds narrower than a
-// 100th of the surfaces' box) may be missed.
+// Accuracy: 1e-7 mm in x and y. Folds that the samples do not show (narrower than a 100th of the
+// surfaces' box) may be missed.
 class SurfaceHeightMap {
 public:
     // edge_error  mm: of trims, as `TrimRegion` takes it
     SurfaceHeightMap(const std::vector<nurbs::Surface>& surfaces, double edge_error);
 
-    // The highest; none beside the surfaces.
+    // The highest point at (x, y): its z, mm; none beside the surfaces.
     std::optional<double> at(double x, double y) const;
 
 private:
@@ -30,14 +31,14 @@ private:
         double u;
         double v;
         Vec3d point;
-        bool leans_little;  // far enough from upright to start from
+        bool can_start;  // not too steep to start Newton's method
     };
     struct Piece {
         std::size_t patch;
         Vec2d low;
         Vec2d high;
         std::array<Sample, 9> samples;
-        bool folds;  // seen from both sides, or upright somewhere
+        bool folds;  // its samples face up and down, or are too steep
     };
     struct Patch {
         std::size_t surface;

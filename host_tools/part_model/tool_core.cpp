@@ -1,4 +1,5 @@
-// Boxes turned along tangent planes; edges in closed form for a ball, by halving for a disc.
+// Distances from boxes along tangent planes, and from edges: in closed form for a ball, by
+// bisection for a disc.
 #include "host_tools/part_model/tool_core.hpp"
 
 #include <algorithm>
@@ -10,8 +11,8 @@ using toolpath::Tool;
 
 namespace {
 
-// Nearest point of a straight edge to a ball's core, which is a point and all above it: below the
-// point the nearest in space counts, above it the nearest seen from above.
+// The nearest point of a straight edge to the core of a ball, a point and everything above it: the
+// nearest in space below that point, the nearest in plan above it.
 double ball_edge_distance(const ToolCore& core, const std::array<Vec3d, 2>& edge, Vec3d& place)
 {
     const Vec3d d = edge[1] - edge[0];
@@ -24,8 +25,8 @@ double ball_edge_distance(const ToolCore& core, const std::array<Vec3d, 2>& edge
         const double in_space = std::clamp((along + from.z * d.z) / (level + rise), 0.0, 1.0);
         t = in_space;
         if (edge[0].z + t * d.z > core.end.z) {
-            // The squared distance is convex and smooth: where its lower part still falls at the
-            // core's height, the least is above.
+            // The squared distance is convex and smooth: if its part below the core's end still
+            // falls there, the minimum is above.
             const double seen = level > 0 ? std::clamp(along / level, 0.0, 1.0) : t;
             const double height = edge[0].z + seen * d.z;
             t = height >= core.end.z ? seen : from.z / d.z;
@@ -42,7 +43,7 @@ ToolCore core_of(const Tool& tool, Vec3d tip)
     return {tool.radius - tool.corner_radius, {tip.x, tip.y, tip.z + tool.corner_radius}};
 }
 
-// From the box along the tangent plane.
+// By the box along the tangent plane.
 double oriented_distance(const ToolCore& core, const BezierCell& cell)
 {
     const Vec3d from = core.end - cell.middle().point;
@@ -62,7 +63,7 @@ double oriented_distance(const ToolCore& core, const BezierCell& cell)
     return std::sqrt(square);
 }
 
-// Nearest point of a straight edge: the distance to the core is convex along it.
+// Bisection: the distance from the core is convex along the edge.
 double edge_distance(const ToolCore& core, const std::array<Vec3d, 2>& edge, Vec3d& place)
 {
     if (core.radius == 0) {

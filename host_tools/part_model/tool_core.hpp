@@ -1,4 +1,5 @@
-// A tool without its corner radius, and how far it is from points, boxes, edges and cells.
+// The core of a tool, its shape without the corner radius, and its distance from points, boxes,
+// edges and cells.
 #pragma once
 
 #include <algorithm>
@@ -10,14 +11,14 @@
 
 namespace cusp::part_model {
 
-// What is left of a tool when its corner radius is taken off all round: a disc of radius `radius`
-// at `end` (a point for a ball) and everything straight above it. It is convex, so the square of
-// the distance to it is convex and smooth.
+// The tool offset inward by its corner radius: a disc of radius `radius` at `end` (a point for a
+// ball) and everything straight above. It is convex, so the squared distance from it is convex and
+// smooth.
 struct ToolCore {
     double radius;
     Vec3d end;
 
-    // From the nearest point of the core to `p`.
+    // The vector from the nearest point of the core to `p`.
     Vec3d reach(Vec3d p) const
     {
         Vec3d r{p.x - end.x, p.y - end.y, std::min(0.0, p.z - end.z)};
@@ -48,7 +49,7 @@ ToolCore core_of(const toolpath::Tool& tool, Vec3d tip);
 // A lower bound of the distance from the core to a cell.
 double oriented_distance(const ToolCore& core, const BezierCell& cell);
 
-// Distance to a straight edge and its nearest point, `place`.
+// The distance from the core to a straight edge, and the edge's nearest point, `place`.
 double edge_distance(const ToolCore& core, const std::array<Vec3d, 2>& edge, Vec3d& place);
 
 }  // namespace cusp::part_model

@@ -1,4 +1,4 @@
-// Even-odd test against polygons that hold what stays, fine both in (u, v) and in space.
+// Even-odd test against polygons that contain the trimmed domain, fine in (u, v) and in space.
 #include "host_tools/part_model/trim_region.hpp"
 
 #include <algorithm>
@@ -12,20 +12,20 @@ using nurbs::Surface;
 
 namespace {
 
-constexpr int kFirstHalvings = 2;  // of a Bezier piece: its probe is at the middle only
+constexpr int kFirstHalvings = 2;  // of a Bezier piece, which is probed at its middle only
 constexpr int kDeepestHalving = 14;
 constexpr std::size_t kSidesInRow = 4;
 constexpr std::size_t kMostRows = 2000;
 constexpr double kRounding = 1e-12;  // of a length
 
-// Whether p stands to the right of the way, by more than rounding.
+// Whether p lies to the right of the segment, by more than rounding.
 bool right_of(Vec2d from, Vec2d to, Vec2d p)
 {
     return cross(p - from, to - from) > kRounding * norm(to - from) * norm(to - from);
 }
 
-// Follows loops, to whose left the surface stays. A Bezier piece lies in the hull of its control
-// points: sides along the hull's right end leave nothing out, wherever the piece bends.
+// Turns loops with the inside to their left into polygons. A Bezier piece lies in the convex hull
+// of its control points, so a polygon along the right side of the hull excludes nothing inside.
 class EdgeTracer {
 public:
     EdgeTracer(const Surface& surface, double edge_error)
@@ -49,7 +49,7 @@ private:
     {
         const double middle = 0.5 * (piece.domain_begin() + piece.domain_end());
         const bool fine =
-            depth >= kFirstHalvings && goes_on(piece) && off(piece, middle) <= edge_error_;
+            depth >= kFirstHalvings && is_monotone(piece) && off(piece, middle) <= edge_error_;
         if (fine || depth == kDeepestHalving) {
             append(piece);
             return;
@@ -59,8 +59,8 @@ private:
         }
     }
 
-    // Whether no control point stands before the first or behind the last one.
-    static bool goes_on(const Curve& piece)
+    // Whether all control points project onto the chord between the first and the last one.
+    static bool is_monotone(const Curve& piece)
     {
         const Vec2d from = in_plan(piece.points.front());
         const Vec2d way = in_plan(piece.points.back()) - from;
@@ -73,8 +73,8 @@ private:
 
     Vec3d in_space(Vec3d p) const { return point_at(surface_, p.x, p.y); }
 
-    // How far the sides may lie from the edge in space. Of the chord's middle half is allowed: the
-    // rest is for what the probe does not see.
+    // Bound of the distance between the sides and the edge in space. The deviation at the middle
+    // counts twice, since other points are not probed.
     double off(const Curve& piece, double middle) const
     {
         const Vec3d from = in_space(piece.points.front());
@@ -90,8 +90,8 @@ private:
         return most;
     }
 
-    // The right end of the hull, from the first control point to the last one: those that stand
-    // beyond the way between them, in the order along it, without what then stands back.
+    // Appends the right side of the hull, from the first control point to the last: the points to
+    // the right of the chord, in order along it, without those that are not convex.
     void append(const Curve& piece)
     {
         const Vec2d from = in_plan(piece.points.front());
@@ -123,7 +123,7 @@ private:
     std::vector<Vec2d> corners_;
 };
 
-// The part of the side, as shares, that lies in the rectangle (Liang and Barsky).
+// The part of the side inside the rectangle, as parameters from 0 to 1 (Liang & Barsky).
 std::optional<std::array<double, 2>> part_in(const std::array<Vec2d, 2>& side,
                                              Vec2d low,
                                              Vec2d high)
@@ -209,7 +209,7 @@ bool TrimRegion::inside(double u, double v) const
     return in;
 }
 
-// A little wider, so that an edge along the rectangle's own side counts.
+// Slightly widened, so that an edge along a side of the rectangle counts.
 TrimRegion::Box TrimRegion::widened(double u_begin, double u_end, double v_begin, double v_end)
 {
     const Vec2d max_error{1e-9 * (u_end - u_begin), 1e-9 * (v_end - v_begin)};

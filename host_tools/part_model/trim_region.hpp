@@ -1,4 +1,4 @@
-// The trimmed domain of a surface: inside or outside, and the edges as polylines in space.
+// The trimmed domain of a surface: what is inside, and the edges as polylines in space.
 #pragma once
 
 #include <array>
@@ -11,24 +11,23 @@ namespace cusp::part_model {
 
 class TrimRegion {
 public:
-    // surface     its loops are closed, in (u, v); it stays to their left
-    // edge_error  mm between an edge in space and its polyline, which cuts off nothing that stays:
-    //             what is inside by the loops is inside here, and what is proven of this region
-    //             holds for that
+    // surface     its trims are closed loops in (u, v) with the inside to their left
+    // edge_error  mm: maximum distance between an edge in space and its polyline. The polylines cut
+    //             off nothing: every point inside the loops is inside here, so what is proved for
+    //             this region holds for the trimmed surface
     TrimRegion(const nurbs::Surface& surface, double edge_error);
 
     bool trimmed() const { return !sides_.empty(); }
     bool inside(double u, double v) const;
 
     enum class Part : std::uint8_t { kInside, kOutside, kCut };
-    // Of a rectangle of the domain; kCut where an edge may touch it.
+    // Where a rectangle of the domain lies; kCut if an edge may touch it.
     Part part(double u_begin, double u_end, double v_begin, double v_end) const;
 
-    // What edges leave of a rectangle of the domain lies in the convex hull of these places, (u,
-    // v).
+    // The inside part of a rectangle of the domain lies in the convex hull of these points (u, v).
     struct Remnant {
-        std::vector<Vec2d> corners;  // of the rectangle, as far as they are inside
-        std::vector<Vec2d> edge;     // ends of the edges' sides in the rectangle
+        std::vector<Vec2d> corners;  // corners of the rectangle that are inside
+        std::vector<Vec2d> edge;     // ends of the parts of polyline sides in the rectangle
     };
     Remnant remnant(double u_begin, double u_end, double v_begin, double v_end) const;
 

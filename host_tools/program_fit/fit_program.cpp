@@ -1,4 +1,4 @@
-// Sorts lines into runs and others, and writes what becomes of them.
+// Sorts lines into runs and others, and writes fitted moves for the runs.
 #include "host_tools/program_fit/fit_program.hpp"
 
 #include <algorithm>
@@ -272,7 +272,7 @@ void Fitter::write(const segmenter::FittedMove& move)
                                        : Motion::kArcCounterClockwise;
 }
 
-// Copies a line, and first what it takes for granted and a fitted move before it has changed.
+// Copies a line; before it come the modal words that it relies on and a fitted move has changed.
 void Fitter::copy(std::string_view text, const ModalState& modal_before)
 {
     Command command;

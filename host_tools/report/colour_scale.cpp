@@ -1,4 +1,4 @@
-// A scale that grows evenly brighter, so that it reads in grey, too.
+// A scale of evenly growing brightness, so that it is readable in grey, too.
 #include "host_tools/report/colour_scale.hpp"
 
 #include <algorithm>

@@ -17,10 +17,13 @@ using verify::Verification;
 
 namespace {
 
-constexpr int kUncut = -2;
+// Beyond the scale: not cut at all, or left higher than the bound.
+constexpr int kUncut = kColourSteps;
+constexpr int kOver = kColourSteps + 1;
+constexpr const char* kOverColour = "#d7191c";
 constexpr std::size_t kMostCells = 400;  // along the longer side of the picture
 
-// The highest of the values of a square of grid points; an uncut one beats all.
+// The highest value of a square of grid points; an uncut point counts as the highest.
 int step_of_square(
     const Verification& result, std::size_t i0, std::size_t j0, std::size_t size, double highest)
 {
@@ -38,7 +41,7 @@ int step_of_square(
     if (!any) {
         return ColourRuns::kNothing;
     }
-    return std::isinf(most) ? kUncut : step_of(most, 0, highest);
+    return std::isinf(most) ? kUncut : most > highest ? kOver : step_of(most, 0, highest);
 }
 
 }  // namespace
@@ -54,27 +57,41 @@ std::string left_picture(const Job& job, const Verification& result)
         std::max<std::size_t>(1, (std::max(grid.nx, grid.ny) + kMostCells - 1) / kMostCells);
     const double highest =
         result.figures.scallop_bound.value_or(std::max(1e-3, result.figures.scallop_p99));
-    // the last is what was not cut
-    ColourRuns runs{kColourSteps + 1};
+    ColourRuns runs{kColourSteps + 2};
+    bool any_over = false;
     const double side = static_cast<double>(size) * grid.pitch;
     for (std::size_t i = 0; i < grid.nx; i += size) {
         for (std::size_t j = 0; j < grid.ny; j += size) {
             const int step = step_of_square(result, i, j, size, highest);
-            runs.add(i / size, j / size, step == kUncut ? kColourSteps : step);
+            any_over = any_over || step == kOver;
+            runs.add(i / size, j / size, step);
         }
     }
     std::string out = frame.head() + frame.panel(0, "Metal left over what the tool reaches");
-    out +=
-        runs.text(frame.x_low, frame.flipped(frame.y_low), side,
-                  [](int k) {
-                      return "stroke=\"" + (k == kColourSteps ? "black" : colour_of_step(k)) + "\"";
-                  }) +
-        walls(job, frame) + "</g>\n";
+    out += runs.text(frame.x_low, frame.flipped(frame.y_low), side,
+                     [](int k) {
+                         return "stroke=\"" +
+                                (k == kUncut  ? std::string{"black"}
+                                 : k == kOver ? std::string{kOverColour}
+                                              : colour_of_step(k)) +
+                                "\"";
+                     }) +
+           walls(job, frame) + "</g>\n";
     out += frame.ruler();
+    const char* bound = result.figures.scallop_bound ? "scallop bound" : "99 % of the floor";
     out += frame.scale(0, highest, "left, mm");
-    if (result.figures.uncut_share > 0) {
+    int row = 0;
+    const auto legend = [&](const char* colour, const std::string& title) {
         out += frame.legend(
-            0, fmt::format("stroke=\"black\" stroke-width=\"{:.3f}\"", frame.text()), "uncut");
+            row++, fmt::format("stroke=\"{}\" stroke-width=\"{:.3f}\"", colour, frame.text()),
+            title);
+    };
+    legend(colour_of_step(kColourSteps - 1).c_str(), fmt::format("{:.3g}: {}", highest, bound));
+    if (any_over) {
+        legend(kOverColour, fmt::format("to {:.3g}", result.figures.scallop_max));
+    }
+    if (result.figures.uncut_share > 0) {
+        legend("black", "uncut");
     }
     return out + "</svg>\n";
 }

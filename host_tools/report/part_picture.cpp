@@ -133,7 +133,7 @@ std::string layer_picture(const LayerInfo& layer, const PictureFrame& frame)
     constexpr std::array<const char*, 2> kFills{"#bcd4ee", "#ffffff"};
     std::string lines;
     std::string labels;
-    // The largest come first, so that what lies in them is drawn over them.
+    // The largest loops come first, so that loops inside are drawn over them.
     for (std::size_t k = 0; k < layer.loops.loops.size(); ++k) {
         const ClosedLoop& loop = layer.loops.loops[k];
         const bool hole = loop.depth % 2 == 1;

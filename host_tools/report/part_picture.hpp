@@ -11,7 +11,7 @@ namespace cusp::report {
 // steepest place apart from walls, the place that bounds the ball, and an undercut. Drawings: loops
 // filled by their depth and numbered layer by layer, open chains in red with their ends.
 //
-// info  with the surfaces or triangles it was made of
+// info  still holding its surfaces or triangles
 std::string part_picture(const part_info::PartInfo& info);
 
 }  // namespace cusp::report

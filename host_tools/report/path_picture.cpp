@@ -146,7 +146,7 @@ std::string title_of(const Job& job, int number)
 void add_moves(const Program& program, int tool, const Extent& extent, std::string& out)
 {
     PathLines lines{extent.frame, out};
-    // the first move comes from where the machine happens to stand
+    // the first move starts at an unknown position of the machine
     for (std::size_t k = 2; k < program.moves.size(); ++k) {
         const path::Move& move = program.moves[k].move;
         if (program.moves[k].tool != tool) {

@@ -65,7 +65,7 @@ std::string PictureFrame::ruler() const
 
 std::string PictureFrame::scale(double low, double high, const std::string& title) const
 {
-    // ten numbers have room one over the other
+    // ten numbers fit one above the other
     const double size = std::min(0.8 * text(), height() / 14);
     return scale_bar(scale_x(), y_low, 0.75 * height(), size, low, high, title);
 }

@@ -1,4 +1,4 @@
-// What both pictures share: panels around the part, y upwards, the walls, and a ruler.
+// The frame of all pictures: panels around the part, y upwards, the walls, and a ruler.
 #pragma once
 
 #include <algorithm>

@@ -9,13 +9,14 @@
 
 namespace cusp::simulate {
 
-// Rows `t_us,x_nm,y_nm,z_nm`: where the machine is at t_us on the clock of the pulse trace.
+// Rows `t_us,x_nm,y_nm,z_nm,line`: where the machine is at t_us on the clock of the pulse trace, and the line of the
+// program that it executes; 0 before the first.
 class SamplesWriter {
 public:
     // Throws InputError, as the rest.
     explicit SamplesWriter(const std::string& file);
 
-    void write(std::uint64_t microseconds, Position at);
+    void write(std::uint64_t microseconds, Position at, std::uint32_t line);
     void close() { file_.close(); }
 
 private:

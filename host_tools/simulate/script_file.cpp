@@ -9,6 +9,8 @@
 
 namespace cusp::simulate {
 
+using program_run::ScriptedByte;
+
 std::vector<ScriptedByte> read_script(const std::string& file)
 {
     std::ifstream in{file};

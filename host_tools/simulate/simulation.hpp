@@ -13,19 +13,16 @@
 // time. The first error or alarm ends the run.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "firmware/machine/settings.hpp"
-#include "host_tools/simulate/motion_statistics.hpp"
-#include "host_tools/simulate/program_shadow.hpp"
-#include "host_tools/simulate/tool_times.hpp"
+#include "host_tools/program_run/program_run.hpp"
 
 namespace cusp::simulate {
+
+using SetPoint = program_run::SetPoint;
 
 // How far a run is; called some ten times a second.
 struct SimulationProgress {
@@ -34,27 +31,13 @@ struct SimulationProgress {
     double simulated_s;
 };
 
-// A realtime byte that the firmware reads before the servo tick of this number, counted from 0.
-struct ScriptedByte {
-    std::uint64_t tick;
-    std::uint8_t byte;
-};
-
 // Reads lines `tick byte`, both decimal, ticks not falling. Throws InputError.
-std::vector<ScriptedByte> read_script(const std::string& file);
+std::vector<program_run::ScriptedByte> read_script(const std::string& file);
 
-struct SimulationOptions {
-    machine::Settings settings;
-    // While it has bytes left a hold lasts until the script's cycle start; without, it is over at
-    // once.
-    std::vector<ScriptedByte> script;
+struct SimulationOptions : program_run::RunOptions {
     // Files to write; empty: none.
     std::string vcd_file;
     std::string samples_file;
-    // Height of the probe plate over the start, mm.
-    std::optional<double> probe_z;
-    // Bits per second of the serial line; 0: lines take no time.
-    std::uint32_t bits_per_second{0};
     std::function<void(const SimulationProgress&)> progress;
     // Called when the first set point of a line has been reached; for tables of times.
     std::function<void(std::uint32_t line, double seconds)> line_started;
@@ -62,40 +45,8 @@ struct SimulationOptions {
     std::function<bool()> stop;
 };
 
-// An answer that ended the run, or a line that the sender could not send.
-struct SimulationError {
-    std::uint64_t line;  // of the program
-    int code;            // Grbl's; 0 where the fault is not the firmware's
-    std::string text;
-    std::string block;  // the line as the program has it; empty where the fault is not a line's
-    std::string word;   // of the block, the one that is refused; empty where no single word is
-};
-
-struct SimulationResult {
-    double duration_s{0};  // from the first to the last moving tick
-    double total_s{0};     // dwells at both ends too
+struct SimulationResult : program_run::RunResult {
     double wall_s{0};
-    std::uint64_t lines{0};
-    ProgramMoveCounts moves;
-    PerAxis<std::uint64_t> steps{};  // pulses, both ways
-    Position end;                    // machine coordinates
-    double length_mm{0};
-    Vec3d max_velocity;
-    Vec3d max_acceleration;
-    Vec3d max_jerk;
-    double max_deviation_mm{0};
-    std::uint64_t max_deviation_line{0};
-    std::uint64_t starved_ticks{0};
-    int alarm{0};  // Grbl's code; 0: none
-    std::vector<SimulationError> errors;
-    // M0, M1 and tool changes, which went on at once.
-    std::vector<std::uint64_t> pause_lines;
-    std::uint64_t pauses{0};
-    std::vector<ToolTime> tools;  // in the order of their first use
-    std::uint64_t tool_changes{0};
-    bool stopped{false};
-
-    bool good() const { return errors.empty() && alarm == 0 && !stopped; }
 };
 
 // Throws InputError where a file can't be read or written.

@@ -1,4 +1,5 @@
 // The statistics of a run as JSON.
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "host_tools/simulate/simulation.hpp"
@@ -15,7 +16,7 @@ Json per_axis(Vec3d vector) { return Json::array({vector.x, vector.y, vector.z})
 std::string statistics_json(const SimulationResult& result)
 {
     Json errors = Json::array();
-    for (const SimulationError& error : result.errors) {
+    for (const program_run::RunError& error : result.errors) {
         errors.push_back({{"line", error.line},
                           {"code", error.code},
                           {"text", error.text},
@@ -23,10 +24,10 @@ std::string statistics_json(const SimulationResult& result)
                           {"word", error.word}});
     }
     Json tools = Json::array();
-    for (const ToolTime& tool : result.tools) {
+    for (const program_run::ToolTime& tool : result.tools) {
         tools.push_back({{"number", tool.number}, {"time_s", tool.seconds()}});
     }
-    const ProgramMoveCounts& moves = result.moves;
+    const program_run::ProgramMoveCounts& moves = result.moves;
     Json json{
         {"duration_s", result.duration_s},
         {"total_s", result.total_s},
@@ -37,6 +38,7 @@ std::string statistics_json(const SimulationResult& result)
           {"line", moves.line},
           {"arc", moves.arc},
           {"nurbs", moves.nurbs}}},
+        {"edges_crc32", fmt::format("{:08x}", result.edges_crc32)},
         {"steps", Json::array({result.steps[0], result.steps[1], result.steps[2]})},
         {"end_mpos_mm", per_axis(to_millimetres(result.end))},
         {"length_mm", result.length_mm},

@@ -4,6 +4,8 @@
 #include <array>
 #include <string_view>
 
+#include "firmware/base/axis.hpp"
+
 namespace cusp::simulate {
 namespace {
 
@@ -21,7 +23,7 @@ VcdWriter::VcdWriter(const std::string& file,
                      const hal::SimulatedMill& mill,
                      std::uint64_t start,
                      PulseLines levels)
-    : file_{file}, mill_{mill}, start_{start}, levels_{levels}
+    : EdgeListener{start, levels}, file_{file}, mill_{mill}
 {
     file_.write("$version cusp sim $end\n$timescale 1 us $end\n$scope module mill $end\n");
     for (unsigned wire = 0; wire < kWires.size(); ++wire) {
@@ -33,36 +35,23 @@ VcdWriter::VcdWriter(const std::string& file,
     }
     file_.write("$upscope $end\n$enddefinitions $end\n#0\n$dumpvars\n");
     for (unsigned axis = 0; axis < kAxisCount; ++axis) {
-        write_level((levels_ & step_line(axis)) != 0, 2 * axis);
-        write_level((levels_ & direction_line(axis)) != 0, 2 * axis + 1);
+        write_level((levels & step_line(axis)) != 0, 2 * axis);
+        write_level((levels & direction_line(axis)) != 0, 2 * axis + 1);
     }
     write_level(false, kSpindleWire);
     write_level(false, kCoolantWire);
     file_.write("$end\n");
 }
 
-void VcdWriter::frame_played(std::uint64_t start_tick, const PulseFrame& frame)
+void VcdWriter::edge(std::uint64_t tick, unsigned wire, bool level)
 {
-    // A frame that was in flight before the dump began is not of it.
-    if (start_tick < start_) {
-        return;
-    }
-    const std::uint64_t tick = start_tick - start_;
-    watch_outputs(tick);
-    for (const PulseEdge& edge : frame.edges) {
-        const auto now = static_cast<PulseLines>((levels_ | edge.raise) & ~unsigned{edge.lower});
-        const auto changed = static_cast<PulseLines>(now ^ levels_);
-        levels_ = now;
-        if (changed != 0) {
-            write_changes(tick + edge.tick, changed);
-        }
-    }
-    end_ = tick + kPulseTicksPerFrame;
+    write_time(tick);
+    write_level(level, wire);
 }
 
 void VcdWriter::close()
 {
-    write_time(end_);
+    write_time(end());
     file_.close();
 }
 
@@ -83,20 +72,7 @@ void VcdWriter::write_level(bool level, unsigned wire)
     file_.write(std::string_view{text.data(), text.size()});
 }
 
-void VcdWriter::write_changes(std::uint64_t tick, PulseLines changed)
-{
-    write_time(tick);
-    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
-        if ((changed & direction_line(axis)) != 0) {
-            write_level((levels_ & direction_line(axis)) != 0, 2 * axis + 1);
-        }
-        if ((changed & step_line(axis)) != 0) {
-            write_level((levels_ & step_line(axis)) != 0, 2 * axis);
-        }
-    }
-}
-
-void VcdWriter::watch_outputs(std::uint64_t tick)
+void VcdWriter::frame_begins(std::uint64_t tick)
 {
     const hal::OutputLevels& outputs = mill_.outputs();
     const bool coolant = outputs.flood || outputs.mist;

@@ -5,14 +5,14 @@
 #include <string>
 
 #include "hal/sim/simulated_mill.hpp"
-#include "hal/sim/simulated_player.hpp"
 #include "host_tools/files/files.hpp"
+#include "host_tools/program_run/edge_listener.hpp"
 
 namespace cusp::simulate {
 
 // Wires step_x dir_x step_y dir_y step_z dir_z (logical levels: a step is a rising edge, dir 1 is
 // plus), spindle and coolant. Spindle and coolant change at the start of a servo tick.
-class VcdWriter : public hal::FrameListener {
+class VcdWriter : public program_run::EdgeListener {
 public:
     // Watches the outputs of `mill`, which outlives it. Throws InputError.
     //
@@ -23,25 +23,23 @@ public:
               std::uint64_t start,
               PulseLines levels);
 
-    void frame_played(std::uint64_t start_tick, const PulseFrame& frame) override;
-
     // Ends the dump with the time at which the last frame is over.
     void close();
+
+protected:
+    // Spindle and coolant.
+    void frame_begins(std::uint64_t tick) override;
+    void edge(std::uint64_t tick, unsigned wire, bool level) override;
 
 private:
     void write_time(std::uint64_t tick);
     void write_level(bool level, unsigned wire);
-    void write_changes(std::uint64_t tick, PulseLines changed);
-    void watch_outputs(std::uint64_t tick);
 
     files::TextFile file_;
     const hal::SimulatedMill& mill_;
-    std::uint64_t start_;
-    PulseLines levels_;
     bool spindle_{false};
     bool coolant_{false};
     std::uint64_t last_written_{0};
-    std::uint64_t end_{0};
 };
 
 }  // namespace cusp::simulate

@@ -13,13 +13,19 @@
 #include "boards/sim/simulated_controller.hpp"
 #include "host_tools/files/files.hpp"
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/program_run/mill_setup.hpp"
 #include "host_tools/simulate/fault_command.hpp"
-#include "host_tools/simulate/mill_setup.hpp"
 #include "host_tools/simulate/serial_end.hpp"
 #include "host_tools/simulate/settings_file.hpp"
 #include "host_tools/simulate/vcd_writer.hpp"
 
 namespace cusp::simulate {
+
+using program_run::kAmidTravel;
+using program_run::mill_geometry;
+using program_run::store_settings;
+using program_run::stored_settings;
+
 namespace {
 
 using Clock = std::chrono::steady_clock;

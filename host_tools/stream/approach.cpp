@@ -12,7 +12,7 @@ namespace {
 using gcode::ModalState;
 using gcode::Motion;
 
-// Where the program never went straight down.
+// The plunge feed where the program never went straight down.
 constexpr float kPlungeFeed = 100.0F;  // mm/min
 
 std::string words_of(std::int64_t nanometres)
@@ -63,13 +63,13 @@ void restore_accessories(const ModalState& modal, std::vector<std::string>& line
     }
 }
 
-// What holds for the program's own lines; in millimetres until the last of them.
+// The modal state of the program's own lines; in millimetres until the last of them.
 void restore_modal(const ModalState& modal, std::vector<std::string>& lines)
 {
     if (modal.feed > 0 && !modal.inverse_time) {
         lines.push_back(fmt::format("F{:.4f}", static_cast<double>(modal.feed)));
     }
-    // A controller that has just been reset is at the defaults, which a stock Grbl need not know.
+    // A reset controller is at the defaults; a stock Grbl may not know these words.
     if (modal.exact_path) {
         lines.push_back("G61");
     } else if (!modal.default_tolerance) {
@@ -99,7 +99,7 @@ Approach make_approach(const ResumePoint& point,
     const std::size_t system = point.modal.coordinate_system;
     const Position shift = point.parameters.coordinate_offset;
     const std::int64_t length = point.parameters.tool_length_offset_nm;
-    // Without G92: what the tool is driven in until the point is reached.
+    // Coordinates without G92, in which the tool is driven until the point is reached.
     const Position was = point.parameters.work_offsets[system] + Position{0, 0, length};
     const bool changed = point.parameters.work_offsets[system] != before.work_offsets[system];
     const Position is = changed ? was : now.work_offsets[system] + Position{0, 0, length};
@@ -115,7 +115,7 @@ Approach make_approach(const ResumePoint& point,
     restore_offsets(point, before, approach.lines);
     approach.lines.push_back("G0Z" + words_of(travel_z));
     approach.lines.push_back("G0X" + words_of(goal.x) + "Y" + words_of(goal.y));
-    // Down to where the program itself travels; slowly from there.
+    // Rapid down to the program's own travel height; at the plunge feed from there.
     const std::int64_t down_z = std::max(wanted_z, goal.z);
     if (down_z < travel_z) {
         approach.lines.push_back("G0Z" + words_of(down_z));

@@ -1,5 +1,4 @@
-// The way back to the work: lines that rebuild the modal state of a resume point and bring the tool
-// there from above.
+// Lines that rebuild the modal state of a resume point and bring the tool there from above.
 #pragma once
 
 #include <cstdint>
@@ -24,9 +23,9 @@ struct Approach {
 // and leaves units, plane, distance, feed, path, tool length and G92 as they were. The controller
 // has been reset before.
 //
-//   point    where to go on
+//   point    where to resume
 //   before   offsets when the program began: what the program has changed since is set again, the
-//            rest is left as a person may have set it
+//            rest stays as a person may have set it
 //   now      offsets that the controller has now
 //   machine  where the tool is now
 //   safe_z   height to travel at, mm in the program's coordinates; none: the highest that the

@@ -1,4 +1,4 @@
-// Go back to the first line that is missing.
+// Sends again from the first line that is missing.
 #include "host_tools/stream/checked_window.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// Longer than answers to what is under way take.
+// Longer than the answers to sent lines take.
 constexpr milliseconds kDry{40};
 // Shorter than the silence after which the controller ends the checks.
 constexpr milliseconds kMostPatience{1600};
@@ -76,7 +76,7 @@ void CheckedWindow::add(std::uint64_t program_line, std::string_view text)
     ++next_number_;
 }
 
-// Lines are on the wire and nothing more will be heard of them by itself.
+// Lines are sent, and no further answer to them is due.
 bool CheckedWindow::wants_to_ask(Clock::time_point now) const
 {
     return sent_ > 0 && !draining_ && (under_way_ == 0 || now - quiet_since_ >= patience_);

@@ -1,11 +1,11 @@
-// CheckedWindow: lines with numbers and CRCs on their way to a controller that refuses damaged,
-// repeated and lost ones; each is executed once, in order, however bad the line is.
+// CheckedWindow: sends lines with numbers and CRCs to a controller that refuses damaged, repeated
+// and lost ones. Each is executed once, in order, on any serial line.
 //
 // The protocol is docs/protocol.md's, "Checked lines". Answers count only if their own CRC is
-// right; an answer for line k tells that all before it are done too. After a refusal the sender
-// lets what is under way run dry, then goes on from the line expected. Where nothing is heard, or
-// an answer was damaged, an empty line asks: its answer tells the line expected. On a bad line
-// fewer lines are under way at a time.
+// right; an answer for line k means that all before it are done too. After a refusal the sender
+// waits for all answers that are due, then continues with the line expected. After silence or a
+// damaged answer it sends an empty line, whose answer names the line expected. On a bad serial line
+// fewer lines are in flight.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// ControllerFacts: what a controller says of itself before a transfer: `$I`, `$$`, `$G` and `$#`.
+// ControllerFacts: the answers of a controller to `$I`, `$$`, `$G` and `$#` before a transfer.
 #pragma once
 
 #include <cstddef>
@@ -13,14 +13,14 @@ namespace cusp::stream {
 
 class ControllerFacts {
 public:
-    // A line of the controller; others than answers to these four are passed over.
+    // A line of the controller; lines that answer none of the four are ignored.
     void take(std::string_view line);
 
-    // Bytes of its receive buffer; none where it does not say.
+    // Bytes of its receive buffer; no value where it names none.
     std::optional<std::size_t> receive_buffer() const { return receive_buffer_; }
 
-    // Settings that are not known here are left out; what the controller does not say is at its
-    // default.
+    // Unknown settings are left out; settings that the controller does not list have their
+    // defaults.
     const machine::Settings& settings() const { return settings_; }
     // Whether `$$` was answered.
     bool has_settings() const { return has_settings_; }

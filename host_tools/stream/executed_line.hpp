@@ -1,9 +1,9 @@
-// ExecutedLine: the line that the tool has reached for sure, from reports and answers.
+// ExecutedLine: the line that the tool has certainly reached, from reports and answers.
 //
 // A report's Ln names the line that the path has reached; the tool follows it within half a second,
-// the longest filters included. So the newest line counts that was reported at least so long before
-// the last word of the controller. A controller that names no lines has taken as many lines off its
-// planner as it has answered beyond the planner's blocks: each motion takes at least one.
+// the longest filters included. So the newest line counts that was reported at least half a second
+// before the controller's last output. A controller that names no lines has executed as many lines as
+// it has answered beyond the blocks of its planner: each motion takes at least one block.
 #pragma once
 
 #include <chrono>

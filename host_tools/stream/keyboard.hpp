@@ -16,7 +16,7 @@ public:
     Keyboard& operator=(const Keyboard&) = delete;
     ~Keyboard();
 
-    // kNone where no key of meaning was pressed.
+    // kNone where no known key was pressed.
     StreamKey read();
 
     bool is_terminal() const { return is_terminal_; }

@@ -1,4 +1,4 @@
-// ProgramCheck: tells whether a program is, up to a line, the one that was sent.
+// ProgramCheck: whether a program is, up to a line, the one that was sent.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ private:
     std::uint64_t line_{0};
 };
 
-// The checks of the lines under way, kept until they lie behind; of very many only some.
+// The checks of lines in flight, kept until they are executed; of very many only some.
 class ProgramChecks {
 public:
     struct Mark {

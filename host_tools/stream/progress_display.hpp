@@ -1,4 +1,4 @@
-// ProgressDisplay: how far a transfer is, as a bar on a terminal and as plain lines elsewhere.
+// ProgressDisplay: progress of a transfer, as a bar on a terminal and as plain lines elsewhere.
 #pragma once
 
 #include <chrono>
@@ -30,7 +30,7 @@ public:
     // A line of its own, the bar below it.
     void say(const std::string& text);
 
-    // Leaves the last state of the bar standing.
+    // Ends the line of the bar, so that its last state stays visible.
     void finish();
 
 private:

@@ -73,7 +73,7 @@ public:
             highest_z_nm_, plunge_feed_};
     }
 
-    // Returns whether the line stops for a person: what lies before it is not begun again.
+    // Returns whether the line pauses for a person: no resume point lies before it.
     bool run(const std::string& text, std::uint64_t line)
     {
         if (text.front() == '$') {

@@ -1,10 +1,9 @@
-// ResumePoint: where an interrupted program can be taken up again, and how the controller stood
-// there.
+// ResumePoint: where an interrupted program can be resumed, and the modal state there.
 //
 // The program is read from its start by the firmware's own interpreter, so that the modal state is
 // that of the controller. Not every line can be the first: none inside a NURBS or a drilling cycle,
-// none that leans on the G2 or G3 of a line before it. The point is the last line before the one
-// that was executing that can. What is cut twice is cut at the same place.
+// none that relies on the G2 or G3 of an earlier line. The resume point is the last possible line
+// before the one that was executing. What is cut twice is cut at the same place.
 #pragma once
 
 #include <cstdint>

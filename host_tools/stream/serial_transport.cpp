@@ -1,4 +1,4 @@
-// libserialport 0.1.1 and what it leaves to its user.
+// libserialport 0.1.1, with locking and hang-up, which it lacks.
 #include "host_tools/stream/serial_transport.hpp"
 
 #include <array>
@@ -62,7 +62,7 @@ SerialTransport::SerialTransport(const std::string& device, int baud) : device_{
     demand(sp_set_parity(port, SP_PARITY_NONE), device, "no parity");
     demand(sp_set_stopbits(port, 1), device, "one stop bit");
     demand(sp_set_flowcontrol(port, SP_FLOWCONTROL_NONE), device, "no flow control");
-    // Boards with native USB say nothing until DTR is on; a board that has no DTR does not mind.
+    // Boards with native USB send nothing until DTR is on; boards without DTR ignore it.
     sp_set_dtr(port, SP_DTR_ON);
 }
 
@@ -87,7 +87,7 @@ std::string SerialTransport::read(std::chrono::milliseconds timeout)
     if (count > 0) {
         return {bytes.data(), static_cast<std::size_t>(count)};
     }
-    // Reads of a dead port return nothing at once and for ever; asking what waits tells.
+    // Reads of a dead port return nothing at once; asking for the count of waiting bytes fails.
     if (sp_input_waiting(port_.get()) < 0) {
         throw LinkLost{"the device is gone: " + last_error("no answer from the port")};
     }

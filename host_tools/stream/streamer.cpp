@@ -31,7 +31,7 @@ StreamReport Streamer::run(ProgramLines& program, const std::atomic<int>& stop)
     StreamReport report;
     try {
         greet();
-        // On a bad line no question may go unchecked: damage could make another command of it.
+        // Checked lines: no unchecked command may be sent, since damage could turn it into another.
         if (options_.checked) {
             switch_checks_on();
         }

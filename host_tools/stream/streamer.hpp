@@ -32,12 +32,12 @@
 
 namespace cusp::stream {
 
-// How to take up a program that was interrupted.
+// How to resume an interrupted program.
 struct StreamResume {
     TransferRecord record;
     std::uint64_t line{0};  // of the file, the first to send
-    // Asks the person. The controller is at rest; `homes` tells that it will be homed first,
-    // `place_lost` that it seems not to know where the tool is.
+    // Asks the person. The controller is at rest. homes: it will be homed first. place_lost: it
+    // seems to have lost the position of the tool.
     std::function<bool(const ControllerFacts&, Position machine, bool homes, bool place_lost)>
         confirm;
     // The lines that go before the program's.
@@ -45,14 +45,14 @@ struct StreamResume {
 };
 
 struct StreamOptions {
-    // Bytes of the controller's receive buffer; 0: ask it, 128 where it does not say.
+    // Bytes of the controller's receive buffer; 0: ask it, 128 where it names none.
     std::size_t window{0};
     std::chrono::milliseconds status_interval{200};
-    // Silence after which the link counts as lost, though status was asked for all the while.
+    // Silence, despite status requests, after which the link counts as lost.
     std::chrono::milliseconds silence_limit{5000};
-    // Lines with numbers and CRCs, for bad lines; the controller must know them.
+    // Lines with numbers and CRCs, for bad serial lines; the controller must support them.
     bool checked{false};
-    // How long a controller may take to say its first word.
+    // Longest time until the controller's first output.
     std::chrono::milliseconds greeting_limit{5000};
     // Lines carry their number in the file as N word, so that reports can name them.
     bool numbers{true};
@@ -85,7 +85,7 @@ enum class StreamKey : std::uint8_t {
     kAbort,
 };
 
-// Whoever watches and steers a transfer.
+// Observes and controls a transfer.
 class StreamWatcher {
 public:
     StreamWatcher() = default;
@@ -93,13 +93,13 @@ public:
     StreamWatcher& operator=(const StreamWatcher&) = delete;
     virtual ~StreamWatcher() = default;
 
-    // The controller is there; nothing is sent yet.
+    // The controller answers; nothing is sent yet.
     virtual void ready(const ControllerFacts& facts) = 0;
     // Called some fifty times a second.
     virtual void progress(const StreamProgress& progress) = 0;
-    // One sentence for the person at the machine.
+    // A sentence for the person at the machine.
     virtual void notice(const std::string& text) = 0;
-    // What the person wants; kNone where nothing.
+    // The key that was pressed; kNone where none was.
     virtual StreamKey key() = 0;
 };
 

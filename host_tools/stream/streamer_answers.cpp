@@ -1,4 +1,4 @@
-// What the controller and the person say, and what follows from it.
+// Handles the controller's answers and the person's keys.
 #include <algorithm>
 #include <filesystem>
 

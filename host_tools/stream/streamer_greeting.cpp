@@ -1,4 +1,4 @@
-// The greeting: is it ready, what is it, are lines checked, where does a program go on.
+// The greeting: waits for the controller, learns its settings, switches checks on, resumes.
 #include <algorithm>
 #include <map>
 
@@ -81,7 +81,7 @@ void Streamer::learn_controller()
 void Streamer::ask(const std::string& command)
 {
     // A controller that resets when its port is opened may do so now, and one that checks lines
-    // leaves the question unheard: then it is asked again.
+    // ignores the command: then it is sent again.
     constexpr int kAttempts = 4;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         const std::uint64_t answers = own_answers_;
@@ -180,7 +180,7 @@ void Streamer::prepare_record()
     executed_.begin_at(1);
 }
 
-// Where and how the program goes on.
+// Prepares a resume: where and how the program continues.
 void Streamer::prepare_resume(ProgramLines& program)
 {
     const StreamResume& resume = *options_.resume;

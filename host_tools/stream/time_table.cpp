@@ -1,4 +1,4 @@
-// The simulation behind the time left.
+// Simulates the program for the time left.
 #include "host_tools/stream/time_table.hpp"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ TimeTable::TimeTable(const std::string& program_file, const machine::Settings& s
                 total_ = result.total_s;
             }
         } catch (const std::exception&) {
-            // Without times the bar goes by lines.
+            // Without times the bar shows the share of lines.
         }
     }};
 }

@@ -13,8 +13,8 @@
 
 namespace cusp::stream {
 
-// The same planner as the firmware's makes the times. Memory is bounded: of a long program only
-// some lines are noted.
+// The firmware's own planner makes the times. Memory is bounded: of a long program only some lines
+// are recorded.
 class TimeTable {
 public:
     // Begins at once, in a thread of its own; a program that can't be simulated gives no times.

@@ -1,5 +1,5 @@
-// TransferRecord: what is kept beside a program while it is sent, so that an interrupted transfer
-// can be resumed, by another process too.
+// TransferRecord: a file beside a program while it is sent, so that an interrupted transfer can be
+// resumed, also by another process.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace cusp::stream {
 
-// How the controller stood when the program began: what its lines were read against.
+// State of the controller when the program began.
 struct TransferStart {
     Position machine;
     std::string modal;  // words of `$G`
@@ -20,7 +20,7 @@ struct TransferStart {
 
 struct TransferRecord {
     TransferStart start;
-    // Number in the file of a line that the tool had reached for sure: what lies before it is done.
+    // Number in the file of a line that the tool had certainly reached: lines before it are done.
     std::uint64_t executed_line{0};
     Position last_seen;  // of the machine
     // Number of a line up to executed_line, and the CRC-32 of the bare text of all lines up to it:
@@ -36,7 +36,7 @@ std::string record_file(const std::string& program);
 // Writes it whole or not at all. Returns false where the place can't be written.
 bool write_record(const std::string& program, const TransferRecord& record);
 
-// None where there is none. Throws InputError where it can't be read.
+// No value where there is no record. Throws InputError where it can't be read.
 std::optional<TransferRecord> read_record(const std::string& program);
 
 // The transfer went to its end.

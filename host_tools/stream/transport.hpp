@@ -1,4 +1,4 @@
-// Transport: bytes to and from a controller, over whatever it is connected by.
+// Transport: bytes to and from a controller, over any kind of connection.
 #pragma once
 
 #include <chrono>
@@ -9,7 +9,7 @@
 
 namespace cusp::stream {
 
-// The controller can't be reached any more. The text says how that showed.
+// The controller can't be reached any more. The text names the failure.
 class LinkLost : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
@@ -23,7 +23,7 @@ public:
     Transport& operator=(const Transport&) = delete;
     virtual ~Transport() = default;
 
-    // Hands over as much as is taken at once. Returns how many bytes that was.
+    // Writes as many bytes as are taken at once. Returns their number.
     virtual std::size_t write(std::string_view bytes) = 0;
 
     // What has arrived; waits for the first byte up to `timeout`.

@@ -281,13 +281,14 @@ void fill_figures(const Sums& sums, std::size_t cells, VerifyFigures& figures)
 
 }  // namespace
 
-std::vector<double> judge_floor(const FloorQuestion& q, VerifyFigures& figures)
+FloorMaps judge_floor(const FloorQuestion& q, VerifyFigures& figures)
 {
-    const PartHeights part = part_heights(q.surfaces, q.mesh, q.grid);
+    PartHeights part = part_heights(q.surfaces, q.mesh, q.grid);
     Ideal ideal = ideal_heights(q, part);
     const double radius = least_radius(q.tools);
     const double bound = q.scallop.value_or(kFar);
     std::vector<double> left(q.grid.size(), kNone);
+    std::vector<double> gouge(q.grid.size(), 0.0);
     std::vector<double> clear(q.grid.size(), kFar);
     for_each_band(q.grid.nx, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end && !q.walls.empty(); ++i) {
@@ -309,8 +310,9 @@ std::vector<double> judge_floor(const FloorQuestion& q, VerifyFigures& figures)
         ++sums.part;
         const bool touched = q.cut[k] < q.top;
         if (touched) {
-            figures.gouge_max =
-                std::max(figures.gouge_max, (part.z[k] - q.cut[k]) * part.cosine[k]);
+            const double below = (part.z[k] - q.cut[k]) * part.cosine[k];
+            figures.gouge_max = std::max(figures.gouge_max, below);
+            gouge[k] = clear[k] >= 0 ? std::max(0.0, below) : 0.0;
         }
         const bool reached = clear[k] >= radius;
         sums.unreachable += reached && ideal.unfit[k] != 0 ? 1U : 0U;
@@ -342,7 +344,12 @@ std::vector<double> judge_floor(const FloorQuestion& q, VerifyFigures& figures)
         find_thickest(q, ideal, clear, left, figures);
     }
     fill_figures(sums, cells, figures);
-    return left;
+    for (std::size_t k = 0; k < q.grid.size(); ++k) {
+        if (clear[k] < 0) {
+            part.z[k] = q.top;
+        }
+    }
+    return {std::move(left), std::move(gouge), std::move(part.z)};
 }
 
 }  // namespace cusp::verify

@@ -28,8 +28,17 @@ struct FloorQuestion {
     double most_left;                        // mm: thicknesses below it may be inexact
 };
 
-// Fills the figures of the floor. Returns what is left over what can be reached, per grid point:
-// mm, NaN outside the floor, +infinity where nothing was cut.
-std::vector<double> judge_floor(const FloorQuestion& question, VerifyFigures& figures);
+// Per grid point.
+struct FloorMaps {
+    // mm over what can be reached; NaN outside the floor, +infinity where nothing was cut.
+    std::vector<double> left;
+    // mm cut below the part inside the walls; 0 where none is.
+    std::vector<double> gouge;
+    // z of the part; NaN where it has none. Beyond walls the stock's top.
+    std::vector<double> part;
+};
+
+// Fills the figures of the floor.
+FloorMaps judge_floor(const FloorQuestion& question, VerifyFigures& figures);
 
 }  // namespace cusp::verify

@@ -317,10 +317,13 @@ Verification verify(const Job& job,
         figures.wall_gouge_max = wall_gouge(walls, runs, job.stock_top);
     }
     figures.ball_gouge_max = ball_gouge(scene, runs, job.stock_top);
-    result.left = judge_floor(
+    FloorMaps maps = judge_floor(
         {scene.surfaces, scene.mesh, tools, walls, result.grid, stock.heights(), job.stock_top,
          scene.scallop, scene.path_clearance, runs, most_left(scene, tools, spacing)},
         figures);
+    result.left = std::move(maps.left);
+    result.gouge = std::move(maps.gouge);
+    result.part = std::move(maps.part);
     judge(scene, result);
     return result;
 }

@@ -75,7 +75,9 @@ struct Verification {
     std::vector<std::string> broken;  // each bound that does not hold, in words; empty: all hold
     // for pictures
     HeightGrid grid;
-    std::vector<double> left;  // mm above what is reachable; NaN outside the floor, +inf uncut
+    std::vector<double> left;   // mm above what is reachable; NaN outside the floor, +inf uncut
+    std::vector<double> gouge;  // mm cut below the part inside the walls; 0 where none is
+    std::vector<double> part;   // z; NaN where there is none, the stock's top beyond walls
     Program program;
 };
 

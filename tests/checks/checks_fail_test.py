@@ -147,18 +147,28 @@ class ChecksOfTheTree(unittest.TestCase):
     def test_front_doors_need_a_row_and_an_example(self):
         self.assertEqual(self.run_check("front_doors.py")[0], 2)
         self.write("firmware/base/vec.hpp", "// Vectors.\n//\n//   Vec3d v{1, 2, 3};\n#pragma once\n")
-        self.write("docs/architecture.md", "| firmware/base | `vec.hpp` |\n")
+        self.write("docs/architecture.md", "| `firmware/base` | `vec.hpp` |\n")
         self.assertEqual(self.run_check("front_doors.py")[0], 0)
         self.write("firmware/path/line.hpp", "// Lines.\n")
         status, text = self.run_check("front_doors.py")
         self.assertEqual(status, 1)
         self.assertIn("firmware/path has no row", text)
-        self.write("docs/architecture.md", "| firmware/base | `vec.hpp` |\n| firmware/path | `line.hpp` |\n")
+        self.write("docs/architecture.md", "| `firmware/base` | `vec.hpp` |\n| `firmware/path` | `line.hpp` |\n")
         status, text = self.run_check("front_doors.py")
         self.assertEqual(status, 1)
         self.assertIn("firmware/path/line.hpp:1: the opening comment of a front door needs an example", text)
-        self.write("docs/architecture.md", "| firmware/base | `vec.hpp` |\n| firmware/path | `arc.hpp` |\n")
+        self.write("docs/architecture.md", "| `firmware/base` | `vec.hpp` |\n| `firmware/path` | `arc.hpp` |\n")
         self.assertIn("firmware/path/arc.hpp does not exist", self.run_check("front_doors.py")[1])
+
+    def test_glossary_refuses_a_noun_that_it_lacks(self):
+        self.assertEqual(self.run_check("glossary.py")[0], 2)
+        self.write("docs/glossary.md", "| word | meaning |\n| pencil pass, ring | along a wall |\n")
+        self.write("host_tools/clearing/rings.hpp", "struct PencilRings {\n};\nclass RingWriter : public Base {\n};\n")
+        self.assertEqual(self.run_check("glossary.py")[0], 0)
+        self.write("host_tools/clearing/rings.hpp", "\nclass RingFeeler {\n};\n")
+        status, text = self.run_check("glossary.py")
+        self.assertEqual(status, 1)
+        self.assertIn("rings.hpp:2: RingFeeler: define \"feeler\" in docs/glossary.md", text)
 
     def test_headers_refuses_one_that_leans_on_its_reader(self):
         self.write("firmware/base/vec.hpp", "#pragma once\nstd::size_t size();\n")

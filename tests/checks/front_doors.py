@@ -11,7 +11,7 @@ import re
 import sys
 
 FOLDERS = ("firmware", "host_tools")
-ROW = re.compile(r"^\| ((?:%s)/\w+) \| `(\w+\.hpp)` \|$" % "|".join(FOLDERS), re.MULTILINE)
+ROW = re.compile(r"^\| `((?:%s)/\w+)` \| `(\w+\.hpp)` \|$" % "|".join(FOLDERS), re.MULTILINE)
 EXAMPLE = re.compile(r"^//   +\S", re.MULTILINE)
 
 
@@ -34,7 +34,7 @@ def main(arguments):
     found = [f"docs/architecture.md: {module} is no module with headers" for module in table if module not in modules]
     for module in modules:
         if module not in table:
-            found.append(f"docs/architecture.md: {module} has no row in \"Front doors\": | {module} | `HEADER.hpp` |")
+            found.append(f"docs/architecture.md: {module} has no row in \"Front doors\": | `{module}` | `HEADER.hpp` |")
             continue
         header = top / module / table[module]
         if not header.is_file():

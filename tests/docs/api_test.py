@@ -51,7 +51,7 @@ class Index(unittest.TestCase):
         (tree / "firmware/base/vec.hpp").write_text(HEADER.format(name="width"))
         status, said = self.make(tree)
         self.assertEqual(status, 1)
-        self.assertIn("firmware/base/vec.hpp:4", said)
+        self.assertIn("firmware/base/vec.hpp:7", said)
         self.assertIn("width", said)
 
 

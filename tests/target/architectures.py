@@ -1,18 +1,21 @@
 #!/usr/bin/env python3
 """Compares the edges of whole programs between the host and another architecture.
 
-usage: architectures.py --host EDGE_LIST --other EDGE_LIST --emulator "COMMAND ..." [--programs N]
+usage: architectures.py --host EDGE_LIST --other EDGE_LIST --emulator "COMMAND ..." --cusp CUSP [--programs N]
                         [PROGRAM ...]
 EDGE_LIST is tests/unit/boards_sim/edge_list.cpp, built for each. Besides the programs named, N random
-ones with scripts of holds and overrides run.
+ones with scripts of holds and overrides run. The checksum of the edges must be that of `cusp sim --stats`.
 Exit status: 0 all lists are equal, 1 they are not, 2 something could not run.
 """
 import argparse
+import json
 import pathlib
 import random
+import struct
 import subprocess
 import sys
 import tempfile
+import zlib
 
 import random_programs
 
@@ -23,6 +26,21 @@ def edges(command):
     if run.returncode:
         raise OSError(f"{command[0]}: status {run.returncode}: {run.stderr[-300:]!r}")
     return run.stdout
+
+
+def checksum(listed):
+    """What the edges of a list sum up to; the list ends with what its program says of it."""
+    rows = (tuple(map(int, line.split())) for line in listed.split(b"\n")[:-2])
+    return f"{zlib.crc32(b''.join(struct.pack('<QBB', *row) for row in rows)):08x}"
+
+
+def simulated_checksum(cusp, files, folder):
+    stats = folder / "sim.json"
+    words = ["--script", str(files[1])] if len(files) > 1 else []
+    run = subprocess.run([cusp, "sim", str(files[0]), "--stats", str(stats), *words], capture_output=True, timeout=600)
+    if run.returncode > 1:
+        raise OSError(f"cusp sim {files[0]}: status {run.returncode}: {run.stderr[-300:]!r}")
+    return json.loads(stats.read_text())["edges_crc32"]
 
 
 def make_random(folder, seed):
@@ -39,6 +57,7 @@ def main():
     parser.add_argument("--host", required=True)
     parser.add_argument("--other", required=True)
     parser.add_argument("--emulator", default="")
+    parser.add_argument("--cusp", required=True)
     parser.add_argument("--programs", type=int, default=8)
     parser.add_argument("program", nargs="*")
     options = parser.parse_args()
@@ -50,10 +69,12 @@ def main():
             for files in runs:
                 here = edges([options.host, *files])
                 there = edges([*options.emulator.split(), options.other, *files])
-                total += here.count(b"\n")
-                if here != there or (not here and len(files) == 1):
+                count = here.count(b"\n") - 1
+                total += count
+                sums = {checksum(there), there.split()[-1].decode(), simulated_checksum(options.cusp, files, pathlib.Path(name))}
+                if here != there or len(sums) > 1 or (not count and len(files) == 1):
                     wrong += 1
-                    print(f"{files[0]}: {here.count(10)} edges on the host, {there.count(10)} there")
+                    print(f"{files[0]}: {count} edges on the host, {there.count(10) - 1} there; checksums {sorted(sums)}")
     except (OSError, subprocess.TimeoutExpired) as error:
         print(f"architectures: {error}", file=sys.stderr)
         return 2

@@ -4,6 +4,7 @@ import array
 import pathlib
 import tempfile
 import unittest
+import zlib
 
 import budgets
 import golden
@@ -71,6 +72,14 @@ class Comparisons(unittest.TestCase):
         self.assertIsNone(golden.first_difference(edges, array.array("Q", edges)))
         for other in ([256, 769, 1024], [256, 512, 1024], [256, 513]):
             self.assertIsNotNone(golden.first_difference(edges, array.array("Q", other)))
+
+    def test_the_checksum_of_edges_sees_each_of_them(self):
+        edges = array.array("Q", [10 << 8 | 0x08, 15 << 8 | 0x0D, 17 << 8 | 0x08])
+        listed = [(10, 1, 1), (15, 0, 1), (15, 4, 1), (17, 0, 0), (17, 4, 0)]
+        bytes_of = b"".join(tick.to_bytes(8, "little") + bytes([wire, level]) for tick, wire, level in listed)
+        self.assertEqual(golden.edges_crc32(edges), f"{zlib.crc32(bytes_of):08x}")
+        self.assertEqual(golden.edges_crc32([]), "00000000")
+        self.assertNotEqual(golden.edges_crc32(edges), golden.edges_crc32(edges[:2]))
 
     def read_pins(self, *lines):
         with tempfile.TemporaryDirectory() as folder:

@@ -5,18 +5,21 @@ usage: golden.py PROGRAM [--settings FILE] [--script FILE] [--pins PLUGIN] [--as
                  [--keep FOLDER] [--cusp CUSP] [--image IMAGE]
 
 Each run yields the list of (tick, levels of the six lines) after every change; the three lists must
-be equal, tick by tick. With --pins (pins/pin_watch.cpp, built) also what reached the port's pins in
+be equal, tick by tick, and the board's must have the checksum that `cusp sim --stats` says. With --pins (pins/pin_watch.cpp, built) also what reached the port's pins in
 QEMU must be what the trace says, in order, and at the same instructions in both runs.
 Exit status: 0 they are, 1 they are not, 2 something could not run.
 """
 import argparse
 import array
+import json
 import pathlib
 import re
+import struct
 import subprocess
 import sys
 import tempfile
 import time
+import zlib
 
 import pins
 from qemu import RunFailed, run_image
@@ -73,6 +76,19 @@ def read_dump(path):
     return edges
 
 
+def edges_crc32(edges):
+    """The checksum of `cusp sim --stats`: 10 bytes an edge, the direction of an axis before its step."""
+    crc = before = 0
+    for edge in edges:
+        tick, levels = edge >> 8, edge & 255
+        for wire in (1, 0, 3, 2, 5, 4):
+            bit = 1 << (wire // 2 + (3 if wire % 2 else 0))
+            if (levels ^ before) & bit:
+                crc = zlib.crc32(struct.pack("<QBB", tick, wire, int(levels & bit != 0)), crc)
+        before = levels
+    return f"{crc:08x}"
+
+
 def first_difference(left, right):
     if left == right:
         return None
@@ -87,8 +103,8 @@ def first_difference(left, right):
 
 
 def simulate(options, folder):
-    dump = folder / "host.vcd"
-    command = [options.cusp, "sim", options.program, "--vcd", str(dump)]
+    dump, stats = folder / "host.vcd", folder / "host.json"
+    command = [options.cusp, "sim", options.program, "--vcd", str(dump), "--stats", str(stats)]
     if options.settings:
         command += ["--settings", options.settings]
     if options.script:
@@ -96,7 +112,7 @@ def simulate(options, folder):
     run = subprocess.run(command, capture_output=True, text=True)
     if run.returncode > 1 or not dump.exists():
         raise RunFailed(f"cusp sim: status {run.returncode}: {run.stderr[-500:]}")
-    return run.returncode, read_dump(dump)
+    return run.returncode, read_dump(dump), json.loads(stats.read_text())["edges_crc32"]
 
 
 def bare_lines(path):
@@ -139,7 +155,7 @@ def compare_pins(board, first, second):
 
 def compare(options, folder):
     started = time.monotonic()
-    host_status, host = simulate(options, folder)
+    host_status, host, host_crc = simulate(options, folder)
     simulated = time.monotonic()
     board_status, board, board_pins = play(options, folder, "first")
     played = time.monotonic()
@@ -156,6 +172,8 @@ def compare(options, folder):
         found += compare_pins(board, board_pins, again_pins)
     if host != board:
         found.append(f"host and board differ: {first_difference(host, board)}")
+    if edges_crc32(board) != host_crc:
+        found.append(f"edges_crc32: the host says {host_crc}, the board's edges have {edges_crc32(board)}")
     if host_status != board_status:
         found.append(f"the host ended with status {host_status}, the board with {board_status}")
     print("\n".join(found) if found else "equal, tick by tick; twice the same")

@@ -32,16 +32,19 @@ struct StillChip {
     using Word = DeviceWord;
     static inline Dma<Word> dma{};
     static inline Timer<Word> timer{};
+    static inline Timer<Word> gate{};
+    static inline hal::stm32f4::Debug<Word> debugger{};
     static inline Gpio<Word> port{};
     static auto& dma2() noexcept { return dma; }
     static auto& timer8() noexcept { return timer; }
+    static auto& timer2() noexcept { return gate; }
+    static auto& debug() noexcept { return debugger; }
     static std::uint32_t bus_address(const volatile void* memory) noexcept
     {
         return hal::stm32f4::Chip::bus_address(memory);
     }
 };
 struct StillPort {
-    static constexpr PulseLines kInvertedLines = 0;
     static auto& gpio() noexcept { return StillChip::port; }
 };
 hal::stm32f4::DmaPulsePlayer<StillChip, StillPort> player;
@@ -133,7 +136,8 @@ void count_pulses(std::string_view frame_name,
     InstructionMeter fill{fill_name};
     Position at{0, -400, 400};
     pulse_maker.reset(at);
-    player.start(168000000);
+    player.start(168000000, 84000000);
+    StillChip::gate.cr1.write(1);
     std::int64_t speed = 0;
     for (unsigned tick = 0; tick < 200; ++tick) {
         speed = speed + gain < travel ? speed + gain : travel;
@@ -142,10 +146,12 @@ void count_pulses(std::string_view frame_name,
         pulse_maker.make_frame(at, frame);
         make.end();
         // The other half has just begun; the frame goes into the one that has been played.
+        constexpr std::uint32_t kHalfTransfer = 1U << 10U;
+        constexpr std::uint32_t kTransferComplete = 1U << 11U;
         StillChip::dma.stream[1].ndtr.write(tick % 2 == 0 ? 2000 : 1000);
         fill.begin();
         const bool taken = player.try_play(frame);
-        StillChip::dma.lisr.write(1U << 10U);
+        StillChip::dma.lisr.write(tick % 2 == 0 ? kHalfTransfer : kTransferComplete);
         StillChip::dma.stream[1].ndtr.write(tick % 2 == 0 ? 1000 : 2000);
         static_cast<void>(player.on_interrupt());
         fill.end();

@@ -1,15 +1,18 @@
 // Runs a program through the whole firmware and writes every edge: to compare architectures.
 //
 // usage: edge_list PROGRAM [SCRIPT] >EDGES
-// A line is sent when the last is answered; SCRIPT has lines `tick byte`. Each edge is a line: its
-// pulse tick, the lines raised and those lowered.
+// SCRIPT has lines `tick byte`. Each edge is a line: its pulse tick, its wire and its level; the last line is their
+// checksum, eight hex digits.
+#include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <fstream>
-#include <string>
+#include <memory>
 
-#include "boards/sim/simulated_controller.hpp"
 #include "firmware/base/assert.hpp"
+#include "host_tools/program_run/edge_listener.hpp"
+#include "host_tools/program_run/program_run.hpp"
 
 void cusp::fault(const char* expression, const char* file, int line) noexcept
 {
@@ -19,88 +22,53 @@ void cusp::fault(const char* expression, const char* file, int line) noexcept
 
 namespace {
 
-class EdgeLines : public cusp::hal::FrameListener {
+using namespace cusp;
+
+class EdgeLines : public program_run::EdgeListener {
 public:
-    void frame_played(std::uint64_t start_tick, const cusp::PulseFrame& frame) override
+    using EdgeListener::EdgeListener;
+
+protected:
+    void edge(std::uint64_t tick, unsigned wire, bool level) override
     {
-        for (const cusp::PulseEdge& edge : frame.edges) {
-            std::printf("%llu %u %u\n", static_cast<unsigned long long>(start_tick + edge.tick),
-                        unsigned{edge.raise}, unsigned{edge.lower});
-        }
+        std::printf("%" PRIu64 " %u %d\n", tick, wire, level ? 1 : 0);
     }
 };
 
-// The sender, one servo tick at a time.
-class Run {
-public:
-    Run(const char* program, const char* script) : program_{program}
-    {
-        if (script != nullptr) {
-            script_.open(script);
-            read_script();
-        }
-        controller_.power_on();
-        controller_.board().pulse_player.add_listener(edges_);
+std::vector<program_run::ScriptedByte> script_of(const char* file)
+{
+    std::ifstream in{file};
+    std::vector<program_run::ScriptedByte> script;
+    std::uint64_t tick = 0;
+    unsigned byte = 0;
+    while (in >> tick >> byte) {
+        script.push_back({tick, static_cast<std::uint8_t>(byte)});
     }
+    return script;
+}
 
-    bool good() const { return program_.is_open(); }
-
-    void to_the_end()
-    {
-        constexpr std::uint64_t kMostTicks = 3'600'000;
-        while (tick_ < kMostTicks && !(sent_all_ && !waiting_ && controller_.machine().idle())) {
-            send();
-            controller_.tick();
-            ++tick_;
-            const std::string said = controller_.board().byte_link.take_answers();
-            waiting_ = waiting_ && said.find("ok") == std::string::npos;
-            if (said.find("error:") != std::string::npos ||
-                said.find("ALARM:") != std::string::npos) {
-                sent_all_ = true;
-                waiting_ = false;
-            }
-            std::fputs(said.c_str(), stderr);
-        }
+void write_edges(const char* program, const char* script)
+{
+    program_run::RunOptions options;
+    options.measures_deviation = false;
+    if (script != nullptr) {
+        options.script = script_of(script);
     }
-
-private:
-    void read_script()
-    {
-        script_waits_ = static_cast<bool>(script_ >> script_tick_ >> script_byte_);
+    std::unique_ptr<EdgeLines> lines;
+    options.started = [&lines](hal::SimulatedBoard& board) {
+        lines = std::make_unique<EdgeLines>(board.pulse_player.next_frame_start(),
+                                            board.pulse_player.levels());
+        board.pulse_player.add_listener(*lines);
+    };
+    dialect::LineSource source{program};
+    program_run::ProgramRun run{source, options};
+    while (run.advance()) {
     }
-    void send()
-    {
-        auto& link = controller_.board().byte_link;
-        for (; script_waits_ && script_tick_ <= tick_; read_script()) {
-            const char byte = static_cast<char>(script_byte_);
-            link.send({&byte, 1});
-        }
-        const auto& machine = controller_.machine();
-        if (!script_waits_ && machine.state() == cusp::machine::State::kHold &&
-            machine.motion().at_rest()) {
-            link.send("~");
-        }
-        std::string line;
-        if (!waiting_ && !sent_all_) {
-            sent_all_ = !std::getline(program_, line);
-            waiting_ = !sent_all_;
-            if (waiting_) {
-                link.send(line + "\n");
-            }
-        }
+    for (const program_run::RunError& error : run.result().errors) {
+        std::fprintf(stderr, "%s\n", fault_text(run.result(), error).c_str());
     }
-
-    std::ifstream program_;
-    std::ifstream script_;
-    std::uint64_t script_tick_{0};
-    unsigned script_byte_{0};
-    bool script_waits_{false};
-    cusp::board_sim::SimulatedController controller_{cusp::hal::MillGeometry{}};
-    EdgeLines edges_;
-    std::uint64_t tick_{0};
-    bool waiting_{false};
-    bool sent_all_{false};
-};
+    std::printf("%08" PRIx32 "\n", run.result().edges_crc32);
+}
 
 }  // namespace
 
@@ -110,11 +78,11 @@ int main(int count, char** words)
         std::fputs("usage: edge_list PROGRAM [SCRIPT] >EDGES\n", stderr);
         return 2;
     }
-    Run run{words[1], count > 2 ? words[2] : nullptr};
-    if (!run.good()) {
-        std::fprintf(stderr, "edge_list: %s can't be read\n", words[1]);
+    try {
+        write_edges(words[1], count > 2 ? words[2] : nullptr);
+    } catch (const std::exception& fault) {
+        std::fprintf(stderr, "edge_list: %s\n", fault.what());
         return 2;
     }
-    run.to_the_end();
     return 0;
 }

@@ -74,7 +74,7 @@ double most_over(const ClPath& path, const DropCutter& floor)
         constexpr int kPlaces = 60;
         for (int i = 0; i <= kPlaces; ++i) {
             const Vec3d tip = from + (move.end - from) * (static_cast<double>(i) / kPlaces);
-            most = std::max(most, tip.z - floor.drop({tip.x, tip.y}).z);
+            most = std::max(most, tip.z - floor.tip_height({tip.x, tip.y}));
         }
         from = move.end;
     }
@@ -91,7 +91,7 @@ double length_over(const ClPath& path, const DropCutter& floor, double over)
         const double length = std::hypot(move.end.x - from.x, move.end.y - from.y);
         for (int i = 0; i < kPlaces; ++i) {
             const Vec3d tip = from + (move.end - from) * ((i + 0.5) / kPlaces);
-            const bool stands = tip.z - floor.drop({tip.x, tip.y}).z > over;
+            const bool stands = tip.z - floor.tip_height({tip.x, tip.y}) > over;
             sum += stands ? length / kPlaces : 0.0;
         }
         from = move.end;
@@ -113,7 +113,7 @@ TEST(ClPath, StationsBetweenLookupsAreAsHighAsTheFloorSays)
     CHECK_EQUAL(dense.corners.size(), sparse.corners.size());
     int interpolated = 0;
     for (const Station& s : sparse.stations) {
-        const double height = floor.drop(s.at).z;
+        const double height = floor.tip_height(s.at);
         DOUBLES_EQUAL(height, s.height, 0.06 * 0.016 + kAccuracy);
         interpolated += height != s.height ? 1 : 0;
     }

@@ -48,13 +48,13 @@ TEST(PencilCurves, AWayGoesThroughTheBottomOfADimple)
         constexpr double kPitch = 0.02;
         for (double x = 14; x < 16; x += kPitch) {
             for (double y = 14; y < 16; y += kPitch) {
-                bottom = std::min(bottom, floor.drop({x, y}).z);
+                bottom = std::min(bottom, floor.tip_height({x, y}));
             }
         }
         double lowest = 1e300;
         for (const PencilCurve& line : pencil_curves(floor, search)) {
             for (const PencilPoint& point : line.points) {
-                lowest = std::min(lowest, floor.drop(point.at).z);
+                lowest = std::min(lowest, floor.tip_height(point.at));
             }
         }
         CHECK(lowest < bottom + 1e-3);

@@ -55,14 +55,14 @@ TEST(DropCutter, EndsWhereAPatchThatLiesAskewDoes)
             const Vec2d out{std::cos(angle), std::sin(angle)};
             for (int i = -10; i <= 10; ++i) {
                 const Vec2d rim = out * 10.0 + left_normal(out) * (0.6 * i);
-                CHECK(floor.drop(rim + out * (step.reach - 0.01)).z > kLow + 1e-3);
-                DOUBLES_EQUAL(kLow, floor.drop(rim + out * (step.reach + 0.01)).z, 2e-3);
+                CHECK(floor.tip_height(rim + out * (step.reach - 0.01)) > kLow + 1e-3);
+                DOUBLES_EQUAL(kLow, floor.tip_height(rim + out * (step.reach + 0.01)), 2e-3);
             }
             // Past both sides of a corner.
             const Vec2d corner = out * 10.0 + left_normal(out) * 7.0;
             const Vec2d away = unit(out + left_normal(out));
-            CHECK(floor.drop(corner + away * (step.reach - 0.01)).z > kLow + 1e-3);
-            DOUBLES_EQUAL(kLow, floor.drop(corner + away * (step.reach + 0.01)).z, 2e-3);
+            CHECK(floor.tip_height(corner + away * (step.reach - 0.01)) > kLow + 1e-3);
+            DOUBLES_EQUAL(kLow, floor.tip_height(corner + away * (step.reach + 0.01)), 2e-3);
         }
     }
 }
@@ -143,7 +143,7 @@ TEST(DropCutter, ManyQuestionsDoNotFillTheMemory)
     constexpr int kAgain = 100;
     std::array<double, kAgain> before;
     for (int k = 0; k < kAgain; ++k) {
-        before[static_cast<std::size_t>(k)] = floor.drop(place(k)).z;
+        before[static_cast<std::size_t>(k)] = floor.tip_height(place(k));
     }
     const std::size_t held = mallinfo2().uordblks + mallinfo2().hblkhd;
     for (int k = kAgain; k < 40000; ++k) {
@@ -151,7 +151,7 @@ TEST(DropCutter, ManyQuestionsDoNotFillTheMemory)
     }
     CHECK(mallinfo2().uordblks + mallinfo2().hblkhd - held < 400'000'000);
     for (int k = 0; k < kAgain; ++k) {
-        DOUBLES_EQUAL(before[static_cast<std::size_t>(k)], floor.drop(place(k)).z, kAccuracy);
+        DOUBLES_EQUAL(before[static_cast<std::size_t>(k)], floor.tip_height(place(k)), kAccuracy);
     }
 }
 

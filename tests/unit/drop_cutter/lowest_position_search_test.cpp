@@ -46,9 +46,9 @@ double least_tried(const DropCutter& floor, const Tool& tool, Vec3d place, doubl
     for (double x = place.x - tool.radius; x <= place.x + tool.radius; x += pitch) {
         for (double y = place.y - tool.radius; y <= place.y + tool.radius; y += pitch) {
             const double away = std::hypot(x - place.x, y - place.y);
-            const DropCutter::ClPoint rest = floor.drop({x, y});
-            if (away <= kCovered * tool.radius && rest.z != DropCutter::kNoSurface) {
-                least = std::min(least, rest.z + profile_height(tool, away));
+            const double tip = floor.tip_height({x, y});
+            if (away <= kCovered * tool.radius && tip > -kUnbounded) {
+                least = std::min(least, tip + profile_height(tool, away));
             }
         }
     }
@@ -126,7 +126,7 @@ TEST(LowestPositionSearch, IsNoHigherThanTheBestOfManyPositions)
                 CHECK_TEXT(answer && answer->height <= tried + near, where.c_str());
                 // and the tool really gets there
                 const double tip = answer->centre.z - tool.corner_radius;
-                CHECK(tip >= floor.drop({answer->centre.x, answer->centre.y}).z - 1e-3);
+                CHECK(tip >= floor.tip_height({answer->centre.x, answer->centre.y}) - 1e-3);
             }
         }
     }

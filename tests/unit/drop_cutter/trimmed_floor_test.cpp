@@ -58,7 +58,7 @@ double highest(const std::vector<Vec3d>& places, const Tool& tool, Vec2d at, dou
 {
     const double flat = tool.radius - tool.corner_radius;
     const double corner = tool.corner_radius + wider;
-    double most = DropCutter::kNoSurface;
+    double most = -kUnbounded;
     for (const Vec3d& p : places) {
         const double out = std::max(0.0, std::hypot(p.x - at.x, p.y - at.y) - flat);
         if (out <= corner) {
@@ -104,7 +104,7 @@ TEST(TrimmedFloor, HoldsEveryToolAtItsRim)
         const DropCutter tips{floor, tool, kAccuracy};
         for (int i = 0; i < 60; ++i) {
             const Vec2d at = near_rim(random);
-            const double height = tips.drop(at).z;
+            const double height = tips.tip_height(at);
             CHECK(height >= highest(places, tool, at, 0.0) - 1e-6);
             CHECK(height <= highest(places, tool, at, 0.005) + kAccuracy + kBetween);
         }
@@ -120,8 +120,8 @@ TEST(TrimmedFloor, TellsTheRoomOfMovesOverItsRim)
     for (int i = 0; i < 60; ++i) {
         const Vec2d from = near_rim(random);
         const Vec2d to = from + Vec2d{share(random), share(random)} * (0.2 * kRadius);
-        const Vec3d a{from.x, from.y, tips.drop(from).z + 0.05 * share(random)};
-        const Vec3d b{to.x, to.y, tips.drop(to).z + 0.05 * share(random)};
+        const Vec3d a{from.x, from.y, tips.tip_height(from) + 0.05 * share(random)};
+        const Vec3d b{to.x, to.y, tips.tip_height(to) + 0.05 * share(random)};
         const Vec3d up{0.0, 0.0, kRadius};
         const double room = std::min(0.0, distance_to_way(places, a + up, b + up) - kRadius);
         const double gap = tips.move_clearance(a, b);
@@ -168,7 +168,7 @@ TEST(TrimmedFloor, EndsAtASmoothRim)
         double high = kAround;
         while (high - low > 1e-6) {
             const double middle = 0.5 * (low + high);
-            (tips.drop(place(middle)).z > kCliff ? high : low) = middle;
+            (tips.tip_height(place(middle)) > kCliff ? high : low) = middle;
         }
         double nearest = 1e300;
         for (const Vec3d& p : places) {

@@ -31,7 +31,7 @@ ChipModel::ChipModel()
 }
 ChipModel::~ChipModel() { current = nullptr; }
 
-std::uint32_t ModelWord::read() const { return ChipModel::current->on_read(*this); }
+std::uint32_t ModelWord::read() { return ChipModel::current->on_read(*this); }
 void ModelWord::write(std::uint32_t written) { ChipModel::current->on_write(*this, written); }
 
 std::uint32_t ChipModel::bus_address(const volatile void* memory)
@@ -40,8 +40,11 @@ std::uint32_t ChipModel::bus_address(const volatile void* memory)
     return static_cast<std::uint32_t>(addresses_.size() - 1);
 }
 
-std::uint32_t ChipModel::on_read(const ModelWord& word)
+std::uint32_t ChipModel::on_read(ModelWord& word)
 {
+    if (&word == &timer11.sr) {
+        capture();
+    }
     if (&word == &flash.sr && busy_reads_ > 0) {
         --busy_reads_;
         return word.value | kFlashBusy;
@@ -171,11 +174,38 @@ std::uint32_t ChipModel::word_of_memory(std::uint32_t index) const
     return words[index];
 }
 
+// Section 18.3.15: timer 8 counts while timer 2, at 84 MHz, has not come to its single end.
+bool ChipModel::gate_open()
+{
+    constexpr std::uint32_t kGated = 1U << 4U | 5U;
+    if ((timer2.cr1.value & 1U) != 0) {
+        ++timer2.cnt.value;
+        if (timer2.cnt.value >= (timer2.arr.value + 1) / 84) {
+            timer2.cr1.value &= ~1U;
+        }
+    }
+    const bool one_pulse = (timer2.cr1.value & 8U) != 0 && timer2.cr2.value == 1U << 4U;
+    return timer8.smcr.value == kGated && one_pulse && (timer2.cr1.value & 1U) != 0;
+}
+
+// Each eighth edge of the crystal by 31, counted at 16 MHz.
+void ChipModel::capture()
+{
+    const bool on = (timer11.cr1.value & 1U) != 0 && (timer11.ccer.value & 1U) != 0;
+    const bool divided = (rcc.cfgr.value >> 16U & 31U) == 31 && timer11.option.value == 2;
+    const bool runs = (rcc.cr.value & kCrystalOn << 1U) != 0;
+    if (on && divided && runs && timer11.ccmr1.value == 0xD) {
+        timer11.ccr1.value += static_cast<std::uint32_t>(16000000ULL * 31 * 8 / crystal_hz);
+        timer11.sr.value |= 2;
+    }
+}
+
 void ChipModel::run_microsecond()
 {
+    const bool open = gate_open();
     auto& stream = dma2.stream[1];
     const bool asks = (timer8.cr1.value & 1U) != 0 && (timer8.dier.value & 1U << 8U) != 0 &&
-                      timer8.arr.value == 167 && timer8.psc.value == 0;
+                      timer8.arr.value == 167 && timer8.psc.value == 0 && open;
     const bool listens = (stream.cr.value & kStreamEnable) != 0 && stream.cr.value >> 25U == 7;
     if (asks && listens) {
         if (addresses_.at(stream.par.value) == &port_c.bsrr) {

@@ -14,7 +14,7 @@ namespace cusp::test {
 // A register that tells the model of each access.
 class ModelWord {
 public:
-    std::uint32_t read() const;
+    std::uint32_t read();
     void write(std::uint32_t value);
     // The register as it stands, unseen by the model.
     std::uint32_t value{0};
@@ -52,6 +52,7 @@ public:
     // than the flash's wait states allow, is among the violations.
     bool crystal_works{false};
     bool multiplier_works{false};
+    std::uint32_t crystal_hz{8000000};  // what timer 11 measures
 
     // Flash: after this many words and erasures the power fails; nothing more is written.
     std::int64_t power_left{1000000};
@@ -60,7 +61,7 @@ public:
     void write_memory(std::uint32_t address, std::uint32_t value);
 
     std::uint32_t bus_address(const volatile void* memory);
-    std::uint32_t on_read(const ModelWord& word);
+    std::uint32_t on_read(ModelWord& word);
     void on_write(ModelWord& word, std::uint32_t value);
 
     hal::stm32f4::Rcc<ModelWord> rcc{};
@@ -69,6 +70,9 @@ public:
     hal::stm32f4::Gpio<ModelWord> port_c{};
     hal::stm32f4::Dma<ModelWord> dma2{};
     hal::stm32f4::Timer<ModelWord> timer8{};
+    hal::stm32f4::Timer<ModelWord> timer2{};
+    hal::stm32f4::Timer<ModelWord> timer11{};
+    hal::stm32f4::Debug<ModelWord> debugger{};
     hal::stm32f4::Usart<ModelWord> usart1{};
 
     static ChipModel* current;
@@ -82,6 +86,8 @@ private:
     void write_clock_choice(std::uint32_t value);
     std::uint32_t word_of_memory(std::uint32_t index) const;
     bool spend_power();
+    bool gate_open();
+    void capture();
 
     std::uint64_t now_{0};
     std::vector<const volatile void*> addresses_;
@@ -101,6 +107,9 @@ struct ModelChip {
     static auto& port_c() { return ChipModel::current->port_c; }
     static auto& dma2() { return ChipModel::current->dma2; }
     static auto& timer8() { return ChipModel::current->timer8; }
+    static auto& timer2() { return ChipModel::current->timer2; }
+    static auto& timer11() { return ChipModel::current->timer11; }
+    static auto& debug() { return ChipModel::current->debugger; }
     static auto& usart1() { return ChipModel::current->usart1; }
     static std::uint32_t bus_address(const volatile void* memory)
     {

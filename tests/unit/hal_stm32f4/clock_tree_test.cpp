@@ -47,11 +47,32 @@ TEST(ClockTree, MakesTheSameRateFromTheOscillator)
 {
     // The crystal never starts: the oscillator's 16 MHz by 16, times 336, by 2.
     chip.multiplier_works = true;
-    CHECK_TRUE(start_clocks<ModelChip>(kPlan) == ClockSource::kOscillator);
+    CHECK_TRUE(start_clocks<ModelChip>(kPlan) == ClockSource::kNoCrystal);
     LONGS_EQUAL(16, chip.rcc.pllcfgr.value & 0x3FU);
     LONGS_EQUAL(336, chip.rcc.pllcfgr.value >> 6U & 0x1FFU);
     LONGS_EQUAL(0, chip.rcc.pllcfgr.value >> 22U & 1U);
     LONGS_EQUAL(0, chip.violations);
+}
+
+TEST(ClockTree, DoesNotRunFromACrystalThatIsNotThePlannedOne)
+{
+    for (const std::uint32_t hz : {25000000U, 12000000U, 6000000U, 16000000U}) {
+        ChipModel other;
+        other.crystal_works = other.multiplier_works = true;
+        other.crystal_hz = hz;
+        CHECK_TRUE(start_clocks<ModelChip>(kPlan) == ClockSource::kOtherCrystal);
+        LONGS_EQUAL(16, other.rcc.pllcfgr.value & 0x3FU);
+        LONGS_EQUAL(0, other.rcc.cr.value >> 16U & 1U);
+        LONGS_EQUAL(0, other.violations);
+    }
+    ChipModel::current = &chip;
+}
+
+TEST(ClockTree, HasTheCrystalWatched)
+{
+    chip.crystal_works = chip.multiplier_works = true;
+    static_cast<void>(start_clocks<ModelChip>(kPlan));
+    LONGS_EQUAL(1, chip.rcc.cr.value >> 19U & 1U);
 }
 
 TEST(ClockTree, StartsAnewWhereABootLoaderLeftItsOwnClocks)

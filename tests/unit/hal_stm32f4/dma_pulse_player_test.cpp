@@ -19,13 +19,12 @@ using cusp::test::PortChange;
 namespace {
 
 constexpr std::uint32_t kTimerHz = 168000000;
+constexpr std::uint32_t kGateHz = 84000000;
 
 struct Port {
-    static constexpr cusp::PulseLines kInvertedLines = 0;
     static auto& gpio() { return ModelChip::port_c(); }
 };
 struct InvertedPort {
-    static constexpr cusp::PulseLines kInvertedLines = 0x21;
     static auto& gpio() { return ModelChip::port_c(); }
 };
 using Player = cusp::hal::stm32f4::DmaPulsePlayer<ModelChip, Port>;
@@ -78,7 +77,7 @@ TEST_GROUP(DmaPulsePlayer)
     ChipModel chip;
     Player player;
 
-    void setup() override { player.start(kTimerHz); }
+    void setup() override { player.start(kTimerHz, kGateHz); }
 
     // Runs this long; the interrupt is served at once.
     unsigned run(unsigned microseconds)
@@ -228,11 +227,50 @@ TEST(DmaPulsePlayer, TakesAStandstillOfTheCoreInMotionForAnUnderrun)
     CHECK_TRUE(player.underrun());
 }
 
+TEST(DmaPulsePlayer, PlaysNoWordTwiceWhereTheCoreStaysAway)
+{
+    run(1000);
+    CHECK_TRUE(player.try_play(pulses_at({100, 500, 900})));
+    run(1000);
+    CHECK_TRUE(player.try_play(pulses_at({200})));
+    for (unsigned i = 0; i < 100000; ++i) {
+        chip.run_microsecond();
+    }
+    // The half that plays to its end, and no more.
+    LONGS_EQUAL(6, chip.changes.size());
+}
+
+TEST(DmaPulsePlayer, TurnsInvertedLinesRoundInASilence)
+{
+    run(1000);
+    player.invert(0x09);
+    CHECK_TRUE(player.try_play(pulses_at({10})));
+    run(1000);
+    CHECK_TRUE(player.try_play({}));
+    run(1000);
+    LONGS_EQUAL(2, chip.changes.size());
+    CHECK_TRUE(player.try_play({}));
+    LONGS_EQUAL(0x09, chip.changes.back().levels);
+    run(1000);
+    player.invert(0);
+    CHECK_TRUE(player.try_play({}));
+    LONGS_EQUAL(0x00, chip.changes.back().levels);
+}
+
+TEST(DmaPulsePlayer, TakesAResetAmidMotionForAnUnderrun)
+{
+    player.start(kTimerHz, kGateHz, true);
+    CHECK_TRUE(player.underrun());
+    player.clear_underrun();
+    CHECK_FALSE(player.underrun());
+}
+
 TEST(DmaPulsePlayer, SwapsTheLevelsOfInvertedLines)
 {
     cusp::hal::stm32f4::DmaPulsePlayer<ModelChip, InvertedPort> inverted;
-    inverted.start(kTimerHz);
-    LONGS_EQUAL(0x01, chip.changes.back().levels);
+    inverted.invert(0x21);
+    inverted.start(kTimerHz, kGateHz);
+    LONGS_EQUAL(0x21, chip.changes.back().levels);
     PulseFrame frame;
     frame.edges.try_push_back({10, 0x21, 0});
     CHECK_TRUE(inverted.try_play(frame));
@@ -253,7 +291,7 @@ TEST(DmaPulsePlayer, PlaysWhatItTookOrSaysSoWhateverTheDelays)
     for (unsigned round = 0; round < 200; ++round) {
         ChipModel model;
         Player fresh;
-        fresh.start(kTimerHz);
+        fresh.start(kTimerHz, kGateHz);
         const unsigned slow = round % 4 == 0 ? 1200 : 800;
         std::vector<PortChange> expected;
         std::uint64_t interrupt_at = 0;
@@ -291,7 +329,7 @@ TEST_GROUP(ChipModel) { ChipModel chip; };
 TEST(ChipModel, CountsAChangeOfTheStreamWhileItRuns)
 {
     Player player;
-    player.start(kTimerHz);
+    player.start(kTimerHz, kGateHz);
     LONGS_EQUAL(0, chip.violations);
     ModelChip::dma2().stream[1].ndtr.write(12);
     LONGS_EQUAL(1, chip.violations);
@@ -301,7 +339,7 @@ TEST(ChipModel, CountsAChangeOfTheStreamWhileItRuns)
 TEST(ChipModel, CountsAStartWithFlagsLeftSet)
 {
     Player player;
-    player.start(kTimerHz);
+    player.start(kTimerHz, kGateHz);
     for (unsigned i = 0; i < 1500; ++i) {
         chip.run_microsecond();
     }

@@ -157,7 +157,7 @@ TEST(PartModelDistance, WithinBoundsIsTheExactOneLessTheSlack)
         const double least = 2 * share(random) - corner;
         const double most = least + 4 * share(random);
         const double slack = 0.1 * share(random);
-        const double found = model.distance_within(tool, tip, least, most, slack);
+        const double found = model.distance_within(tool, tip, {least, most, slack});
         constexpr double kExact = 2e-5;  // of a disc
         CHECK(found <= most + 1e-12);
         if (found > least) {

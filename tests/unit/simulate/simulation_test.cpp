@@ -10,6 +10,7 @@
 #include "CppUTest/TestHarness.h"
 
 #include "host_tools/input_error/input_error.hpp"
+#include "tests/support/edge_crc.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace {
@@ -47,6 +48,26 @@ std::vector<Step> steps_of(const std::string& vcd)
         }
     }
     return steps;
+}
+
+// CRC-32 of the edges of the six lines of a dump, in its order.
+std::uint32_t crc_of(const std::string& vcd)
+{
+    std::istringstream in{vcd.substr(vcd.find("$dumpvars"))};
+    std::string line;
+    test::PlainCrc32 crc;
+    std::uint64_t time = 0;
+    bool dumping = true;
+    while (std::getline(in, line)) {
+        if (line[0] == '#') {
+            time = std::stoull(line.substr(1));
+        } else if (line == "$end") {
+            dumping = false;
+        } else if (!dumping && line[1] < '!' + 6) {
+            crc.add_edge(time, static_cast<unsigned>(line[1] - '!'), line[0] == '1');
+        }
+    }
+    return crc.value();
 }
 
 struct Sample {
@@ -169,6 +190,20 @@ TEST(Simulation, RepeatsBitForBit)
     options.vcd_file = folder.file("b.vcd");
     simulate::simulate(kPrograms + "circle.ngc", options);
     CHECK(folder.text_of("a.vcd") == folder.text_of("b.vcd"));
+}
+
+TEST(Simulation, SumsUpTheEdgesOfTheTrace)
+{
+    options.vcd_file = folder.file("t.vcd");
+    for (const char* name : {"rsq", "circle", "diag"}) {
+        const auto result = simulate::simulate(kPrograms + name + ".ngc", options);
+        UNSIGNED_LONGS_EQUAL(crc_of(folder.text_of("t.vcd")), result.edges_crc32);
+    }
+    set(22, 1);
+    set(25, 3000);
+    const auto homed = run("G21 G90\nM3 S500\nG1 X-20 Y-3 F1000\nM8\nG1 Z-5\n");
+    UNSIGNED_LONGS_EQUAL(crc_of(folder.text_of("t.vcd")), homed.edges_crc32);
+    CHECK(statistics_json(homed).find("\"edges_crc32\": \"") != std::string::npos);
 }
 
 TEST(Simulation, EndsAtTheFirstError)

@@ -64,7 +64,8 @@ TEST(VcdWriter, RefusesAPlaceThatCantBeWritten)
 TEST(VcdWriter, WritesSamplesAsIntegers)
 {
     simulate::SamplesWriter writer{folder.file("s.csv")};
-    writer.write(1000, {-5, 0, 1234567890123});
+    writer.write(1000, {-5, 0, 1234567890123}, 17);
     writer.close();
-    STRCMP_EQUAL("t_us,x_nm,y_nm,z_nm\n1000,-5,0,1234567890123\n", folder.text_of("s.csv").c_str());
+    STRCMP_EQUAL("t_us,x_nm,y_nm,z_nm,line\n1000,-5,0,1234567890123,17\n",
+                 folder.text_of("s.csv").c_str());
 }

@@ -1,0 +1,140 @@
+// cusp view: a run as one page for any browser.
+#include <memory>
+
+#include "host_tools/cli/commands.hpp"
+#include "host_tools/cli/interruption.hpp"
+#include "host_tools/cli/share_progress.hpp"
+#include "host_tools/files/files.hpp"
+#include "host_tools/import/import.hpp"
+#include "host_tools/input_error/input_error.hpp"
+#include "host_tools/job/job.hpp"
+#include "host_tools/simulate/settings_file.hpp"
+#include "host_tools/view/page_still.hpp"
+#include "host_tools/view/page_text.hpp"
+#include "host_tools/view/run_page.hpp"
+
+#include "CLI/CLI.hpp"
+#include "fmt/format.h"
+
+namespace cusp::cli {
+
+using files::write_text;
+using import::read_job;
+using job::Job;
+using simulate::read_settings_file;
+using view::Page;
+using view::page_still;
+using view::page_text;
+using view::pages_hold_core;
+using view::run_page;
+using view::RunPage;
+using view::RunPageOptions;
+using view::why_no_page;
+
+namespace {
+
+struct ViewArguments {
+    std::string program;
+    std::string job_file;
+    std::string settings_file;
+    std::string page;
+    bool playground{false};
+    std::string still;
+};
+
+RunPage page_of(const ViewArguments& arguments)
+{
+    RunPageOptions options;
+    if (!arguments.settings_file.empty()) {
+        options.settings = read_settings_file(arguments.settings_file);
+    }
+    std::optional<Job> job;
+    if (!arguments.job_file.empty()) {
+        job = read_job(arguments.job_file);
+        options.job = &*job;
+    }
+    constexpr double kQuiet = 2.0;
+    ShareProgress cutting{"cutting", kQuiet};
+    ShareProgress running{"running", kQuiet};
+    options.progress = [&](const char* what, double share) {
+        (what[0] == 'c' ? cutting : running)(share);
+    };
+    const std::atomic<int>& stops = count_interruptions();
+    options.stop = [&stops] {
+        return stops.load() > 0;
+    };
+    return run_page(arguments.program, options);
+}
+
+int write_playground(const ViewArguments& arguments)
+{
+    if (!arguments.program.empty() || !arguments.job_file.empty() ||
+        !arguments.settings_file.empty() || !arguments.still.empty()) {
+        throw InputError{
+            "cusp view --playground takes no program, job, settings or still: its page does"};
+    }
+    const std::string_view page = page_text(Page::kPlayground);
+    if (page.empty()) {
+        throw InputError{fmt::format("cusp view has no page: {}", why_no_page())};
+    }
+    if (!pages_hold_core()) {
+        throw InputError{
+            "cusp view --playground has no core to run: the packages for WebAssembly were missing "
+            "when cusp was built"};
+    }
+    write_text(arguments.page, page);
+    return kDone;
+}
+
+int run_view(const ViewArguments& arguments)
+{
+    if (arguments.playground) {
+        return write_playground(arguments);
+    }
+    if (arguments.program.empty()) {
+        throw InputError{"cusp view needs a program, or --playground"};
+    }
+    const RunPage page = page_of(arguments);
+    write_text(arguments.page, page.html);
+    if (!arguments.still.empty()) {
+        write_text(arguments.still, page_still(arguments.page));
+    }
+    constexpr double kMegabyte = 1048576.0;
+    fmt::print("{}: {} ticks, {:.2f} MB\n{}\n", arguments.page, page.ticks,
+               static_cast<double>(page.html.size()) / kMegabyte, page.verdict);
+    if (page.refused > 0) {
+        fmt::print("{} line{} refused: see the page\n", page.refused, page.refused == 1 ? "" : "s");
+    }
+    return page.good ? kDone : kFoundWrong;
+}
+
+}  // namespace
+
+void add_view_command(CLI::App& app, Work& work)
+{
+    CLI::App* command =
+        app.add_subcommand("view", "write a page that shows a run: path, stock, speeds, limits");
+    command->footer(
+        "The page is one file: any browser opens it, without a network.\n"
+        "Exit status 1 where the run ends early, lines are refused, or a bound of the job does "
+        "not\n"
+        "hold; the page is written all the same.");
+    auto arguments = std::make_shared<ViewArguments>();
+    command->add_option("PROGRAM", arguments->program, "G-code, of cusp or any other source");
+    command->add_option("--job", arguments->job_file,
+                        "job file (TOML): part, stock, tools, and what the part is held against");
+    command->add_option("--settings", arguments->settings_file, "settings of the machine");
+    command->add_flag(
+        "--playground", arguments->playground,
+        "write a page that runs any program that is opened in it, on the firmware's core");
+    command->add_option("-o,--output", arguments->page, "page to write (HTML)")->required();
+    command->add_option("--still", arguments->still,
+                        "picture of the scene to write (PNG): by Chromium, where it is installed");
+    command->callback([&work, arguments] {
+        work = [arguments] {
+            return run_view(*arguments);
+        };
+    });
+}
+
+}  // namespace cusp::cli

@@ -1,0 +1,206 @@
+// What a drop cutter knows: the tree of pieces, halved when needed, and the bounds of one piece.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "host_tools/drop_cutter/drop_cutter.hpp"
+#include "host_tools/part_model/edge_gouge_check.hpp"
+#include "host_tools/part_model/trim_region.hpp"
+
+namespace cusp::drop_cutter {
+
+struct DropCutter::State {
+    State(const std::vector<nurbs::Surface>& surfaces, const toolpath::Tool& tool, double accuracy);
+
+    // The queries of DropCutter.
+    std::optional<ClPoint> drop(Vec2d at, double max_error);
+    Vec2d cc_place(Vec2d at, const ClPoint& cl) const;
+    void check_edge_gouges(double allowed);
+    double move_clearance(Vec3d a, Vec3d b, double margin);
+    bool covers(Vec2d at);
+    CcPoint cc_point(Vec2d at, double max_error);
+    CcPoint exact_cc_point(Vec2d at, double max_error);
+
+    static constexpr std::size_t kStack = 256;
+    // Most queries read only the first cache line of a piece.
+    struct alignas(64) Piece {
+        // A plane above the piece, where the piece is a graph: z = z_at_origin + gradient . (x, y).
+        Vec2d gradient;
+        double z_at_origin;
+        double rise;  // mm: of the tip over the plane at the tool's axis
+        double z1;
+        double contact;       // the tool touches the plane at axis + gradient * contact
+        double thickness;     // mm, vertical: the piece lies in a slab so thick under the plane
+        std::uint32_t child;  // first of two halves; 0: not yet halved
+        bool graph;           // false where the piece is too steep for a plane z(x, y)
+        bool cut;             // by the edge of a trimmed surface
+        std::uint8_t border;  // bits: which of its sides are edges of the surface
+        bool outlined;        // it fills its outline, or without one its box, to all sides
+        double x0, y0, x1, y1, z0;  // box, with z1
+        // A box turned with the piece: its ends along (1, 0, g.x) and across that in the plane,
+        // both as unit vectors.
+        std::array<double, 4> lateral;
+        double secant;      // of the plane's slope
+        std::uint32_t net;  // index of its first control point, v fastest; the first half reuses it
+        std::uint32_t patch;
+        std::uint32_t parent;
+        std::uint32_t outline;   // 0: the piece ends at its box
+        std::array<float, 2> u;  // its part of the patch, from 0 to 1
+        std::array<float, 2> v;
+    };
+    // A side of a piece at the surface's edge, or at a trim: a rectangle in plan with the axes
+    // (across, left_normal(across)).
+    struct Side {
+        Vec2d across;           // outward, a unit vector
+        double inner, outer;    // extent along `across`
+        double low, high;       // extent along left_normal(across)
+        double begin{}, end{};  // of the outer line, between those of the other sides
+        static Side none(Vec2d across)
+        {
+            return {across, kUnbounded, -kUnbounded, kUnbounded, -kUnbounded};
+        }
+    };
+    // Where a piece ends, if its box extends beyond it.
+    struct Outline {
+        std::array<Side, 5> sides;  // the fifth is the line along the edge that cuts the piece
+        std::size_t count{4};
+        double bow{0.0};  // mm, in plan: how far the piece's edge lies inside the sides at most
+        const Side* begin() const { return sides.data(); }
+        const Side* end() const { return sides.data() + count; }
+    };
+    // Bits of Piece::border.
+    static constexpr std::uint8_t kFirstRow = 1;
+    static constexpr std::uint8_t kLastRow = 2;
+    static constexpr std::uint8_t kFirstColumn = 4;
+    static constexpr std::uint8_t kLastColumn = 8;
+    static constexpr std::uint8_t kAllSides = 15;
+    // Patches are grouped by pairs up to one root: a group is a box with two children.
+    static constexpr std::uint32_t kRoot = 1;
+    static constexpr std::uint32_t kGroup = 0xFFFFFFFF;  // as `patch`
+    struct Patch {
+        std::uint32_t surface;
+        std::uint32_t rows, columns;  // of control points
+        bool weighted;                // weights differ
+        double u0, u1, v0, v1;
+    };
+    struct Domain {
+        double u0, u1, v0, v1;
+    };
+    // The part of a piece inside the trims: points, off by at most `off` mm, in whose hull it lies.
+    struct Remnant {
+        std::vector<Vec3d> points;
+        std::size_t edge;  // from this index on they are points of the edge
+        double off;
+    };
+    struct Query {
+        Vec2d at;
+        double thin;  // mm: pieces this thin are not halved
+    };
+    // The tool on a plane that ends: height of the tip, and where in plan it touches.
+    struct PlaneContact {
+        double height;
+        Vec2d place;
+    };
+    struct Rectangle {
+        double x0, x1, y0, y1;
+    };
+    enum class NextStep : std::uint8_t { kNone, kHalveMove, kHalvePiece };
+
+    // The tree (drop_cutter_pieces.cpp).
+    void gather(std::uint32_t place, std::uint32_t parent, Piece* first, Piece* last);
+    std::uint32_t sibling(std::uint32_t piece) const
+    {
+        return 2 * pieces_[pieces_[piece].parent].child + 1 - piece;
+    }
+    void halve(std::uint32_t piece);
+    void forget_many_halves();
+    void measure(Piece& piece);
+    void measure_plane(Piece& piece) const;
+    // Control points of the piece being measured.
+    const Vec3d* points_of(const Piece& piece) const
+    {
+        return patches_[piece.patch].weighted ? unweighted_.data() : &nets_[piece.net];
+    }
+    static double extent(const Piece& piece)
+    {
+        return std::max({piece.x1 - piece.x0, piece.y1 - piece.y0, piece.z1 - piece.z0});
+    }
+    // How far x lies outside [low, high].
+    static double excess(double low, double high, double x)
+    {
+        return std::max(0.0, std::max(low - x, x - high));
+    }
+    // False where the piece, or its outline, may extend more than `thin` beyond the surface.
+    bool is_whole(const Piece& piece, double thin) const
+    {
+        const bool exact = piece.outline == 0 ? !piece.cut : outlines_[piece.outline].bow <= thin;
+        return exact || extent(piece) < thin;
+    }
+
+    // Ends of pieces (drop_cutter_outline.cpp, drop_cutter_trim.cpp).
+    void measure_outline(Piece& piece);
+    bool set_sides(const Piece& piece, Outline& outline) const;
+    static void widen(Side& side, Vec2d p);
+    static void end_sides(Outline& outline);
+    double beyond_outline(const Piece& piece, Vec2d at) const;
+    std::optional<PlaneContact> on_outline(const Piece& piece, Vec2d at) const;
+    Vec2d on_piece(const Piece& piece, Vec2d at) const;
+    double apart_from_outline(const Piece& piece, Vec3d a, Vec3d b) const;
+    double apart_from_plate(const Piece& piece, Vec3d a, Vec3d b) const;
+    Domain domain_of(const Piece& piece) const;
+    void trim(Piece& piece);
+    Remnant remnant_of(const Piece& piece) const;
+    static std::optional<Side> side_along(const Remnant& left, double& bow);
+    void measure_remnant(Piece& piece);
+
+    // The drop (drop_cutter_query.cpp).
+    static double over_plane(const Piece& piece, Vec2d at);
+    std::uint32_t guess(Vec2d at) const;
+    double bound(const Piece& piece, const Query& query, double best, bool& tight) const;
+    Vec2d slope_of(const Piece& piece, Vec2d at) const;
+    double side_slope(double away) const;
+    std::optional<PlaneContact> on_edges(const Piece& piece, Vec2d at) const;
+    std::optional<PlaneContact> on_edges(
+        const Rectangle& part, Vec2d slope, double here, double reach, Vec2d at) const;
+
+    // The clearance of a move (drop_cutter_clearance.cpp).
+    double beside_line(const Piece& piece, const Vec3d& a, const Vec3d& b) const;
+    bool overhangs(const Piece& piece) const;
+    double ball_clearance(const Piece& piece, const Vec3d& a, const Vec3d& b, double margin) const;
+    double axial_clearance(const Piece& piece, Vec3d a, Vec3d b, double margin) const;
+    NextStep next_step(const Piece& piece, double here, double length, double tilt) const;
+
+    // The contact (drop_cutter_section.cpp).
+    CcPoint cc_point_on(const Piece& piece, double height, double u, double v) const;
+
+    toolpath::Tool tool_;
+    double accuracy_;
+    std::vector<nurbs::Surface> surfaces_;
+    std::optional<part_model::EdgeGougeCheck> edges_;
+    std::vector<part_model::TrimRegion> trims_;  // of each surface; empty where none is trimmed
+    std::vector<Patch> patches_;
+    std::vector<Piece> pieces_;         // halved when first needed
+    std::vector<Vec3d> nets_;           // control points; times their weights where those differ
+    std::vector<double> weights_;       // parallel to nets_, up to the last patch with weights
+    std::vector<Outline> outlines_{1};  // the first one stands for none
+    // The same before any piece was halved.
+    struct Whole {
+        std::vector<Piece> pieces;
+        std::vector<Vec3d> nets;
+        std::vector<double> weights;
+        std::vector<Outline> outlines;
+    };
+    Whole whole_;
+    std::vector<Vec3d> unweighted_;  // control points of the piece being measured
+    std::uint32_t last_{kRoot};      // the piece that the last drop rested on
+    std::uint32_t beside_{kRoot};    // the smallest piece that the last move came near to
+    double lowest_{kUnbounded};
+    double highest_{-kUnbounded};
+};
+
+}  // namespace cusp::drop_cutter

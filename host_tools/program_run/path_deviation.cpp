@@ -1,0 +1,223 @@
+// Nearest points of moves.
+#include "host_tools/program_run/path_deviation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "firmware/base/math.hpp"
+
+namespace cusp::program_run {
+namespace {
+
+PathPlace nearest_on_segment(Vec3d point, Vec3d end)
+{
+    const double length_squared = dot(end, end);
+    const double t =
+        length_squared > 0 ? std::clamp(dot(point, end) / length_squared, 0.0, 1.0) : 0.0;
+    return {norm(point - end * t), t};
+}
+
+// Point of the arc at t in [0, 1] and, by differences of the closed form, its derivatives.
+struct ArcPoint {
+    Vec3d position;
+    Vec3d first;
+    Vec3d second;
+};
+
+ArcPoint arc_at(const path::Arc& arc, double t)
+{
+    const double angle = t * arc.sweep;
+    const double radius = arc.radius + t * arc.radius_change;
+    const Vec3d out = arc.u * std::cos(angle) + arc.v * std::sin(angle);
+    const Vec3d along = arc.v * std::cos(angle) - arc.u * std::sin(angle);
+    return {arc.centre + out * radius + arc.axial * t,
+            out * arc.radius_change + along * (radius * arc.sweep) + arc.axial,
+            along * (2.0 * arc.radius_change * arc.sweep) - out * (radius * arc.sweep * arc.sweep)};
+}
+
+PathPlace nearest_on_arc_from(const path::Arc& arc, Vec3d point, double t)
+{
+    for (int iteration = 0; iteration < 12; ++iteration) {
+        const ArcPoint at = arc_at(arc, t);
+        const Vec3d away = at.position - point;
+        const double slope = dot(away, at.first);
+        const double curvature = dot(at.first, at.first) + dot(away, at.second);
+        // Far from the arc Newton's step would run away: steepest descent is enough there.
+        const double step = slope / (curvature > 0 ? curvature : dot(at.first, at.first));
+        const double next = std::clamp(t - step, 0.0, 1.0);
+        if (std::fabs(next - t) < 1e-13) {
+            break;
+        }
+        t = next;
+    }
+    return {norm(arc_at(arc, t).position - point), t};
+}
+
+PathPlace nearest_on_arc(const path::Arc& arc, Vec3d point)
+{
+    const Vec3d from_centre = point - arc.centre;
+    double angle = std::atan2(dot(from_centre, arc.v), dot(from_centre, arc.u));
+    if (angle < 0) {
+        angle += 2.0 * kPi;
+    }
+    PathPlace nearest{norm(arc_at(arc, 0.0).position - point), 0.0};
+    const PathPlace at_end{norm(arc_at(arc, 1.0).position - point), 1.0};
+    if (at_end.distance < nearest.distance) {
+        nearest = at_end;
+    }
+    const double rise = dot(arc.axial, arc.axial);
+    const double turn_by_height =
+        rise > 0 ? dot(from_centre, arc.axial) / rise * arc.sweep / (2.0 * kPi) : 0.0;
+    const double turns = std::ceil(arc.sweep / (2.0 * kPi));
+    const double middle = std::clamp(std::floor(turn_by_height), 0.0, turns - 1.0);
+    for (double turn = middle - 1.0; turn <= middle + 1.0; ++turn) {
+        const double t = (angle + turn * 2.0 * kPi) / arc.sweep;
+        if (t >= 0.0 && t <= 1.0) {
+            const PathPlace found = nearest_on_arc_from(arc, point, t);
+            if (found.distance < nearest.distance) {
+                nearest = found;
+            }
+        }
+    }
+    return nearest;
+}
+
+// De Casteljau in homogeneous coordinates.
+Vec3d bezier_at(const path::BezierPiece& piece, double t)
+{
+    std::array<Vec3d, path::kMaxOrder> points{};
+    std::array<double, path::kMaxOrder> weights{};
+    for (unsigned i = 0; i < piece.order; ++i) {
+        weights[i] = static_cast<double>(piece.weights[i]);
+        const Vec3f& p = piece.points[i];
+        points[i] =
+            Vec3d{static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)} *
+            weights[i];
+    }
+    for (unsigned left = piece.order; left > 1; --left) {
+        for (unsigned i = 0; i + 1 < left; ++i) {
+            points[i] = points[i] * (1.0 - t) + points[i + 1] * t;
+            weights[i] = weights[i] * (1.0 - t) + weights[i + 1] * t;
+        }
+    }
+    return points[0] / weights[0];
+}
+
+PathPlace nearest_on_bezier(const path::BezierPiece& piece, Vec3d point)
+{
+    constexpr int kSamples = 32;
+    const auto distance_at = [&](double t) {
+        return norm(bezier_at(piece, t) - point);
+    };
+    int best = 0;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (int i = 0; i <= kSamples; ++i) {
+        const double distance = distance_at(static_cast<double>(i) / kSamples);
+        if (distance < nearest) {
+            nearest = distance;
+            best = i;
+        }
+    }
+    // Golden section between the neighbours of the nearest sample.
+    constexpr double kGolden = 0.6180339887498949;
+    double low = std::max(0, best - 1) / static_cast<double>(kSamples);
+    double high = std::min(kSamples, best + 1) / static_cast<double>(kSamples);
+    while (high - low > 1e-9) {
+        const double a = high - (high - low) * kGolden;
+        const double b = low + (high - low) * kGolden;
+        (distance_at(a) < distance_at(b) ? high : low) = distance_at(a) < distance_at(b) ? b : a;
+    }
+    const double middle = (low + high) / 2;
+    if (distance_at(middle) < nearest) {
+        return {distance_at(middle), middle};
+    }
+    return {nearest, static_cast<double>(best) / kSamples};
+}
+
+// Ties between two stretches go to the later one.
+constexpr double kTie = 1e-7;
+
+}  // namespace
+
+PathPlace nearest_place(const path::Move& move, Position point)
+{
+    const Vec3d relative = to_millimetres(point - move.start);
+    if (const auto* arc = std::get_if<path::Arc>(&move.path)) {
+        return nearest_on_arc(*arc, relative);
+    }
+    if (const auto* piece = std::get_if<path::BezierPiece>(&move.path)) {
+        return nearest_on_bezier(*piece, relative);
+    }
+    return nearest_on_segment(relative, to_millimetres(move.end - move.start));
+}
+
+void PathDeviation::add_move(const path::Move& move)
+{
+    const double length = path::length(move);
+    if (length <= 0.0) {
+        return;
+    }
+    stretches_.push_back({move, end_, length});
+    end_ += length;
+    greatest_tolerance_ = std::max(greatest_tolerance_, static_cast<double>(move.tolerance));
+}
+
+void PathDeviation::restart()
+{
+    stretches_.clear();
+    place_ = end_;
+}
+
+// How far along the path the place may have moved since the last set point: what was travelled, and
+// what blending cuts off at a corner.
+double PathDeviation::reach(Position set_point) const
+{
+    constexpr double kSlack = 0.5;
+    constexpr double kMostTravel = 2.0;  // in one tick, at 120 m/min
+    const double travel = std::min(kMostTravel, norm(to_millimetres(set_point - last_)));
+    return kSlack + 2.0 * travel + 8.0 * greatest_tolerance_;
+}
+
+double PathDeviation::add_set_point(Position set_point)
+{
+    if (stretches_.empty() || set_point == last_) {
+        last_ = set_point;
+        return 0;
+    }
+    const double around = reach(set_point);
+    last_ = set_point;
+    double nearest = std::numeric_limits<double>::infinity();
+    double place = place_;
+    std::uint32_t line = 0;
+    for (const Stretch& stretch : stretches_) {
+        if (stretch.start > place_ + around) {
+            break;
+        }
+        if (stretch.start + stretch.length < place_ - around) {
+            continue;
+        }
+        const PathPlace found = nearest_place(stretch.move, set_point);
+        if (found.distance <= nearest + kTie) {
+            nearest = std::min(nearest, found.distance);
+            place = stretch.start + found.part * stretch.length;
+            line = stretch.move.line;
+        }
+    }
+    place_ = place;
+    while (stretches_.size() > 1 &&
+           stretches_.front().start + stretches_.front().length < place_ - 4.0 * around) {
+        stretches_.pop_front();
+    }
+    if (nearest == std::numeric_limits<double>::infinity()) {
+        return 0;
+    }
+    if (nearest > greatest_) {
+        greatest_ = nearest;
+        line_ = line;
+    }
+    return nearest;
+}
+
+}  // namespace cusp::program_run

@@ -1,0 +1,58 @@
+// PathDeviation: how far the set points leave the programmed path.
+//
+// Computed in double from the moves as parsed, apart from everything that plans and interpolates
+// them: true distances to lines, helices and rational Bezier curves.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+
+#include "firmware/path/move.hpp"
+
+namespace cusp::program_run {
+
+// The place on a move that is nearest to a point.
+struct PathPlace {
+    double distance;  // mm, within 1e-7
+    double part;      // of the move's parameter, 0 to 1
+};
+
+// The nearest point of an arc is sought where the angle says, for a helix in the turn that the
+// height says and its neighbours.
+PathPlace nearest_place(const path::Move& move, Position point);
+
+// Follows the set points along the path. Where the path comes near itself, only the stretch around
+// the place of the last set point counts.
+class PathDeviation {
+public:
+    // Moves in the order of the program. A move of no length is dropped.
+    void add_move(const path::Move& move);
+
+    // The set point of the next servo tick. Returns its distance, mm; 0 where it stands still.
+    double add_set_point(Position set_point);
+
+    // The machine has moved on its own: the path goes on with the next move.
+    void restart();
+
+    // Greatest distance so far, mm, and the line of the move that was nearest there.
+    double greatest() const { return greatest_; }
+    std::uint32_t line() const { return line_; }
+
+private:
+    struct Stretch {
+        path::Move move;
+        double start;  // mm along the path
+        double length;
+    };
+    double reach(Position set_point) const;
+
+    std::deque<Stretch> stretches_;
+    double end_{0};    // of the path so far, mm
+    double place_{0};  // of the last set point
+    Position last_{};
+    double greatest_tolerance_{0};
+    double greatest_{0};
+    std::uint32_t line_{0};
+};
+
+}  // namespace cusp::program_run

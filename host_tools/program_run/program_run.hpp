@@ -1,0 +1,126 @@
+// ProgramRun: a program through the whole firmware in virtual time, and its measures. Neither files nor
+// exceptions: host and browser run the same code.
+//
+//     auto source = dialect::LineSource::of_text("part.ngc", text);
+//     ProgramRun run{source, {}};
+//     while (run.advance()) {
+//     }
+//     const RunResult result = run.result();
+//
+// The run is the sender too: a line goes out as soon as the one before is answered, in no time. The
+// first error or alarm ends the run.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware/machine/settings.hpp"
+#include "hal/sim/simulated_board.hpp"
+#include "host_tools/dialect/line_source.hpp"
+#include "host_tools/program_run/program_shadow.hpp"
+#include "host_tools/program_run/tool_times.hpp"
+
+namespace cusp::program_run {
+
+// A realtime byte that the firmware reads before the servo tick of this number, counted from 0.
+struct ScriptedByte {
+    std::uint64_t tick;
+    std::uint8_t byte;
+};
+
+// Where the machine is at the end of a servo tick.
+struct SetPoint {
+    std::uint64_t microseconds;  // on the clock of the pulse trace
+    Position at;
+    std::uint32_t line;   // of the program, that it executes; 0 before the first
+    double deviation_mm;  // from the programmed path; 0 where it is not measured
+};
+
+struct RunOptions {
+    machine::Settings settings;
+    // While it has bytes left a hold lasts until the script's cycle start; without, it is over at
+    // once.
+    std::vector<ScriptedByte> script;
+    // Height of the probe plate over the start, mm.
+    std::optional<double> probe_z;
+    // Bits per second of the serial line; 0: lines take no time.
+    std::uint32_t bits_per_second{0};
+    // Whether the deviation from the programmed path is measured.
+    bool measures_deviation{true};
+    // Called once, when the machine has homed and stands where the program starts.
+    std::function<void(hal::SimulatedBoard&)> started;
+    // Called for the start and for every servo tick.
+    std::function<void(const SetPoint&)> set_point;
+};
+
+// An answer that ended the run, or a line that the sender could not send.
+struct RunError {
+    std::uint64_t line;  // of the program
+    int code;            // Grbl's; 0 where the fault is not the firmware's
+    std::string text;
+    std::string block;  // the line as the program has it; empty where the fault is not a line's
+    std::string word;   // of the block, the one that is refused; empty where no single word is
+};
+
+struct RunResult {
+    double duration_s{0};  // from the first to the last moving tick
+    double total_s{0};     // dwells at both ends too
+    std::uint64_t lines{0};
+    ProgramMoveCounts moves;
+    PerAxis<std::uint64_t> steps{};  // pulses, both ways
+    Position end;                    // machine coordinates
+    double length_mm{0};
+    Vec3d max_velocity;
+    Vec3d max_acceleration;
+    Vec3d max_jerk;
+    double max_deviation_mm{0};
+    std::uint64_t max_deviation_line{0};
+    std::uint64_t starved_ticks{0};
+    int alarm{0};  // Grbl's code; 0: none
+    std::vector<RunError> errors;
+    // M0, M1 and tool changes, which went on at once.
+    std::vector<std::uint64_t> pause_lines;
+    std::uint64_t pauses{0};
+    std::vector<ToolTime> tools;  // in the order of their first use
+    std::uint64_t tool_changes{0};
+    std::uint32_t edges_crc32{0};  // see EdgeChecksum
+    bool stopped{false};
+
+    bool good() const { return errors.empty() && alarm == 0 && !stopped; }
+};
+
+// An error of a result as a line: "error:20: a G or M word is not supported".
+std::string fault_text(const RunResult& result, const RunError& error);
+
+class ProgramRun {
+public:
+    // The lines of the program, and the options, outlive the run.
+    ProgramRun(dialect::LineSource& source, const RunOptions& options);
+    ~ProgramRun();
+    ProgramRun(const ProgramRun&) = delete;
+    ProgramRun& operator=(const ProgramRun&) = delete;
+
+    // At most one servo tick. Returns whether the run goes on.
+    bool advance();
+
+    // Sends no more: the run goes on until the machine rests.
+    void stop();
+
+    // Of the program's bytes, 0 to 1; its line that was sent last; the time of the machine so far.
+    double fraction() const;
+    std::uint64_t line() const;
+    double seconds() const;
+
+    // Precondition: advance() returned false.
+    const RunResult& result() const;
+
+private:
+    class Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace cusp::program_run

@@ -1,0 +1,34 @@
+// The figures of a run as JSON, for the page.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware/base/machine_limits.hpp"
+#include "host_tools/job/job.hpp"
+#include "host_tools/program_run/program_run.hpp"
+#include "host_tools/verify/verify.hpp"
+#include "host_tools/view/left_map.hpp"
+#include "host_tools/view/program_reading.hpp"
+
+namespace cusp::view {
+
+struct RunFacts {
+    std::string program;
+    const ProgramReading& reading;
+    const program_run::RunResult& run;
+    const MachineLimits& limits;
+    std::uint64_t ticks;
+    std::uint64_t start_us;
+    std::int64_t farthest_nm;  // of any axis from where the run starts
+    const job::Job* job;
+    const verify::Verification* verification;  // none: not verified
+    std::string not_verified;                  // why
+    std::vector<WorstPlace> worst;
+};
+
+// Text that may stand in a <script> of HTML, whatever bytes the names and comments have.
+std::string facts_json(const RunFacts& facts);
+
+}  // namespace cusp::view

@@ -1,0 +1,153 @@
+// Reads, verifies, runs, and puts the pieces into the page.
+#include "host_tools/view/run_page.hpp"
+
+#include <filesystem>
+
+#include "host_tools/input_error/input_error.hpp"
+#include "host_tools/simulate/simulation.hpp"
+#include "host_tools/verify/verify.hpp"
+#include "host_tools/view/left_map.hpp"
+#include "host_tools/view/page_text.hpp"
+#include "host_tools/view/program_reading.hpp"
+#include "host_tools/view/run_facts.hpp"
+#include "host_tools/view/run_record.hpp"
+#include "host_tools/view/stock_frames.hpp"
+
+#include "fmt/format.h"
+
+namespace cusp::view {
+
+using program_run::SetPoint;
+using simulate::SimulationOptions;
+using simulate::SimulationProgress;
+using simulate::SimulationResult;
+using verify::HeightGrid;
+using verify::Verification;
+
+namespace {
+
+// Without a stock: mm.
+constexpr double kAnySpacing = 1e9;
+// Of the stock's grid, between places of the tool.
+constexpr double kSpacingShare = 0.4;
+
+std::string block(const char* id, const char* type, std::string_view text)
+{
+    return fmt::format("<script type=\"{}\" id=\"{}\">{}</script>\n", type, id, text);
+}
+
+std::string data_block(const char* id, const Bytes& bytes)
+{
+    return block(id, "text/plain", seven_bit_text(bytes.text()));
+}
+
+std::string deflated_block(const char* id, std::string_view bytes)
+{
+    return block(id, "text/plain", seven_bit_text(deflated(bytes)));
+}
+
+SimulationResult run(const std::string& program, const RunPageOptions& options, RunRecord& record)
+{
+    SimulationOptions simulation;
+    simulation.settings = options.settings;
+    simulation.stop = options.stop;
+    simulation.progress = [&](const SimulationProgress& progress) {
+        options.progress("running", progress.fraction);
+    };
+    simulation.set_point = [&](const SetPoint& point) {
+        record.add(point);
+    };
+    return simulate::simulate(program, simulation);
+}
+
+// None where a line is refused; then `why` says so.
+std::optional<Verification> cut(const std::string& program,
+                                const RunPageOptions& options,
+                                std::string& why)
+{
+    try {
+        return verify::verify(*options.job, program, {},
+                              [&](double share) { options.progress("cutting", share); });
+    } catch (const InputError& error) {
+        why = error.what();
+        return std::nullopt;
+    }
+}
+
+std::string verdict_of(const SimulationResult& run, const Verification* verification)
+{
+    std::string text = fmt::format("{:.3f} s in motion, {:.1f} mm", run.duration_s, run.length_mm);
+    if (!run.errors.empty()) {
+        text += fmt::format("; line {}: {}", run.errors.front().line, run.errors.front().text);
+    }
+    if (verification != nullptr) {
+        text += verification->broken.empty() ? "; all bounds hold"
+                                             : "; " + verification->broken.front();
+    }
+    return text;
+}
+
+// The page with text in place of a line of its template.
+void fill(std::string& page, std::string_view place, const std::string& text)
+{
+    const std::size_t at = page.find(place);
+    if (at == std::string::npos) {
+        throw std::logic_error{"the page of cusp view has no place for its data"};
+    }
+    page.replace(at, place.size(), text);
+}
+
+}  // namespace
+
+RunPage run_page(const std::string& program, const RunPageOptions& options)
+{
+    std::string html{page_text(Page::kView)};
+    if (html.empty()) {
+        throw InputError{fmt::format("cusp view has no page: {}", why_no_page())};
+    }
+    const ProgramReading reading = read_program_lines(program);
+    std::optional<Verification> own;
+    std::string why;
+    if (options.job != nullptr && options.verification == nullptr) {
+        own = cut(program, options, why);
+    }
+    const Verification* cut_part = own ? &*own : options.verification;
+    const HeightGrid grid = cut_part != nullptr ? coarse_grid(cut_part->grid) : HeightGrid{};
+    RunRecord record{reading, cut_part != nullptr ? kSpacingShare * grid.pitch : kAnySpacing};
+    const SimulationResult result = run(program, options, record);
+
+    RunFacts facts{std::filesystem::path{program}.filename().string(),
+                   reading,
+                   result,
+                   options.settings.limits(),
+                   record.ticks(),
+                   record.start(),
+                   record.farthest(),
+                   options.job,
+                   cut_part,
+                   why,
+                   {}};
+    std::string data =
+        data_block("data-samples", record.samples().finish()) +
+        deflated_block("data-lines", record.line_runs().text()) +
+        deflated_block("data-path", record.vertices().finish().text()) +
+        deflated_block("data-program", reading.text) +
+        deflated_block("data-rapid", std::string(reading.rapid.begin(), reading.rapid.end()));
+    if (cut_part != nullptr) {
+        facts.worst = worst_places(*cut_part, options.job->stock_top);
+        data += data_block("data-stock", stock_frames(record.path(), *options.job, grid)) +
+                data_block("data-left", left_map(*cut_part, grid));
+    }
+    fill(html, kFactsPlace, block("facts", "application/json", facts_json(facts)));
+    fill(html, kDataPlace, data);
+    RunPage page;
+    page.html = std::move(html);
+    page.ticks = record.ticks();
+    page.refused = reading.refused_count;
+    page.good = result.good() && reading.refused_count == 0 &&
+                (cut_part == nullptr ? why.empty() : cut_part->broken.empty());
+    page.verdict = verdict_of(result, cut_part);
+    return page;
+}
+
+}  // namespace cusp::view

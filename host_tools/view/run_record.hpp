@@ -1,0 +1,54 @@
+// RunRecord: what a page keeps of the set points of a run, taken tick by tick.
+#pragma once
+
+#include <cstdint>
+
+#include "host_tools/program_run/program_run.hpp"
+#include "host_tools/view/path_vertices.hpp"
+#include "host_tools/view/program_reading.hpp"
+#include "host_tools/view/sample_blocks.hpp"
+#include "host_tools/view/stock_frames.hpp"
+
+namespace cusp::view {
+
+class RunRecord {
+public:
+    // reading  must outlive this
+    // spacing  mm between the places that cut the stock
+    RunRecord(const ProgramReading& reading, double spacing) : reading_{reading}, path_{spacing} {}
+
+    void add(const program_run::SetPoint& point);
+
+    std::uint64_t ticks() const { return samples_.ticks(); }
+    // Of the first set point on the clock of the pulse trace, microseconds.
+    std::uint64_t start() const { return start_; }
+
+    // Greatest distance of an axis from there, nm.
+    std::int64_t farthest() const { return farthest_; }
+
+    SampleBlocks& samples() { return samples_; }
+    PathVertices& vertices() { return vertices_; }
+    const CuttingPath& path() const { return path_; }
+
+    // The bytes: u32 runs of one line; for each its length in ticks (varint) and its line less that
+    // of the run before (zigzag varint).
+    Bytes line_runs();
+
+private:
+    void end_line_run();
+
+    const ProgramReading& reading_;
+    SampleBlocks samples_;
+    PathVertices vertices_;
+    CuttingPath path_;
+    Bytes runs_;
+    std::uint64_t run_count_{0};
+    std::uint64_t run_ticks_{0};
+    std::uint32_t line_{0};
+    std::int64_t written_line_{0};
+    std::uint64_t start_{0};
+    Position start_at_{};
+    std::int64_t farthest_{0};
+};
+
+}  // namespace cusp::view

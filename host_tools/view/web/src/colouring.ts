@@ -1,0 +1,84 @@
+// The six colourings of the page: what each shows, on which scale, with which legend.
+import { cssOf, gradientOf, scaleTable } from "./colours";
+import type { Look, ScaleName } from "./colours";
+import { element, figure } from "./elements";
+import type { Scene } from "./scene";
+import type { Timeline } from "./timeline";
+
+export const colourings = ["height", "speed", "limits", "deviation", "operation", "left"] as const;
+export type Colouring = typeof colourings[number];
+export const colouringNames: Record<Colouring, string> = {
+  height: "Height", speed: "Speed", limits: "Share of limits", deviation: "Off the path", operation: "Operation", left: "Left and gouged",
+};
+
+interface Scale { name: ScaleName; title: string; unit: string; low: number; high: number; value: (vertex: number) => number }
+
+// Of the vertices that cut.
+function heights(timeline: Timeline): [number, number] {
+  const { run } = timeline;
+  let low = Infinity, high = -Infinity;
+  for (let k = 1; k < run.vertexTick.length; ++k) {
+    if (run.rapid[timeline.lineOf(run.vertexTick[k])]) continue;
+    const z = timeline.place(run.vertexTick[k])[2];
+    low = Math.min(low, z);
+    high = Math.max(high, z);
+  }
+  return low < high ? [low, high] : [Math.min(low, 0), Math.max(high, 0) + 1e-3];
+}
+
+function most(values: Float32Array): number {
+  let out = 0;
+  for (const value of values) out = Math.max(out, value);
+  return out;
+}
+
+function scaleOf(colouring: Colouring, timeline: Timeline): Scale {
+  const { run } = timeline;
+  const from0 = (name: ScaleName, title: string, unit: string, values: Float32Array, high: number, factor: number): Scale =>
+    ({ name, title, unit, low: 0, high: high * factor, value: (k) => values[k] / (high || 1) });
+  switch (colouring) {
+    case "speed": return from0("viridis", "Speed", "mm/min", run.vertexSpeed, most(run.vertexSpeed), 60);
+    case "limits": return from0("cividis", "Nearest axis limit", "%", run.vertexShare, 1, 100);
+    case "deviation": return from0("viridis", "Off the programmed path", "µm", run.vertexDeviation, most(run.vertexDeviation), 1000);
+    case "operation": return {
+      name: "kinds", title: "Operation", unit: "", low: 0, high: 0,
+      value: (k) => timeline.facts.reading.sections.indexOf(timeline.sectionOf(timeline.lineOf(run.vertexTick[k]))) / 255,
+    };
+    default: {
+      const [low, high] = heights(timeline);
+      return { name: "viridis", title: "Height", unit: "mm", low, high, value: (k) => (timeline.place(run.vertexTick[k])[2] - low) / (high - low) };
+    }
+  }
+}
+
+function bar(table: Uint8Array, title: string, marks: string[]): HTMLElement[] {
+  const box = element("div", { class: "legend-bar" });
+  box.style.background = gradientOf(table);
+  return [element("div", { class: "legend-title" }, title), box,
+    element("div", { class: "legend-marks" }, ...marks.map((mark) => element("span", {}, mark)))];
+}
+
+// Colours path and surfaces; returns the legend.
+export function applyColouring(colouring: Colouring, timeline: Timeline, scene: Scene, look: Look): HTMLElement[] {
+  const left = colouring === "left", scale = scaleOf(left ? "height" : colouring, timeline);
+  scene.dress(scale.name, look, left);
+  scene.path.colour(scale.value);
+  const bounds = scene.leftBounds();
+  if (left) {
+    if (!bounds) return [element("div", { class: "legend-title" }, "What is left is known with a job only")];
+    const { gouge, scallop } = bounds;
+    return bar(scaleTable("left", look), "Gouged and left, mm",
+      [`−${figure(3 * gouge, 2)}`, `−${figure(gouge, 2)}`, "0", figure(scallop, 2), figure(3 * scallop, 2)]);
+  }
+  const table = scaleTable(scale.name, look);
+  if (colouring === "operation") {
+    const items = timeline.facts.reading.sections.map((section, k) => {
+      const swatch = element("span", { class: "swatch" });
+      swatch.style.background = cssOf(table, Math.min(k, 255));
+      return element("div", { class: "legend-kind" }, swatch, section.title || "Before the first tool");
+    });
+    return [element("div", { class: "legend-title" }, "Operation"), ...items.slice(items.length > 1 ? 1 : 0, 12)];
+  }
+  const middle = (scale.low + scale.high) / 2;
+  return bar(table, `${scale.title}, ${scale.unit}`, [scale.low, middle, scale.high].map((value) => figure(value, 3)));
+}

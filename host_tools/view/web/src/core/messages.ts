@@ -1,0 +1,15 @@
+// What page and worker say to each other.
+import type { Profile, Progress, RunResult, Settings } from "./core";
+
+export interface ToWorker {
+  module: WebAssembly.Module;
+  text: string;
+  settings: Settings;
+  /** Whether path and profile are wanted. */
+  withPath: boolean;
+}
+
+export type FromWorker =
+  | { kind: "progress"; progress: Progress }
+  | { kind: "done"; result: RunResult; path: Float64Array | null; profile: Profile | null }
+  | { kind: "failed"; reason: string };

@@ -1,0 +1,36 @@
+// Making elements; all text by textContent, so that names and comments never are markup.
+
+export type Content = Node | string;
+
+export function element<K extends keyof HTMLElementTagNameMap>(
+  tag: K, attributes: Record<string, string> = {}, ...content: Content[]): HTMLElementTagNameMap[K] {
+  const out = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) out.setAttribute(name, value);
+  out.append(...content);
+  return out;
+}
+
+export function button(label: string, title: string, click: () => void): HTMLButtonElement {
+  const out = element("button", { type: "button", title }, label);
+  out.addEventListener("click", click);
+  return out;
+}
+
+// 4 significant digits at most below 1000, no exponent.
+export function figure(value: number, digits = 4): string {
+  if (!Number.isFinite(value)) return "–";
+  const size = value === 0 ? 0 : Math.floor(Math.log10(Math.abs(value)));
+  return value.toFixed(Math.min(Math.max(digits - 1 - size, 0), 6)).replace(/(\.\d*?)0+$/, "$1").replace(/\.$/, "");
+}
+
+// "1 h 02 min 03.4 s"
+export function duration(seconds: number): string {
+  const tenths = Math.round(seconds * 10), s = (tenths % 600 / 10).toFixed(1), m = Math.floor(tenths / 600) % 60;
+  const h = Math.floor(tenths / 36000);
+  if (h > 0) return `${h} h ${String(m).padStart(2, "0")} min ${s.padStart(4, "0")} s`;
+  return m > 0 ? `${m} min ${s.padStart(4, "0")} s` : seconds < 10 ? `${figure(seconds)} s` : `${s} s`;
+}
+
+export function metres(millimetres: number): string {
+  return millimetres >= 10000 ? `${figure(millimetres / 1000)} m` : `${figure(millimetres)} mm`;
+}

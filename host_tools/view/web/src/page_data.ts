@@ -1,0 +1,51 @@
+// Takes facts and data out of the page, and has a worker unpack the data.
+import workerText from "worker:./unpack_worker.ts";
+import type { PageFacts, Run } from "./run_data";
+import type { UnpackAnswer, UnpackRequest } from "./unpack_worker";
+
+// They stand before the script.
+export function pageFacts(): PageFacts {
+  return JSON.parse(document.getElementById("facts")!.textContent) as PageFacts;
+}
+
+// A block of data; it leaves the page, so that its text is held no longer than needed.
+function takeBlock(name: string): string {
+  const block = document.getElementById("data-" + name);
+  const text = block?.textContent ?? "";
+  block?.remove();
+  return text;
+}
+
+// Resolves when the document is all there.
+function documentRead(): Promise<void> {
+  return new Promise((done) => {
+    if (document.readyState === "loading") document.addEventListener("DOMContentLoaded", () => done());
+    else done();
+  });
+}
+
+export async function loadRun(facts: PageFacts): Promise<Run> {
+  await documentRead();
+  if (typeof DecompressionStream === "undefined") throw new Error("this browser is too old: it has no DecompressionStream");
+  const request: UnpackRequest = {
+    samples: takeBlock("samples"), lines: takeBlock("lines"), path: takeBlock("path"), program: takeBlock("program"),
+    rapid: takeBlock("rapid"), stock: takeBlock("stock"), left: takeBlock("left"),
+    limits: [facts.limits.velocity, facts.limits.acceleration, facts.limits.jerk],
+    farthest: facts.farthest_nm,
+  };
+  const address = URL.createObjectURL(new Blob([workerText], { type: "text/javascript" }));
+  const worker = new Worker(address);
+  try {
+    return await new Promise<Run>((done, fail) => {
+      worker.onmessage = (event: MessageEvent<UnpackAnswer>) => {
+        if ("run" in event.data) done(event.data.run);
+        else fail(new Error("the data of this page are damaged: " + event.data.failed));
+      };
+      worker.onerror = (event) => fail(new Error("the data of this page can't be read: " + event.message));
+      worker.postMessage(request);
+    });
+  } finally {
+    worker.terminate();
+    URL.revokeObjectURL(address);
+  }
+}

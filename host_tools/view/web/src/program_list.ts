@@ -1,0 +1,116 @@
+// The program beside the scene: only the lines in sight are in the page; the line at the cursor is marked.
+import type { RefusedLine } from "./run_data";
+import type { Timeline } from "./timeline";
+
+const kRow = 18;            // px, as page.css has it
+const kTallest = 8_000_000;  // px that browsers are sure to scroll
+
+export class ProgramList {
+  private readonly lines: number;
+  private readonly spacer = document.createElement("div");
+  private readonly rows = document.createElement("div");
+  private readonly refused = new Map<number, RefusedLine>();
+  private readonly decoder = new TextDecoder();
+  private marked = 0;
+  private asked = false;
+
+  constructor(private readonly host: HTMLElement, private readonly timeline: Timeline, private readonly pick: (line: number) => void) {
+    this.lines = timeline.run.lineStart.length - 1;
+    const { reading, run } = timeline.facts;
+    for (const line of reading.refused) this.refused.set(line.line, line);
+    for (const error of run.errors) {
+      if (!this.refused.has(error.line)) this.refused.set(error.line, { ...error, begin: 0, end: 0 });
+    }
+    this.spacer.style.height = `${this.height}px`;
+    this.rows.className = "program-rows";
+    this.rows.setAttribute("role", "presentation");
+    this.spacer.setAttribute("role", "presentation");
+    host.append(this.spacer, this.rows);
+    host.addEventListener("scroll", () => this.ask());
+    host.addEventListener("click", (event) => {
+      const row = (event.target as HTMLElement).closest<HTMLElement>("[data-line]");
+      if (row) this.pick(Number(row.dataset.line));
+    });
+    new ResizeObserver(() => this.ask()).observe(host);
+    timeline.onChange(() => this.follow());
+    this.follow();
+    this.ask();
+  }
+
+  private get height(): number { return Math.min(this.lines * kRow, kTallest); }
+  // Lines that fit.
+  private get seen(): number { return Math.max(Math.floor(this.host.clientHeight / kRow), 1); }
+
+  // The first line in sight, from 0; a fraction of a row is scrolled off.
+  private get top(): number {
+    const most = Math.max(this.height - this.host.clientHeight, 1);
+    return this.host.scrollTop / most * Math.max(this.lines - this.host.clientHeight / kRow, 0);
+  }
+
+  // Keeps the line at the cursor in sight.
+  private follow(): void {
+    const line = this.timeline.lineOf(this.timeline.tick);
+    if (line === this.marked) return;
+    this.marked = line;
+    const top = this.top;
+    if (line > 0 && (line - 1 < top + 1 || line > top + this.seen - 1)) this.scrollTo(line);
+    this.ask();
+  }
+
+  scrollTo(line: number): void {
+    const first = Math.max(line - 1 - this.seen / 2, 0), span = Math.max(this.lines - this.host.clientHeight / kRow, 1);
+    this.host.scrollTop = Math.min(first / span, 1) * Math.max(this.height - this.host.clientHeight, 0);
+    this.ask();
+  }
+
+  private ask(): void {
+    if (this.asked) return;
+    this.asked = true;
+    requestAnimationFrame(() => {
+      this.asked = false;
+      this.draw();
+    });
+  }
+
+  private bytesOf(line: number): Uint8Array {
+    const { program, lineStart } = this.timeline.run;
+    return program.subarray(lineStart[line - 1], lineStart[line] - 1);
+  }
+
+  private draw(): void {
+    const top = this.top, first = Math.floor(top), rows: HTMLElement[] = [];
+    for (let line = first + 1; line <= Math.min(first + this.seen + 2, this.lines); ++line) rows.push(this.row(line));
+    this.rows.replaceChildren(...rows);
+    this.rows.style.transform = `translateY(${this.host.scrollTop - (top - first) * kRow}px)`;
+    const here = document.getElementById("line-" + String(this.marked));
+    if (here) this.host.setAttribute("aria-activedescendant", here.id);
+    else this.host.removeAttribute("aria-activedescendant");
+  }
+
+  private row(line: number): HTMLElement {
+    const row = document.createElement("div"), number = document.createElement("span"), text = document.createElement("span");
+    row.className = "program-row";
+    row.id = "line-" + String(line);
+    row.dataset.line = String(line);
+    row.setAttribute("role", "option");
+    row.setAttribute("aria-selected", String(line === this.marked));
+    row.setAttribute("aria-posinset", String(line));
+    row.setAttribute("aria-setsize", String(this.lines));
+    number.className = "program-number";
+    number.textContent = String(line);
+    const bytes = this.bytesOf(line).subarray(0, 400), refused = this.refused.get(line);
+    if (refused) {
+      row.classList.add("refused");
+      const wrong = document.createElement("mark"), why = document.createElement("span");
+      wrong.textContent = this.decoder.decode(bytes.subarray(refused.begin, refused.end));
+      why.className = "program-why";
+      why.textContent = refused.code > 0 ? `error ${refused.code}: ${refused.text}` : refused.text;
+      text.append(this.decoder.decode(bytes.subarray(0, refused.begin)), wrong, this.decoder.decode(bytes.subarray(refused.end)), why);
+      row.title = why.textContent;
+    } else {
+      text.textContent = this.decoder.decode(bytes);
+    }
+    row.append(number, text);
+    return row;
+  }
+}

@@ -1,0 +1,273 @@
+// The scene: path, stock, part and tool, seen by a parallel projection; drawn when something has changed.
+import * as THREE from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { HeightField } from "./height_field";
+import { PathLines } from "./path_lines";
+import { StockAtCursor } from "./stock_at_cursor";
+import { toolAt, toolGeometry } from "./tool_shape";
+import type { Timeline } from "./timeline";
+import type { Triple } from "./run_data";
+import type { ScaleName } from "./colours";
+import { scaleTable } from "./colours";
+
+// From where the views 1 to 7 look, and what is up in them.
+const views: [Triple, Triple][] = [
+  [[-0.55, -0.75, 0.62], [0, 0, 1]], [[0, 0, 1], [0, 1, 0]], [[0, -1, 0], [0, 0, 1]], [[0, 1, 0], [0, 0, 1]],
+  [[-1, 0, 0], [0, 0, 1]], [[1, 0, 0], [0, 0, 1]], [[0, 0, -1], [0, 1, 0]],
+];
+export const viewNames = ["Corner", "Top", "Front", "Back", "Left", "Right", "Below"];
+
+export interface Shown { stock: boolean; part: boolean; path: boolean; rapids: boolean; tool: boolean }
+
+export class Scene {
+  readonly path: PathLines;
+  shown: Shown;
+  private readonly renderer: THREE.WebGLRenderer;
+  private readonly camera = new THREE.OrthographicCamera();
+  private readonly controls: OrbitControls;
+  private readonly world = new THREE.Scene();
+  private readonly centre: Triple;
+  private readonly extent: number;
+  private readonly pathTable = new THREE.DataTexture(new Uint8Array(1024), 256, 1);
+  private readonly leftTable = new THREE.DataTexture(new Uint8Array(1024), 256, 1);
+  private readonly stock: HeightField | null = null;
+  private readonly part: HeightField | null = null;
+  private readonly cutting: StockAtCursor | null = null;
+  private readonly tool = new THREE.Mesh(undefined, new THREE.MeshLambertMaterial({ color: 0xffffff }));
+  private readonly place = new THREE.Mesh(new THREE.TorusGeometry(1, 0.12, 8, 40), new THREE.MeshBasicMaterial({ color: 0xff00aa, depthTest: false }));
+  private toolNumber = NaN;
+  private asked = false;
+  private movedAt = -1e9;
+  private readonly drawn: (() => void)[] = [];
+
+  constructor(private readonly canvas: HTMLCanvasElement, private readonly timeline: Timeline) {
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+    const { run, facts } = timeline;
+    const box = this.box();
+    this.centre = box.getCenter(new THREE.Vector3()).toArray();
+    this.extent = Math.max(box.getSize(new THREE.Vector3()).length(), 1e-3);
+    this.shown = { stock: run.stock !== null, part: false, path: true, rapids: true, tool: true };
+    this.path = new PathLines(timeline, this.centre, this.pathTable);
+    this.world.add(this.path.group);
+    if (run.stock && run.left) {
+      const foot = run.stock.low - 0.04 * Math.max(this.extent, 1);
+      this.stock = new HeightField(run.stock, this.centre, foot, this.leftTable, run.left.left);
+      this.part = new HeightField(run.stock, this.centre, foot, this.leftTable, run.left.left);
+      this.part.set((k) => run.left!.part[k]);
+      this.cutting = new StockAtCursor(timeline, run.stock, this.stock, this.centre[2]);
+      this.world.add(this.stock.mesh, this.part.mesh);
+    }
+    const toolLight = new THREE.DirectionalLight(0xffffff, 1.6);
+    toolLight.position.set(-0.5, -0.6, 0.8);
+    this.world.add(toolLight, new THREE.AmbientLight(0xffffff, 1.2), this.tool, this.place);
+    this.tool.renderOrder = 3;
+    this.place.visible = false;
+    this.place.renderOrder = 4;
+    this.camera.near = -20 * this.extent;
+    this.camera.far = 20 * this.extent;
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.zoomToCursor = true;
+    this.controls.addEventListener("change", () => this.moved());
+    this.showBounds(facts.verification?.floor_tolerance ?? 0);
+    timeline.onChange(() => this.ask());
+    new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
+    this.resize();
+    this.view(0);
+  }
+
+  // Of the path, and of the stock where there is one.
+  private box(): THREE.Box3 {
+    const { run } = this.timeline, box = new THREE.Box3();
+    for (const tick of run.vertexTick) box.expandByPoint(new THREE.Vector3(...this.timeline.place(tick)));
+    if (run.stock) {
+      const { x0, y0, nx, ny, pitch, low, high } = run.stock;
+      box.expandByPoint(new THREE.Vector3(x0, y0, low)).expandByPoint(new THREE.Vector3(x0 + nx * pitch, y0 + ny * pitch, high));
+    }
+    return box;
+  }
+
+  private showBounds(gouge: number): void {
+    const bounds = this.leftBounds();
+    if (!bounds) return;
+    this.part?.showLeft({ gouge: gouge > 0 ? gouge : bounds.scallop, scallop: bounds.scallop });
+  }
+
+  // mm: what a gouge and metal left may be.
+  leftBounds(): { gouge: number; scallop: number } | null {
+    const v = this.timeline.facts.verification;
+    if (!v || !this.timeline.run.left) return null;
+    const scallop = v.scallop_bound_mm ?? Math.max(v.scallop_p99_mm, 1e-3);
+    return { gouge: v.floor_tolerance > 0 ? v.floor_tolerance : scallop, scallop };
+  }
+
+  // Colours of path and surfaces.
+  dress(scale: ScaleName, look: { dark: boolean; safe: boolean }, left: boolean): void {
+    this.pathTable.image.data!.set(scaleTable(scale, look));
+    this.leftTable.image.data!.set(scaleTable("left", look));
+    this.pathTable.needsUpdate = this.leftTable.needsUpdate = true;
+    this.world.background = new THREE.Color(look.dark ? 0x15181d : 0xeef1f4);
+    this.path.plain = new THREE.Color(look.dark ? 0x9aa3ad : 0x77808a);
+    if (this.stock && this.part) {
+      this.stock.metal = new THREE.Color(look.dark ? 0x8d96a3 : 0xc3c9d1);
+      this.part.metal = new THREE.Color(look.dark ? 0x7f93a8 : 0xb4c4d4);
+      this.stock.showLeft(left ? this.leftBounds() : null);
+    }
+    (this.tool.material).color.set(look.dark ? 0xd8b25a : 0xc8952c);
+    this.path.faint = left;
+    this.ask();
+  }
+
+  view(k: number): void {
+    const [from, up] = views[k];
+    this.controls.target.set(0, 0, 0);
+    this.camera.zoom = 1;
+    this.look(from, up);
+    this.fit();
+  }
+
+  private look(from: Triple, up: Triple): void {
+    this.camera.up.set(...up);
+    this.camera.position.copy(this.controls.target).addScaledVector(new THREE.Vector3(...from).normalize(), 4 * this.extent);
+    this.camera.lookAt(this.controls.target);
+    this.controls.update();
+    this.moved();
+  }
+
+  // Zooms so that the box fills the canvas.
+  fit(): void {
+    const box = this.box().translate(new THREE.Vector3(...this.centre).negate());
+    this.camera.updateMatrixWorld();
+    const shape = new THREE.Box3();
+    for (let k = 0; k < 8; ++k) {
+      shape.expandByPoint(new THREE.Vector3(k & 1 ? box.max.x : box.min.x, k & 2 ? box.max.y : box.min.y, k & 4 ? box.max.z : box.min.z)
+        .applyMatrix4(this.camera.matrixWorldInverse));
+    }
+    const size = shape.getSize(new THREE.Vector3());
+    const width = this.camera.right - this.camera.left, height = this.camera.top - this.camera.bottom;
+    this.camera.zoom = 0.9 * Math.min(width / Math.max(size.x, 1e-6), height / Math.max(size.y, 1e-6));
+    this.camera.updateProjectionMatrix();
+    this.moved();
+  }
+
+  // Around the target, radians.
+  turn(aside: number, up: number): void {
+    const offset = this.camera.position.clone().sub(this.controls.target), z = new THREE.Vector3(0, 0, 1);
+    offset.applyAxisAngle(z, aside);
+    const across = new THREE.Vector3().crossVectors(offset, z);
+    const tilted = across.lengthSq() > 1e-9 ? offset.clone().applyAxisAngle(across.normalize(), up) : offset;
+    if (Math.hypot(tilted.x, tilted.y) > 0.02 * tilted.length()) offset.copy(tilted);
+    this.look(offset.toArray(), [0, 0, 1]);
+  }
+
+  zoom(factor: number): void {
+    this.camera.zoom *= factor;
+    this.camera.updateProjectionMatrix();
+    this.moved();
+  }
+
+  // Turns to a place and marks it.
+  flyTo(at: Triple): void {
+    const target = new THREE.Vector3(...at).sub(new THREE.Vector3(...this.centre));
+    const from = this.controls.target.clone(), zoom = this.camera.zoom;
+    const near = Math.max(zoom, 12), direction = this.camera.position.clone().sub(from);
+    this.place.position.copy(target);
+    this.place.visible = true;
+    const start = performance.now(), length = matchMedia("(prefers-reduced-motion: reduce)").matches ? 1 : 500;
+    const step = () => {
+      const share = Math.min((performance.now() - start) / length, 1), eased = share * share * (3 - 2 * share);
+      this.controls.target.lerpVectors(from, target, eased);
+      this.camera.position.copy(this.controls.target).add(direction);
+      this.camera.zoom = zoom * (near / zoom) ** eased;
+      this.camera.updateProjectionMatrix();
+      this.controls.update();
+      this.moved();
+      if (share < 1) requestAnimationFrame(step);
+    };
+    step();
+  }
+
+  private resize(): void {
+    const box = this.canvas.parentElement!.getBoundingClientRect();
+    const width = Math.max(box.width, 1), height = Math.max(box.height, 1);
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setSize(width, height, false);
+    const half = this.extent / 2;
+    [this.camera.left, this.camera.right] = [-half * width / height, half * width / height];
+    [this.camera.top, this.camera.bottom] = [half, -half];
+    this.camera.updateProjectionMatrix();
+    this.ask();
+  }
+
+  get millimetresPerPixel(): number {
+    return (this.camera.top - this.camera.bottom) / this.camera.zoom / Math.max(this.canvas.clientHeight, 1);
+  }
+
+  private moved(): void {
+    this.movedAt = performance.now();
+    this.ask();
+    setTimeout(() => this.ask(), 300);  // finer once it rests
+  }
+
+  ask(): void {
+    if (this.asked) return;
+    this.asked = true;
+    requestAnimationFrame(() => {
+      this.asked = false;
+      this.draw();
+    });
+  }
+
+  // Resolves when what is asked for now is drawn.
+  whenDrawn(): Promise<void> {
+    return new Promise((done) => {
+      this.drawn.push(done);
+      this.ask();
+    });
+  }
+
+  private draw(): void {
+    const moving = this.timeline.playing || performance.now() - this.movedAt < 250;
+    this.path.refine(this.millimetresPerPixel * (moving ? 2 : 1), moving);
+    this.path.cursor = this.timeline.tick;
+    this.path.group.visible = this.shown.path;
+    this.path.rapids = this.shown.rapids;
+    if (this.stock && this.part) {
+      this.stock.mesh.visible = this.shown.stock;
+      this.part.mesh.visible = this.shown.part;
+      if (this.shown.stock) this.cutting!.update();
+    }
+    this.placeTool();
+    this.place.quaternion.copy(this.camera.quaternion);
+    this.place.scale.setScalar(9 * this.millimetresPerPixel);
+    this.renderer.render(this.world, this.camera);
+    for (const done of this.drawn.splice(0)) done();
+  }
+
+  private placeTool(): void {
+    const cutter = toolAt(this.timeline, this.timeline.tick), number = cutter?.number ?? -1;
+    if (number !== this.toolNumber) {
+      this.toolNumber = number;
+      this.tool.geometry.dispose();
+      this.tool.geometry = toolGeometry(cutter, this.extent);
+    }
+    const place = this.timeline.place(this.timeline.tick);
+    this.tool.position.set(place[0] - this.centre[0], place[1] - this.centre[1], place[2] - this.centre[2]);
+    this.tool.visible = this.shown.tool;
+  }
+
+  // Page pixels and depth of places in mm: one matrix for many places.
+  toPixels(): (at: Triple) => Triple {
+    this.camera.updateMatrixWorld();
+    const m = new THREE.Matrix4().multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse).elements;
+    const box = this.canvas.getBoundingClientRect(), [cx, cy, cz] = this.centre;
+    const left = box.left + scrollX, top = box.top + scrollY;
+    return ([px, py, pz]) => {
+      const x = px - cx, y = py - cy, z = pz - cz;
+      return [
+        left + (m[0] * x + m[4] * y + m[8] * z + m[12] + 1) / 2 * box.width,
+        top + (1 - (m[1] * x + m[5] * y + m[9] * z + m[13])) / 2 * box.height,
+        m[2] * x + m[6] * y + m[10] * z + m[14],
+      ];
+    };
+  }
+}

@@ -1,0 +1,39 @@
+// The tool in its true shape; a thin pointer where no job says what it is.
+import * as THREE from "three";
+import type { Timeline } from "./timeline";
+import type { ToolFacts } from "./run_data";
+
+export type Cutter = ToolFacts & { shape: "ball" | "flat" | "bull"; radius: number; corner_radius: number };
+
+const isCutter = (tool: ToolFacts | undefined): tool is Cutter => tool?.radius !== undefined && tool.corner_radius !== undefined;
+
+// The tool in the spindle; before the first T word, the first.
+export function toolAt(timeline: Timeline, tick: number): Cutter | null {
+  const { tools } = timeline.facts, number = timeline.sectionOf(timeline.lineOf(tick)).tool;
+  const tool = tools.find((t) => t.number === number) ?? tools[0];
+  return isCutter(tool) ? tool : null;
+}
+
+// Height of the lower side over the tip, `away` from the axis.
+export function profileOf(tool: Cutter, away: number): number {
+  const corner = tool.corner_radius, beyond = Math.max(0, away - (tool.radius - corner));
+  return corner - Math.sqrt(Math.max(0, corner * corner - beyond * beyond));
+}
+
+// Around z, the tip at 0.
+export function toolGeometry(tool: Cutter | null, size: number): THREE.BufferGeometry {
+  const points: THREE.Vector2[] = [];
+  if (tool) {
+    const { radius, corner_radius: corner } = tool, flat = radius - corner;
+    points.push(new THREE.Vector2(0, 0));
+    for (let k = 0; k <= 16; ++k) {
+      const angle = k / 16 * Math.PI / 2;
+      points.push(new THREE.Vector2(flat + corner * Math.sin(angle), corner * (1 - Math.cos(angle))));
+    }
+    const flutes = Math.max(5 * radius, corner + radius), shank = flutes + 5 * radius;
+    points.push(new THREE.Vector2(radius, flutes), new THREE.Vector2(0.92 * radius, flutes), new THREE.Vector2(0.92 * radius, shank), new THREE.Vector2(0, shank));
+  } else {
+    points.push(new THREE.Vector2(0, 0), new THREE.Vector2(0.012 * size, 0.05 * size), new THREE.Vector2(0.012 * size, 0.16 * size), new THREE.Vector2(0, 0.16 * size));
+  }
+  return new THREE.LatheGeometry(points, 40).rotateX(Math.PI / 2);
+}

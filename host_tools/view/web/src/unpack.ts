@@ -1,0 +1,189 @@
+// Bytes of the page to arrays: the other end of host_tools/view/byte_text.hpp, sample_blocks.hpp and path_vertices.hpp.
+import { kBucket, kBucketStep, kChannels, kSpeedChannel } from "./run_data";
+import type { Axis, LeftMap, Run, Stock, Triple } from "./run_data";
+
+// Seven bits a character, the highest first.
+export function bytesOfText(text: string): Uint8Array {
+  const out = new Uint8Array(Math.floor(text.length * 7 / 8));
+  let held = 0, bits = 0, at = 0;
+  for (let k = 0; k < text.length && at < out.length; ++k) {
+    held = (held << 7 | text.charCodeAt(k) & 127) & 0x3fff;
+    bits += 7;
+    if (bits >= 8) {
+      bits -= 8;
+      out[at++] = held >> bits & 255;
+    }
+  }
+  return out;
+}
+
+export async function inflate(bytes: Uint8Array): Promise<Uint8Array> {
+  const stream = new Blob([bytes as BlobPart]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+}
+
+export class Reader {
+  private at = 0;
+  private readonly view: DataView;
+  constructor(private readonly bytes: Uint8Array) {
+    this.view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  }
+  u8(): number { return this.bytes[this.at++]; }
+  u32(): number { this.at += 4; return this.view.getUint32(this.at - 4, true); }
+  f64(): number { this.at += 8; return this.view.getFloat64(this.at - 8, true); }
+  varint(): number {
+    let value = 0, scale = 1, byte: number;
+    do {
+      byte = this.bytes[this.at++];
+      value += (byte & 127) * scale;
+      scale *= 128;
+    } while (byte > 127);
+    return value;
+  }
+  take(count: number): Uint8Array { this.at += count; return this.bytes.subarray(this.at - count, this.at); }
+  rest(): Uint8Array { return this.bytes.subarray(this.at); }
+}
+
+const zigzag = (value: number) => value % 2 ? -(value + 1) / 2 : value / 2;
+
+export interface Samples { ticks: number; origin: Triple; axes: [Axis, Axis, Axis] }
+
+export async function unpackSamples(bytes: Uint8Array, farthest: number): Promise<Samples> {
+  const reader = new Reader(bytes);
+  const ticks = reader.u32(), block = reader.u32();
+  const make = () => farthest < 2 ** 31 ? new Int32Array(ticks) : new Float64Array(ticks);
+  const axes: [Axis, Axis, Axis] = [make(), make(), make()];
+  const origin: Triple = [0, 0, 0];
+  for (let begin = 0; begin < ticks; begin += block) {
+    const end = Math.min(ticks, begin + block), count = end - begin - 1;
+    const seeds = [0, 1, 2].map(() => [reader.f64(), reader.f64(), reader.f64(), reader.u8()]);
+    const planes = await inflate(reader.take(reader.u32()));
+    let at = 0;
+    for (let axis = 0; axis < 3; ++axis) {
+      if (begin === 0) origin[axis] = seeds[axis][0];
+      let place = seeds[axis][0] - origin[axis], velocity = seeds[axis][1], acceleration = seeds[axis][2];
+      const depth = seeds[axis][3], out = axes[axis];
+      out[begin] = place;
+      for (let k = 0; k < count; ++k) {
+        let value = 0;
+        for (let plane = depth - 1; plane >= 0; --plane) value = value * 256 + planes[at + plane * count + k];
+        acceleration += depth === 1 ? value >> 1 ^ -(value & 1) : zigzag(value);
+        velocity += acceleration;
+        place += velocity;
+        out[begin + 1 + k] = place;
+      }
+      at += depth * count;
+    }
+  }
+  return { ticks, origin, axes };
+}
+
+export function unpackLineRuns(bytes: Uint8Array): Pick<Run, "runStart" | "runLine"> {
+  const reader = new Reader(bytes), count = reader.u32();
+  const runStart = new Uint32Array(count + 1), runLine = new Uint32Array(count);
+  for (let k = 0, line = 0; k < count; ++k) {
+    runStart[k + 1] = runStart[k] + reader.varint();
+    line += zigzag(reader.varint());
+    runLine[k] = line;
+  }
+  return { runStart, runLine };
+}
+
+export function unpackPath(bytes: Uint8Array): Pick<Run, "vertexTick" | "vertexLevel" | "vertexDeviation"> {
+  const reader = new Reader(bytes), count = reader.u32();
+  const vertexTick = new Uint32Array(count);
+  for (let k = 0, tick = 0; k < count; ++k) vertexTick[k] = tick += reader.varint();
+  const vertexLevel = reader.take(count).slice(), deviations = reader.take(2 * count);
+  const vertexDeviation = new Float32Array(count);
+  for (let k = 0; k < count; ++k) vertexDeviation[k] = (deviations[2 * k] + 256 * deviations[2 * k + 1]) * 1e-5;
+  return { vertexTick, vertexLevel, vertexDeviation };
+}
+
+// Lines end with \n; the last byte is one.
+export function lineStarts(program: Uint8Array): Uint32Array {
+  let count = 0;
+  for (const byte of program) count += byte === 10 ? 1 : 0;
+  const out = new Uint32Array(count + 1);
+  for (let k = 0, line = 0; k < program.length; ++k) if (program[k] === 10) out[++line] = k + 1;
+  return out;
+}
+
+// Peaks of all channels, and what the vertices of the path are coloured by.
+export function measure(samples: Samples, vertexTick: Uint32Array, limits: Triple[]) {
+  const { ticks, axes } = samples;
+  const peaks: Float32Array[][] = [];
+  const make = (count: number) => Array.from({ length: kChannels }, () => new Float32Array(count));
+  const level = make(Math.ceil(ticks / kBucket));
+  peaks.push(level);
+  const vertexSpeed = new Float32Array(vertexTick.length), vertexShare = new Float32Array(vertexTick.length);
+  for (let axis = 0; axis < 3; ++axis) {
+    const places = axes[axis], velocities = level[axis], accelerations = level[3 + axis], jerks = level[6 + axis];
+    // shares of a nanometre a tick, a tick^2, a tick^3
+    const ofV = 1e-3 / limits[0][axis], ofA = 1 / limits[1][axis], ofJ = 1e3 / limits[2][axis];
+    let place = places[0], velocity = 0, acceleration = 0, vertex = 0, share = 0;
+    for (let k = 0; k < ticks; ++k) {
+      const bucket = k / kBucket | 0;
+      const v = places[k] - place, a = v - velocity, j = Math.abs(a - acceleration);
+      place = places[k]; velocity = v; acceleration = a;
+      const speed = Math.abs(v), push = Math.abs(a);
+      if (speed * 1e-3 > velocities[bucket]) velocities[bucket] = speed * 1e-3;
+      if (push > accelerations[bucket]) accelerations[bucket] = push;
+      if (j * 1e3 > jerks[bucket]) jerks[bucket] = j * 1e3;
+      share = Math.max(share, speed * ofV, push * ofA, j * ofJ);
+      if (k === vertexTick[vertex]) {
+        if (share > vertexShare[vertex]) vertexShare[vertex] = share;
+        ++vertex;
+        share = 0;
+      }
+    }
+  }
+  const [x, y, z] = axes, speeds = level[kSpeedChannel];
+  for (let k = 1, vertex = 0; k < ticks; ++k) {
+    const bucket = k / kBucket | 0;
+    const dx = x[k] - x[k - 1], dy = y[k] - y[k - 1], dz = z[k] - z[k - 1];
+    const speed = Math.sqrt(dx * dx + dy * dy + dz * dz) * 1e-3;
+    if (speed > speeds[bucket]) speeds[bucket] = speed;
+    while (vertexTick[vertex] < k) ++vertex;
+    if (k === vertexTick[vertex]) vertexSpeed[vertex] = speed;
+  }
+  while (peaks[peaks.length - 1][0].length > 512) {
+    const fine = peaks[peaks.length - 1], coarse = make(Math.ceil(fine[0].length / kBucketStep));
+    for (let c = 0; c < kChannels; ++c) {
+      for (let k = 0; k < fine[c].length; ++k) {
+        const at = k / kBucketStep | 0;
+        if (fine[c][k] > coarse[c][at]) coarse[c][at] = fine[c][k];
+      }
+    }
+    peaks.push(coarse);
+  }
+  return { peaks, vertexSpeed, vertexShare };
+}
+
+const joined = (planes: Uint8Array, at: number, count: number, k: number) => planes[at + k] + 256 * planes[at + count + k];
+
+export async function unpackStock(bytes: Uint8Array): Promise<Stock> {
+  const reader = new Reader(bytes);
+  const nx = reader.u32(), ny = reader.u32(), count = reader.u32();
+  const [x0, y0, pitch, low, high] = [0, 0, 0, 0, 0].map(() => reader.f64());
+  const frameTicks = new Float64Array(count - 1).map(() => reader.f64());
+  const planes = await inflate(reader.rest()), size = nx * ny;
+  const frames = [new Uint16Array(size).fill(high > low ? 65535 : 0)];
+  for (let f = 1; f < count; ++f) {
+    const next = frames[f - 1].slice(), at = (f - 1) * 2 * size;
+    for (let k = 0; k < size; ++k) next[k] -= joined(planes, at, size, k);
+    frames.push(next);
+  }
+  return { nx, ny, x0, y0, pitch, low, high, frameTicks, frames };
+}
+
+export async function unpackLeft(bytes: Uint8Array, size: number): Promise<LeftMap> {
+  const reader = new Reader(bytes), low = reader.f64(), high = reader.f64();
+  const planes = await inflate(reader.rest());
+  const part = new Float32Array(size), left = new Float32Array(size);
+  for (let k = 0; k < size; ++k) {
+    const z = joined(planes, 0, size, k), over = joined(planes, 2 * size, size, k) << 16 >> 16;
+    part[k] = z === 65535 ? NaN : low + (high - low) * z / 65534;
+    left[k] = over === -32768 ? NaN : over === 32767 ? Infinity : over * 1e-4;
+  }
+  return { part, left };
+}

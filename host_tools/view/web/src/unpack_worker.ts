@@ -1,0 +1,37 @@
+// The worker that unpacks a run: text of the page in, arrays out.
+import type { Run, Triple } from "./run_data";
+import { bytesOfText, inflate, lineStarts, measure, unpackLeft, unpackLineRuns, unpackPath, unpackSamples, unpackStock } from "./unpack";
+
+export interface UnpackRequest {
+  samples: string; lines: string; path: string; program: string; rapid: string; stock: string; left: string;
+  limits: Triple[];  // velocity, acceleration, jerk
+  farthest: number;  // nm from the first set point
+}
+export type UnpackAnswer = { run: Run } | { failed: string };
+
+async function unpack(request: UnpackRequest): Promise<Run> {
+  const inflated = (text: string) => inflate(bytesOfText(text));
+  const samples = await unpackSamples(bytesOfText(request.samples), request.farthest);
+  const path = unpackPath(await inflated(request.path));
+  const program = await inflated(request.program);
+  const stock = request.stock ? await unpackStock(bytesOfText(request.stock)) : null;
+  return {
+    ...samples, ...unpackLineRuns(await inflated(request.lines)), ...path,
+    ...measure(samples, path.vertexTick, request.limits),
+    program, lineStart: lineStarts(program), rapid: await inflated(request.rapid), stock,
+    left: stock && request.left ? await unpackLeft(bytesOfText(request.left), stock.nx * stock.ny) : null,
+  };
+}
+
+// All buffers, so that none is copied on the way out.
+function buffersOf(value: unknown, found = new Set<ArrayBuffer>()): Set<ArrayBuffer> {
+  if (ArrayBuffer.isView(value)) found.add(value.buffer as ArrayBuffer);
+  else if (value !== null && typeof value === "object") for (const part of Object.values(value)) buffersOf(part, found);
+  return found;
+}
+
+self.onmessage = (event: MessageEvent<UnpackRequest>) => {
+  unpack(event.data).then(
+    (run) => self.postMessage({ run } satisfies UnpackAnswer, { transfer: [...buffersOf(run)] }),
+    (error: unknown) => self.postMessage({ failed: String(error) } satisfies UnpackAnswer));
+};

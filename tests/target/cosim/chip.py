@@ -1,0 +1,161 @@
+"""An image of a board on models of its chip's registers (cosim_main.cpp), driven from Python.
+
+The pins are those of the board's README: its wiring table is what a user wires by.
+"""
+import pathlib
+import re
+import subprocess
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+# Chip and crystal, as the boards' READMEs say in their first lines.
+CHIPS = {"mill3_f405": ("stm32f405", 8000000), "black_pill_f411": ("stm32f411", 25000000)}
+# Contacts to ground that are closed where nothing is tripped.
+CLOSED_AT_REST = ("probe", "door", "hold", "reset", "emergency stop", "motor fault")
+LINES = ("X step", "Y step", "Z step", "X direction", "Y direction", "Z direction")
+
+
+class CosimFailed(Exception):
+    """The co-simulation could not go on."""
+
+
+def wiring(board):
+    """signal -> pin, from the wiring table of the board's README."""
+    pins = {}
+    text = (ROOT / "boards" / board / "README.md").read_text()
+    for signals, names in re.findall(r"^\| ([^|]+) \| ((?:P[A-I]\d+)(?:, P[A-I]\d+)*) \|", text, re.M):
+        words = [re.sub(r"\(.*?\)", "", word).strip() for word in signals.split(",")]
+        names = names.split(", ")
+        if len(words) != len(names):
+            continue
+        # "limit X, Y, Z": the words after the first leave its first word out.
+        head = words[0].split()[0]
+        for word, name in zip(words, names):
+            pins[word if " " in word or word == words[0] or head not in ("limit", "spindle", "serial")
+                 else f"{head} {word}"] = name
+    return pins
+
+
+class Chip:
+    """The image of a board from power-up on. A context manager: the end checks for violations."""
+
+    def __init__(self, cosim, image, board, crystal=None, may_violate=(), quiet_inputs=True):
+        chip, nominal = CHIPS[board]
+        self.may_violate = may_violate
+        self.pins = wiring(board)
+        self.lines = [self.pins[line] for line in LINES]
+        self.process = subprocess.Popen(
+            [str(cosim), chip, str(nominal if crystal is None else crystal), str(image)],
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        if quiet_inputs:
+            for signal, pin in self.pins.items():
+                if signal.startswith("limit") or signal in CLOSED_AT_REST:
+                    self.pin(pin, 0)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, kind, value, trace):
+        try:
+            if kind is None:
+                self.check()
+        finally:
+            self.process.stdin.close()
+            self.process.wait(10)
+
+    def command(self, text):
+        """The lines that answer a command."""
+        try:
+            self.process.stdin.write(text + "\n")
+            self.process.stdin.flush()
+        except OSError as error:
+            raise CosimFailed(f"{text}: {error}") from error
+        answer = []
+        for line in self.process.stdout:
+            if line == "done\n":
+                return answer
+            answer.append(line.rstrip("\n"))
+        raise CosimFailed(f"{text}: the co-simulation ended: {answer}")
+
+    def run(self, milliseconds, until=""):
+        """What the chip says in that time, or to the text that is waited for."""
+        wanted = until.encode("latin-1").hex()
+        answer = self.command(f"run {milliseconds} {wanted}")
+        return bytes.fromhex(answer[-1].partition(" ")[2]).decode("latin-1")
+
+    def boot(self):
+        return self.run(1000, "help]\r\n") + self.run(20)
+
+    def send(self, text):
+        self.command(f"send {text.encode('latin-1').hex()}")
+
+    def ask(self, line, milliseconds=3000):
+        """A line and its answer."""
+        self.send(line + "\n")
+        heard = ""
+        for _ in range(2 * milliseconds):
+            heard += self.run(1)
+            if re.search(r"(^|\n)(ok|error:\d+)\r\n", heard):
+                return heard
+        raise CosimFailed(f"{line}: not answered within {milliseconds} ms: {heard!r}")
+
+    def status(self):
+        self.send("?")
+        heard = self.run(50, ">\r\n")
+        match = re.search(r"<(\w+)(?::(\d))?[^|>]*\|MPos:([-\d.,]+)", heard)
+        if match is None:
+            raise CosimFailed(f"no status report, but {heard!r}")
+        return match.group(1), tuple(float(part) for part in match.group(3).split(","))
+
+    def wait_for(self, state, milliseconds=20000):
+        for _ in range(milliseconds // 50):
+            now = self.status()
+            if now[0] == state:
+                return now
+            self.run(40)
+        raise CosimFailed(f"not {state} within {milliseconds} ms, but {now}")
+
+    def pin(self, name, level):
+        self.command(f"pin {name} {level}")
+
+    def levels(self):
+        """name -> level of the pins that the chip drives."""
+        return {words[1]: int(words[2]) for words in map(str.split, self.command("pins"))
+                if words[0] == "pin"}
+
+    def changes(self):
+        """(ns, port, driven, high) of each change since the last call."""
+        return [(int(words[1]), words[2], int(words[3]), int(words[4]))
+                for words in map(str.split, self.command("changes"))]
+
+    def edges_of(self, signal, changes):
+        """(ns, level) of each change of one pin, where it is driven."""
+        name = self.pins[signal]
+        bit = 1 << int(name[2:])
+        edges = []
+        for time, port, driven, high in changes:
+            if port == name[1] and driven & bit:
+                level = 1 if high & bit else 0
+                if not edges or edges[-1][1] != level:
+                    edges.append((time, level))
+        return edges
+
+    def steps(self, changes, axis="X"):
+        """Number of rising edges of a step line."""
+        edges = self.edges_of(f"{axis} step", changes)
+        return sum(1 for (_, before), (_, after) in zip(edges, edges[1:]) if after > before)
+
+    def state(self):
+        found = {"violations": []}
+        for line in self.command("state"):
+            name, _, value = line.partition(" ")
+            if name == "violation":
+                found["violations"].append(value)
+            else:
+                found[name] = int(value)
+        return found
+
+    def check(self):
+        wrong = [text for text in self.state()["violations"]
+                 if not any(allowed in text for allowed in self.may_violate)]
+        if wrong:
+            raise AssertionError("what the reference manual forbids:\n" + "\n".join(wrong))

@@ -1,0 +1,113 @@
+// ChipUnderTest: an STM32F4 put together of its models, with an image in its flash.
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "tests/target/cosim/clock_model.hpp"
+#include "tests/target/cosim/core_model.hpp"
+#include "tests/target/cosim/dma_model.hpp"
+#include "tests/target/cosim/flash_model.hpp"
+#include "tests/target/cosim/port_model.hpp"
+#include "tests/target/cosim/timer_model.hpp"
+#include "tests/target/cosim/usart_model.hpp"
+#include "tests/target/cosim/watchdog_model.hpp"
+
+namespace cusp::cosim {
+
+struct ChipKind {
+    ClockFacts clocks;
+    std::uint32_t flash_bytes;
+    std::uint32_t ram_bytes;
+    std::uint32_t coupled_bytes;  // CCM
+    bool has_timer8;
+    std::string ports;
+};
+// stm32f405, stm32f407, stm32f411, stm32f446. Throws std::runtime_error for another.
+ChipKind chip_kind(const std::string& name);
+
+class ChipUnderTest {
+public:
+    ChipUnderTest(const ChipKind& kind, const std::vector<std::uint8_t>& image);
+
+    // Lets this much time pass. Ends early where `until` says so; it is asked when the core sleeps.
+    void run(Picoseconds time, const std::function<bool()>& until = {});
+
+    Circuit& circuit() { return circuit_; }
+    CoreModel& core() { return *core_; }
+    FlashModel& flash() { return *flash_; }
+    ClockModel& clocks() { return *clocks_; }
+    UsartModel& serial() { return *usart1_; }
+    PortModel& port(char letter);
+    std::map<char, std::unique_ptr<PortModel>>& ports() { return ports_; }
+    std::uint32_t spindle_compare() const { return timers_.at("TIM3")->compare(0); }
+
+    // The core executes nothing more; `debugger`: as a debugger halts it, which DBGMCU knows of.
+    void stop_core(bool debugger);
+    void go_on();
+    // Without power for a while: the memory is lost, the flash stays.
+    void power_cycle();
+    unsigned resets() const { return resets_; }
+    // The power fails after this many more words or erases of the flash.
+    void fail_power_after(std::uint64_t writes)
+    {
+        writes_left_ = static_cast<std::int64_t>(writes);
+    }
+    bool powered() const { return powered_; }
+
+    // Called at each change of half of the pulse stream, that is each servo tick.
+    void set_tick_listener(std::function<void()> listener) { tick_listener_ = std::move(listener); }
+
+private:
+    struct Block {
+        Model* model;
+        std::string name;
+        std::function<bool()> clocked;
+    };
+    void make_blocks();
+    void make_timers();
+    void make_serial();
+    void add(std::uint32_t address,
+             const std::string& name,
+             Model& model,
+             std::function<bool()> clocked);
+    void add_timer(const std::string& name,
+                   std::uint32_t address,
+                   TimerModel::Wiring wiring,
+                   std::function<bool()> clocked);
+    std::uint32_t read(std::uint32_t address, unsigned size);
+    void write(std::uint32_t address, unsigned size, std::uint32_t value);
+    Block* block_of(std::uint32_t address, unsigned size, const char* what);
+    void write_by_dma(std::uint32_t address, std::uint32_t value);
+    void store_flash(std::uint32_t address, unsigned size, std::uint32_t value);
+    void happen_until_now();
+    void find_next();
+    void reset(ClockModel::ResetCause cause);
+    void advance(Picoseconds to);
+    void listen_for_ticks();
+
+    ChipKind kind_;
+    Circuit circuit_;
+    std::unique_ptr<ClockModel> clocks_;
+    std::unique_ptr<FlashModel> flash_;
+    std::unique_ptr<Model> power_;
+    std::unique_ptr<WatchdogModel> watchdog_;
+    std::unique_ptr<DmaModel> dma2_;
+    std::unique_ptr<UsartModel> usart1_;
+    std::map<char, std::unique_ptr<PortModel>> ports_;
+    std::map<std::string, std::unique_ptr<TimerModel>> timers_;
+    std::unique_ptr<CoreModel> core_;
+    std::map<std::uint32_t, Block> blocks_;
+    std::vector<Model*> active_;  // those that do something by themselves
+    std::uint32_t clock_changes_{0};
+    std::uint32_t freeze_1_{0}, freeze_2_{0};
+    Picoseconds end_{0};
+    bool held_{false};
+    bool powered_{true};
+    std::int64_t writes_left_{-1};
+    unsigned resets_{0};
+    bool pace_line_{false};
+    std::function<void()> tick_listener_;
+};
+
+}  // namespace cusp::cosim

@@ -1,0 +1,293 @@
+// Runs the image of a board on models of its chip's registers, as the commands on its input say.
+//
+// usage: cosim CHIP CRYSTAL_HZ IMAGE.bin [INSTRUCTION_PS]
+//
+// Each command is a line; its answer ends with the line "done". tests/target/cosim/chip.py speaks it.
+// Exit status: 0, or 2 where a command or the image can't be used.
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+
+#include "tests/target/cosim/golden_sender.hpp"
+#include "tests/target/cosim/pseudo_terminal.hpp"
+
+namespace cusp::cosim {
+namespace {
+
+std::vector<std::uint8_t> read_file(const std::string& name)
+{
+    std::ifstream file{name, std::ios::binary};
+    if (!file) {
+        throw std::runtime_error{name + ": can't be read"};
+    }
+    return {std::istreambuf_iterator<char>{file}, std::istreambuf_iterator<char>{}};
+}
+
+class Console {
+public:
+    explicit Console(ChipUnderTest& chip) : chip_{chip} { listen(); }
+
+    void perform(const std::string& line);
+
+private:
+    void listen()
+    {
+        chip_.serial().set_receiver([this](char byte) { heard_.push_back(byte); });
+    }
+    void run(std::istream& words);
+    void send(std::istream& words);
+    void pin(std::istream& words);
+    void core(std::istream& words);
+    void power(std::istream& words);
+    void golden(std::istream& words);
+    void tell_pins() const;
+    void tell_changes() const;
+    void tell_state() const;
+    void tell_heard();
+
+    ChipUnderTest& chip_;
+    std::string heard_;
+};
+
+Picoseconds milliseconds(std::istream& words)
+{
+    double value = 0;
+    if (!(words >> value) || value < 0) {
+        throw std::runtime_error{"a time in milliseconds is missing"};
+    }
+    return static_cast<Picoseconds>(value * 1e9);
+}
+
+// run MS [HEX]: so long, or until the bytes were heard.
+void Console::run(std::istream& words)
+{
+    const Picoseconds time = milliseconds(words);
+    std::string wanted;
+    std::string hex;
+    words >> hex;
+    for (std::size_t at = 0; at + 1 < hex.size(); at += 2) {
+        wanted.push_back(static_cast<char>(std::stoi(hex.substr(at, 2), nullptr, 16)));
+    }
+    const auto heard = [&] {
+        return heard_.find(wanted) != std::string::npos;
+    };
+    chip_.run(time, wanted.empty() ? std::function<bool()>{} : heard);
+    tell_heard();
+}
+
+void Console::tell_heard()
+{
+    std::cout << "heard ";
+    for (const char byte : heard_) {
+        std::printf("%02x", static_cast<unsigned char>(byte));
+    }
+    std::fflush(stdout);
+    std::cout << "\n";
+    heard_.clear();
+}
+
+// send HEX
+void Console::send(std::istream& words)
+{
+    std::string hex;
+    words >> hex;
+    std::string bytes;
+    for (std::size_t at = 0; at + 1 < hex.size(); at += 2) {
+        bytes.push_back(static_cast<char>(std::stoi(hex.substr(at, 2), nullptr, 16)));
+    }
+    chip_.serial().send(bytes);
+}
+
+// pin PB12 0|1|open
+void Console::pin(std::istream& words)
+{
+    std::string name;
+    std::string level;
+    words >> name >> level;
+    const PinName pin = pin_name(name);
+    chip_.port(pin.port).drive(pin.number, level == "open" ? -1 : level == "1" ? 1 : 0);
+}
+
+// core stop|halt|go: locked up, held by a debugger, on again
+void Console::core(std::istream& words)
+{
+    std::string what;
+    words >> what;
+    if (what == "go") {
+        chip_.go_on();
+    } else {
+        chip_.stop_core(what == "halt");
+    }
+}
+
+// power cycle | power fails_after WRITES
+void Console::power(std::istream& words)
+{
+    std::string what;
+    std::uint64_t writes = 0;
+    words >> what >> writes;
+    if (what == "cycle") {
+        chip_.power_cycle();
+    } else {
+        chip_.fail_power_after(writes);
+    }
+}
+
+// golden PROGRAM SCRIPT|- TRACE INVERTED PIN...
+void Console::golden(std::istream& words)
+{
+    GoldenJob job;
+    std::string program;
+    std::string script;
+    std::string trace;
+    words >> program >> script >> trace >> job.inverted;
+    for (std::string name; words >> name;) {
+        job.pins.push_back(pin_name(name));
+    }
+    std::istringstream lines{[&] {
+        const std::vector<std::uint8_t> bytes = read_file(program);
+        return std::string(bytes.begin(), bytes.end());
+    }()};
+    for (std::string line; std::getline(lines, line);) {
+        job.lines.push_back(line);
+    }
+    if (script != "-") {
+        std::ifstream file{script};
+        std::uint64_t tick = 0;
+        int byte = 0;
+        while (file >> tick >> byte) {
+            job.script.emplace_back(tick, static_cast<char>(byte));
+        }
+    }
+    GoldenSender sender{chip_, std::move(job)};
+    const int status = sender.run();
+    listen();
+    std::ofstream file{trace, std::ios::binary};
+    file.write(reinterpret_cast<const char*>(sender.edges().data()),
+               static_cast<std::streamsize>(sender.edges().size() * sizeof(std::uint64_t)));
+    std::cout << "status " << status << "\n";
+}
+
+void Console::tell_pins() const
+{
+    for (const auto& [letter, port] : chip_.ports()) {
+        for (unsigned pin = 0; pin < 16; ++pin) {
+            if (port->driven(pin)) {
+                std::cout << "pin P" << letter << pin << " " << (port->high(pin) ? 1 : 0) << "\n";
+            }
+        }
+    }
+    std::cout << "spindle " << chip_.spindle_compare() << "\n";
+}
+
+void Console::tell_changes() const
+{
+    for (const auto& [letter, port] : chip_.ports()) {
+        for (const PinChange& change : port->changes()) {
+            std::cout << "change " << change.time / 1000 << " " << letter << " " << change.driven
+                      << " " << change.high << "\n";
+        }
+        port->forget_changes();
+    }
+}
+
+void Console::tell_state() const
+{
+    std::cout << "now " << chip_.circuit().now / kMicrosecond << "\n"
+              << "instructions " << chip_.core().instructions() << "\n"
+              << "core_hz " << chip_.clocks().core_hz() << "\n"
+              << "resets " << chip_.resets() << "\n"
+              << "powered " << chip_.powered() << "\n"
+              << "erases " << chip_.flash().erases() << "\n"
+              << "words " << chip_.flash().words() << "\n"
+              << "lost " << chip_.serial().lost() << "\n"
+              << "unsent " << chip_.serial().waiting() << "\n"
+              << "lowest_stack " << chip_.core().lowest_stack() << "\n";
+    for (unsigned exception = 1; exception < 100; ++exception) {
+        if (chip_.core().longest(exception) != 0) {
+            std::cout << "longest_" << exception << " " << chip_.core().longest(exception) << "\n";
+        }
+    }
+    for (const std::string& violation : chip_.circuit().violations.list()) {
+        std::cout << "violation " << violation << "\n";
+    }
+}
+
+void Console::perform(const std::string& line)
+{
+    std::istringstream words{line};
+    std::string command;
+    words >> command;
+    if (command == "run") {
+        run(words);
+    } else if (command == "send") {
+        send(words);
+    } else if (command == "pin") {
+        pin(words);
+    } else if (command == "core") {
+        core(words);
+    } else if (command == "power") {
+        power(words);
+    } else if (command == "golden") {
+        golden(words);
+    } else if (command == "crystal") {
+        chip_.clocks().kill_crystal();
+    } else if (command == "baud") {
+        std::uint32_t baud = 0;
+        words >> baud;
+        chip_.serial().set_sender_baud(baud);
+    } else if (command == "flash") {
+        const Picoseconds erase = milliseconds(words);
+        chip_.flash().set_times(erase, milliseconds(words));
+    } else if (command == "pins") {
+        tell_pins();
+    } else if (command == "changes") {
+        tell_changes();
+    } else if (command == "state") {
+        tell_state();
+    } else if (command == "terminal") {
+        run_on_terminal(chip_, milliseconds(words));
+        listen();
+    } else {
+        throw std::runtime_error{"no such command: " + line};
+    }
+}
+
+int run_commands(int count, char** arguments)
+{
+    ChipKind kind = chip_kind(arguments[1]);
+    kind.clocks.crystal_hz = static_cast<std::uint32_t>(std::stoul(arguments[2]));
+    ChipUnderTest chip{kind, read_file(arguments[3])};
+    if (count > 4) {
+        chip.core().set_instruction_time(std::stol(arguments[4]));
+    } else {
+        // 1.3 cycles an instruction.
+        chip.core().set_instruction_time(kSecond / kind.clocks.most_hz * 13 / 10);
+    }
+    Console console{chip};
+    for (std::string line; std::getline(std::cin, line);) {
+        console.perform(line);
+        std::cout << "done" << std::endl;
+    }
+    return 0;
+}
+
+}  // namespace
+}  // namespace cusp::cosim
+
+int main(int count, char** arguments)
+{
+    if (count < 4) {
+        std::cerr << "usage: cosim CHIP CRYSTAL_HZ IMAGE.bin [INSTRUCTION_PS]\n";
+        return 2;
+    }
+    try {
+        return cusp::cosim::run_commands(count, arguments);
+    } catch (const std::exception& error) {
+        std::cerr << "cosim: " << error.what() << "\n";
+        return 2;
+    }
+}

@@ -1,0 +1,67 @@
+// UsartModel: a serial port and the line at its pins, bit by bit in time or without any.
+#pragma once
+
+#include <deque>
+#include <functional>
+
+#include "tests/target/cosim/model.hpp"
+
+namespace cusp::cosim {
+
+class UsartModel final : public Model {
+public:
+    struct Wiring {
+        std::function<std::uint32_t()> bus_hz;
+        std::function<bool()> ask_receive_dma;   // whether a stream took the byte
+        std::function<bool()> ask_transmit_dma;  // whether a stream gave one
+        std::function<bool()> pins_ready;        // both pins are given to the port
+        unsigned interrupt;
+    };
+    UsartModel(Circuit& circuit, std::string name, Wiring wiring);
+
+    std::uint32_t read(std::uint32_t offset) override;
+    void write(std::uint32_t offset, std::uint32_t value) override;
+    void reset() override;
+    Picoseconds due() const override;
+    void happen() override;
+
+    // A stream was switched on.
+    void stream_ready() { ask_for_transmit(); }
+
+    // The other end of the line.
+    void set_sender_baud(std::uint32_t baud) { sender_baud_ = baud; }
+    void set_instant(bool on);
+    void send(const std::string& bytes);
+    // What the chip has sent; called for each byte.
+    void set_receiver(std::function<void(char)> receiver) { receiver_ = std::move(receiver); }
+    std::size_t waiting() const { return incoming_.size(); }
+    std::uint64_t lost() const { return lost_; }
+    void unplug() { incoming_.clear(); }
+
+private:
+    Picoseconds byte_time() const;
+    bool rate_fits() const;
+    void arrive();
+    void take_to_shift(std::uint8_t byte);
+    void ask_for_transmit();
+    void update_line();
+    void plan_receive();
+
+    std::string name_;
+    Wiring wiring_;
+    std::function<void(char)> receiver_;
+    std::uint32_t sr_{0xC0}, brr_{0}, cr1_{0}, cr2_{0}, cr3_{0};
+    std::uint8_t received_{0};
+    bool flags_read_{false};
+    bool holds_{false};
+    std::uint8_t held_{0};
+    std::uint8_t shifted_{0};
+    Picoseconds shift_due_{kNever}, receive_due_{kNever};
+    std::deque<std::uint8_t> incoming_;
+    std::uint32_t sender_baud_{115200};
+    bool instant_{false};
+    bool asking_{false};
+    std::uint64_t lost_{0};
+};
+
+}  // namespace cusp::cosim

@@ -1,0 +1,117 @@
+// Programs in memory, run step by step.
+#include "host_tools/program_run/program_run.hpp"
+
+#include "CppUTest/TestHarness.h"
+
+#include "host_tools/program_run/settings_lines.hpp"
+
+namespace {
+
+using namespace cusp;
+using program_run::ProgramRun;
+using program_run::RunOptions;
+using program_run::RunResult;
+using program_run::SetPoint;
+
+}  // namespace
+
+TEST_GROUP(ProgramRun)
+{
+    RunOptions options;
+
+    RunResult run(const std::string& text) const
+    {
+        auto source = dialect::LineSource::of_text("part.ngc", text);
+        ProgramRun program{source, options};
+        while (program.advance()) {
+        }
+        return program.result();
+    }
+    std::string refusal(const std::string& text)
+    {
+        auto source = dialect::LineSource::of_text("mill", text);
+        const auto refused = program_run::read_settings(source, options.settings);
+        return refused ? std::to_string(refused->line) + ": " + refused->text : std::string{};
+    }
+};
+
+TEST(ProgramRun, MovesToTheEndOfTheText)
+{
+    const RunResult result = run("G21 G90\rG1 X1 F600\r\nY2\nM30");
+    CHECK(result.good());
+    LONGS_EQUAL(4, result.lines);
+    LONGS_EQUAL(1'000'000, result.end.x);
+    LONGS_EQUAL(2'000'000, result.end.y);
+}
+
+TEST(ProgramRun, TellsTheLineOfEverySetPoint)
+{
+    std::vector<SetPoint> points;
+    options.set_point = [&](const SetPoint& point) {
+        points.push_back(point);
+    };
+    const RunResult result = run("G21 G90 G61\n\nG1 X1 F600\n(here)\nX2\n");
+    CHECK(points.size() > 200);
+    LONGS_EQUAL(0, points.front().line);
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        CHECK(points[i].microseconds == points[i - 1].microseconds + 1000);
+        CHECK(points[i].line >= points[i - 1].line);
+        // the line of a set point is the one whose move it lies on, but for what the filters hold back
+        if (points[i].at.x > 50'000 && points[i].at.x < 950'000) {
+            LONGS_EQUAL(3, points[i].line);
+        } else if (points[i].at.x > 1'050'000 && points[i].at.x < 1'950'000) {
+            LONGS_EQUAL(5, points[i].line);
+        }
+    }
+    LONGS_EQUAL(2'000'000, points.back().at.x);
+    CHECK(result.max_deviation_mm < 0.001);
+}
+
+TEST(ProgramRun, DoesNotDependOnWhetherTheDeviationIsMeasured)
+{
+    const std::string text = "G21 G90 G64 P0.05\nG1 X3 F3000\nG2 X6 I1.5\nG1 Y2\n";
+    const RunResult measured = run(text);
+    options.measures_deviation = false;
+    const RunResult plain = run(text);
+    CHECK(measured.max_deviation_mm > 0.0);
+    DOUBLES_EQUAL(0.0, plain.max_deviation_mm, 0.0);
+    UNSIGNED_LONGS_EQUAL(measured.edges_crc32, plain.edges_crc32);
+    CHECK(measured.edges_crc32 != run("G21 G90\nG1 X3 F3000\n").edges_crc32);
+}
+
+TEST(ProgramRun, ComesToRestWhereItIsStopped)
+{
+    auto source =
+        dialect::LineSource::of_text("part.ngc", "G21 G91 F600\nG1 X1\nX1\nX1\nX1\nG4 P9\nX50\n");
+    ProgramRun program{source, options};
+    while (program.advance() && program.seconds() < 0.2) {
+    }
+    program.stop();
+    while (program.advance()) {
+    }
+    CHECK(program.result().stopped);
+    CHECK_FALSE(program.result().good());
+    CHECK(program.result().end.x <= 4'000'000);
+    CHECK(program.fraction() > 0.5);
+}
+
+TEST(ProgramRun, SaysWhatEndedIt)
+{
+    const RunResult refused = run("G21\nG1 X1 F100\nG1 X2 Q\n");
+    STRCMP_EQUAL("error:2: a number is missing or malformed",
+                 fault_text(refused, refused.errors.at(0)).c_str());
+    LONGS_EQUAL(3, refused.errors[0].line);
+    const RunResult alarmed = run("G38.2 Z-5 F200\n");
+    STRCMP_EQUAL("ALARM:5: alarm: the probe did not touch",
+                 fault_text(alarmed, alarmed.errors.at(0)).c_str());
+}
+
+TEST(ProgramRun, RefusesSettingsWithTheirLine)
+{
+    STRCMP_EQUAL("", refusal("$110=1000\n$22=1\n$20=1\n").c_str());
+    STRCMP_EQUAL("2: there is no setting $99", refusal("\n$99=1\n").c_str());
+    STRCMP_EQUAL("1: '=5' is no setting such as $100=800.000", refusal("=5").c_str());
+    STRCMP_EQUAL("1: $100: '0x10' is no number", refusal("$100=0x10").c_str());
+    STRCMP_EQUAL("1: $100: '+1' is no number", refusal("$100=+1").c_str());
+    STRCMP_EQUAL("1: $110=1e+09 is out of range: 0.001 to 120000", refusal("$110=1e9").c_str());
+}

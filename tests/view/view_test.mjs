@@ -1,0 +1,270 @@
+// The pages of cusp view in a real browser: what window.cusp promises, picking, keys, hostile text, contrast.
+import assert from "node:assert/strict";
+import fs from "node:fs";
+import path from "node:path";
+import test, { after, before } from "node:test";
+import { axeSource, coloursOf, figures, folder, openPage, pageOf, pictureOf, run, startBrowser, top, write } from "./browser.mjs";
+
+const programs = path.join(top, "tests", "programs");
+let browser;
+before(async () => { browser = await startBrowser(); });
+after(async () => { await browser.close(); });
+
+const seek = (page, t) => page.evaluate(async (at) => { await window.cusp.seek(at); return window.cusp.state(); }, t);
+const state = (page) => page.evaluate(() => window.cusp.state());
+
+test("facts and set points are those of cusp sim", async () => {
+  const program = path.join(programs, "rsq.ngc"), { stats, rows } = figures(program);
+  const { page, faults, close } = await openPage(browser, pageOf(program).file);
+  const facts = await page.evaluate(() => window.cusp.facts);
+  for (const name of ["duration_s", "length_mm", "max_velocity", "max_acceleration", "max_jerk"]) assert.deepEqual(facts[name], stats[name], name);
+  assert.equal(facts.ticks, rows.length);
+  assert.equal(facts.moves, stats.moves.rapid + stats.moves.line + stats.moves.arc + stats.moves.nurbs);
+  for (let k = 0; k < rows.length; k += 97) {
+    const at = await seek(page, rows[k][0] * 1e-6);
+    assert.ok(Math.abs(at.t_s - rows[k][0] * 1e-6) < 1e-9);
+    assert.equal(at.line, rows[k][4]);
+    const back = (n) => rows[Math.max(k - n, 0)].slice(1, 4);
+    for (let c = 0; c < 3; ++c) {
+      const [p0, p1, p2, p3] = [0, 1, 2, 3].map((n) => back(n)[c]);
+      assert.ok(Math.abs(at.position_mm[c] - p0 * 1e-6) < 1e-9, `position at row ${k}`);
+      assert.ok(Math.abs(at.velocity[c] - (p0 - p1) * 1e-3) < 1e-9, `velocity at row ${k}`);
+      assert.ok(Math.abs(at.acceleration[c] - (p0 - 2 * p1 + p2)) < 1e-6, `acceleration at row ${k}`);
+      assert.ok(Math.abs(at.jerk[c] - (p0 - 3 * p1 + 3 * p2 - p3) * 1e3) < 1e-3, `jerk at row ${k}`);
+    }
+  }
+  assert.ok(await coloursOf(page) > 30);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("every set point of a long run comes back exactly", async () => {
+  const program = path.join(programs, "liss.ngc"), { rows } = figures(program);
+  const { page, close } = await openPage(browser, pageOf(program).file);
+  const places = await page.evaluate(async (times) => {
+    const out = [];
+    for (const t of times) {
+      void window.cusp.seek(t);
+      out.push(window.cusp.state().position_mm.map((v) => Math.round(v * 1e6)));
+    }
+    return out;
+  }, rows.map((row) => row[0] * 1e-6));
+  assert.deepEqual(places, rows.map((row) => row.slice(1, 4)));
+  await close();
+});
+
+test("lines and places are found both ways", async () => {
+  const program = path.join(programs, "square.ngc");
+  const { page, faults, close } = await openPage(browser, pageOf(program).file);
+  const count = fs.readFileSync(program, "utf8").split("\n").length;
+  let tried = 0;
+  for (let line = 1; line <= count; ++line) {
+    const found = await page.evaluate(async (n) => {
+      const times = window.cusp.linesAt(n);
+      if (!times) return null;
+      await window.cusp.seek((times[0] + times[1]) / 2);
+      const [px, py] = window.cusp.project(window.cusp.state().position_mm);
+      return { line: window.cusp.state().line, at: window.cusp.lineAt(px, py), px, py };
+    }, line);
+    if (!found) continue;
+    ++tried;
+    assert.equal(found.line, line);
+    assert.equal(found.at, line);
+    await page.evaluate(() => window.cusp.seek(0));
+    await page.mouse.click(found.px, found.py);
+    assert.equal((await state(page)).line, line, "a click on the path");
+    await page.waitForFunction((n) => document.querySelector(`[data-line="${n}"]`)?.getAttribute("aria-selected") === "true", line);
+  }
+  assert.ok(tried >= 4);
+  assert.deepEqual(await page.evaluate(() => [0, -1, 1e9, 1.5].map((n) => window.cusp.linesAt(n))), [null, null, null, null]);
+  assert.equal(await page.evaluate(() => window.cusp.lineAt(-50, -50)), null);
+  await page.locator('[data-line="3"]').click();
+  assert.equal((await state(page)).line, 3, "a click on a line");
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("each colouring is a picture of its own with a legend", async () => {
+  const { page, close } = await openPage(browser, pageOf(path.join(programs, "rsq.ngc")).file);
+  const seen = new Set();
+  for (const name of ["height", "speed", "limits", "deviation", "operation", "left"]) {
+    await page.evaluate((n) => window.cusp.show(n), name);
+    seen.add(await page.locator(".legend").innerText());
+    await pictureOf(page);
+  }
+  assert.equal(seen.size, 6);
+  assert.match(await page.evaluate(() => { try { window.cusp.show("taste"); return ""; } catch (error) { return String(error); } }), /RangeError.*taste/);
+  await close();
+});
+
+test("the keyboard alone works the page", async () => {
+  const { page, faults, close } = await openPage(browser, pageOf(path.join(programs, "rsq.ngc")).file);
+  const reached = new Set();
+  for (let k = 0; k < 30; ++k) {
+    await page.keyboard.press("Tab");
+    reached.add(await page.evaluate(() => document.activeElement.className || document.activeElement.getAttribute("aria-label") || document.activeElement.textContent));
+    const outline = await page.evaluate(() => getComputedStyle(document.activeElement).outlineStyle);
+    if (await page.evaluate(() => document.activeElement !== document.body)) assert.notEqual(outline, "none", "focus is seen");
+  }
+  for (const name of ["play", "Time in the run", "program-list", "Colours show", "Keys"]) assert.ok(reached.has(name), `${name} in ${[...reached].join()}`);
+  await page.evaluate(() => document.activeElement.blur());
+  await page.keyboard.press("Home");
+  const start = (await state(page)).t_s;
+  await page.keyboard.press("Space");
+  await page.waitForFunction((t) => window.cusp.state().t_s > t + 0.05, start);
+  await page.keyboard.press("Space");
+  const stopped = (await state(page)).t_s;
+  await page.waitForTimeout(150);
+  assert.equal((await state(page)).t_s, stopped);
+  await page.keyboard.press("Shift+ArrowRight");
+  assert.ok(Math.abs((await state(page)).t_s - stopped - 0.001) < 1e-9);
+  await page.keyboard.press("Home");
+  await page.keyboard.press("ArrowDown");
+  const line = (await state(page)).line;
+  await page.keyboard.press("ArrowDown");
+  assert.ok((await state(page)).line > line);
+  await page.keyboard.press("ArrowUp");
+  assert.equal((await state(page)).line, line);
+  await page.keyboard.press("End");
+  const views = new Set();
+  for (const key of "1234567") {
+    await page.keyboard.press(key);
+    views.add(await pictureOf(page));
+  }
+  assert.equal(views.size, 7);
+  const before = await pictureOf(page);
+  await page.keyboard.press("+");
+  assert.notEqual(await pictureOf(page), before);
+  const legend = await page.locator(".legend").innerText();
+  await page.keyboard.press("c");
+  assert.notEqual(await page.locator(".legend").innerText(), legend);
+  await page.keyboard.press("?");
+  assert.ok(await page.locator("dialog[open]").isVisible());
+  await page.keyboard.press("Escape");
+  assert.equal(await page.locator("dialog[open]").count(), 0);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+const attack = '<img src=x onerror="window.hacked=1">', closing = "</script><script>window.hacked=1</script>";
+
+test("hostile text is data", async () => {
+  const name = `a<img src=x onerror=window.hacked=1>.ngc`;
+  const program = write(name, `(${attack} ${closing} <!-- <script>)\n(tool 1 ${closing})\nT1\nG21 G90\nG1 X5 F600 (<b>bold</b>)\n` +
+    `G1 X10 <!--\n; ]]> --> </title> \u2028 \u0000\n${attack}\nG1 X20\n`);
+  const { file, status } = pageOf(program);
+  assert.equal(status, 1, "lines are refused");
+  const { page, faults, close } = await openPage(browser, file);
+  assert.equal(await page.evaluate(() => window.hacked), undefined);
+  assert.equal(await page.locator("h1").innerText(), name);
+  const text = await page.locator(".program").innerText();
+  assert.ok(text.includes(attack) && text.includes(closing) && text.includes("<b>bold</b>"));
+  assert.equal(await page.locator("img, b").count(), 0);
+  assert.ok((await page.locator(".facts").innerText()).includes(closing));
+  assert.equal(await page.locator('meta[http-equiv="Content-Security-Policy"]').count(), 1);
+  const refused = await page.evaluate(() => fetch("https://example.invalid/").then(() => "sent", () => "refused"));
+  assert.equal(refused, "refused");
+  assert.ok(faults.every((fault) => /example\.invalid/.test(fault)), faults.join("\n"));
+  await close();
+});
+
+test("a program of any bytes opens", async () => {
+  const bytes = Buffer.from([...Array(256).keys(), 10, ...Buffer.from("G21\nG1 X5 F600\n")]);
+  const { page, faults, close } = await openPage(browser, pageOf(write("bytes.ngc", bytes)).file);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("a refused line stands in its place with the word that is wrong", async () => {
+  const program = write("refused.ngc", "G21 G90\nG1 X10 F600\nG1 X20 Q4\nG77 X5\nG1 X1..5\nG2 X5 Y5\nM30\n");
+  const { page, faults, close } = await openPage(browser, pageOf(program).file);
+  const rows = await page.locator(".program-row.refused").evaluateAll((all) =>
+    all.map((row) => [Number(row.dataset.line), row.querySelector("mark").textContent, row.querySelector(".program-why").textContent]));
+  assert.deepEqual(rows.map(([line, word]) => [line, word]), [[3, "Q4"], [4, "G77"], [5, "X1..5"], [6, "G2"]]);
+  for (const [, , why] of rows) assert.match(why, /^error \d+: /);
+  assert.match(await page.locator(".warnings").innerText(), /Line 3/);
+  assert.equal((await seek(page, 1e9)).line, 2, "the run ends before the refused line");
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+// A shallow pocket: seconds to plan and to cut in any build.
+function smallJob(jobName) {
+  const job = path.join(top, "examples", "grid_pocket", "rectangle.toml"), program = path.join(folder, "rectangle.ngc");
+  run("plan", job, "-o", program);
+  const copy = write(jobName, fs.readFileSync(job, "utf8").replaceAll("../parts/", path.join(top, "examples", "parts") + "/"));
+  return { job: copy, program };
+}
+
+test("with a job: stock at the cursor, bounds, and the worst places", async () => {
+  const { job, program } = smallJob("job <img src=x onerror=window.hacked=1>.toml");
+  const gouged = write("gouged.ngc", fs.readFileSync(program, "utf8").replace(/M5\s+M30\s*$/, "G0 X1.5 Y1\nG1 Z-1 F20\nG0 Z0.2\nM5\nM30\n"));
+  run("verify", job, gouged, "--stats", path.join(folder, "verify.json"));
+  const stats = JSON.parse(fs.readFileSync(path.join(folder, "verify.json"), "utf8"));
+  const { page, faults, close } = await openPage(browser, pageOf(gouged, "--job", job).file);
+  const facts = await page.evaluate(() => window.cusp.facts);
+  assert.ok(Math.abs(facts.gouge_max_mm - stats.gouge_max_mm) < 1e-6);
+  assert.ok(Math.abs(facts.scallop_max_mm - stats.scallop_max_mm) < 1e-6);
+  assert.ok(stats.gouge_max_mm > 1 && facts.worst.length > 0 && facts.worst.length <= 10);
+  assert.equal(facts.worst[0].kind, "gouge");
+  assert.ok(Math.abs(facts.worst[0].mm - stats.gouge_max_mm) < 1e-6);
+  assert.ok(Math.hypot(facts.worst[0].at[0] - 38.1, facts.worst[0].at[1] - 25.4) < 4);
+  assert.match(await page.locator(".verdict").innerText(), /bounds are broken/);
+  for (const name of ["rapids", "path", "tool"]) await page.locator(`#show-${name}`).uncheck();
+  await seek(page, 0);
+  const uncut = await pictureOf(page);
+  const end = (await seek(page, 1e9)).t_s;
+  const cut = await pictureOf(page);
+  assert.notEqual(uncut, cut);
+  await seek(page, end / 2);
+  assert.ok(![uncut, cut].includes(await pictureOf(page)));
+  await seek(page, 0);
+  assert.equal(await pictureOf(page), uncut, "the stock is whole again");
+  await page.evaluate(() => window.cusp.show("left"));
+  await seek(page, 1e9);
+  const before = await page.evaluate((at) => window.cusp.project(at), facts.worst[0].at);
+  await page.locator(".worst button").first().click();
+  await page.waitForFunction((b) => { const now = window.cusp.project(window.cusp.facts.worst[0].at); return Math.hypot(now[0] - b[0], now[1] - b[1]) > 1; }, before);
+  assert.equal(await page.evaluate(() => window.hacked), undefined);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("run() gives what cusp sim gives, or says that there is no core", async () => {
+  const program = path.join(programs, "square.ngc"), { stats } = figures(program);
+  const { page, faults, close } = await openPage(browser, pageOf(program).file);
+  const answer = await page.evaluate((text) => window.cusp.run(text, "").then((result) => ({ result }), (error) => ({ error: String(error) })), fs.readFileSync(program, "utf8"));
+  if (answer.error) assert.match(answer.error, /without the WebAssembly/);
+  else for (const name of ["duration_s", "steps", "end_mpos_mm", "edges_crc32"]) assert.deepEqual(answer.result[name], stats[name], name);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("contrast, names and focus hold in light and dark, narrow and wide", async () => {
+  const { job, program } = smallJob("job.toml"), { file } = pageOf(program, "--job", job);
+  for (const dark of [false, true]) {
+    for (const width of [390, 1280]) {
+      const { page, faults, close } = await openPage(browser, file, { dark, width });
+      await page.evaluate(() => window.cusp.show("left"));
+      await page.evaluate(axeSource);
+      const found = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+      assert.deepEqual(found.violations.map((v) => `${v.id}: ${v.nodes.slice(0, 3).map((n) => n.html.slice(0, 120)).join(" | ")}`), [], `dark ${dark}, ${width} px`);
+      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "nothing sticks out");
+      assert.deepEqual(faults, []);
+      await close();
+    }
+  }
+});
+
+test("damaged data are refused in words", async () => {
+  const { file } = pageOf(path.join(programs, "square.ngc"));
+  const text = fs.readFileSync(file, "utf8"), at = text.indexOf('id="data-path">') + 20;
+  const damaged = path.join(folder, "damaged.html");
+  fs.writeFileSync(damaged, text.slice(0, at) + "zzzzzzzz" + text.slice(at + 8));
+  const context = await browser.newContext(), page = await context.newPage();
+  await page.goto("file://" + damaged);
+  const reason = await page.evaluate(() => window.cusp.ready.then(() => "", (error) => String(error)));
+  assert.match(reason, /damaged/);
+  assert.match(await page.locator(".status").innerText(), /damaged/);
+  await context.close();
+});
