@@ -28,8 +28,8 @@ struct CadModel {
     std::size_t solids{};  // volumes that faces close
     std::size_t unread{};  // faces of solids that face up nowhere and have broken edges
     std::vector<nurbs::Surface> faces;  // all others, in mm
-    std::vector<double> outwards;  // a face each: +1 where du x dv points out of its solid, -1
-                                   // where in; 0: it belongs to no solid
+    std::vector<double> outwards;       // a face each: +1 where du x dv points out of its solid, -1
+                                        // where in; 0: it belongs to no solid
 };
 
 // As read_cad_surfaces(), but faces of solids that face up nowhere are kept.
