@@ -41,7 +41,7 @@ public:
     void tick_amid_work();
 
     bool is_on() const noexcept { return app_.has_value(); }
-    // The firmware is gone amid whatever it did; the settings store and the iron stay.
+    // The firmware stops at once; the settings store and the position of the mill stay.
     void power_off();
     void power_on();
 

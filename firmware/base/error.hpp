@@ -18,7 +18,7 @@ enum class Error : std::uint8_t {
     kSystemGcLock = 9,           // G-code is locked out in alarm, jog or sleep
     kSoftLimitError = 10,        // soft limits need homing
     kOverflow = 11,              // the line is too long
-    kMaxStepRateExceeded = 12,   // the setting asks for steps closer than the pulse width allows
+    kMaxStepRateExceeded = 12,   // the setting makes steps closer than the pulse width allows
     kCheckDoor = 13,             // the safety door is open
     kLineLengthExceeded = 14,    // the startup line or build info is too long
     kTravelExceeded = 15,        // the jog target is beyond the machine's travel
@@ -29,7 +29,7 @@ enum class Error : std::uint8_t {
     kGcodeUndefinedFeedRate = 22,       // a feed move without a feed
     kGcodeCommandValueNotInteger = 23,  // a G or M number must be whole here
     kGcodeAxisCommandConflict = 24,     // two commands of the line both want the axis words
-    kGcodeWordRepeated = 25,            // a word stands twice in the line
+    kGcodeWordRepeated = 25,            // a word occurs twice in the line
     kGcodeNoAxisWords = 26,             // a command that needs axis words has none
     kGcodeInvalidLineNumber = 27,       // the N number is out of range
     kGcodeValueWordMissing = 28,        // a command lacks a value word

@@ -1,4 +1,4 @@
-// What one line asks of the machine, step by step. The machine performs actions in order.
+// The actions that one line requests. The machine performs them in order.
 #pragma once
 
 #include <cstdint>

@@ -181,7 +181,7 @@ Status apply_g(Command& command, Code code) noexcept
 {
     const Entry* entry = find_entry(code.number * 100 + code.hundredths);
     if (entry == nullptr) {
-        // Grbl tells a decimal that a known number has not (23) from a number it does not know
+        // Grbl distinguishes a decimal that a known number lacks (23) from an unknown number
         // (20); the families that do have decimals answer 20.
         const bool family = code.number == 5 || code.number == 6 || code.number == 28 ||
                             code.number == 30 || code.number == 38 || code.number == 43 ||

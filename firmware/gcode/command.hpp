@@ -1,4 +1,4 @@
-// One line as words sorted into modal groups: what it says, before what it means is checked.
+// The words of one line, sorted into modal groups, before their meaning is checked.
 #pragma once
 
 #include <array>
@@ -73,7 +73,7 @@ struct Command {
     bool ends_curve{false};   // G5.3
     std::uint32_t groups{0};  // one bit a Group
     LetterSet words{0};       // value words present
-    LetterSet unused{0};      // those that nothing has asked for yet
+    LetterSet unused{0};      // those that nothing has used yet
     std::array<Decimal, 26> values{};
 
     bool names(Group group) const noexcept
@@ -87,7 +87,7 @@ struct Command {
     {
         return values[letter_index(upper_case)];
     }
-    // Marks a word as asked for.
+    // Marks a word as used.
     void use(char upper_case) noexcept { unused &= ~letter(upper_case); }
 };
 

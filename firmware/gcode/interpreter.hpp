@@ -49,11 +49,11 @@ public:
     // until set_position().
     void discard() noexcept;
 
-    // Where the machine stands: after a probe, homing, a jog that was cancelled, a reset.
+    // Sets the position of the machine: after a probe, homing, a jog that was cancelled, a reset.
     // Precondition: no action is left to fetch. An open NURBS is given up.
     void set_position(Position machine) noexcept;
 
-    // Where the program stands once all fetched actions are done; machine coordinates.
+    // The position once all fetched actions are done; machine coordinates.
     Position position() const noexcept { return position_.rounded(); }
 
     // As at power-up: modal state at its defaults, G92 and the tool length offset cleared, an open

@@ -1,4 +1,4 @@
-// One line on its way through the checks: what it says, and the state that it will leave behind.
+// One line during the checks: its words, and the modal state after it.
 // Nothing here is the interpreter's own state, so a refused line leaves no trace.
 #pragma once
 

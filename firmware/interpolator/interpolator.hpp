@@ -40,7 +40,7 @@ public:
     void set_feed_override(unsigned percent) noexcept;
     void set_rapid_override(unsigned percent) noexcept;
 
-    // Line of the program that the tool is on; the last one while it stands at an end.
+    // Line of the program that the tool is on; the last one while it rests at an end.
     std::uint32_t executing_line() const noexcept { return line_; }
 
     // Speed along the path in this tick, mm/s.

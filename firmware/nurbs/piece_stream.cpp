@@ -244,7 +244,7 @@ bool PieceStream::next_of_span(Piece& piece) noexcept
         step_ *= 2;
     }
     in_span_ = done_ < 1;
-    // A part that stands still is left out.
+    // A part without length is left out.
     const bool moves = piece.end != position_ || norm(piece.bezier.points[order_ / 2]) > 0;
     position_ = piece.end;
     return moves;

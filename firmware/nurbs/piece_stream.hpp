@@ -60,8 +60,8 @@ public:
     // Precondition: explicit knots, is_open().
     //
     // Errors: kGcodeInvalidTarget: the knot is smaller than the one before; the first `order` knots
-    // or the closing ones are not all equal; a knot inside stands more than order - 1 times; fewer
-    // than `order` points when the first closing knot comes. The curve is then given up.
+    // or the closing ones are not all equal; a knot inside is repeated more than order - 1 times;
+    // fewer than `order` points when the first closing knot comes. The curve is then given up.
     Status add_knot(double knot) noexcept;
 
     // Ends a uniform curve. Errors: kGcodeInvalidTarget: fewer than `order` points; the curve is

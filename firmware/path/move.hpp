@@ -20,7 +20,8 @@ struct Move {
     float feed{0};  // mm/s along the path, > 0 for kFeed
     // How far the tool may leave the path, mm; 0 is the exact path (G61).
     float tolerance{0};
-    // What of it the path itself has used: it stands for another one that near, mm.
+    // Part of the tolerance that is used already: the distance of the path from the programmed one
+    // that it replaces, mm.
     float departure{0};
     std::uint32_t line{0};  // of the program, for reports
 };

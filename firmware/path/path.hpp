@@ -45,7 +45,7 @@ using Path = std::variant<Line, Arc, BezierPiece>;
 
 enum class Plane : std::uint8_t { kXY, kZX, kYZ };  // G17, G18, G19
 
-// What an arc word says, once its numbers are machine nanometres.
+// The words of an arc, its numbers in machine nanometres.
 struct ArcWords {
     Position start;
     Position end;

@@ -9,7 +9,7 @@
 
 namespace cusp::planner {
 
-// Holds back the last line until it knows what follows. The blend is one symmetric Bezier curve of
+// Holds back the last line until the next move is known. The blend is one symmetric Bezier curve of
 // degree 4 whose curvature is zero at both ends: it meets the lines with no jump of direction or
 // curvature, so the tool need not stop. A corner whose blend
 // would take longer than a stop stays a corner.

@@ -269,7 +269,7 @@ bool LineSmoother::next(Patience patience, path::Move& piece) noexcept
             best = tried;
         }
     }
-    // Of the first line: what is told of the place is never ahead of the tool.
+    // The number of the first line: a reported line is never ahead of the tool.
     model_.line = vertices_[1].line;
     if (good == 0) {
         // Not even one line can be rounded: it stays, and its ends are corners.

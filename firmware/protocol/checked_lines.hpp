@@ -31,7 +31,7 @@ public:
     std::optional<std::string_view> accept(const LineAssembler& line) noexcept;
 
     // Whether a realtime byte counts. On a checked line noise could make one of a text byte, so all
-    // but '?' count at their third repetition in a row; text bytes in between are told by text().
+    // but '?' count at their third repetition in a row; call text() for text bytes in between.
     bool accept_realtime(std::uint8_t byte) noexcept;
     void text() noexcept { repetitions_ = 0; }
 

@@ -1,4 +1,4 @@
-// Realtime commands: single bytes that act at once, whatever stands before them in the buffer.
+// Realtime commands: single bytes that act at once, whatever bytes wait in the buffer.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// ReceiveQueue: the text bytes that wait to be read as lines, and an honest account of those lost.
+// ReceiveQueue: the text bytes that wait to be read as lines, and a count of those lost.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ public:
     static constexpr std::uint32_t kCapacity = 1024;  // all of it usable
 
     // Takes a text byte. Where no room is left this byte and all that follow are lost, until every
-    // byte before them has been read: take() then tells of the loss.
+    // byte before them has been read: lost() then reports it.
     void put(std::uint8_t byte) noexcept;
 
     // The next byte, or false where none waits. Context as put().

@@ -12,7 +12,7 @@
 // An arc goes through the first and the last vertex that it replaces. Of all arcs through two
 // points, those that keep a third within its band form an interval of the bulge tan(sweep / 4), and
 // its ends are roots of a quadratic; so the arcs that keep all vertices are the intersection of
-// intervals, found in one pass. The same is asked of the middles of the lines, with a little
+// intervals, found in one pass. The middles of the lines are bounded likewise, with a little
 // more room. What is handed out is verified as it will be written: centre rounded, vertices in
 // order.
 #pragma once

@@ -6,7 +6,7 @@
 namespace cusp::segmenter {
 
 // In the middle of a line the path may lie further off, by this factor. It is less than the tenth
-// that users are told, since the farthest point of an arc may be beside the middle.
+// that users are promised, since the farthest point of an arc may be beside the middle.
 inline constexpr double kBetweenVertices = 1.06;
 
 // A line from the first to the last vertex: false where it leaves the tolerance, or where the

@@ -31,7 +31,7 @@ struct SimulatedBoard {
     SimulatedBoard(const SimulatedBoard&) = delete;
     SimulatedBoard& operator=(const SimulatedBoard&) = delete;
 
-    // One servo tick of time passes for the iron and the line. Call after the firmware's tick().
+    // Advances mill and serial line by one servo tick. Call after the firmware's tick().
     void advance()
     {
         pulse_player.advance();

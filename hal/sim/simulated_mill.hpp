@@ -1,9 +1,9 @@
-// SimulatedMill: the iron of the virtual machine tool: slides that follow the pulses, limit
+// SimulatedMill: the axes of the virtual machine tool: slides that follow the pulses, limit
 // switches at both ends of each travel, a probe plate, buttons, and a spindle that only remembers.
 //
-// Distances are of the iron, in millimetres from the upper end of each travel, in the manner of
-// Grbl's machine space: the table is free to move from -travel to 0. What the controller believes
-// is its own affair; homing makes the two agree.
+// Positions are those of the slides, in millimetres from the upper end of each travel, like Grbl's
+// machine space: the table is free to move from -travel to 0. The controller's position may differ;
+// homing makes the two agree.
 #pragma once
 
 #include <cstdint>

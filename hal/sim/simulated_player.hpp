@@ -1,4 +1,4 @@
-// SimulatedPlayer: plays pulse frames in virtual time and tells a listener of every edge.
+// SimulatedPlayer: plays pulse frames in virtual time and reports every edge to a listener.
 //
 // Virtual time starts with the first frame: frame k covers pulse ticks [1000 k, 1000 (k + 1)).
 // Real players swap their two frames in an interrupt and make the servo tick follow it; here the

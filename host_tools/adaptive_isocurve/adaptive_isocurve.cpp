@@ -10,7 +10,6 @@
 
 #include "host_tools/adaptive_isocurve/isocurve_floor.hpp"
 #include "host_tools/adaptive_isocurve/isocurve_selection.hpp"
-#include "host_tools/adaptive_isocurve/isocurve_stepover.hpp"
 #include "host_tools/adaptive_isocurve/mesh_isocurves.hpp"
 #include "host_tools/adaptive_isocurve/offset_curve_trimmer.hpp"
 #include "host_tools/adaptive_isocurve/proved_scallop.hpp"
@@ -19,6 +18,7 @@
 #include "host_tools/finishing/scallop_check.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/part_model/offset_surface.hpp"
+#include "host_tools/toolpath/stepover.hpp"
 
 #include "fmt/format.h"
 
@@ -43,6 +43,7 @@ using part_model::OffsetRequest;
 using part_model::OffsetSurface;
 using toolpath::OperationStats;
 using toolpath::PlannedOperation;
+using toolpath::stepover;
 
 namespace {
 
@@ -239,7 +240,7 @@ private:
         whole_ = whole_ && !trimmed;
         spacing_ = operation_.iso_distance
                        ? *operation_.iso_distance
-                       : isocurve_stepover(operation_.tool.radius, *operation_.scallop, 0);
+                       : stepover(operation_.tool.radius, *operation_.scallop, 0);
         if (trimmed) {
             add_edges(surface);
         }

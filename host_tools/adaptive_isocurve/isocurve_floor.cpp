@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "host_tools/adaptive_isocurve/isocurve_stepover.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/nurbs/knot_insertion.hpp"
+#include "host_tools/toolpath/stepover.hpp"
 
 #include "fmt/format.h"
 
@@ -17,6 +17,7 @@ using nurbs::crease_knots;
 using nurbs::Curve;
 using nurbs::Surface;
 using nurbs::SurfacePoint;
+using toolpath::stepover;
 
 namespace {
 
@@ -118,7 +119,7 @@ void check_spacing(const Job& job, const Operation& operation)
                         *operation.scallop, operation.tool.radius));
     }
     if (operation.scallop && !operation.iso_distance) {
-        const double apart = isocurve_stepover(operation.tool.radius, *operation.scallop, 0);
+        const double apart = stepover(operation.tool.radius, *operation.scallop, 0);
         if (size > kMostPasses * apart) {
             throw InputError(fmt::format(
                 "{}: scallop is {:g} mm, that is passes {:.3g} mm apart on level ground; over a "

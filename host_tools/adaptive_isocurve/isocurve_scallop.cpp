@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host_tools/adaptive_isocurve/isocurve_stepover.hpp"
+#include "host_tools/adaptive_isocurve/cross_section.hpp"
 
 namespace cusp::adaptive_isocurve {
 

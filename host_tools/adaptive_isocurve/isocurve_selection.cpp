@@ -5,9 +5,10 @@
 #include <cmath>
 #include <optional>
 
+#include "host_tools/adaptive_isocurve/cross_section.hpp"
 #include "host_tools/adaptive_isocurve/isocurve_extraction.hpp"
 #include "host_tools/adaptive_isocurve/isocurve_spacing_bound.hpp"
-#include "host_tools/adaptive_isocurve/isocurve_stepover.hpp"
+#include "host_tools/toolpath/stepover.hpp"
 
 namespace cusp::adaptive_isocurve {
 
@@ -15,6 +16,7 @@ using job::Operation;
 using nurbs::Surface;
 using nurbs::SurfacePoint;
 using part_model::SurfaceCut;
+using toolpath::stepover;
 
 namespace {
 
@@ -61,7 +63,7 @@ StepDensity IsocurveSelection::density() const
     const double radius = operation_.tool.radius;
     return [scallop_height, radius](const SurfacePoint& p) {
         const CrossSection section = cross_section_at(p);
-        return section.speed / isocurve_stepover(radius, scallop_height, section.curvature);
+        return section.speed / stepover(radius, scallop_height, section.curvature);
     };
 }
 
@@ -76,8 +78,8 @@ double IsocurveSelection::least_step(int surface) const
             const SurfacePoint p = work_.model().evaluate(
                 surface, s.u_begin() + (s.u_end() - s.u_begin()) * i / kCurvatureSamples,
                 s.v_begin() + (s.v_end() - s.v_begin()) * j / kCurvatureSamples);
-            least = std::min(least, isocurve_stepover(operation_.tool.radius, scallop_height,
-                                                      cross_section_at(p).curvature));
+            least = std::min(least, stepover(operation_.tool.radius, scallop_height,
+                                             cross_section_at(p).curvature));
         }
     }
     return least;

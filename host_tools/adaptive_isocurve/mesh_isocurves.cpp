@@ -6,10 +6,10 @@
 #include <optional>
 #include <utility>
 
-#include "host_tools/adaptive_isocurve/isocurve_stepover.hpp"
 #include "host_tools/adaptive_isocurve/mesh_pencil_curves.hpp"
 #include "host_tools/adaptive_isocurve/surface_operation.hpp"
 #include "host_tools/finishing/mesh_scallop_check.hpp"
+#include "host_tools/toolpath/stepover.hpp"
 
 #include "fmt/format.h"
 
@@ -23,6 +23,7 @@ using job::kRoughingDone;
 using job::Operation;
 using part_model::PartModel;
 using toolpath::PlannedOperation;
+using toolpath::stepover;
 
 namespace {
 
@@ -82,7 +83,7 @@ public:
         origin_ = {low.x, low.y, 0};
         length_ = dot(high - low, along_);
         width_ = dot(high - low, across_);
-        row_ = kRowShare * isocurve_stepover(operation.tool.radius, scallop_ - work_.outward(), 0);
+        row_ = kRowShare * stepover(operation.tool.radius, scallop_ - work_.outward(), 0);
         if (operation.iso_distance) {
             row_ = std::min(row_, 0.999 * *operation.iso_distance);
         }

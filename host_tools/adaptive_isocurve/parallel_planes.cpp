@@ -5,11 +5,11 @@
 #include <chrono>
 #include <cmath>
 
-#include "host_tools/adaptive_isocurve/isocurve_stepover.hpp"
 #include "host_tools/adaptive_isocurve/surface_operation.hpp"
 #include "host_tools/finishing/contact_tracker.hpp"
 #include "host_tools/finishing/scallop_check.hpp"
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/toolpath/stepover.hpp"
 
 #include "fmt/format.h"
 
@@ -24,6 +24,7 @@ using job::Operation;
 using nurbs::Surface;
 using nurbs::SurfacePoint;
 using toolpath::PlannedOperation;
+using toolpath::stepover;
 
 namespace {
 
@@ -70,10 +71,9 @@ std::optional<double> plane_step(const SurfacePoint& p,
     const double a = (dot(step, p.du) * g - dot(step, p.dv) * f) / det;
     const double b = (dot(step, p.dv) * e - dot(step, p.du) * f) / det;
     const double curvature =
-        dot(normal, p.duu * (a * a) + p.duv * (2 * a * b) + p.dvv * (b * b)) / square;
+        -dot(normal, p.duu * (a * a) + p.duv * (2 * a * b) + p.dvv * (b * b)) / square;
     // Contacts are a stepover apart; centres are closer in hollows and farther over hills.
-    const double apart =
-        isocurve_stepover(radius, scallop_height, curvature) * (1 - radius * curvature);
+    const double apart = stepover(radius, scallop_height, curvature) * (1 + radius * curvature);
     return std::clamp(apart, 0.0, 2 * radius) * std::sqrt(square);
 }
 
@@ -161,7 +161,7 @@ private:
     double step_for_scallop()
     {
         const double scallop_height = kPlaneScallopShare * (*operation_.scallop - work_.outward());
-        const double level = isocurve_stepover(operation_.tool.radius, scallop_height, 0);
+        const double level = stepover(operation_.tool.radius, scallop_height, 0);
         double least = level;
         const auto ask = [&](double step) {
             steep_ = steep_ || step < kLeastPlaneShare * level;

@@ -90,6 +90,7 @@ public:
         result_.keeps = most_kept(slices.pitch()) + slices.max_excess();
         LayerToolpathWriter moves{
             result_.planned.path,
+            tool_.radius,
             {std::max(work_.stock.top, work_.job.stock_top) + work_.job.clearance,
              work_.operation.entry, work_.operation.output != OutputForm::kLines, kChord}};
         double above = work_.stock.top;

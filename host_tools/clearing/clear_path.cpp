@@ -1,4 +1,4 @@
-// Steps as long as there is room, or so short that no corner stands out between two places.
+// Steps as long as there is room, or so short that no corner reaches in between two places.
 #include "host_tools/clearing/clear_path.hpp"
 
 #include <algorithm>
@@ -14,26 +14,27 @@ namespace {
 constexpr double kSlack = 1e-5;  // mm
 constexpr double kHardly = 0.1;  // mm: less off the contours, places may lie on either side
 
-// A corner is nearest abreast of the middle between two places h apart: by h^2 / (8 least) nearer
-// than both on a straight way, on an arc by its height over the chord, h^2 / (8 radius), more.
-double spacing(const Edge& way, double least)
+// A corner is nearest abreast of the middle between two places h apart: by h^2 / (8 clearance)
+// nearer than both on a straight way, on an arc by its height over the chord, h^2 / (8 radius),
+// more.
+double spacing(const Edge& way, double clearance)
 {
     const double bend = way.turn == 0 ? 0.0 : 1.0 / way.radius;
-    return std::sqrt(4.0 * kSlack / (1.0 / std::max(least, kHardly) + bend));
+    return std::sqrt(4.0 * kSlack / (1.0 / std::max(clearance, kHardly) + bend));
 }
 
 }  // namespace
 
-bool is_path_clear(const RegionOffset& region, const Edge& way, double least)
+bool is_path_clear(const RegionOffset& region, const Edge& way, double clearance)
 {
     constexpr double kFar = 5.0;
     const double whole = length(way);
-    const double shortest = spacing(way, least);
+    const double shortest = spacing(way, clearance);
     double along = 0.0;
     while (true) {
         const Vec2d place = whole > 0.0 ? point_on(way, along / whole) : way.start;
-        const double room = region.nearest(place, least + kFar) - least;
-        const bool either = least < kHardly || along == 0.0;
+        const double room = region.nearest(place, clearance + kFar) - clearance;
+        const bool either = clearance < kHardly || along == 0.0;
         if (room < -0.5 * kSlack || (either && !region.contains(place))) {
             return false;
         }

@@ -22,7 +22,7 @@ using offset::surrounds;
 
 namespace {
 
-constexpr double kShare = 0.4995;  // of a step: how far from a pass metal is cut by it
+constexpr double kShare = 0.4995;  // of a step: how far from a pass it cuts
 
 struct Loop2d {
     Contour path;
@@ -72,8 +72,8 @@ NextRing next_level(const RegionOffset& offset, double distance, double step, bo
     return {distance + good * step, std::move(*best), true};
 }
 
-// Draws the inner level nearer until little enough stays between, or farther off, where less stays
-// than may. Returns what stays as a share of what may; 0 where that is not asked.
+// Moves the inner ring nearer until the scallop between is low enough, or farther off where it is
+// lower than allowed. Returns its share of the height allowed; 0 where that is not given.
 double draw_to_suit(NextRing& inner,
                     const NextRing& level,
                     const RegionOffset& offset,
@@ -88,7 +88,7 @@ double draw_to_suit(NextRing& inner,
     const double widest = 0.5 * settings.stepover;
     std::optional<NextRing> good;
     double good_left = 0.0;
-    double bad = 1e300;
+    bool bad = false;  // a step that leaves too much was tried
     for (int round = 0; settings.scallop_share_between && round < kRounds; ++round) {
         const double step = inner.distance - level.distance;
         const double left = settings.scallop_share_between(
@@ -99,14 +99,14 @@ double draw_to_suit(NextRing& inner,
             good = std::move(inner);
             good_left = left;
             share = std::min(kWider / std::sqrt(left), 2.0);
-            const bool free = !good->by_corners && bad == 1e300;
+            const bool free = !good->by_corners && !bad;
             if (left > kLittle || !free || step * share > widest) {
                 break;
             }
         } else if (good) {
             break;
         } else {
-            bad = step;
+            bad = true;
         }
         inner = next_level(offset, level.distance, share * step, settings.cover_corners);
     }
@@ -178,8 +178,8 @@ std::vector<Loop2d> make_levels(const RegionOffset& offset,
             settings.stepover_from ? settings.stepover_from(level) : settings.stepover;
         return std::min(asked, settings.stepover);
     };
-    // What makes a level lie nearer or farther than asked seldom ends with it: the next one is
-    // first drawn where that much would have suited the last one.
+    // What moved one ring nearer or farther holds for the next one, mostly: it is first tried at
+    // the share of its stepover that suited the last one.
     constexpr double kMostAgain = 1.5;
     constexpr double kLeastSuited = 0.1;
     constexpr double kMostSuited = 2.0;

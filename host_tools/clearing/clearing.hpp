@@ -11,7 +11,7 @@
 //
 // Loops lie at growing distances from the contours. They form trees (a loop's child is the next one
 // inside it), which are cut deepest first, so that the tool works from the inside towards the walls
-// and each loop but the deepest of a branch starts beside metal already cut. Rings around islands
+// and each loop but the deepest of a branch starts beside stock already cut. Rings around islands
 // that have not met the boundary yet are cut first (Suh & Lee 1990, "Determination of cutting
 // order").
 #pragma once
@@ -48,14 +48,15 @@ struct ClearingSettings {
     double stepover{};  // mm: largest distance between passes
     // Where given, the largest distance inward from a level of loops; `stepover` bounds it.
     std::function<double(const offset::Region2d& level)> stepover_from;
-    // Where given, what stands between two levels as a share of what may: they are drawn nearer
+    // Where given, the scallop between two rings over the height allowed: they are moved nearer
     // together until it is at most 1, or apart, up to half of `stepover`, where it is less.
     std::function<double(const LoopStrip& strip)> scallop_share_between;
     // Where given: how far inward the next level may lie if partial loops are made where that is
     // too far, mm; 0 where whole loops, `stepover` mm apart, are no longer. And these partial
-    // loops; no value where they do not suffice or add more than `most` mm of path.
+    // loops; no value where they do not suffice or add more than `max_length` mm of path.
     std::function<double(const offset::Region2d& level, double step)> partial_stepover;
-    std::function<std::optional<std::vector<PartialLoop>>(const LoopStrip& strip, double most)>
+    std::function<std::optional<std::vector<PartialLoop>>(const LoopStrip& strip,
+                                                          double max_length)>
         partial_loops;
     job::CutDirection direction{job::CutDirection::kClimb};
     // Draws loops nearer together where corners, necks or the middle would else lie farther than
@@ -64,10 +65,10 @@ struct ClearingSettings {
 };
 
 enum class PassStart : std::uint8_t {
-    kPlungeEntry,     // in uncut metal: needs a helix, a ramp or a plunge
-    kRetractAndDrop,  // beside metal already cut, after a retract
+    kPlungeEntry,     // in uncut stock: needs a helix, a ramp or a plunge
+    kRetractAndDrop,  // beside stock already cut, after a retract
     kContinue,        // where the pass before ends
-    kLink,  // by `link` from the end of the pass before, through metal it has cut or is to cut
+    kLink,  // by `link` from the end of the pass before, through stock it has cut or is to cut
 };
 
 struct ClearingPass {
@@ -83,7 +84,7 @@ struct ClearingPass {
     bool around_island{};
     bool is_pencil{};
     double wall_distance{};  // mm: from the start of the path to the nearest contour
-    // A rest of metal this wide may stand between this level and the next one inward, mm.
+    // mm: to the next ring inward; material may be left between, as wide as this.
     double stepover{};
 };
 

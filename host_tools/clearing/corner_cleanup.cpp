@@ -20,7 +20,6 @@ namespace {
 
 // The border of the rest may lie at just this reach from all of a level.
 constexpr double kAbout = 1.000001;
-constexpr double kNotKnown = 1e300;
 
 struct FarPoint {
     Vec2d at;
@@ -55,7 +54,7 @@ public:
     {
     }
 
-    // In the order of the contour; near ends of stretches that lead beyond reach they stand close.
+    // In the order of the contour; near ends of stretches beyond reach they are close together.
     std::vector<Way> lines_from(const Contour& border)
     {
         std::vector<Way> ways;
@@ -125,7 +124,7 @@ private:
             return clear_line(p);
         }
         const Vec2d inward = left_normal(tangent_on(edge, share));
-        Way way{{p, nearest.distance}, {p + inward * space_.depth, kNotKnown}, inward, true};
+        Way way{{p, nearest.distance}, {p + inward * space_.depth, kUnbounded}, inward, true};
         if (!is_far(way.border)) {
             way.inner = far_point(way.inner.at);
             way.inner = is_far(way.inner) ? crest_of(way) : way.inner;
@@ -178,7 +177,7 @@ private:
         return i;
     }
 
-    FarPoint far_point(Vec2d p) const { return {p, ring_.nearest(p, kNotKnown)}; }
+    FarPoint far_point(Vec2d p) const { return {p, ring_.nearest(p, kUnbounded)}; }
 
     bool is_far(const FarPoint& p) const { return p.apart > space_.reach * kAbout; }
 

@@ -6,32 +6,33 @@
 
 #include "host_tools/job/job.hpp"
 #include "host_tools/offset/contour.hpp"
+#include "host_tools/toolpath/toolpath_writer.hpp"
 
 namespace cusp::clearing {
 
-// A run of the cutter on one level; it begins where the axis stands at edges.front().start.
+// A run of the cutter at one height; it begins with the axis at edges.front().start.
 struct LayerRun {
     std::vector<offset::Edge> edges;
     bool starts_in_cleared_stock{false};  // this layer is already cleared where the run starts
 };
 
-// One layer and what its moves ask of it; places are of the cutter's axis, in plan.
+// One layer, with the queries that its moves need; places are of the cutter's axis, in plan.
 struct LayerSpace {
-    double top{};  // z: no metal stands higher where the layer above was cleared
+    double top{};  // z: the stock is no higher where the layer above was cleared
     double bottom{};
     double radius{};  // of the cutter, with what it keeps from the part
-    // Whether the axis may stand, at `bottom`, everywhere within `extra` mm of the place.
+    // Whether the axis may be, at `bottom`, everywhere within `extra` mm of the place.
     std::function<bool(Vec2d place, double extra)> has_room;
     // Whether all of the straight way was cleared down to `top`; empty where nothing was yet.
     std::function<bool(Vec2d from, Vec2d to)> cleared_above;
-    // Whether the cutter stands beside the stock there.
+    // Whether the cutter is beside the stock there.
     std::function<bool(Vec2d place)> beside_stock;
-    // mm that ridges may stand over what counts as cleared, at `top` and at `bottom`.
+    // mm: scallops over what counts as cleared, at `top` and at `bottom`.
     double scallop_height{};
 };
 
 // Writes runs to a tool path. Rapid moves happen at the clearance height or straight down to 1 mm
-// above metal that is cut; links below it cross only what the layer above has cleared.
+// above stock that is cut; links below it cross only what the layer above has cleared.
 class LayerToolpathWriter {
 public:
     struct Settings {
@@ -41,33 +42,28 @@ public:
         double chord_tolerance{};  // mm, > 0
     };
 
-    LayerToolpathWriter(toolpath::Toolpath& path, Settings settings)
-        : path_{path}, settings_{settings}
+    // tool_radius  mm: with what the tool keeps from the part
+    LayerToolpathWriter(toolpath::Toolpath& path, double tool_radius, Settings settings)
+        : writer_{path.moves, {settings.clearance_z, settings.entry, tool_radius}},
+          settings_{settings}
     {
     }
 
     void add(const LayerRun& run, const LayerSpace& layer);
-    void retract();
+    void retract() { writer_.retract(); }
 
-    int retracts() const { return retracts_; }
-    int steep_plunges() const { return steep_plunges_; }
-    Vec2d place() const { return {at_.x, at_.y}; }
-    bool started() const { return started_; }
+    int retracts() const { return writer_.retracts(); }
+    int steep_plunges() const { return writer_.steep_plunges(); }
+    Vec2d place() const { return in_plan(writer_.at()); }
+    bool started() const { return writer_.started(); }
 
 private:
-    toolpath::Toolpath& path_;
+    toolpath::ToolpathWriter writer_;
     Settings settings_;
-    Vec3d at_{};
-    bool started_{false};
-    int retracts_{0};
-    int steep_plunges_{0};
 
-    void line(toolpath::MoveKind kind, Vec3d end);
     void cut(const offset::Edge& edge, double z);
     bool link(Vec2d start, const LayerSpace& layer);
     void enter(const LayerRun& run, const LayerSpace& layer);
-    bool helix(Vec2d start, const LayerSpace& layer);
-    void ramp(const std::vector<Vec2d>& way, double length, double from, double bottom);
 };
 
 }  // namespace cusp::clearing

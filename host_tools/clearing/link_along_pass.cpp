@@ -1,6 +1,8 @@
 // Looks from the ends and middles of the edges of the next pass for the place nearest by.
 #include "host_tools/clearing/link_along_pass.hpp"
 
+#include <optional>
+
 namespace cusp::clearing {
 
 using offset::Contour;
@@ -17,7 +19,7 @@ struct Crossing {
     std::size_t edge{};  // of the pass before
     Vec2d from;          // on it
     Vec2d to;            // on the next
-    double way{1e300};   // along the pass before, and over
+    double way{};        // along the pass before, and over
     bool backward{};
 };
 
@@ -52,7 +54,7 @@ std::vector<Edge> link_along_pass(const Contour& before, const Contour& next, do
     for (const Edge& edge : before) {
         ways.push_back(ways.back() + length(edge));
     }
-    Crossing best;
+    std::optional<Crossing> best;
     const auto look = [&](Vec2d to) {
         for (std::size_t i = 0; i < before.size(); ++i) {
             const Vec2d from = nearest_on(before[i], to);
@@ -65,8 +67,8 @@ std::vector<Edge> link_along_pass(const Contour& before, const Contour& next, do
                 ways[i] + (inside ? length(between(before[i], before[i].start, from)) : 0.0);
             const bool backward = ways.back() - forward < forward;
             const double way = over + (backward ? ways.back() - forward : forward);
-            if (way < best.way) {
-                best = {i, from, to, way, backward};
+            if (!best || way < best->way) {
+                best = Crossing{i, from, to, way, backward};
             }
         }
     };
@@ -74,11 +76,11 @@ std::vector<Edge> link_along_pass(const Contour& before, const Contour& next, do
         look(edge.start);
         look(point_on(edge, 0.5));
     }
-    if (best.way == Crossing{}.way) {
+    if (!best) {
         return {};
     }
-    std::vector<Edge> link = part_of(before, best);
-    link.push_back(line_edge(best.from, best.to));
+    std::vector<Edge> link = part_of(before, *best);
+    link.push_back(line_edge(best->from, best->to));
     return link;
 }
 

@@ -25,7 +25,7 @@ constexpr double kAhead[] = {2.0, 1.4, 1.0, 0.7, 2.8};
 void start_near(Contour& path, Vec2d from)
 {
     std::size_t best = 0;
-    double least = 1e300;
+    double least = kUnbounded;
     for (std::size_t i = 0; i < path.size(); ++i) {
         const double apart = distance_to(path[i], from);
         if (apart < least) {

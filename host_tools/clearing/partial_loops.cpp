@@ -208,7 +208,7 @@ void put_in_partial_loops(ClearedRegion& cleared)
         const double outward = turned ? loop.depth : -loop.depth;
         const Vec2d place =
             path.front().start + left_normal(tangent_at_start(path.front())) * outward;
-        double least = 1e300;
+        double least = kUnbounded;
         std::size_t best = 0;
         std::size_t at = 0;
         for (std::size_t i = 0; i < cleared.passes.size(); ++i) {

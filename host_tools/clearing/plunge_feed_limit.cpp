@@ -26,10 +26,10 @@ namespace {
 
 constexpr double kMetalPitch = 1.0 / 12;  // of the finest tool's radius
 constexpr double kDescentChord = 0.002;   // mm: curves are cut along chords this near
-constexpr double kBehind = 0.1;           // of the radius, in plan: so far back metal is cut
-constexpr double kBelow = 0.85;           // of the radius: farther out a way over meets metal, too
+constexpr double kBehind = 0.1;           // of the radius, in plan: so far back stock is cut
+constexpr double kBelow = 0.85;           // of the radius: farther out, moves above meet stock
 constexpr double kSkim = 0.05;        // of the radius: what passes leave each other is no deeper
-constexpr double kOverDescent = 0.1;  // mm: where upright ones go slower over metal
+constexpr double kOverDescent = 0.1;  // mm: over stock: where upright ones go slower
 
 bool goes_at_feed(const ToolMove& move)
 {
@@ -107,7 +107,7 @@ private:
         std::size_t n = 0;
         for (; n < ahead_.size() && (least <= 0.0 || apart(ahead_[n]) > least); ++n) {
             const Vec3d to = ahead_[n];
-            // Other metal is never looked at.
+            // Stock elsewhere is never queried.
             const double way = std::hypot(to.x - cut_to_.x, to.y - cut_to_.y);
             if (moves_.any_nearer({to.x, to.y}, 2.0 * largest_ + way)) {
                 stock_.cut(cut_to_, to);
@@ -137,8 +137,8 @@ private:
         moves.back().kind = deep ? MoveKind::kPlungingCut : move.kind;
     }
 
-    // What has been cut just before does not count: it would hide how deep the metal is that a way
-    // straight down goes into.
+    // The cuts just before do not count: they would hide the depth of the stock under a move
+    // straight down.
     bool cuts_deep(const std::vector<Vec3d>& places)
     {
         bool deep = false;

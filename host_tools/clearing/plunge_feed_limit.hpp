@@ -1,4 +1,4 @@
-// Moves that go down into metal: over cliffs of a floor, down steep slopes.
+// Limits the feed of cuts and links that go down into stock: over cliffs, down steep slopes.
 #pragma once
 
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace cusp::clearing {
 
-// Cuts and links that go down so steeply that at the feed they would go down faster than at the
-// plunge feed become descents where that is into metal: upright ones from a little over it on,
-// others as a whole. Metal no deeper than a twentieth of the tool's radius does not count: ridges
-// that passes leave each other. `moves_property_test` and `plunge_feed_limit_test` judge it.
+// Makes MoveKind::kPlungingCut of cuts and links into stock that at the feed would go down faster
+// than the plunge feed: of upright ones from a little over the stock on, of others as a whole.
+// Stock less deep than a twentieth of the tool's radius does not count: scallops between passes.
+// Held by `moves_property_test` and `plunge_feed_limit_test`.
 //
 // operations  in the order to cut, in the stock of `job`
 // box         all places that their axes may reach

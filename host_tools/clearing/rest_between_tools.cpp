@@ -10,8 +10,7 @@ using toolpath::Tool;
 namespace {
 
 // Whether `after`, with its axis `apart` outside the places of `before`, meets no more than the
-// scallop_height: what stands at some distance from those places is the underside of `before`
-// there.
+// scallop_height: at some distance from those places the stock is the lower side of `before` there.
 bool nests(const Tool& before, const Tool& after, double apart, double scallop_height)
 {
     constexpr int kPlaces = 256;

@@ -1,4 +1,5 @@
-// How near to the places of one cutter another may stand on the same level without meeting metal.
+// Rest machining: how near to the places of one cutter another one, at the same height, cuts
+// nothing.
 #pragma once
 
 #include <optional>
@@ -7,10 +8,10 @@
 
 namespace cusp::clearing {
 
-// How far outside the places where the axis of `before` may stand (negative: how deep among them)
-// that of `after` may stand on the same level and meet nothing that stands more than
-// `scallop_height` (mm, >= 0) over its own underside. Holds for all pairs of cutters, whichever is
-// the larger. Returns no value where it meets more everywhere, as a flat end does under a ball.
+// How far outside the places of the axis of `before` (negative: how deep among them) the axis of
+// `after` may be, at the same height, and meet no stock more than `scallop_height` (mm, >= 0) above
+// its own lower side. Holds for all pairs of cutters, whichever is the larger. Returns no value
+// where it meets more everywhere, as a flat end does under a ball.
 std::optional<double> rest_offset_between_tools(const toolpath::Tool& before,
                                                 const toolpath::Tool& after,
                                                 double scallop_height);

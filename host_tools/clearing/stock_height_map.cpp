@@ -11,7 +11,6 @@ using toolpath::Tool;
 
 namespace {
 
-constexpr double kNoMetal = -1e300;
 constexpr double kSpacingShare = 1.0 / 10;  // of the radius
 constexpr double kMostPlaces = 4e6;
 constexpr double kLeastSliver = 2e-3;  // mm
@@ -70,7 +69,7 @@ double StockHeightMap::contact_height(Vec2d at, double share) const
     const double reach = share * std::sqrt(probe_profile_.reach);
     const Range columns = range(at.x - reach, at.x + reach, origin_.x, pitch_, columns_);
     const Range rows = range(at.y - reach, at.y + reach, origin_.y, pitch_, rows_);
-    double highest = kNoMetal;
+    double highest = -kUnbounded;
     for (std::size_t i = columns.begin; i < columns.end; ++i) {
         const double dx = origin_.x + static_cast<double>(i) * pitch_ - at.x;
         const float* heights = heights_.data() + i * rows_;

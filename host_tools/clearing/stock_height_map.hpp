@@ -25,8 +25,8 @@ public:
     // Another tool cuts from here on.
     void set_tool(const toolpath::Tool& tool);
 
-    // The height at which a tip that comes down over `at` first touches metal, with what of the
-    // tool is within that share of its radius; -1e300 where none stands.
+    // z at which a tip that comes down over `at` first touches stock, with the part of the tool
+    // within that share of its radius; -kUnbounded where there is none.
     double contact_height(Vec2d at, double share = 1.0) const;
 
     // Takes what the tool sweeps on a straight move. Returns the deepest that it cuts, mm.
@@ -54,11 +54,11 @@ private:
     };
 
     double spacing_{};
-    double sliver_{};  // mm: what stands between two looked-at places of a move is no metal
+    double sliver_{};  // mm: slivers between two positions of a move do not count
     Profile tool_{};
     Profile probe_profile_{};  // the tool, smaller by the slivers
     // Heights that the tool's lower side has at least, by squared distance: most places under it
-    // are cut already, and told so without a root.
+    // are cut already, and need no root.
     std::array<double, 257> at_least_{};
     Vec2d origin_;
     double pitch_;

@@ -96,17 +96,18 @@ int run_info(const InfoOptions& options)
 void add_info_command(CLI::App& app, Work& work)
 {
     auto* command = app.add_subcommand(
-        "info", "what a part is: unit, size, faces, loops, undercuts, the largest ball");
+        "info", "describe a part: unit, size, faces, loops, undercuts, the largest ball");
     command->footer(
         "  cusp info bracket.step\n"
         "  cusp info plate.dxf#outline --picture plate.svg\n"
         "\n"
-        "Reads .json, .step, .stp, .iges, .igs, .stl and .dxf. Of a drawing each layer's loops\n"
-        "and open ends are listed; of a mesh its holes. \"Largest ball\" is the largest ball end\n"
-        "that comes within --tolerance of every place seen from above, shank included. It is\n"
-        "found at up to 60 000 places, sharp edges first, to 5 %; what lies between them\n"
-        "and is tighter may be missed. Of STL, give at least what its facets are off the shape.\n"
-        "\"Undercuts\" is the area that nothing from above can touch.\n"
+        "Reads .json, .step, .stp, .iges, .igs, .stl and .dxf. It lists the loops and open\n"
+        "ends of each layer of a drawing, and the holes of a mesh. \"Largest ball\" is the\n"
+        "largest ball end that comes within --tolerance of every place visible from above,\n"
+        "shank included. It is found at up to 60 000 places, sharp edges first, to 5 %; a\n"
+        "tighter spot between them may be missed. For STL, --tolerance is to be at least the\n"
+        "deviation of its facets.\n"
+        "\"Undercuts\" is the area that no tool from above can touch.\n"
         "Exit status 2 where a file can't be read; then nothing is written.");
     auto options = std::make_shared<InfoOptions>();
     command->add_option("FILE", options->files, "parts; of a drawing FILE#LAYER")->required();
@@ -116,7 +117,8 @@ void add_info_command(CLI::App& app, Work& work)
     command->add_option("--tolerance", options->tolerance, "mm that a ball may leave")
         ->check(CLI::Range(1e-4, 10.0))
         ->capture_default_str();
-    command->add_option("--stats", options->stats, "the same to write (JSON), in mm and degrees");
+    command->add_option("--stats", options->stats,
+                        "the description to write (JSON), in mm and degrees");
     command->add_option("--picture", options->picture,
                         "picture to write (SVG) of one file, from above");
     command->callback([&work, options] {

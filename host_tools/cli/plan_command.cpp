@@ -73,12 +73,12 @@ void add_plan_command(CLI::App& app, Work& work)
         "  cusp plan part.stl --tool flat:8 ball:6 --scallop 0.05 --feed 800 -o part.ngc\n"
         "  cusp plan floor.json --boundary plate.dxf#outline --island boss.json --tool ball:12 \\\n"
         "            --scallop 0.4 -o pocket.ngc\n"
-        "What is chosen for you is said. The same call with --print-job instead of -o prints the\n"
-        "job file, to change and to plan: ... --print-job > part.toml\n\n"
+        "It prints what it chose. --print-job instead of -o prints the job file, to change and to\n"
+        "plan: ... --print-job > part.toml\n\n"
         "Strategies: contour_pocket, adaptive_isocurve, grid_pocket, hull_rough; for comparison\n"
         "complete_isocurves and parallel_planes. Statistics are in mm and s, whatever the job's\n"
         "units.\n\n"
-        "A job, all of whose keys docs/job_file.md tells:\n"
+        "A job (docs/job_file.md explains all keys, docs/strategies.md which strategy to take):\n"
         "  units = \"mm\"\n"
         "  [tool]\n"
         "  shape = \"ball\"                  # \"flat\", \"bull\"\n"
@@ -94,7 +94,7 @@ void add_plan_command(CLI::App& app, Work& work)
         "  floor_tolerance = 0.01\n"
         "  output = \"arcs\"                 # \"lines\", \"nurbs\"\n"
         "Pockets (contour_pocket, grid_pocket) add boundary = \"outline.dxf\", islands = [...];\n"
-        "layers are asked for by max_depth.");
+        "max_depth makes layers.");
     auto options = std::make_shared<PlanOptions>();
     command->add_option("JOB", options->call.files,
                         "job file (.toml), or parts: .json, .step, .iges, .stl");

@@ -225,7 +225,8 @@ void add_serve_options(CLI::App& command, SimArguments& arguments)
 {
     const char* group = "Virtual controller";
     command
-        .add_flag("--serve", arguments.serve, "Be a controller in real time for any Grbl sender")
+        .add_flag("--serve", arguments.serve,
+                  "Serve as a controller in real time for any Grbl sender")
         ->group(group);
     command.add_option("--pty", arguments.pty_link, "Link to make to a new pseudo-terminal")
         ->group(group);
@@ -257,8 +258,8 @@ void add_serve_options(CLI::App& command, SimArguments& arguments)
 
 void add_sim_command(CLI::App& app, Work& work)
 {
-    CLI::App* command =
-        app.add_subcommand("sim", "run a program through the controller's core as fast as it goes");
+    CLI::App* command = app.add_subcommand(
+        "sim", "run a program through the controller's core, faster than real time");
     const auto arguments = std::make_shared<SimArguments>();
     command->add_option("program", arguments->program, "G-code to run from machine position 0,0,0");
     command->add_option("--settings", arguments->settings_file,

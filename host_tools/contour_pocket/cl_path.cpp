@@ -1,10 +1,11 @@
-// Looks the floor up along the path, takes the longest moves that stay in the band, certifies every
-// move and lifts what would cut too deep.
+// Looks the floor up along the path, takes the longest moves that stay in the band, proves each of
+// them and raises those that would gouge.
 #include "host_tools/contour_pocket/cl_path.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/contour_pocket/cl_path_proof.hpp"
 #include "host_tools/contour_pocket/equal_pieces.hpp"
 #include "host_tools/contour_pocket/nurbs_fit.hpp"
 #include "host_tools/contour_pocket/station_row.hpp"
@@ -13,380 +14,27 @@
 namespace cusp::contour_pocket {
 
 using drop_cutter::DropCutter;
-using nurbs::Curve;
 using offset::arc_edge;
 using offset::distance;
 using offset::Edge;
-using offset::left_normal;
 using offset::line_edge;
-using offset::unit;
 
 namespace {
-
-double to_step(double x) { return std::round(x / kWrittenStep) * kWrittenStep; }
-
-Vec3d written(Vec3d p)
-{
-    return {to_step(p.x), to_step(p.y), std::ceil(p.z / kWrittenStep - 1e-6) * kWrittenStep};
-}
-
-// Chords of a move, each with how far the move itself may lie from it.
-struct Chords {
-    std::vector<Vec3d> points;
-    double sagitta;
-    std::vector<std::size_t> spans{};  // of a curve: the knot before the chord to each point
-};
-
-// The second derivative of a cubic changes evenly between knots, so its largest value stands at
-// one.
-Chords chords_of(const Curve& curve, double fine)
-{
-    Chords chords{{point_at(curve, curve.domain_begin())}, fine, {0}};
-    for (std::size_t k = 3; k < curve.points.size(); ++k) {
-        const double u = curve.knots[k];
-        const double width = curve.knots[k + 1] - u;
-        if (width <= 0.0) {
-            continue;
-        }
-        const double inside = 1e-9 * width;
-        const double bend = std::max(norm(derivatives_at(curve, u + inside).second),
-                                     norm(derivatives_at(curve, u + width - inside).second));
-        const int n = 1 + static_cast<int>(width * std::sqrt(bend / (8.0 * fine)));
-        for (int i = 1; i <= n; ++i) {
-            chords.points.push_back(point_at(curve, u + width * i / n));
-            chords.spans.push_back(k);
-        }
-    }
-    return chords;
-}
-
-Chords chords_of(Vec3d start, const ClMove& move, double fine)
-{
-    if (!move.curve.points.empty()) {
-        return chords_of(move.curve, fine);
-    }
-    if (move.turn == 0) {
-        return {{start, move.end}, 0.0};
-    }
-    const Vec2d a = in_plan(start) - move.centre;
-    const Vec2d b = in_plan(move.end) - move.centre;
-    const double radius = std::sqrt(dot(a, a));
-    const double angle = std::atan2(cross(a, b), dot(a, b));
-    const double step = std::sqrt(8.0 * fine / radius);
-    const int n = 1 + static_cast<int>(std::abs(angle) / step);
-    Chords chords;
-    for (int i = 0; i <= n; ++i) {
-        const double t = angle * i / n;
-        const Vec2d p = move.centre + a * std::cos(t) + left_normal(a) * std::sin(t);
-        chords.points.push_back({p.x, p.y, start.z + (move.end.z - start.z) * i / n});
-    }
-    chords.sagitta = radius * (1.0 - std::cos(0.5 * angle / n));
-    return chords;
-}
-
-double clearance_of(Vec3d start, const ClMove& move, const DropCutter& floor, double fine)
-{
-    if (move.turn == 0 && move.curve.points.empty()) {
-        return floor.move_clearance(start, move.end);
-    }
-    const Chords chords = chords_of(start, move, fine);
-    double least = 0.0;
-    for (std::size_t i = 1; i < chords.points.size(); ++i) {
-        least = std::min(
-            least, floor.move_clearance(chords.points[i - 1], chords.points[i], chords.sagitta));
-    }
-    return least;
-}
-
-// A move that lacks more bands than this grazes a cliff, and is halved down to that share of the
-// tool's radius, so that only what grazes is raised: the shorter, the more it would be raised by.
-struct Graze {
-    double bands;
-    double shortest;
-};
-constexpr Graze kGrazes[] = {{10.0, 0.02}, {1.0, 0.1}};
-
-// How deep moves may cut, mm, <= 0.
-double allowed_clearance(const ClPathSettings& settings)
-{
-    return settings.one_sided ? 0.0
-                              : -(settings.height_tolerance + 2.0 * settings.clearance_reserve);
-}
-
-// Beside a cliff a move must not begin to climb before its end, nor sink before it is there:
-// raising it helps nothing.
-bool is_steep(Vec3d start, const ClMove& move)
-{
-    const double along = std::hypot(move.end.x - start.x, move.end.y - start.y);
-    const double rise = std::abs(move.end.z - start.z);
-    return move.turn == 0 && move.curve.points.empty() && along > 0.0 &&
-           rise > 2.0 * along + 10.0 * kWrittenStep;
-}
-
-// The corner of a steep move that goes level at its higher end and upright otherwise.
-Vec3d level_corner(Vec3d start, Vec3d end)
-{
-    return start.z > end.z ? Vec3d{end.x, end.y, start.z} : Vec3d{start.x, start.y, end.z};
-}
-
-// The first half of a move, in plan and in height.
-ClMove first_half(Vec3d start, const ClMove& move)
-{
-    ClMove half = move;
-    half.end = written((start + move.end) * 0.5);
-    if (move.turn != 0) {
-        const Vec2d a = in_plan(start) - move.centre;
-        const Vec2d b = in_plan(move.end) - move.centre;
-        const double radius = std::sqrt(dot(a, a));
-        const double turn = 0.5 * std::atan2(cross(a, b), dot(a, b));
-        const Vec2d p =
-            move.centre + unit(a * std::cos(turn) + left_normal(a) * std::sin(turn)) * radius;
-        half.end = written({p.x, p.y, half.end.z});
-    }
-    return half;
-}
-
-// Moves of no more than this length (mm) are raised as a whole by what they lack (mm). Steep ones
-// are made level and upright rather than raised: the shorter, the nearer to where they were.
-double shortest_halved(double radius, double lacks, bool steep, const ClPathSettings& settings)
-{
-    for (const Graze& graze : kGrazes) {
-        if (lacks > graze.bands * settings.height_tolerance) {
-            return (steep ? kGrazes[0].shortest : graze.shortest) * radius;
-        }
-    }
-    return 1e300;
-}
-
-void halve_move(std::vector<ClMove>& moves, std::size_t i, Vec3d start)
-{
-    const ClMove half = first_half(start, moves[i]);
-    moves.insert(moves.begin() + static_cast<std::ptrdiff_t>(i), half);
-}
-
-// Heights of a move's ends (z) at which it keeps off the floor, and its gap there.
-struct Raised {
-    double start, end;
-    double clearance;
-};
-
-Raised raised_off(Vec3d start,
-                  ClMove move,
-                  double clearance,
-                  const DropCutter& floor,
-                  double allowed,
-                  double fine)
-{
-    constexpr int kRounds = 20;
-    constexpr int kGentleRounds = 4;  // later ones raise by more and more
-    for (int round = 0; clearance < allowed && round < kRounds; ++round) {
-        const double more = std::exp2(std::max(0, round - kGentleRounds));
-        const Vec3d raise{0.0, 0.0, more * (kWrittenStep + 1.5 * (allowed - clearance))};
-        start = written(start + raise);
-        move.end = written(move.end + raise);
-        clearance = clearance_of(start, move, floor, fine);
-    }
-    return {start.z, move.end.z, clearance};
-}
-
-// Upright moves lead up to the raised move i and down from it: those beside it stay where they are.
-void stand_upright(std::vector<ClMove>& moves, std::size_t i, const Raised& raised)
-{
-    ClMove up{moves[i - 1].end};
-    up.end.z = raised.start;
-    const ClMove down{moves[i].end};
-    moves[i].end.z = raised.end;
-    const auto at = moves.begin() + static_cast<std::ptrdiff_t>(i);
-    moves.insert(moves.insert(at + 1, down) - 1, up);
-}
-
-// Whether a move would climb all its way where its end is raised beside a cliff: of a shorter one
-// nothing is missed.
-bool is_long(Vec3d start, const ClMove& move, double radius)
-{
-    return move.curve.points.empty() &&
-           std::hypot(move.end.x - start.x, move.end.y - start.y) > kGrazes[0].shortest * radius;
-}
-
-// Halves the moves before and behind the move i until those next to it are short. Returns by how
-// many places the move i went back.
-std::size_t part_neighbours(ClPath& path, std::size_t i, double radius)
-{
-    std::vector<ClMove>& moves = path.moves;
-    const auto begin_of = [&](std::size_t k) {
-        return k == 0 ? path.start : moves[k - 1].end;
-    };
-    std::size_t before = 0;
-    for (; i > 0 && is_long(begin_of(i - 1), moves[i - 1], radius); ++i, ++before) {
-        halve_move(moves, i - 1, begin_of(i - 1));
-    }
-    while (i + 1 < moves.size() && is_long(moves[i].end, moves[i + 1], radius)) {
-        halve_move(moves, i + 1, moves[i].end);
-    }
-    return before;
-}
-
-// Raises the ends of every move by what it lacks to keep off the floor, until none lacks anything.
-// Raising only ever adds room to the neighbours; a closed path's ends are raised together. Returns
-// the most that a move is raised by (mm).
-double certify(ClPath& path, const DropCutter& floor, const ClPathSettings& settings, bool closed)
-{
-    const double allowed = allowed_clearance(settings);
-    path.least_clearance = 0.0;
-    double most = 0.0;
-    // An arc's chords leave half of the cushion to the slope.
-    const double fine = std::max(0.5 * settings.clearance_reserve, kWrittenStep);
-    for (std::size_t i = 0; i < path.moves.size(); ++i) {
-        Vec3d& start = i == 0 ? path.start : path.moves[i - 1].end;
-        Vec3d& end = path.moves[i].end;
-        const double clearance = clearance_of(start, path.moves[i], floor, fine);
-        if (clearance >= allowed) {
-            path.least_clearance = std::min(path.least_clearance, clearance);
-            continue;
-        }
-        const double along = std::hypot(end.x - start.x, end.y - start.y);
-        const Raised raised = raised_off(start, path.moves[i], clearance, floor, allowed, fine);
-        const double lift = raised.end - end.z;
-        const bool steep = is_steep(start, path.moves[i]);
-        const double lacks = std::max(lift, allowed - clearance);
-        if (path.moves[i].curve.points.empty() &&
-            along > shortest_halved(floor.tool().radius, lacks, steep, settings)) {
-            halve_move(path.moves, i, start);
-            --i;
-            continue;
-        }
-        if (steep && lift > settings.height_tolerance) {
-            const ClMove corner{level_corner(start, end)};
-            path.moves.insert(path.moves.begin() + static_cast<std::ptrdiff_t>(i), corner);
-            --i;
-            continue;
-        }
-        path.least_clearance = std::min(path.least_clearance, raised.clearance);
-        most = std::max(most, lift);
-        if (lift > settings.height_tolerance && i > 0 && along > kWrittenStep) {
-            stand_upright(path.moves, i, raised);
-            ++i;
-        } else {
-            const std::size_t before = lift > settings.height_tolerance
-                                           ? part_neighbours(path, i, floor.tool().radius)
-                                           : 0;
-            i += before;
-            (i == 0 ? path.start : path.moves[i - 1].end).z = raised.start;
-            path.moves[i].end.z = raised.end;
-            // The halves are rounded: they are looked at again.
-            i -= before > 0 ? before + 2 : 0;
-        }
-    }
-    if (closed && !path.moves.empty()) {
-        const double top = std::max(path.start.z, path.moves.back().end.z);
-        path.start.z = path.moves.back().end.z = top;
-    }
-    return most;
-}
-
-// What the control points of a move lack to keep it off the floor; of a straight one, its ends.
-// allowed: their gap, mm; least: the least gap found. Where that lacks more than `most` (mm) the
-// rest is not looked at.
-std::vector<double> lacking(Vec3d start,
-                            const ClMove& move,
-                            const DropCutter& floor,
-                            double fine,
-                            double allowed,
-                            double most,
-                            double& least)
-{
-    const auto raise = [&](double clearance) {
-        least = std::min(least, clearance);
-        return clearance < allowed ? kWrittenStep + 1.5 * (allowed - clearance) : 0.0;
-    };
-    if (move.curve.points.empty()) {
-        return std::vector<double>(2, raise(clearance_of(start, move, floor, fine)));
-    }
-    std::vector<double> raises(move.curve.points.size(), 0.0);
-    const Chords chords = chords_of(move.curve, fine);
-    for (std::size_t i = 1; i < chords.points.size() && allowed - least <= most; ++i) {
-        const double more =
-            raise(floor.move_clearance(chords.points[i - 1], chords.points[i], chords.sagitta));
-        // The four points of the chord's span carry all of it.
-        for (std::size_t k = chords.spans[i] - 3; k <= chords.spans[i]; ++k) {
-            raises[k] = std::max(raises[k], more);
-        }
-    }
-    return raises;
-}
-
-Vec3d raised(Vec3d p, double more) { return more > 0.0 ? written(p + Vec3d{0.0, 0.0, more}) : p; }
-
-// Moves share their ends, and so what these are raised by.
-void raise_moves(ClPath& path, std::vector<std::vector<double>>& raises, bool closed)
-{
-    const std::size_t n = path.moves.size();
-    for (std::size_t i = 0; i < n; ++i) {
-        if (i + 1 < n || closed) {
-            std::vector<double>& next = raises[(i + 1) % n];
-            raises[i].back() = next.front() = std::max(raises[i].back(), next.front());
-        }
-    }
-    path.start = raised(path.start, raises.front().front());
-    for (std::size_t i = 0; i < n; ++i) {
-        path.moves[i].end = raised(path.moves[i].end, raises[i].back());
-        std::vector<Vec3d>& points = path.moves[i].curve.points;
-        for (std::size_t k = 0; k < points.size(); ++k) {
-            points[k] = raised(points[k], raises[i][k]);
-        }
-    }
-}
-
-// Raising a control point lowers nothing: where the curve is clear it stays so. Where more than the
-// band is lacking, beside a cliff, nothing is raised. Returns the most that a place is raised by,
-// or lacks, mm.
-double certify_curves(ClPath& path,
-                      const DropCutter& floor,
-                      const ClPathSettings& settings,
-                      bool closed)
-{
-    constexpr int kRounds = 20;
-    const double allowed = allowed_clearance(settings);
-    const double fine = std::max(0.5 * settings.clearance_reserve, kWrittenStep);
-    double most = 0.0;
-    for (int round = 0; round < kRounds && !path.moves.empty(); ++round) {
-        path.least_clearance = 0.0;
-        std::vector<std::vector<double>> raises;
-        Vec3d start = path.start;
-        for (const ClMove& move : path.moves) {
-            raises.push_back(lacking(start, move, floor, fine, allowed, settings.height_tolerance,
-                                     path.least_clearance));
-            start = move.end;
-            if (allowed - path.least_clearance > settings.height_tolerance) {
-                return allowed - path.least_clearance;
-            }
-        }
-        const double lacks = allowed - path.least_clearance;
-        if (lacks <= 0.0) {
-            break;
-        }
-        raise_moves(path, raises, closed);
-        most += kWrittenStep + 1.5 * lacks;
-    }
-    return most;
-}
 
 // The chain with a curve, or lines where none fits, from corner to corner.
 Chain curves_through(const std::vector<Station>& stations,
                      const std::vector<std::size_t>& corners,
-                     double aside,
-                     double low,
-                     double high)
+                     const StationBand& band)
 {
     Chain chain;
     const auto tip = [&](const Station& s) {
-        return Vec3d{s.at.x, s.at.y, s.height + 0.5 * (low + high)};
+        return Vec3d{s.at.x, s.at.y, s.height + band.middle()};
     };
     chain.start = tip(stations.front());
     for (std::size_t c = 1; c < corners.size(); ++c) {
         std::vector<Station> run(stations.begin() + static_cast<std::ptrdiff_t>(corners[c - 1]),
                                  stations.begin() + static_cast<std::ptrdiff_t>(corners[c] + 1));
-        if (auto curve = fit_cubic(run, aside, low, high)) {
+        if (auto curve = fit_cubic(run, band)) {
             for (Vec3d& p : curve->points) {
                 p = written(p);
             }
@@ -394,7 +42,7 @@ Chain curves_through(const std::vector<Station>& stations,
             continue;
         }
         run.back().exact = true;  // the next run starts there
-        const Chain lines = chain_through(run, aside, low, high, false, false);
+        const Chain lines = chain_through(run, band, false, false);
         chain.moves.insert(chain.moves.end(), lines.moves.begin(), lines.moves.end());
     }
     return chain;
@@ -402,18 +50,25 @@ Chain curves_through(const std::vector<Station>& stations,
 
 // Between stations the floor may bend by a little more than at them, and an arc by an eighth.
 constexpr double kUsed = 0.95;
-constexpr double kUsedAside = 0.86;
+constexpr double kUsedInPlan = 0.86;
 
 }  // namespace
 
-double repeated_plan_tolerance(double aside) { return std::min(1e-3, 0.2 * aside); }
-
-std::vector<Edge> flattened(const std::vector<Edge>& plan, double aside, double spacing, bool arcs)
+double repeated_plan_tolerance(double plan_tolerance)
 {
-    const double room = aside - 3.0 * repeated_plan_tolerance(aside);
-    const StationRow row = stations_along(plan, nullptr, {spacing, room, 1.0, false});
+    return std::min(1e-3, 0.2 * plan_tolerance);
+}
+
+std::vector<Edge> flattened(const std::vector<Edge>& plan,
+                            double plan_tolerance,
+                            double spacing,
+                            bool arcs)
+{
+    const double tolerance = plan_tolerance - 3.0 * repeated_plan_tolerance(plan_tolerance);
+    const StationRow row = stations_along(plan, nullptr, {spacing, tolerance, 1.0, false});
     const bool closed = distance(row.stations.front().at, row.stations.back().at) < 1e-9;
-    const Chain chain = chain_through(row.stations, kUsedAside * room, -1.0, 1.0, arcs, closed);
+    const Chain chain =
+        chain_through(row.stations, {kUsedInPlan * tolerance, -1.0, 1.0}, arcs, closed);
     std::vector<Edge> edges;
     Vec2d from{chain.start.x, chain.start.y};
     for (const ClMove& move : chain.moves) {
@@ -451,16 +106,15 @@ double path_over_stations(const std::vector<Edge>& plan,
     }
     const std::vector<Station>& stations = row.stations;
     const bool closed = distance(stations.front().at, stations.back().at) < 1e-9;
-    const double low =
-        settings.one_sided ? settings.clearance_reserve : -kUsed * settings.height_tolerance;
-    const double aside = kUsedAside * settings.plan_tolerance;
-    const double high = kUsed * settings.height_tolerance;
-    const Chain chain =
-        settings.even    ? equal_pieces_chain(plan, floor,
-                                              {aside, low, high, settings.allowance, settings.min_z,
-                                               settings.spacing, settings.arcs})
-        : settings.nurbs ? curves_through(stations, row.corners, aside, low, high)
-                         : chain_through(stations, aside, low, high, settings.arcs, closed);
+    const double most = kUsed * settings.height_tolerance;
+    const StationBand band{kUsedInPlan * settings.plan_tolerance,
+                           settings.one_sided ? settings.clearance_reserve : -most, most};
+    const Chain chain = settings.even
+                            ? equal_pieces_chain(plan, floor,
+                                                 {band, settings.allowance, settings.min_z,
+                                                  settings.spacing, settings.arcs})
+                        : settings.nurbs ? curves_through(stations, row.corners, band)
+                                         : chain_through(stations, band, settings.arcs, closed);
     path.start = written(chain.start);
     path.moves = chain.moves;
     for (ClMove& move : path.moves) {

@@ -1,5 +1,5 @@
-// A path of the tool in plan, laid on the floor: a chain of straight moves and arcs of the tip that
-// stay within the tolerances and above the floor.
+// A path of the tool in plan, dropped onto the floor: a chain of straight moves and arcs of the tip
+// that stay within the tolerances and above the floor.
 #pragma once
 
 #include <variant>
@@ -20,9 +20,9 @@ struct ClPathSettings {
     bool even{false};   // true: each edge in equal pieces (links; see equal_pieces.hpp)
     // mm: kept off the floor, so that certifying a move needs no finer floor
     double clearance_reserve{};
-    double allowance{};    // mm: metal left over the floor, measured along the axis
-    double min_z{-1e300};  // mm: the tip stays at or above this z
-    double spacing{};      // mm between the floor heights that moves are made for
+    double allowance{};         // mm: metal left over the floor, measured along the axis
+    double min_z{-kUnbounded};  // mm: the tip stays at or above this z
+    double spacing{};           // mm between the floor heights that moves are made for
     // mm: cubics between lookups no farther apart are good enough; 0: not known
     double lookup_spacing{};
 };
@@ -49,17 +49,17 @@ struct ClPath {
 constexpr double kWrittenStep = 1e-4;
 
 // How near to a path that is cut more than once its moves stay, mm.
-double repeated_plan_tolerance(double aside);
+double repeated_plan_tolerance(double plan_tolerance);
 
-// The plan path as lines (and arcs) that may then be laid at several heights, each within
+// The plan path as lines (and arcs) that may then be cut at several heights, each within
 // repeated_plan_tolerance() of the others, and all within `plan_tolerance` (mm) of the plan path:
-// what one lets stand beside a wall, no other meets at its full depth.
+// no pass meets a sliver that the one above it left beside a wall at full depth.
 std::vector<offset::Edge> flattened(const std::vector<offset::Edge>& plan,
-                                    double aside,
+                                    double plan_tolerance,
                                     double spacing,
                                     bool arcs);
 
-// Lays a chain of edges on the floor. Where its end is its start, so are the path's.
+// Drops a chain of edges onto the floor. Where its end is its start, so are the path's.
 ClPath drop_path(const std::vector<offset::Edge>& plan,
                  const drop_cutter::DropCutter& floor,
                  const ClPathSettings& settings);

@@ -15,15 +15,15 @@
 #include "host_tools/contour_pocket/pencil_detours.hpp"
 #include "host_tools/contour_pocket/pencil_passes.hpp"
 #include "host_tools/contour_pocket/pocket_path_writer.hpp"
+#include "host_tools/contour_pocket/pocket_report.hpp"
 #include "host_tools/contour_pocket/pocket_task.hpp"
 #include "host_tools/contour_pocket/rough_layers.hpp"
-#include "host_tools/contour_pocket/uncut_regions.hpp"
 #include "host_tools/drop_cutter/drop_cutter.hpp"
 #include "host_tools/offset/offset.hpp"
-#include "host_tools/toolpath/toolpath_measure.hpp"
 
 namespace cusp::contour_pocket {
 
+using clearing::AxialDepthTracker;
 using clearing::ClearedRegion;
 using clearing::ClearingPass;
 using clearing::ClearingSettings;
@@ -42,24 +42,15 @@ using offset::EdgeTree;
 using offset::length;
 using offset::Region2d;
 using offset::RegionOffset;
-using toolpath::MoveKind;
 using toolpath::OperationStats;
 using toolpath::PlannedOperation;
 using toolpath::Tool;
-using toolpath::ToolMove;
 using toolpath::Toolpath;
 
 namespace {
 
-// Area of the pocket that the tool's body, its axis among `centres`, can't sweep beside walls,
-// mm^2: corners and necks.
-double unswept_area(const Region2d& region, const Region2d& centres, double radius)
-{
-    return area(region) - (centres.contours.empty() ? 0.0 : area(grown(centres, radius)));
-}
-
-// How much higher than the tip of `tool` metal stands that it left, at most, over a place within
-// `other` at the same axis, less the other's profile, mm.
+// mm: the largest rise of the profile of `tool` over that of `other` on one axis: how much higher
+// than its tip `tool` leaves stock that `other` meets.
 double highest_over(const Tool& tool, const Tool& other)
 {
     constexpr int kPlaces = 16;
@@ -71,13 +62,15 @@ double highest_over(const Tool& tool, const Tool& other)
     return most;
 }
 
-// Whether partial loops are worth it, as shares of the path; entries count. With them more metal
-// stands at cliffs.
+// Limits of the cost of partial loops, as shares of the path with entries. With them more stock is
+// left at cliffs.
 constexpr double kDoubtful = 0.5;
 constexpr double kWorthIt = 0.97;
 constexpr double kWorthItAtCliffs = 0.8;
 
 constexpr double kLevelsDone = 0.6;  // of the progress
+
+constexpr double kStockPitch = 1.0 / 24;  // of the finest tool's radius: where the stock is known
 
 // Such a floor has no cliffs.
 bool is_one_whole_surface(const Operation& operation)
@@ -238,7 +231,7 @@ private:
         return result;
     }
 
-    // Passes along cliffs lie in metal that loops have cut down to where it is known.
+    // Pencil passes are left out: loops have cut the stock there to where the map shows it.
     std::vector<bool> stock_beside(const ClearedRegion& cleared, std::vector<bool> beside) const
     {
         for (std::size_t i = 0; operation_.max_depth && i < beside.size(); ++i) {
@@ -247,8 +240,8 @@ private:
         return beside;
     }
 
-    // Which passes meet metal that roughing did not reach: the allowance beside the walls, corners,
-    // necks and valleys of the floor that its tool does not fit into. Loops of its tool leave metal
+    // Which passes meet stock that roughing did not reach: the allowance beside the walls, corners,
+    // necks and valleys of the floor that its tool does not fit into. Loops of its tool leave stock
     // at cliffs, too.
     std::vector<bool> beside_roughing(const ClearedRegion& cleared, const RoughResult& rough) const
     {
@@ -335,7 +328,7 @@ private:
         const double top = job_.stock_top;
         settings.entry_heights = [top, roughed](double pass) {
             const double metal = std::max(top, pass);
-            // What roughing has left is met at the plunge feed: beside walls it stands full height.
+            // What roughing left is entered at the plunge feed: beside walls it has full height.
             const double slope = roughed ? std::min(metal, pass + *roughed + 0.5) : metal;
             return EntryHeights{heights_over(metal).rapid, heights_over(slope).stock_top};
         };
@@ -361,70 +354,13 @@ private:
             stats.counts.emplace_back("cliff_passes", static_cast<double>(pencil_passes_));
         }
         report_plunges(moves_.steep_plunges(), stats);
-        report_air(stats);
-        report_depth(stats);
-        report_uncut(stats);
-    }
-
-    void report_air(OperationStats& stats) const
-    {
-        const std::vector<ToolMove>& moves = moves_.moves();
-        if (std::none_of(moves.begin(), moves.end(), [&](const ToolMove& move) {
-                return move.kind == MoveKind::kCut && end_of(move).z < job_.stock_top;
-            })) {
-            stats.warnings.push_back("nothing of the floor lies below stock.top, " +
-                                     number_text(job_.stock_top) + " mm: the program cuts air");
+        report_air(moves_.moves(), job_.stock_top, stats);
+        if (depth_ != nullptr) {
+            report_depth(*depth_, stats);
         }
-    }
-
-    void report_depth(OperationStats& stats) const
-    {
-        constexpr double kFelt = 0.02;  // mm: no deeper than slivers are
-        if (depth_ == nullptr || depth_->max_depth() == kUnlimitedDepth) {
-            return;
-        }
-        stats.counts.emplace_back("deepest_cut_mm", depth_->deepest());
-        if (depth_->deepest() > depth_->max_depth() + kFelt) {
-            stats.warnings.push_back("a cut is " + number_text(depth_->deepest()) +
-                                     " mm deep, over the max_depth of " +
-                                     number_text(depth_->max_depth()) + " mm");
-        }
-    }
-
-    // Where the tool does not reach, and how much stays there.
-    void report_uncut(OperationStats& stats) const
-    {
-        constexpr std::size_t kNamed = 5;
-        const Region2d centres = walls_.at(tolerances_.wall_clearance);
-        const double least = std::max(*operation_.scallop, 0.02 * operation_.tool.radius);
-        const std::vector<UncutRegion> places =
-            uncut_regions(walls_, centres, operation_.floor, floor_,
-                          {tolerances_.wall_clearance, job_.stock_top, least,
-                           !loop_scallop_.reaches_floor(region_)});
-        double volume = 0.0;
-        double height = 0.0;
-        for (const UncutRegion& place : places) {
-            volume += place.volume;
-            height = std::max(height, place.height);
-        }
-        stats.counts.emplace_back("rest_area_mm2",
-                                  unswept_area(region_, centres, tolerances_.wall_clearance));
-        stats.counts.emplace_back("rest_places", static_cast<double>(places.size()));
-        stats.counts.emplace_back("rest_volume_mm3", volume);
-        stats.counts.emplace_back("rest_height_max_mm", height);
-        for (std::size_t i = 0; i < std::min(kNamed, places.size()); ++i) {
-            const UncutRegion& place = places[i];
-            stats.warnings.push_back(
-                "the tool does not reach " +
-                std::string{place.at_walls ? "between walls" : "a valley"} + " at (" +
-                number_text(place.at.x) + ", " + number_text(place.at.y) + ") mm: about " +
-                number_text(place.volume) + " mm3 on " + number_text(place.area) +
-                " mm2 stay, up to " + number_text(place.height) + " mm high");
-        }
-        if (places.size() > kNamed) {
-            stats.warnings.push_back(number_text(static_cast<double>(places.size() - kNamed)) +
-                                     " smaller places that the tool does not reach");
-        }
+        report_uncut({job_, operation_, region_, walls_, floor_, tolerances_.wall_clearance,
+                      !loop_scallop_.reaches_floor(region_)},
+                     stats);
     }
 
     void describe(Toolpath& path, const OperationStats& stats) const
@@ -446,7 +382,7 @@ private:
     RegionOffset walls_;
     DropCutter floor_;
     LoopScallop loop_scallop_;
-    PocketToolpathWriter moves_;
+    ClPathWriter moves_;
     AxialDepthTracker* depth_;
     double begun_{0.0};  // of the progress
     int loops_{0};
@@ -462,12 +398,12 @@ std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operatio
     const Region2d region = make_region(operation, tolerances.fit);
     check_work(job, operation, region, tolerances);
     std::optional<AxialDepthTracker> depth;
-    // Entries beside cliffs of the floor and beside what roughing left need to know the metal.
+    // Entries beside cliffs of the floor and beside what roughing left depend on the stock.
     if (operation.max_depth || !operation.layers.empty() || !is_one_whole_surface(operation)) {
         const Tool& rougher = operation.tools.empty() ? operation.tool : operation.tools.front();
         const bool finer = rougher.radius < operation.tool.radius;
         depth.emplace(box_of(region), finer ? rougher : operation.tool, job.stock_top,
-                      operation.max_depth.value_or(kUnlimitedDepth));
+                      operation.max_depth, kStockPitch);
     }
     AxialDepthTracker* const cut_depth = depth ? &*depth : nullptr;
     const RoughAndFinish shared = split_between_rough_and_finish(operation, tolerances);

@@ -29,17 +29,14 @@ public:
     {
     }
 
-    double band_middle(Vec2d at) const
-    {
-        return lowest(at) + 0.5 * (settings_.low + settings_.high);
-    }
+    double band_middle(Vec2d at) const { return lowest(at) + settings_.band.middle(); }
 
     int least_count() const
     {
         if (edge_.turn == 0 || settings_.arcs) {
             return 1;
         }
-        const double share = std::min(1.0, settings_.plan_tolerance / edge_.radius);
+        const double share = std::min(1.0, settings_.band.plan_tolerance / edge_.radius);
         double angle = 2.0 * std::acos(1.0 - share);
         if (0.5 * edge_.radius * angle * angle < kOffTangent) {
             const double blunt =
@@ -61,7 +58,7 @@ public:
                 const double share = static_cast<double>(k) / looks;
                 const double over =
                     a + (b - a) * share - lowest(point_on(edge_, (i + share) / count));
-                if (over < settings_.low || over > settings_.high) {
+                if (over < settings_.band.low || over > settings_.band.high) {
                     return false;
                 }
             }

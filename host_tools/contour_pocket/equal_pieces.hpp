@@ -6,18 +6,16 @@
 
 namespace cusp::contour_pocket {
 
-// Each edge as equal lines (arcs where `arcs`), as few as stay within `plan_tolerance` in plan and
-// [low, high] over the floor's height + `allowance` at every `spacing` (mm); places lower than
-// `min_z` count as if they were level.
+// Each edge as equal lines (arcs where `arcs`), as few as stay within the band over the floor's
+// height + `allowance` at every `spacing` (mm); places lower than `min_z` count as if they were
+// level.
 //
 // The longest moves that fit, as chain_through() takes them, may end in a short one a few
 // micrometres off the loop that the link joins. A machine that stops there (G61) has more set
 // points beside the loop than the loop has itself, and who looks for a path's nearest set points
 // finds the wrong ones.
 struct EqualPieces {
-    double plan_tolerance;
-    double low;
-    double high;
+    StationBand band;
     double allowance;
     double min_z;
     double spacing;

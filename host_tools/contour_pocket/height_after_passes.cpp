@@ -1,4 +1,4 @@
-// Each edge's tips are dropped when a place near it is first asked for.
+// Each edge's CL points are computed when the height of a place near it is first needed.
 #include "host_tools/contour_pocket/height_after_passes.hpp"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ double HeightAfterPasses::height(Vec2d place)
 {
     const Tool& tool = floor_.tool();
     const double radius = tool.radius;
-    double least = 1e300;
+    double least = kUnbounded;
     const Box2d box{place.x - radius, place.y - radius, place.x + radius, place.y + radius};
     tree_.visit_meeting(box, [&](std::size_t e) {
         std::vector<Vec3d>& tips = tips_[e];

@@ -1,4 +1,4 @@
-// How high metal stands that passes leave.
+// Height of the stock that passes leave.
 #pragma once
 
 #include <vector>
@@ -11,12 +11,12 @@ namespace cusp::contour_pocket {
 
 class HeightAfterPasses {
 public:
-    // The passes are looked at every `share` of the tool's radius, at the tip's lowest height.
+    // The passes are sampled every `share` of the tool's radius, at their CL height.
     HeightAfterPasses(const clearing::ClearedRegion& cleared,
                       const drop_cutter::DropCutter& floor,
                       double share = 0.08);
 
-    // z; 1e300 where no pass comes within the tool's radius.
+    // z; kUnbounded where no pass comes within the tool's radius.
     double height(Vec2d place);
 
 private:
@@ -24,7 +24,7 @@ private:
     double apart_;
     std::vector<offset::Edge> edges_;
     offset::EdgeTree tree_;
-    std::vector<std::vector<Vec3d>> tips_;  // along each edge; empty until they are asked for
+    std::vector<std::vector<Vec3d>> tips_;  // along each edge; empty until first needed
 };
 
 }  // namespace cusp::contour_pocket

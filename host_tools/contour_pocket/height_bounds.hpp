@@ -1,5 +1,5 @@
-// How a floor is inclined and bent anywhere near a place, proven from its control points; and how
-// far apart passes of a ball may lie over whatever is inclined and bent no more.
+// Bounds of a floor's slope and bend near a place, proven from its control points; and the stepover
+// of a ball that such bounds prove.
 #pragma once
 
 #include <vector>
@@ -28,8 +28,8 @@ struct BendBounds {
 // and down by no more than the floor (the height is the highest of the floor's heights moved by the
 // tool's shape). From the place of height 0 and gradient g the pass at distance d then lies
 // g d + r high, with r between -down d^2 / 2 and up d^2 / 2; its ball reaches the place
-// `scallop_height` over the floor where (R - cusp)^2 + 2 (R - cusp) r cos(slope) + d^2 + (g d +
-// r)^2 <= R^2.
+// `scallop_height` over the floor where, with q = R - scallop_height,
+// q^2 + 2 q r cos(slope) + d^2 + (g d + r)^2 <= R^2.
 double proven_reach(double radius, double scallop_height, const BendBounds& bounds);
 
 class HeightBounds {

@@ -27,12 +27,12 @@ using toolpath::Tool;
 namespace {
 
 constexpr double kAlong = 1.0 / 6.0;         // of the tool's radius: ways are no farther apart
-constexpr double kNearestWays = 1.0 / 48.0;  // of it: where what stands changes
+constexpr double kNearestWays = 1.0 / 48.0;  // of it: where the scallop changes
 constexpr double kFine = 0.02;               // of the tool's radius: places on a way are no closer
 constexpr double kEnough = 4.0;              // more need not be known
 
-// Beside the rim of a flat foot what stands is low enough over a sickle only: as deep as the cusp
-// on a steep floor, and as long as the chord there.
+// Beside the rim of a flat bottom the scallop is low enough over a crescent only: as deep as the
+// scallop on a steep floor, and as long as the chord there.
 double cross_lines_apart(const Tool& tool, double scallop_height)
 {
     constexpr double kShare = 0.3;
@@ -59,7 +59,7 @@ LoopScallop::LoopScallop(const DropCutter& floor,
 {
 }
 
-// How far from a pass nothing too high stands, mm.
+// mm from a pass within which no scallop is too high.
 double LoopScallop::proven(const BendBounds& bounds) const
 {
     if (!ball_ || !std::isfinite(bounds.slope)) {
@@ -96,7 +96,7 @@ bool LoopScallop::reaches_floor(const Region2d& region) const
 // distance h is w h^2 / 32 off at most: its remainder is the integral of the second derivative with
 // a kernel that straight lines vanish under, of the absolute integral h^2 / 16. That of the tip's
 // z: see proven_reach().
-double LoopScallop::lookup_spacing(const Region2d& region, double off) const
+double LoopScallop::lookup_spacing(const Region2d& region, double max_error) const
 {
     const BendBounds bounds = bounds_.near(box_of(region));
     const double radius = floor_.tool().radius;
@@ -104,7 +104,7 @@ double LoopScallop::lookup_spacing(const Region2d& region, double off) const
         return 0.0;
     }
     const double width = bounds.up / (1.0 - bounds.up * radius) + bounds.down;
-    return std::min(std::sqrt(32.0 * off / std::max(width, 1e-12)), 4.0 * radius);
+    return std::min(std::sqrt(32.0 * max_error / std::max(width, 1e-12)), 4.0 * radius);
 }
 
 double LoopScallop::relative_scallop(const LoopStrip& strip)
@@ -242,7 +242,7 @@ double LoopScallop::left_at(Vec2d at, Vec2d near) const
 {
     const int i = static_cast<int>(std::floor((near.x - field_.x0) / cell_));
     const int j = static_cast<int>(std::floor((near.y - field_.y0) / cell_));
-    double least = kNotReached;
+    double least = kUnbounded;
     for (int row = std::max(0, j - 1); row <= std::min(rows_ - 1, j + 1); ++row) {
         for (int column = std::max(0, i - 1); column <= std::min(columns_ - 1, i + 1); ++column) {
             for (const std::uint32_t k :
@@ -257,12 +257,12 @@ double LoopScallop::left_at(Vec2d at, Vec2d near) const
     return least;
 }
 
-// On a slope a move beside its path stands higher over the floor, and is raised where it would cut:
-// by no more than half again what it strays, square to the floor.
+// On a slope a move beside its path is higher over the floor, or is raised where it would gouge: by
+// no more than half again its distance from the path, square to the floor.
 double LoopScallop::allowed(double secant) const
 {
     constexpr double kRaised = 1.5;
-    constexpr double kLeast = 0.3;  // of what may stand on a level floor
+    constexpr double kLeast = 0.3;  // of the height allowed on a level floor
     const double cosine = 1.0 / secant;
     const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
     const double on_slope =
@@ -270,7 +270,7 @@ double LoopScallop::allowed(double secant) const
     return std::max(tolerances_.scallop_height + on_slope, kLeast * tolerances_.scallop_height);
 }
 
-// Square to the floor, where the tool touches it; as a share of what may stand.
+// Square to the floor, where the tool touches it; as a share of the height allowed.
 double LoopScallop::uncut(const Probe& probe, bool stretches) const
 {
     if (!probe.floor) {
@@ -325,9 +325,9 @@ double LoopScallop::left_under(const Probe& a, const Probe& b) const
     return most;
 }
 
-// Over a valley whose bottom a foot does not reach: what the paths leave over its middle and its
-// rim where it stands lowest between two neighbouring places. Down along the valley its rim cuts
-// steps.
+// Over a valley whose bottom a flat end does not reach: what the paths leave over the middle and
+// the rim of the flat at its lowest position between two neighbouring places. Down along the valley
+// the rim cuts steps.
 double LoopScallop::left_under_foot(const Probe& a, const Probe& b) const
 {
     constexpr double kTurned = 0.1;  // slope: from where on it is no bend
@@ -348,7 +348,7 @@ double LoopScallop::left_under_foot(const Probe& a, const Probe& b) const
         const Vec2d p = i < kRound ? lowest.at + way * foot : lowest.at;
         const double stands =
             std::min({left_at(p, lowest.at), left_at(p, (lowest.at + p) * 0.5), left_at(p, p)});
-        most = stands < kNotReached ? std::max(most, stands) : most;  // else beyond both levels
+        most = stands < kUnbounded ? std::max(most, stands) : most;  // else beyond both levels
     }
     // A step is highest just before the next pass, by up to a place more than was looked at.
     const double unseen = static_cast<double>(places_) / (places_ - 1);

@@ -1,4 +1,4 @@
-// The highest ridge that two neighbouring levels of loops leave in the strip between them.
+// The highest scallop that two neighbouring rings of loops leave in the strip between them.
 #pragma once
 
 #include <array>
@@ -20,39 +20,39 @@ public:
                 const std::vector<nurbs::Surface>& surfaces,
                 const ToleranceSplit& tolerances);
 
-    // What stands in the strip, square to the floor, over what the tool would leave if it passed
-    // everywhere; as a share of the height allowed between passes.
+    // The largest scallop of the strip, square to the floor, over the surface that the tool could
+    // cut by passing everywhere; as a share of the height allowed between passes.
     //
-    // Where bounds of the floor's slope and bend prove that nothing too high stands within half the
-    // strip's width of a pass (HeightBounds, balls only), nothing is looked at: every place lies so
-    // near to one (clear_region()).
+    // Where bounds of the floor's slope and bend prove that no scallop within half the strip's
+    // width of a pass is too high (HeightBounds, balls only), nothing is sampled: every place lies
+    // so near to a pass (clear_region()).
     //
-    // Every place of the strip lies on a way straight inward from the outer level. On such ways, a
-    // sixth of the tool's radius apart (less under a flat foot) and closer where what stands
-    // changes (or, for tools with a flat foot, where the passes turn level: there they leave
-    // steps), the floor is looked up where the tool would touch it from evenly spaced places, and
-    // compared with what both levels' paths cut there. Ends of ways where they meet others are
-    // looked at too.
+    // Every place of the strip lies on a line straight inward from the outer ring. Such lines are a
+    // sixth of the tool's radius apart (less under a flat bottom). They are closer where the
+    // scallop changes and, for tools with a flat bottom, where the passes turn level: there they
+    // leave steps. On each line the floor is looked up at the contacts of evenly spaced tool
+    // positions, and compared with what both rings' paths cut there. Ends of lines that meet others
+    // are sampled too.
     double relative_scallop(const clearing::LoopStrip& strip);
 
     // How far inward from the level the next one may lie so that relative_scallop() is 1 at most by
-    // those bounds alone, mm; 0 where they tell nothing.
+    // those bounds alone, mm; 0 where they prove nothing.
     double proven_stepover(const offset::Region2d& level) const;
 
     // How far apart along a straight way two of the tip's heights and slopes may be known so that
-    // the cubic through them is `off` (mm) from the true height at most, by those bounds; 0 where
-    // they tell nothing.
-    double lookup_spacing(const offset::Region2d& region, double off) const;
+    // the cubic through them is `max_error` (mm) from the true height at most, by those bounds; 0
+    // where they prove nothing.
+    double lookup_spacing(const offset::Region2d& region, double max_error) const;
 
     // True where those bounds prove that the ball reaches all of the floor around the region: no
     // valley is bent tighter than it.
     bool reaches_floor(const offset::Region2d& region) const;
 
-    // The same place by place, for partial loops. begin() takes the strip, add() paths that are cut
-    // between its levels, too. Then stretches() finds the parts of edges of the outer level from
-    // which ways inward meet more than may stand, `from` to `to` (mm) from the contours.
+    // Place by place, for partial loops. begin() takes the strip, add() the paths that are cut
+    // between its rings, too. Then stretches() finds the parts of edges of the outer ring from
+    // which lines inward meet too high a scallop, `from` to `to` (mm) from the contours.
     //
-    // Steep floors have more standing over them than square to them: here that counts.
+    // Here the scallop's height is measured along the axis: on steep floors that is more.
     void begin(const clearing::LoopStrip& strip);
     void add(const std::vector<clearing::PartialLoop>& loops);
     std::vector<offset::Edge> stretches(const std::vector<offset::Edge>& edges,
@@ -70,10 +70,10 @@ private:
         Vec2d gradient;
         double secant;
     };
-    // A way inward from a place of an edge.
+    // A line inward from a place of an edge.
     struct CrossLine {
         double along;  // share of the edge
-        double share;  // of what may stand, the most on it
+        double share;  // of the height allowed, the most on it
         double climb;  // slope of the tip's height along the edge
         std::array<Probe, kPlaces + 1> probes{};
         int count{0};  // of them that were looked at

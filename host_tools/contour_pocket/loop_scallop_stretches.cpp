@@ -54,7 +54,7 @@ std::vector<Edge> LoopScallop::stretches(const std::vector<Edge>& edges,
 void LoopScallop::stretches_on(const Edge& edge, const Look& look, std::vector<Edge>& found) const
 {
     constexpr double kPoint = 1e-6;  // mm
-    // Under a flat foot steps stand over narrow places, between the ways.
+    // Under a flat bottom steps are left over narrow places, between the lines.
     const double most = ball_ ? 1.0 : 0.85;
     const bool corners = look.foot == 0.0;
     const std::vector<double> places = places_along(edge, {corners, corners}, look.step);
@@ -84,7 +84,7 @@ void LoopScallop::stretches_on(const Edge& edge, const Look& look, std::vector<E
     }
 }
 
-// Whether the metal that may stand over the touched place is all that stands there.
+// Whether the stock over the contact is no higher than allowed, square to the floor.
 bool LoopScallop::clear_square_to(const Probe& probe) const
 {
     const double high = strayed_ * allowed(probe.secant);

@@ -1,11 +1,12 @@
-// Sections of the floor across every loop, in every direction at corners.
+// Sections of the floor across every loop, and in every direction at corners.
 #include "host_tools/contour_pocket/loop_spacing.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "firmware/base/math.hpp"
-#include "host_tools/contour_pocket/stepover.hpp"
+#include "host_tools/contour_pocket/plan_stepover.hpp"
 
 namespace cusp::contour_pocket {
 
@@ -79,12 +80,12 @@ double LoopSpacing::found() const { return within_limits(least_); }
 double LoopSpacing::stepover_from(const Region2d& level, double proven)
 {
     constexpr double kWorthIt = 0.95;
-    least_ = 1e300;
+    least_ = kUnbounded;
     const double apart = kSamplesApart * floor_.tool().radius;
     for (const Contour& contour : level.contours) {
-        Vec2d corner{1e300, 1e300};
+        std::optional<Vec2d> corner;
         Vec2d arriving = tangent_at_end(contour.back());
-        since_ = 1e300;
+        since_ = kUnbounded;
         for (const Edge& edge : contour) {
             along(edge);
             if (proven > kWorthIt * found()) {
@@ -92,9 +93,9 @@ double LoopSpacing::stepover_from(const Region2d& level, double proven)
             }
             constexpr double kCorner = 0.995;  // cosine of some 6 degrees
             const bool turns = dot(arriving, tangent_at_start(edge)) < kCorner;
-            if (corners_ && turns && distance(corner, edge.start) > apart) {
+            if (corners_ && turns && (!corner || distance(*corner, edge.start) > apart)) {
                 corner = edge.start;
-                around(corner);
+                around(edge.start);
             }
             arriving = tangent_at_end(edge);
         }
@@ -108,7 +109,7 @@ double LoopSpacing::with_partial_loops(const Region2d& level, double step) const
     constexpr double kWorthIt = 0.85;
     constexpr double kApart = 0.5;  // of the tool's radius
     const Tool& tool = floor_.tool();
-    const double flat = stepover(tool, tolerances_.scallop_height, 0.0, 0.0, 0.0);
+    const double flat = plan_stepover(tool, tolerances_.scallop_height, {});
     if (step > kUneven * flat) {
         return 0.0;
     }
@@ -146,7 +147,7 @@ double LoopSpacing::with_partial_loops(const Region2d& level, double step) const
     return best;
 }
 
-// To a fiftieth of the cusp.
+// To a fiftieth of the scallop's height.
 DropCutter::CcPoint LoopSpacing::contact(Vec2d at) const
 {
     return floor_.cc_point(at, 0.02 * tolerances_.scallop_height);
@@ -155,11 +156,10 @@ DropCutter::CcPoint LoopSpacing::contact(Vec2d at) const
 double LoopSpacing::allowed(const DropCutter::CcPoint& contact, Vec2d direction) const
 {
     const DropCutter::Section section = DropCutter::section(contact, direction);
-    return stepover(floor_.tool(), tolerances_.scallop_height, section.curvature, section.slope,
-                    section.slope_along);
+    return plan_stepover(floor_.tool(), tolerances_.scallop_height, section);
 }
 
-// The cusp stands half an interval away, where the floor may be bent otherwise.
+// The scallop is half a stepover away, where the floor may have another curvature.
 void LoopSpacing::across(Vec2d at, const DropCutter::CcPoint& here, Vec2d direction)
 {
     const double first = allowed(here, direction);

@@ -1,4 +1,4 @@
-// How far inward from a level of loops the next one may lie.
+// How far inward from a ring of loops the next one may lie.
 #pragma once
 
 #include "host_tools/contour_pocket/pocket_task.hpp"
@@ -6,8 +6,8 @@
 
 namespace cusp::contour_pocket {
 
-// The highest ridge, square to the floor, that passes at the first and the last of evenly spaced
-// places leave over what passes at all of them would leave.
+// The highest scallop, square to the floor, that passes at the first and the last of evenly spaced
+// places leave over the profile that passes at all of them would cut.
 //
 //   heights  of the tip at the places, mm; at least two
 //   apart    mm from the first place to the last
@@ -15,16 +15,16 @@ double scallop_between(const toolpath::Tool& tool,
                        const std::vector<double>& heights,
                        double apart);
 
-// No interval is less, mm: on the steepest floor that a flat end mill cuts in steps of half the
-// cusp's width they are half as high. A hundredth of the tool's radius bounds the work.
+// No stepover is less, mm: half the scallop's height, which on the steepest floors bounds the steps
+// that a flat end mill leaves, or a hundredth of the tool's radius, which bounds the work.
 double least_stepover(const toolpath::Tool& tool, const ToleranceSplit& tolerances);
 
 class LoopSpacing {
 public:
-    // corners: the uncut material between loops is cut at an angle there, so every direction
-    // counts. scallops: where the floor between two passes is not what its curvature at one of them
-    // says (a valley tighter than the tool, an edge), the ridge itself is looked at; else that is
-    // left to LoopScallop.
+    // corners   sections in every direction at corners, where loops meet at an angle
+    // scallops  where the floor between two passes differs from what its curvature at one of them
+    //           predicts (a valley tighter than the tool, an edge), the scallop itself is computed;
+    //           else that is left to LoopScallop
     LoopSpacing(const drop_cutter::DropCutter& floor,
                 const ToleranceSplit& tolerances,
                 bool corners,
@@ -33,11 +33,11 @@ public:
     {
     }
 
-    // The least distance inward from the level, mm, at which no cusp between is higher than
-    // allowed, by stepover() and the ridge.
+    // The least distance inward from the ring, mm, at which no scallop between is higher than
+    // allowed, by plan_stepover() and the scallop itself.
     //
-    //   proven  mm: a distance at which nothing too high stands, see LoopScallop. The answer as
-    //           soon as some place of the level allows hardly more: others could only allow less.
+    //   proven  mm: a distance at which no scallop is too high, see LoopScallop. It is returned as
+    //           soon as some place of the ring allows hardly more: others could only allow less.
     double stepover_from(const offset::Region2d& level, double proven = 0.0);
 
     // How far inward the next level may lie, mm, so that the path is shortest if parts of the level
@@ -60,7 +60,7 @@ private:
                      const drop_cutter::DropCutter::CcPoint& b,
                      Vec2d direction,
                      double apart) const;
-    double by_scallop(Vec2d at, Vec2d direction, double most) const;
+    double by_scallop(Vec2d at, Vec2d direction, double widest) const;
     double within_limits(double interval) const;
     double found() const;
     void along(const offset::Edge& edge);

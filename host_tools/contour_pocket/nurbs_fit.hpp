@@ -12,11 +12,9 @@ namespace cusp::contour_pocket {
 bool nurbs_fit_available();
 
 // The curve with the fewest control points found that starts and ends at the first and last station
-// (at half of the band) and passes every station within `aside` in plan and [low, high] over its
-// height; no value where half as many control points as stations do not suffice.
+// (at the middle of the band) and passes every station within the band; no value where half as many
+// control points as stations do not suffice.
 std::optional<nurbs::Curve> fit_cubic(const std::vector<Station>& stations,
-                                      double aside,
-                                      double low,
-                                      double high);
+                                      const StationBand& band);
 
 }  // namespace cusp::contour_pocket

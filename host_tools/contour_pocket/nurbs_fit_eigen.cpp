@@ -157,20 +157,20 @@ bool stays_between(
 bool passes(const Curve& curve,
             const std::vector<Station>& stations,
             const Samples& samples,
-            double aside,
-            double low,
-            double high)
+            const StationBand& band)
 {
     for (std::size_t k = 0; k < stations.size(); ++k) {
         const Vec3d p = point_at(curve, samples.shares[k]);
         const Vec2d off = in_plan(p) - stations[k].at;
         const double over = p.z - stations[k].height - dot(stations[k].gradient, off);
-        if (!(dot(off, off) <= aside * aside) || !(over >= low) || !(over <= high)) {
+        if (!(dot(off, off) <= band.plan_tolerance * band.plan_tolerance) || !(over >= band.low) ||
+            !(over <= band.high)) {
             return false;
         }
     }
     // At stations a part of the tolerance is left for what lies between them.
-    const Vec3d between{0.16 * aside, 0.16 * aside, 0.3 * (high - low)};
+    const Vec3d between{0.16 * band.plan_tolerance, 0.16 * band.plan_tolerance,
+                        0.3 * (band.high - band.low)};
     for (std::size_t k = 1; k < stations.size(); ++k) {
         if (!stays_between(curve, stations[k - 1], stations[k], samples.shares[k - 1],
                            samples.shares[k], between)) {
@@ -184,16 +184,13 @@ bool passes(const Curve& curve,
 
 bool nurbs_fit_available() { return true; }
 
-std::optional<Curve> fit_cubic(const std::vector<Station>& stations,
-                               double aside,
-                               double low,
-                               double high)
+std::optional<Curve> fit_cubic(const std::vector<Station>& stations, const StationBand& band)
 {
-    const Samples samples = samples_of(stations, 0.5 * (low + high));
+    const Samples samples = samples_of(stations, band.middle());
     const int most = static_cast<int>(stations.size()) / 2;
     const auto fitted = [&](int count) -> std::optional<Curve> {
         auto curve = least_squares(samples, count);
-        const bool good = curve && passes(*curve, stations, samples, aside, low, high);
+        const bool good = curve && passes(*curve, stations, samples, band);
         return good ? curve : std::nullopt;
     };
     std::optional<Curve> best;

@@ -5,7 +5,7 @@ namespace cusp::contour_pocket {
 
 bool nurbs_fit_available() { return false; }
 
-std::optional<nurbs::Curve> fit_cubic(const std::vector<Station>&, double, double, double)
+std::optional<nurbs::Curve> fit_cubic(const std::vector<Station>&, const StationBand&)
 {
     return std::nullopt;
 }

@@ -17,7 +17,7 @@ using offset::Edge;
 
 namespace {
 
-// A part of the strip in which too much may stand, inward from `feet`.
+// A part of the strip in which the scallop may be too high, inward from `feet`.
 struct Part {
     std::vector<Edge> feet;
     double from;
@@ -29,7 +29,7 @@ struct Part {
 std::optional<std::vector<PartialLoop>> partial_levels(const LoopStrip& strip,
                                                        LoopScallop& loop_scallop,
                                                        double radius,
-                                                       double most)
+                                                       double max_length)
 {
     constexpr double kOverlap = 0.02;  // of the tool's radius, besides half the strip's width
     std::vector<Edge> edges;
@@ -62,7 +62,7 @@ std::optional<std::vector<PartialLoop>> partial_levels(const LoopStrip& strip,
             halves.push_back({high, part.from, middle});
             halves.push_back({std::move(high), middle, part.to});
         }
-        if (added_length(found) + added_length(added) > most) {
+        if (added_length(found) + added_length(added) > max_length) {
             return {};
         }
         if (!added.empty()) {

@@ -1,4 +1,4 @@
-// Partial loops between two levels that lie too far apart for some of the floor between them.
+// Partial loops between two rings that are too far apart for some of the floor between them.
 #pragma once
 
 #include <optional>
@@ -9,13 +9,13 @@
 
 namespace cusp::contour_pocket {
 
-// Loops halfway between the levels over the stretches where too much stands, so again in both
-// halves, until nowhere more stands than may (LoopScallop::stretches()) or passes lie as near as
-// they ever do (least_stepover()). No value where too much stands beside a spur into a corner, or
-// where the loops add more than `most` mm of path.
+// Loops halfway between the rings over the stretches where the scallop is too high, again in both
+// halves, until it is nowhere too high (LoopScallop::stretches()) or passes are as near as they may
+// be (least_stepover()). No value where it is too high beside a spur into a corner, or
+// where the loops add more than `max_length` mm of path.
 std::optional<std::vector<clearing::PartialLoop>> partial_levels(const clearing::LoopStrip& strip,
                                                                  LoopScallop& loop_scallop,
                                                                  double radius,
-                                                                 double most);
+                                                                 double max_length);
 
 }  // namespace cusp::contour_pocket

@@ -91,7 +91,7 @@ private:
         std::optional<Look> look;
     };
 
-    // A line may run along walls, nearer to where the tool may stand at all than the grid is fine.
+    // A curve may run along walls, nearer to the border of the tool's positions than a cell.
     void start_on_edge(const GridPlace& a, const GridPlace& b)
     {
         if (a.look && b.look) {
@@ -289,9 +289,9 @@ private:
         }
     }
 
-    // A tool that sinks into a hole stands lowest at one place, from where no line leads on. The
-    // nearer the way from a to b passes it the tighter it turns, and smoothly. That place gets a
-    // straight way through it.
+    // A tool that sinks into a hole is lowest at one place, from where no curve leads on. The
+    // nearer the line from a to b passes it the tighter it turns, and smoothly. That place gets a
+    // straight line through it.
     void go_through_dimple(const Look& a, const Look& b)
     {
         const double step = 0.5 * distance(a.at, b.at);

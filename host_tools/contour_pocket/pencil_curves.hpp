@@ -1,5 +1,5 @@
-// Lines along which the height of the tool's tip jumps or its slope turns up: the feet of cliffs,
-// creases that the tool does not fit into; and ways through the bottoms of dimples.
+// Pencil curves: lines along which the CL height jumps or its slope turns up. They follow the feet
+// of cliffs and creases that the tool does not fit into, and cross the bottoms of dimples.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 namespace cusp::contour_pocket {
 
 struct PencilPoint {
-    Vec2d at;        // just on the low side: where the tip stands lower, or else climbs less
+    Vec2d at;        // just on the low side: where the CL point is lower, or else climbs less
     Vec2d low_side;  // from the line to the low side, unit vector
     bool jump;       // of the height; else its slope turns
 };
@@ -22,15 +22,15 @@ struct PencilCurve {
 };
 
 struct PencilSearch {
-    offset::Box2d box;                        // where lines are looked for
-    std::function<bool(Vec2d place)> inside;  // whether the tool's axis may stand there
+    offset::Box2d box;                        // that is searched
+    std::function<bool(Vec2d place)> inside;  // whether the tool's axis may be there
     double jump{};                            // mm: smaller ones are not followed
     double fine{};                            // mm: how far chords of a line may lie from it
 };
 
-// Looked for on a grid of an eighth of the tool's radius (coarser where the box is longer than 600
-// such cells) and followed from there on; lines that none of the grid's edges crosses are missed.
-// Slopes count that turn by 0.15 or more.
+// Searches a grid of an eighth of the tool's radius (coarser where the box is longer than 600 such
+// cells) and follows the curves from there. Curves that no edge of the grid crosses are missed.
+// Turns of the slope count from 0.15 on.
 std::vector<PencilCurve> pencil_curves(const drop_cutter::DropCutter& floor,
                                        const PencilSearch& search);
 

@@ -2,6 +2,7 @@
 #include "host_tools/contour_pocket/pencil_detours.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "host_tools/clearing/clear_path.hpp"
 #include "host_tools/offset/edge_tree.hpp"
@@ -32,7 +33,7 @@ struct Place {
     std::size_t edge;
     Vec2d at;            // on the pass
     std::size_t corner;  // of the cliff pass: the start of that edge, or its end
-    double apart{1e300};
+    double apart;        // mm from that corner
 };
 
 bool is_closed(const Contour& path)
@@ -66,26 +67,29 @@ class DetourPlaces {
 public:
     DetourPlaces(const ClearedRegion& cleared,
                  const RegionOffset& walls,
-                 double least,
+                 double wall_clearance,
                  double radius)
-        : walls_{walls}, least_{least}, radius_{radius}, tree_{sorted(cleared)}
+        : walls_{walls}, wall_clearance_{wall_clearance}, radius_{radius}, tree_{sorted(cleared)}
     {
     }
 
-    Place find(const Contour& pencil) const
+    // The place where a detour along the pencil pass may leave a pass, if any.
+    std::optional<Place> find(const Contour& pencil) const
     {
         constexpr double kBeside = 0.1;  // of the radius
-        Place best{};
+        std::optional<Place> best;
         for (std::size_t i = 0; i <= pencil.size() && tree_.size() > 0; ++i) {
             const Vec2d corner = i < pencil.size() ? pencil[i].start : pencil.back().end;
             const EdgeTree::Nearest nearest = tree_.nearest_edge(corner);
             const Owner& owner = owners_[nearest.edge];
             const Place place{owner.pass, owner.edge, nearest.point, i, nearest.distance};
             const bool beside = place.apart < kBeside * radius_;
-            const bool better = beside && best.apart < kBeside * radius_ ? place.pass > best.pass
-                                                                         : place.apart < best.apart;
+            const bool better = !best ? true
+                                : beside && best->apart < kBeside * radius_
+                                    ? place.pass > best->pass
+                                    : place.apart < best->apart;
             if (better && place.apart < radius_ &&
-                is_path_clear(walls_, line_edge(corner, place.at), least_)) {
+                is_path_clear(walls_, line_edge(corner, place.at), wall_clearance_)) {
                 best = place;
             }
         }
@@ -114,7 +118,7 @@ private:
     }
 
     const RegionOffset& walls_;
-    double least_;
+    double wall_clearance_;
     double radius_;
     std::vector<Owner> owners_;
     EdgeTree tree_;
@@ -198,22 +202,22 @@ void add_pencil_passes(ClearedRegion& cleared,
 std::vector<ClearingPass> add_pencil_detours(ClearedRegion& cleared,
                                              const std::vector<ClearingPass>& pencils,
                                              const RegionOffset& walls,
-                                             double least,
+                                             double wall_clearance,
                                              double radius)
 {
-    const DetourPlaces places{cleared, walls, least, radius};
+    const DetourPlaces places{cleared, walls, wall_clearance, radius};
     std::vector<std::vector<PencilDetour>> detours(cleared.passes.size());
     std::vector<ClearingPass> alone;
     for (const ClearingPass& pencil : pencils) {
-        const Place place = places.find(pencil.path);
-        if (place.apart >= radius) {
+        const std::optional<Place> place = places.find(pencil.path);
+        if (!place) {
             alone.push_back(pencil);
             continue;
         }
-        PencilDetour detour{place, pencil};
+        PencilDetour detour{*place, pencil};
         detour.pass.start = PassStart::kContinue;
-        detour.pass.path = out_and_back(pencil.path, place);
-        detours[place.pass].push_back(std::move(detour));
+        detour.pass.path = out_and_back(pencil.path, *place);
+        detours[place->pass].push_back(std::move(detour));
     }
     std::vector<ClearingPass> passes;
     for (std::size_t i = 0; i < cleared.passes.size(); ++i) {

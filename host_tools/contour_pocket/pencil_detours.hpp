@@ -1,5 +1,4 @@
-// Passes along cliffs as ways out of a loop and back to it: no retract, and no slope down beside a
-// wall of metal.
+// Pencil passes as detours out of a loop and back: no retract, and no entry beside a wall of stock.
 #pragma once
 
 #include <vector>
@@ -9,23 +8,23 @@
 
 namespace cusp::contour_pocket {
 
-// Adds the passes where they come nearest to one that is cut then: of the places within a tenth of
-// the tool's radius the one that is cut last, so that what lies beside is cut. That pass is divided
-// there, and the way out and back lies between its parts (PassStart::kHere). Returns what has no
-// pass within the radius.
+// Adds each pencil pass to the loop that it comes nearest to. Of several loops within a tenth of
+// the tool's radius that is the one cut last, so that the stock beside is cut. The loop is divided
+// there, and the detour lies between its parts (PassStart::kContinue). Returns the pencil passes
+// that have no loop within the radius.
 //
-//   least  mm: distance of the tool's axis from the contours on its way out
+//   wall_clearance  mm: distance of the tool's axis from the contours on its way out
 std::vector<clearing::ClearingPass> add_pencil_detours(
     clearing::ClearedRegion& cleared,
     const std::vector<clearing::ClearingPass>& pencils,
     const offset::RegionOffset& walls,
-    double least,
+    double wall_clearance,
     double radius);
 
-// Adds the passes by themselves behind the last pass in their part of `reach`, so that there is a
-// way to them over metal that is cut.
+// Adds the pencil passes behind the last pass in their part of `reach`, so that links to them cross
+// stock that is cut.
 //
-//   reach  of the tool's axis: the walls' offset that has all passes inside
+//   reach  where the tool's axis may be: the offset of the walls that holds all passes
 void add_pencil_passes(clearing::ClearedRegion& cleared,
                        const std::vector<clearing::ClearingPass>& pencils,
                        const offset::Region2d& reach);

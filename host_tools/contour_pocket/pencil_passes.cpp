@@ -122,12 +122,12 @@ private:
         return length < kLifted * floor_.tool().radius;
     }
 
-    // The line's places that passes may stand on, and which of them are worth it.
+    // The places of the curve where passes may run, and where they cut enough.
     std::vector<ClearingPass> along(const PencilCurve& line, double off)
     {
         std::vector<Vec2d> path;
         std::vector<bool> resolution;
-        double since = 1e300;
+        double since = kUnbounded;
         const double apart = kAlong * floor_.tool().radius;
         for (const PencilPoint& point : line.points) {
             const Vec2d p = point.at + point.low_side * off;

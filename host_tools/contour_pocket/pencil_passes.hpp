@@ -1,5 +1,5 @@
-// Passes along the feet of cliffs and creases of a floor: loops that cross them at an angle leave
-// material between each other there.
+// Pencil passes: along the feet of cliffs and creases of a floor, where loops that cross them at an
+// angle leave material.
 #pragma once
 
 #include <vector>
@@ -12,18 +12,18 @@ namespace cusp::contour_pocket {
 
 struct PencilSettings {
     double wall_clearance{};  // mm: least distance of the tool's axis from the contours
-    double max_uncut{};       // mm: what may stay over the best that the tool reaches
+    double max_uncut{};       // mm: height that may stay over what the tool could cut
     double distance{};        // mm: how far beside a jump passes run at least
-    // Short lines are followed whatever they leave: else only where long ones leave more than
-    // `max_uncut`.
+    // Short curves are followed always; else only where long ones leave more than `max_uncut`.
     bool fragments{true};
-    ClPathSettings path_settings;  // of passes; chords of a line keep within a third of its `aside`
+    // Chords of a curve keep within a third of the plan tolerance.
+    ClPathSettings path_settings;
 };
 
-// Open and closed passes, all PassStart::kDrop. Where the height of the tip jumps, along all of the
-// low side, `distance` from the jump, or up to four times as far where a pass can not be laid low
-// otherwise; where only its slope turns up, along what the tool takes more than `max_uncut` off
-// what the given passes leave, square to the floor: looked at every tenth of the tool's radius.
+// Open and closed passes, all PassStart::kRetractAndDrop. Where the CL height jumps they run along
+// all of the low side, `distance` from the jump, or up to four times as far where a nearer pass
+// would climb. Where only its slope turns up they run where the tool cuts more than `max_uncut` off
+// what the given passes leave, square to the floor, sampled every tenth of the tool's radius.
 std::vector<clearing::ClearingPass> pencil_passes(const offset::Region2d& region,
                                                   const drop_cutter::DropCutter& floor,
                                                   const clearing::ClearedRegion& cleared,

@@ -23,6 +23,7 @@ using offset::line_edge;
 using offset::Region2d;
 using offset::RegionOffset;
 using offset::reversed;
+using toolpath::MoveKind;
 
 namespace {
 
@@ -56,9 +57,9 @@ bool is_set(const std::vector<bool>& flags, std::size_t i) { return i < flags.si
 
 }  // namespace
 
-Region2d reach_of(const RegionOffset& walls, double first)
+Region2d reach_of(const RegionOffset& walls, double wall_clearance)
 {
-    return walls.at(first - kWrittenStep);
+    return walls.at(wall_clearance - kWrittenStep);
 }
 
 ClPath PocketPathWriter::project(const std::vector<Edge>& plan, const ClPathSettings& path_settings)
@@ -79,8 +80,8 @@ void PocketPathWriter::enter(const ProjectedPass& cut, const CutSettings& settin
     const double round = length(pass.path);
     const Vec2d start = pass.path.front().start;
     const bool stands = moves_.is_over(cut.path.start);
-    // A ramp round a pass that is hardly longer than a point would be a plunge: a small helix is
-    // better, though it leaves more to the middle of the tool.
+    // Along a pass that is hardly longer than a point a ramp is a plunge: a small helix is better,
+    // though the middle of the tool cuts more.
     const bool helix = (settings.entry == EntryKind::kHelix && !stands) ||
                        (settings.entry == EntryKind::kAuto && round < 6.0 * tool && !stands) ||
                        (settings.entry != EntryKind::kPlunge && round < 0.5 * tool);
@@ -91,35 +92,52 @@ void PocketPathWriter::enter(const ProjectedPass& cut, const CutSettings& settin
     const bool open = is_open(pass);
     if (depth_ != nullptr) {
         const EntryHeights over = heights_over(depth_->stock_top_at(start));
-        // Open passes lie in metal that closed ones have cut.
+        // Open passes lie in stock that closed ones have cut.
         heights.stock_top = open ? over.stock_top : heights.stock_top;
         heights.raise_over(over);
     }
     const double around = helix ? stock_top_around(start, radius) : 0.0;
-    // A helix reaches farther than the pass, where metal may stand that no pass has met.
-    const bool shallow = depth_ == nullptr || around - path.start.z <= depth_->max_depth();
+    // A helix reaches farther than the pass, into stock that no pass has met.
+    const bool shallow =
+        depth_ == nullptr || around - path.start.z <= depth_->max_depth().value_or(kUnbounded);
     const bool wide = radius > 0.2 * tool || (radius > 0.02 * tool && 2 * kPi * radius > round);
     if (helix && wide && shallow) {
         heights.raise_over(heights_over(around));
         heights.stock_top = moves_.enter_by_helix(
-            path.start, radius, round < radius, heights,
-            [&](Vec2d at) {
-                return std::max(floor_.tip_height(at) + path_settings.allowance,
-                                path_settings.min_z);
-            },
-            [&](Vec3d a, Vec3d b) { return floor_.move_clearance(a, b); });
+            {path.start, radius, round < radius, heights},
+            {[&](Vec2d at) {
+                 return std::max(floor_.tip_height(at) + path_settings.allowance,
+                                 path_settings.min_z);
+             },
+             [&](Vec3d a, Vec3d b) {
+                 return floor_.move_clearance(a, b);
+             }});
     }
     moves_.enter_along(path, heights, settings.entry == EntryKind::kPlunge);
 }
 
 double PocketPathWriter::stock_top_around(Vec2d start, double radius) const
 {
-    return depth_ == nullptr ? -1e300 : depth_->stock_top_around(start, radius);
+    return depth_ == nullptr ? -kUnbounded : depth_->stock_top_around(start, radius);
 }
 
 bool PocketPathWriter::too_deep(const ClPath& path, const CutSettings& settings) const
 {
-    return depth_ != nullptr && depth_->allowed_height_over(path, settings.depth_share).has_value();
+    return depth_ != nullptr && allowed_height_over(path, settings).has_value();
+}
+
+// Requires a depth tracker.
+std::optional<double> PocketPathWriter::allowed_height_over(const ClPath& path,
+                                                            const CutSettings& settings) const
+{
+    return depth_->allowed_height_over(path.start, tool_moves(path, MoveKind::kCut),
+                                       settings.depth_share);
+}
+
+// Requires a depth tracker.
+double PocketPathWriter::stock_top_over(const ClPath& path) const
+{
+    return depth_->stock_top_over(path.start, tool_moves(path, MoveKind::kCut));
 }
 
 PocketPathWriter::ProjectedPass PocketPathWriter::project_pass(const ClearingPass& pass,
@@ -150,7 +168,7 @@ bool PocketPathWriter::link(const ProjectedPass& projected_pass, const CutSettin
     return true;
 }
 
-// Whether the way over the metal is no longer than up and down again.
+// Whether the way above the stock is no longer than a retract and the way down.
 bool PocketPathWriter::is_shorter_than_retract(const std::vector<Edge>& way) const
 {
     constexpr double kLongest = 8.0;  // radii
@@ -158,17 +176,17 @@ bool PocketPathWriter::is_shorter_than_retract(const std::vector<Edge>& way) con
            length(way) <= 2.0 * moves_.below_clearance() + kLongest * operation_.tool.radius;
 }
 
-// Above the metal that stands along the way, and above `above`.
+// Above the stock along the way, and above `z`.
 void PocketPathWriter::follow_above(const std::vector<Edge>& way,
-                                    double above,
+                                    double z,
                                     const CutSettings& settings)
 {
     ClPathSettings path_settings = settings.path_settings;
     path_settings.nurbs = false;
     path_settings.even = true;
-    const double metal = depth_ != nullptr ? depth_->stock_top_over(project(way, path_settings))
-                                           : settings.entry_heights(above).stock_top;
-    path_settings.min_z = heights_over(std::max({metal, above, moves_.place().z})).stock_top;
+    const double stock = depth_ != nullptr ? stock_top_over(project(way, path_settings))
+                                           : settings.entry_heights(z).stock_top;
+    path_settings.min_z = heights_over(std::max({stock, z, moves_.place().z})).stock_top;
     const ClPath path = project(way, path_settings);
     least_clearance_ = std::min(least_clearance_, path.least_clearance);
     moves_.link(path);
@@ -228,11 +246,11 @@ void PocketPathWriter::return_over(const std::vector<ClearingPass>& passes,
         }
     }
     if (is_shorter_than_retract(way)) {
-        follow_above(way, -1e300, settings);
+        follow_above(way, -kUnbounded, settings);
     }
 }
 
-// By its link, where the tool stands before that and it does not cut too deep, else by an entry.
+// By its link, where the tool is at its start and it does not cut too deep, else by an entry.
 void PocketPathWriter::begin(const ProjectedPass& projected_pass, const CutSettings& settings)
 {
     const ClearingPass& pass = projected_pass.pass;
@@ -261,8 +279,8 @@ void PocketPathWriter::track_moves()
     }
 }
 
-// Cuts the pass at levels over itself, as low as the metal allows, until it is not too deep; open
-// ones to and fro. Returns the pass as it is to be cut then, from the same path in plan.
+// Cuts the pass at heights over itself, as low as the stock allows, until it is not too deep; open
+// ones to and fro. Returns the pass as it is to be cut last, from the same path in plan.
 PocketPathWriter::ProjectedPass PocketPathWriter::cut_above(const ProjectedPass& deep,
                                                             const CutSettings& settings,
                                                             bool repeated)
@@ -276,15 +294,15 @@ PocketPathWriter::ProjectedPass PocketPathWriter::cut_above(const ProjectedPass&
     ProjectedPass last = project_pass(flat, settings, true);
     CutSettings entering = settings;
     entering.path_settings.nurbs = false;
-    double before = 1e300;
+    double before = kUnbounded;
     for (int i = 0; i < kMostCuts; ++i) {
-        const auto level = depth_->allowed_height_over(last.path, settings.depth_share);
+        const auto level = allowed_height_over(last.path, settings);
         if (!level || *level > before - kWrittenStep) {
             break;
         }
         before = std::max(*level, settings.path_settings.min_z);
         entering.path_settings.min_z = before;
-        entering.entry_heights = [highest = depth_->stock_top_over(last.path)](double pass) {
+        entering.entry_heights = [highest = stock_top_over(last.path)](double pass) {
             return heights_over(std::max(highest, pass));
         };
         begin(project_pass(flat, entering, true), entering);
@@ -329,7 +347,7 @@ void PocketPathWriter::cut_final(ClearingPass& pass, const CutSettings& settings
     cut_pass(pass, settings, repeated);
 }
 
-// What roughing left beside these is cut level by level.
+// Stock that roughing left beside these is cut level by level.
 void PocketPathWriter::cut_beside_stock(std::vector<ClearingPass>& passes,
                                         const CutSettings& settings)
 {

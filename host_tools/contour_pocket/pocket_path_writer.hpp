@@ -1,19 +1,18 @@
-// Cuts the passes of a cleared region on a floor: lays each, enters, links and retracts.
+// Cuts the passes of a cleared region on a floor: drops each onto it, enters, links and retracts.
 #pragma once
 
 #include <functional>
 #include <optional>
 
+#include "host_tools/clearing/axial_depth_tracker.hpp"
 #include "host_tools/clearing/clearing.hpp"
-#include "host_tools/contour_pocket/axial_depth_tracker.hpp"
 #include "host_tools/contour_pocket/cl_path.hpp"
-#include "host_tools/contour_pocket/pocket_toolpath_writer.hpp"
+#include "host_tools/contour_pocket/cl_path_writer.hpp"
 #include "host_tools/job/job.hpp"
 
 namespace cusp::contour_pocket {
 
-// What roughing left beside some passes stands to the top of the stock, thinner than the metal may
-// be known for.
+// Stock that roughing left beside some passes, up to its top: too thin for the stock map to show.
 struct StockBesidePasses {
     std::vector<bool> passes;  // which; empty: none
     double top{};              // z of the stock
@@ -27,35 +26,35 @@ struct CutSettings {
     job::EntryKind entry{job::EntryKind::kAuto};
     double wall_clearance{};  // mm: least distance of the tool's centre from the walls
     // Passes that nowhere go deeper than this are left out (cut by the layer above).
-    double skip_above{1e300};
+    double skip_above{kUnbounded};
     // Which passes have paths that are cut at several heights (flattened()); empty: none.
     std::vector<bool> repeated;
     StockBesidePasses stock_beside;
-    // Of the depth allowed: what a pass may cut as far as the metal is known.
+    // Fraction of max_depth that a pass may cut where the stock height is known.
     double depth_share{1.0};
-    // How often the tool may have gone up at the end, the last time included; no fewer than there
-    // are entries. So that these have theirs others are reached above the metal, however far.
+    // Retracts that may have been made at the end, the last one included; no fewer than there are
+    // entries. Where entries need the rest, other passes are reached above the stock, however far.
     int retracts{};
     // Where entries start, from the height of the pass there.
     std::function<EntryHeights(double)> entry_heights;
-    // Where given, called with the share of the passes that is laid.
+    // Where given, called with the share of the passes that is written.
     std::function<void(double)> progress;
 };
 
 // Where the tool's axis may be that keeps `wall_clearance` mm off the walls but for rounding.
-offset::Region2d reach_of(const offset::RegionOffset& walls, double first);
+offset::Region2d reach_of(const offset::RegionOffset& walls, double wall_clearance);
 
 class PocketPathWriter {
 public:
     // walls  of the pocket
     // depth  where given, passes that would cut too deep are cut at levels over them first, and
-    //        entries start over the metal that stands; passes that have no link are reached by
-    //        short ways above it
+    //        entries start over the stock; passes that have no link are reached by short ways above
+    //        it
     PocketPathWriter(const job::Operation& operation,
                      const drop_cutter::DropCutter& floor,
                      const offset::RegionOffset& walls,
-                     PocketToolpathWriter& moves,
-                     AxialDepthTracker* depth)
+                     ClPathWriter& moves,
+                     clearing::AxialDepthTracker* depth)
         : operation_{operation}, floor_{floor}, walls_{walls}, moves_{moves}, depth_{depth}
     {
     }
@@ -70,7 +69,7 @@ public:
     double least_clearance() const { return least_clearance_; }
 
 private:
-    // A pass as it is laid.
+    // A pass with its path on the floor.
     struct ProjectedPass {
         clearing::ClearingPass pass;
         ClPathSettings settings;
@@ -84,9 +83,7 @@ private:
     bool link_above_stock(const ProjectedPass& projected, const CutSettings& settings);
     bool link_around(const ProjectedPass& projected, const CutSettings& settings);
     bool is_shorter_than_retract(const std::vector<offset::Edge>& way) const;
-    void follow_above(const std::vector<offset::Edge>& way,
-                      double above,
-                      const CutSettings& settings);
+    void follow_above(const std::vector<offset::Edge>& way, double z, const CutSettings& settings);
     void begin(const ProjectedPass& projected, const CutSettings& settings);
     void return_over(const std::vector<clearing::ClearingPass>& passes,
                      std::size_t from,
@@ -99,13 +96,16 @@ private:
     ClPath project(const std::vector<offset::Edge>& plan, const ClPathSettings& path_settings);
     void enter(const ProjectedPass& cut, const CutSettings& settings);
     void track_moves();
+    std::optional<double> allowed_height_over(const ClPath& path,
+                                              const CutSettings& settings) const;
+    double stock_top_over(const ClPath& path) const;
     double stock_top_around(Vec2d start, double radius) const;
 
     const job::Operation& operation_;
     const drop_cutter::DropCutter& floor_;
     const offset::RegionOffset& walls_;
-    PocketToolpathWriter& moves_;
-    AxialDepthTracker* depth_;
+    ClPathWriter& moves_;
+    clearing::AxialDepthTracker* depth_;
     double least_clearance_{0.0};
     int allowed_retracts_{0};  // until now
     std::optional<offset::Region2d> reach_;

@@ -1,4 +1,4 @@
-// What a pocket asks for, checked: tolerances shared out, the region in plan, the floor.
+// A pocket's operation, checked: its tolerances split, its region in plan, its floor.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace cusp::contour_pocket {
 
-// What the tolerances of the operation leave to each step, mm.
+// The part of the operation's tolerances that each step has, mm.
 struct ToleranceSplit {
     bool one_sided{};
     double fit{};               // of free curves by arcs
@@ -23,14 +23,14 @@ struct ToleranceSplit {
 // Throws InputError where a value is missing or out of range.
 ToleranceSplit split_tolerances(const job::Job& job, const job::Operation& operation);
 
-// Of an operation that roughs: the two share out how far moves may be beside the plan path.
+// Of an operation that roughs: the two split the tolerance in plan.
 struct RoughAndFinish {
     ToleranceSplit rough;
     ToleranceSplit finish;
 };
 
-// Without an allowance both follow the walls as far as the tolerance lets them. The roughing takes
-// the near part of that: else the finish would take slivers off the walls at their full height.
+// Without an allowance both follow the walls as near as the tolerance allows. Roughing has the part
+// nearer to the walls: else finishing would cut slivers off them at their full height.
 RoughAndFinish split_between_rough_and_finish(const job::Operation& operation,
                                               const ToleranceSplit& tolerances);
 
@@ -49,7 +49,7 @@ void check_work(const job::Job& job,
 int layer_count(const job::Job& job, const job::Operation& operation, double deep, double of);
 
 // Throws InputError where a place of the boundary or of an island has no floor; where there are
-// several surfaces or trims, a place inside, too: looked at every quarter of the tool's radius
+// several surfaces or trims, a place inside, too: sampled every quarter of the tool's radius
 // (coarser in pockets of more than 250 such places a side).
 void check_coverage(const job::Operation& operation,
                     const offset::Region2d& region,

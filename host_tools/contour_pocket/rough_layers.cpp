@@ -9,6 +9,7 @@
 
 namespace cusp::contour_pocket {
 
+using clearing::AxialDepthTracker;
 using clearing::ClearedRegion;
 using clearing::ClearingPass;
 using clearing::ClearingSettings;
@@ -100,7 +101,7 @@ double layer_depth(const Operation& operation)
 
 double lowest_tip(const ClearedRegion& cleared, const DropCutter& floor)
 {
-    double lowest = 1e300;
+    double lowest = kUnbounded;
     for (const ClearingPass& pass : cleared.passes) {
         for (const Edge& edge : pass.path) {
             const int n = 1 + static_cast<int>(length(edge) / floor.tool().radius);
@@ -159,7 +160,7 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
                               settings.path_settings.spacing, settings.path_settings.arcs);
     }
     settings.repeated.assign(cleared.passes.size(), true);
-    PocketToolpathWriter moves{job.stock_top + job.clearance};
+    ClPathWriter moves{job.stock_top + job.clearance};
     const RegionOffset walls{region};
     PocketPathWriter cutter{rough, floor, walls, moves, cut_depth};
     if (cut_depth != nullptr) {

@@ -3,8 +3,8 @@
 
 #include <optional>
 
+#include "host_tools/clearing/axial_depth_tracker.hpp"
 #include "host_tools/clearing/clearing.hpp"
-#include "host_tools/contour_pocket/axial_depth_tracker.hpp"
 #include "host_tools/contour_pocket/pocket_task.hpp"
 
 namespace cusp::contour_pocket {
@@ -13,22 +13,21 @@ struct RoughResult {
     toolpath::PlannedOperation operation;  // without moves where the tool fits nowhere
     std::vector<double> heights;  // z of the layers, from the top; none where it fits nowhere
     double wall_clearance{};      // mm: least distance of the tool's centre from the walls
-    double left{};  // mm over the floor at most, where the floor is level: allowance and cusps
+    double left{};  // mm over the floor at most, where the floor is level: allowance and scallops
 };
 
 // Depth of cut of a layer, mm: max_depth, or the tallest of operation.layers.
 double layer_depth(const job::Operation& operation);
 
-// z of the tip where the passes go lowest, looked at every tool radius.
+// z of the tip where the passes go lowest, sampled every tool radius.
 double lowest_tip(const clearing::ClearedRegion& cleared, const drop_cutter::DropCutter& floor);
 
 // Layers for operation.tools.front(), at the depths operation.layers or no deeper than
-// operation.max_depth each; no value where neither is given. cut_depth as PocketPathWriter asks for
-// it.
+// operation.max_depth each; no value where neither is given. cut_depth: see PocketPathWriter.
 std::optional<RoughResult> plan_rough_layers(const job::Job& job,
                                              const job::Operation& operation,
                                              const offset::Region2d& region,
                                              const ToleranceSplit& tolerances,
-                                             AxialDepthTracker* cut_depth);
+                                             clearing::AxialDepthTracker* cut_depth);
 
 }  // namespace cusp::contour_pocket

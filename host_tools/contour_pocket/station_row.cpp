@@ -201,8 +201,9 @@ private:
         Place end;
     };
 
-    // What lies between the stretch's middle and its ends follows by cubics, where the one from end
-    // to end tells the middle. Else a long stretch is halved, and all of a short one is looked up.
+    // Stations between the stretch's middle and its ends are interpolated by cubics where the cubic
+    // from end to end predicts the middle. Else a long stretch is halved, and all of a short one is
+    // looked up.
     void fill(const Place& start, std::size_t first, std::size_t last, const Lookups& known)
     {
         if (row_.missing) {

@@ -25,12 +25,12 @@ double cut_over(const Tool& tool, const TipSegment& segment, Vec2d at, double be
     const double away = std::abs(cross(way, at - a));
     const double lowest = std::min(segment.start.z, segment.end.z);
     if (away >= tool.radius || lowest + profile_height(tool, away) >= below) {
-        return kNotReached;
+        return kUnbounded;
     }
     const double slope = (segment.end.z - segment.start.z) / whole;
     // The place lifts a tool that comes past as an edge would that falls away from it.
     const auto edge = drop_on_edge(tool, {-slope, away, -along, whole - along});
-    return edge ? segment.start.z + slope * along - edge->lift : kNotReached;
+    return edge ? segment.start.z + slope * along - edge->lift : kUnbounded;
 }
 
 }  // namespace cusp::contour_pocket

@@ -12,13 +12,11 @@ struct TipSegment {
     Vec3d end;
 };
 
-inline constexpr double kNotReached = 1e300;
-
-// How low the tool, moved along the segment, cuts over the plan position: z, mm; kNowhere where it
-// does not get there, or where it is known soon that it is not lower than `below`.
+// How low the tool, moved along the segment, cuts over the plan position: z, mm; kUnbounded where
+// it does not get there, or where it is known soon that it is not lower than `below`.
 double cut_over(const toolpath::Tool& tool,
                 const TipSegment& segment,
                 Vec2d at,
-                double below = kNotReached);
+                double below = kUnbounded);
 
 }  // namespace cusp::contour_pocket

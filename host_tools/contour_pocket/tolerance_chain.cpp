@@ -38,8 +38,8 @@ Wedge wedge_about(Vec2d arm, double apart, double room)
 
 // Slopes of z that a straight rise from a point may have, narrowed by bands farther along.
 struct Rise {
-    double low{-1e300};
-    double high{1e300};
+    double low{-kUnbounded};
+    double high{kUnbounded};
 
     void pass(double along, double from, double to)
     {
@@ -52,18 +52,10 @@ struct Rise {
 class ChainBuilder {
 public:
     ChainBuilder(const std::vector<Station>& stations,
-                 double aside,
-                 double low,
-                 double high,
+                 const StationBand& band,
                  bool arcs,
                  bool closed)
-        : stations_{stations},
-          aside_{aside},
-          low_{low},
-          high_{high},
-          arcs_{arcs},
-          closed_{closed},
-          last_{0}
+        : stations_{stations}, band_{band}, arcs_{arcs}, closed_{closed}, last_{0}
     {
     }
 
@@ -71,7 +63,7 @@ public:
     {
         const Station& first = stations_.front();
         at_ = first.at;
-        z_ = first.height + 0.5 * (low_ + high_);
+        z_ = first.height + band_.middle();
         Chain chain{{at_.x, at_.y, z_}, {}};
         for (std::size_t i = 0; i + 1 < stations_.size();) {
             const std::size_t from = i;
@@ -103,10 +95,7 @@ private:
         return best.station;
     }
 
-    Vec3d middle_of(const Station& s) const
-    {
-        return {s.at.x, s.at.y, s.height + 0.5 * (low_ + high_)};
-    }
+    Vec3d middle_of(const Station& s) const { return {s.at.x, s.at.y, s.height + band_.middle()}; }
 
     struct Reach {
         std::size_t station;
@@ -126,7 +115,7 @@ private:
             const Vec2d target = ends_home(k) ? in_plan(home_) : stations_[k].at;
             const Vec2d arm = target - at_;
             const double apart = std::sqrt(dot(arm, arm));
-            const double room = ends_home(k) ? 1e-9 : aside_;
+            const double room = ends_home(k) ? 1e-9 : band_.plan_tolerance;
             if (apart <= room) {
                 if (set) {
                     break;  // the path comes back
@@ -215,7 +204,7 @@ private:
             if (ends_home(k)) {
                 next.pass(along, home_.z - z_, home_.z - z_);
             } else {
-                next.pass(along, floor + low_ - z_, floor + high_ - z_);
+                next.pass(along, floor + band_.low - z_, floor + band_.high - z_);
             }
             if (!next.open()) {
                 break;
@@ -260,8 +249,8 @@ private:
             const double here = std::abs(off) * std::sqrt(dot(spoke, spoke));
             const double apart = radius * (angle - before);
             const double bulge = 0.125 * apart * apart * std::abs(turn / radius - s.bend);
-            if (angle < before || angle > 3.0 || here > aside_ ||
-                std::max(here, beside) + bulge > kBetween * aside_) {
+            if (angle < before || angle > 3.0 || here > band_.plan_tolerance ||
+                std::max(here, beside) + bulge > kBetween * band_.plan_tolerance) {
                 return std::nullopt;
             }
             beside = here;
@@ -273,7 +262,7 @@ private:
             if (ends_home(k)) {
                 rise.pass(angle, home_.z - z_, home_.z - z_);
             } else {
-                rise.pass(angle, floor + low_ - z_, floor + high_ - z_);
+                rise.pass(angle, floor + band_.low - z_, floor + band_.high - z_);
             }
             if (!rise.open()) {
                 return std::nullopt;
@@ -312,9 +301,7 @@ private:
     }
 
     const std::vector<Station>& stations_;
-    double aside_;
-    double low_;
-    double high_;
+    StationBand band_;
     bool arcs_;
     bool closed_;
     std::size_t last_;  // of the run up to an exact station
@@ -327,13 +314,11 @@ private:
 }  // namespace
 
 Chain chain_through(const std::vector<Station>& stations,
-                    double aside,
-                    double low,
-                    double high,
+                    const StationBand& band,
                     bool arcs,
                     bool closed)
 {
-    return ChainBuilder{stations, aside, low, high, arcs, closed}.run();
+    return ChainBuilder{stations, band, arcs, closed}.run();
 }
 
 }  // namespace cusp::contour_pocket

@@ -16,20 +16,26 @@ struct Station {
     bool exact{};    // a move ends here, at half of the band
 };
 
+// How far from a station moves may pass it.
+struct StationBand {
+    double plan_tolerance;  // mm: in plan, either way
+    double low;             // mm over the station's height
+    double high;
+
+    double middle() const { return 0.5 * (low + high); }
+};
+
 struct Chain {
     Vec3d start;
     std::vector<ClMove> moves;
 };
 
-// Goes from station to station by the longest move that passes every station within `aside` in plan
-// and within [low, high] (mm over its height) in z: a straight move is looked for among all that
-// the stations' bands let through (a wedge that narrows from station to station), not only between
-// stations. O(n) for lines. closed: the last station is the first, and the chain ends where it
-// starts.
+// Goes from station to station by the longest move that passes every station within the band: a
+// straight move is looked for among all that the stations' bands let through (a wedge that narrows
+// from station to station), not only between stations. O(n) for lines. closed: the last station is
+// the first, and the chain ends where it starts.
 Chain chain_through(const std::vector<Station>& stations,
-                    double aside,
-                    double low,
-                    double high,
+                    const StationBand& band,
                     bool arcs,
                     bool closed);
 

@@ -34,12 +34,12 @@ public:
                const Region2d& centres,
                const std::vector<Surface>& floor,
                const DropCutter& tips,
-               double first)
+               double wall_clearance)
         : walls_{walls},
           centres_{edges_of(centres)},
           tips_{tips},
           floor_{floor, needle(), 0.01 * tips.tool().radius},
-          first_{first},
+          wall_clearance_{wall_clearance},
           radius_{tips.tool().radius},
           box_{box_of(walls.source())}
     {
@@ -54,9 +54,9 @@ public:
 
     std::vector<UncutRegion> run(const UncutSettings& settings)
     {
-        find_rest_at_walls(settings.top, settings.least);
+        find_rest_at_walls(settings.top, settings.min_height);
         if (settings.valleys) {
-            find_valleys(settings.least);
+            find_valleys(settings.min_height);
         }
         std::vector<UncutRegion> places;
         for (int i = 0; i < columns_; ++i) {
@@ -90,7 +90,7 @@ private:
         constexpr double kFarthest = 16.0;  // cells: further is not looked for
         struct Room {
             double least{0.0};
-            double most{1e300};
+            double most{kUnbounded};
         };
         const double near = 1.01 * cell_;
         places_.assign(rest_.size(), Place::kOutside);
@@ -103,14 +103,14 @@ private:
                 const Vec2d p = centre(i, j);
                 room = {std::max(room.least, beside.least) - cell_,
                         std::min(room.most, beside.most) + cell_};
-                if (room.least < first_ && room.most >= first_) {
-                    const double farthest = first_ + kFarthest * cell_;
+                if (room.least < wall_clearance_ && room.most >= wall_clearance_) {
+                    const double farthest = wall_clearance_ + kFarthest * cell_;
                     room.least = walls_.nearest(p, std::min(farthest, room.most));
-                    room.most = room.least < farthest ? room.least : 1e300;
+                    room.most = room.least < farthest ? room.least : kUnbounded;
                 }
                 beside = room;
-                const bool at_wall = room.least < first_;
-                if (j == 0 || (at_wall && room.least < near) || near > first_) {
+                const bool at_wall = room.least < wall_clearance_;
+                if (j == 0 || (at_wall && room.least < near) || near > wall_clearance_) {
                     inside = walls_.contains(p);
                 }
                 if (inside) {
@@ -120,16 +120,17 @@ private:
         }
     }
 
-    void find_rest_at_walls(double top, double least)
+    void find_rest_at_walls(double top, double min_height)
     {
         for (int i = 0; i < columns_; ++i) {
             for (int j = 0; j < rows_; ++j) {
                 const Vec2d p = centre(i, j);
-                if (places_[index(i, j)] != Place::kBeside || centres_.any_nearer(p, first_)) {
+                if (places_[index(i, j)] != Place::kBeside ||
+                    centres_.any_nearer(p, wall_clearance_)) {
                     continue;
                 }
                 const auto floor = floor_.drop(p);
-                if (floor && top - floor->z > least) {
+                if (floor && top - floor->z > min_height) {
                     rest_[index(i, j)] = top - floor->z;
                     by_wall_[index(i, j)] = true;
                 }
@@ -137,15 +138,15 @@ private:
         }
     }
 
-    // Where the tool is twice as far apart as cells, it stands on slopes that say where it cannot
-    // reach between.
-    void find_valleys(double least)
+    // Where contacts of neighbouring cells are twice as far apart as the cells, the tool does not
+    // reach between them.
+    void find_valleys(double min_height)
     {
         slopes_.assign(rest_.size(), std::nullopt);
         for (int i = 0; i + 2 < columns_; i += 2) {
             for (int j = 0; j + 2 < rows_; j += 2) {
                 if (turns_up(i, j, i + 2, j) || turns_up(i, j, i, j + 2)) {
-                    look_around(i, j, least);
+                    look_around(i, j, min_height);
                 }
             }
         }
@@ -171,14 +172,14 @@ private:
         return *slope;
     }
 
-    void look_around(int i, int j, double least)
+    void look_around(int i, int j, double min_height)
     {
         for (int k = std::max(0, i - 1); k <= std::min(columns_ - 1, i + 3); ++k) {
             for (int l = std::max(0, j - 1); l <= std::min(rows_ - 1, j + 3); ++l) {
                 double& rest = rest_[index(k, l)];
                 if (rest == 0.0 && places_[index(k, l)] != Place::kOutside) {
                     const double left = left_over(centre(k, l));
-                    rest = left > least ? left : 0.0;
+                    rest = left > min_height ? left : 0.0;
                 }
             }
         }
@@ -196,7 +197,7 @@ private:
         const int reach = static_cast<int>(radius_ / fine);
         const int i = static_cast<int>((p.x - box_.x0) / fine);
         const int j = static_cast<int>((p.y - box_.y0) / fine);
-        double best = 1e300;
+        double best = kUnbounded;
         for (int k = std::max(0, i - reach); k <= std::min(2 * columns_ - 1, i + reach); ++k) {
             for (int l = std::max(0, j - reach); l <= std::min(2 * rows_ - 1, j + reach); ++l) {
                 const Vec2d at{box_.x0 + fine * k, box_.y0 + fine * l};
@@ -206,7 +207,7 @@ private:
                 }
             }
         }
-        return best < 1e299 ? best - floor->z - 0.02 * radius_ : 0.0;
+        return best < kUnbounded ? best - floor->z - 0.02 * radius_ : 0.0;
     }
 
     double tip_at(int k, int l, Vec2d at)
@@ -217,7 +218,8 @@ private:
         auto& height = heights_[static_cast<std::size_t>(k) * 2 * static_cast<std::size_t>(rows_) +
                                 static_cast<std::size_t>(l)];
         if (!height) {
-            height = walls_.clearance(at) < first_ ? 1e300 : tips_.tip_height(at, 0.005 * radius_);
+            height = walls_.clearance(at) < wall_clearance_ ? kUnbounded
+                                                            : tips_.tip_height(at, 0.005 * radius_);
         }
         return *height;
     }
@@ -256,7 +258,7 @@ private:
     EdgeTree centres_;
     const DropCutter& tips_;
     DropCutter floor_;
-    double first_;
+    double wall_clearance_;
     double radius_;
     Box2d box_;
     double cell_{};
@@ -266,7 +268,7 @@ private:
     std::vector<bool> by_wall_;
     std::vector<Place> places_;
     std::vector<std::optional<Vec2d>> slopes_;
-    std::vector<std::optional<double>> heights_;  // of the tip, 1e300 where walls are too near
+    std::vector<std::optional<double>> heights_;  // of the tip, kUnbounded where walls are too near
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What a tool cannot reach in a pocket, and how much stays there.
+// Regions of a pocket that a tool leaves uncut, and how much.
 #pragma once
 
 #include <vector>
@@ -9,29 +9,29 @@
 namespace cusp::contour_pocket {
 
 struct UncutRegion {
-    Vec2d at;         // where most stays
+    Vec2d at;         // where it is highest
     double area{};    // mm^2, seen from above
     double height{};  // mm over the floor at most, along the axis
     double volume{};  // mm^3
     bool at_walls{};  // a corner or a neck of the walls; else a valley of the floor
 };
 
-// Places of the region that no position of the tool sweeps down to `least` (mm) over the floor,
-// the largest volume first.
+// Places of the region that no position of the tool sweeps down to `min_height` (mm) over the
+// floor, the largest volume first.
 //
 //   walls    contours of the region
 //   centres  where the tool's axis may be
 //   wall_clearance  mm: least distance of these from the contours
-//   top      z of the stock: what walls keep the tool from stands to there
+//   top      z of the stock: regions at walls reach up to it
 //   valleys  false where the floor is known to have none that the tool does not reach
 //
-// Looked at on a grid of a quarter of the tool's radius (coarser in pockets of more than 500 such
-// cells a side): areas and volumes are as coarse, heights of valleys good to 0.02 radii. Places
+// Computed on a grid of a quarter of the tool's radius (coarser in pockets of more than 500 such
+// cells a side): areas and volumes are as coarse, heights of valleys good to 0.02 radii. Regions
 // smaller than a cell may be missed.
 struct UncutSettings {
     double wall_clearance;
     double top;
-    double least;
+    double min_height;
     bool valleys;
 };
 std::vector<UncutRegion> uncut_regions(const offset::RegionOffset& walls,

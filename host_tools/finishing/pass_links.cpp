@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/toolpath/toolpath_writer.hpp"
 
 namespace cusp::finishing {
 
@@ -14,6 +15,7 @@ using toolpath::LineTo;
 using toolpath::MoveKind;
 using toolpath::NurbsTo;
 using toolpath::ToolMove;
+using toolpath::ToolpathWriter;
 
 namespace {
 
@@ -54,65 +56,51 @@ void turn_round(SurfacePass& pass)
 class Linker {
 public:
     Linker(const LinkRules& rules, GougeFreePathFitter& path_fitter)
-        : rules_{rules}, path_fitter_{path_fitter}
+        : rules_{rules}, path_fitter_{path_fitter}, writer_{out_.moves, {rules.clearance_z}}
     {
     }
 
     void add(const SurfacePass& pass)
     {
         const Vec3d start = pass.points.front();
-        if (out_.moves.empty()) {
-            enter(start);
-        } else if (!stay_down(start)) {
-            retract();
-            ++out_.retracts;
+        if (!writer_.started() || !stay_down(start)) {
             enter(start);
         }
         append(pass);
         out_.cut_length += length_of(pass.points);
-        at_ = pass.points.back();
     }
 
     LinkedPasses finish()
     {
-        if (!out_.moves.empty()) {
-            retract();
-        }
+        // Only those between passes.
+        out_.retracts = writer_.retracts();
+        writer_.retract();
+        out_.points = static_cast<int>(out_.moves.size());
         return std::move(out_);
     }
 
 private:
-    void line(MoveKind kind, Vec3d to)
-    {
-        out_.moves.push_back({kind, LineTo{to}});
-        at_ = to;
-        ++out_.points;
-    }
-
     void enter(Vec3d start)
     {
-        line(MoveKind::kRapid, {start.x, start.y, rules_.clearance_z});
-        if (rules_.plunge_from < rules_.clearance_z && rules_.plunge_from > start.z) {
-            line(MoveKind::kRapid, {start.x, start.y, rules_.plunge_from});
-        }
-        line(MoveKind::kPlunge, start);
+        const bool over = rules_.plunge_from > start.z;
+        writer_.approach(in_plan(start), over ? rules_.plunge_from : rules_.clearance_z);
+        writer_.line(MoveKind::kPlunge, start);
     }
-
-    void retract() { line(MoveKind::kRapid, {at_.x, at_.y, rules_.clearance_z}); }
 
     bool stay_down(Vec3d start)
     {
-        const double direct = norm(start - at_);
+        const Vec3d at = writer_.at();
+        const double direct = norm(start - at);
         if (direct <= kSamePlace) {
             return true;
         }
-        if (plan_distance(at_, start) > rules_.stay_down) {
+        if (plan_distance(at, start) > rules_.stay_down) {
             return false;
         }
-        Points way{at_, start};
-        if (!path_fitter_.clears_edges(at_, start) || !path_fitter_.is_line_clear(at_, start)) {
-            way = {at_};
-            const Points over = path_fitter_.sample_dropped(at_, start);
+        Points way{at, start};
+        if (!path_fitter_.clears_edges(at, start) || !path_fitter_.is_line_clear(at, start)) {
+            way = {at};
+            const Points over = path_fitter_.sample_dropped(at, start);
             way.insert(way.end(), over.begin(), over.end());
             way.push_back(start);
             const double length = length_of(way);
@@ -122,8 +110,8 @@ private:
             way = path_fitter_.fit_lines(path_fitter_.moved_clear_of_edges(way));
         }
         for (std::size_t k = 1; k < way.size(); ++k) {
-            out_.link_length += norm(way[k] - at_);
-            line(MoveKind::kLink, way[k]);
+            out_.link_length += norm(way[k] - writer_.at());
+            writer_.line(MoveKind::kLink, way[k]);
         }
         return true;
     }
@@ -131,24 +119,21 @@ private:
     void append(const SurfacePass& pass)
     {
         if (pass.curve) {
-            out_.moves.push_back({MoveKind::kCut, NurbsTo{*pass.curve}});
-            ++out_.points;
+            writer_.add({MoveKind::kCut, NurbsTo{*pass.curve}});
             return;
         }
-        if (!pass.moves.empty()) {
-            out_.moves.insert(out_.moves.end(), pass.moves.begin(), pass.moves.end());
-            out_.points += static_cast<int>(pass.moves.size());
-            return;
+        for (const ToolMove& move : pass.moves) {
+            writer_.add(move);
         }
-        for (std::size_t k = 1; k < pass.points.size(); ++k) {
-            line(MoveKind::kCut, pass.points[k]);
+        for (std::size_t k = 1; pass.moves.empty() && k < pass.points.size(); ++k) {
+            writer_.line(MoveKind::kCut, pass.points[k]);
         }
     }
 
     const LinkRules& rules_;
     GougeFreePathFitter& path_fitter_;
     LinkedPasses out_;
-    Vec3d at_;
+    ToolpathWriter writer_;
 };
 
 }  // namespace

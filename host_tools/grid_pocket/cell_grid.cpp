@@ -27,7 +27,7 @@ CellGrid::CellGrid(const RegionOffset& pocket, double gx, double gy, double radi
     rows_ = cells(box.y1 - box.y0, gy);
     inside_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
     for (int row = 0; row < rows_; ++row) {
-        double known = 0;  // clearance at the last cell asked for, less the way since
+        double known = 0;  // clearance at the last cell computed, less the way since
         for (int column = 0; column < columns_; ++column) {
             const Cell c{column, row};
             known -= gx;

@@ -1,4 +1,4 @@
-// Bands stand over exact heights with a margin for what lies between them; proofs catch the rest.
+// Bands begin over exact heights by a margin for what lies between them; each move is then proven.
 #include "host_tools/grid_pocket/cl_path_fitter.hpp"
 
 #include <algorithm>
@@ -10,14 +10,14 @@
 
 namespace cusp::grid_pocket {
 
+using drop_cutter::DropCutter;
 using nurbs::Surface;
 using offset::Edge;
-using part_model::PartModel;
 using toolpath::ArcPlane;
 using toolpath::ArcTo;
-using toolpath::LineTo;
 using toolpath::MoveKind;
 using toolpath::Tool;
+using toolpath::ToolpathWriter;
 using toolpath::ToolShape;
 
 namespace {
@@ -28,7 +28,7 @@ constexpr double kProven = -1e-6;
 // Moves shorter than this are lifted rather than divided.
 constexpr double kShortestPiece = 0.02;
 
-// How far arcs may be from the chords that stand for them in proofs, over their tolerance.
+// Distance of arcs from the chords that replace them in proofs, over their tolerance.
 constexpr double kArcSagitta = 0.025;
 
 // Of a two-sided tolerance: the rest is for what lies between vertices.
@@ -37,11 +37,23 @@ constexpr double kTwoSided = 0.95;
 // Below this a height is a rounding of the G-code.
 constexpr double kRounding = 2e-4;
 
+// Moves stay this many times the drop cutter's accuracy inside their band, so that they can be
+// proven: on a slope of 60 degrees half of a height is clearance.
+constexpr double kReserve = 2.0;
+
 Tool grown_tool(Tool tool, double by)
 {
     tool.radius += by;
     tool.corner_radius += by;
     tool.shape = tool.shape == ToolShape::kFlat && by > 0 ? ToolShape::kBull : tool.shape;
+    return tool;
+}
+
+// The tool, smaller all round.
+Tool shrunk_tool(Tool tool, double by)
+{
+    tool.radius -= by;
+    tool.corner_radius = std::max(0.0, tool.corner_radius - by);
     return tool;
 }
 
@@ -55,38 +67,27 @@ double band_height(const FollowSettings& settings)
 
 double bend_radius(const Tool& tool) { return std::max(tool.corner_radius, tool.radius / 2); }
 
-void GridMoveWriter::line(MoveKind kind, Vec3d end)
-{
-    if (!started_ || end != at_) {
-        path_.moves.push_back({kind, LineTo{end}});
-        at_ = end;
-        started_ = true;
-    }
-}
-
-void GridMoveWriter::arc(MoveKind kind, const ArcTo& arc)
-{
-    path_.moves.push_back({kind, arc});
-    at_ = arc.end;
-}
-
 ClPathFitter::ClPathFitter(const std::vector<Surface>& floor,
-                           std::shared_ptr<const PartModel> model,
                            const Tool& tool,
                            double allowance,
                            FollowSettings settings)
-    : drop_cutter_{floor, std::move(model), grown_tool(tool, allowance),
-                   std::clamp(settings.tolerance / 20, 1e-4, 1e-3)},
+    : accuracy_{std::clamp(settings.tolerance / 40, 1e-4, 5e-4)},
       allowance_{allowance},
       settings_{settings}
 {
+    const Tool grown = grown_tool(tool, allowance);
+    drop_cutter_ = std::make_shared<DropCutter>(floor, grown, accuracy_);
+    if (settings_.both_sides && allowed_gouge() < grown.radius / 2) {
+        gouge_cutter_ =
+            std::make_shared<DropCutter>(floor, shrunk_tool(grown, allowed_gouge()), accuracy_);
+    }
 }
 
 std::optional<double> ClPathFitter::height(Vec2d at) const
 {
-    // A tool grown all round by the allowance stands with its end that much lower.
-    const auto low = drop_cutter_.height(at);
-    return low ? std::optional<double>{*low + allowance_} : std::nullopt;
+    // A tool grown all round by the allowance has its tip that much lower.
+    const std::optional<DropCutter::ClPoint> cl = drop_cutter_->drop(at);
+    return cl ? std::optional{cl->z + allowance_} : std::nullopt;
 }
 
 ClPathFitter ClPathFitter::above(double level) const
@@ -97,10 +98,17 @@ ClPathFitter ClPathFitter::above(double level) const
     return out;
 }
 
+double ClPathFitter::reserve() const { return kRounding + kReserve * accuracy_; }
+
+double ClPathFitter::used_of(double tolerance) const
+{
+    return std::max(kTwoSided * tolerance - reserve(), tolerance / 2);
+}
+
 // Where the floor ends, the passes go on at its lowest.
 double ClPathFitter::path_height(Vec2d at) const
 {
-    return std::max(min_z_, height(at).value_or(drop_cutter_.lowest()));
+    return std::max(min_z_, height(at).value_or(lowest()));
 }
 
 double ClPathFitter::start_height(Vec2d at) const
@@ -116,10 +124,18 @@ double ClPathFitter::lowest_height(Vec2d at) const
     return settings_.both_sides ? std::max(min_z_, exact - band_height(settings_)) : exact;
 }
 
-double ClPathFitter::move_clearance(Vec3d a, Vec3d b, double sufficient) const
+double ClPathFitter::move_clearance(Vec3d a, Vec3d b, double margin) const
 {
     const Vec3d down{0, 0, -allowance_};
-    return drop_cutter_.move_clearance(a + down, b + down, sufficient);
+    const double clear = drop_cutter_->move_clearance(a + down, b + down, margin);
+    const double allowed = allowed_gouge();
+    if (!gouge_cutter_ || clear >= kProven - allowed) {
+        return clear;
+    }
+    // A bound of a deep gouge is good to a tenth only. What a tool shrunk by the gouge allowed keeps
+    // clear of, the tool gouges by no more than that.
+    const Vec3d up{0, 0, allowed - allowance_};
+    return std::max(clear, gouge_cutter_->move_clearance(a + up, b + up, margin) - allowed);
 }
 
 std::vector<BandPoint> ClPathFitter::band(Vec2d a, Vec2d b, double tolerance) const
@@ -135,8 +151,8 @@ std::vector<BandPoint> ClPathFitter::band(Vec2d a, Vec2d b, double tolerance) co
     for (std::size_t i = 0; i < heights.size(); ++i) {
         const double z = heights[i];
         if (settings_.both_sides) {
-            out.push_back(
-                {static_cast<double>(i) * step, std::max(min_z_, z - tolerance), z + tolerance});
+            const double used = used_of(tolerance);
+            out.push_back({static_cast<double>(i) * step, std::max(min_z_, z - used), z + used});
             continue;
         }
         if (z == min_z_ && (i == 0 || heights[i - 1] == min_z_) &&
@@ -149,38 +165,32 @@ std::vector<BandPoint> ClPathFitter::band(Vec2d a, Vec2d b, double tolerance) co
         const double before = i > 0 ? std::abs(z - heights[i - 1]) / step : 0.0;
         const double after = i + 1 < heights.size() ? std::abs(heights[i + 1] - z) / step : 0.0;
         const double slope = std::max(before, after);
-        const double bend = std::pow(1 + slope * slope, 1.5) / bend_radius(drop_cutter_.tool());
-        const double margin =
-            std::min(step * step / 8 * bend + kRounding + drop_cutter_.accuracy(), tolerance / 3);
+        const double bend = std::pow(1 + slope * slope, 1.5) / bend_radius(drop_cutter_->tool());
+        const double margin = std::min(step * step / 8 * bend + reserve(), tolerance / 3);
         out.push_back({static_cast<double>(i) * step, z + margin, z + tolerance});
     }
     return out;
 }
 
-// Lower bound, at most 0, of the room under a straight move above `needed` mm.
-double ClPathFitter::room(Vec3d a, Vec3d b, double needed) const
+// Lower bound, at most 0, of the gap under a move that bulges by up to `sagitta` mm, in its upright
+// plane, from the straight line.
+double ClPathFitter::bulged_clearance(Vec3d a, Vec3d b, double sagitta) const
 {
-    if (!has_flat_end()) {
-        return move_clearance(a, b, needed) - needed;
+    if (is_ball()) {
+        return move_clearance(a, b, sagitta);
     }
-    // A flat end's room is that along the axis, and bounds nothing of a move that cuts in: such a
-    // move is looked at from as much higher as it may cut.
+    // Along the axis the bulge is longer on slopes.
     const double way = norm(in_plan(b) - in_plan(a));
     const double steep = way > 0 ? norm(b - a) / way : 1.0;
-    const Vec3d down{0, 0, -needed * steep};
-    const double clear = move_clearance(a + down, b + down, 0);
-    if (clear >= kProven || allowed_gouge() == 0) {
-        return clear;
-    }
-    const Vec3d up = down + Vec3d{0, 0, allowed_gouge()};
-    return move_clearance(a + up, b + up, 0) - allowed_gouge();
+    const Vec3d down{0, 0, -sagitta * steep};
+    return move_clearance(a + down, b + down);
 }
 
-void ClPathFitter::chord(GridMoveWriter& moves, Vec3d end, MoveKind kind, int depth)
+void ClPathFitter::chord(ToolpathWriter& moves, Vec3d end, MoveKind kind, int depth)
 {
     const Vec3d from = moves.at();
     const double proven = kProven - allowed_gouge();
-    const double kept = room(from, end, 0);
+    const double kept = bulged_clearance(from, end, 0);
     if (kept >= proven) {
         gouge_bound_ = std::max(gouge_bound_, settings_.both_sides ? -kept : 0.0);
         moves.line(kind, end);
@@ -190,7 +200,7 @@ void ClPathFitter::chord(GridMoveWriter& moves, Vec3d end, MoveKind kind, int de
     if (depth < kDeepest && norm(end - from) > kShortestPiece) {
         Vec3d middle = (from + end) * 0.5;
         const double exact = std::max(min_z_, height(in_plan(middle)).value_or(middle.z));
-        middle.z = std::max(middle.z, exact + kRounding);
+        middle.z = std::max(middle.z, exact + reserve());
         chord(moves, middle, kind, depth + 1);
         chord(moves, end, kind, depth + 1);
         return;
@@ -198,31 +208,62 @@ void ClPathFitter::chord(GridMoveWriter& moves, Vec3d end, MoveKind kind, int de
     // On slopes a lift along the axis gains less than its length: it is doubled until it does.
     constexpr int kMostLifts = 10;
     Vec3d lift{0, 0, (proven - kept) * 1.5};
-    double left = room(from + lift, end + lift, 0);
+    double left = bulged_clearance(from + lift, end + lift, 0);
     for (int i = 0; i < kMostLifts && left < proven; ++i) {
         lift.z *= 2;
-        left = room(from + lift, end + lift, 0);
+        left = bulged_clearance(from + lift, end + lift, 0);
     }
     moves.line(kind, from + lift);
     moves.line(kind, end + lift);
     gouge_bound_ = std::max(gouge_bound_, -left);
 }
 
-void ClPathFitter::follow_segment(GridMoveWriter& moves, Vec2d a, Vec2d b, MoveKind kind)
+void ClPathFitter::follow_segment(ToolpathWriter& moves, Vec2d a, Vec2d b, MoveKind kind)
 {
     std::vector<BandPoint> places = band(a, b, settings_.tolerance);
     const double z = moves.at().z;
     places.front().low = std::min(places.front().low, z);
     places.front().high = std::max(places.front().high, z);
-    const double length = norm(b - a);
-    const std::vector<ProfilePoint> points = fit_chords(places, z);
+    const auto point = [&, length = norm(b - a)](const ProfilePoint& p) {
+        const Vec2d at = a + (b - a) * (p.s / length);
+        return Vec3d{at.x, at.y, p.z};
+    };
+    std::vector<ProfilePoint> points = fit_chords(places, z);
+    constexpr int kMostRaises = 6;
+    for (int i = 0; i < kMostRaises && raise_band(places, points, point); ++i) {
+        points = fit_chords(places, z);
+    }
     for (std::size_t i = 1; i < points.size(); ++i) {
-        const Vec2d at = a + (b - a) * (points[i].s / length);
-        chord(moves, {at.x, at.y, points[i].z}, kind, 0);
+        chord(moves, point(points[i]), kind, 0);
     }
 }
 
-void ClPathFitter::follow(GridMoveWriter& moves, const std::vector<Vec2d>& corners, MoveKind kind)
+// The rim of a flat end follows the floor itself, which may bend more between places than the band
+// allows for. Raises the band under each chord by what that lacks; returns whether any lacks some.
+bool ClPathFitter::raise_band(std::vector<BandPoint>& places,
+                              const std::vector<ProfilePoint>& points,
+                              const std::function<Vec3d(const ProfilePoint&)>& point) const
+{
+    constexpr double kRaise = 1.5;
+    if (is_ball()) {
+        return false;
+    }
+    const double proven = kProven - allowed_gouge();
+    bool raised = false;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        const double lacks = proven - move_clearance(point(points[i - 1]), point(points[i]));
+        for (BandPoint& place : places) {
+            const bool under = place.s >= points[i - 1].s && place.s <= points[i].s;
+            if (under && lacks > 0 && lacks < settings_.tolerance && place.low < place.high) {
+                place.low = std::min(place.low + kRaise * lacks, place.high);
+                raised = true;
+            }
+        }
+    }
+    return raised;
+}
+
+void ClPathFitter::follow(ToolpathWriter& moves, const std::vector<Vec2d>& corners, MoveKind kind)
 {
     for (std::size_t i = 1; i < corners.size(); ++i) {
         const Vec2d a = corners[i - 1];
@@ -236,9 +277,8 @@ void ClPathFitter::follow(GridMoveWriter& moves, const std::vector<Vec2d>& corne
     }
 }
 
-// Lower bound of the room along the arc, at most 0; once that is too little the rest is not looked
-// at.
-double ClPathFitter::arc_room(Vec3d from, const ArcTo& arc, double curvature) const
+// Lower bound of the gap along the arc, at most 0; where it gouges too deep the rest is left out.
+double ClPathFitter::arc_clearance(Vec3d from, const ArcTo& arc, double curvature) const
 {
     // Chords of the arc, moved by the sagitta to the side that the arc bulges to when that is down.
     const double radius = 1 / std::abs(curvature);
@@ -266,7 +306,7 @@ double ClPathFitter::arc_room(Vec3d from, const ArcTo& arc, double curvature) co
             (along_x ? p.x : p.y) = (along_x ? arc.centre.x : arc.centre.y) + radius * std::cos(a);
             p.z = arc.centre.z + radius * std::sin(a);
         }
-        least = std::min(least, room(before, p, needed));
+        least = std::min(least, bulged_clearance(before, p, needed));
         if (least < kProven - allowed_gouge()) {
             break;
         }
@@ -296,7 +336,7 @@ std::vector<Vec3d> ClPathFitter::arc_vertices(Vec2d a, Vec2d b) const
     return out;
 }
 
-bool ClPathFitter::follow_with_arcs(GridMoveWriter& moves, Vec2d a, Vec2d b, MoveKind kind)
+bool ClPathFitter::follow_with_arcs(ToolpathWriter& moves, Vec2d a, Vec2d b, MoveKind kind)
 {
     const bool along_x = std::abs(a.y - b.y) < 1e-9;
     if (!along_x && std::abs(a.x - b.x) >= 1e-9) {
@@ -304,8 +344,10 @@ bool ClPathFitter::follow_with_arcs(GridMoveWriter& moves, Vec2d a, Vec2d b, Mov
     }
     std::vector<Vec3d> vertices = arc_vertices(a, b);
     vertices.front() = moves.at();
+    const double share = settings_.both_sides ? kTwoSided : 0.5;
     const double aside =
-        settings_.both_sides ? kTwoSided * settings_.arc_tolerance : settings_.arc_tolerance / 2;
+        std::max(settings_.arc_tolerance / 2,
+                 std::min(share * settings_.arc_tolerance, settings_.arc_tolerance - reserve()));
     segmenter::FitSettings fit;
     fit.left = aside;
     fit.right = aside;
@@ -328,7 +370,7 @@ bool ClPathFitter::follow_with_arcs(GridMoveWriter& moves, Vec2d a, Vec2d b, Mov
                         piece.clockwise};
         const double radius = norm(centre - from);
         const double curvature = (centre.z > (from.z + piece.end.z) / 2 ? 1 : -1) / radius;
-        const double kept = arc_room(from, arc, curvature);
+        const double kept = arc_clearance(from, arc, curvature);
         if (kept >= kProven - allowed_gouge()) {
             gouge_bound_ = std::max(gouge_bound_, settings_.both_sides ? -kept : 0.0);
             moves.arc(kind, arc);
@@ -345,12 +387,11 @@ bool ClPathFitter::in_band(Vec2d at, double z) const
     if (exact == min_z_) {
         return z == min_z_;
     }
-    const double lowest = settings_.both_sides ? exact - settings_.tolerance
-                                               : exact + kRounding + drop_cutter_.accuracy();
+    const double lowest = settings_.both_sides ? exact - settings_.tolerance : exact + reserve();
     return z >= std::max(min_z_, lowest) && z <= exact + settings_.tolerance;
 }
 
-bool ClPathFitter::follow_level_arc(GridMoveWriter& moves, const Edge& arc, MoveKind kind)
+bool ClPathFitter::follow_level_arc(ToolpathWriter& moves, const Edge& arc, MoveKind kind)
 {
     constexpr double kShortestArc = 0.05;  // mm
     const double turned = sweep(arc);
@@ -363,15 +404,14 @@ bool ClPathFitter::follow_level_arc(GridMoveWriter& moves, const Edge& arc, Move
     const double step = 2 * std::sqrt(2 * std::min(sagitta / arc.radius, 0.5));
     const int pieces =
         1 + static_cast<int>(std::max(turned / step, length(arc) / settings_.sample));
-    // On slopes a flat end that stands aside by the sagitta stands higher by more.
-    const double needed = has_flat_end() ? 4 * sagitta : sagitta;
     const double proven = kProven - allowed_gouge();
     Vec3d before = moves.at();
     double least = 0;
     for (int i = 1; i <= pieces; ++i) {
         const Vec2d at = i < pieces ? point_on(arc, static_cast<double>(i) / pieces) : arc.end;
         const Vec3d next{at.x, at.y, z};
-        least = std::min(least, in_band(at, z) ? room(before, next, needed) : 2 * proven - 1);
+        least = std::min(least,
+                         in_band(at, z) ? move_clearance(before, next, sagitta) : 2 * proven - 1);
         if (least < proven) {
             return false;
         }

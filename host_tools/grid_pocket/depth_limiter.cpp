@@ -1,62 +1,36 @@
-// A stretch that is too deep is cut at levels, each as low as the metal that stands allows.
+// A stretch that is too deep is cut at levels, each as low as the stock allows.
 #include "host_tools/grid_pocket/depth_limiter.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/grid_pocket/run_entry.hpp"
 
 namespace cusp::grid_pocket {
 
-using offset::Box2d;
+using clearing::AxialDepthTracker;
 using toolpath::MoveKind;
-using toolpath::ToolMove;
 using toolpath::Toolpath;
+using toolpath::ToolpathWriter;
 
 namespace {
 
-// The metal is known at places only: what stands between them may be this much higher.
-constexpr double kBetween = 0.005;  // mm
-
-// Arcs are tracked along chords this near, mm.
-constexpr double kChord = 0.002;
-
-// Shorter than this is no way, mm.
+// Shorter segments are left out, mm.
 constexpr double kNoWay = 1e-9;
 
-// Heights of the floor are asked for at every so many places of a run; between them only where the
+// Heights of the floor are computed at every so many places of a run; between them only where the
 // depth may be over the limit by this share of it.
 constexpr int kSparse = 8;
 constexpr double kNearLimit = 0.4;
 
-constexpr int kMaxRings = 1000;
-constexpr double kNoLevel = 1e300;
+constexpr int kMaxLevels = 1000;
+constexpr double kEntryLength = 4.0;  // radii of a run: what an entry may cut
 
 }  // namespace
 
-DepthLimiter::DepthLimiter(GridToolpathWriter& moves,
-                           const Toolpath& path,
-                           const Box2d& box,
-                           double top,
-                           std::optional<double> most)
-    : moves_{moves},
-      path_{path},
-      max_depth_{most},
-      stock_{box, path.tool, top},
-      spacing_{path.tool.radius / 40}
+DepthLimiter::DepthLimiter(ToolpathWriter& writer, const Toolpath& path, AxialDepthTracker depth)
+    : writer_{writer}, path_{path}, depth_{std::move(depth)}, spacing_{path.tool.radius / 40}
 {
-}
-
-void DepthLimiter::track_moves()
-{
-    for (; tracked_moves_ < path_.moves.size(); ++tracked_moves_) {
-        const ToolMove& move = path_.moves[tracked_moves_];
-        for (const Vec3d p : points_of(move, at_, kChord)) {
-            const double depth = tracked_moves_ > 0 ? stock_.cut(at_, p) : 0;
-            deepest_ = std::max(deepest_, depth);
-            at_ = p;
-        }
-    }
 }
 
 std::vector<DepthLimiter::Stretch> DepthLimiter::deep_stretches(const ClPathFitter& floor,
@@ -69,12 +43,13 @@ std::vector<DepthLimiter::Stretch> DepthLimiter::deep_stretches(const ClPathFitt
     const auto place = [&](int i) {
         return a + (b - a) * (static_cast<double>(std::min(i, count)) / count);
     };
+    const double max_depth = *depth_.max_depth();
     std::vector<Stretch> out;
     double before = 0;  // lowest heights over the floor at places of every kSparse-th number
     double after = 0;
     int known = -1;
     for (int i = 0; i <= count; ++i) {
-        const double level = stock_.contact_height(place(i)) + kBetween - *max_depth_;
+        const double level = depth_.stock_top_at(place(i)) - max_depth;
         if (level <= floor.bottom()) {
             continue;
         }
@@ -84,7 +59,7 @@ std::vector<DepthLimiter::Stretch> DepthLimiter::deep_stretches(const ClPathFitt
             after = floor.lowest_height(place(first + kSparse));
             known = first;
         }
-        if (level < std::min(before, after) - kNearLimit * *max_depth_) {
+        if (level < std::min(before, after) - kNearLimit * max_depth) {
             continue;
         }
         const double low = floor.lowest_height(place(i));
@@ -106,15 +81,16 @@ void DepthLimiter::enter(const ClPathFitter& floor,
                          const std::vector<Vec2d>& corners,
                          double stock_top,
                          bool link,
-                         const GridToolpathWriter::CircleFloor& circle)
+                         const ToolpathWriter::HelixFloor& circle)
 {
-    if (!max_depth_) {
-        moves_.enter(floor, corners, stock_top, link, circle);
+    const double radius = writer_.tool_radius();
+    if (!is_limited()) {
+        enter_run(writer_, run_beginning(floor, corners, radius), stock_top, link, circle);
         return;
     }
     track_moves();
     std::optional<double> level;
-    double left = moves_.ramp_length();
+    double left = kEntryLength * radius;
     for (std::size_t i = 1; i < corners.size() && left > 0; ++i) {
         const Vec2d way = corners[i] - corners[i - 1];
         const double length = norm(way);
@@ -127,15 +103,16 @@ void DepthLimiter::enter(const ClPathFitter& floor,
         }
         left -= length;
     }
-    moves_.enter(level ? floor.above(*level) : floor, corners, stock_top, link, circle);
+    const ClPathFitter& over = level ? floor.above(*level) : floor;
+    enter_run(writer_, run_beginning(over, corners, radius), stock_top, link, circle);
 }
 
 void DepthLimiter::follow(ClPathFitter& floor,
                           const std::vector<Vec2d>& corners,
-                          const GridToolpathWriter::CircleFloor& circle)
+                          const ToolpathWriter::HelixFloor& circle)
 {
-    if (!max_depth_) {
-        floor.follow(moves_.tip(), corners, MoveKind::kCut);
+    if (!is_limited()) {
+        floor.follow(writer_, corners, MoveKind::kCut);
         return;
     }
     for (std::size_t i = 1; i < corners.size(); ++i) {
@@ -148,7 +125,7 @@ void DepthLimiter::follow(ClPathFitter& floor,
 bool DepthLimiter::too_deep(const ClPathFitter& floor, const std::vector<Vec2d>& corners)
 {
     track_moves();
-    for (std::size_t i = 1; max_depth_ && i < corners.size(); ++i) {
+    for (std::size_t i = 1; is_limited() && i < corners.size(); ++i) {
         if (norm(corners[i] - corners[i - 1]) >= kNoWay &&
             !deep_stretches(floor, corners[i - 1], corners[i]).empty()) {
             return true;
@@ -160,7 +137,7 @@ bool DepthLimiter::too_deep(const ClPathFitter& floor, const std::vector<Vec2d>&
 void DepthLimiter::follow_segment(ClPathFitter& floor,
                                   Vec2d a,
                                   Vec2d b,
-                                  const GridToolpathWriter::CircleFloor& circle)
+                                  const ToolpathWriter::HelixFloor& circle)
 {
     const double length = norm(b - a);
     const auto place = [&](double s) {
@@ -170,53 +147,57 @@ void DepthLimiter::follow_segment(ClPathFitter& floor,
     double done = 0;
     for (const Stretch& deep : deep_stretches(floor, a, b)) {
         if (deep.begin > done) {
-            floor.follow(moves_.tip(), {place(done), place(deep.begin)}, MoveKind::kCut);
+            floor.follow(writer_, {place(done), place(deep.begin)}, MoveKind::kCut);
         }
         lower(floor, place(deep.begin), place(deep.end), circle);
         done = deep.end;
     }
     if (done < length) {
-        floor.follow(moves_.tip(), {place(done), b}, MoveKind::kCut);
+        floor.follow(writer_, {place(done), b}, MoveKind::kCut);
     }
 }
 
 void DepthLimiter::lower(ClPathFitter& floor,
                          Vec2d a,
                          Vec2d b,
-                         const GridToolpathWriter::CircleFloor& circle)
+                         const ToolpathWriter::HelixFloor& circle)
 {
-    const auto stand = [&](double z) {
-        moves_.tip().line(MoveKind::kLink, {a.x, a.y, std::max(z, moves_.tip_at().z)});
+    const auto rise = [&](double z) {
+        writer_.line(MoveKind::kLink, {a.x, a.y, std::max(z, writer_.at().z)});
     };
-    double last = kNoLevel;
-    for (int i = 0; i < kMaxRings; ++i) {
+    const auto descend = [&](const ClPathFitter& over) {
+        writer_.enter(run_beginning(over, {a, b}, writer_.tool_radius()), depth_.stock_top_at(a),
+                      circle);
+    };
+    std::optional<double> last;
+    for (int i = 0; i < kMaxLevels; ++i) {
         track_moves();
         const std::vector<Stretch> deep = deep_stretches(floor, a, b);
         if (deep.empty()) {
             break;
         }
-        double highest = -kNoLevel;
-        double lowest = kNoLevel;
+        double highest = -kUnbounded;
+        double lowest = kUnbounded;
         for (const Stretch& stretch : deep) {
             highest = std::max(highest, stretch.min_z);
             lowest = std::min(lowest, stretch.low);
         }
-        // Beside a cliff moves stay higher than the floor's places, and so does the metal.
-        const double level = std::min(highest, last - *max_depth_);
+        // Beside a cliff moves are higher than the floor, and so is the stock.
+        const double level = last ? std::min(highest, *last - *depth_.max_depth()) : highest;
         if (level <= lowest) {
             break;
         }
         last = level;
         ClPathFitter over = floor.above(level);
-        stand(over.start_height(a));
-        moves_.descend(over, {a, b}, stock_.contact_height(a), circle);
-        over.follow(moves_.tip(), {a, b}, MoveKind::kCut);
-        over.follow(moves_.tip(), {b, a}, MoveKind::kCut);
+        rise(over.start_height(a));
+        descend(over);
+        over.follow(writer_, {a, b}, MoveKind::kCut);
+        over.follow(writer_, {b, a}, MoveKind::kCut);
         floor.add_bound(over.gouge_bound());
         ++added_;
     }
-    moves_.descend(floor, {a, b}, stock_.contact_height(a), circle);
-    floor.follow(moves_.tip(), {a, b}, MoveKind::kCut);
+    descend(floor);
+    floor.follow(writer_, {a, b}, MoveKind::kCut);
 }
 
 }  // namespace cusp::grid_pocket

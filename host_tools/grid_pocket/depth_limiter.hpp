@@ -1,46 +1,44 @@
-// Runs over the floor that are never cut deeper than max_depth: where one would be, passes above it
-// take the metal first.
+// Limits the axial depth of cut of runs over the floor: where a run would cut deeper than
+// max_depth, passes above it cut first.
 #pragma once
 
 #include <optional>
 #include <vector>
 
-#include "host_tools/clearing/stock_height_map.hpp"
-#include "host_tools/grid_pocket/grid_toolpath_writer.hpp"
+#include "host_tools/clearing/axial_depth_tracker.hpp"
+#include "host_tools/grid_pocket/cl_path_fitter.hpp"
+#include "host_tools/toolpath/toolpath_writer.hpp"
 
 namespace cusp::grid_pocket {
 
 class DepthLimiter {
 public:
-    // moves, path  that the runs are added to; outlive this
-    // most         mm: no limit where there is none; the depth is tracked either way
-    DepthLimiter(GridToolpathWriter& moves,
+    // writer, path  that the runs are added to; outlive this
+    // depth         of the path; the depth is tracked with and without a limit
+    DepthLimiter(toolpath::ToolpathWriter& writer,
                  const toolpath::Toolpath& path,
-                 const offset::Box2d& box,
-                 double top,
-                 std::optional<double> most);
+                 clearing::AxialDepthTracker depth);
 
-    // As GridToolpathWriter::enter(), but to the first level where metal stands over the start of
-    // the run.
+    // As enter_run(), but to the first level where stock is too deep over the start of the run.
     void enter(const ClPathFitter& floor,
                const std::vector<Vec2d>& corners,
                double stock_top,
                bool link,
-               const GridToolpathWriter::CircleFloor& circle);
+               const toolpath::ToolpathWriter::HelixFloor& circle);
 
-    // As ClPathFitter::follow(), from where the tip stands at the first corner or over it.
+    // As ClPathFitter::follow(), with the tip at the first corner or over it.
     void follow(ClPathFitter& floor,
                 const std::vector<Vec2d>& corners,
-                const GridToolpathWriter::CircleFloor& circle);
+                const toolpath::ToolpathWriter::HelixFloor& circle);
 
     // Whether following the corners would cut too deep anywhere.
     bool too_deep(const ClPathFitter& floor, const std::vector<Vec2d>& corners);
 
-    // Brings the metal up to date with all moves so far.
-    void track_moves();
+    // Tracks all moves so far.
+    void track_moves() { depth_.track(path_.moves); }
 
     // mm: deepest cut of the moves tracked so far.
-    double deepest() const { return deepest_; }
+    double deepest() const { return depth_.deepest(); }
 
     // Passes that were added.
     int added() const { return added_; }
@@ -53,26 +51,23 @@ private:
         double low;    // the lowest that moves may be
     };
 
-    GridToolpathWriter& moves_;
+    toolpath::ToolpathWriter& writer_;
     const toolpath::Toolpath& path_;
-    std::optional<double> max_depth_;
-    clearing::StockHeightMap stock_;
-    double spacing_;                // mm between places of a run that are looked at
-    std::size_t tracked_moves_{0};  // moves that the metal knows of
-    Vec3d at_{};                    // where they end
-    double deepest_{0};
+    clearing::AxialDepthTracker depth_;
+    double spacing_;  // mm between places of a run that are looked at
     int added_{0};
 
+    bool is_limited() const { return depth_.max_depth().has_value(); }
     // Where a tip at the lowest over the floor would cut too deep.
     std::vector<Stretch> deep_stretches(const ClPathFitter& floor, Vec2d a, Vec2d b) const;
     void follow_segment(ClPathFitter& floor,
                         Vec2d a,
                         Vec2d b,
-                        const GridToolpathWriter::CircleFloor& circle);
+                        const toolpath::ToolpathWriter::HelixFloor& circle);
     void lower(ClPathFitter& floor,
                Vec2d a,
                Vec2d b,
-               const GridToolpathWriter::CircleFloor& circle);
+               const toolpath::ToolpathWriter::HelixFloor& circle);
 };
 
 }  // namespace cusp::grid_pocket

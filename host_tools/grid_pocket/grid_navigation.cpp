@@ -203,7 +203,7 @@ private:
         constexpr std::size_t kOfCorners = 32;
         std::vector<std::pair<double, Vec2d>> corners;
         for (const Vec2d corner : rules_.corners) {
-            double least = 1e300;
+            double least = kUnbounded;
             for (const Vec2d p : way) {
                 least = std::min(least, norm(p - corner));
             }

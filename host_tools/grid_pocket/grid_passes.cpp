@@ -5,19 +5,24 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/grid_pocket/run_entry.hpp"
 #include "host_tools/grid_pocket/zigzag_runs.hpp"
 
 namespace cusp::grid_pocket {
 
+using clearing::AxialDepthTracker;
 using job::CutDirection;
 using job::Operation;
 using offset::Box2d;
 using offset::Contour;
 using offset::Edge;
 using offset::reversed;
+using toolpath::EntryKind;
+using toolpath::EntrySettings;
 using toolpath::MoveKind;
 using toolpath::Tool;
 using toolpath::Toolpath;
+using toolpath::ToolpathWriter;
 
 namespace {
 
@@ -43,28 +48,37 @@ void append_chords(const Edge& edge,
     corners.push_back(edge.end);
 }
 
+// Entries ramp along their run unless the job asks for another kind.
+EntrySettings entry_settings(const PocketSpace& pocket)
+{
+    const Operation& operation = pocket.operation;
+    const bool any = operation.entry == EntryKind::kAuto;
+    return {pocket.job.stock_top + pocket.job.clearance, any ? EntryKind::kRamp : operation.entry,
+            operation.tool.radius, operation.max_depth.value_or(kUnbounded)};
+}
+
 }  // namespace
 
 GridPasses::GridPasses(PocketSpace& pocket, Toolpath& path)
     : pocket_{pocket},
       path_{path},
-      moves_{path, pocket.job.stock_top + pocket.job.clearance, pocket.operation.entry,
-             pocket.operation.tool.radius, pocket.operation.max_depth.value_or(1e300)},
+      writer_{path.moves, entry_settings(pocket)},
       stock_tops_(pocket.grid.size(), static_cast<float>(pocket.job.stock_top))
 {
     const Operation& operation = pocket.operation;
     if (operation.max_depth || !operation.layers.empty()) {
         const Box2d box = box_of(pocket.centres);
         const double radius = operation.tool.radius;
-        depth_.emplace(moves_, path,
-                       Box2d{box.x0 - radius, box.y0 - radius, box.x1 + radius, box.y1 + radius},
-                       pocket.job.stock_top, operation.max_depth);
+        const Box2d field{box.x0 - radius, box.y0 - radius, box.x1 + radius, box.y1 + radius};
+        depth_.emplace(
+            writer_, path,
+            AxialDepthTracker{field, operation.tool, pocket.job.stock_top, operation.max_depth});
     }
 }
 
 void GridPasses::finish()
 {
-    moves_.retract();
+    writer_.retract();
     if (depth_) {
         depth_->track_moves();
     }
@@ -75,7 +89,7 @@ void GridPasses::follow(ClPathFitter& floor, const std::vector<Vec2d>& corners)
     if (depth_) {
         depth_->follow(floor, corners, circle_over(floor));
     } else {
-        floor.follow(moves_.tip(), corners, MoveKind::kCut);
+        floor.follow(writer_, corners, MoveKind::kCut);
     }
 }
 
@@ -87,15 +101,16 @@ void GridPasses::enter(ClPathFitter& floor,
     if (depth_) {
         depth_->enter(floor, corners, stock_top, link, circle_over(floor));
     } else {
-        moves_.enter(floor, corners, stock_top, link, circle_over(floor));
+        enter_run(writer_, run_beginning(floor, corners, writer_.tool_radius()), stock_top, link,
+                  circle_over(floor));
     }
 }
 
 void GridPasses::layer(double plane)
 {
     // What the layers above have brought down to the floor is left alone; the rest is followed as
-    // low as the layer and the floor allow, so that no fin stands between layers on a slope.
-    const double above = std::min(last_plane_, pocket_.job.stock_top);
+    // low as the layer and the floor allow, so that no fin is left between layers on a slope.
+    const double above = std::min(last_plane_.value_or(kUnbounded), pocket_.job.stock_top);
     NavigationRules rules;
     rules.free = [&](Cell c) {
         return pocket_.grid.inside(c) && pocket_.rough_heights[pocket_.grid.index(c)] < above;
@@ -213,7 +228,7 @@ double GridPasses::stock_top_under(Vec2d at) const
 {
     const CellGrid& grid = pocket_.grid;
     const Tool& tool = pocket_.operation.tool;
-    // What stands between cells: ridges, and a cell's own height up to its corners.
+    // Between cells the stock has scallops, and a cell's own height up to its corners.
     const double half = std::hypot(grid.gx(), grid.gy()) / 2;
     const double corner = tool.corner_radius;
     const double in = std::min(half, corner);
@@ -221,7 +236,7 @@ double GridPasses::stock_top_under(Vec2d at) const
     const Cell middle = grid.nearest(at);
     const int columns = static_cast<int>((tool.radius + half) / grid.gx()) + 1;
     const int rows = static_cast<int>((tool.radius + half) / grid.gy()) + 1;
-    double most = -1e300;
+    double most = -kUnbounded;
     for (int j = -rows; j <= rows; ++j) {
         for (int i = -columns; i <= columns; ++i) {
             const Cell c{middle.column + i, middle.row + j};
@@ -237,13 +252,15 @@ double GridPasses::stock_top_under(Vec2d at) const
 
 bool GridPasses::can_link(Vec2d to) const
 {
-    if (last_plane_ > pocket_.job.stock_top || moves_.is_retracted()) {
+    if (!last_plane_ || *last_plane_ > pocket_.job.stock_top || writer_.is_retracted()) {
         return false;
     }
-    const Vec3d from{here().x, here().y, last_plane_};
-    const Vec3d end{to.x, to.y, last_plane_};
+    // The link runs higher than this over the layer above.
+    constexpr double kOver = 0.01;  // mm
+    const Vec3d from{here().x, here().y, *last_plane_ + kOver};
+    const Vec3d end{to.x, to.y, *last_plane_ + kOver};
     return norm(end - from) < 8 * pocket_.operation.tool.radius && cut_along(from, end) &&
-           pocket_.clear(here(), to) && pocket_.rough.move_clearance(from, end, 0) >= -1e-6;
+           pocket_.clear(here(), to) && pocket_.rough.move_clearance(from, end) >= -1e-6;
 }
 
 bool GridPasses::cut_along(Vec3d from, Vec3d to) const
@@ -253,7 +270,7 @@ bool GridPasses::cut_along(Vec3d from, Vec3d to) const
     for (int i = 0; i <= count; ++i) {
         const Vec3d p = from + (to - from) * (static_cast<double>(i) / count);
         const Cell c = pocket_.grid.nearest({p.x, p.y});
-        if (!pocket_.grid.inside(c) || stock_top_at(c) > last_plane_ + 1e-3) {
+        if (!pocket_.grid.inside(c) || stock_top_at(c) > *last_plane_ + 1e-3) {
             return false;
         }
     }
@@ -301,16 +318,12 @@ bool GridPasses::follow_arc(ClPathFitter& floor, const Edge& arc)
     std::vector<Vec2d> corners{arc.start};
     append_points(arc, corners);
     return !(depth_ && depth_->too_deep(floor, corners)) &&
-           floor.follow_level_arc(moves_.tip(), arc, MoveKind::kCut);
+           floor.follow_level_arc(writer_, arc, MoveKind::kCut);
 }
 
-Vec2d GridPasses::here() const
-{
-    const Vec3d at = moves_.tip_at();
-    return {at.x, at.y};
-}
+Vec2d GridPasses::here() const { return in_plan(writer_.at()); }
 
-GridToolpathWriter::CircleFloor GridPasses::circle_over(const ClPathFitter& floor) const
+ToolpathWriter::HelixFloor GridPasses::circle_over(const ClPathFitter& floor) const
 {
     return [this, &floor](Vec2d centre, double radius) -> std::optional<double> {
         constexpr int kSides = 16;
@@ -325,24 +338,27 @@ GridToolpathWriter::CircleFloor GridPasses::circle_over(const ClPathFitter& floo
             const double angle = 2 * kPi * i / kSides;
             return centre + Vec2d{std::cos(angle), std::sin(angle)} * out;
         };
-        double z = -1e300;
+        std::optional<double> highest;
         for (int i = 0; i < kSides; ++i) {
-            z = std::max(z, floor.height(at(i)).value_or(-1e300));
+            const std::optional<double> here = floor.height(at(i));
+            highest = here ? std::max(highest.value_or(*here), *here) : highest;
         }
-        for (int lift = 0; lift < kMostLifts && z > -1e300; ++lift) {
-            double least = 1e300;
+        if (!highest) {
+            return std::nullopt;
+        }
+        double z = *highest;
+        for (int lift = 0; lift < kMostLifts; ++lift) {
+            double least = 0.0;
             for (int i = 0; i < kSides; ++i) {
                 const Vec2d a = at(i);
                 const Vec2d b = at(i + 1);
                 least = std::min(least,
                                  floor.move_clearance({a.x, a.y, z}, {b.x, b.y, z}, 2 * sagitta));
             }
-            // A flat end's room ends at 0: it stands higher by what the sagitta takes on a slope.
-            const double needed = floor.has_flat_end() ? 0.0 : 2 * sagitta;
-            if (least >= needed - 1e-6) {
-                return z + (floor.has_flat_end() ? 4 * sagitta : 0.0);
+            if (least >= -1e-6) {
+                return z;
             }
-            z += std::max(needed - least, 1e-3) * 1.5;
+            z += std::max(-least, 1e-3) * 1.5;
         }
         return std::nullopt;
     };
@@ -352,14 +368,14 @@ void GridPasses::approach(const std::vector<Vec2d>& corners)
 {
     const Vec2d start = corners.front();
     const double longest = std::max(8 * pocket_.operation.tool.radius, 2 * pocket_.job.clearance);
-    if (moves_.tip().started() && !moves_.is_retracted() && norm(start - here()) < longest &&
+    if (writer_.started() && !writer_.is_retracted() && norm(start - here()) < longest &&
         pocket_.clear(here(), start)) {
         follow(pocket_.finish, {here(), start});
         return;
     }
     const Cell middle = pocket_.grid.nearest(start);
-    Vec2d cut{};
-    double least = 1e300;
+    std::optional<Vec2d> cut;
+    double least = kUnbounded;
     for (int i = -2; i <= 2; ++i) {
         for (int j = -2; j <= 2; ++j) {
             const Cell c{middle.column + i, middle.row + j};
@@ -371,9 +387,9 @@ void GridPasses::approach(const std::vector<Vec2d>& corners)
             }
         }
     }
-    if (least < 1e300) {
-        enter(pocket_.finish, {cut, start}, pocket_.finish.start_height(cut), false);
-        follow(pocket_.finish, {cut, start});
+    if (cut) {
+        enter(pocket_.finish, {*cut, start}, pocket_.finish.start_height(*cut), false);
+        follow(pocket_.finish, {*cut, start});
         return;
     }
     enter(pocket_.finish, corners, pocket_.job.stock_top, false);
@@ -409,7 +425,7 @@ void GridPasses::wall_level(double above, ClPathFitter& floor)
 
 double GridPasses::height_or(Vec2d at) const
 {
-    return pocket_.rough.height(at).value_or(pocket_.model->box_low().z);
+    return pocket_.rough.height(at).value_or(pocket_.rough.lowest());
 }
 
 void GridPasses::cut_level(std::vector<Vec2d>& run, double above, ClPathFitter& floor)
@@ -417,8 +433,8 @@ void GridPasses::cut_level(std::vector<Vec2d>& run, double above, ClPathFitter& 
     if (run.size() > 1) {
         const double longest =
             std::max(8 * pocket_.operation.tool.radius, 2 * pocket_.job.clearance);
-        if (moves_.tip().started() && !moves_.is_retracted() &&
-            norm(run.front() - here()) < longest && pocket_.clear(here(), run.front())) {
+        if (writer_.started() && !writer_.is_retracted() && norm(run.front() - here()) < longest &&
+            pocket_.clear(here(), run.front())) {
             follow(floor, {here(), run.front()});
         } else {
             begin_run(run, above, floor);

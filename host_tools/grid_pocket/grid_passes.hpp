@@ -5,14 +5,13 @@
 #include <vector>
 
 #include "host_tools/grid_pocket/depth_limiter.hpp"
-#include "host_tools/grid_pocket/grid_toolpath_writer.hpp"
 #include "host_tools/grid_pocket/pocket_space.hpp"
 
 namespace cusp::grid_pocket {
 
 class GridPasses {
 public:
-    // Both outlive this; `pocket.rough_heights` are needed for layers only.
+    // pocket and path outlive this; `pocket.rough_heights` are needed for layers only.
     GridPasses(PocketSpace& pocket, toolpath::Toolpath& path);
 
     // One rough layer: the navigation over the cells that the floor leaves free, then the wall.
@@ -34,8 +33,8 @@ public:
     int lifts() const { return lifts_; }
     int passes() const { return passes_; }
     int steps() const { return steps_; }
-    int retracts() const { return moves_.retracts(); }
-    const GridToolpathWriter& moves() const { return moves_; }
+    int retracts() const { return writer_.retracts(); }
+    const toolpath::ToolpathWriter& writer() const { return writer_; }
     // mm: none where everything is cut in one layer.
     std::optional<double> deepest_cut() const
     {
@@ -47,10 +46,10 @@ public:
 private:
     PocketSpace& pocket_;
     toolpath::Toolpath& path_;
-    GridToolpathWriter moves_;
+    toolpath::ToolpathWriter writer_;
     std::optional<DepthLimiter> depth_;  // for pockets in layers
-    std::vector<float> stock_tops_;      // top of what stands over each cell
-    double last_plane_{1e300};
+    std::vector<float> stock_tops_;      // top of the stock over each cell
+    std::optional<double> last_plane_;   // of the layers so far
     std::size_t main_moves_{0};
     int backtracks_{0};
     int dead_ends_{0};
@@ -62,7 +61,7 @@ private:
     {
         return static_cast<double>(stock_tops_[pocket_.grid.index(c)]);
     }
-    // Top of what may stand under the tool at a place, less the height of its lower side.
+    // z at which the tool, coming down over a place, may first touch stock.
     double stock_top_under(Vec2d at) const;
     void count(const Navigation& navigation);
     // True where the steps before and after `i` go the same way, one cell each.
@@ -72,8 +71,8 @@ private:
     void follow(ClPathFitter& floor, const std::vector<Vec2d>& corners);
     void enter(ClPathFitter& floor, const std::vector<Vec2d>& corners, double stock_top, bool link);
     void begin_run(const std::vector<Vec2d>& corners, double stock_top, ClPathFitter& floor);
-    // Whether a straight move at the height of the layer above leads there: what the floor leaves
-    // free at that height has been cut, but for ridges between tracks.
+    // Whether a straight link at the height of the layer above leads there: that layer has cut all
+    // that the floor leaves free, but for scallops between tracks.
     bool can_link(Vec2d to) const;
     // Whether the layer above has visited every cell under the move.
     bool cut_along(Vec3d from, Vec3d to) const;
@@ -85,9 +84,9 @@ private:
     bool follow_arc(ClPathFitter& floor, const offset::Edge& arc);
     Vec2d here() const;
     // For helices over what `floor` leaves.
-    GridToolpathWriter::CircleFloor circle_over(const ClPathFitter& floor) const;
-    // To the first corner: along the floor where the way is clear, else down at a cell beside it,
-    // which the main path has cut.
+    toolpath::ToolpathWriter::HelixFloor circle_over(const ClPathFitter& floor) const;
+    // To the first corner: along the floor where nothing is between, else by an entry at a cell
+    // beside it, which the main path has cut.
     void approach(const std::vector<Vec2d>& corners);
     // Along the wall where its rough floor lies below `above`.
     void wall_level(double above, ClPathFitter& floor);

@@ -13,11 +13,11 @@
 namespace cusp::grid_pocket {
 
 using clearing::limit_plunge_feed;
-using job::EntryKind;
 using job::Job;
 using job::Operation;
 using toolpath::OperationStats;
 using toolpath::PlannedOperation;
+using toolpath::ToolpathWriter;
 
 namespace {
 
@@ -82,16 +82,14 @@ void warn_of_depth(const Job& job,
     }
 }
 
-void warn_of_entries(const GridToolpathWriter& moves,
-                     const Operation& operation,
-                     OperationStats& stats)
+void warn_of_entries(const ToolpathWriter& writer, OperationStats& stats)
 {
-    if (moves.plunges() > 0 && operation.entry != EntryKind::kPlunge) {
-        stats.warnings.push_back(std::to_string(moves.plunges()) +
+    if (writer.steep_plunges() > 0) {
+        stats.warnings.push_back(std::to_string(writer.steep_plunges()) +
                                  " entries have no room for a ramp and plunge straight down");
     }
-    if (moves.narrow_entries() > 0) {
-        stats.warnings.push_back(std::to_string(moves.narrow_entries()) +
+    if (writer.narrow_entries() > 0) {
+        stats.warnings.push_back(std::to_string(writer.narrow_entries()) +
                                  " entries have no room for a helix and ramp");
     }
 }
@@ -167,7 +165,7 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
                     {"main_path_moves", static_cast<double>(main_moves)},
                     {"layers", static_cast<double>(planes.z.size())},
                     {"roughness_mm", roughness},
-                    {"helices", planner.moves().helices()}};
+                    {"helices", planner.writer().helices()}};
     if (const auto deepest = planner.deepest_cut()) {
         stats.counts.emplace_back("deepest_cut_mm", *deepest);
         stats.counts.emplace_back("depth_passes", planner.depth_passes());
@@ -178,7 +176,7 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
                          length_text(job, stats.gouge_bound_mm)};
     warn_of_layers(job, planes, stats);
     warn_of_cliffs(pocket, stats);
-    warn_of_entries(planner.moves(), operation, stats);
+    warn_of_entries(planner.writer(), stats);
     std::vector<PlannedOperation> result;
     result.push_back(std::move(out));
     limit_plunge_feed(result, job, box_of(walls.region));

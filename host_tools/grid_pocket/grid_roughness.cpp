@@ -1,5 +1,5 @@
-// Where the axis stands at c, between tracks, the tool touches the surface at q, aside of c towards
-// the rising side. What stands over q is the lowest of the tools on the tracks around.
+// With its axis at c, between tracks, the tool would touch the surface at q, beside c towards the
+// rising side. The height left over q is the lowest of the tool on the tracks around.
 #include "host_tools/grid_pocket/grid_roughness.hpp"
 
 #include <algorithm>
@@ -19,8 +19,6 @@ constexpr int kMostHeights = 20000;
 
 // Squares ranked this much under the highest found are not looked at.
 constexpr double kRankDoubt = 1.35;
-
-constexpr double kNothing = 1e300;
 
 // Between the places looked at a ridge may be this much higher, as a share of it; the rim of a flat
 // end makes steps that fall between them.
@@ -42,7 +40,7 @@ double left_by(const Tool& tool, Vec3d here, Vec2d slope, const std::vector<Vec3
     const double rim = tool.radius * (1 - 1e-12);
     const double z = here.z + profile_height(tool, std::min(aside, rim));
     const Vec3d normal{-slope.x / secant, -slope.y / secant, 1 / secant};
-    double least = kNothing;
+    double least = kUnbounded;
     for (const Vec3d& tip : tips) {
         const double away = norm(in_plan(tip) - touch);
         if (away > tool.radius + kOnTheRim) {
@@ -62,7 +60,7 @@ double left_by(const Tool& tool, Vec3d here, Vec2d slope, const std::vector<Vec3
         least = std::min(least, left);
     }
     // A touch that no track reaches over is none: the slope was taken across a kink.
-    return least < kNothing ? std::clamp(least, 0.0, tool.radius) : 0.0;
+    return least < kUnbounded ? std::clamp(least, 0.0, tool.radius) : 0.0;
 }
 
 class Roughness {
@@ -235,7 +233,7 @@ private:
 
     double to_tracks(Vec2d p, const std::array<Cell, 4>& cells) const
     {
-        double least = 1e300;
+        double least = kUnbounded;
         for (const Cell a : cells) {
             if (!grid_.inside(a)) {
                 continue;
@@ -382,7 +380,7 @@ private:
         for (int k = 0; k < kPlaces; ++k) {
             const double angle = 2 * kPi * k / kPlaces;
             const Vec2d touch = in_plan(here) + Vec2d{std::cos(angle), std::sin(angle)} * rim;
-            double least = kNothing;
+            double least = kUnbounded;
             for (const Vec3d& tip : tips_) {
                 const double away = norm(in_plan(tip) - touch);
                 if (away <= tool_.radius + kOnTheRim) {
@@ -392,7 +390,7 @@ private:
                             profile_height(tool_, std::min(away, rim + 0.9 * tool_.corner_radius)));
                 }
             }
-            most = least < kNothing ? std::max(most, least) : most;
+            most = least < kUnbounded ? std::max(most, least) : most;
         }
         return most;
     }

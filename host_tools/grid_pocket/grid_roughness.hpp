@@ -1,4 +1,4 @@
-// What stands between the tracks: the paper's surface roughness, computed before anything is cut.
+// The paper's surface roughness, the scallop between tracks, computed before anything is cut.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ private:
 // What the roughness is computed from besides the tracks.
 struct TipSurface {
     const std::vector<double>& heights;  // of the tip over each cell; read where it is inside
-    // Exact height of the tip over any point where the axis may stand.
+    // Exact CL height over any point where the axis may be.
     std::function<std::optional<double>(Vec2d)> height;
     // mm from a point to the pass along the wall; negative beyond it.
     std::function<double(Vec2d)> to_wall_pass;
@@ -37,14 +37,13 @@ struct TipSurface {
     std::function<Vec2d(Vec2d)> on_wall_pass;
 };
 
-// Largest height, square to the surface, that the tracks and the pass along the wall leave above
-// what the tool could reach.
+// The largest scallop, square to the surface, that the tracks and the pass along the wall leave
+// over the surface that the tool could cut.
 //
-// All squares between cells are ranked by the heights over the cells; from the highest down they
-// are looked at with exact heights on a lattice of up to 14 x 14 places, until none of the rest can
-// matter. Between the places of the lattice the ridge is followed to its top. Where more squares
-// are alike than can be looked at, the rest count with the largest ratio seen between exact and
-// ranked value.
+// All squares between cells are ranked by the heights over the cells. From the highest down they
+// are computed with exact heights on a lattice of up to 14 x 14 places, until no other square can
+// be higher. Between the places of the lattice the crest is followed to its top. Where too many
+// squares are alike, the rest count with the largest ratio found between exact and ranked value.
 //
 // For a ball the result is not below what a cut in memory leaves, and mostly less than a tenth
 // above it; for a flat end it is coarser (tests/property/grid_pocket).

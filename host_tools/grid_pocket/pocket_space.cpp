@@ -15,7 +15,6 @@ using job::OutputForm;
 using job::ToleranceSide;
 using offset::Contour;
 using offset::Edge;
-using part_model::PartModel;
 
 namespace {
 
@@ -49,8 +48,8 @@ void add_corner(const Edge& arc, std::vector<Vec2d>& out)
     }
 }
 
-// How much higher metal stands beside a new track between cells than beside one that repeats: the
-// tool stood over the cells only.
+// How much higher the stock is beside a new track between cells than beside a repeated one: the
+// tool was over the cells only.
 double ridge_over_tracks(const Operation& operation)
 {
     const double corner = operation.tool.corner_radius;
@@ -119,9 +118,9 @@ PocketSpace::PocketSpace(const Job& j, const Operation& o, const PocketWalls& po
       centres{walls.at(kept + kWallRounding)},
       centre_edges{edges_of(centres)},
       grid{walls, o.grid_x, o.grid_y, kept},
-      model{std::make_shared<PartModel>(o.floor)},
-      finish{o.floor, model, o.tool, 0, follow_settings(o)},
-      rough{o.floor, model, o.tool, o.allowance, follow_settings(o)}
+      finish{o.floor, o.tool, 0, follow_settings(o)},
+      rough{o.allowance > 0 ? ClPathFitter{o.floor, o.tool, o.allowance, follow_settings(o)}
+                            : finish}
 {
 }
 
@@ -246,7 +245,7 @@ std::optional<Cliff> highest_cliff(const PocketSpace& pocket)
 
 LayerPlanes layer_planes(const PocketSpace& pocket)
 {
-    double lowest = 1e300;
+    double lowest = kUnbounded;
     for (const double z : pocket.rough_heights) {
         lowest = std::isnan(z) ? lowest : std::min(lowest, z);
     }

@@ -1,7 +1,6 @@
-// The pocket as the passes see it: where the axis may stand, how low, and in which order.
+// The pocket for its passes: where the axis may be, how low, and in which order.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -27,7 +26,6 @@ struct PocketSpace {
     offset::Region2d centres;  // where the pass along the walls runs
     offset::EdgeTree centre_edges;
     CellGrid grid;
-    std::shared_ptr<const part_model::PartModel> model;
     ClPathFitter finish;
     ClPathFitter rough;           // leaves the allowance
     std::vector<double> heights;  // finish heights over cells
@@ -58,14 +56,14 @@ Tracks tracks_of(const CellGrid& grid, const Navigation& navigation);
 // Of the main path with the operation's zigzags and the wall's pass, mm.
 double roughness_of(const PocketSpace& pocket, const Navigation& navigation);
 
-// A place where the height of the tip changes at once.
+// A place where the CL height jumps.
 struct Cliff {
     Vec2d at;
     double height;  // mm
 };
 
-// The highest cliff between neighbouring cells, if any is higher than the tool's radius: beside it
-// metal stays that the roughness does not count.
+// The highest cliff between neighbouring cells, if any is higher than the tool's radius: the
+// roughness does not count the material that stays beside it.
 std::optional<Cliff> highest_cliff(const PocketSpace& pocket);
 
 struct LayerPlanes {
@@ -74,8 +72,7 @@ struct LayerPlanes {
     double lowest;          // z that the tip reaches
 };
 
-// Layers stand so much closer than max_depth that ridges, tolerance and the allowance stay within
-// it.
+// Layers are so much nearer than max_depth that scallops, tolerance and allowance fit in, too.
 LayerPlanes layer_planes(const PocketSpace& pocket);
 
 }  // namespace cusp::grid_pocket

@@ -5,14 +5,17 @@
 #include <cmath>
 #include <cstddef>
 
+#include "host_tools/nurbs/plan_vector.hpp"
+
 namespace cusp::grid_pocket {
+
 std::vector<ProfilePoint> fit_chords(const std::vector<BandPoint>& band, double z)
 {
     std::vector<ProfilePoint> out{{band.front().s, z}};
     for (std::size_t start = 0; start + 1 < band.size();) {
         const ProfilePoint from = out.back();
-        double least = -1e300;
-        double most = 1e300;
+        double least = -kUnbounded;
+        double most = kUnbounded;
         std::size_t reached = start;
         double slope = 0;
         for (std::size_t i = start + 1; i < band.size(); ++i) {

@@ -24,11 +24,13 @@ namespace {
 // leave rest_height() in addition.
 using Cutters = std::vector<std::vector<std::size_t>>;
 
-// Writes layers of one cutter, after what other cutters have cleared.
+// Writes layers of one cutter from the first on, after what other cutters have cleared.
 class GroupWriter {
 public:
-    GroupWriter(const Roughing& work, std::size_t tool)
-        : work_{work}, tool_{tool}, moves_{path_, settings(work)}
+    GroupWriter(const Roughing& work, std::size_t first, std::size_t tool)
+        : work_{work},
+          tool_{tool},
+          moves_{path_, work.clearings[first][tool].zone->radius(), settings(work)}
     {
         path_.tool = work.tools[tool];
         path_.feed = work.job.feed;
@@ -120,7 +122,7 @@ std::vector<PlannedOperation> write_layers(const Roughing& work)
     Cutters cutters(work.layers());
     for (std::size_t first = 0; first < work.layers();) {
         const std::size_t tool = of_layer[first];
-        GroupWriter writer{work, tool};
+        GroupWriter writer{work, first, tool};
         for (std::size_t layer = 0; layer < first; ++layer) {
             if (writer.clear_uncut(layer, cutters[layer])) {
                 cutters[layer].push_back(tool);

@@ -23,6 +23,7 @@
 
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/nurbs/nurbs.hpp"
+#include "host_tools/toolpath/entry_kind.hpp"
 #include "host_tools/toolpath/toolpath.hpp"
 
 namespace cusp::job {
@@ -30,7 +31,7 @@ namespace cusp::job {
 enum class OutputForm : std::uint8_t { kLines, kArcs, kNurbs };
 enum class ToleranceSide : std::uint8_t { kOutside, kBoth };
 enum class CutDirection : std::uint8_t { kClimb, kConventional };
-enum class EntryKind : std::uint8_t { kAuto, kHelix, kRamp, kPlunge };
+using toolpath::EntryKind;
 enum class Traversal : std::uint8_t { kZigzag, kOneWay };
 
 // A closed chain of curves, in order, counter-clockwise seen from above; z is ignored.

@@ -2,8 +2,8 @@
 //
 // A report's Ln names the line that the path has reached; the tool follows it within half a second,
 // the longest filters included. So the newest line counts that was reported at least half a second
-// before the controller's last output. A controller that names no lines has executed as many lines as
-// it has answered beyond the blocks of its planner: each motion takes at least one block.
+// before the controller's last output. A controller that names no lines has executed as many lines
+// as it has answered beyond the blocks of its planner: each motion takes at least one block.
 #pragma once
 
 #include <chrono>

@@ -263,7 +263,7 @@ std::array<std::int64_t, 2> fitted_centre(Vec2d start, Vec2d end, Vec2d wanted)
         wanted = wanted + (dot(0.5 * (start + end) - wanted, chord) / squared) * chord;
     }
     std::array<std::int64_t, 2> best{};
-    double least = 1e300;
+    double least = kUnbounded;
     for (std::int64_t i = -1; i <= 1; ++i) {
         for (std::int64_t j = -1; j <= 1; ++j) {
             const std::array<std::int64_t, 2> candidate{std::llround(wanted.x) + i,

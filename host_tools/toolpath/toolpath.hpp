@@ -26,7 +26,7 @@ enum class MoveKind : std::uint8_t {
     kPlunge,       // at the plunge feed
     kCut,          // at the feed
     kLink,         // at the feed
-    kPlungingCut,  // a cut or a link down into metal: nowhere faster downward than the plunge feed
+    kPlungingCut,  // a cut or a link down into stock: nowhere faster downward than the plunge feed
 };
 
 struct LineTo {

@@ -319,7 +319,7 @@ double feed_of(const Toolpath& path, const ToolMove& move, Vec3d start)
 PathMeasure measure(const Toolpath& path, Vec3d start, const MachineRates& rates)
 {
     constexpr double kSecondsPerMinute = 60.0;
-    constexpr double kUnbounded = 1e9;
+    constexpr double kNoFeedLimit = 1e9;
     PathMeasure sum;
     std::vector<Stretch> stretches;
     Vec3d at = start;
@@ -332,7 +332,7 @@ PathMeasure measure(const Toolpath& path, Vec3d start, const MachineRates& rates
         if (g.length > 0) {
             const double feed = feed_of(path, move, at);
             stretches.push_back(
-                stretch_of(g, feed > 0 ? feed / kSecondsPerMinute : kUnbounded, rates));
+                stretch_of(g, feed > 0 ? feed / kSecondsPerMinute : kNoFeedLimit, rates));
         }
         at = end_of(move);
     }

@@ -23,7 +23,7 @@ struct PathMeasure {
     Vec3d end;
 };
 
-// What the estimate of time reckons with; the default is the controller's default machine.
+// The machine of the time estimate; the default is the controller's default machine.
 struct MachineRates {
     Vec3d velocity{100, 100, 50};         // mm/s
     Vec3d acceleration{1000, 1000, 500};  // mm/s^2
@@ -43,8 +43,8 @@ std::vector<Vec3d> points_of(const ToolMove& move, Vec3d start, double tolerance
 
 Vec3d end_of(const ToolMove& move);
 
-// Of a unit of way where the move from `start` goes down most steeply, how far it goes down: 0 to
-// 1. Curves are looked at along chords.
+// The steepest descent of the move from `start`, as dz over the path length: 0 to 1. Curves are
+// measured along chords.
 double steepest_descent(const ToolMove& move, Vec3d start);
 
 // mm/min that the move is programmed with; 0 for rapids.

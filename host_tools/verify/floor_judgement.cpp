@@ -143,7 +143,7 @@ Ideal ideal_heights(const FloorQuestion& q, const PartHeights& part)
     return ideal;
 }
 
-// Places inside the walls where more than the scallop stands over the part.
+// Places inside the walls where the stock is more than the scallop over the part.
 std::vector<std::size_t> doubtful_places(const FloorQuestion& q,
                                          const PartHeights& part,
                                          const std::vector<double>& clear)
@@ -159,9 +159,9 @@ std::vector<std::size_t> doubtful_places(const FloorQuestion& q,
     return places;
 }
 
-// At these the height that is best there is looked for itself: the grid's misses rims and crests
-// between its points, and the lowest places of narrow valleys. Returns at how many more than the
-// scallop stands over that.
+// Computes the lowest height that the tools can cut at these places themselves: the grid misses
+// rims and crests between its points, and the lowest places of narrow valleys. Returns at how many
+// of them the stock is more than the scallop over that.
 std::size_t settle(const FloorQuestion& q,
                    const PartHeights& part,
                    const std::vector<std::size_t>& places,
@@ -184,8 +184,8 @@ std::size_t settle(const FloorQuestion& q,
     }));
 }
 
-// Of many doubtful places some are settled first: a program that left much everywhere is told by
-// them, and keeps the grid's heights at the others.
+// Of many doubtful places some are settled first. They detect a program that left much everywhere;
+// the other places keep the grid's heights then.
 void settle_doubts(const FloorQuestion& q,
                    const PartHeights& part,
                    const std::vector<double>& clear,
@@ -213,7 +213,7 @@ void settle_doubts(const FloorQuestion& q,
     }
 }
 
-// Where the thickest metal stands over what the tools reach.
+// Finds the thickest material over the surface that the tools can cut.
 void find_thickest(const FloorQuestion& q,
                    const Ideal& ideal,
                    const std::vector<double>& clear,
@@ -319,7 +319,7 @@ FloorMaps judge_floor(const FloorQuestion& q, VerifyFigures& figures)
         if (!std::isfinite(ideal.height[k]) || !(clear[k] >= 0)) {
             continue;
         }
-        // where no more than may be left stands over the part at first, there is nothing to cut
+        // where the uncut stock is no more than may be left, there is nothing to cut
         const bool done =
             touched || (q.top - ideal.height[k]) * part.cosine[k] <= q.scallop.value_or(kFlush);
         left[k] = done ? (q.cut[k] - ideal.height[k]) * part.cosine[k] : kFar;

@@ -1,4 +1,4 @@
-// What stands after cutting, compared with the part: gouge, scallop, uncut floor.
+// The stock after cutting compared with the part: gouge, scallop, uncut floor.
 #pragma once
 
 #include <array>
@@ -7,8 +7,8 @@
 
 #include "host_tools/toolpath/toolpath.hpp"
 #include "host_tools/verify/height_grid.hpp"
+#include "host_tools/verify/machined_stock.hpp"
 #include "host_tools/verify/part_heights.hpp"
-#include "host_tools/verify/stock_cutting.hpp"
 #include "host_tools/verify/verify.hpp"
 #include "host_tools/verify/wall_distance.hpp"
 

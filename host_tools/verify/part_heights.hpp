@@ -15,8 +15,8 @@ struct PartHeights {
     std::vector<std::array<float, 2>> lean;  // x and y of the upward normal
 };
 
-// Heights are roots of the surfaces' equations (Newton), not interpolated. Surfaces that stand
-// upright have no height. Trims are honoured.
+// Heights are roots of the surfaces' equations (Newton), not interpolated. Upright
+// surfaces have no height. Trims are honoured.
 // Triangles count as they are; upright ones have no height.
 PartHeights part_heights(const std::vector<nurbs::Surface>& surfaces,
                          const std::vector<std::array<Vec3d, 3>>& triangles,

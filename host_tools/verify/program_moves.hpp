@@ -21,10 +21,10 @@ struct Program {
     toolpath::MoveCounts counts;  // a NURBS of many pieces counts once
 };
 
-// Machine coordinates are program coordinates: offsets are those of a fresh controller, which
-// stands at x = y = 0 and at `start_z`.
+// Machine coordinates are program coordinates: offsets are those of a fresh controller, whose
+// tool is at x = y = 0 and at `start_z`.
 //
-// Errors: InputError naming the line and the error that the controller would answer.
+// Errors: InputError that names the line and the controller's error.
 Program read_program(const std::string& file, double start_z);
 
 // Points of a move, at most `spacing` mm apart, the end included and the start not; mm.

@@ -67,7 +67,7 @@ std::vector<Place> rims_of(const Tool& tool, double pitch)
     return rims;
 }
 
-// best[i][j] = the better of it and `height` of what stands at each place of the tool there.
+// best[i][j] = the better of it and `height` of the tool at each of its positions there.
 template <class Height, class Better>
 void combine(const std::vector<float>& source,
              const HeightGrid& grid,

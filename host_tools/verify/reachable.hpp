@@ -9,7 +9,7 @@
 namespace cusp::verify {
 
 // heights    of the part over the grid; -infinity where there is none
-// forbidden  where the tool's axis may not stand (not 0)
+// forbidden  where the tool's axis may not be (not 0)
 //
 // Returns, per grid point, the lowest that the tool cuts when its tip goes everywhere it may
 // without cutting the part; +infinity where it can't come.

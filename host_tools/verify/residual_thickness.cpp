@@ -74,13 +74,13 @@ std::size_t ResidualThickness::cell(double at, double first, std::size_t count) 
     return place < static_cast<double>(count) ? static_cast<std::size_t>(place) : count - 1;
 }
 
-double ResidualThickness::at(Vec3d place, double most, double sufficient) const
+double ResidualThickness::at(Vec3d place, double max_distance, double sufficient) const
 {
-    double least = most;
+    double least = max_distance;
     if (cells_.empty()) {
         return least;
     }
-    const double reach = widest_ + most;
+    const double reach = widest_ + max_distance;
     const std::size_t j_begin = cell(place.y - reach, y0_, ny_);
     const std::size_t j_end = cell(place.y + reach, y0_, ny_) + 1;
     const std::size_t i_end = cell(place.x + reach, x0_, nx_) + 1;

@@ -1,12 +1,12 @@
-// How thick the metal is that a program left over single places, measured the shortest way: beside
-// cliffs a sliver stands high that is hardly there.
+// Thickness of the material that a program left over a place, measured the shortest way: a sliver
+// beside a cliff is high along the axis, and yet thin.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "host_tools/toolpath/toolpath.hpp"
-#include "host_tools/verify/stock_cutting.hpp"
+#include "host_tools/verify/machined_stock.hpp"
 
 namespace cusp::verify {
 
@@ -16,12 +16,12 @@ public:
     // top   of the uncut stock: positions from there on cut nothing
     ResidualThickness(const std::vector<ToolPositions>& runs, double top);
 
-    // mm from a place in the metal to the nearest position of a tool. High by at most what stands
-    // between two positions.
+    // mm from a place in the material to the nearest position of a tool. Too high by at most the
+    // slivers between two positions.
     //
-    // most    mm: what is known to be more than the answer, as the height of metal over the place
-    // sufficient  mm: thicknesses up to this may be inexact
-    double at(Vec3d place, double most, double sufficient) const;
+    // max_distance  mm: an upper bound of the result, as the height of material over the place
+    // sufficient    mm: results up to this may be inexact
+    double at(Vec3d place, double max_distance, double sufficient) const;
 
 private:
     struct Position {

@@ -1,4 +1,4 @@
-// Where a tool can touch the place one drop tells; else it is searched for.
+// Where a tool can touch the place one drop suffices; else the lowest position is searched for.
 #include "host_tools/verify/tool_access.hpp"
 
 #include <algorithm>
@@ -18,8 +18,8 @@ constexpr double kPitch = 0.125;        // radii, of the grid of drops
 constexpr double kDropAccuracy = 1e-4;  // mm
 constexpr double kAgrees = 3e-4;        // mm
 constexpr double kTouches = 1e-3;       // mm: nothing is lower than the floor
-// Beside cliffs, which samples say little of: places in a row where they were no help, and how
-// often they are asked from there on.
+// Beside cliffs samples seldom decide: after this many places in a row where they did not, they are
+// tried at every so many places only.
 constexpr int kInVain = 4;
 constexpr int kAgain = 8;
 
@@ -106,7 +106,7 @@ double ToolAccess::lowest_over(Vec3d place, Vec3d normal, double resolution)
 {
     double lowest = kUnreached;
     for (Cutter& cutter : cutters_) {
-        // a tool that rests on the place stands here
+        // the position of a tool that touches the place
         const double level = std::hypot(normal.x, normal.y);
         const double flat = cutter.tool.radius - cutter.tool.corner_radius;
         const double out = cutter.grown_tool.corner_radius + (level > 0 ? flat / level : 0.0);

@@ -1,5 +1,5 @@
-// How low the tools get over single places of the floor: where the verdict hangs on it, the grid of
-// heights is too coarse to say.
+// How low the tools get over single places of the floor, where the grid of heights is too coarse
+// for the verdict.
 #pragma once
 
 #include <array>
@@ -15,9 +15,10 @@
 
 namespace cusp::verify {
 
-// Drops of each tool on the surfaces themselves, improved from the best places of a grid an eighth
-// of the radius fine (`LowestPositionSearch`). Where a ball finds nothing lower on points of the
-// floor alone, there is nothing, and no surface is asked. Not for use by two threads at once.
+// Drops each tool on the surfaces themselves, improved from the best places of a grid an eighth of
+// the radius fine (`LowestPositionSearch`). Where a ball gets no lower on points of the floor
+// alone, it gets no lower on the surfaces, and these are left out. Not for use by two threads at
+// once.
 class ToolAccess {
 public:
     // samples   points of the floor
@@ -45,8 +46,8 @@ private:
         std::optional<drop_cutter::DropCutter> floor;
         std::optional<drop_cutter::LowestPositionSearch> search;
         std::optional<drop_cutter::LowestPositionSearch> on_samples;  // of a ball
-        int in_vain;  // places in a row where that was no help
-        int skipped;  // places where it was not asked then
+        int in_vain;  // places in a row where that did not decide
+        int skipped;  // places where it was left out then
     };
     bool within_walls(const Cutter& cutter, double x, double y) const;
     drop_cutter::LowestPositionSearch::DroppedTool drop_on_samples(const Cutter& cutter,

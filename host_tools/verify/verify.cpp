@@ -1,4 +1,4 @@
-// Reads the program, cuts the stock tool by tool, and asks all questions about the result.
+// Reads the program, cuts the stock tool by tool, and evaluates every bound.
 #include "host_tools/verify/verify.hpp"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ constexpr double kMostCells = 4e6;
 constexpr double kRapidCutAllowed = 0.005;
 // mm: the chords of walls and the map of heights are this good.
 constexpr double kJudgement = 5e-4;
-// Share of the floor that may stand above the scallop bound: the corners between loops.
+// Share of the floor that may be above the scallop bound: the corners between loops.
 constexpr double kUncoveredAllowed = 0.01;
 
 // The parts and walls of all operations, each file once.
@@ -203,7 +203,7 @@ std::optional<double> ball_gouge(const Scene& scene,
     return deepest;
 }
 
-// What may stand anywhere, and by how much the thickness of metal between positions may be wrong.
+// The thickness that may be left anywhere, and its error between positions.
 double most_left(const Scene& scene, const std::vector<Tool>& tools, double spacing)
 {
     double least = tools.front().radius;
@@ -286,7 +286,7 @@ Verification verify(const Job& job,
         positions_of(job, result.program, program_file, spacing, figures);
     result.grid = make_grid(job, scene, least_radius, settings.pitch);
 
-    StockHeightMap stock{result.grid, job.stock_top};
+    MachinedStock stock{result.grid, job.stock_top};
     const std::vector<Tool> tools = finishing_tools(job, runs);
     double widest = 0;
     for (const ToolPositions& run : runs) {

@@ -11,9 +11,9 @@
 
 #include "host_tools/job/job.hpp"
 #include "host_tools/verify/height_grid.hpp"
+#include "host_tools/verify/machined_stock.hpp"
 #include "host_tools/verify/part_heights.hpp"
 #include "host_tools/verify/program_moves.hpp"
-#include "host_tools/verify/stock_cutting.hpp"
 
 namespace cusp::verify {
 
@@ -22,7 +22,7 @@ struct VerifySettings {
     std::optional<double> spacing;  // mm between tool positions; else 0.1, likewise
 };
 
-// Metal left over what the tools can reach.
+// Material left over the surface that the tools can cut.
 struct ThickestLeft {
     double thickness;  // mm, the shortest way through it
     Vec3d place;       // as low as the tools get there
@@ -32,7 +32,7 @@ struct ThickestLeft {
 struct ToolFigures {
     toolpath::Tool tool;
     double cut_length{};  // mm
-    // mm: the tallest metal over its lower side that it takes at a position
+    // mm: the deepest cut, along the axis, at one position
     double cut_depth_max{};
 };
 
@@ -43,7 +43,7 @@ struct VerifyFigures {
     double rapid_length{};  // without the program's first move
     std::size_t tool_positions{};
     std::size_t cells{};                   // of the floor that the tools reach
-    double gouge_max{};                    // metal cut below the surface, from the map of heights
+    double gouge_max{};                    // cut below the surface, from the map of heights
     std::optional<double> ball_gouge_max;  // the deepest a ball cuts, from exact distances
     std::optional<double> wall_gouge_max;  // tool through a boundary or an island
     std::optional<double> wall_left_max;   // beside walls, over what the tool can reach
@@ -53,7 +53,7 @@ struct VerifyFigures {
     double unreachable_share{};      // of the part, where no tool of the program fits
     double uncut_share{};
     std::optional<double> scallop_bound;
-    double scallop_max{};  // metal left above the surface, or above what the tools can reach
+    double scallop_max{};  // material left above the surface, or above what the tools can reach
     double scallop_p99{};
     double scallop_mean{};
     double left_volume{};                       // mm^3
@@ -61,13 +61,12 @@ struct VerifyFigures {
     double uncovered_share{};                   // left above the scallop bound
 };
 
-// What the figures are held against, mm. Distances are allowed what a judgement may be wrong by
-// besides.
+// The limits of the figures, mm. The error of the judgement is added to each.
 struct VerifyBounds {
     double floor_tolerance{};  // gouges of the floor
     double plan_tolerance{};   // gouges of walls
-    double rapid_cut{};        // the deepest that a rapid move may run into metal
-    double uncovered_share{};  // of the floor, that may stand above the scallop
+    double rapid_cut{};        // the deepest that a rapid move may cut into stock
+    double uncovered_share{};  // of the floor, that may be above the scallop
 };
 
 struct Verification {
@@ -83,9 +82,9 @@ struct Verification {
 };
 
 // The bounds are those of the job: gouge by the floor tolerances, walls by the plan tolerances, the
-// scallop of the last operation that names one on 99 % of the floor, and metal no thicker than that
-// and the floor tolerance on all of it; a rapid move cuts nothing. Slivers beside cliffs may be
-// high, measured square to the floor, and yet thin.
+// scallop of the last operation that names one on 99 % of the floor, and material no thicker than
+// that and the floor tolerance on all of it; a rapid move cuts nothing. Slivers beside cliffs may
+// be high, measured square to the floor, and yet thin.
 //
 // Errors: InputError where the program can't be read or names a tool that the job lacks.
 Verification verify(const job::Job& job,

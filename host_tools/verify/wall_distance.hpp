@@ -1,4 +1,4 @@
-// How far a point, seen from above, is from the wall that a loop stands for.
+// How far a point, seen from above, is from the wall along a loop.
 #pragma once
 
 #include <cstddef>

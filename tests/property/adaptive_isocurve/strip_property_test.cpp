@@ -9,7 +9,8 @@
 
 #include "firmware/base/math.hpp"
 #include "host_tools/adaptive_isocurve/adaptive_isocurve.hpp"
-#include "host_tools/adaptive_isocurve/isocurve_stepover.hpp"
+#include "host_tools/adaptive_isocurve/cross_section.hpp"
+#include "host_tools/toolpath/stepover.hpp"
 #include "tests/support/property_cases.hpp"
 
 // Last: CppUTest redefines new, which the standard headers can not bear.
@@ -145,7 +146,7 @@ double least_length(const Surface& s, double scallop)
             const SurfacePoint p =
                 derivatives_at(s, s.u_end() * (i + 0.5) / kParts, s.v_end() * (j + 0.5) / kParts);
             sum += norm(cross(p.du, p.dv)) /
-                   isocurve_stepover(kRadius, kForRidges * scallop, cross_section_at(p).curvature);
+                   stepover(kRadius, kForRidges * scallop, cross_section_at(p).curvature);
         }
     }
     return sum * s.u_end() * s.v_end() / (kParts * kParts);

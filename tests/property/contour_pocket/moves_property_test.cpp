@@ -230,9 +230,9 @@ std::vector<PlannedOperation> planned_or_too_narrow(const RandomTask& task)
     }
 }
 
-TEST_GROUP(PocketToolpathWriter){};
+TEST_GROUP(PocketPathWriter){};
 
-TEST(PocketToolpathWriter, EnterGentlyLinkThroughCutMetalAndKeepSideDepthAndAllowance)
+TEST(PocketPathWriter, EnterGentlyLinkThroughCutMetalAndKeepSideDepthAndAllowance)
 {
     Random random{kSeed};
     LinkCount links;
@@ -251,7 +251,7 @@ TEST(PocketToolpathWriter, EnterGentlyLinkThroughCutMetalAndKeepSideDepthAndAllo
 }
 
 // They go over the edges of cliffs into what stands at their feet.
-TEST(PocketToolpathWriter, TakeNoMoreRetractsForCliffsAndGoDownThemNoFasterThanThePlungeFeed)
+TEST(PocketPathWriter, TakeNoMoreRetractsForCliffsAndGoDownThemNoFasterThanThePlungeFeed)
 {
     constexpr unsigned kCliffSeed = 1991;
     constexpr double kRidge = 0.06;  // of the radius: what passes leave each other

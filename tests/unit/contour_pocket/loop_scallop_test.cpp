@@ -6,7 +6,7 @@
 #include "CppUTest/TestHarness.h"
 
 #include "host_tools/contour_pocket/height_bounds.hpp"
-#include "host_tools/contour_pocket/stepover.hpp"
+#include "host_tools/contour_pocket/plan_stepover.hpp"
 
 namespace cusp::test {
 
@@ -75,7 +75,7 @@ TEST(LoopScallop, KnowsTheCuspOfALevelFloor)
 {
     const Surface level = floor_of(4, [](double, double) { return -3.0; });
     // In the loop's corners a way ends farther from both.
-    const double apart = stepover(6.0, 0.4, 0.0, 0.0);
+    const double apart = plan_stepover(6.0, 0.4, 0.0, 0.0);
     CHECK(share(level, kBall, 0.4, apart / std::sqrt(2.0)) < 1.01);
     CHECK(share(level, kBall, 0.4, 1.1 * apart) > 1.2);
 }
@@ -139,7 +139,7 @@ TEST(HeightBounds, HoldAtEveryPlaceLookedAt)
 
 TEST(HeightBounds, ProveTheIntervalOfALevelFloor)
 {
-    const double half = 0.5 * stepover(6.0, 0.4, 0.0, 0.0);
+    const double half = 0.5 * plan_stepover(6.0, 0.4, 0.0, 0.0);
     DOUBLES_EQUAL(half, proven_reach(6.0, 0.4, {0.0, 0.0, 0.0}), 1e-6);
 }
 
@@ -149,7 +149,7 @@ TEST(HeightBounds, ProveNearlyTheIntervalOfABentFloor)
     for (const double rho : {-12.0, -50.0, 20.0, 50.0}) {
         const double bend = 1.0 / std::abs(rho);
         const BendBounds bounds{0.0, rho < 0.0 ? bend : 0.0, rho < 0.0 ? 0.0 : bend};
-        const double half = 0.5 * stepover(6.0, 0.1, 1.0 / rho, 0.0);
+        const double half = 0.5 * plan_stepover(6.0, 0.1, 1.0 / rho, 0.0);
         const double proven = proven_reach(6.0, 0.1, bounds);
         CHECK(proven <= half * 1.01 && proven > 0.8 * half);
     }

@@ -50,7 +50,7 @@ Operation beside_a_cliff()
 
 TEST_GROUP(DepthLimiter){};
 
-TEST(DepthLimiter, MetalIsFeltAtTheToolsLowerSide)
+TEST(DepthLimiter, StockIsMetAtTheToolsLowerSide)
 {
     StockHeightMap metal{{-10, -10, 10, 10}, kBall, 0};
     DOUBLES_EQUAL(0, metal.contact_height({0, 0}), 0.05);

@@ -1,4 +1,4 @@
-#include "host_tools/contour_pocket/stepover.hpp"
+#include "host_tools/contour_pocket/plan_stepover.hpp"
 
 #include <cmath>
 
@@ -13,8 +13,8 @@ using namespace toolpath;
 
 namespace {
 
-// The cusp between two balls whose centres lie `apart` on a circle about the centre of curvature.
-double cusp_between(double radius, double rho, double apart)
+// The scallop between two balls whose centres lie `apart` on a circle about the centre of curvature.
+double scallop_of_balls(double radius, double rho, double apart)
 {
     const double half = 0.5 * apart;
     const double to_centre = radius + rho;
@@ -24,32 +24,32 @@ double cusp_between(double radius, double rho, double apart)
     return rho > 0.0 ? along - sagitta - rho : -(along + sagitta) - rho;
 }
 
-TEST_GROUP(Stepover){};
+TEST_GROUP(PlanStepover){};
 
-TEST(Stepover, LeavesExactlyTheCuspAskedForBetweenTwoBalls)
+TEST(PlanStepover, LeavesExactlyTheScallopAskedForBetweenTwoBalls)
 {
     for (const double rho : {20.0, 50.0, 733.0, -8.0, -12.0, -50.0, -733.0}) {
-        const double apart = stepover(6.0, 0.4, 1.0 / rho, 0.0);
-        DOUBLES_EQUAL(0.4, cusp_between(6.0, rho, apart), 1e-9);
+        const double apart = plan_stepover(6.0, 0.4, 1.0 / rho, 0.0);
+        DOUBLES_EQUAL(0.4, scallop_of_balls(6.0, rho, apart), 1e-9);
     }
 }
 
-TEST(Stepover, IsTheChordOfTheBallOnAFlatFloor)
+TEST(PlanStepover, IsTheChordOfTheBallOnAFlatFloor)
 {
-    DOUBLES_EQUAL(2.0 * std::sqrt(0.4 * 11.6), stepover(6.0, 0.4, 0.0, 0.0), 1e-12);
-    DOUBLES_EQUAL(4.3081, stepover(6.0, 0.4, 1e-12, 0.0), 1e-4);
+    DOUBLES_EQUAL(2.0 * std::sqrt(0.4 * 11.6), plan_stepover(6.0, 0.4, 0.0, 0.0), 1e-12);
+    DOUBLES_EQUAL(4.3081, plan_stepover(6.0, 0.4, 1e-12, 0.0), 1e-4);
 }
 
-TEST(Stepover, ShrinksInPlanOnASlope)
+TEST(PlanStepover, ShrinksInPlanOnASlope)
 {
-    DOUBLES_EQUAL(stepover(6.0, 0.4, 0.0, 0.0) / std::sqrt(2.0), stepover(6.0, 0.4, 0.0, 1.0),
-                  1e-12);
+    DOUBLES_EQUAL(plan_stepover(6.0, 0.4, 0.0, 0.0) / std::sqrt(2.0),
+                  plan_stepover(6.0, 0.4, 0.0, 1.0), 1e-12);
 }
 
-TEST(Stepover, StaysFiniteWhereTheBallDoesNotFit)
+TEST(PlanStepover, StaysFiniteWhereTheBallDoesNotFit)
 {
     for (const double rho : {-6.0, -5.9, -1.0, -0.4, -1e-6, 1e-6}) {
-        const double apart = stepover(6.0, 0.4, 1.0 / rho, 0.0);
+        const double apart = plan_stepover(6.0, 0.4, 1.0 / rho, 0.0);
         CHECK(apart > 0.0 && apart < 12.0);
     }
 }
@@ -60,7 +60,7 @@ TEST(LoopSpacing, FindsTheRidgeOfAFlatFloor)
 {
     const Tool ball{1, ToolShape::kBall, 6.0, 6.0};
     const std::vector<double> level(9, -3.0);
-    const double apart = stepover(6.0, 0.4, 0.0, 0.0);
+    const double apart = plan_stepover(6.0, 0.4, 0.0, 0.0);
     DOUBLES_EQUAL(0.4, scallop_between(ball, level, apart), 1e-3);
 }
 

@@ -1,33 +1,31 @@
-// Feels every move in turn; looks along paths before they are cut.
-#include "host_tools/contour_pocket/axial_depth_tracker.hpp"
+// Cuts a map of the stock's height move by move; what lies ahead is cut in a copy of it.
+#include "host_tools/clearing/axial_depth_tracker.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "firmware/base/math.hpp"
-#include "host_tools/contour_pocket/pocket_toolpath_writer.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
 
-namespace cusp::contour_pocket {
+namespace cusp::clearing {
 
 using offset::Box2d;
-using toolpath::MoveKind;
 using toolpath::Tool;
 using toolpath::ToolMove;
 
 namespace {
 
-// The metal is known at places only: what stands between them may be this much higher.
+// The stock is known at points only: between them it may be this much higher.
 constexpr double kBetween = 0.005;   // mm
-constexpr double kAimed = 0.9;       // of the depth allowed: what levels take
-constexpr double kPitch = 1.0 / 24;  // of the finest tool's radius
+constexpr double kAimed = 0.9;       // of the depth allowed: what cuts at a raised height take
 constexpr double kChord = 0.002;     // mm: curves are tracked along chords this near
 constexpr double kApart = 1.0 / 20;  // of the tool's radius
 
 }  // namespace
 
-AxialDepthTracker::AxialDepthTracker(const Box2d& box, const Tool& finest, double top, double most)
-    : stock_{box, finest, top, kPitch}, ahead_{stock_}, max_depth_{most}
+AxialDepthTracker::AxialDepthTracker(
+    const Box2d& box, const Tool& finest, double top, std::optional<double> max_depth, double share)
+    : stock_{box, finest, top, share}, max_depth_{max_depth}
 {
     begin(finest);
 }
@@ -50,14 +48,14 @@ void AxialDepthTracker::track(const std::vector<ToolMove>& path)
     }
 }
 
-// Calls visit(from, to) with places of the path, no farther apart than `apart_`.
+// Calls visit(from, to) with places of the moves, no farther apart than `apart_`.
 template <class Visit>
-void AxialDepthTracker::walk(const ClPath& path, Visit visit) const
+void AxialDepthTracker::walk(Vec3d start, const std::vector<ToolMove>& moves, Visit visit) const
 {
-    Vec3d at = path.start;
+    Vec3d at = start;
     visit(at, at);
-    for (const ClMove& move : path.moves) {
-        for (const Vec3d p : points_of(tool_move(MoveKind::kCut, move), at, kChord)) {
+    for (const ToolMove& move : moves) {
+        for (const Vec3d p : points_of(move, at, kChord)) {
             const int n = 1 + static_cast<int>(norm(p - at) / apart_);
             Vec3d from = at;
             for (int i = 1; i <= n; ++i) {
@@ -70,27 +68,30 @@ void AxialDepthTracker::walk(const ClPath& path, Visit visit) const
     }
 }
 
-std::optional<double> AxialDepthTracker::allowed_height_over(const ClPath& path, double share)
+std::optional<double> AxialDepthTracker::allowed_height_over(Vec3d start,
+                                                             const std::vector<ToolMove>& moves,
+                                                             double share)
 {
-    if (max_depth_ == kUnlimitedDepth) {
+    if (!max_depth_) {
         return std::nullopt;
     }
-    const double most = share * max_depth_;
-    double level = -1e300;
+    const double most = share * *max_depth_;
+    std::optional<double> height;
     ahead_ = stock_;
-    walk(path, [&](Vec3d from, Vec3d to) {
-        const double depth = ahead_.cut_with_shrunk_tool(from, to) + kBetween;
+    walk(start, moves, [&](Vec3d from, Vec3d to) {
+        const double depth = ahead_->cut_with_shrunk_tool(from, to) + kBetween;
         if (depth > most) {
-            level = std::max(level, to.z + depth - kAimed * most);
+            const double here = to.z + depth - kAimed * most;
+            height = std::max(height.value_or(here), here);
         }
     });
-    return level > -1e299 ? std::optional{level} : std::nullopt;
+    return height;
 }
 
-double AxialDepthTracker::stock_top_over(const ClPath& path) const
+double AxialDepthTracker::stock_top_over(Vec3d start, const std::vector<ToolMove>& moves) const
 {
-    double z = -1e300;
-    walk(path, [&](Vec3d, Vec3d to) { z = std::max(z, stock_top_at({to.x, to.y})); });
+    double z = -kUnbounded;
+    walk(start, moves, [&](Vec3d, Vec3d to) { z = std::max(z, stock_top_at(in_plan(to))); });
     return z;
 }
 
@@ -102,7 +103,7 @@ double AxialDepthTracker::stock_top_at(Vec2d place) const
 double AxialDepthTracker::stock_top_around(Vec2d centre, double radius) const
 {
     constexpr int kPlaces = 32;
-    double z = -1e300;
+    double z = -kUnbounded;
     for (int i = 0; i < kPlaces; ++i) {
         const double angle = 2 * kPi * i / kPlaces;
         z = std::max(z, stock_top_at(centre + Vec2d{std::cos(angle), std::sin(angle)} * radius));
@@ -110,4 +111,4 @@ double AxialDepthTracker::stock_top_around(Vec2d centre, double radius) const
     return z;
 }
 
-}  // namespace cusp::contour_pocket
+}  // namespace cusp::clearing

@@ -1,5 +1,5 @@
 // Every thread cuts its own band of columns along the whole path.
-#include "host_tools/verify/stock_cutting.hpp"
+#include "host_tools/verify/machined_stock.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,10 +18,10 @@ struct Profile {
     double corner;  // radius of the corner
     double reach;   // squared radius of the whole tool
 
-    explicit Profile(const Tool& tool, double less)
-        : flat{}, corner{std::max(0.0, tool.corner_radius - less)}, reach{}
+    explicit Profile(const Tool& tool, double shrink)
+        : flat{}, corner{std::max(0.0, tool.corner_radius - shrink)}, reach{}
     {
-        const double radius = std::max(0.0, tool.radius - less);
+        const double radius = std::max(0.0, tool.radius - shrink);
         flat = std::max(0.0, radius - corner);
         reach = radius * radius;
     }
@@ -40,11 +40,11 @@ double half_chord(double squared_radius, double distance)
     return std::sqrt(std::max(0.0, squared_radius - distance * distance));
 }
 
-// A level foot on its way from one position to the next: what it leaves on a slope is as low as its
-// rim comes there, between the positions too.
-class FootSweep {
+// The flat bottom of a tool on its way from one position to the next: what it leaves on a slope is
+// as low as its rim comes there, between the positions too.
+class FlatSweep {
 public:
-    FootSweep(Vec3d from, Vec3d to, double radius) : from_{from}, square_{radius * radius}
+    FlatSweep(Vec3d from, Vec3d to, double radius) : from_{from}, square_{radius * radius}
     {
         const double x = to.x - from.x;
         const double y = to.y - from.y;
@@ -59,7 +59,7 @@ public:
         slope_ = (to.z - from.z) / length_;
     }
 
-    // z; infinite where the foot does not come.
+    // z; kUnbounded where the flat bottom does not come.
     double lowest(double x, double y) const
     {
         const double dx = x - from_.x;
@@ -70,11 +70,10 @@ public:
         const double begin = std::max(0.0, along - half);
         const double end = std::min(length_, along + half);
         const double height = from_.z + slope_ * (slope_ > 0.0 ? begin : end);
-        return away * away <= square_ && begin <= end ? height : kNowhere;
+        return away * away <= square_ && begin <= end ? height : kUnbounded;
     }
 
 private:
-    static constexpr double kNowhere = 1e300;
     Vec3d from_;
     Vec2d way_{1.0, 0.0};
     double square_;
@@ -84,7 +83,7 @@ private:
 
 }  // namespace
 
-StockHeightMap::StockHeightMap(const HeightGrid& grid, double top)
+MachinedStock::MachinedStock(const HeightGrid& grid, double top)
     : grid_{grid}, top_{top}, heights_(grid.size(), top), row_x_(grid.ny), row_y_(grid.ny)
 {
     for (std::size_t j = 0; j < grid.ny; ++j) {
@@ -93,14 +92,14 @@ StockHeightMap::StockHeightMap(const HeightGrid& grid, double top)
     }
 }
 
-CutFigures StockHeightMap::cut_band(const ToolPositions& positions,
-                                    double spacing,
-                                    std::size_t begin,
-                                    std::size_t end,
-                                    const Progress& progress)
+CutFigures MachinedStock::cut_band(const ToolPositions& positions,
+                                   double spacing,
+                                   std::size_t begin,
+                                   std::size_t end,
+                                   const Progress& progress)
 {
     const Tool& tool = positions.tool;
-    const double less = spacing * spacing / (4 * tool.radius) + 0.002;
+    const double shrink = spacing * spacing / (4 * tool.radius) + 0.002;
     // Rounder corners leave no more between positions than the square of their distance.
     const bool edged = tool.radius > tool.corner_radius && tool.corner_radius < spacing;
     constexpr std::size_t kReport = 4096;
@@ -113,9 +112,9 @@ CutFigures StockHeightMap::cut_band(const ToolPositions& positions,
         if (tip.z >= top_) {
             continue;
         }
-        const double depth = cut_at(tool, tip, less, begin, end);
+        const double depth = cut_at(tool, tip, shrink, begin, end);
         if (edged && k > 0 && positions.tips[k - 1].z < top_) {
-            sweep_foot(tool, positions.tips[k - 1], tip, begin, end);
+            sweep_flat(tool, positions.tips[k - 1], tip, begin, end);
         }
         double& worst = positions.rapid[k] ? figures.rapid_cut : figures.cut_depth;
         worst = std::max(worst, depth);
@@ -123,13 +122,13 @@ CutFigures StockHeightMap::cut_band(const ToolPositions& positions,
     return figures;
 }
 
-double StockHeightMap::cut_at(
-    const Tool& tool, Vec3d tip, double less, std::size_t begin, std::size_t end)
+double MachinedStock::cut_at(
+    const Tool& tool, Vec3d tip, double shrink, std::size_t begin, std::size_t end)
 {
-    // Rows that are looked at together: most stand below the tool's lower side.
+    // Rows that are compared together: most are below the tool's lower side.
     constexpr std::size_t kRun = 16;
     const Profile profile{tool, 0};
-    const Profile probe{tool, less};
+    const Profile probe{tool, shrink};
     const double steepness = profile.steepness();
     const double* row_x = row_x_.data();
     const double* row_y = row_y_.data();
@@ -162,7 +161,7 @@ double StockHeightMap::cut_at(
 #pragma omp simd reduction(max : deepest)
             for (std::size_t j = j0; j < j1; ++j) {
                 const double squared = squared_at(j);
-                const double tracked = height[j] - tip.z - less - probe.at(squared);
+                const double tracked = height[j] - tip.z - shrink - probe.at(squared);
                 deepest = std::max(deepest, squared <= probe.reach ? tracked : 0.0);
                 const double lower = tip.z + profile.at(squared);
                 height[j] = squared <= profile.reach ? std::min(lower, height[j]) : height[j];
@@ -173,13 +172,13 @@ double StockHeightMap::cut_at(
 }
 
 // Under the lower of the two ends all is cut already: a crescent beside it is left.
-void StockHeightMap::sweep_foot(
+void MachinedStock::sweep_flat(
     const Tool& tool, Vec3d from, Vec3d to, std::size_t begin, std::size_t end)
 {
     const double radius = tool.radius - tool.corner_radius;
     const double squared = radius * radius;
     const double max_error = grid_.pitch / 2;
-    const FootSweep sweep{from, to, radius};
+    const FlatSweep sweep{from, to, radius};
     const Vec3d lower = from.z < to.z ? from : to;
     const auto [x_low, x_high] = std::minmax(from.x, to.x);
     const auto [y_low, y_high] = std::minmax(from.y, to.y);
@@ -203,9 +202,9 @@ void StockHeightMap::sweep_foot(
     }
 }
 
-CutFigures StockHeightMap::cut(const ToolPositions& positions,
-                               double spacing,
-                               const Progress& progress)
+CutFigures MachinedStock::cut(const ToolPositions& positions,
+                              double spacing,
+                              const Progress& progress)
 {
     std::vector<CutFigures> bands(band_count(grid_.nx));
     for_each_band(grid_.nx, [&](std::size_t begin, std::size_t end, std::size_t band) {

@@ -1,4 +1,4 @@
-// The stock as a map of heights, and what each position of a tool takes from it.
+// Material removal: the stock as a map of heights, and what each position of a tool takes from it.
 #pragma once
 
 #include <functional>
@@ -17,19 +17,20 @@ struct ToolPositions {
 };
 
 struct CutFigures {
-    double rapid_cut{};  // mm: the deepest that a rapid move runs into metal
+    double rapid_cut{};  // mm: the deepest that a rapid move cuts into stock
     double cut_depth{};  // mm: the deepest that a feed move does
 };
 
 // Calls progress(share done) now and then.
 using Progress = std::function<void(double)>;
 
-class StockHeightMap {
+// A Z-map of its own, not clearing::StockHeightMap, whose planners it judges: docs/decisions/0009.
+class MachinedStock {
 public:
-    StockHeightMap(const HeightGrid& grid, double top);
+    MachinedStock(const HeightGrid& grid, double top);
 
-    // Removes what the tool sweeps, position by position; under a foot with an edge also what it
-    // takes between them.
+    // Removes what the tool sweeps, position by position; under a flat bottom with a sharp edge
+    // also what it takes between them.
     //
     // spacing  mm between positions: depths are measured with a tool that is smaller by what the
     //          slivers between two positions can be high
@@ -44,10 +45,10 @@ private:
                         std::size_t begin,
                         std::size_t end,
                         const Progress& progress);
-    // Returns how deep, mm. less: what the measuring tool is smaller by.
+    // Returns how deep, mm. shrink: what the measuring tool is smaller by.
     double cut_at(
-        const toolpath::Tool& tool, Vec3d tip, double less, std::size_t begin, std::size_t end);
-    void sweep_foot(
+        const toolpath::Tool& tool, Vec3d tip, double shrink, std::size_t begin, std::size_t end);
+    void sweep_flat(
         const toolpath::Tool& tool, Vec3d from, Vec3d to, std::size_t begin, std::size_t end);
 
     HeightGrid grid_;

@@ -1,0 +1,215 @@
+// Entries slope down gently; what the slope leaves, the pass removes.
+#include "host_tools/contour_pocket/cl_path_writer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "firmware/base/math.hpp"
+
+namespace cusp::contour_pocket {
+
+using toolpath::ArcPlane;
+using toolpath::ArcTo;
+using toolpath::beginning;
+using toolpath::LineTo;
+using toolpath::MoveKind;
+using toolpath::NurbsTo;
+using toolpath::plan_length;
+using toolpath::ToolMove;
+
+namespace {
+
+constexpr double kOverMetal = 0.1;    // mm: where the plunge feed hands over to a slope
+constexpr double kRapidOver = 0.9;    // mm over that: where rapid moves end
+constexpr double kSettled = 0.03;     // mm over the pass: here the slope has met it
+constexpr double kHardlyDeep = 0.15;  // mm straight down: what a helix leaves over the pass
+constexpr double kSamePlace = 1e-6;   // mm in plan
+constexpr int kHelixSides = 48;
+constexpr int kMostPoints = 100000;  // of one entry: where a pass is too short for a slope
+
+double plan_distance(Vec3d a, Vec3d b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
+ToolMove tool_move(MoveKind kind, const ClMove& move)
+{
+    if (!move.curve.points.empty()) {
+        return {kind, NurbsTo{move.curve}};
+    }
+    if (move.turn == 0) {
+        return {kind, LineTo{move.end}};
+    }
+    const Vec3d centre{move.centre.x, move.centre.y, 0.0};
+    return {kind, ArcTo{move.end, centre, ArcPlane::kXY, move.turn < 0}};
+}
+
+// The beginning of a pass, as long in plan as half of `way`, and back to its start.
+std::vector<Vec3d> to_and_fro(const std::vector<Vec3d>& pass, double way)
+{
+    std::vector<Vec3d> round = beginning(pass, 0.5 * way);
+    for (std::size_t i = round.size() - 1; i-- > 0;) {
+        round.push_back(round[i]);
+    }
+    return round;
+}
+
+std::vector<Vec3d> corners_of(const ClPath& path)
+{
+    std::vector<Vec3d> corners{path.start};
+    for (const ClMove& move : path.moves) {
+        corners.push_back(move.end);
+    }
+    return corners;
+}
+
+}  // namespace
+
+void EntryHeights::raise_over(const EntryHeights& other)
+{
+    rapid = std::max(rapid, other.rapid);
+    stock_top = std::max(stock_top, other.stock_top);
+}
+
+EntryHeights heights_over(double stock_top)
+{
+    return {stock_top + kOverMetal + kRapidOver, stock_top + kOverMetal};
+}
+
+std::vector<ToolMove> tool_moves(const ClPath& path, MoveKind kind)
+{
+    std::vector<ToolMove> moves;
+    moves.reserve(path.moves.size());
+    for (const ClMove& move : path.moves) {
+        moves.push_back(tool_move(kind, move));
+    }
+    return moves;
+}
+
+bool ClPathWriter::is_over(Vec3d place) const
+{
+    return is_down() && plan_distance(writer_.at(), place) < kSamePlace;
+}
+
+// To over the start, as low as stock allows. Returns that z.
+double ClPathWriter::begin_entry(Vec3d start, const EntryHeights& heights)
+{
+    const double z = std::max(heights.stock_top, start.z);
+    const Vec3d at = writer_.at();
+    if (!is_over(start)) {
+        writer_.approach(in_plan(start), heights.rapid);
+        plunge({start.x, start.y, z});
+        return z;
+    }
+    if (at.z > heights.rapid && at.z > z) {
+        writer_.line(MoveKind::kRapid, {at.x, at.y, std::max(heights.rapid, z)});
+    }
+    const double lower = std::clamp(writer_.at().z, start.z, z);
+    plunge({at.x, at.y, lower});
+    return lower;
+}
+
+void ClPathWriter::enter_along(const ClPath& path, const EntryHeights& heights, bool plunges)
+{
+    const bool stands = is_over(path.start);
+    double z = begin_entry(path.start, heights);
+    std::vector<Vec3d> pass = corners_of(path);
+    const double way = (z - path.start.z) / kEntrySlope;
+    const bool open = plan_distance(pass.front(), pass.back()) > kSamePlace;
+    if (open || (stands && way < plan_length(pass))) {
+        pass = to_and_fro(pass, way);
+    }
+    const double round = plan_length(pass);
+    const double lowest =
+        std::min_element(pass.begin(), pass.end(), [](Vec3d a, Vec3d b) { return a.z < b.z; })->z;
+    const double turns = (z - lowest) / std::max(kEntrySlope * round, 1e-9);
+    const bool steep = turns * static_cast<double>(pass.size()) > kMostPoints;
+    if (plunges || steep) {
+        steep_plunges_ += plunges || z - path.start.z < kHardlyDeep ? 0 : 1;
+        plunge(path.start);
+        return;
+    }
+    for (bool sloped = true; sloped && z > lowest;) {
+        sloped = false;
+        for (std::size_t i = 1; i < pass.size(); ++i) {
+            z -= kEntrySlope * plan_distance(pass[i - 1], pass[i]);
+            // No corner of the slope lies just over the pass.
+            const bool over = z > pass[i].z + kSettled;
+            sloped = sloped || over;
+            plunge({pass[i].x, pass[i].y, over ? z : pass[i].z});
+        }
+    }
+}
+
+// Straight there, higher where the floor between is in the way.
+void ClPathWriter::plunge_over(Vec3d end, const std::function<double(Vec3d, Vec3d)>& clearance)
+{
+    constexpr int kRounds = 12;
+    const Vec3d from = writer_.at();
+    double lift = 0.0;
+    for (int round = 0; round < kRounds; ++round) {
+        const Vec3d up{0.0, 0.0, lift};
+        const double room = clearance(from + up, end + up);
+        if (room >= 0.0) {
+            break;
+        }
+        lift += 0.01 - 2.0 * room;
+    }
+    plunge(from + Vec3d{0.0, 0.0, lift});
+    plunge(end + Vec3d{0.0, 0.0, lift});
+}
+
+double ClPathWriter::enter_by_helix(const Helix& helix, const HelixFloor& floor)
+{
+    // What stays under the helix is removed on the way to the pass, or on the slope along it.
+    constexpr double kOver = 0.05;
+    constexpr double kHelixRapidOver = 0.5;
+    constexpr double kGentle = 0.1;
+    const Vec3d centre = helix.centre;
+    std::vector<Vec3d> sides;
+    double highest = centre.z;
+    double deepest = kUnbounded;
+    for (int i = 1; i <= kHelixSides; ++i) {
+        const double angle = 2 * kPi * i / kHelixSides;
+        const Vec2d at = in_plan(centre) + Vec2d{std::cos(angle), std::sin(angle)} * helix.radius;
+        sides.push_back({at.x, at.y, std::max(floor.lowest(at) + kOver, centre.z)});
+        highest = std::max(highest, sides.back().z);
+        deepest = std::min(deepest, sides.back().z);
+    }
+    const double drop = kEntrySlope * helix.radius * 2 * kPi / kHelixSides;
+    double z = std::max(helix.heights.stock_top, highest);
+    const Vec3d at = writer_.at();
+    const Vec3d first{sides.back().x, sides.back().y, std::max(z, at.z)};
+    if (is_over(centre)) {
+        plunge({at.x, at.y, first.z});
+        plunge_over(first, floor.clearance);
+    } else {
+        writer_.approach(in_plan(first), std::max(helix.heights.rapid, z + kHelixRapidOver));
+        plunge({first.x, first.y, z});
+    }
+    for (std::size_t i = 0; z > deepest; i = (i + 1) % sides.size()) {
+        z -= drop;
+        plunge_over({sides[i].x, sides[i].y, std::max(z, sides[i].z)}, floor.clearance);
+    }
+    const bool gentle = helix.whole || writer_.at().z - centre.z <= kGentle * helix.radius;
+    plunge_over({centre.x, centre.y, gentle ? centre.z : writer_.at().z}, floor.clearance);
+    return writer_.at().z;
+}
+
+void ClPathWriter::follow(MoveKind kind, const ClPath& path)
+{
+    const std::size_t before = moves_.size();
+    writer_.line(kind, path.start);
+    int spline_points = 0;
+    for (const ClMove& move : path.moves) {
+        if (move.turn == 0 && move.curve.points.empty()) {
+            writer_.line(kind, move.end);
+            continue;
+        }
+        writer_.add(tool_move(kind, move));
+        // A spline's control points but the first, which counts as the move itself.
+        spline_points += std::max(0, static_cast<int>(move.curve.points.size()) - 2);
+    }
+    if (kind == MoveKind::kCut) {
+        points_ += static_cast<int>(moves_.size() - before) + spline_points;
+    }
+}
+
+}  // namespace cusp::contour_pocket

@@ -1,0 +1,36 @@
+// What the statistics and warnings of a planned pocket say about air, depth of cut and uncut stock.
+#pragma once
+
+#include <vector>
+
+#include "host_tools/clearing/axial_depth_tracker.hpp"
+#include "host_tools/drop_cutter/drop_cutter.hpp"
+#include "host_tools/job/job.hpp"
+#include "host_tools/offset/offset.hpp"
+#include "host_tools/toolpath/toolpath.hpp"
+
+namespace cusp::contour_pocket {
+
+// Warns where no cut lies below the stock's top (z).
+void report_air(const std::vector<toolpath::ToolMove>& moves,
+                double stock_top,
+                toolpath::OperationStats& stats);
+
+// Adds the deepest cut where the depth is limited, and warns where that is over the limit.
+void report_depth(const clearing::AxialDepthTracker& depth, toolpath::OperationStats& stats);
+
+struct FinishedPocket {
+    const job::Job& job;
+    const job::Operation& operation;
+    const offset::Region2d& region;
+    const offset::RegionOffset& walls;  // of the region
+    const drop_cutter::DropCutter& floor;
+    double wall_clearance;  // mm: of the tool's axis
+    bool valleys;           // false where the tool reaches all of the floor
+};
+
+// Adds area, number, volume and height of the places that the tool does not reach, and names the
+// largest of them.
+void report_uncut(const FinishedPocket& pocket, toolpath::OperationStats& stats);
+
+}  // namespace cusp::contour_pocket

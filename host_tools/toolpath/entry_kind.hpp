@@ -1,0 +1,10 @@
+// How a tool gets down into uncut stock.
+#pragma once
+
+#include <cstdint>
+
+namespace cusp::toolpath {
+
+enum class EntryKind : std::uint8_t { kAuto, kHelix, kRamp, kPlunge };
+
+}  // namespace cusp::toolpath

@@ -1,0 +1,100 @@
+// Writes the moves of one tool: rapids, entries into stock, cuts, links and retracts.
+//
+//     ToolpathWriter writer{path.moves, {5.0, EntryKind::kHelix, 3.0}};  // rapids at z = 5
+//     const std::vector<Vec3d> run{{0, 0, -2}, {20, 0, -2}};
+//     writer.approach({0, 0}, 1.0);                    // rapids over the run's start, to z = 1
+//     writer.enter(run, 0.0, [](Vec2d, double) { return -2.0; });  // helix from 0 down to -2
+//     writer.line(MoveKind::kCut, run.back());
+//     writer.retract();                                // rapid up to z = 5
+//
+// All coordinates are of the tool's tip, in mm. What a strategy alone knows (where the floor is,
+// where stock is cut already) it hands in; where passes start and how they are linked it decides.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "host_tools/nurbs/plan_vector.hpp"
+#include "host_tools/toolpath/entry_kind.hpp"
+#include "host_tools/toolpath/toolpath.hpp"
+
+namespace cusp::toolpath {
+
+// Rapid moves go no nearer to stock, mm.
+inline constexpr double kRapidClearance = 1.0;
+
+struct EntrySettings {
+    double clearance_z{};                // rapid moves run at this height
+    EntryKind kind{EntryKind::kPlunge};  // kAuto: a helix, or a ramp where it has no room
+    double tool_radius{};                // mm: helices have half of it
+    double max_drop{kUnbounded};         // mm: of a helix's turn, or of a ramp's trip out and back
+};
+
+class ToolpathWriter {
+public:
+    // The least z that the tip may have all around a circle in plan; no value where the tool has no
+    // room there.
+    using HelixFloor = std::function<std::optional<double>(Vec2d centre, double radius)>;
+
+    // moves  that are written to; outlive this
+    ToolpathWriter(std::vector<ToolMove>& moves, const EntrySettings& settings)
+        : moves_{moves}, settings_{settings}
+    {
+    }
+
+    // Where the tool is; not known before the first move.
+    Vec3d at() const { return at_; }
+    bool started() const { return started_; }
+    bool is_retracted() const { return at_.z >= settings_.clearance_z; }
+    double clearance_z() const { return settings_.clearance_z; }
+    double tool_radius() const { return settings_.tool_radius; }
+
+    // A straight move; none where the tool is there.
+    void line(MoveKind kind, Vec3d end);
+    void arc(MoveKind kind, const ArcTo& arc) { add({kind, arc}); }
+    // Any move, as it is.
+    void add(const ToolMove& move);
+
+    // Up to the clearance height, where the tool is below it.
+    void retract();
+
+    // After a retract, rapid moves to over the place and down to z, where that is below the
+    // clearance height.
+    void approach(Vec2d place, double z);
+
+    // From over the start of a run down to it: straight where no stock is deeper than 0.05 mm, else
+    // on a helix, a ramp along the run, or straight where neither has room.
+    //
+    //   run        points of the pass that follows; the tool is straight over the first one
+    //   stock_top  z: below it stock may begin
+    void enter(const std::vector<Vec3d>& run, double stock_top, const HelixFloor& floor);
+
+    int retracts() const { return retracts_; }
+    int helices() const { return helices_; }
+    // Entries into stock that went straight down though they were to be a helix or a ramp.
+    int steep_plunges() const { return steep_plunges_; }
+    // Entries that were to be a helix where none has room.
+    int narrow_entries() const { return narrow_entries_; }
+
+private:
+    std::vector<ToolMove>& moves_;
+    EntrySettings settings_;
+    Vec3d at_{};
+    bool started_{false};
+    int retracts_{0};
+    int helices_{0};
+    int steep_plunges_{0};
+    int narrow_entries_{0};
+
+    bool helix(Vec3d start, const HelixFloor& floor);
+    void ramp(const std::vector<Vec3d>& run);
+};
+
+// mm in plan along the points.
+double plan_length(const std::vector<Vec3d>& points);
+
+// The first `length` mm of it, in plan; all of it where it is shorter.
+std::vector<Vec3d> beginning(const std::vector<Vec3d>& points, double length);
+
+}  // namespace cusp::toolpath
