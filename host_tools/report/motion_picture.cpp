@@ -27,7 +27,7 @@ constexpr double kTop = 30;
 constexpr double kTextSize = 12;
 constexpr double kPercent = 100;
 
-// Of Okabe and Ito: told apart by the colour-blind, and in grey.
+// Of Okabe and Ito: distinct for the colour-blind, and in grey.
 constexpr const char* kSpeedColour = "#000000";
 constexpr const char* kJerkColour = "#56b4e9";
 constexpr const char* kAccelerationColour = "#e69f00";
