@@ -1,43 +1,26 @@
-// Reads along with gcode::Interpreter; of a refused line the word is sought without which it is taken.
+// Reads along with gcode::Interpreter.
 #include "host_tools/view/program_reading.hpp"
 
 #include <algorithm>
 #include <cctype>
-#include <string_view>
 
 #include "firmware/gcode/interpreter.hpp"
-#include "host_tools/dialect/answer.hpp"
 #include "host_tools/dialect/line_source.hpp"
 #include "host_tools/dialect/program_lines.hpp"
+#include "host_tools/dialect/refusal.hpp"
 
 #include "fmt/format.h"
 
 namespace cusp::view {
 
 using dialect::bare_line;
-using dialect::error_text;
 using dialect::LineSource;
+using dialect::refusal_text;
+using dialect::refused_word;
 
 namespace {
 
 constexpr std::size_t kMostSections = 255;
-
-bool is_number(std::string_view text)
-{
-    std::size_t digits = 0;
-    std::size_t points = 0;
-    for (std::size_t k = 0; k < text.size(); ++k) {
-        const auto c = static_cast<unsigned char>(text[k]);
-        if (std::isdigit(c) != 0) {
-            ++digits;
-        } else if (c == '.') {
-            ++points;
-        } else if (k > 0 || (c != '+' && c != '-')) {
-            return false;
-        }
-    }
-    return digits > 0 && points < 2;
-}
 
 // The text of the first comment, without its marks.
 std::string comment_of(const std::string& line)
@@ -52,6 +35,12 @@ std::string comment_of(const std::string& line)
                ? ""
                : line.substr(begin, close == std::string::npos ? close : close - begin);
 }
+
+// Bytes [begin, end) of a line.
+struct RefusedPlace {
+    std::size_t begin;
+    std::size_t end;
+};
 
 class LineReader {
 public:
@@ -79,10 +68,9 @@ private:
     // Whether the line's moves are rapid.
     bool execute(const std::string& line, const std::string& uncovered, std::uint64_t number)
     {
-        const gcode::Interpreter before = interpreter_;
         const Status status = interpreter_.execute(uncovered, static_cast<std::uint32_t>(number));
         if (!status) {
-            refuse(line, number, static_cast<int>(status.error()), before);
+            refuse(line, number, static_cast<int>(status.error()));
             return false;
         }
         bool rapid = false;
@@ -100,49 +88,22 @@ private:
         return rapid;
     }
 
-    void refuse(const std::string& line,
-                std::uint64_t number,
-                int code,
-                const gcode::Interpreter& before)
+    void refuse(const std::string& line, std::uint64_t number, int code)
     {
         ++reading_.refused_count;
         if (reading_.refused.size() < ProgramReading::kMostRefused) {
-            const WordPlace word = wrong_word(line, before);
+            const RefusedPlace word = place_of(line, refused_word(code, line));
             reading_.refused.push_back(
-                {number, word.begin, word.end, code, std::string{error_text(code)}});
+                {number, word.begin, word.end, code, refusal_text(code, line)});
         }
     }
 
-    // The word that is no word; else the one without which the line is taken; else the last of the
-    // shortest beginning that is refused.
-    static WordPlace wrong_word(const std::string& line, const gcode::Interpreter& before)
+    // The whole line where no single word is wrong.
+    static RefusedPlace place_of(const std::string& line, const std::string& word)
     {
-        const std::vector<WordPlace> words = words_of(line);
-        const auto taken = [&](const std::string& text) {
-            gcode::Interpreter copy = before;
-            return static_cast<bool>(copy.execute(bare_line(text), 1));
-        };
-        for (const WordPlace& word : words) {
-            if (!is_number(
-                    std::string_view{line}.substr(word.begin + 1, word.end - word.begin - 1))) {
-                return word;
-            }
-        }
-        constexpr std::size_t kMostTried = 64;
-        for (std::size_t k = std::min(words.size(), kMostTried); k-- > 0;) {
-            std::string without = line;
-            std::fill(without.begin() + static_cast<std::ptrdiff_t>(words[k].begin),
-                      without.begin() + static_cast<std::ptrdiff_t>(words[k].end), ' ');
-            if (taken(without)) {
-                return words[k];
-            }
-        }
-        for (std::size_t k = 0; k < std::min(words.size(), kMostTried); ++k) {
-            if (!taken(line.substr(0, words[k].end))) {
-                return words[k];
-            }
-        }
-        return {0, line.size()};
+        const std::size_t begin = word.empty() ? std::string::npos : line.find(word);
+        return begin == std::string::npos ? RefusedPlace{0, line.size()}
+                                          : RefusedPlace{begin, begin + word.size()};
     }
 
     void note_comment(const std::string& line, bool alone, std::uint64_t number)
@@ -181,31 +142,6 @@ private:
 };
 
 }  // namespace
-
-std::vector<WordPlace> words_of(const std::string& line)
-{
-    std::vector<WordPlace> words;
-    bool in_comment = false;
-    bool open = false;  // the last word may go on
-    for (std::size_t k = 0; k < line.size(); ++k) {
-        const auto c = static_cast<unsigned char>(line[k]);
-        if (in_comment) {
-            in_comment = c != ')';
-        } else if (c == '(') {
-            in_comment = true;
-        } else if (c == ';') {
-            break;
-        } else if (c == ' ' || c == '\t' || (c == '/' && words.empty())) {
-            continue;
-        } else if (open && (std::isdigit(c) != 0 || c == '.' || c == '-' || c == '+')) {
-            words.back().end = k + 1;
-        } else {
-            words.push_back({k, k + 1});
-            open = std::isalpha(c) != 0;
-        }
-    }
-    return words;
-}
 
 ProgramReading read_program_lines(const std::string& file)
 {

@@ -41,14 +41,4 @@ struct ProgramReading {
 // Throws InputError where the file can't be read.
 ProgramReading read_program_lines(const std::string& file);
 
-// The word of a line at fault: [begin, end) in bytes.
-struct WordPlace {
-    std::size_t begin;
-    std::size_t end;
-};
-
-// The words of a line as they stand: a letter with its number, or what is none. Comments, blanks and
-// the sign of block deletion are passed over.
-std::vector<WordPlace> words_of(const std::string& line);
-
 }  // namespace cusp::view

@@ -7,6 +7,7 @@ cusp demo --out demo
 seconds=$(($(date +%s) - begun))
 echo "the first picture after $seconds s"
 grep -q '<svg' demo/path.svg
+grep -q 'Content-Security-Policy' demo/RUN.html
 [ "$seconds" -le 60 ]
 
 # The examples, the images and the pages came along.

@@ -180,7 +180,7 @@ test("a refused line stands in its place with the word that is wrong", async () 
   const { page, faults, close } = await openPage(browser, pageOf(program).file);
   const rows = await page.locator(".program-row.refused").evaluateAll((all) =>
     all.map((row) => [Number(row.dataset.line), row.querySelector("mark").textContent, row.querySelector(".program-why").textContent]));
-  assert.deepEqual(rows.map(([line, word]) => [line, word]), [[3, "Q4"], [4, "G77"], [5, "X1..5"], [6, "G2"]]);
+  assert.deepEqual(rows.map(([line, word]) => [line, word]), [[3, "Q4"], [4, "G77"], [5, "X1..5"], [6, "G2 X5 Y5"]]);
   for (const [, , why] of rows) assert.match(why, /^error \d+: /);
   assert.match(await page.locator(".warnings").innerText(), /Line 3/);
   assert.equal((await seek(page, 1e9)).line, 2, "the run ends before the refused line");

@@ -67,7 +67,7 @@ export class Charts {
       const last = k === panels.length - 1;
       const axis = { stroke: text, grid: { stroke: grid, width: 1 }, ticks: { show: false }, font: "11px system-ui, sans-serif" };
       const plot = new uPlot({
-        ...this.sizeOf(last), legend: { show: false }, padding: [2, 8, 0, 0],
+        ...this.sizeOf(last), legend: { show: false }, padding: [2, 8, last ? 0 : 5, 0],
         cursor: { drag: { x: true, y: false, setScale: false }, y: false, points: { show: false } },
         scales: {
           x: { time: false, auto: false, range: () => [this.from, this.to] },

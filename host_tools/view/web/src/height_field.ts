@@ -6,7 +6,7 @@ const vertexShader = `
 in float cell; in float foot; in vec3 side;
 uniform highp sampler2D heights; uniform highp sampler2D left;
 uniform int nx; uniform int ny; uniform float pitch; uniform float low; uniform float dz;
-out vec3 outward; out float shownLeft; out float hole;
+out vec3 outward; out float shownLeft; out float hole; out float known; out float uncut;
 float height(int i, int j) {
   return texelFetch(heights, ivec2(clamp(j, 0, ny - 1), clamp(i, 0, nx - 1)), 0).r;
 }
@@ -14,23 +14,26 @@ void main() {
   int k = int(cell + 0.5), i = k / ny, j = k - i * ny;
   float z = height(i, j);
   hole = z < -1e29 ? 1.0 : 0.0;
-  shownLeft = texelFetch(left, ivec2(j, i), 0).r;
+  float over = texelFetch(left, ivec2(j, i), 0).r;
+  known = over > -1e29 ? 1.0 : 0.0;
+  uncut = over > 1e29 ? 1.0 : 0.0;
+  shownLeft = abs(over) < 1e29 ? over : 0.0;
   vec3 slope = vec3(height(i - 1, j) - height(i + 1, j), height(i, j - 1) - height(i, j + 1), 2.0 * pitch);
   outward = dot(side, side) > 0.0 ? side : normalize(slope);
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position.xy, foot > 0.5 ? low : z - dz, 1.0);
 }`;
 const fragmentShader = `
 uniform vec3 metal; uniform sampler2D table; uniform float useLeft; uniform float gouge; uniform float scallop;
-in vec3 outward; in float shownLeft; in float hole;
+in vec3 outward; in float shownLeft; in float hole; in float known; in float uncut;
 out vec4 colour;
 void main() {
   if (hole > 0.01) discard;
   vec3 n = normalize(outward);
   float light = 0.42 + 0.38 * max(dot(n, normalize(vec3(-0.45, -0.55, 0.7))), 0.0) + 0.2 * max(n.z, 0.0);
   vec3 base = metal;
-  if (useLeft > 0.5 && shownLeft > -1e29) {
+  if (useLeft > 0.5 && known > 0.99) {
     float part = shownLeft < 0.0 ? shownLeft / gouge : shownLeft / scallop;
-    base = shownLeft > 1e29 ? vec3(0.05) : texture(table, vec2(clamp(0.5 + part / 6.0, 0.002, 0.998), 0.5)).rgb;
+    base = uncut > 0.5 ? vec3(0.05) : texture(table, vec2(clamp(0.5 + part / 6.0, 0.002, 0.998), 0.5)).rgb;
     light = mix(light, 1.0, 0.35);
   }
   colour = vec4(base * light, 1.0);

@@ -76,6 +76,7 @@ export class PathLines {
   set faint(on: boolean) {
     this.materials[0].uniforms.strength.value = on ? 0.12 : 1;
     this.materials[0].uniforms.strengthAhead.value = on ? 0.06 : 0.35;
+    this.materials[1].uniforms.strength.value = on ? 0.12 : 0.55;
   }
   set plain(colour: THREE.Color) { (this.materials[1].uniforms.plain.value as THREE.Color).copy(colour); }
 

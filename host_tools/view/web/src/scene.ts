@@ -10,6 +10,9 @@ import type { Triple } from "./run_data";
 import type { ScaleName } from "./colours";
 import { scaleTable } from "./colours";
 
+// Colours are those of the screen, as the tables of colours have them.
+THREE.ColorManagement.enabled = false;
+
 // From where the views 1 to 7 look, and what is up in them.
 const views: [Triple, Triple][] = [
   [[-0.55, -0.75, 0.62], [0, 0, 1]], [[0, 0, 1], [0, 1, 0]], [[0, -1, 0], [0, 0, 1]], [[0, 1, 0], [0, 0, 1]],
@@ -42,6 +45,7 @@ export class Scene {
 
   constructor(private readonly canvas: HTMLCanvasElement, private readonly timeline: Timeline) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+    this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     const { run, facts } = timeline;
     const box = this.box();
     this.centre = box.getCenter(new THREE.Vector3()).toArray();
@@ -57,9 +61,9 @@ export class Scene {
       this.cutting = new StockAtCursor(timeline, run.stock, this.stock, this.centre[2]);
       this.world.add(this.stock.mesh, this.part.mesh);
     }
-    const toolLight = new THREE.DirectionalLight(0xffffff, 1.6);
+    const toolLight = new THREE.DirectionalLight(0xffffff, 1.8);
     toolLight.position.set(-0.5, -0.6, 0.8);
-    this.world.add(toolLight, new THREE.AmbientLight(0xffffff, 1.2), this.tool, this.place);
+    this.world.add(toolLight, new THREE.AmbientLight(0xffffff, 1.7), this.tool, this.place);
     this.tool.renderOrder = 3;
     this.place.visible = false;
     this.place.renderOrder = 4;
@@ -108,8 +112,8 @@ export class Scene {
     this.world.background = new THREE.Color(look.dark ? 0x15181d : 0xeef1f4);
     this.path.plain = new THREE.Color(look.dark ? 0x9aa3ad : 0x77808a);
     if (this.stock && this.part) {
-      this.stock.metal = new THREE.Color(look.dark ? 0x8d96a3 : 0xc3c9d1);
-      this.part.metal = new THREE.Color(look.dark ? 0x7f93a8 : 0xb4c4d4);
+      this.stock.metal = new THREE.Color(look.dark ? 0x7d8794 : 0xc9d0d8);
+      this.part.metal = new THREE.Color(look.dark ? 0x6f8398 : 0xb9cadb);
       this.stock.showLeft(left ? this.leftBounds() : null);
     }
     (this.tool.material).color.set(look.dark ? 0xd8b25a : 0xc8952c);
