@@ -105,6 +105,7 @@ private:
     bool held_{false};
     bool powered_{true};
     std::int64_t writes_left_{-1};
+    std::uint32_t torn_place_{0}, torn_word_{0};  // where the power failed
     unsigned resets_{0};
     bool pace_line_{false};
     std::function<void()> tick_listener_;
