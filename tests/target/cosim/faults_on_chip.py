@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """What a machine's owner would meet: the board's shipping image in the co-simulation, fault by fault.
 
-usage: faults_on_chip.py --cosim COSIM --board BOARD --image IMAGE.bin [--cusp CUSP] [-k PATTERN]
+usage: faults_on_chip.py --cosim COSIM --board BOARD --image IMAGE.bin [--cusp CUSP] [--baud N] [-k PATTERN]
 """
 import argparse
 import re
@@ -15,7 +15,9 @@ QUICK = "$0=2\n$100=800.000\n$110=9000.000\n$120=5000.000\n$800=1000000.000\n"
 
 
 def chip(**more):
-    return Chip(options.cosim, options.image, options.board, **more)
+    machine = Chip(options.cosim, options.image, options.board, **more)
+    machine.command(f"baud {options.baud}")
+    return machine
 
 
 def settings_of(machine):
@@ -173,9 +175,8 @@ class Clocks(unittest.TestCase):
 
 
 class Serial(unittest.TestCase):
-    def restore(self, machine, lines, baud=115200, window=128):
+    def restore(self, machine, lines, window=128):
         """Sends lines as a sender does, `?` at 10 Hz between them; what was answered."""
-        machine.command(f"baud {baud}")
         heard, waiting, at, asked, answered = "", [], 0, 0, 0
         for _ in range(8000):
             while at < len(lines) and sum(waiting) + len(lines[at]) + 1 <= window:
@@ -308,5 +309,6 @@ if __name__ == "__main__":
     parser.add_argument("--board", required=True)
     parser.add_argument("--image", required=True)
     parser.add_argument("--cusp")
+    parser.add_argument("--baud", type=int, default=115200)
     options, rest = parser.parse_known_args()
     unittest.main(argv=[sys.argv[0], *rest])

@@ -93,8 +93,8 @@ class Builder:
                      if f" -I{ROOT} " in command else command.replace(" -c ", f"{flags} -c ", 1))
             elf = self.folder / "changed.elf"
             step = next(part for part in self.link.split("&&") if " -o bin/" in part)
-            self.run(step.replace(objects, str(mine)).replace(f"-o bin/{self.board}.elf", f"-o {elf}")
-                     .replace(f"bin/{self.board}.map", str(self.folder / "changed.map")))
+            step = step.replace(objects, str(mine)).replace(f"-o bin/{self.board}.elf", f"-o {elf}")
+            self.run(re.sub(r"-Map=\S+", f"-Map={self.folder / 'changed.map'}", step))
             image = self.folder / "changed.bin"
             self.run(shlex.join(["arm-none-eabi-objcopy", "-O", "binary", "--gap-fill", "0xff",
                                  str(elf), str(image)]))
