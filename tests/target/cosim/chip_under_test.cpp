@@ -132,7 +132,7 @@ ChipUnderTest::ChipUnderTest(const ChipKind& kind, const std::vector<std::uint8_
             [this] { happen_until_now(); },
             [this] {
                 return circuit_.now >= end_ || circuit_.now < flash_->busy_until() ||
-                       watchdog_->bitten() || !powered_;
+                       watchdog_->bitten() || !powered_ || exhausted();
             }});
     add(0xE000E000, "core", *core_, always);
     blocks_[0xE000E400] = blocks_[0xE000EC00] = blocks_[0xE000E000];
@@ -395,7 +395,7 @@ void ChipUnderTest::advance(Picoseconds to)
 void ChipUnderTest::run(Picoseconds time, const std::function<bool()>& until)
 {
     end_ = circuit_.now + time;
-    while (circuit_.now < end_ && powered_) {
+    while (circuit_.now < end_ && powered_ && !exhausted()) {
         if (watchdog_->bitten()) {
             reset(ClockModel::ResetCause::kWatchdog);
         } else if (core_->reset_wanted()) {
