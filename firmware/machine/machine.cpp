@@ -219,7 +219,7 @@ void Machine::enter_alarm(Alarm alarm) noexcept
         critical_ = true;
         message("Reset to continue");
     } else if (alarm == Alarm::kEmergencyStop || alarm == Alarm::kMotorFault) {
-        critical_ = true;
+        reset_needed_ = true;
         message(alarm == Alarm::kMotorFault ? "Motor fault: clear it, then reset"
                                             : "Emergency stop: clear it, then reset");
     }
@@ -235,6 +235,7 @@ void Machine::reset() noexcept
         state_ == State::kAlarm || state_ == State::kSleep || (state_ == State::kCheck && locked_);
     drop_all();
     critical_ = false;
+    reset_needed_ = false;
     locked_ = false;
     cancelling_ = false;
     hold_wanted_ = false;

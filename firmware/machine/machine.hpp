@@ -194,6 +194,7 @@ private:
     State state_{State::kIdle};
     Alarm alarm_{Alarm::kNone};
     bool critical_{false};      // after a limit alarm: nothing but a reset is heard
+    bool reset_needed_{false};  // after an emergency stop: no motion before a reset
     bool locked_{false};        // check mode was entered from an alarm
     bool hold_pending_{false};  // M0: the hold begins once the line is answered
     bool jog_cancelled_{false};

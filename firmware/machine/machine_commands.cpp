@@ -194,6 +194,10 @@ void Machine::restore(bool settings, bool parameters, bool texts) noexcept
 
 void Machine::toggle_check_mode() noexcept
 {
+    if (reset_needed_) {
+        finish_line(Error::kSystemGcLock);
+        return;
+    }
     if (state_ == State::kCheck) {
         message("Disabled");
         reset_after_answer_ = true;
@@ -208,6 +212,10 @@ void Machine::toggle_check_mode() noexcept
 void Machine::unlock() noexcept
 {
     if (state_ == State::kAlarm) {
+        if (reset_needed_) {
+            finish_line(Error::kSystemGcLock);
+            return;
+        }
         if (input_on(kDoor)) {
             finish_line(Error::kCheckDoor);
             return;
@@ -223,6 +231,10 @@ void Machine::start_homing(AxisMask axes) noexcept
 {
     if (!stored_.settings.on(Setting::kHoming)) {
         finish_line(Error::kSettingDisabled);
+        return;
+    }
+    if (reset_needed_) {
+        finish_line(Error::kSystemGcLock);
         return;
     }
     if (input_on(kDoor)) {

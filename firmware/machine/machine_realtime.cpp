@@ -93,7 +93,7 @@ bool Machine::handle_events() noexcept
         raise(Alarm::kHardLimit);
         return true;
     }
-    if (protector() != Alarm::kNone && !critical_) {
+    if (protector() != Alarm::kNone && !reset_needed_) {
         raise(protector());
         return true;
     }

@@ -66,7 +66,8 @@ private:
 
     std::array<std::uint8_t, kReceiveSize> received_{};
     std::uint32_t tail_{0};
-    std::uint32_t seen_{0};  // head when overrun() looked last
+    std::uint32_t seen_{0};    // head when overrun() looked last
+    std::uint32_t unread_{0};  // bytes between tail and head then
 
     std::array<std::uint8_t, kSendSize> sent_{};
     std::uint32_t send_head_{0};  // both count bytes and wrap at 2^32
@@ -117,11 +118,13 @@ bool DmaLink<Chip>::overrun() noexcept
     const std::uint32_t raised = Chip::dma2().lisr.read();
     const std::uint32_t now = head();
     Chip::dma2().lifcr.write(raised & kReceiveFlags);
-    const std::uint32_t unread = (seen_ + kReceiveSize - tail_) % kReceiveSize;
     const std::uint32_t came = (now + kReceiveSize - seen_) % kReceiveSize;
     const bool both = (raised & kReceiveHalf) != 0 && (raised & kReceiveEnd) != 0;
+    // A flag may have been raised just after it was read here: it is the next call's.
+    constexpr std::uint32_t kLate = 64;
+    const bool lapped = unread_ + came >= kReceiveSize || (both && came + kLate < kReceiveSize / 2);
     seen_ = now;
-    const bool lapped = unread + came >= kReceiveSize || (both && came <= kReceiveSize / 2);
+    unread_ = (now + kReceiveSize - tail_) % kReceiveSize;
     return lost_.exchange(false, std::memory_order_relaxed) || lapped;
 }
 

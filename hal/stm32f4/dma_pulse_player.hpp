@@ -247,12 +247,15 @@ void DmaPulsePlayer<Chip, Port, Pace>::stop() noexcept
     Port::gpio().bsrr.write(port_word(0, kStepLines, inverted_));
 }
 
-// The counter is that of both halves, and which of them plays is the flags' to say: around the
-// change it may stand at either end.
+// The counter is that of both halves, and which of them plays is the flags' to say: at the end of
+// the ring it may still stand at 0 when the first half plays.
 template <class Chip, class Port, class Pace>
 std::uint32_t DmaPulsePlayer<Chip, Port, Pace>::words_left(unsigned playing) noexcept
 {
     const std::uint32_t left = stream().ndtr.read();
+    if (left == 0) {
+        return playing == 0 ? kPulseTicksPerFrame : 0;
+    }
     const bool in_first = left > kPulseTicksPerFrame;
     if (in_first != (playing == 0)) {
         return 0;

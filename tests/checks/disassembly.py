@@ -129,6 +129,7 @@ def add_calls_by_pointer(image, functions):
 
     An address is kept as a word of its own: in a table, or among the constants behind a function.
     Debug sections are not in the chip's memory, and theirs are no addresses that the code could use.
+    The table of constructors is read by cusp_reset alone.
     """
     by_address = {function.address | 1: function.name for function in functions.values()}
     kept, loaded = set(), True
@@ -141,7 +142,9 @@ def add_calls_by_pointer(image, functions):
                 value = int.from_bytes(bytes.fromhex(word), "little")
                 if value in by_address:
                     kept.add(by_address[value])
+    constructors = {name for name in kept if name.startswith("_GLOBAL__sub_I_")}
     for function in functions.values():
         if function.indirect:
-            function.calls |= kept - {"cusp_reset", "cusp_servo_tick", "cusp_serial_interrupt",
+            mine = kept if function.name == "cusp_reset" else kept - constructors
+            function.calls |= mine - {"cusp_reset", "cusp_servo_tick", "cusp_serial_interrupt",
                                       "cusp_player_interrupt", "cusp_exception"}

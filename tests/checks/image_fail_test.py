@@ -13,6 +13,7 @@ FLAGS = ("-std=c++17 -O2 -mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=h
          "-nostartfiles -nostdlib").split()
 LAYOUT = """MEMORY { VECTORS (r) : ORIGIN = 0x08000000, LENGTH = 16K
 FLASH (rx) : ORIGIN = 0x0800C000, LENGTH = 512K  RAM (rw) : ORIGIN = 0x20000000, LENGTH = 128K }
+REGION_ALIAS("STACK", RAM)
 INCLUDE hal/stm32f4/sections.ld
 """
 # An image in which all proofs hold; tests replace what one of its functions does.
@@ -113,6 +114,9 @@ class ProofsOfTheImage(unittest.TestCase):
 
     def test_a_stack_that_is_too_deep_is_refused(self):
         self.refuse("bytes are needed", reset="volatile char a[9000]; a[sink] = 1;")
+
+    def test_a_stack_that_leaves_less_than_a_kilobyte_is_refused(self):
+        self.refuse("to spare", reset="volatile char a[5000]; a[sink] = 1;")
 
     def test_stacks_of_all_priorities_add_up(self):
         self.refuse("bytes are needed", reset="volatile char a[3000]; a[sink] = 1;",

@@ -61,6 +61,7 @@ class Chip:
         finally:
             self.process.stdin.close()
             self.process.wait(10)
+            self.process.stdout.close()
 
     def command(self, text):
         """The lines that answer a command."""
@@ -100,11 +101,13 @@ class Chip:
 
     def status(self):
         self.send("?")
-        heard = self.run(50, ">\r\n")
-        match = re.search(r"<(\w+)(?::(\d))?[^|>]*\|MPos:([-\d.,]+)", heard)
-        if match is None:
-            raise CosimFailed(f"no status report, but {heard!r}")
-        return match.group(1), tuple(float(part) for part in match.group(3).split(","))
+        heard = ""
+        for _ in range(100):
+            heard += self.run(1)
+            match = re.search(r"<(\w+)(?::(\d))?[^|>]*\|MPos:([-\d.,]+)[^>]*>\r\n", heard)
+            if match is not None:
+                return match.group(1), tuple(float(part) for part in match.group(3).split(","))
+        raise CosimFailed(f"no status report, but {heard!r}")
 
     def wait_for(self, state, milliseconds=20000):
         for _ in range(milliseconds // 50):

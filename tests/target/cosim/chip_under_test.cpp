@@ -2,6 +2,7 @@
 #include "tests/target/cosim/chip_under_test.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <stdexcept>
 #include <utility>
 
@@ -131,7 +132,7 @@ ChipUnderTest::ChipUnderTest(const ChipKind& kind, const std::vector<std::uint8_
             [this] { happen_until_now(); },
             [this] {
                 return circuit_.now >= end_ || circuit_.now < flash_->busy_until() ||
-                       watchdog_->bitten() || !powered_;
+                       watchdog_->bitten() || !powered_ || exhausted();
             }});
     add(0xE000E000, "core", *core_, always);
     blocks_[0xE000E400] = blocks_[0xE000EC00] = blocks_[0xE000E000];
@@ -326,7 +327,11 @@ void ChipUnderTest::write_by_dma(std::uint32_t address, std::uint32_t value)
 void ChipUnderTest::store_flash(std::uint32_t address, unsigned size, std::uint32_t value)
 {
     if (writes_left_ == 0) {
+        // Amid the write: some of its bits are cleared. The engine still stores the word.
         powered_ = false;
+        torn_place_ = address - 0x08000000;
+        std::memcpy(&torn_word_, &flash_->bytes()[torn_place_], 4);
+        torn_word_ &= value | 0x0F0F3355U;
         return;
     }
     writes_left_ -= writes_left_ > 0 ? 1 : 0;
@@ -390,7 +395,7 @@ void ChipUnderTest::advance(Picoseconds to)
 void ChipUnderTest::run(Picoseconds time, const std::function<bool()>& until)
 {
     end_ = circuit_.now + time;
-    while (circuit_.now < end_ && powered_) {
+    while (circuit_.now < end_ && powered_ && !exhausted()) {
         if (watchdog_->bitten()) {
             reset(ClockModel::ResetCause::kWatchdog);
         } else if (core_->reset_wanted()) {
@@ -464,6 +469,9 @@ void ChipUnderTest::power_cycle()
 {
     for (MemoryArea& area : circuit_.memories) {
         std::fill(area.bytes.begin(), area.bytes.end(), std::uint8_t{0x5A});
+    }
+    if (!powered_) {
+        std::memcpy(&flash_->bytes()[torn_place_], &torn_word_, 4);
     }
     powered_ = true;
     writes_left_ = -1;

@@ -33,6 +33,13 @@ public:
     // Lets this much time pass. Ends early where `until` says so; it is asked when the core sleeps.
     void run(Picoseconds time, const std::function<bool()>& until = {});
 
+    // run() ends when the core has executed this many: one that takes no time may run for ever.
+    void limit_instructions(std::uint64_t count)
+    {
+        last_instruction_ = core_->instructions() + count;
+    }
+    bool exhausted() const { return core_->instructions() >= last_instruction_; }
+
     Circuit& circuit() { return circuit_; }
     CoreModel& core() { return *core_; }
     FlashModel& flash() { return *flash_; }
@@ -102,9 +109,11 @@ private:
     std::uint32_t clock_changes_{0};
     std::uint32_t freeze_1_{0}, freeze_2_{0};
     Picoseconds end_{0};
+    std::uint64_t last_instruction_{std::numeric_limits<std::uint64_t>::max()};
     bool held_{false};
     bool powered_{true};
     std::int64_t writes_left_{-1};
+    std::uint32_t torn_place_{0}, torn_word_{0};  // where the power failed
     unsigned resets_{0};
     bool pace_line_{false};
     std::function<void()> tick_listener_;

@@ -15,6 +15,8 @@ constexpr std::uint32_t kHalf = 16;
 constexpr std::uint32_t kComplete = 32;
 // A stream that is switched off finishes what it does.
 constexpr Picoseconds kStopTime = 120'000;
+// NDTR stands at 0 after the last item of a ring, no longer than to the next.
+constexpr Picoseconds kReloadTime = 990'000;
 // Interrupt enables may be changed at any time.
 constexpr std::uint32_t kFreeBits = 0x1F;
 constexpr std::array<unsigned, 4> kFlagPlaces{0, 6, 16, 22};
@@ -63,7 +65,10 @@ std::uint32_t DmaModel::read(std::uint32_t offset)
         case 0x00:
             return stream.cr;
         case 0x04:
-            return (stream.cr & kEnable) != 0 ? stream.left : stream.ndtr;
+            // The manual does not say when NDTR is loaded anew: as late as it can be.
+            return (stream.cr & kEnable) == 0                        ? stream.ndtr
+                   : circuit_.now - stream.reloaded_at < kReloadTime ? 0
+                                                                     : stream.left;
         case 0x08:
             return stream.par;
         case 0x0C:
@@ -217,6 +222,7 @@ void DmaModel::count_item(unsigned index)
             return;
         }
         stream.left = stream.size;
+        stream.reloaded_at = circuit_.now;
     }
     if (to_peripheral(stream.cr)) {
         fetch(index);

@@ -37,6 +37,7 @@ private:
         std::uint32_t left{0};  // items until the end
         std::uint32_t prefetched{0};
         Picoseconds stops_at{kNever};
+        Picoseconds reloaded_at{-kSecond};  // a ring began anew
     };
     void write_stream(unsigned index, std::uint32_t offset, std::uint32_t value);
     void write_settings(unsigned index, std::uint32_t value);

@@ -10,6 +10,8 @@ namespace {
 
 constexpr Picoseconds kNoTime = 1;  // an instruction, in picoseconds
 constexpr std::uint64_t kMostTicks = 3'600'000;
+// Some hundred ticks' worth: more without a tick is a core that goes round in circles.
+constexpr std::uint64_t kMostInstructions = 20'000'000;
 constexpr std::uint64_t kSilence = 200;  // ticks without an edge after a refusal
 
 bool starts_with(const std::string& text, const char* with) { return text.rfind(with, 0) == 0; }
@@ -69,9 +71,12 @@ int GoldenSender::run()
         job_.script.pop_front();
     }
     begin_line();
+    chip_.limit_instructions(kMostInstructions);
     while (!done_) {
+        const std::uint64_t before = tick_;
         chip_.run(100 * kMillisecond, [this] { return on_settled(); });
-        if (tick_ > kMostTicks || !chip_.powered() || chip_.core().locked_up()) {
+        const bool stands_still = chip_.exhausted() || (!done_ && tick_ == before);
+        if (stands_still || tick_ > kMostTicks || !chip_.powered() || chip_.core().locked_up()) {
             throw std::runtime_error{"the program does not come to its end: line " +
                                      std::to_string(next_line_) + ", heard: " + heard_};
         }
@@ -79,6 +84,7 @@ int GoldenSender::run()
     // What is in flight.
     chip_.set_tick_listener({});
     chip_.run(4 * kMillisecond);
+    chip_.limit_instructions(std::numeric_limits<std::uint64_t>::max() / 2);
     collect();
     return refused_ ? 1 : 0;
 }
@@ -90,6 +96,7 @@ void GoldenSender::on_tick()
         first_boundary_ = chip_.circuit().now;
     }
     ++tick_;
+    chip_.limit_instructions(kMostInstructions);
     asked_ = false;
     resumed_ = false;
     may_begin_line_ = true;

@@ -60,7 +60,7 @@ def play(options, folder):
 
 
 def compare(options, folder):
-    host_status, host = golden.simulate(options, folder)
+    host_status, host, _ = golden.simulate(options, folder)
     status, edges, chip_seconds, seconds = play(options, folder)
     name = pathlib.Path(options.program).name
     print(f"{name}: {len(host)} edges, {chip_seconds:.1f} s of the chip in {seconds:.1f} s")

@@ -1,0 +1,43 @@
+#!/usr/bin/env python3
+"""The board's image with its serial line at 1 Mbaud: no byte is lost, whatever the core does.
+
+usage: fast_serial.py --cosim COSIM --board BOARD --image IMAGE.bin [--cusp CUSP]
+
+Only kBaud of the board's traits is changed (mutations.py compiles it); then the serial tests of
+faults_on_chip.py run with a sender at that rate: settings restored over erased sectors, the most pulses.
+Exit status: that of the tests, 2 where the image can't be built.
+"""
+import argparse
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+from mutations import Builder
+
+HERE = pathlib.Path(__file__).resolve().parent
+BAUD = 1000000
+TRAITS = {"mill3_f405": "boards/mill3_f405/board_traits.hpp",
+          "black_pill_f411": "boards/black_pill_f411/pill_traits.hpp"}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    for name in ("cosim", "board", "image"):
+        parser.add_argument(f"--{name}", required=True)
+    parser.add_argument("--cusp")
+    options = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        try:
+            builder = Builder(options.image, pathlib.Path(folder))
+            image = builder.make(TRAITS[options.board], "kBaud = 115200;", f"kBaud = {BAUD};")
+        except (OSError, subprocess.CalledProcessError, StopIteration) as error:
+            print(f"fast_serial: {error}", file=sys.stderr)
+            return 2
+        return subprocess.run([sys.executable, HERE / "faults_on_chip.py", "--cosim", options.cosim,
+                               "--board", options.board, "--image", str(image), "--baud", str(BAUD),
+                               "Serial"]).returncode
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,314 @@
+#!/usr/bin/env python3
+"""What a machine's owner would meet: the board's shipping image in the co-simulation, fault by fault.
+
+usage: faults_on_chip.py --cosim COSIM --board BOARD --image IMAGE.bin [--cusp CUSP] [--baud N] [-k PATTERN]
+"""
+import argparse
+import re
+import sys
+import unittest
+
+from chip import CHIPS, Chip, CosimFailed
+
+options = None
+QUICK = "$0=2\n$100=800.000\n$110=9000.000\n$120=5000.000\n$800=1000000.000\n"
+
+
+def chip(**more):
+    machine = Chip(options.cosim, options.image, options.board, **more)
+    machine.command(f"baud {options.baud}")
+    return machine
+
+
+def settings_of(machine):
+    """number -> value, of `$$`."""
+    return dict(re.findall(r"\$(\d+)=([\d.]+)", machine.ask("$$")))
+
+
+class Pins(unittest.TestCase):
+    def test_inverted_steps_and_directions_rest_high(self):
+        with chip() as machine:
+            machine.boot()
+            for line in ("$2=5", "$3=2"):
+                self.assertIn("ok", machine.ask(line))
+            machine.run(20)
+            levels = machine.levels()
+            self.assertEqual([levels[pin] for pin in machine.lines], [1, 0, 1, 0, 1, 0])
+            machine.changes()
+            self.assertIn("ok", machine.ask("$J=G91 X1 F3000"))
+            machine.wait_for("Idle")
+            edges = machine.edges_of("X step", machine.changes())
+            low = [after - before for (before, level), (after, _) in zip(edges, edges[1:])
+                   if level == 0]
+            self.assertEqual(len(low), 800)
+            self.assertEqual(set(low), {2000})  # $0, in ns
+
+    def test_inverted_enable_coolant_and_spindle(self):
+        with chip() as machine:
+            machine.boot()
+            enable, flood = machine.pins["drives enable"], machine.pins["flood"]
+            self.assertEqual((machine.levels()[enable], machine.levels()[flood]), (1, 0))
+            for line in ("$4=1", "$15=1", "$16=1"):
+                self.assertIn("ok", machine.ask(line))
+            self.assertEqual((machine.levels()[enable], machine.levels()[flood],
+                              machine.levels()[machine.pins["spindle on"]]), (0, 1, 1))
+            machine.ask("M8 M3 S1000")
+            machine.run(5)
+            self.assertEqual((machine.levels()[flood],
+                              machine.levels()[machine.pins["spindle on"]]), (0, 0))
+
+    def test_inversion_outlives_a_reset_and_no_output_is_wrong_before_it(self):
+        with chip() as machine:
+            machine.boot()
+            for line in ("$2=7", "$4=1", "$15=3"):
+                self.assertIn("ok", machine.ask(line))
+            machine.changes()
+            machine.command("power cycle")
+            machine.boot()
+            changes = machine.changes()
+            for signal, level in (("X step", 1), ("drives enable", 0), ("flood", 1)):
+                seen = {at for _, at in machine.edges_of(signal, changes[1:])}
+                self.assertEqual(seen - {level}, set(), signal)
+
+    def test_the_drives_are_off_at_power_up_until_something_moves(self):
+        with chip() as machine:
+            machine.boot()
+            machine.run(100)
+            enable = machine.edges_of("drives enable", machine.changes())
+            self.assertEqual([level for _, level in enable], [1])
+            machine.ask("$J=G91 X0.1 F600")
+            self.assertEqual(machine.levels()[machine.pins["drives enable"]], 0)
+
+
+class StandStill(unittest.TestCase):
+    def steps_after(self, how):
+        """Steps and milliseconds' worth of steps after the core stood still amid a fast jog."""
+        with chip() as machine:
+            machine.boot()
+            for line in QUICK.split():
+                self.assertIn("ok", machine.ask(line))
+            machine.ask("$J=G91 X60 F6000")
+            machine.run(300.4)
+            self.assertEqual(machine.status()[0], "Jog")
+            machine.changes()
+            machine.run(10)
+            each_millisecond = machine.steps(machine.changes()) / 10
+            machine.command(f"core {how}")
+            machine.run(1000)
+            return machine.steps(machine.changes()), each_millisecond
+
+    def test_a_core_that_locks_up_leaves_at_most_the_frame_that_plays(self):
+        steps, each_millisecond = self.steps_after("stop")
+        self.assertGreater(each_millisecond, 50)
+        self.assertLess(steps, 1.1 * each_millisecond)
+
+    def test_a_debugger_that_holds_the_core_holds_the_stream(self):
+        steps, each_millisecond = self.steps_after("halt")
+        self.assertGreater(each_millisecond, 50)
+        self.assertLessEqual(steps, 1)
+
+    def test_a_reset_by_the_watchdog_amid_motion_is_told_and_ends_in_alarm_3(self):
+        with chip() as machine:
+            machine.boot()
+            machine.ask("$J=G91 X60 F3000")
+            machine.run(200)
+            machine.command("core stop")
+            heard = machine.run(7000)
+            machine.command("core go")
+            heard += machine.run(1000)
+            self.assertEqual(machine.state()["resets"], 1)
+            self.assertIn("[MSG:Reset by the watchdog]", heard)
+            self.assertIn("[MSG:Reset amid motion: the position is lost]", heard)
+            self.assertIn("ALARM:3", heard)
+            self.assertEqual(machine.status()[0], "Alarm")
+
+    def test_a_reset_at_rest_raises_no_alarm(self):
+        with chip() as machine:
+            machine.boot()
+            machine.ask("$J=G91 X1 F3000")
+            machine.wait_for("Idle")
+            machine.run(100)
+            machine.command("core stop")
+            machine.run(7000)
+            machine.command("core go")
+            heard = machine.run(1000)
+            self.assertIn("[MSG:Reset by the watchdog]", heard)
+            self.assertNotIn("ALARM", heard)
+
+
+class Clocks(unittest.TestCase):
+    def say(self, crystal):
+        with chip(crystal=crystal) as machine:
+            return machine.boot(), machine.state()["core_hz"]
+
+    def test_the_planned_crystal_runs_the_chip_and_nothing_is_said(self):
+        heard, rate = self.say(None)
+        self.assertNotIn("MSG", heard)
+        self.assertEqual(rate, {"stm32f405": 168000000, "stm32f411": 100000000}[self.chip_name()])
+
+    def chip_name(self):
+        return CHIPS[options.board][0]
+
+    def test_other_crystals_neither_overclock_nor_stop_the_chip(self):
+        rate = self.say(None)[1]
+        for crystal in (8000000, 12000000, 16000000, 25000000):
+            if crystal != CHIPS[options.board][1]:
+                heard, other = self.say(crystal)
+                self.assertIn("[MSG:Clock: another crystal", heard)
+                self.assertEqual(other, rate)
+
+    def test_no_crystal_is_told(self):
+        self.assertIn("[MSG:Clock: no crystal", self.say(0)[0])
+
+    def test_a_crystal_that_dies_amid_motion_stops_the_steps_and_is_told(self):
+        with chip() as machine:
+            machine.boot()
+            machine.ask("$J=G91 X60 F3000")
+            machine.run(200)
+            machine.changes()
+            machine.command("crystal")
+            heard = machine.run(1000)
+            self.assertLess(machine.steps(machine.changes()), 3)
+            self.assertIn("[MSG:Fault: exception 2,", heard)
+            self.assertIn("[MSG:Clock: no crystal", heard)
+            self.assertIn("ALARM:3", heard)
+
+
+class Serial(unittest.TestCase):
+    def restore(self, machine, lines, window=128):
+        """Sends lines as a sender does, `?` at 10 Hz between them; what was answered."""
+        heard, waiting, at, asked, answered = "", [], 0, 0, 0
+        for _ in range(8000):
+            while at < len(lines) and sum(waiting) + len(lines[at]) + 1 <= window:
+                machine.send(lines[at] + "\n")
+                waiting.append(len(lines[at]) + 1)
+                at += 1
+            if asked % 50 == 0:
+                machine.send("?")
+            asked += 1
+            heard += machine.run(2)
+            count = len(re.findall(r"(?:ok|error:\d+)\r\n", heard))
+            del waiting[:count - answered]
+            answered = count
+            if at == len(lines) and not waiting:
+                return heard
+        raise CosimFailed(f"not answered: {heard[-300:]!r}")
+
+    def test_settings_are_restored_under_polling_while_sectors_are_erased(self):
+        with chip() as machine:
+            machine.boot()
+            values = settings_of(machine)
+            lines = [f"${number}={value}" for number, value in values.items()]
+            lines = (lines * 4)[:100]
+            heard = self.restore(machine, lines)
+            self.assertEqual(re.findall(r"error:\d+", heard), [])
+            self.assertEqual(len(re.findall(r"(?m)^ok\r$", heard)), 100)
+            state = machine.state()
+            self.assertEqual(state["lost"], 0)
+            self.assertGreater(state["erases"], 0)
+            self.assertEqual(settings_of(machine), values)
+
+    def test_lines_are_taken_whole_in_the_heaviest_motion(self):
+        with chip() as machine:
+            machine.boot()
+            for line in ("$100=2000.000", "$101=2000.000", "$102=2000.000", "$110=6000.000",
+                         "$111=6000.000", "$112=6000.000", "$120=5000.000", "$121=5000.000",
+                         "$122=5000.000", "$800=1000000.000", "$801=1000000.000",
+                         "$802=1000000.000"):
+                self.assertIn("ok", machine.ask(line))
+            program = ["G91 G1 F10000"]
+            program += [f"X{0.4 * way} Y{0.4 * way} Z{0.4 * way}" for way in (1, -1) for _ in range(150)]
+            heard = self.restore(machine, program, window=1000)
+            self.assertEqual(re.findall(r"error:\d+|ALARM:\d+", heard), [])
+            machine.wait_for("Idle")
+            self.assertEqual(machine.state()["lost"], 0)
+            self.assertEqual(machine.status()[1], (0.0, 0.0, 0.0))
+
+
+class Inputs(unittest.TestCase):
+    def test_nothing_wired_stops_the_machine(self):
+        with chip(quiet_inputs=False) as machine:
+            heard = machine.boot()
+            self.assertIn("ALARM:10", heard)
+            self.assertEqual(machine.status()[0], "Alarm")
+            self.assertIn("error:9", machine.ask("G1 X1 F100"))
+
+    def test_a_board_without_controls_runs_with_14_set(self):
+        with chip(quiet_inputs=False) as machine:
+            machine.boot()
+            self.assertIn("ok", machine.ask("$14=331"))
+            machine.run(20)
+            machine.send("\x18")
+            machine.run(50)
+            machine.ask("$X")
+            self.assertEqual(machine.status()[0], "Idle")
+
+    def test_each_control_acts_when_its_wire_breaks(self):
+        for signal, state in (("door", "Door"), ("emergency stop", "Alarm"),
+                              ("motor fault", "Alarm"), ("hold", "Idle"), ("reset", "Alarm")):
+            with self.subTest(signal), chip() as machine:
+                machine.boot()
+                machine.ask("$J=G91 X60 F3000")
+                machine.run(100)
+                machine.pin(machine.pins[signal], "open")
+                machine.run(1000)
+                machine.changes()
+                machine.run(100)
+                self.assertEqual(machine.steps(machine.changes()), 0)
+                self.assertEqual(machine.status()[0], state)
+
+    def test_an_emergency_stop_cuts_the_drives_and_needs_a_reset(self):
+        with chip() as machine:
+            machine.boot()
+            machine.ask("$1=255")
+            machine.ask("M3 S1000")
+            machine.run(10)
+            self.assertEqual(machine.levels()[machine.pins["drives enable"]], 0)
+            machine.pin(machine.pins["emergency stop"], "open")
+            heard = machine.run(20)
+            self.assertIn("ALARM:10", heard)
+            self.assertEqual(machine.levels()[machine.pins["drives enable"]], 1)
+            self.assertEqual(machine.levels()[machine.pins["spindle on"]], 0)
+            machine.send("\x18")
+            self.assertIn("ALARM:10", machine.run(50))  # it is still pressed
+            machine.pin(machine.pins["emergency stop"], 0)
+            machine.run(20)
+            machine.send("$X\n")
+            machine.run(50)
+            self.assertEqual(machine.status()[0], "Alarm")  # no reset yet
+            machine.send("\x18")
+            machine.run(50)
+            machine.ask("$X")
+            self.assertEqual(machine.status()[0], "Idle")
+
+
+class Power(unittest.TestCase):
+    def test_a_cut_at_any_write_leaves_the_old_or_the_new_settings(self):
+        with chip() as machine:
+            machine.boot()
+            self.assertIn("ok", machine.ask("$100=111.000"))
+            words = machine.state()["words"]
+            self.assertIn("ok", machine.ask("$100=222.000"))
+            each = machine.state()["words"] - words
+        for after in sorted({0, 1, 2, each // 2, each - 2, each - 1}):
+            with chip() as machine:
+                machine.boot()
+                machine.ask("$100=111.000")
+                machine.command(f"power fails_after {after}")
+                machine.send("$100=222.000\n")
+                machine.run(200)
+                machine.command("power cycle")
+                heard = machine.boot()
+                self.assertNotIn("error:7", heard)
+                self.assertEqual(settings_of(machine)["100"], "111.000", after)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--cosim", required=True)
+    parser.add_argument("--board", required=True)
+    parser.add_argument("--image", required=True)
+    parser.add_argument("--cusp")
+    parser.add_argument("--baud", type=int, default=115200)
+    options, rest = parser.parse_known_args()
+    unittest.main(argv=[sys.argv[0], *rest])

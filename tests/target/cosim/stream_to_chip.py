@@ -1,0 +1,42 @@
+#!/usr/bin/env python3
+"""`cusp stream` sends a program to a board's shipping image, over a pseudo-terminal, at its baud rate.
+
+usage: stream_to_chip.py --cosim COSIM --cusp CUSP --board BOARD --image IMAGE.bin PROGRAM --end X,Y,Z
+Exit status: 0 it was taken and the machine stands at the end given, 1 it does not.
+"""
+import argparse
+import subprocess
+import sys
+
+from chip import Chip
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    for name in ("cosim", "cusp", "board", "image", "end"):
+        parser.add_argument(f"--{name}", required=True)
+    parser.add_argument("program")
+    options = parser.parse_args()
+    with Chip(options.cosim, options.image, options.board) as machine:
+        machine.boot()
+        machine.process.stdin.write("terminal 600000\n")
+        machine.process.stdin.flush()
+        name = machine.process.stdout.readline().split()[1]
+        # The line to the pseudo-terminal stays open: what `cusp stream` leaves behind is read below.
+        run = subprocess.run([options.cusp, "stream", name, options.program],
+                             stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=300)
+        while machine.process.stdout.readline() != "done\n":
+            pass
+        state, place = machine.wait_for("Idle")
+        lost = machine.state()["lost"]
+    good = run.returncode == 0 and lost == 0 and \
+        place == tuple(float(part) for part in options.end.split(","))
+    print(f"the stream ended with status {run.returncode}; the machine is {state} at {place}; "
+          f"{lost} bytes lost")
+    if run.returncode != 0:
+        print(run.stdout[-500:], run.stderr[-500:])
+    return 0 if good else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
