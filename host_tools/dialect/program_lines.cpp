@@ -12,25 +12,24 @@ bool is_digit(char character) { return character >= '0' && character <= '9'; }
 
 }  // namespace
 
-std::string numbered_line(std::string_view uncovered, std::uint64_t number)
+std::string numbered_line(std::string_view line, std::uint64_t number)
 {
-    const std::string as_it_is{uncovered};
-    if (uncovered.empty() || uncovered.front() == '$' || number > kMostNumber) {
+    const std::string as_it_is{line};
+    if (line.empty() || line.front() == '$' || number > kMostNumber) {
         return as_it_is;
     }
     std::string words;
-    for (std::size_t i = 0; i < uncovered.size(); ++i) {
-        if (uncovered[i] != 'N' && uncovered[i] != 'n') {
-            words.push_back(uncovered[i]);
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        if (line[i] != 'N' && line[i] != 'n') {
+            words.push_back(line[i]);
             continue;
         }
         std::size_t digits = 0;
-        while (i + 1 + digits < uncovered.size() && is_digit(uncovered[i + 1 + digits])) {
+        while (i + 1 + digits < line.size() && is_digit(line[i + 1 + digits])) {
             ++digits;
         }
         const std::size_t end = i + 1 + digits;
-        if (digits == 0 || digits > kMostDigits ||
-            (end < uncovered.size() && uncovered[end] == '.')) {
+        if (digits == 0 || digits > kMostDigits || (end < line.size() && line[end] == '.')) {
             return as_it_is;
         }
         i += digits;
@@ -45,7 +44,7 @@ std::string bare_line(std::string_view line)
     if (first != std::string_view::npos && line[first] == '$') {
         return std::string{line.substr(first)};
     }
-    std::string uncovered;
+    std::string line;
     bool in_comment = false;
     for (const char character : line) {
         if (in_comment) {
@@ -55,18 +54,18 @@ std::string bare_line(std::string_view line)
         } else if (character == ';') {
             break;
         } else if (character != ' ' && character != '\t') {
-            uncovered.push_back(character);
+            line.push_back(character);
         }
     }
-    return uncovered == "%" ? std::string{} : uncovered;
+    return line == "%" ? std::string{} : line;
 }
 
 std::optional<ProgramLine> ProgramLines::next()
 {
     while (const auto line = source_.next()) {
-        std::string uncovered = bare_line(*line);
-        if (!uncovered.empty()) {
-            return ProgramLine{source_.line_number(), std::move(uncovered)};
+        std::string line = bare_line(*line);
+        if (!line.empty()) {
+            return ProgramLine{source_.line_number(), std::move(line)};
         }
     }
     return std::nullopt;

@@ -15,7 +15,7 @@ std::string bare_line(std::string_view line);
 
 // The same line with `number` as its only line number, so that the controller's reports name the
 // line of the file. $ commands and lines whose own number is malformed are unchanged.
-std::string numbered_line(std::string_view uncovered, std::uint64_t number);
+std::string numbered_line(std::string_view line, std::uint64_t number);
 
 struct ProgramLine {
     std::uint64_t number;  // in the file, from 1

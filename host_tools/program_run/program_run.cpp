@@ -204,11 +204,11 @@ private:
                 no_more_lines_ = true;
                 break;
             }
-            const std::string uncovered = dialect::bare_line(*line);
-            if (uncovered.empty()) {
+            const std::string words = dialect::bare_line(*line);
+            if (words.empty()) {
                 continue;
             }
-            const std::string numbered = dialect::numbered_line(uncovered, source_.line_number());
+            const std::string numbered = dialect::numbered_line(words, source_.line_number());
             effects_ = instruments_->read(numbered, source_.line_number());
             no_more_lines_ = effects_.ends_program;
             if (effects_.pauses) {

@@ -53,12 +53,12 @@ public:
 
     void read(const std::string& line, std::uint64_t number)
     {
-        const std::string uncovered = bare_line(line);
-        note_comment(line, uncovered.empty(), number);
+        const std::string words = bare_line(line);
+        note_comment(line, words.empty(), number);
         std::uint8_t rapid = 0;
-        if (!ended_ && !uncovered.empty() && uncovered.front() != '$') {
+        if (!ended_ && !words.empty() && words.front() != '$') {
             begun_ = true;
-            rapid = execute(line, uncovered, number) ? 1 : 0;
+            rapid = execute(line, words, number) ? 1 : 0;
         }
         reading_.rapid.push_back(rapid);
         reading_.section.push_back(static_cast<std::uint8_t>(reading_.sections.size() - 1));
@@ -66,9 +66,9 @@ public:
 
 private:
     // Whether the line's moves are rapid.
-    bool execute(const std::string& line, const std::string& uncovered, std::uint64_t number)
+    bool execute(const std::string& line, const std::string& words, std::uint64_t number)
     {
-        const Status status = interpreter_.execute(uncovered, static_cast<std::uint32_t>(number));
+        const Status status = interpreter_.execute(words, static_cast<std::uint32_t>(number));
         if (!status) {
             refuse(line, number, static_cast<int>(status.error()));
             return false;
