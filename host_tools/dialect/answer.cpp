@@ -134,7 +134,7 @@ constexpr std::array<std::string_view, 39> kErrors{
     "a number is too large",
 };
 
-constexpr std::array<std::string_view, 11> kAlarms{
+constexpr std::array<std::string_view, 18> kAlarms{
     "",
     "a hard limit was hit; the position may be lost",
     "the target is beyond the soft limits",
@@ -145,7 +145,14 @@ constexpr std::array<std::string_view, 11> kAlarms{
     "the door was opened while homing",
     "homing could not clear the switch",
     "homing did not find the switch",
-    "homing failed",
+    "the emergency stop is pressed",
+    "unknown",
+    "unknown",
+    "unknown",
+    "unknown",
+    "unknown",
+    "unknown",
+    "a motor driver reports a fault",
 };
 
 template <std::size_t N>
