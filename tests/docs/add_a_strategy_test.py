@@ -46,7 +46,7 @@ class Page(unittest.TestCase):
         for name in ("firmware", "hal", "boards", "host_tools", "docs", "cmake", "tests/checks"):
             shutil.copytree(TOP / name, tree / name, ignore=shutil.ignore_patterns("node_modules"))
         self.assertEqual(page_blocks.main(TOP / "docs/add_a_strategy.md", TOP, tree, []), 0)
-        for check in ("includes.py", "front_doors.py", "glossary.py", "job_keys.py", "type_names.py", "retired_words.py"):
+        for check in ("includes.py", "front_doors.py", "glossary.py", "job_keys.py", "type_names.py"):
             run = subprocess.run([sys.executable, tree / "tests/checks" / check, tree], capture_output=True, text=True)
             self.assertEqual(run.returncode, 0, f"{check}: {run.stdout}{run.stderr}")
 
@@ -61,7 +61,7 @@ class Page(unittest.TestCase):
         job = self.folder / "floor.toml"
         job.write_text(JOB.format(strategy="adaptive_isocurve", parts=TOP / "examples/parts", keys="iso_distance = 1.0")
                        .replace("boundary", "# boundary"))
-        run = subprocess.run([CUSP, "verify", job, program, "--pitch", "1", "--spacing", "0.5"], capture_output=True, text=True)
+        run = subprocess.run([CUSP, "verify", job, program, "--grid", "1", "--step", "0.5"], capture_output=True, text=True)
         gouge = [float(line.split(": ")[1]) for line in run.stdout.splitlines() if line.startswith("ball_gouge_max_mm")]
         self.assertEqual(len(gouge), 1, run.stdout + run.stderr)
         self.assertLessEqual(gouge[0], 0.02)
