@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "host_tools/nurbs/plan_vector.hpp"
+
 namespace cusp::hull_rough {
 namespace {
 
