@@ -44,7 +44,7 @@ std::string bare_line(std::string_view line)
     if (first != std::string_view::npos && line[first] == '$') {
         return std::string{line.substr(first)};
     }
-    std::string line;
+    std::string words;
     bool in_comment = false;
     for (const char character : line) {
         if (in_comment) {
@@ -54,18 +54,18 @@ std::string bare_line(std::string_view line)
         } else if (character == ';') {
             break;
         } else if (character != ' ' && character != '\t') {
-            line.push_back(character);
+            words.push_back(character);
         }
     }
-    return line == "%" ? std::string{} : line;
+    return words == "%" ? std::string{} : words;
 }
 
 std::optional<ProgramLine> ProgramLines::next()
 {
     while (const auto line = source_.next()) {
-        std::string line = bare_line(*line);
-        if (!line.empty()) {
-            return ProgramLine{source_.line_number(), std::move(line)};
+        std::string words = bare_line(*line);
+        if (!words.empty()) {
+            return ProgramLine{source_.line_number(), std::move(words)};
         }
     }
     return std::nullopt;
