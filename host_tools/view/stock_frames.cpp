@@ -9,7 +9,7 @@ namespace cusp::view {
 using job::Job;
 using toolpath::Tool;
 using verify::HeightGrid;
-using verify::StockHeightMap;
+using verify::MachinedStock;
 using verify::ToolPositions;
 
 namespace {
@@ -90,7 +90,7 @@ Bytes stock_frames(const CuttingPath& path, const Job& job, const HeightGrid& gr
     }
     const std::size_t each = std::max<std::size_t>(1, (positions + kFrames - 1) / kFrames);
 
-    StockHeightMap stock{grid, high};
+    MachinedStock stock{grid, high};
     std::vector<std::uint16_t> last = steps_of(stock.heights(), low, high);
     std::vector<double> ticks;
     Bytes planes;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "host_tools/job/job.hpp"
-#include "host_tools/verify/stock_cutting.hpp"
+#include "host_tools/verify/machined_stock.hpp"
 #include "host_tools/view/byte_text.hpp"
 
 namespace cusp::view {
