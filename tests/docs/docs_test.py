@@ -6,6 +6,7 @@ usage: docs_test.py CUSP TOP DOCUMENT...    (documents relative to TOP)
 A block ```sh holds commands, a block ```console commands after "$ " and below each what it prints,
 both streams; "..." stands for any text. Words after sh or console:
   no-run=REASON  is not run; REASONS below has the words
+  needs=view     is run where the build has the pages of cusp view
   background     one command, which runs until the document ends
   stop-after=S   Ctrl-C comes after S seconds
   status=N       the exit status of the last command, 0 where nothing is said
@@ -41,7 +42,9 @@ class Block:
         self.place = place
         self.lines = []
         self.options = dict(word.partition("=")[::2] for word in words.split())
-        unknown = set(self.options) - {"no-run", "background", "stop-after", "status"}
+        unknown = set(self.options) - {"no-run", "needs", "background", "stop-after", "status"}
+        if self.options.get("needs", "view") != "view":
+            raise DocumentFault(f"{place}: needs={self.options['needs']} is not known")
         if unknown:
             raise DocumentFault(f"{place}: a block does not know {sorted(unknown)}")
         if "no-run" in self.options and self.options["no-run"] not in REASONS:
@@ -126,6 +129,16 @@ class Runner:
             process.communicate(timeout=TIMEOUT_S)
 
 
+def has_pages(cusp):
+    with tempfile.TemporaryDirectory() as scratch:
+        program = pathlib.Path(scratch) / "p.ngc"
+        program.write_text("G0 X1\n")
+        done = subprocess.run([cusp, "view", program, "-o", program.with_suffix(".html")], capture_output=True, text=True)
+        if done.returncode not in (0, 2):
+            raise DocumentFault(f"cusp view: exit status {done.returncode}: {done.stderr}")
+        return done.returncode == 0
+
+
 def check_document(name, text, cusp, examples):
     ran = 0
     with tempfile.TemporaryDirectory() as scratch:
@@ -136,6 +149,9 @@ def check_document(name, text, cusp, examples):
             for block, commands in blocks_of(name, text):
                 if "no-run" in block.options:
                     print(f"{block.place}: not run: {REASONS[block.options['no-run']]}")
+                    continue
+                if "needs" in block.options and not has_pages(cusp):
+                    print(f"{block.place}: not run: this build has no pages (npm)")
                     continue
                 begin = time.monotonic()
                 runner.run(block, commands)
@@ -164,6 +180,7 @@ class Documents(unittest.TestCase):
         self.refused("exit status 0, not 1", "```sh status=1\ntrue\n```\n")
         self.refused("no command was run", "```sh no-run=install\nfalse\n```\n")
         self.refused("is none of", "```sh no-run=weather\ntrue\n```\n")
+        self.refused("is not known", "```sh needs=weather\ntrue\n```\n")
         self.refused("does not know", "```sh sideways\ntrue\n```\n")
 
     def test_keeps_the_order_in_one_folder(self):

@@ -10,8 +10,9 @@ namespace {
 
 constexpr Picoseconds kNoTime = 1;  // an instruction, in picoseconds
 constexpr std::uint64_t kMostTicks = 3'600'000;
-// Some hundred ticks' worth: more without a tick is a core that goes round in circles.
-constexpr std::uint64_t kMostInstructions = 20'000'000;
+// A core that goes round in circles. The most that was seen between two ticks, while a NURBS is read
+// ahead, is over 20 million.
+constexpr std::uint64_t kMostInstructions = 200'000'000;
 constexpr std::uint64_t kSilence = 200;  // ticks without an edge after a refusal
 
 bool starts_with(const std::string& text, const char* with) { return text.rfind(with, 0) == 0; }
