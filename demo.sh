@@ -1,6 +1,6 @@
 #!/bin/sh
-# Installs what is missing, builds, and shows what cusp does: `cusp demo` leaves G-code, traces,
-# figures and pictures in out/demo.
+# Installs what is missing, builds, and shows what cusp does: `cusp demo` leaves G-code, figures and
+# pictures in out/demo. With --traces it leaves 470 MB of pulses and set points, too.
 set -eu
 cd "$(dirname "$0")"
 . ./.ci/packages.sh
@@ -17,4 +17,4 @@ echo "building"
     exit 1
 }
 
-exec build/release/bin/cusp demo --traces --out out/demo
+exec build/release/bin/cusp demo "$@" --out out/demo
