@@ -13,6 +13,8 @@
 #include <sys/file.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <system_error>
 #include <termios.h>
 #include <unistd.h>
@@ -180,6 +182,24 @@ Descriptor connect_tcp(const TcpAddress& address)
     fail(address.host + ":" + address.port, error);
 }
 
+namespace {
+
+// A pseudo-terminal keeps TIOCEXCL after its close, as long as its other end is open: nobody but
+// root could open it a second time.
+bool is_pseudo_terminal(int terminal)
+{
+    constexpr unsigned kFirstMajor = 136;
+    constexpr unsigned kLastMajor = 143;
+    struct stat status {};
+    if (::fstat(terminal, &status) != 0) {
+        return false;
+    }
+    const unsigned kind = major(status.st_rdev);
+    return kind >= kFirstMajor && kind <= kLastMajor;
+}
+
+}  // namespace
+
 Descriptor open_terminal(const std::string& name)
 {
     Descriptor terminal{::open(name.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK)};
@@ -191,7 +211,9 @@ Descriptor open_terminal(const std::string& name)
     }
     if (::isatty(terminal.number()) != 0) {
         make_raw(terminal.number(), name);
-        ::ioctl(terminal.number(), TIOCEXCL);
+        if (!is_pseudo_terminal(terminal.number())) {
+            ::ioctl(terminal.number(), TIOCEXCL);
+        }
     }
     return terminal;
 }

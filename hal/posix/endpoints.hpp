@@ -61,7 +61,7 @@ private:
 Descriptor connect_tcp(const TcpAddress& address);
 
 // The sender's end of a pseudo-terminal, or any terminal: raw, eight bits, nobody else's. The lock
-// is flock() and TIOCEXCL.
+// is flock(), and TIOCEXCL where it is no pseudo-terminal.
 Descriptor open_terminal(const std::string& name);
 
 }  // namespace cusp::hal
