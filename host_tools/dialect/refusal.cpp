@@ -57,17 +57,24 @@ std::string shown(std::string_view text)
     return text.size() > kMostShown ? result + "..." : result;
 }
 
-std::string trimmed(std::string_view text)
+std::string_view trimmed(std::string_view text)
 {
     const std::size_t end = text.find_last_not_of(" \t\r/");
-    return std::string{text.substr(0, end == std::string_view::npos ? 0 : end + 1)};
+    return text.substr(0, end == std::string_view::npos ? 0 : end + 1);
 }
 
 char capital(char c) { return static_cast<char>(std::toupper(static_cast<unsigned char>(c))); }
 
-std::string word_at(std::string_view line, const std::vector<std::size_t>& places, std::size_t word)
+// Bytes [begin, end) of a line.
+struct WordPlace {
+    std::size_t begin;
+    std::size_t end;
+};
+
+WordPlace word_at(std::string_view line, const std::vector<std::size_t>& places, std::size_t word)
 {
-    return trimmed(line.substr(places[word], places[word + 1] - places[word]));
+    const std::size_t begin = places[word];
+    return {begin, begin + trimmed(line.substr(begin, places[word + 1] - begin)).size()};
 }
 
 // The error of a line in a controller that has a feed, 0 for none.
@@ -87,10 +94,10 @@ bool may_be_unused(int code, char letter)
 }
 
 // The word without which the line has another error, or none.
-std::string word_to_blame(int code, std::string_view line, const std::vector<std::size_t>& places)
+WordPlace word_to_blame(int code, std::string_view line, const std::vector<std::size_t>& places)
 {
     if (error_of(line) != code) {
-        return "";
+        return {};
     }
     for (std::size_t word = 0; word + 1 < places.size(); ++word) {
         std::string without{line.substr(0, places[word])};
@@ -99,7 +106,7 @@ std::string word_to_blame(int code, std::string_view line, const std::vector<std
             return word_at(line, places, word);
         }
     }
-    return "";
+    return {};
 }
 
 struct Meaning {
@@ -175,7 +182,7 @@ std::string plain_word(std::string_view word)
     return plain;
 }
 
-std::string meaning_of(const std::string& word)
+std::string meaning_of(std::string_view word)
 {
     if (word.empty()) {
         return "";
@@ -211,9 +218,7 @@ std::string order_of_nurbs(std::string_view line)
     return std::string{": "} + letter + " is the order of the NURBS, degree + 1: 2 to 5";
 }
 
-}  // namespace
-
-std::string refused_word(int code, std::string_view line)
+WordPlace refused_word(int code, std::string_view line)
 {
     const std::vector<std::size_t> places = word_places(line);
     std::size_t program_number = places.size();
@@ -224,26 +229,31 @@ std::string refused_word(int code, std::string_view line)
         if (!status) {
             // A program number is no more than that where another word follows it.
             const std::size_t wrong = std::min(program_number, word);
-            return static_cast<int>(status.error()) == code ? word_at(line, places, wrong) : "";
+            return static_cast<int>(status.error()) == code ? word_at(line, places, wrong)
+                                                            : WordPlace{};
         }
         if (capital(line[places[word]]) == 'O') {
             program_number = word;
         }
     }
     const bool by_value = code == kUnsupported || code == kUnusedWords;
-    return by_value ? word_to_blame(code, line, places) : "";
+    return by_value ? word_to_blame(code, line, places) : WordPlace{};
 }
 
-std::string refusal_text(int code, std::string_view line)
+}  // namespace
+
+Refusal refusal(int code, std::string_view line)
 {
     std::string text{error_text(code)};
     if (line.empty()) {
-        return text;
+        return {0, 0, text};
     }
-    const std::string word = refused_word(code, line);
-    text += ": " + (word.empty() ? word : shown(word) + " in ");
+    const WordPlace place = refused_word(code, line);
+    const std::string_view word = line.substr(place.begin, place.end - place.begin);
+    text += ": " + (word.empty() ? "" : shown(word) + " in ");
     text += '"' + shown(trimmed(line)) + '"';
-    return text + meaning_of(word) + (code == kInvalidTarget ? order_of_nurbs(line) : "");
+    text += meaning_of(word) + (code == kInvalidTarget ? order_of_nurbs(line) : "");
+    return {place.begin, place.end, text};
 }
 
 }  // namespace cusp::dialect

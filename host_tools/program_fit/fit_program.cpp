@@ -15,7 +15,7 @@
 
 namespace cusp::program_fit {
 
-using dialect::refusal_text;
+using dialect::refusal;
 
 namespace {
 
@@ -145,7 +145,7 @@ void Fitter::refuse(Error error, std::string_view line) const
 {
     throw InputError(name_ + ":" + std::to_string(read_lines_) + ": error " +
                      std::to_string(static_cast<int>(error)) + ": " +
-                     refusal_text(static_cast<int>(error), line));
+                     refusal(static_cast<int>(error), line).text);
 }
 
 void Fitter::read(std::string_view text)

@@ -65,9 +65,9 @@ private:
             waiting_ = false;
         } else if (answer.kind == AnswerKind::kError) {
             waiting_ = false;
-            result_.errors.push_back({number_, answer.code,
-                                      dialect::refusal_text(answer.code, block_), block_,
-                                      dialect::refused_word(answer.code, block_)});
+            const dialect::Refusal found = dialect::refusal(answer.code, block_);
+            result_.errors.push_back({number_, answer.code, found.text, block_,
+                                      block_.substr(found.begin, found.end - found.begin)});
         } else if (answer.kind == AnswerKind::kAlarm) {
             result_.alarm = answer.code;
             result_.errors.push_back({number_, answer.code,

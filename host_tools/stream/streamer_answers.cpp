@@ -13,7 +13,7 @@ using dialect::Answer;
 using dialect::AnswerKind;
 using dialect::ControllerStatus;
 using dialect::parse_answer;
-using dialect::refusal_text;
+using dialect::refusal;
 
 namespace {
 
@@ -167,7 +167,7 @@ void Streamer::take_error(std::uint64_t line, int code)
         line == 0 ? std::string{"the way back to the work"} : name_of(file_, line);
     throw Ending{StreamOutcome::kError,
                  where + ": error:" + std::to_string(code) + ": " +
-                     refusal_text(code, line == 0 ? "" : text_of(file_, line))};
+                     refusal(code, line == 0 ? "" : text_of(file_, line)).text};
 }
 
 void Streamer::take_checked(const std::string& line)

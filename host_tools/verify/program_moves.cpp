@@ -15,7 +15,7 @@
 
 namespace cusp::verify {
 
-using dialect::refusal_text;
+using dialect::refusal;
 using toolpath::MoveCounts;
 
 namespace {
@@ -114,7 +114,7 @@ public:
         if (!status) {
             const int code = static_cast<int>(status.error());
             throw InputError(
-                fmt::format("{}:{}: error {}: {}", file_, number_, code, refusal_text(code, line)));
+                fmt::format("{}:{}: error {}: {}", file_, number_, code, refusal(code, line).text));
         }
         gcode::Action action;
         while (interpreter_.next(action)) {

@@ -15,8 +15,8 @@ namespace cusp::view {
 
 using dialect::bare_line;
 using dialect::LineSource;
-using dialect::refusal_text;
-using dialect::refused_word;
+using dialect::Refusal;
+using dialect::refusal;
 
 namespace {
 
@@ -35,12 +35,6 @@ std::string comment_of(const std::string& line)
                ? ""
                : line.substr(begin, close == std::string::npos ? close : close - begin);
 }
-
-// Bytes [begin, end) of a line.
-struct RefusedPlace {
-    std::size_t begin;
-    std::size_t end;
-};
 
 class LineReader {
 public:
@@ -92,18 +86,11 @@ private:
     {
         ++reading_.refused_count;
         if (reading_.refused.size() < ProgramReading::kMostRefused) {
-            const RefusedPlace word = place_of(line, refused_word(code, line));
-            reading_.refused.push_back(
-                {number, word.begin, word.end, code, refusal_text(code, line)});
+            Refusal found = refusal(code, line);
+            // The whole line where no single word is wrong.
+            const std::size_t end = found.end > found.begin ? found.end : line.size();
+            reading_.refused.push_back({number, found.begin, end, code, std::move(found.text)});
         }
-    }
-
-    // The whole line where no single word is wrong.
-    static RefusedPlace place_of(const std::string& line, const std::string& word)
-    {
-        const std::size_t begin = word.empty() ? std::string::npos : line.find(word);
-        return begin == std::string::npos ? RefusedPlace{0, line.size()}
-                                          : RefusedPlace{begin, begin + word.size()};
     }
 
     void note_comment(const std::string& line, bool alone, std::uint64_t number)
