@@ -87,6 +87,8 @@ public:
         if (::pipe2(commands.data(), O_CLOEXEC) != 0 || ::pipe2(answers.data(), O_CLOEXEC) != 0) {
             throw InputError{"cusp view --still: no pipe to the browser"};
         }
+        // A browser that ends early is an error of write(), not a signal.
+        std::signal(SIGPIPE, SIG_IGN);
         child_ = ::fork();
         if (child_ == 0) {
             become(program, folder, commands[0], answers[1]);
