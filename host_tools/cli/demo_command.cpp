@@ -36,6 +36,7 @@ using verify::Verification;
 using view::Page;
 using view::page_text;
 using view::run_page;
+using view::RunPage;
 using view::RunPageOptions;
 using view::why_no_page;
 
@@ -66,24 +67,30 @@ void make_folder(const fs::path& folder)
     }
 }
 
-// Returns what to say of it.
-std::string write_page(const fs::path& folder,
-                       const fs::path& program,
-                       const Job& job,
-                       const SimulationOptions& mill,
-                       const Verification& cut)
+struct DemoRun {
+    SimulationResult result;
+    std::string page;  // what to say of it
+};
+
+// The run, and its page where this build has one.
+DemoRun run_with_page(const fs::path& folder,
+                      const fs::path& program,
+                      const Job& job,
+                      const SimulationOptions& mill,
+                      const Verification& cut)
 {
     if (page_text(Page::kView).empty()) {
-        return fmt::format("no RUN.html: {}\n", why_no_page());
+        return {run_program(program, mill, folder / "sim.json"),
+                fmt::format("no RUN.html: {}\n", why_no_page())};
     }
     RunPageOptions options;
-    options.settings = mill.settings;
+    options.simulation = mill;
     options.job = &job;
     options.verification = &cut;
-    options.progress = [](const char*, double) {
-    };
-    write_text(folder / "RUN.html", run_page(program, options).html);
-    return "RUN.html shows the run: any browser opens it\n";
+    const RunPage page = run_page(program, options);
+    write_text(folder / "sim.json", statistics_json(page.run));
+    write_text(folder / "RUN.html", page.html);
+    return {page.run, "RUN.html shows the run: any browser opens it\n"};
 }
 
 int run_demo(const DemoOptions& options)
@@ -111,23 +118,23 @@ int run_demo(const DemoOptions& options)
     mill.progress = [&bar](const SimulationProgress& progress) {
         bar(progress.fraction);
     };
-    const SimulationResult run = run_program(program, mill, out / "sim.json");
+    const DemoRun run = run_with_page(out, program, job, mill, cut);
     bar(1.0);
-    const std::string page = write_page(out, program, job, mill, cut);
 
     fmt::print("\nPocket with a curved floor and an island: {}\n\n{}", job.file,
-               demo_summary(plan, run, cut));
+               demo_summary(plan, run.result, cut));
     fmt::print(
         "\nIn {}: pocket.ngc (G-code), path.svg left.svg (pictures),\n"
         "plan.json sim.json verify.json verify.txt (figures){}\n{}",
         out.string(),
-        options.traces ? ", pocket.vcd (pulses, for GTKWave), samples.csv (set points)" : "", page);
+        options.traces ? ", pocket.vcd (pulses, for GTKWave), samples.csv (set points)" : "",
+        run.page);
     std::fflush(stdout);
-    print_faults(program, run);
+    print_faults(program, run.result);
     for (const std::string& broken : cut.broken) {
         fmt::print("broken: {}\n", broken);
     }
-    return cut.broken.empty() && run.good() ? kDone : kFoundWrong;
+    return cut.broken.empty() && run.result.good() ? kDone : kFoundWrong;
 }
 
 }  // namespace

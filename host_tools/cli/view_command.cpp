@@ -22,6 +22,7 @@ using files::write_text;
 using import::read_job;
 using job::Job;
 using simulate::read_settings_file;
+using simulate::SimulationProgress;
 using view::Page;
 using view::page_still;
 using view::page_text;
@@ -46,7 +47,7 @@ RunPage page_of(const ViewArguments& arguments)
 {
     RunPageOptions options;
     if (!arguments.settings_file.empty()) {
-        options.settings = read_settings_file(arguments.settings_file);
+        options.simulation.settings = read_settings_file(arguments.settings_file);
     }
     std::optional<Job> job;
     if (!arguments.job_file.empty()) {
@@ -56,11 +57,12 @@ RunPage page_of(const ViewArguments& arguments)
     constexpr double kQuiet = 2.0;
     ShareProgress cutting{"cutting", kQuiet};
     ShareProgress running{"running", kQuiet};
-    options.progress = [&](const char* what, double share) {
-        (what[0] == 'c' ? cutting : running)(share);
+    options.verifying = cutting;
+    options.simulation.progress = [&running](const SimulationProgress& progress) {
+        running(progress.fraction);
     };
     const std::atomic<int>& stops = count_interruptions();
-    options.stop = [&stops] {
+    options.simulation.stop = [&stops] {
         return stops.load() > 0;
     };
     return run_page(arguments.program, options);

@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "host_tools/input_error/input_error.hpp"
-#include "host_tools/simulate/simulation.hpp"
 #include "host_tools/verify/verify.hpp"
 #include "host_tools/view/left_map.hpp"
 #include "host_tools/view/page_text.hpp"
@@ -19,7 +18,6 @@ namespace cusp::view {
 
 using program_run::SetPoint;
 using simulate::SimulationOptions;
-using simulate::SimulationProgress;
 using simulate::SimulationResult;
 using verify::HeightGrid;
 using verify::Verification;
@@ -48,12 +46,7 @@ std::string deflated_block(const char* id, std::string_view bytes)
 
 SimulationResult run(const std::string& program, const RunPageOptions& options, RunRecord& record)
 {
-    SimulationOptions simulation;
-    simulation.settings = options.settings;
-    simulation.stop = options.stop;
-    simulation.progress = [&](const SimulationProgress& progress) {
-        options.progress("running", progress.fraction);
-    };
+    SimulationOptions simulation = options.simulation;
     simulation.set_point = [&](const SetPoint& point) {
         record.add(point);
     };
@@ -66,8 +59,7 @@ std::optional<Verification> cut(const std::string& program,
                                 std::string& why)
 {
     try {
-        return verify::verify(*options.job, program, {},
-                              [&](double share) { options.progress("cutting", share); });
+        return verify::verify(*options.job, program, {}, options.verifying);
     } catch (const InputError& error) {
         why = error.what();
         return std::nullopt;
@@ -114,12 +106,12 @@ RunPage run_page(const std::string& program, const RunPageOptions& options)
     const Verification* cut_part = own ? &*own : options.verification;
     const HeightGrid grid = cut_part != nullptr ? coarse_grid(cut_part->grid) : HeightGrid{};
     RunRecord record{reading, cut_part != nullptr ? kSpacingShare * grid.pitch : kAnySpacing};
-    const SimulationResult result = run(program, options, record);
+    SimulationResult result = run(program, options, record);
 
     RunFacts facts{std::filesystem::path{program}.filename().string(),
                    reading,
                    result,
-                   options.settings.limits(),
+                   options.simulation.settings.limits(),
                    record.ticks(),
                    record.start(),
                    record.farthest(),
@@ -147,6 +139,7 @@ RunPage run_page(const std::string& program, const RunPageOptions& options)
     page.good = result.good() && reading.refused_count == 0 &&
                 (cut_part == nullptr ? why.empty() : cut_part->broken.empty());
     page.verdict = verdict_of(result, cut_part);
+    page.run = std::move(result);
     return page;
 }
 

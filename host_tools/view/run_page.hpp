@@ -2,7 +2,7 @@
 // runs it. The front door of `view`; web/ holds the page's own code.
 //
 //     RunPageOptions options;
-//     options.settings = read_settings_file("mill.settings");
+//     options.simulation.settings = read_settings_file("mill.settings");
 //     const RunPage page = run_page("part.ngc", options);
 //     write_text("run.html", page.html);
 #pragma once
@@ -11,24 +11,24 @@
 #include <optional>
 #include <string>
 
-#include "firmware/machine/settings.hpp"
 #include "host_tools/job/job.hpp"
+#include "host_tools/simulate/simulation.hpp"
 #include "host_tools/verify/verify.hpp"
 
 namespace cusp::view {
 
 struct RunPageOptions {
-    machine::Settings settings;
-    const job::Job* job{nullptr};  // none: path and tool alone
+    simulate::SimulationOptions simulation;  // set_point is the page's
+    const job::Job* job{nullptr};            // none: path and tool alone
     // Of the job and this program; none: run_page() verifies.
     const verify::Verification* verification{nullptr};
-    // Called with the share done of what is named.
-    std::function<void(const char* what, double share)> progress;
-    std::function<bool()> stop;
+    // Called with the share of the verification that is done.
+    std::function<void(double share)> verifying;
 };
 
 struct RunPage {
     std::string html;
+    simulate::SimulationResult run;
     bool good{false};  // the run ended well, and all bounds of the job hold
     std::uint64_t ticks{0};
     std::uint64_t refused{0};  // lines
