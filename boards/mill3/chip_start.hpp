@@ -3,7 +3,7 @@
 // A traits type of a board says: which parts it is made of (Chip, StepPort, PulsePlayer, ByteLink,
 // Panel, SettingsStore); start(board), called before the application exists; run(board,
 // application), the main loop; stop(), the end after a fault; and what its parts ask of it
-// (kTransmitInterrupt, kSpindleTimer, kPanelPins ...).
+// (kSpindleTimer, kPanelPins ...).
 #pragma once
 
 #include <cstdint>

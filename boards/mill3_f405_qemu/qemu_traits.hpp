@@ -26,13 +26,11 @@ struct QemuTraits {
     using Chip = hal::stm32f4::Chip;
     using StepPort = MillStepPort<Chip>;
     using PulsePlayer = hal::qemu::EdgePlayer<Chip, StepPort, hal::qemu::EdgeTrace>;
-    using ByteLink = hal::qemu::QemuLink<Chip, QemuTraits>;
+    using ByteLink = hal::qemu::QemuLink<Chip>;
     using Panel = MillPanel<Chip, QemuTraits>;
     using SettingsStore = hal::qemu::MemorySettings;
 
-    // QEMU 7.2 never raises the transmit interrupt of this port; its timer 3 would count
-    // nanoseconds.
-    static constexpr bool kTransmitInterrupt = false;
+    // Its timer 3 would count nanoseconds.
     static constexpr bool kSpindleTimer = false;
     static constexpr const PanelPins& kPanelPins = kMillPins;
 

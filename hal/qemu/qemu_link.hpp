@@ -4,14 +4,14 @@
 #include <cstdint>
 
 #include "hal/qemu/program_link.hpp"
-#include "hal/stm32f4/usart_link.hpp"
+#include "hal/qemu/usart_link.hpp"
 
 namespace cusp::hal::qemu {
 
-template <class Chip, class Rules>
+template <class Chip>
 class QemuLink {
 public:
-    using Line = stm32f4::UsartLink<Chip, Rules>;
+    using Line = UsartLink<Chip>;
 
     Line& line() noexcept { return line_; }
     ProgramLink& program() noexcept { return program_; }

@@ -1,4 +1,5 @@
-// UsartLink: the serial line through USART1, a ring and an interrupt either way.
+// UsartLink: the serial line through USART1 as QEMU has it: a ring and an interrupt for what comes,
+// and no interrupt for what goes. The chip's line is stm32f4::DmaLink.
 #pragma once
 
 #include <atomic>
@@ -8,14 +9,12 @@
 #include "hal/contract/board.hpp"
 #include "hal/stm32f4/registers.hpp"
 
-namespace cusp::hal::stm32f4 {
+namespace cusp::hal::qemu {
 
-// `Rules` says with kTransmitInterrupt whether the port's transmit interrupt fires; where it does
-// not, write() waits for the port byte by byte.
-template <class Chip, class Rules>
+template <class Chip>
 class UsartLink {
 public:
-    // Precondition: the clock of USART1 is on and its pins are set. Rate error at most 1.5 %.
+    // Precondition: the clock of USART1 is on and its pins are set.
     void start(std::uint32_t bus_hz, std::uint32_t baud) noexcept
     {
         auto& port = Chip::usart1();
@@ -23,21 +22,14 @@ public:
         port.cr1.write(kPortEnable | kTransmitter | kReceiver | kReceiveInterrupt);
     }
 
-    // See hal/contract/board.hpp.
+    // See hal/contract/board.hpp. write() waits for the port byte by byte.
     bool try_read(std::uint8_t& byte) noexcept { return received_.try_pop(byte); }
     bool overrun() noexcept { return overrun_.exchange(false, std::memory_order_relaxed); }
-    std::uint32_t write_room() const noexcept { return waiting_.capacity() - waiting_.size(); }
+    std::uint32_t write_room() const noexcept { return kRoom; }
     void write(Span<const std::uint8_t> bytes) noexcept
     {
         for (const std::uint8_t byte : bytes) {
-            if constexpr (Rules::kTransmitInterrupt) {
-                static_cast<void>(waiting_.try_push(byte));
-            } else {
-                send(byte);
-            }
-        }
-        if constexpr (Rules::kTransmitInterrupt) {
-            set_bits(Chip::usart1().cr1, kTransmitInterrupt);
+            send(byte);
         }
     }
 
@@ -56,11 +48,6 @@ public:
                 overrun_.store(true, std::memory_order_relaxed);
             }
         }
-        if constexpr (Rules::kTransmitInterrupt) {
-            if ((state & kTransmitEmpty) != 0) {
-                send_next();
-            }
-        }
     }
 
 private:
@@ -70,21 +57,11 @@ private:
     static constexpr std::uint32_t kReceiver = 1U << 2U;
     static constexpr std::uint32_t kTransmitter = 1U << 3U;
     static constexpr std::uint32_t kReceiveInterrupt = 1U << 5U;
-    static constexpr std::uint32_t kTransmitInterrupt = 1U << 7U;
     static constexpr std::uint32_t kPortEnable = 1U << 13U;
+    static constexpr std::uint32_t kRoom = 512;
     // A byte at 9600 baud lasts 175 000 cycles of 168 MHz.
     static constexpr std::uint32_t kSendRounds = 200000;
 
-    void send_next() noexcept
-    {
-        auto& port = Chip::usart1();
-        std::uint8_t byte = 0;
-        if (waiting_.try_pop(byte)) {
-            port.dr.write(byte);
-        } else {
-            clear_bits(port.cr1, kTransmitInterrupt);
-        }
-    }
     static void send(std::uint8_t byte) noexcept
     {
         auto& port = Chip::usart1();
@@ -97,8 +74,7 @@ private:
     // 44 ms of the fastest sender: the firmware, which has the large buffer, takes bytes out far
     // sooner.
     SpscRing<std::uint8_t, 512> received_;
-    SpscRing<std::uint8_t, 512> waiting_;
     std::atomic<bool> overrun_{false};
 };
 
-}  // namespace cusp::hal::stm32f4
+}  // namespace cusp::hal::qemu
