@@ -5,14 +5,22 @@
 // Each command is a line; its answer ends with the line "done". tests/target/cosim/chip.py speaks it.
 // Exit status: 0, or 2 where a command or the image can't be used.
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <iostream>
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
 
+#include "firmware/base/assert.hpp"
 #include "tests/target/cosim/golden_sender.hpp"
 #include "tests/target/cosim/pseudo_terminal.hpp"
+
+void cusp::fault(const char* expression, const char* file, int line) noexcept
+{
+    std::cerr << file << ":" << line << ": " << expression << std::endl;
+    std::abort();
+}
 
 namespace cusp::cosim {
 namespace {
@@ -249,7 +257,9 @@ void Console::perform(const std::string& line)
     } else if (command == "state") {
         tell_state();
     } else if (command == "terminal") {
-        run_on_terminal(chip_, milliseconds(words));
+        std::string link;
+        words >> link;
+        run_on_terminal(chip_, link, milliseconds(words));
         listen();
     } else {
         throw std::runtime_error{"no such command: " + line};

@@ -5,8 +5,10 @@ usage: stream_to_chip.py --cosim COSIM --cusp CUSP --board BOARD --image IMAGE.b
 Exit status: 0 it was taken and the machine stands at the end given, 1 it does not.
 """
 import argparse
+import pathlib
 import subprocess
 import sys
+import tempfile
 
 from chip import Chip
 
@@ -17,13 +19,13 @@ def main():
         parser.add_argument(f"--{name}", required=True)
     parser.add_argument("program")
     options = parser.parse_args()
-    with Chip(options.cosim, options.image, options.board) as machine:
+    with tempfile.TemporaryDirectory() as folder, Chip(options.cosim, options.image, options.board) as machine:
         machine.boot()
-        machine.process.stdin.write("terminal 600000\n")
+        port = pathlib.Path(folder) / "port"
+        machine.process.stdin.write(f"terminal {port} 600000\n")
         machine.process.stdin.flush()
-        name = machine.process.stdout.readline().split()[1]
-        # The line to the pseudo-terminal stays open: what `cusp stream` leaves behind is read below.
-        run = subprocess.run([options.cusp, "stream", name, options.program],
+        machine.process.stdout.readline()
+        run = subprocess.run([options.cusp, "stream", port, options.program],
                              stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=300)
         while machine.process.stdout.readline() != "done\n":
             pass
