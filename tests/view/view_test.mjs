@@ -1,9 +1,10 @@
 // The pages of cusp view in a real browser: what window.cusp promises, picking, keys, hostile text, contrast.
 import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
 import fs from "node:fs";
 import path from "node:path";
 import test, { after, before } from "node:test";
-import { axeSource, coloursOf, figures, folder, openPage, pageOf, pictureOf, run, startBrowser, top, write } from "./browser.mjs";
+import { axeSource, coloursOf, cusp, figures, folder, openPage, pageOf, pictureOf, run, startBrowser, top, write } from "./browser.mjs";
 
 const programs = path.join(top, "tests", "programs");
 let browser;
@@ -186,6 +187,29 @@ test("a refused line stands in its place with the word that is wrong", async () 
   assert.equal((await seek(page, 1e9)).line, 2, "the run ends before the refused line");
   assert.deepEqual(faults, []);
   await close();
+});
+
+test("the place of a refused word is its own, not a comment's", async () => {
+  const { page, close } = await openPage(browser, pageOf(write("comment.ngc", "G21\nG1 X1 F100\n(E2) G1 X1 E2\n")).file);
+  const mark = page.locator(".program-row.refused mark");
+  assert.equal(await mark.textContent(), "E2");
+  assert.equal(await mark.evaluate((word) => word.previousSibling?.textContent), "(E2) G1 X1 ");
+  await close();
+});
+
+test("--still draws the scene; a browser that is not there is said", () => {
+  const program = write("still.ngc", "G21\nG1 X10 Y5 F600\nM30\n"), picture = path.join(folder, "still.png");
+  const options = ["view", program, "-o", path.join(folder, "still.html"), "--still", picture];
+  assert.equal(run(...options).status, 0);
+  const bytes = fs.readFileSync(picture);
+  assert.deepEqual([...bytes.subarray(0, 8)], [137, 80, 78, 71, 13, 10, 26, 10]);
+  assert.deepEqual([bytes.readUInt32BE(16), bytes.readUInt32BE(20)], [1600, 1000]);
+  assert.ok(bytes.length > 10000, `${bytes.length} bytes`);
+  fs.rmSync(picture);
+  const missing = spawnSync(cusp, options, { encoding: "utf8", env: { ...process.env, CHROMIUM: "/nowhere" } });
+  assert.equal(missing.status, 2, missing.stderr);
+  assert.match(missing.stderr, /--still: the browser ended/);
+  assert.ok(!fs.existsSync(picture));
 });
 
 // A shallow pocket: seconds to plan and to cut in any build.
