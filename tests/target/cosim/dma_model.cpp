@@ -48,6 +48,12 @@ void DmaModel::complain(unsigned index, const std::string& what)
     circuit_.violate(name_ + " stream " + std::to_string(index) + ": " + what);
 }
 
+// The manual does not say when NDTR is loaded anew: as late as it can be, which is at the next item.
+bool DmaModel::reloads(const Stream& stream) const
+{
+    return stream.left == stream.size && circuit_.now - stream.reloaded_at < kReloadTime;
+}
+
 std::uint32_t DmaModel::read(std::uint32_t offset)
 {
     if (offset < 8) {
@@ -65,10 +71,7 @@ std::uint32_t DmaModel::read(std::uint32_t offset)
         case 0x00:
             return stream.cr;
         case 0x04:
-            // The manual does not say when NDTR is loaded anew: as late as it can be.
-            return (stream.cr & kEnable) == 0                        ? stream.ndtr
-                   : circuit_.now - stream.reloaded_at < kReloadTime ? 0
-                                                                     : stream.left;
+            return (stream.cr & kEnable) == 0 ? stream.ndtr : reloads(stream) ? 0 : stream.left;
         case 0x08:
             return stream.par;
         case 0x0C:

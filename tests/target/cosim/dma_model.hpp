@@ -39,6 +39,7 @@ private:
         Picoseconds stops_at{kNever};
         Picoseconds reloaded_at{-kSecond};  // a ring began anew
     };
+    bool reloads(const Stream& stream) const;
     void write_stream(unsigned index, std::uint32_t offset, std::uint32_t value);
     void write_settings(unsigned index, std::uint32_t value);
     void start(unsigned index);
