@@ -25,6 +25,8 @@ constexpr PulseLines direction_line(unsigned axis) noexcept
     return static_cast<PulseLines>(8U << axis);
 }
 
+inline constexpr PulseLines kStepLines = 7;
+
 // All changes of one pulse tick. No line is in both.
 struct PulseEdge {
     std::uint16_t tick;  // < kPulseTicksPerFrame; strictly rising within a frame

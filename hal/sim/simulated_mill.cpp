@@ -33,10 +33,8 @@ void SimulatedMill::frame_played(std::uint64_t /*start_tick*/, const PulseFrame&
     for (const PulseEdge& edge : frame.edges) {
         const auto risen = static_cast<PulseLines>(edge.raise & ~unsigned{levels_});
         levels_ = static_cast<PulseLines>((levels_ | edge.raise) & ~unsigned{edge.lower});
-        for (unsigned axis = 0; axis < kAxisCount; ++axis) {
-            if ((risen & step_line(axis)) != 0) {
-                take_step(axis);
-            }
+        for (unsigned steps = risen & kStepLines; steps != 0; steps &= steps - 1) {
+            take_step(static_cast<unsigned>(__builtin_ctz(steps)));
         }
     }
 }

@@ -1,39 +1,52 @@
 // Virtual time of the simulated pulse player.
 #include "hal/sim/simulated_player.hpp"
 
+#include <algorithm>
+
 namespace cusp::hal {
+namespace {
+
+// A frame has room for a thousand edges, and most have few.
+void copy_edges(const PulseFrame& from, PulseFrame& to)
+{
+    to.edges.clear();
+    std::copy(from.edges.begin(), from.edges.end(), to.edges.begin());
+    to.edges.grow(from.edges.size());
+}
+
+}  // namespace
 
 bool SimulatedPlayer::try_play(const PulseFrame& frame) noexcept
 {
-    if (ready_.full) {
+    if (slots_[1 - playing_].full) {
         return false;
     }
     if (underrun_ || lose_next_) {
         lose_next_ = false;
         return true;
     }
-    ready_.frame = frame;
-    ready_.full = true;
+    Slot& ready = slots_[1 - playing_];
+    copy_edges(frame, ready.frame);
+    ready.full = true;
     return true;
 }
 
 void SimulatedPlayer::advance()
 {
-    if (playing_.full) {
-        deliver(playing_.frame);
-    } else if (frame_number_ < 0 && !ready_.full) {
+    Slot& played = slots_[playing_];
+    const bool ready = slots_[1 - playing_].full;
+    if (played.full) {
+        deliver(played.frame);
+    } else if (frame_number_ < 0 && !ready) {
         return;  // time starts with the first frame
     }
     ++frame_number_;
-    if (!ready_.full && last_had_edges_) {
+    if (!ready && last_had_edges_) {
         underrun_ = true;
         stop_with_steps_low();
     }
-    playing_.full = ready_.full;
-    if (ready_.full) {
-        playing_.frame = ready_.frame;
-    }
-    ready_.full = false;
+    played.full = false;
+    playing_ = 1 - playing_;
 }
 
 std::uint64_t SimulatedPlayer::next_frame_start() const noexcept
@@ -43,7 +56,7 @@ std::uint64_t SimulatedPlayer::next_frame_start() const noexcept
 
 void SimulatedPlayer::power_off()
 {
-    playing_.full = ready_.full = false;
+    slots_[0].full = slots_[1].full = false;
     underrun_ = false;
     stop_with_steps_low();
 }
@@ -62,8 +75,7 @@ void SimulatedPlayer::deliver(const PulseFrame& frame)
 
 void SimulatedPlayer::stop_with_steps_low()
 {
-    const PulseLines steps = step_line(0) | step_line(1) | step_line(2);
-    const auto high = static_cast<PulseLines>(levels_ & steps);
+    const auto high = static_cast<PulseLines>(levels_ & kStepLines);
     PulseFrame last;
     if (high != 0) {
         last.edges.try_push_back({0, 0, high});

@@ -5,6 +5,7 @@
 // owner of the time calls the servo tick and then advance(), once a millisecond.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -64,8 +65,8 @@ private:
     void deliver(const PulseFrame& frame);
     void stop_with_steps_low();
 
-    Slot playing_;
-    Slot ready_;
+    std::array<Slot, 2> slots_;
+    unsigned playing_{0};  // the other slot is for the next frame
     // Frames since the start; the first advance() after the first frame makes it 0.
     std::int64_t frame_number_{-1};
     bool last_had_edges_{false};

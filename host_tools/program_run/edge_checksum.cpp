@@ -1,14 +1,16 @@
-// CRC-32, eight bytes at a time: a run has some 10^5 edges a second of its time, and firmware/protocol's, which saves
+// CRC-32, ten bytes at a time: a run has some 10^5 edges a second of its time, and firmware/protocol's, which saves
 // flash, would take as long over them as the whole controller.
 #include "host_tools/program_run/edge_checksum.hpp"
 
 #include <array>
 
+#include "firmware/base/axis.hpp"
+
 namespace cusp::program_run {
 namespace {
 
 // tables[k][b]: what byte b does to the remainder, k bytes later.
-using SlicedTables = std::array<std::array<std::uint32_t, 256>, 8>;
+using SlicedTables = std::array<std::array<std::uint32_t, 256>, 10>;
 
 constexpr SlicedTables make_tables()
 {
@@ -32,22 +34,32 @@ constexpr SlicedTables make_tables()
 
 constexpr SlicedTables kTables = make_tables();
 
-std::uint32_t after_byte(std::uint32_t remainder, std::uint32_t byte)
+// What the last two bytes of an edge, its wire and its level, do to the remainder: 2 wire + level.
+constexpr std::array<std::uint32_t, 4 * kAxisCount> make_ends()
 {
-    return (remainder >> 8U) ^ kTables[0][(remainder ^ byte) & 255U];
+    std::array<std::uint32_t, 4 * kAxisCount> ends{};
+    for (std::uint32_t end = 0; end < ends.size(); ++end) {
+        ends[end] = kTables[1][end >> 1U] ^ kTables[0][end & 1U];
+    }
+    return ends;
 }
+
+constexpr auto kEnds = make_ends();
 
 }  // namespace
 
 void EdgeChecksum::edge(std::uint64_t tick, unsigned wire, bool level)
 {
-    const auto low = static_cast<std::uint32_t>(tick) ^ remainder_;
     const auto high = static_cast<std::uint32_t>(tick >> 32U);
-    const std::uint32_t after_tick = kTables[7][low & 255U] ^ kTables[6][low >> 8U & 255U] ^
-                                     kTables[5][low >> 16U & 255U] ^ kTables[4][low >> 24U] ^
-                                     kTables[3][high & 255U] ^ kTables[2][high >> 8U & 255U] ^
-                                     kTables[1][high >> 16U & 255U] ^ kTables[0][high >> 24U];
-    remainder_ = after_byte(after_byte(after_tick, wire), level ? 1U : 0U);
+    if (high != high_) {
+        high_ = high;
+        after_high_ = kTables[5][high & 255U] ^ kTables[4][high >> 8U & 255U] ^
+                      kTables[3][high >> 16U & 255U] ^ kTables[2][high >> 24U];
+    }
+    const auto low = static_cast<std::uint32_t>(tick) ^ remainder_;
+    remainder_ = kTables[9][low & 255U] ^ kTables[8][low >> 8U & 255U] ^
+                 kTables[7][low >> 16U & 255U] ^ kTables[6][low >> 24U] ^ after_high_ ^
+                 kEnds[2 * wire + (level ? 1U : 0U)];
 }
 
 }  // namespace cusp::program_run

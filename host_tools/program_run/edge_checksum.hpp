@@ -7,17 +7,19 @@ namespace cusp::program_run {
 
 // CRC-32 (IEEE 802.3) of all edges in the order of the pulse trace. An edge is 10 bytes: its pulse tick
 // in us as 8 bytes, little endian, its wire, and its level, 0 or 1.
-class EdgeChecksum : public EdgeListener {
+class EdgeChecksum : public EdgeListener<EdgeChecksum> {
 public:
     using EdgeListener::EdgeListener;
 
     std::uint32_t value() const { return ~remainder_; }
 
-protected:
-    void edge(std::uint64_t tick, unsigned wire, bool level) override;
+    void edge(std::uint64_t tick, unsigned wire, bool level);
 
 private:
     std::uint32_t remainder_{0xFFFFFFFFU};
+    // What the upper half of the tick does to the remainder; it changes every 71 minutes.
+    std::uint32_t high_{0};
+    std::uint32_t after_high_{0};
 };
 
 }  // namespace cusp::program_run

@@ -1,14 +1,20 @@
 // EdgeListener: every edge of the step and direction lines, one by one, in the order of the pulse trace.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
+#include "firmware/base/axis.hpp"
 #include "hal/sim/simulated_player.hpp"
 
 namespace cusp::program_run {
 
 // Wires are step_x, dir_x, step_y, dir_y, step_z, dir_z, counted from 0. Edges of one pulse tick come by
 // axes, the direction of each before its step.
+//
+// `Own` is the class that inherits this. It has edge(tick, wire, level), called for each edge, and may have a
+// frame_begins(tick) of its own. No virtual call for an edge: a second of a run has some 10^5 of them.
+template <class Own>
 class EdgeListener : public hal::FrameListener {
 public:
     //   start   pulse tick of virtual time that is 0 from here on; frames before it are passed over
@@ -17,10 +23,9 @@ public:
 
     void frame_played(std::uint64_t start_tick, const PulseFrame& frame) final;
 
-protected:
-    virtual void frame_begins(std::uint64_t /*tick*/) {}
-    virtual void edge(std::uint64_t tick, unsigned wire, bool level) = 0;
+    void frame_begins(std::uint64_t /*tick*/) {}
 
+protected:
     // When the last frame is over.
     std::uint64_t end() const { return end_; }
 
@@ -29,5 +34,43 @@ private:
     PulseLines levels_;
     std::uint64_t end_{0};
 };
+
+// Lines in the order in which their edges come: dir_x in bit 0, step_x in bit 1, dir_y in bit 2 and so on. The bit of
+// a line is its wire, but for the lowest bit.
+inline constexpr std::array<std::uint8_t, 64> kLinesInTraceOrder = [] {
+    std::array<std::uint8_t, 64> order{};
+    for (unsigned lines = 0; lines < order.size(); ++lines) {
+        unsigned ordered = 0;
+        for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+            ordered |= ((lines & direction_line(axis)) != 0 ? 1U : 0U) << 2 * axis;
+            ordered |= ((lines & step_line(axis)) != 0 ? 2U : 0U) << 2 * axis;
+        }
+        order[lines] = static_cast<std::uint8_t>(ordered);
+    }
+    return order;
+}();
+
+template <class Own>
+void EdgeListener<Own>::frame_played(std::uint64_t start_tick, const PulseFrame& frame)
+{
+    // A frame that was in flight before the trace began is not of it.
+    if (start_tick < start_) {
+        return;
+    }
+    auto& own = static_cast<Own&>(*this);
+    const std::uint64_t tick = start_tick - start_;
+    own.frame_begins(tick);
+    for (const PulseEdge& at : frame.edges) {
+        const auto now = static_cast<PulseLines>((levels_ | at.raise) & ~unsigned{at.lower});
+        unsigned changed = kLinesInTraceOrder[(now ^ levels_) & 63U];
+        const unsigned high = kLinesInTraceOrder[now & 63U];
+        levels_ = now;
+        for (; changed != 0; changed &= changed - 1) {
+            const auto bit = static_cast<unsigned>(__builtin_ctz(changed));
+            own.edge(tick + at.tick, bit ^ 1U, (high >> bit & 1U) != 0);
+        }
+    }
+    end_ = tick + kPulseTicksPerFrame;
+}
 
 }  // namespace cusp::program_run

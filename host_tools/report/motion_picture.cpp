@@ -25,6 +25,7 @@ constexpr double kPanelHeight = 120;
 constexpr double kGap = 46;
 constexpr double kTop = 30;
 constexpr double kTextSize = 12;
+constexpr double kNoteHeight = 12;
 constexpr double kPercent = 100;
 
 // Of Okabe and Ito: distinct for the colour-blind, and in grey.
@@ -32,6 +33,10 @@ constexpr const char* kSpeedColour = "#000000";
 constexpr const char* kJerkColour = "#56b4e9";
 constexpr const char* kAccelerationColour = "#e69f00";
 constexpr const char* kVelocityColour = "#0072b2";
+
+// Third differences of places rounded by half a nanometre, at 1 kHz.
+constexpr const char* kRoundingNote =
+    "Set points are whole nanometres: up to 4000 mm/s³ of jerk is rounding.";
 
 struct Curve {
     std::string name;
@@ -175,7 +180,7 @@ std::string axis_panel(const MotionProfile& profile,
         {fmt::format("velocity, of {:g} mm/s", limits.velocity[axis]), kVelocityColour,
          share(&ProfileStretch::velocity, limits.velocity)}};
     constexpr std::array<char, kAxisCount> kNames{'X', 'Y', 'Z'};
-    constexpr double kUpper = 110;  // rounding to nanometres adds a few per cent of a jerk
+    constexpr double kUpper = 110;  // kRoundingNote
     constexpr double kStep = 50;
     const std::string title = fmt::format("{}, % of its limits", kNames.at(axis));
     return panel_of({static_cast<int>(axis) + 1, seconds, kUpper}, title, kStep, curves,
@@ -188,7 +193,7 @@ std::string motion_picture(const MotionProfile& profile, const MachineLimits& li
 {
     const double seconds = std::max(profile.seconds(), 1e-3);
     const double width = kLeft + kPlotWidth + kRight;
-    const double height = kTop + 4 * (kPanelHeight + kGap);
+    const double height = kTop + 4 * (kPanelHeight + kGap) + kNoteHeight;
     std::string out = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{:.0f}\" height=\"{:.0f}\" "
         "viewBox=\"0 0 {:.0f} {:.0f}\" font-family=\"sans-serif\" font-size=\"{:g}\">\n"
@@ -198,6 +203,7 @@ std::string motion_picture(const MotionProfile& profile, const MachineLimits& li
     for (unsigned axis = 0; axis < kAxisCount; ++axis) {
         out += axis_panel(profile, limits, axis, seconds);
     }
+    out += text_at(kLeft, height - 8, "start", kRoundingNote);
     return out + "</svg>\n";
 }
 

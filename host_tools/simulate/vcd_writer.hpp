@@ -12,7 +12,7 @@ namespace cusp::simulate {
 
 // Wires step_x dir_x step_y dir_y step_z dir_z (logical levels: a step is a rising edge, dir 1 is
 // plus), spindle and coolant. Spindle and coolant change at the start of a servo tick.
-class VcdWriter : public program_run::EdgeListener {
+class VcdWriter : public program_run::EdgeListener<VcdWriter> {
 public:
     // Watches the outputs of `mill`, which outlives it. Throws InputError.
     //
@@ -26,10 +26,9 @@ public:
     // Ends the dump with the time at which the last frame is over.
     void close();
 
-protected:
     // Spindle and coolant.
-    void frame_begins(std::uint64_t tick) override;
-    void edge(std::uint64_t tick, unsigned wire, bool level) override;
+    void frame_begins(std::uint64_t tick);
+    void edge(std::uint64_t tick, unsigned wire, bool level);
 
 private:
     void write_time(std::uint64_t tick);

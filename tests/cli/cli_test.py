@@ -98,7 +98,13 @@ class Cli(unittest.TestCase):
         figures = json.loads((self.folder / "v.json").read_text())
         self.assertEqual(0, figures["gouge_max_mm"])
         self.assertIn("</svg>", (self.folder / "path.svg").read_text())
-        self.assertIn("</svg>", (self.folder / "left.svg").read_text())
+        left = (self.folder / "left.svg").read_text()
+        self.assertIn(f"{figures['scallop_bound_mm']:.3g}: scallop bound<", left)
+        self.assertIn("</svg>", left)
+        self.expect(0, "", "sim", "p.ngc", "--picture", "run.svg")
+        run = (self.folder / "run.svg").read_text()
+        for words in (">Speed, mm/s<", ">Z, % of its limits<", "up to 4000 mm/s³ of jerk is rounding.<"):
+            self.assertIn(words, run)
 
     def examples_with(self, settings):
         demo = self.folder / "examples" / "demo"

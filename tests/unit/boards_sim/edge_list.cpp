@@ -24,12 +24,11 @@ namespace {
 
 using namespace cusp;
 
-class EdgeLines : public program_run::EdgeListener {
+class EdgeLines : public program_run::EdgeListener<EdgeLines> {
 public:
     using EdgeListener::EdgeListener;
 
-protected:
-    void edge(std::uint64_t tick, unsigned wire, bool level) override
+    void edge(std::uint64_t tick, unsigned wire, bool level)
     {
         std::printf("%" PRIu64 " %u %d\n", tick, wire, level ? 1 : 0);
     }
