@@ -286,7 +286,9 @@ void Interpreter::commit(const LineContext& line) noexcept
     plan_flow(line.command, plan_);
     const Motion before = modal_.motion;
     modal_ = line.command.modal;
-    parameters_ = line.parameters;
+    if (plan_.has(MotionPlan::Step::kParameters)) {
+        parameters_ = line.parameters;
+    }
     drill_ = line.drill;
     if (modal_.motion != before &&
         (modal_.motion == Motion::kUniformNurbs || modal_.motion == Motion::kNurbs)) {
