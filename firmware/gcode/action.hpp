@@ -42,7 +42,7 @@ struct Pause {
     bool optional;  // M1
 };
 
-// M6: once all motion before it is finished. How far the machine goes for it is a setting of its own.
+// M6: once all motion before it is finished; a setting of the machine chooses what is done.
 struct ToolChange {
     std::uint8_t tool;
     std::uint32_t line;  // for reports

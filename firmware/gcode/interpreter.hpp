@@ -24,11 +24,11 @@
 
 namespace cusp::gcode {
 
-// What a line with M6 may be; the machine says.
+// What a line with M6 may hold; the machine sets it.
 enum class ToolChangeRule : std::uint8_t {
     kFree,      // anything
     kTouchOff,  // T 1 to 16, and nothing in the line that depends on the length of the new tool
-    kNotHomed,  // refused: the machine does not know where it is
+    kNotHomed,  // refused: axes that it needs are not homed
 };
 
 class Interpreter {

@@ -156,8 +156,8 @@ Status set_coordinate_offset(LineContext& line, MotionPlan& plan) noexcept
     return kDone;
 }
 
-// G43 H: an empty table has a length of 0 for every tool, as a controller without one. Once a tool was
-// entered, a tool that was not is unknown.
+// G43 H: while the table is empty every length is 0. Once a tool was entered, one that was not is
+// unknown.
 Result<std::int64_t> length_from_table(Command& command, const ToolTable& tools) noexcept
 {
     if (!command.has('H')) {

@@ -27,7 +27,7 @@ void write_named_position(std::string_view name, Position at, bool inches, Reply
     (void)out.character(']').end_line();
 }
 
-// As grblHAL does: offsets of the three axes, then a radius. Nothing of a tool that was not entered.
+// As grblHAL: offsets of the axes, then a radius. Nothing for a tool that was not entered.
 void write_tool(unsigned tool, const gcode::ToolTable& tools, bool inches, ReplyQueue& out) noexcept
 {
     if (!tools.has(tool)) {

@@ -32,7 +32,7 @@ enum class Alarm : std::uint8_t {
     kMotorFault = 17,     // grblHAL's number; a drive says that it has failed
 };
 
-// Whether the machine may not be where it believes to be.
+// Whether the position may be lost: homing makes it known again.
 constexpr bool loses_position(Alarm alarm) noexcept
 {
     switch (alarm) {

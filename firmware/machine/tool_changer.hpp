@@ -1,7 +1,7 @@
 // ToolChanger: takes the spindle to where its tool is changed, and touches the new tool off.
 //
-// Up; over G59.3; the operator changes the tool; down onto the tool setter, fast, and once more
-// slowly; up; back over the part; down until the tip is where it was. $341 says how much of it is done.
+// Up; over G59.3; the operator changes the tool; down onto the tool setter, fast, then slowly; up;
+// back over the part; down until the tip is where it was. $341 chooses how much of this is done.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ enum class ToolChangeMode : std::uint8_t {
 
 ToolChangeMode tool_change_mode(const Settings& settings) noexcept;
 
-// The axes that must know where they are.
+// The axes that must be homed.
 AxisMask axes_to_home(ToolChangeMode mode) noexcept;
 
 // Context: main loop.
@@ -43,7 +43,7 @@ public:
     enum class Progress : std::uint8_t {
         kWaiting,
         kStepped,
-        kAtChange,  // the operator's turn: call step() once he has changed the tool
+        kAtChange,  // the tool can be changed: call step() once it is
         kMeasured,  // length_nm() is known
         kOverPart,  // spindle and coolant may start; rest() until they have
         kFinished,
