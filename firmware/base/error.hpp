@@ -43,6 +43,7 @@ enum class Error : std::uint8_t {
     kGcodeUnusedWords = 36,          // value words that nothing uses
     kGcodeG43DynamicAxisError = 37,  // a tool length offset on an axis other than Z
     kGcodeMaxValueExceeded = 38,     // a number is larger than the machine can take
+    kHomingRequired = 46,            // grblHAL's number: a tool change goes to machine positions
 };
 
 }  // namespace cusp

@@ -33,7 +33,8 @@ struct Coolant {
 
 // Offsets or stored positions have changed: `Interpreter::parameters()` holds the new ones.
 struct ParametersChanged {
-    bool keep;  // through a power cycle: all but G92, G92.1, G43, G43.1 and G49
+    bool keep;          // through a power cycle: all but G92, G92.1, G43, G43.1 and G49
+    std::uint8_t tool;  // whose length is new: G10 L1, L10 and L11; 0: none
 };
 
 // M0 and M1: once all motion before it is finished, wait for the cycle start.
@@ -41,9 +42,10 @@ struct Pause {
     bool optional;  // M1
 };
 
-// M6: as M0, with a message that names the tool.
+// M6: once all motion before it is finished; a setting of the machine chooses what is done.
 struct ToolChange {
     std::uint8_t tool;
+    std::uint32_t line;  // for reports
 };
 
 // M2 and M30. The modal state is already back at its defaults; spindle and coolant stop.

@@ -130,11 +130,12 @@ void plan_flow(const Command& command, MotionPlan& plan) noexcept
 }
 
 // Spindle, coolant and tool, where the line names them; a new S while the spindle turns, too.
-void plan_switches(const Command& command, const ModalState& before, MotionPlan& plan) noexcept
+void plan_switches(const LineContext& line, const ModalState& before, MotionPlan& plan) noexcept
 {
+    const Command& command = line.command;
     const ModalState& modal = command.modal;
     if (command.names(Group::kToolChange)) {
-        plan.tool_change = {modal.tool};
+        plan.tool_change = {modal.tool, line.number};
         plan.add(MotionPlan::Step::kToolChange);
     }
     const bool turns = modal.spindle != SpindleMode::kOff;
@@ -223,6 +224,9 @@ Status Interpreter::check(LineContext& line) noexcept
     if (const Status status = check_tool_and_spindle(line); !status) {
         return status;
     }
+    if (const Status status = check_tool_change(line); !status) {
+        return status;
+    }
     if (const Status status = check_dwell(line, plan_); !status) {
         return status;
     }
@@ -258,13 +262,33 @@ Status Interpreter::check(LineContext& line) noexcept
     return command.unused == 0 ? Status{kDone} : Status{Error::kGcodeUnusedWords};
 }
 
+Status Interpreter::check_tool_change(const LineContext& line) const noexcept
+{
+    const Command& command = line.command;
+    if (!command.names(Group::kToolChange) || tool_change_rule_ == ToolChangeRule::kFree) {
+        return kDone;
+    }
+    if (tool_change_rule_ == ToolChangeRule::kNotHomed) {
+        return Error::kHomingRequired;
+    }
+    if (!ToolTable::holds(command.modal.tool)) {
+        return Error::kGcodeMaxValueExceeded;
+    }
+    const bool depends =
+        command.axis_use != AxisUse::kNone || command.tool_length != ToolLength::kUnchanged ||
+        (command.non_modal != NonModal::kNone && command.non_modal != NonModal::kDwell);
+    return depends ? Status{Error::kGcodeAxisCommandConflict} : Status{kDone};
+}
+
 void Interpreter::commit(const LineContext& line) noexcept
 {
-    plan_switches(line.command, modal_, plan_);
+    plan_switches(line, modal_, plan_);
     plan_flow(line.command, plan_);
     const Motion before = modal_.motion;
     modal_ = line.command.modal;
-    parameters_ = line.parameters;
+    if (plan_.has(MotionPlan::Step::kParameters)) {
+        parameters_ = line.parameters;
+    }
     drill_ = line.drill;
     if (modal_.motion != before &&
         (modal_.motion == Motion::kUniformNurbs || modal_.motion == Motion::kNurbs)) {
@@ -359,6 +383,13 @@ void Interpreter::set_position(Position machine) noexcept
         give_up_curve();
     }
     position_ = to_exact(machine);
+}
+
+void Interpreter::take_tool_length(std::int64_t length_nm) noexcept
+{
+    position_.z.nm += length_nm - parameters_.tool_length_offset_nm;
+    parameters_.tool_length_offset_nm = length_nm;
+    parameters_.tools.enter(modal_.tool, length_nm);
 }
 
 void Interpreter::reset() noexcept

@@ -24,6 +24,13 @@
 
 namespace cusp::gcode {
 
+// What a line with M6 may hold; the machine sets it.
+enum class ToolChangeRule : std::uint8_t {
+    kFree,      // anything
+    kTouchOff,  // T 1 to 16, and nothing in the line that depends on the length of the new tool
+    kNotHomed,  // refused: axes that it needs are not homed
+};
+
 class Interpreter {
 public:
     // Reads one line without its line end: comments, spaces, lower case and '/' are understood.
@@ -31,7 +38,7 @@ public:
     //
     //   number  for reports, where the line has no N word.
     //
-    // Errors: 1, 2, 4 and 20 to 38 of error.hpp; docs/gcode.md says which for what.
+    // Errors: 1, 2, 4, 20 to 38 and 46 of error.hpp; docs/gcode.md says which for what.
     // Precondition: the actions of the line before have all been fetched, or discard() was called.
     Status execute(std::string_view text, std::uint32_t number) noexcept;
 
@@ -63,6 +70,14 @@ public:
     // The path tolerance of $11, mm, in force at power-up, after M2 and M30 and with G64 alone.
     void set_default_tolerance(float mm) noexcept { default_tolerance_ = mm; }
 
+    // Holds until the next call.
+    void set_tool_change_rule(ToolChangeRule rule) noexcept { tool_change_rule_ = rule; }
+
+    // The touch-off of an M6: the tool of the T word is this long from here on, in the table and in
+    // the offset in force, and the machine has gone to where the program's position is what it was.
+    // Precondition: the line was read with kTouchOff; fits_tool_table(length_nm).
+    void take_tool_length(std::int64_t length_nm) noexcept;
+
     // The path tolerance now in force, mm; 0 with G61.
     float path_tolerance() const noexcept;
 
@@ -76,6 +91,7 @@ private:
     LineContext begin(std::uint32_t number) const noexcept;
     Status run(LineContext& line) noexcept;
     Status check(LineContext& line) noexcept;
+    Status check_tool_change(const LineContext& line) const noexcept;
     Status run_jog(LineContext& line) noexcept;
     void commit(const LineContext& line) noexcept;
     void end_program() noexcept;
@@ -94,6 +110,7 @@ private:
     ExactPosition position_;
     DrillMemory drill_;
     float default_tolerance_{0.010F};
+    ToolChangeRule tool_change_rule_{ToolChangeRule::kFree};
     MotionPlan plan_;
     nurbs::PieceStream curve_;
 };

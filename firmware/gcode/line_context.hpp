@@ -59,7 +59,7 @@ void set_speed(const ModalState& modal, path::Move& move) noexcept;
 // Adds a straight move to line.end to the plan, unless it has no length.
 void plan_line(const LineContext& line, path::MoveKind kind, MotionPlan& plan) noexcept;
 
-// G10, G28.1, G30.1, G92, G92.1, G43, G43.1 and G49. Errors: 26, 28, 29, 20, 31, 37, 38.
+// G10, G28.1, G30.1, G92, G92.1, G43, G43.1 and G49. Errors: 20, 23, 26, 28, 29, 37, 38.
 Status plan_offsets(LineContext& line, MotionPlan& plan) noexcept;
 
 // G28, G30 and the motion commands, NURBS apart. Errors: 22, 26, 28 and 30 to 38.

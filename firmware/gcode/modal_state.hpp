@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "firmware/base/vec.hpp"
+#include "firmware/gcode/tool_table.hpp"
 #include "firmware/path/path.hpp"
 
 namespace cusp::gcode {
@@ -54,14 +55,15 @@ inline constexpr unsigned kCoordinateSystems = 9;
 inline constexpr std::array<std::string_view, kCoordinateSystems> kCoordinateSystemNames{
     "G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3"};
 
-// Offsets and stored positions; machine nanometres. The machine keeps all but the last two through
-// a power cycle; a reset clears those two.
+// Offsets and stored positions; machine nanometres. The machine keeps all but G92 and the tool length
+// offset through a power cycle; a reset clears those two.
 struct Parameters {
     std::array<Position, kCoordinateSystems> work_offsets{};  // G54 to G59.3
     Position home{};                                          // G28
     Position second_home{};                                   // G30
     Position coordinate_offset{};                             // G92
-    std::int64_t tool_length_offset_nm{0};                    // G43.1, along Z
+    std::int64_t tool_length_offset_nm{0};                    // G43, G43.1, along Z
+    ToolTable tools;                                          // G10 L1
 };
 
 // Machine minus program coordinates: what `WCO:` reports.

@@ -40,6 +40,7 @@ public:
     };
 
     void add(Step step) noexcept { steps_ |= 1U << static_cast<unsigned>(step); }
+    bool has(Step step) const noexcept { return (steps_ & 1U << static_cast<unsigned>(step)) != 0; }
     void clear() noexcept { steps_ = 0; }
     bool empty() const noexcept { return steps_ == 0; }
 

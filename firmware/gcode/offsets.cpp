@@ -4,9 +4,9 @@
 namespace cusp::gcode {
 namespace {
 
-void keep(MotionPlan& plan, bool through_power_cycle) noexcept
+void keep(MotionPlan& plan, bool through_power_cycle, std::uint8_t tool = 0) noexcept
 {
-    plan.parameters.keep = through_power_cycle;
+    plan.parameters = {through_power_cycle, tool};
     plan.add(MotionPlan::Step::kParameters);
 }
 
@@ -16,25 +16,75 @@ std::int64_t tool_length(const LineContext& line, unsigned axis) noexcept
     return axis == 2 ? line.parameters.tool_length_offset_nm : 0;
 }
 
-Status set_offset(LineContext& line, MotionPlan& plan) noexcept
+// What G10's L says.
+enum class G10Value : std::uint8_t {
+    kToolLength = 1,
+    kOffset = 2,
+    kToolLengthHere = 10,
+    kToolLengthAtSetter = 11,
+    kOffsetHere = 20,
+};
+
+Status read_tool_number(Command& command, char upper_case, std::uint8_t& tool) noexcept
+{
+    constexpr std::int64_t kMaxNumber = 255;
+    const Decimal number = command.value(upper_case);
+    if (to_double(number) > static_cast<double>(kMaxNumber)) {
+        return Error::kGcodeMaxValueExceeded;
+    }
+    if (!is_whole(number, kMaxNumber)) {
+        return Error::kGcodeCommandValueNotInteger;
+    }
+    command.use(upper_case);
+    tool = static_cast<std::uint8_t>(whole_part(number));
+    return kDone;
+}
+
+// The length with which the tool, as it stands now, is at the Z of the line: in the system in force
+// with G92, or in G59.3 without.
+std::int64_t length_from_here(const LineContext& line, G10Value how, std::int64_t z) noexcept
+{
+    constexpr std::size_t kSetter = kCoordinateSystems - 1;
+    const Parameters& parameters = line.parameters;
+    const std::int64_t origin =
+        how == G10Value::kToolLengthAtSetter
+            ? parameters.work_offsets[kSetter].z
+            : parameters.work_offsets[line.command.modal.coordinate_system].z +
+                  parameters.coordinate_offset.z;
+    return line.start.rounded().z - origin - z;
+}
+
+Status set_table_entry(LineContext& line, G10Value how, MotionPlan& plan) noexcept
 {
     Command& command = line.command;
-    if (command.axes() == 0) {
-        return Error::kGcodeNoAxisWords;
+    std::uint8_t tool = 0;
+    if (const Status status = read_tool_number(command, 'P', tool); !status) {
+        return status;
     }
-    if (!command.has('P') || !command.has('L')) {
-        return Error::kGcodeValueWordMissing;
+    if (!ToolTable::holds(tool)) {
+        return Error::kGcodeMaxValueExceeded;
     }
-    if (!is_whole(command.value('P'), kCoordinateSystems)) {
-        return Error::kGcodeUnsupportedCoordSys;
+    if (command.axes() != letter('Z')) {
+        return Error::kGcodeG43DynamicAxisError;
     }
-    constexpr std::int64_t kFromPosition = 20;
-    constexpr std::int64_t kAsWritten = 2;
-    const bool whole = is_whole(command.value('L'), kFromPosition);
-    const std::int64_t how = whole ? whole_part(command.value('L')) : 0;
-    if ((how != kAsWritten && how != kFromPosition) || command.has('R')) {
-        return Error::kGcodeUnsupportedCommand;
+    const Result<ExactLength> z = length_of(command, 'Z');
+    if (!z) {
+        return z.error();
     }
+    const std::int64_t length =
+        how == G10Value::kToolLength ? z->rounded() : length_from_here(line, how, z->rounded());
+    if (!fits_tool_table(length)) {
+        return Error::kGcodeMaxValueExceeded;
+    }
+    command.use('L');
+    line.parameters.tools.enter(tool, length);
+    keep(plan, true, tool);
+    return kDone;
+}
+
+Status set_work_offset(LineContext& line, G10Value how, MotionPlan& plan) noexcept
+{
+    Command& command = line.command;
     command.use('P');
     command.use('L');
     const std::int64_t which = whole_part(command.value('P'));
@@ -50,12 +100,37 @@ Status set_offset(LineContext& line, MotionPlan& plan) noexcept
         if (!value) {
             return value.error();
         }
-        offset[axis] = how == kAsWritten ? value->rounded()
-                                         : here[axis] - line.parameters.coordinate_offset[axis] -
-                                               tool_length(line, axis) - value->rounded();
+        offset[axis] = how == G10Value::kOffset
+                           ? value->rounded()
+                           : here[axis] - line.parameters.coordinate_offset[axis] -
+                                 tool_length(line, axis) - value->rounded();
     }
     keep(plan, true);
     return kDone;
+}
+
+Status set_offset(LineContext& line, MotionPlan& plan) noexcept
+{
+    const Command& command = line.command;
+    if (command.axes() == 0) {
+        return Error::kGcodeNoAxisWords;
+    }
+    if (!command.has('P') || !command.has('L')) {
+        return Error::kGcodeValueWordMissing;
+    }
+    constexpr auto kGreatest = static_cast<std::int64_t>(G10Value::kOffsetHere);
+    const bool whole = is_whole(command.value('L'), kGreatest);
+    const auto how = static_cast<G10Value>(whole ? whole_part(command.value('L')) : 0);
+    const bool of_tool = how == G10Value::kToolLength || how == G10Value::kToolLengthHere ||
+                         how == G10Value::kToolLengthAtSetter;
+    if (!of_tool && !is_whole(command.value('P'), kCoordinateSystems)) {
+        return Error::kGcodeUnsupportedCoordSys;
+    }
+    if ((!of_tool && how != G10Value::kOffset && how != G10Value::kOffsetHere) ||
+        command.has('R')) {
+        return Error::kGcodeUnsupportedCommand;
+    }
+    return of_tool ? set_table_entry(line, how, plan) : set_work_offset(line, how, plan);
 }
 
 Status set_coordinate_offset(LineContext& line, MotionPlan& plan) noexcept
@@ -81,7 +156,28 @@ Status set_coordinate_offset(LineContext& line, MotionPlan& plan) noexcept
     return kDone;
 }
 
-// The tool table is empty: G43 H finds a length of 0.
+// G43 H: while the table is empty every length is 0. Once a tool was entered, one that was not is
+// unknown.
+Result<std::int64_t> length_from_table(Command& command, const ToolTable& tools) noexcept
+{
+    if (!command.has('H')) {
+        return Error::kGcodeValueWordMissing;
+    }
+    constexpr std::int64_t kMaxTool = 255;
+    if (!is_whole(command.value('H'), kMaxTool)) {
+        return Error::kGcodeMaxValueExceeded;
+    }
+    command.use('H');
+    const auto tool = static_cast<unsigned>(whole_part(command.value('H')));
+    if (tools.empty() || tool == 0) {
+        return std::int64_t{0};
+    }
+    if (!ToolTable::holds(tool) || !tools.has(tool)) {
+        return Error::kGcodeMaxValueExceeded;
+    }
+    return tools.length_nm(tool);
+}
+
 Status set_tool_length(LineContext& line, MotionPlan& plan) noexcept
 {
     Command& command = line.command;
@@ -97,14 +193,11 @@ Status set_tool_length(LineContext& line, MotionPlan& plan) noexcept
         offset = value->rounded();
     }
     if (command.tool_length == ToolLength::kFromTable) {
-        constexpr std::int64_t kMaxTool = 255;
-        if (!command.has('H')) {
-            return Error::kGcodeValueWordMissing;
+        const Result<std::int64_t> length = length_from_table(command, line.parameters.tools);
+        if (!length) {
+            return length.error();
         }
-        if (!is_whole(command.value('H'), kMaxTool)) {
-            return Error::kGcodeMaxValueExceeded;
-        }
-        command.use('H');
+        offset = *length;
     }
     line.parameters.tool_length_offset_nm = offset;
     keep(plan, false);

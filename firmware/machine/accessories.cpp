@@ -25,6 +25,14 @@ std::uint16_t spindle_pwm(float speed, const Settings& settings) noexcept
 
 }  // namespace
 
+std::uint32_t Accessories::restoring_ticks() const noexcept
+{
+    constexpr std::uint32_t kSpindleUp = 4000;
+    constexpr std::uint32_t kCoolantOn = 1000;
+    const bool coolant = flood || mist;
+    return spindle != gcode::SpindleMode::kOff ? kSpindleUp : coolant ? kCoolantOn : 0U;
+}
+
 float spindle_speed(const Accessories& accessories,
                     unsigned override_percent,
                     const Settings& settings) noexcept

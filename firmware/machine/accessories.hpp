@@ -17,13 +17,18 @@ struct Accessories {
     // Off for a while, though the program wants them: in a hold (0x9E), at an open door.
     bool spindle_paused{false};
     bool coolant_paused{false};
+    bool changing_tool{false};  // both off, whatever a person asks for
 
     bool spindle_on() const noexcept
     {
-        return spindle != gcode::SpindleMode::kOff && !spindle_paused;
+        return spindle != gcode::SpindleMode::kOff && !spindle_paused && !changing_tool;
     }
-    bool flood_on() const noexcept { return flood && !coolant_paused; }
-    bool mist_on() const noexcept { return mist && !coolant_paused; }
+    bool flood_on() const noexcept { return flood && !coolant_paused && !changing_tool; }
+    bool mist_on() const noexcept { return mist && !coolant_paused && !changing_tool; }
+
+    // Servo ticks until what the program wants on is up to speed, once it is switched on again: as
+    // long as Grbl waits behind its door.
+    std::uint32_t restoring_ticks() const noexcept;
 };
 
 // What the spindle turns at, rpm: the programmed speed with the override, inside $31 to $30. 0 when

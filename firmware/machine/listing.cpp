@@ -27,6 +27,19 @@ void write_named_position(std::string_view name, Position at, bool inches, Reply
     (void)out.character(']').end_line();
 }
 
+// As grblHAL: offsets of the axes, then a radius. Nothing for a tool that was not entered.
+void write_tool(unsigned tool, const gcode::ToolTable& tools, bool inches, ReplyQueue& out) noexcept
+{
+    if (!tools.has(tool)) {
+        return;
+    }
+    (void)out.text("[T:").number(tool).character('|');
+    write_position(out, {0, 0, tools.length_nm(tool)}, inches);
+    (void)out.character('|');
+    write_length(out, 0, inches);
+    (void)out.character(']').end_line();
+}
+
 bool write_parameter(unsigned index, const ListingSource& source, ReplyQueue& out) noexcept
 {
     const gcode::Parameters& parameters = source.parameters;
@@ -36,7 +49,14 @@ bool write_parameter(unsigned index, const ListingSource& source, ReplyQueue& ou
                              inches, out);
         return true;
     }
-    switch (index - gcode::kCoordinateSystems) {
+    constexpr unsigned kTools = gcode::ToolTable::kTools;
+    constexpr unsigned kBeforeTools = 3;
+    const unsigned item = index - gcode::kCoordinateSystems;
+    if (item >= kBeforeTools && item < kBeforeTools + kTools) {
+        write_tool(item - kBeforeTools + 1, parameters.tools, inches, out);
+        return true;
+    }
+    switch (item < kBeforeTools ? item : item - kTools) {
         case 0:
             write_named_position("G28", parameters.home, inches, out);
             return true;

@@ -27,7 +27,8 @@ struct ListingSource {
     std::uint32_t glitches{0};
 };
 
-// Writes line `index` of the listing. Returns false, and writes nothing, behind the last.
+// Writes line `index` of the listing: nothing for a tool that was not entered. Returns false, and
+// writes nothing, behind the last.
 bool write_listing_line(Listing listing,
                         unsigned index,
                         const ListingSource& source,

@@ -211,6 +211,9 @@ void Machine::raise(Alarm alarm) noexcept
 void Machine::enter_alarm(Alarm alarm) noexcept
 {
     drop_all();
+    if (loses_position(alarm)) {
+        homed_ = {};
+    }
     state_ = State::kAlarm;
     alarm_ = alarm;
     resynchronise();
@@ -246,9 +249,11 @@ void Machine::reset() noexcept
     motion_.set_overrides(overrides_.feed, overrides_.rapid);
     interpreter_.reset();
     interpreter_.set_parameters(stored_.parameters);
+    tool_changer_.forget_reference();
     resynchronise();
     state_ = State::kIdle;
     if (homing || moving) {
+        homed_ = {};
         alarm_ = homing ? Alarm::kHomingReset : Alarm::kAbortInMotion;
         (void)replies_.text("ALARM:").number(static_cast<std::uint32_t>(alarm_)).end_line();
     }

@@ -23,6 +23,7 @@
 #include "firmware/machine/settings_log.hpp"
 #include "firmware/machine/status_report.hpp"
 #include "firmware/machine/stored_state.hpp"
+#include "firmware/machine/tool_changer.hpp"
 #include "firmware/protocol/checked_lines.hpp"
 #include "firmware/protocol/line_assembler.hpp"
 #include "firmware/protocol/receive_queue.hpp"
@@ -73,6 +74,10 @@ public:
     Alarm alarm() const noexcept { return alarm_; }
     const Settings& settings() const noexcept { return stored_.settings; }
     const Motion& motion() const noexcept { return motion_; }
+    // Offsets in force.
+    const gcode::Parameters& parameters() const noexcept { return interpreter_.parameters(); }
+    // The machine is away from the program's path, for a tool.
+    bool changing_tool() const noexcept { return task_ == Task::kToolChange; }
     // No line waits and nothing moves: a program is done once its last byte is read and this holds.
     bool idle() const noexcept;
 
@@ -84,6 +89,7 @@ private:
         kDwell,
         kProbe,
         kHome,
+        kToolChange,
         kListing,
         kConfigure,  // motion to settle, then the new settings
         kFinish,     // the store, then the answer
@@ -168,7 +174,6 @@ private:
     bool perform(const gcode::Coolant& coolant) noexcept;
     bool perform(const gcode::ParametersChanged& changed) noexcept;
     bool perform(const gcode::Pause& pause) noexcept;
-    bool perform(const gcode::ToolChange& change) noexcept;
     bool perform(const gcode::ProgramEnd& end) noexcept;
     bool wait_settled() noexcept;
     bool step_dwell() noexcept;
@@ -179,11 +184,20 @@ private:
     bool step_finish() noexcept;
     void resynchronise() noexcept;
 
+    // machine_tool_change.cpp
+    gcode::ToolChangeRule tool_change_rule() const noexcept;
+    bool perform(const gcode::ToolChange& change) noexcept;
+    void start_tool_change(const gcode::ToolChange& change, ToolChangeMode mode) noexcept;
+    bool step_tool_change() noexcept;
+    void ask_for_tool(unsigned tool) noexcept;
+    void take_tool_length() noexcept;
+
     StoredState stored_;
     const Settings factory_;
     Motion motion_;
     gcode::Interpreter interpreter_;
     Homing homing_;
+    ToolChanger tool_changer_;
 
     protocol::ReceiveQueue received_;
     protocol::LineAssembler line_;
@@ -238,7 +252,8 @@ private:
     std::uint32_t dwell_left_{0};
     std::uint32_t dwell_seen_{0};
     bool probe_alarm_{false};
-    bool homing_all_{true};
+    AxisMask homing_axes_;  // all where empty
+    AxisMask homed_;        // since the position was lost last
     ProbeResult probe_;
     Listing listing_{Listing::kSettings};
     unsigned listing_index_{0};

@@ -244,7 +244,7 @@ void Machine::start_homing(AxisMask axes) noexcept
     motion_.guard_limits(false);
     state_ = State::kHome;
     answer_after_startup_ = false;
-    homing_all_ = axes.empty();
+    homing_axes_ = axes;
     homing_.begin(axes, stored_.settings);
     task_ = Task::kHome;
 }

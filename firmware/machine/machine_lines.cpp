@@ -98,6 +98,7 @@ void Machine::execute_gcode(std::string_view text, Ending ending) noexcept
 {
     ending_ = ending;
     jogging_line_ = false;
+    interpreter_.set_tool_change_rule(tool_change_rule());
     const Status status = interpreter_.execute(text, line_number_);
     if (!status) {
         const bool stops = stored_.settings.on(Setting::kStopOnError) &&

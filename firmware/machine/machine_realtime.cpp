@@ -205,15 +205,11 @@ void Machine::hold_program() noexcept
 void Machine::cycle_start() noexcept
 {
     if (state_ == State::kDoor && motion_.at_rest() && !input_on(kDoor) && !door_restoring_) {
-        // The spindle comes up to speed before the tool moves, as Grbl waits.
-        constexpr std::uint32_t kSpindleUp = 4000;  // ticks
-        constexpr std::uint32_t kCoolantOn = 1000;
-        const bool spindle = accessories_.spindle != gcode::SpindleMode::kOff;
-        const bool coolant = accessories_.flood || accessories_.mist;
+        // The spindle comes up to speed before the tool moves.
         accessories_.spindle_paused = false;
         accessories_.coolant_paused = false;
         door_restoring_ = true;
-        door_restored_at_ = motion_.ticks() + (spindle ? kSpindleUp : coolant ? kCoolantOn : 0U);
+        door_restored_at_ = motion_.ticks() + accessories_.restoring_ticks();
         return;
     }
     if (state_ == State::kHold && motion_.at_rest()) {

@@ -32,4 +32,26 @@ enum class Alarm : std::uint8_t {
     kMotorFault = 17,     // grblHAL's number; a drive says that it has failed
 };
 
+// Whether the position may be lost: homing makes it known again.
+constexpr bool loses_position(Alarm alarm) noexcept
+{
+    switch (alarm) {
+        case Alarm::kHardLimit:
+        case Alarm::kAbortInMotion:
+        case Alarm::kHomingReset:
+        case Alarm::kHomingDoor:
+        case Alarm::kHomingPullOff:
+        case Alarm::kHomingApproach:
+        case Alarm::kEmergencyStop:
+        case Alarm::kMotorFault:
+            return true;
+        case Alarm::kNone:
+        case Alarm::kSoftLimit:
+        case Alarm::kProbeInitial:
+        case Alarm::kProbeContact:
+            break;
+    }
+    return false;
+}
+
 }  // namespace cusp::machine

@@ -17,6 +17,8 @@ bool Machine::step_task() noexcept
             return step_probe();
         case Task::kHome:
             return step_home();
+        case Task::kToolChange:
+            return step_tool_change();
         case Task::kListing:
             return step_listing();
         case Task::kConfigure:
@@ -211,7 +213,13 @@ bool Machine::perform(const gcode::ParametersChanged& changed) noexcept
     if (!wait_settled()) {
         return false;
     }
+    // Lengths that were touched off hold until the reset, as their reference does.
+    gcode::ToolTable tools = stored_.parameters.tools;
     stored_.parameters = interpreter_.parameters();
+    if (changed.tool != 0) {
+        tools.enter(changed.tool, stored_.parameters.tools.length_nm(changed.tool));
+    }
+    stored_.parameters.tools = tools;
     stored_.parameters.coordinate_offset = {};
     stored_.parameters.tool_length_offset_nm = 0;
     store_wanted_ = true;
@@ -227,20 +235,6 @@ bool Machine::perform(const gcode::Pause& pause) noexcept
     if (!wait_settled()) {
         return false;
     }
-    hold_pending_ = true;
-    return true;
-}
-
-bool Machine::perform(const gcode::ToolChange& change) noexcept
-{
-    if (state_ == State::kCheck) {
-        return true;
-    }
-    if (!wait_settled()) {
-        return false;
-    }
-    (void)replies_.text("[MSG:Tool change T").number(change.tool);
-    (void)replies_.text(": cycle start to go on]").end_line();
     hold_pending_ = true;
     return true;
 }
@@ -279,7 +273,10 @@ bool Machine::step_home() noexcept
     resynchronise();
     task_ = Task::kNone;
     answer_after_startup_ = true;
-    startup_next_ = homing_all_ ? 0 : kStartupLineCount;
+    constexpr unsigned kAllAxes = 7;
+    const bool all = homing_axes_.empty();
+    homed_.bits = static_cast<std::uint8_t>(homed_.bits | (all ? kAllAxes : homing_axes_.bits));
+    startup_next_ = all ? 0 : kStartupLineCount;
     return true;
 }
 

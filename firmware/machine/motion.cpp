@@ -112,6 +112,15 @@ void Motion::set_overrides(unsigned feed_percent, unsigned rapid_percent) noexce
     interpolator_.set_rapid_override(rapid_percent);
 }
 
+void Motion::resume() noexcept
+{
+    const bool touched =
+        watched_.load(std::memory_order_acquire) != 0 && contacted_.load(std::memory_order_acquire);
+    if (!touched) {
+        interpolator_.resume();
+    }
+}
+
 void Motion::abandon() noexcept
 {
     gate_shut_.store(true, std::memory_order_release);

@@ -56,7 +56,8 @@ public:
     bool settled() const noexcept { return finished() && pulses_.idle(); }
 
     void hold() noexcept { interpolator_.hold(); }
-    void resume() noexcept { interpolator_.resume(); }
+    // A move that its watch has stopped stays where it is.
+    void resume() noexcept;
     void set_overrides(unsigned feed_percent, unsigned rapid_percent) noexcept;
 
     // Forgets all moves and stands where the last set point is: after a hold, or at once where

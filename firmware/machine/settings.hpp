@@ -1,7 +1,7 @@
 // Settings: what a person sets once for a machine, by Grbl's numbers.
 //
 // A value is a float and a number in a table; `$$` lists them in the table's order. Numbers that
-// are not Grbl's ($14 to $16 and $29 as in grblHAL, $790 and up) stand after Grbl's own.
+// are not Grbl's ($14 to $16, $29 and $341 to $344 as in grblHAL, $790 and up) stand after Grbl's own.
 #pragma once
 
 #include <array>
@@ -49,6 +49,10 @@ enum class Setting : std::uint8_t {
     kCoolantInvert,                      // $15 mask: 1 flood, 2 mist
     kSpindleInvert,                      // $16 mask: 1 on, 2 reverse, 4 pulses
     kDirectionSetup,                     // $29 us
+    kToolChangeMode,                     // $341; see ToolChangeMode
+    kToolSearch,                         // $342 mm: the longest way down to the tool setter
+    kToolFeed,                           // $343 mm/min: the slow touch
+    kToolSeek,                           // $344 mm/min: the fast touch
     kLimitFilter,                        // $790 ms
     kLinkWatchdog,                       // $791 ms; 0: off
     kStopOnError,                        // $792

@@ -92,7 +92,7 @@ std::optional<int> code_after(std::string_view line, std::string_view word)
     return starts_with(line, word) ? whole_number(line.substr(word.size())) : std::nullopt;
 }
 
-constexpr std::array<std::string_view, 39> kErrors{
+constexpr std::array<std::string_view, 47> kErrors{
     "",
     "a word has no letter",
     "a number is missing or malformed",
@@ -132,6 +132,14 @@ constexpr std::array<std::string_view, 39> kErrors{
     "value words that nothing uses",
     "a tool length offset on an axis other than Z",
     "a number is too large",
+    "unknown",
+    "unknown",
+    "unknown",
+    "unknown",
+    "unknown",
+    "unknown",
+    "unknown",
+    "the tool change needs a homed machine",
 };
 
 constexpr std::array<std::string_view, 18> kAlarms{

@@ -87,7 +87,7 @@ int error_of(std::string_view line)
     return status ? 0 : static_cast<int>(status.error());
 }
 
-// The letters whose word alone can be refused for its value: G10 has L2 and L20 only, and no R.
+// The letters whose word alone can be refused for its value: G10 has no other L than 1, 2, 10, 11, 20, and no R.
 bool may_be_unused(int code, char letter)
 {
     return code == kUnsupported ? letter == 'L' || letter == 'R' : letter != 'G' && letter != 'M';

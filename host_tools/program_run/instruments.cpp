@@ -39,8 +39,8 @@ void Instruments::tick()
     const std::uint32_t line = motion_.executing_line();
     statistics_.add(at);
     tool_times_.add_tick(line);
-    const double deviation =
-        options_.measures_deviation ? shadow_.deviation().add_set_point(at) : 0.0;
+    const bool on_path = options_.measures_deviation && !controller_.machine().changing_tool();
+    const double deviation = on_path ? shadow_.deviation().add_set_point(at) : 0.0;
     if (options_.set_point) {
         options_.set_point({time_of_set_point(), at, line, deviation});
     }

@@ -2,6 +2,7 @@
 #include "host_tools/program_run/program_run.hpp"
 
 #include "boards/sim/simulated_controller.hpp"
+#include "firmware/machine/tool_changer.hpp"
 #include "host_tools/dialect/answer.hpp"
 #include "host_tools/dialect/program_lines.hpp"
 #include "host_tools/dialect/refusal.hpp"
@@ -214,6 +215,9 @@ private:
             if (effects_.pauses) {
                 note_pause();
             }
+            measured_tool_ =
+                effects_.changes_tool &&
+                machine::tool_change_mode(options_.settings) == machine::ToolChangeMode::kTouchOff;
             sender_.send(numbered, *line, source_.line_number());
             return true;
         }
@@ -225,6 +229,10 @@ private:
         if (effects_.moves_by_itself && !sender_.waiting()) {
             effects_.moves_by_itself = false;
             instruments_->shadow().set_position(machine().motion().tail());
+        }
+        if (measured_tool_ && !sender_.waiting()) {
+            measured_tool_ = false;
+            instruments_->shadow().tool_changed(machine().motion().tail(), machine().parameters());
         }
     }
 
@@ -289,6 +297,7 @@ private:
     LineEffects effects_;
     Phase phase_{Phase::kHoming};
     bool no_more_lines_{false};
+    bool measured_tool_{false};  // by the line that was sent last
     std::uint64_t ticks_{0};
     std::size_t next_byte_{0};  // of the script
     std::uint64_t resting_ticks_{0};

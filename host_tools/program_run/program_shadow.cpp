@@ -42,8 +42,10 @@ void ProgramShadow::take(const gcode::Action& action, LineEffects& effects)
     }
     effects.ends_program =
         effects.ends_program || std::holds_alternative<gcode::ProgramEnd>(action);
-    effects.pauses = effects.pauses || std::holds_alternative<gcode::Pause>(action) ||
-                     std::holds_alternative<gcode::ToolChange>(action);
+    effects.changes_tool =
+        effects.changes_tool || std::holds_alternative<gcode::ToolChange>(action);
+    effects.pauses =
+        effects.pauses || effects.changes_tool || std::holds_alternative<gcode::Pause>(action);
 }
 
 void ProgramShadow::count(const path::Move& move)

@@ -20,7 +20,8 @@ struct ProgramMoveCounts {
 // What a line asks for beyond moves.
 struct LineEffects {
     bool ends_program{false};
-    bool pauses{false};  // M0, M1, M6
+    bool pauses{false};        // M0, M1, M6
+    bool changes_tool{false};  // M6
     // The position is known once the controller has answered: a probe, a $ command.
     bool moves_by_itself{false};
 };
@@ -39,6 +40,13 @@ public:
     {
         interpreter_.set_position(at);
         deviation_.restart();
+    }
+
+    // After a tool change that may have measured the tool: where the controller stands, and its offsets.
+    void tool_changed(Position at, const gcode::Parameters& parameters)
+    {
+        interpreter_.set_parameters(parameters);
+        set_position(at);
     }
 
     // The T word in force; 0 where none was.

@@ -76,12 +76,28 @@ void ControllerFacts::take_parameter(std::string_view name, std::string_view val
         parameters_.coordinate_offset = position_in(value);
     } else if (name == "TLO") {
         parameters_.tool_length_offset_nm = to_nanometres(number_in<double>(value).value_or(0.0));
+    } else if (name == "T") {
+        take_tool(value);
     } else if (name == "OPT") {
         // `OPT:V,15,128`: blocks and bytes.
         const std::size_t comma = value.rfind(',');
         if (comma != std::string_view::npos) {
             receive_buffer_ = number_in<std::size_t>(value.substr(comma + 1));
         }
+    }
+}
+
+// `2|0.000,0.000,-7.300|0.000`: number, offsets of the axes, radius.
+void ControllerFacts::take_tool(std::string_view value)
+{
+    const auto tool = number_in<unsigned>(value);
+    const std::size_t bar = value.find('|');
+    if (!tool || !gcode::ToolTable::holds(*tool) || bar == std::string_view::npos) {
+        return;
+    }
+    const std::int64_t length = position_in(value.substr(bar + 1)).z;
+    if (gcode::fits_tool_table(length)) {
+        parameters_.tools.enter(*tool, length);
     }
 }
 
@@ -98,6 +114,12 @@ gcode::Parameters ControllerFacts::parameters() const
     parameters.second_home = in_millimetres(parameters.second_home);
     parameters.coordinate_offset = in_millimetres(parameters.coordinate_offset);
     parameters.tool_length_offset_nm = parameters.tool_length_offset_nm * 254 / 10;
+    for (unsigned tool = 1; tool <= gcode::ToolTable::kTools; ++tool) {
+        const std::int64_t length = parameters.tools.length_nm(tool) * 254 / 10;
+        if (parameters.tools.has(tool) && gcode::fits_tool_table(length)) {
+            parameters.tools.enter(tool, length);
+        }
+    }
     return parameters;
 }
 

@@ -33,6 +33,7 @@ public:
 
 private:
     void take_parameter(std::string_view name, std::string_view value);
+    void take_tool(std::string_view value);
 
     std::optional<std::size_t> receive_buffer_;
     machine::Settings settings_;

@@ -45,7 +45,8 @@ bool can_be_first(const gcode::ModalState& before, const std::string& text)
 
 class Reading {
 public:
-    Reading(const std::string& program, const TransferStart& start) : program_{program}
+    Reading(const std::string& program, const TransferStart& start)
+        : program_{program}, touches_off_{start.touches_off}
     {
         interpreter_.set_default_tolerance(start.default_tolerance);
         interpreter_.reset();
@@ -100,6 +101,9 @@ private:
         if (std::holds_alternative<gcode::Probe>(action)) {
             refuse(line, "a probe");
         }
+        if (touches_off_ && std::holds_alternative<gcode::ToolChange>(action)) {
+            refuse(line, "a tool that was touched off");
+        }
         const auto* move = std::get_if<path::Move>(&action);
         if (move == nullptr) {
             return;
@@ -120,6 +124,7 @@ private:
     }
 
     std::string program_;
+    bool touches_off_;
     gcode::Interpreter interpreter_;
     std::int64_t highest_z_nm_{0};
     std::optional<float> plunge_feed_;

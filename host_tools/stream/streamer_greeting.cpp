@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <map>
 
+#include "firmware/machine/tool_changer.hpp"
 #include "host_tools/stream/streamer.hpp"
 
 namespace cusp::stream {
@@ -175,8 +176,10 @@ Position Streamer::machine_position() const
 
 void Streamer::prepare_record()
 {
+    const machine::Settings& settings = facts_.settings();
     record_.start = {machine_position(), facts_.modal(), facts_.parameters(),
-                     facts_.settings().value(machine::Setting::kPathTolerance)};
+                     settings.value(machine::Setting::kPathTolerance),
+                     machine::tool_change_mode(settings) == machine::ToolChangeMode::kTouchOff};
     executed_.begin_at(1);
 }
 

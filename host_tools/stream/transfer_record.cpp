@@ -26,11 +26,18 @@ Json json_of(const gcode::Parameters& parameters)
     for (const Position& offset : parameters.work_offsets) {
         offsets.push_back(json_of(offset));
     }
+    Json tools = Json::object();
+    for (unsigned tool = 1; tool <= gcode::ToolTable::kTools; ++tool) {
+        if (parameters.tools.has(tool)) {
+            tools[std::to_string(tool)] = parameters.tools.length_nm(tool);
+        }
+    }
     return {{"work_offsets", offsets},
             {"G28", json_of(parameters.home)},
             {"G30", json_of(parameters.second_home)},
             {"G92", json_of(parameters.coordinate_offset)},
-            {"tool_length", parameters.tool_length_offset_nm}};
+            {"tool_length", parameters.tool_length_offset_nm},
+            {"tools", tools}};
 }
 
 gcode::Parameters parameters_of(const Json& json)
@@ -43,6 +50,13 @@ gcode::Parameters parameters_of(const Json& json)
     parameters.second_home = position_of(json.at("G30"));
     parameters.coordinate_offset = position_of(json.at("G92"));
     parameters.tool_length_offset_nm = json.at("tool_length").get<std::int64_t>();
+    // Records of earlier versions have no table.
+    const Json tools = json.value("tools", Json::object());
+    for (unsigned tool = 1; tool <= gcode::ToolTable::kTools; ++tool) {
+        if (const auto found = tools.find(std::to_string(tool)); found != tools.end()) {
+            parameters.tools.enter(tool, found->get<std::int64_t>());
+        }
+    }
     return parameters;
 }
 
@@ -57,6 +71,7 @@ Json json_of(const TransferRecord& record)
              {{"machine_nm", json_of(record.start.machine)},
               {"modal", record.start.modal},
               {"default_tolerance_mm", record.start.default_tolerance},
+              {"touches_off", record.start.touches_off},
               {"parameters_nm", json_of(record.start.parameters)}}}};
 }
 
@@ -72,6 +87,7 @@ TransferRecord record_of(const Json& json)
     record.start.machine = position_of(start.at("machine_nm"));
     record.start.modal = start.at("modal").get<std::string>();
     record.start.default_tolerance = start.at("default_tolerance_mm").get<float>();
+    record.start.touches_off = start.value("touches_off", false);
     record.start.parameters = parameters_of(start.at("parameters_nm"));
     return record;
 }

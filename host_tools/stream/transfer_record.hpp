@@ -16,6 +16,7 @@ struct TransferStart {
     std::string modal;  // words of `$G`
     gcode::Parameters parameters;
     float default_tolerance{0.010F};  // $11, mm
+    bool touches_off{false};          // M6 measures the tool: $341=3
 };
 
 struct TransferRecord {

@@ -373,6 +373,33 @@ class Answers(SenderTest):
         port.wait_state("Idle")
         self.assertEqual(self.mill.account.verdict(), [])
 
+    def test_a_tool_is_changed_and_touched_off_amid_a_program(self):
+        """A sender that fills the buffer, asks all the while and knows no more of it than a hold."""
+        port = self.open()
+        for setting in ("$22=1", "$24=300", "$25=3000", "$26=1", "$341=3", "$342=40", "$343=60", "$344=600"):
+            self.assertEqual(port.ask(setting)[1], "ok")
+        self.assertEqual(port.ask("T1M6")[1], "error:46")
+        self.assertEqual(port.ask("$H", 30)[1], "ok")
+        self.mill.command("plate 2")  # 30 mm below the top: the mill stood at -32
+        program = ["G10 L2 P9 X-20 Y-20 Z-15", "M3 S1000", "G0 X-10 Y-10 Z-5", "T1 M6", "G1 X-12 F3000", "M5",
+                   "T2 M6", "G43 H2", "G1 Z-5", "X-10", "M30"]
+        port.send("".join(line + "\n" for line in program))
+        for plate in ("plate 2", "plate -1.5"):
+            port.wait_state("Hold:0", 30)
+            self.assertIn("spindle 0", self.mill.command("where"))
+            self.assertEqual(self.mill.command(plate), "ok")
+            port.send("~")
+            while port.state().startswith("<Hold"):
+                time.sleep(0.02)
+        port.wait_for(r"^\[MSG:Pgm End\]$", 60)
+        self.settle(port, 10 + len(program))
+        self.assertEqual(self.mill.account.errors, ["error:46"])
+        said = self.mill.account.heard
+        self.assertTrue(any(re.match(r"\[MSG:Tool T2: length -3\.(49|50)\d\]", line) for line in said), said)
+        x, y, z = re.search(r"iron (\S+),(\S+),(\S+) ", self.mill.command("where")).groups()
+        self.assertAlmostEqual(float(x), -10, delta=0.01)
+        self.assertAlmostEqual(float(z), -8.5, delta=0.01)
+
 
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0]] + sys.argv[2:])

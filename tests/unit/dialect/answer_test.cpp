@@ -46,6 +46,7 @@ TEST(Answer, LeavesOutWhatADamagedReportDoesNotSay)
 TEST(Answer, HasWordsForEveryCode)
 {
     STRCMP_EQUAL("a number is too large", std::string{error_text(38)}.c_str());
+    STRCMP_EQUAL("the tool change needs a homed machine", std::string{error_text(46)}.c_str());
     STRCMP_EQUAL("no feed rate is set", std::string{error_text(22)}.c_str());
     STRCMP_EQUAL("homing did not find the switch", std::string{alarm_text(9)}.c_str());
     STRCMP_EQUAL("unknown", std::string{alarm_text(-1)}.c_str());

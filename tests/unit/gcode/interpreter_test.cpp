@@ -325,7 +325,7 @@ TEST(Interpreter, RefusesBadOffsets)
     refuse(28, "G10 L2 X1");
     refuse(28, "G10 P1 X1");
     refuse(29, "G10 L2 P10 X1");
-    refuse(20, "G10 L1 P1 X1");
+    refuse(20, "G10 L3 P1 X1");
     refuse(20, "G10 L2 P1 X1 R5");
     refuse(26, "G92");
     refuse(28, "G4");

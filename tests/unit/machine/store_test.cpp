@@ -1,3 +1,4 @@
+#include <array>
 #include <optional>
 #include <string>
 #include <variant>
@@ -67,4 +68,33 @@ TEST(Store, ReportsDamageAndLocksInsteadOfGoingOnWithDefaults)
     CHECK(contains(again.greeting, "error:7"));
     CHECK(contains(again.greeting, "[MSG:Settings lost"));
     CHECK(again.app->machine().state() == cusp::machine::State::kAlarm);
+}
+
+TEST(Store, KeepsTheTableOfTools)
+{
+    (void)bench.exchange("G10L1P2Z-7.3\nG10L1P16Z0\n", 100);
+    const PowerCycle again{bench.board.settings_store};
+    const cusp::gcode::ToolTable& tools = again.app->machine().parameters().tools;
+    CHECK(tools.has(2) && tools.has(16) && !tools.has(1));
+    LONGS_EQUAL(-7300000, tools.length_nm(2));
+}
+
+// A record of another layout is none: it is said, and the machine is locked.
+TEST(Store, TellsOfSettingsOfAnEarlierVersion)
+{
+    (void)bench.exchange("$110=5000\n", 50);
+    constexpr std::uint32_t kMark = 0x43555302;
+    std::array<std::uint8_t, 4> mark{};
+    auto& store = bench.board.settings_store;
+    for (std::uint32_t at = 0; at + 4 <= store.sector_size(); at += 4) {
+        store.read(0, at, mark);
+        const std::uint32_t word =
+            mark[0] | mark[1] << 8U | mark[2] << 16U | static_cast<std::uint32_t>(mark[3]) << 24U;
+        if (word == kMark) {
+            store.damage(0, at, 0x03);  // 02 becomes 01
+        }
+    }
+    const PowerCycle again{store};
+    CHECK(contains(again.greeting, "error:7"));
+    CHECK(contains(again.greeting, "[MSG:Settings lost"));
 }

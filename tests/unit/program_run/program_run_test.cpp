@@ -95,6 +95,33 @@ TEST(ProgramRun, ComesToRestWhereItIsStopped)
     CHECK(program.fraction() > 0.5);
 }
 
+// The run is the operator too: it starts the cycle, and knows afterwards where the tool is.
+TEST(ProgramRun, ChangesAndTouchesOffATool)
+{
+    for (const auto& [number, value] :
+         {std::pair{22U, 1.0F}, {25U, 3000.0F}, {341U, 3.0F}, {342U, 60.0F}, {344U, 600.0F}}) {
+        CHECK(!options.settings.put(number, value));
+    }
+    const std::string text =
+        "G21 G90\nG10 L2 P9 X-250 Y-150 Z-20\nG0 X-9 Y-9 Z-9\nT1 M6\nG43 H1\nG1 X-12 F3000\n";
+    options.probe_z = -30.0;
+    const RunResult touched = run(text);
+    CHECK(touched.good());
+    LONGS_EQUAL(1, touched.pauses);
+    CHECK(touched.end == to_position({-12, -9, -9}));
+    CHECK(touched.length_mm > 2 * 280);
+    // The way to the setter is not the program's.
+    CHECK(touched.max_deviation_mm < 0.001);
+    options.probe_z.reset();
+    const RunResult missed = run(text);
+    LONGS_EQUAL(5, missed.alarm);
+    LONGS_EQUAL(4, missed.errors.at(0).line);
+    CHECK(!options.settings.put(22, 0));
+    const RunResult lost = run(text);
+    STRCMP_EQUAL("error:46: the tool change needs a homed machine: \"T1 M6\"",
+                 fault_text(lost, lost.errors.at(0)).c_str());
+}
+
 TEST(ProgramRun, SaysWhatEndedIt)
 {
     const RunResult refused = run("G21\nG1 X1 F100\nG1 X2 Q\n");

@@ -6,6 +6,7 @@
 
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/stream/approach.hpp"
+#include "host_tools/stream/controller_facts.hpp"
 #include "host_tools/stream/resume_point.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -69,6 +70,30 @@ TEST(Resume, BeginsBehindAToolChange)
     const ResumePoint point = point_at(4, "G1 X1 F100\nT2 M6\nG0 X5\nG1 X6\n");
     LONGS_EQUAL(3, point.line);
     LONGS_EQUAL(2, point.modal.tool);
+}
+
+TEST(Resume, IsRefusedBehindATouchOff)
+{
+    record.start.touches_off = true;
+    CHECK_THROWS(InputError, point_at(4, "G1 X1 F100\nT2 M6\nG0 X5\nG1 X6\n"));
+}
+
+TEST(Resume, KnowsTheTableOfTheController)
+{
+    ControllerFacts facts;
+    facts.take("[T:2|0.000,0.000,-7.300|0.000]");
+    facts.take("[T:17|0.000,0.000,1.000|0.000]");
+    facts.take("[T:x]");
+    record.start.parameters = facts.parameters();
+    CHECK(!record.start.parameters.tools.has(1));
+    const std::string program = folder.with("part.ngc", "G43 H2\nG1 X6 F100\nX7\n");
+    record.executed_line = 3;
+    record.start.modal = "G0 G54 G17 G21 G90 G94 M5 M9 T0 F0 S0";
+    CHECK(write_record(program, record));
+    const ResumePoint point = find_resume_point(program, *read_record(program));
+    LONGS_EQUAL(-7300000, point.parameters.tool_length_offset_nm);
+    facts.take("$13=1");
+    LONGS_EQUAL(-185420000, facts.parameters().tools.length_nm(2));
 }
 
 TEST(Resume, IsRefusedBehindAProbe)

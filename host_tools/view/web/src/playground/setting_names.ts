@@ -10,7 +10,8 @@ const names = new Map<number, string>([
   [23, "homing directions, mask"], [24, "homing feed, mm/min"], [25, "homing seek, mm/min"], [26, "homing debounce, ms"],
   [27, "homing pull-off, mm"], [1, "idle lock, ms"], [2, "step invert, mask"], [3, "direction invert, mask"], [4, "enable invert"],
   [5, "limit invert"], [6, "probe invert"], [10, "status report, mask"], [12, "arc tolerance, mm"], [13, "report inches"],
-  [30, "spindle maximum, rpm"], [31, "spindle minimum, rpm"], [32, "laser mode"], [790, "limit filter, ms"],
+  [30, "spindle maximum, rpm"], [31, "spindle minimum, rpm"], [32, "laser mode"], [341, "tool change mode, 0 to 4"],
+  [342, "tool setter search, mm"], [343, "tool setter feed, mm/min"], [344, "tool setter seek, mm/min"], [790, "limit filter, ms"],
   [791, "link watchdog, ms"], [792, "stop on error"],
 ]);
 
