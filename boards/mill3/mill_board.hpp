@@ -5,7 +5,7 @@
 
 namespace cusp::boards {
 
-// `Traits` is the one place where boards of this kind differ; boards/mill3/chip_start.hpp says what
+// `Traits` is the one place where boards of this kind differ; boards/mill3/chip_traits.hpp says what
 // it holds.
 template <class Traits>
 struct MillBoard {

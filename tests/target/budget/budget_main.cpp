@@ -34,9 +34,10 @@ struct StillChip {
     static inline Timer<Word> timer{};
     static inline Timer<Word> gate{};
     static inline hal::stm32f4::Debug<Word> debugger{};
-    static inline Gpio<Word> port{};
+    static inline Gpio<Word> gpio{};
     static auto& dma2() noexcept { return dma; }
     static auto& timer8() noexcept { return timer; }
+    static auto& port(char) noexcept { return gpio; }
     static auto& timer2() noexcept { return gate; }
     static auto& debug() noexcept { return debugger; }
     static std::uint32_t bus_address(const volatile void* memory) noexcept
@@ -44,10 +45,11 @@ struct StillChip {
         return hal::stm32f4::Chip::bus_address(memory);
     }
 };
-struct StillPort {
-    static auto& gpio() noexcept { return StillChip::port; }
+struct OnePort {
+    static constexpr hal::stm32f4::LinePins kLines{
+        {{'C', 0}, {'C', 1}, {'C', 2}, {'C', 3}, {'C', 4}, {'C', 5}}};
 };
-hal::stm32f4::DmaPulsePlayer<StillChip, StillPort> player;
+hal::stm32f4::DmaPulsePlayer<StillChip, OnePort, hal::stm32f4::Timer8Pace<StillChip>> player;
 
 constexpr float kFeed = 50.0F;
 
