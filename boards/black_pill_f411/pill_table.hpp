@@ -33,7 +33,7 @@ struct PillTable {
     using SerialPort = hal::stm32f4::Usart1Port<Chip>;
     static constexpr hal::stm32f4::ClockPlan kClocks{25000000, 100000000, 3, 1, 2, 3};
     static constexpr std::uint32_t kBaud = 115200;
-    static constexpr std::uint32_t kMostStepsPerSecond = 150000;
+    static constexpr std::uint32_t kMostStepsPerSecond = 170000;
 };
 
 }  // namespace cusp::boards

@@ -14,6 +14,8 @@ struct MillBoard {
     MillBoard(const MillBoard&) = delete;
     MillBoard& operator=(const MillBoard&) = delete;
 
+    static constexpr std::uint32_t kMostStepsPerSecond = Traits::kMostStepsPerSecond;
+
     typename Traits::PulsePlayer pulse_player;
     typename Traits::ByteLink byte_link;
     typename Traits::Panel panel;

@@ -33,6 +33,8 @@ struct QemuTraits {
     static constexpr bool kSpindleTimer = false;
     static constexpr const PanelPins& kPanelPins = MillTable::kPanelPins;
 
+    static constexpr std::uint32_t kMostStepsPerSecond = MillTable::kMostStepsPerSecond;
+
     // Clocks and peripheral clocks are not modelled: nothing to switch on, nothing to wait for.
     template <class Board>
     static void start(Board& board) noexcept

@@ -8,7 +8,7 @@ import re
 import sys
 import unittest
 
-from chip import CHIPS, Chip, CosimFailed
+from chip import CHIPS, ROOT, Chip, CosimFailed
 
 options = None
 QUICK = "$0=2\n" + "".join(f"$10{axis}=800.000\n$11{axis}=9000.000\n$12{axis}=5000.000\n$80{axis}=1000000.000\n"
@@ -286,6 +286,20 @@ class Serial(unittest.TestCase):
             machine.wait_for("Idle")
             self.assertEqual(machine.state()["lost"], 0)
             self.assertEqual(machine.status()[1], (0.0, 0.0, 0.0))
+
+
+class Limits(unittest.TestCase):
+    def test_more_steps_than_the_board_plays_are_refused_with_both_numbers(self):
+        table, = (ROOT / "boards" / options.board).glob("*_table.hpp")
+        most = int(re.search(r"kMostStepsPerSecond = (\d+);", table.read_text()).group(1))
+        with chip() as machine:
+            machine.boot()
+            for line in ("$0=1", "$100=600.000", f"$110={most // 10}.000"):
+                self.assertIn("ok", machine.ask(line))
+            heard = machine.ask(f"$110={most // 10 + 1}.000")
+            self.assertIn(f"[MSG:$110 x $100 asks for {most + 10} steps/s, this board plays {most}]", heard)
+            self.assertIn("error:12", heard)
+            self.assertEqual(settings_of(machine)["110"], f"{most // 10}.000")
 
 
 class Inputs(unittest.TestCase):
