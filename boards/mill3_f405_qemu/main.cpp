@@ -7,4 +7,4 @@ using Traits = QemuTraits;
 
 }  // namespace cusp::boards
 
-#include "boards/mill3/mill_main.hpp"
+#include "boards/mill3/mill_main.inc"

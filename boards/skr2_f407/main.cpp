@@ -8,4 +8,4 @@ using Traits = ChipTraits<Skr2Table>;
 
 }  // namespace cusp::boards
 
-#include "boards/mill3/mill_main.hpp"
+#include "boards/mill3/mill_main.inc"
