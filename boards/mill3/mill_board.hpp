@@ -5,7 +5,7 @@
 
 namespace cusp::boards {
 
-// `Traits` is the one place where boards of this kind differ; boards/mill3/chip_start.hpp says what
+// `Traits` is the one place where boards of this kind differ; boards/mill3/chip_traits.hpp says what
 // it holds.
 template <class Traits>
 struct MillBoard {
@@ -13,6 +13,8 @@ struct MillBoard {
     MillBoard() noexcept { Traits::start(*this); }
     MillBoard(const MillBoard&) = delete;
     MillBoard& operator=(const MillBoard&) = delete;
+
+    static constexpr std::uint32_t kMostStepsPerSecond = Traits::kMostStepsPerSecond;
 
     typename Traits::PulsePlayer pulse_player;
     typename Traits::ByteLink byte_link;

@@ -10,7 +10,7 @@
 namespace cusp::boards {
 
 // A board's main.cpp has one, as a static, and hands it what the vectors call; `Traits` as in
-// boards/mill3/chip_start.hpp.
+// boards/mill3/chip_traits.hpp.
 template <class Traits>
 class MillImage {
     using Board = MillBoard<Traits>;
@@ -41,8 +41,8 @@ public:
     {
         const std::array<hal::stm32f4::InterruptEntry, 3> interrupts{{
             {Traits::player_interrupt(), cusp_player_interrupt},
-            {hal::stm32f4::kUsart1Interrupt, cusp_serial_interrupt},
-            {hal::stm32f4::kTransmitStreamInterrupt, cusp_serial_interrupt},
+            {Traits::serial_interrupt(), cusp_serial_interrupt},
+            {Traits::send_interrupt(), cusp_serial_interrupt},
         }};
         return hal::stm32f4::make_vectors(&cusp_stack_top, cusp_reset, cusp_exception,
                                           cusp_servo_tick, interrupts);

@@ -10,9 +10,13 @@
 
 namespace cusp::boards {
 
-struct Pin {
-    char port;  // 'A' to 'C'
-    unsigned number;
+using hal::stm32f4::clock_bit;
+using hal::stm32f4::Pin;
+
+// A channel of timer 3, 1 to 4, on a pin that has it as alternate function 2.
+struct SpindlePin {
+    Pin pin;
+    unsigned channel;
 };
 
 // Pins of a panel. What stops the machine closes to ground when at rest: a broken wire, or none,
@@ -21,13 +25,35 @@ struct PanelPins {
     std::array<Pin, 4> switches;    // limits X Y Z, probe
     std::array<Pin, 4> buttons;     // door, hold, start, reset
     std::array<Pin, 2> protectors;  // emergency stop, motor fault
-    Pin drives_off;                 // high: the drives are without current
+    // High: the drives are without current. One line for all of them, or one a drive.
+    std::array<Pin, 3> drives_off;
     Pin flood;
     Pin mist;
     Pin spindle_on;
     Pin spindle_reverse;
-    Pin spindle_pulses;  // channel 1 of timer 3, alternate function 2
+    SpindlePin spindle_pulses;
+    Pin power{};  // high from the first output on: feeds drives and outputs, where a board has that
 };
+
+constexpr std::uint32_t clock_bits(const PanelPins& pins) noexcept
+{
+    std::uint32_t bits = clock_bit(pins.flood) | clock_bit(pins.mist) | clock_bit(pins.spindle_on) |
+                         clock_bit(pins.spindle_reverse) | clock_bit(pins.spindle_pulses.pin) |
+                         clock_bit(pins.power);
+    for (const Pin pin : pins.switches) {
+        bits |= clock_bit(pin);
+    }
+    for (const Pin pin : pins.buttons) {
+        bits |= clock_bit(pin);
+    }
+    for (const Pin pin : pins.protectors) {
+        bits |= clock_bit(pin);
+    }
+    for (const Pin pin : pins.drives_off) {
+        bits |= clock_bit(pin);
+    }
+    return bits;
+}
 
 // `Rules` has kPanelPins; kSpindleTimer: whether timer 3 makes the spindle's pulses; and
 // kSpindleTimerHz: what timer 3 counts.
@@ -88,10 +114,7 @@ public:
 private:
     static constexpr unsigned kStartPlace = 2;
 
-    static constexpr auto& port(Pin pin) noexcept
-    {
-        return pin.port == 'A' ? Chip::port_a() : pin.port == 'B' ? Chip::port_b() : Chip::port_c();
-    }
+    static auto& port(Pin pin) noexcept { return Chip::port(pin.port); }
     static std::uint32_t level(Pin pin) noexcept { return port(pin).idr.read() >> pin.number & 1U; }
     static void put(Pin pin, bool on, bool inverted) noexcept
     {
@@ -107,11 +130,19 @@ private:
         put(kPins.spindle_on, levels.spindle_on, inverted(kSpindleOnOutput));
         put(kPins.flood, levels.flood, inverted(kFloodOutput));
         put(kPins.mist, levels.mist, inverted(kMistOutput));
-        put(kPins.drives_off, !levels.drives_enabled, levels.drives_enabled_inverted);
+        for (const Pin pin : kPins.drives_off) {
+            if (is_there(pin)) {
+                put(pin, !levels.drives_enabled, levels.drives_enabled_inverted);
+            }
+        }
+        if constexpr (is_there(kPins.power)) {
+            put(kPins.power, true, false);
+        }
         if constexpr (Rules::kSpindleTimer) {
             // The polarity of the timer's output; 0 of the compare is off.
-            Chip::timer3().ccer.write(inverted(kSpindlePulsesOutput) ? 3U : 1U);
-            Chip::timer3().ccr1.write(levels.spindle_on ? levels.spindle_pwm : 0U);
+            constexpr unsigned kPlace = 4 * (kPins.spindle_pulses.channel - 1);
+            Chip::timer3().ccer.write((inverted(kSpindlePulsesOutput) ? 3U : 1U) << kPlace);
+            spindle_compare().write(levels.spindle_on ? levels.spindle_pwm : 0U);
         }
     }
     // The levels are there first: nothing starts by itself.
@@ -120,8 +151,11 @@ private:
         using namespace hal::stm32f4;
         constexpr const PanelPins& kPins = Rules::kPanelPins;
         for (const Pin pin :
-             {kPins.drives_off, kPins.flood, kPins.mist, kPins.spindle_on, kPins.spindle_reverse}) {
-            set_pin(port(pin), pin.number, PinMode::kOutput);
+             {kPins.drives_off[0], kPins.drives_off[1], kPins.drives_off[2], kPins.flood,
+              kPins.mist, kPins.spindle_on, kPins.spindle_reverse, kPins.power}) {
+            if (is_there(pin)) {
+                set_pin(port(pin), pin.number, PinMode::kOutput);
+            }
         }
         if constexpr (Rules::kSpindleTimer) {
             start_spindle_timer();
@@ -129,16 +163,28 @@ private:
         outputs_on_ = true;
     }
 
+    static auto& spindle_compare() noexcept
+    {
+        constexpr unsigned kChannel = Rules::kPanelPins.spindle_pulses.channel;
+        static_assert(kChannel >= 1 && kChannel <= 4);
+        auto& timer = Chip::timer3();
+        return kChannel == 1   ? timer.ccr1
+               : kChannel == 2 ? timer.ccr2
+               : kChannel == 3 ? timer.ccr3
+                               : timer.ccr4;
+    }
     // 1 kHz, a step of the duty cycle a per mille.
     static void start_spindle_timer() noexcept
     {
         constexpr std::uint32_t kTimer3OnPin = 2;
         constexpr std::uint32_t kPulseMode = 6U << 4U | 1U << 3U;
-        constexpr Pin kPin = Rules::kPanelPins.spindle_pulses;
+        constexpr unsigned kChannel = Rules::kPanelPins.spindle_pulses.channel;
+        constexpr Pin kPin = Rules::kPanelPins.spindle_pulses.pin;
         auto& timer = Chip::timer3();
         timer.psc.write(Rules::kSpindleTimerHz / 1000000 - 1);
         timer.arr.write(999);
-        timer.ccmr1.write(kPulseMode);
+        (kChannel <= 2 ? timer.ccmr1 : timer.ccmr2)
+            .write(kPulseMode << (kChannel % 2 == 0 ? 8U : 0U));
         timer.egr.write(1);
         timer.cr1.write(1U << 7U | 1U);
         hal::stm32f4::set_pin_function(port(kPin), kPin.number, kTimer3OnPin);

@@ -1,25 +1,10 @@
 // The mill controller's image for QEMU.
-#include "boards/mill3/mill_image.hpp"
 #include "boards/mill3_f405_qemu/qemu_traits.hpp"
 
-namespace {
+namespace cusp::boards {
 
-using Traits = cusp::boards::QemuTraits;
-using Image = cusp::boards::MillImage<Traits>;
+using Traits = QemuTraits;
 
-Image image;
+}  // namespace cusp::boards
 
-__attribute__((section(".vectors"), used)) constexpr cusp::hal::stm32f4::VectorTable kVectors =
-    Image::vectors();
-
-}  // namespace
-
-// tests/checks/image.py proves what the first three may reach.
-extern "C" {
-void cusp_servo_tick() { image.servo_tick(); }
-void cusp_player_interrupt() { image.player_interrupt(); }
-void cusp_serial_interrupt() { image.serial_interrupt(); }
-void cusp_board_stop() { Traits::stop(); }
-}
-
-void cusp_main() { image.run(); }
+#include "boards/mill3/mill_main.inc"

@@ -9,7 +9,7 @@
 
 #include <cstdint>
 
-#include "boards/mill3_f405/mill_pins.hpp"
+#include "boards/mill3_f405/mill_table.hpp"
 #include "firmware/machine/machine.hpp"
 #include "hal/qemu/edge_player.hpp"
 #include "hal/qemu/edge_trace.hpp"
@@ -24,15 +24,16 @@ namespace cusp::boards {
 
 struct QemuTraits {
     using Chip = hal::stm32f4::Chip;
-    using StepPort = MillStepPort<Chip>;
-    using PulsePlayer = hal::qemu::EdgePlayer<Chip, StepPort, hal::qemu::EdgeTrace>;
+    using PulsePlayer = hal::qemu::EdgePlayer<Chip, MillTable, hal::qemu::EdgeTrace>;
     using ByteLink = hal::qemu::QemuLink<Chip>;
     using Panel = MillPanel<Chip, QemuTraits>;
     using SettingsStore = hal::qemu::MemorySettings;
 
     // Its timer 3 would count nanoseconds.
     static constexpr bool kSpindleTimer = false;
-    static constexpr const PanelPins& kPanelPins = kMillPins;
+    static constexpr const PanelPins& kPanelPins = MillTable::kPanelPins;
+
+    static constexpr std::uint32_t kMostStepsPerSecond = MillTable::kMostStepsPerSecond;
 
     // Clocks and peripheral clocks are not modelled: nothing to switch on, nothing to wait for.
     template <class Board>
@@ -94,6 +95,9 @@ struct QemuTraits {
     // Whether the player's interrupt calls for the servo tick; a program's run makes its own.
     static bool live() noexcept { return live_; }
     static constexpr unsigned player_interrupt() noexcept { return hal::stm32f4::kTimer2Interrupt; }
+    static constexpr unsigned serial_interrupt() noexcept { return hal::stm32f4::kUsart1Interrupt; }
+    // QEMU's port sends without an interrupt: a place in the table that nothing raises.
+    static constexpr unsigned send_interrupt() noexcept { return hal::stm32f4::dma2_interrupt(7); }
 
 private:
     static inline bool live_{false};

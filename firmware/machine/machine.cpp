@@ -9,7 +9,8 @@ constexpr std::uint32_t kReplyRoom = 256;
 
 }  // namespace
 
-Machine::Machine(const Settings& factory) noexcept : factory_{factory}, motion_{factory}
+Machine::Machine(const Settings& factory, std::uint32_t most_steps_per_second) noexcept
+    : factory_{factory}, most_steps_per_second_{most_steps_per_second}, motion_{factory}
 {
     stored_.settings = factory;
     planner_blocks_ = motion_.free_blocks();
@@ -17,7 +18,7 @@ Machine::Machine(const Settings& factory) noexcept : factory_{factory}, motion_{
 
 void Machine::start(LogState loaded) noexcept
 {
-    if (!stored_.settings.sound()) {
+    if (!stored_.settings.sound(most_steps_per_second_)) {
         stored_.settings = factory_;
         loaded = LogState::kLost;
     }

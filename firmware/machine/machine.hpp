@@ -35,8 +35,11 @@ namespace cusp::machine {
 // Context: main loop, but for tick().
 class Machine {
 public:
-    // factory: the settings where the store holds none, and after `$RST=$`.
-    explicit Machine(const Settings& factory) noexcept;
+    //   factory                the settings where the store holds none, and after `$RST=$`
+    //   most_steps_per_second  that the board plays on each axis: settings that ask for more are
+    //                          refused
+    explicit Machine(const Settings& factory,
+                     std::uint32_t most_steps_per_second = kAnyStepRate) noexcept;
     Machine(const Machine&) = delete;
     Machine& operator=(const Machine&) = delete;
 
@@ -194,6 +197,7 @@ private:
 
     StoredState stored_;
     const Settings factory_;
+    const std::uint32_t most_steps_per_second_;
     Motion motion_;
     gcode::Interpreter interpreter_;
     Homing homing_;

@@ -145,7 +145,7 @@ void Machine::set_setting(std::uint32_t number, float value) noexcept
         finish_line(error);
         return;
     }
-    if (const std::optional<SettingFault> fault = changed.find_fault()) {
+    if (const std::optional<SettingFault> fault = changed.find_fault(most_steps_per_second_)) {
         tell_fault(*fault);
         finish_line(fault->error);
         return;
@@ -159,6 +159,13 @@ void Machine::set_setting(std::uint32_t number, float value) noexcept
 void Machine::tell_fault(const SettingFault& fault) noexcept
 {
     if (fault.first == 0) {
+        return;
+    }
+    if (fault.of_board) {
+        (void)replies_.text("[MSG:$").number(fault.first).text(" x $").number(fault.second);
+        (void)replies_.text(" asks for ").number(static_cast<std::uint32_t>(fault.amount + 0.5F));
+        (void)replies_.text(" steps/s, this board plays ");
+        (void)replies_.number(static_cast<std::uint32_t>(fault.limit)).text("]").end_line();
         return;
     }
     const bool rate = fault.error == Error::kMaxStepRateExceeded;

@@ -112,8 +112,9 @@ std::optional<Error> Settings::put(std::uint32_t number, float value) noexcept
     return std::nullopt;
 }
 
-std::optional<SettingFault> Settings::find_fault() const noexcept
+std::optional<SettingFault> Settings::find_fault(std::uint32_t most_steps_per_second) const noexcept
 {
+    const auto most_rate = static_cast<float>(most_steps_per_second);
     constexpr float kMicrosecondsPerSecond = 1e6F;
     const float least_spacing = 2.0F * value(Setting::kStepPulse);
     for (unsigned axis = 0; axis < kAxisCount; ++axis) {
@@ -127,6 +128,14 @@ std::optional<SettingFault> Settings::find_fault() const noexcept
             return SettingFault{Error::kMaxStepRateExceeded, number(Setting::kMaxRate),
                                 number(Setting::kStepsPerMillimetre), spacing, least_spacing};
         }
+        if (rate > most_rate) {
+            return SettingFault{Error::kMaxStepRateExceeded,
+                                number(Setting::kMaxRate),
+                                number(Setting::kStepsPerMillimetre),
+                                rate,
+                                most_rate,
+                                true};
+        }
         const float filter = value(Setting::kAcceleration, axis) / value(Setting::kJerk, axis);
         if (filter > kLongestFilter) {
             return SettingFault{Error::kGcodeMaxValueExceeded, number(Setting::kAcceleration),
@@ -139,7 +148,7 @@ std::optional<SettingFault> Settings::find_fault() const noexcept
     return std::nullopt;
 }
 
-bool Settings::sound() const noexcept
+bool Settings::sound(std::uint32_t most_steps_per_second) const noexcept
 {
     for (std::size_t i = 0; i < kSettingCount; ++i) {
         // So written that it refuses a NaN.
@@ -147,7 +156,7 @@ bool Settings::sound() const noexcept
             return false;
         }
     }
-    return !find_fault();
+    return !find_fault(most_steps_per_second);
 }
 
 MachineLimits Settings::limits() const noexcept

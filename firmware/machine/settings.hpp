@@ -84,7 +84,11 @@ struct SettingFault {
     std::uint16_t second{0};  // and the one that it can't go with
     float amount{0};          // what they ask for together
     float limit{0};           // the bound that this breaks
+    bool of_board{false};     // the bound is the board's: both are steps/s
 };
+
+// A board that plays a step each microsecond; nothing asks for more.
+inline constexpr std::uint32_t kAnyStepRate = 1000000;
 
 class Settings {
 public:
@@ -114,14 +118,18 @@ public:
     std::optional<Error> put(std::uint32_t number, float value) noexcept;
 
     // What keeps the settings from being used together, if anything:
-    //   kMaxStepRateExceeded   $110 x $100 needs steps closer than twice $0
+    //   kMaxStepRateExceeded   $110 x $100 needs steps closer than twice $0, or more of them than
+    //                          the board plays
     //   kGcodeMaxValueExceeded $120 / $800 asks for a filter over 250 ms
     //   kSoftLimitError        soft limits without homing
-    std::optional<SettingFault> find_fault() const noexcept;
+    //
+    //   most_steps_per_second  that the board plays on each axis
+    std::optional<SettingFault> find_fault(
+        std::uint32_t most_steps_per_second = kAnyStepRate) const noexcept;
 
     // Every value is in its range and all go together: what put() and find_fault() let through.
     // Stored bytes of another firmware may not be.
-    bool sound() const noexcept;
+    bool sound(std::uint32_t most_steps_per_second = kAnyStepRate) const noexcept;
 
     MachineLimits limits() const noexcept;
     pulse::StepSettings steps() const noexcept;

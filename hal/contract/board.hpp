@@ -98,11 +98,12 @@ constexpr bool is_settings_store()
     return true;
 }
 
-// A Board bundles the four: member types PulsePlayer, ByteLink, Panel, SettingsStore and an object
-// of each, named pulse_player, byte_link, panel, settings_store.
+// A Board bundles the four: an object of each, named pulse_player, byte_link, panel,
+// settings_store; and kMostStepsPerSecond, the steps that it plays on each axis while all three move.
 template <class Board>
 constexpr bool is_board()
 {
+    static_assert(std::is_same_v<decltype(Board::kMostStepsPerSecond), const std::uint32_t>);
     return is_pulse_player<decltype(Board::pulse_player)>() &&
            is_byte_link<decltype(Board::byte_link)>() && is_panel<decltype(Board::panel)>() &&
            is_settings_store<decltype(Board::settings_store)>();

@@ -13,12 +13,13 @@
 
 #include "hal/contract/board.hpp"
 #include "hal/stm32f4/chip.hpp"
-#include "hal/stm32f4/dma_pulse_player.hpp"
+#include "hal/stm32f4/step_ports.hpp"
 
 namespace cusp::hal::qemu {
 
-// `Trace` has note(tick, levels): called for each edge, in order.
-template <class Chip, class Port, class Trace>
+// `Table` has kLines (hal/stm32f4/step_ports.hpp), on one port; `Trace` has note(tick, levels),
+// called for each edge, in order.
+template <class Chip, class Table, class Trace>
 class EdgePlayer {
 public:
     Trace& trace() noexcept { return trace_; }
@@ -47,16 +48,20 @@ public:
     // The interrupt. True where the servo tick is due.
     bool on_interrupt() noexcept;
 
-    static void stop() noexcept
-    {
-        Port::gpio().bsrr.write(stm32f4::port_word(0, stm32f4::kStepLines, inverted_));
-    }
+    static void stop() noexcept { write_lines(0, kStepLines); }
 
 private:
     // QEMU's timers 2 to 5 count nanoseconds.
     static constexpr std::uint32_t kNanosecondsPerTick = 1000;
     static constexpr std::uint32_t kLeastWait = 100;
 
+    using Ports = stm32f4::StepPorts<Table>;
+    static_assert(Ports::kCount == 1);
+    static void write_lines(PulseLines raise, PulseLines lower) noexcept
+    {
+        const stm32f4::PinLevels levels = stm32f4::pin_levels(raise, lower, inverted_);
+        Chip::port(Ports::kLetters[0]).bsrr.write(Ports::template word<0>(levels.up, levels.down));
+    }
     void ask_again() noexcept;
     std::int32_t until_due() const noexcept;  // ns
     bool finish_frame() noexcept;
@@ -78,8 +83,8 @@ private:
     std::uint32_t frame_clock_{0};  // timer 5 at the start of the frame that plays
 };
 
-template <class Chip, class Port, class Trace>
-void EdgePlayer<Chip, Port, Trace>::start(bool real_pace) noexcept
+template <class Chip, class Table, class Trace>
+void EdgePlayer<Chip, Table, Trace>::start(bool real_pace) noexcept
 {
     constexpr std::uint32_t kUpdateInterrupt = 1U << 0U;
     constexpr std::uint32_t kEnable = 1U << 0U;
@@ -96,8 +101,8 @@ void EdgePlayer<Chip, Port, Trace>::start(bool real_pace) noexcept
     }
 }
 
-template <class Chip, class Port, class Trace>
-bool EdgePlayer<Chip, Port, Trace>::try_play(const PulseFrame& frame) noexcept
+template <class Chip, class Table, class Trace>
+bool EdgePlayer<Chip, Table, Trace>::try_play(const PulseFrame& frame) noexcept
 {
     if (!has_room()) {
         return false;
@@ -119,15 +124,15 @@ bool EdgePlayer<Chip, Port, Trace>::try_play(const PulseFrame& frame) noexcept
     return true;
 }
 
-template <class Chip, class Port, class Trace>
-std::uint32_t EdgePlayer<Chip, Port, Trace>::next_tick() const noexcept
+template <class Chip, class Table, class Trace>
+std::uint32_t EdgePlayer<Chip, Table, Trace>::next_tick() const noexcept
 {
     const auto& edges = frames_[playing_].edges;
     return active_ && next_edge_ < edges.size() ? edges[next_edge_].tick : kPulseTicksPerFrame;
 }
 
-template <class Chip, class Port, class Trace>
-void EdgePlayer<Chip, Port, Trace>::ask_again() noexcept
+template <class Chip, class Table, class Trace>
+void EdgePlayer<Chip, Table, Trace>::ask_again() noexcept
 {
     if (!real_pace_) {
         constexpr unsigned kNumber = stm32f4::kTimer2Interrupt;
@@ -139,15 +144,15 @@ void EdgePlayer<Chip, Port, Trace>::ask_again() noexcept
     Chip::timer2().arr.write(late ? kLeastWait : static_cast<std::uint32_t>(wait));
 }
 
-template <class Chip, class Port, class Trace>
-std::int32_t EdgePlayer<Chip, Port, Trace>::until_due() const noexcept
+template <class Chip, class Table, class Trace>
+std::int32_t EdgePlayer<Chip, Table, Trace>::until_due() const noexcept
 {
     const std::uint32_t due = frame_clock_ + next_tick() * kNanosecondsPerTick;
     return static_cast<std::int32_t>(due - Chip::timer5().cnt.read());
 }
 
-template <class Chip, class Port, class Trace>
-bool EdgePlayer<Chip, Port, Trace>::on_interrupt() noexcept
+template <class Chip, class Table, class Trace>
+bool EdgePlayer<Chip, Table, Trace>::on_interrupt() noexcept
 {
     Chip::timer2().sr.write(0);
     if (!real_pace_) {
@@ -163,7 +168,7 @@ bool EdgePlayer<Chip, Port, Trace>::on_interrupt() noexcept
     if (active_ && next_edge_ < edges.size()) {
         const PulseEdge edge = edges[next_edge_];
         ++next_edge_;
-        Port::gpio().bsrr.write(stm32f4::port_word(edge.raise, edge.lower, inverted_));
+        write_lines(edge.raise, edge.lower);
         levels_ = static_cast<PulseLines>((levels_ | edge.raise) & ~edge.lower);
         trace_.note(frame_start_ + edge.tick, levels_);
     } else {
@@ -175,8 +180,8 @@ bool EdgePlayer<Chip, Port, Trace>::on_interrupt() noexcept
     return tick_due;
 }
 
-template <class Chip, class Port, class Trace>
-bool EdgePlayer<Chip, Port, Trace>::finish_frame() noexcept
+template <class Chip, class Table, class Trace>
+bool EdgePlayer<Chip, Table, Trace>::finish_frame() noexcept
 {
     const bool played = active_;
     const bool was_moving = played && !frames_[playing_].edges.empty();

@@ -38,6 +38,9 @@ struct SimulatedBoard {
         byte_link.advance();
     }
 
+    // Bounded by the pulse's width alone.
+    static constexpr std::uint32_t kMostStepsPerSecond = 1000000;
+
     SimulatedMill mill;
     SimulatedPlayer pulse_player;
     SimulatedLink byte_link;

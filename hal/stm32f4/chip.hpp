@@ -20,9 +20,12 @@ struct Chip {
     static Rcc<Word>& rcc() noexcept { return block_at<Rcc<Word>>(0x40023800); }
     static Flash<Word>& flash() noexcept { return block_at<Flash<Word>>(0x40023C00); }
     static Power<Word>& power() noexcept { return block_at<Power<Word>>(0x40007000); }
-    static Gpio<Word>& port_a() noexcept { return block_at<Gpio<Word>>(0x40020000); }
-    static Gpio<Word>& port_b() noexcept { return block_at<Gpio<Word>>(0x40020400); }
-    static Gpio<Word>& port_c() noexcept { return block_at<Gpio<Word>>(0x40020800); }
+    // 'A' to 'I', as far as the chip has them.
+    static Gpio<Word>& port(char letter) noexcept
+    {
+        return block_at<Gpio<Word>>(0x40020000 + 0x400 * static_cast<std::uintptr_t>(letter - 'A'));
+    }
+    static Dma<Word>& dma1() noexcept { return block_at<Dma<Word>>(0x40026000); }
     static Dma<Word>& dma2() noexcept { return block_at<Dma<Word>>(0x40026400); }
     static Timer<Word>& timer1() noexcept { return block_at<Timer<Word>>(0x40010000); }
     static Timer<Word>& timer2() noexcept { return block_at<Timer<Word>>(0x40000000); }
@@ -31,6 +34,7 @@ struct Chip {
     static Timer<Word>& timer8() noexcept { return block_at<Timer<Word>>(0x40010400); }
     static Timer<Word>& timer11() noexcept { return block_at<Timer<Word>>(0x40014800); }
     static Usart<Word>& usart1() noexcept { return block_at<Usart<Word>>(0x40011000); }
+    static Usart<Word>& usart2() noexcept { return block_at<Usart<Word>>(0x40004400); }
     static Watchdog<Word>& watchdog() noexcept { return block_at<Watchdog<Word>>(0x40003000); }
     static Debug<Word>& debug() noexcept { return block_at<Debug<Word>>(0xE0042000); }
     static InterruptController<Word>& interrupts() noexcept
@@ -59,7 +63,6 @@ struct Chip {
 
 inline constexpr unsigned kTimer2Interrupt = 28;
 inline constexpr unsigned kUsart1Interrupt = 37;
-inline constexpr unsigned kTransmitStreamInterrupt = 70;  // DMA2 stream 7
 inline constexpr unsigned kInterruptCount = 82;
 
 // Priorities: the higher the number, the less urgent; the chip has sixteen steps of 16.

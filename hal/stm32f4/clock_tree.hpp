@@ -14,7 +14,8 @@ struct ClockPlan {
     std::uint32_t wait_states;       // of the flash at this rate and 3.3 V
     std::uint32_t fast_bus_divisor;  // 1 or 2
     std::uint32_t slow_bus_divisor;  // 2 or 4
-    std::uint32_t regulator_scale;   // VOS of PWR_CR that allows this rate: 1 (F405), 3 (F411)
+    std::uint32_t regulator_scale;  // VOS of PWR_CR that allows this rate: 1 (F405), 3 (F411, F446)
+    bool external{false};           // a clock from outside drives OSC_IN instead of a crystal
 
     constexpr std::uint32_t fast_bus_hz() const { return core_hz / fast_bus_divisor; }
     constexpr std::uint32_t slow_bus_hz() const { return core_hz / slow_bus_divisor; }
@@ -120,19 +121,31 @@ ClockSource start_clocks(const ClockPlan& plan) noexcept
 {
     constexpr std::uint32_t kCrystalOn = 1U << 16U;
     constexpr std::uint32_t kCrystalReady = 1U << 17U;
+    constexpr std::uint32_t kCrystalBypass = 1U << 18U;
     constexpr std::uint32_t kSecurityOn = 1U << 19U;
     constexpr std::uint32_t kMultiplierOn = 1U << 24U;
     constexpr std::uint32_t kMultiplierReady = 1U << 25U;
     constexpr std::uint32_t kFromCrystal = 1U << 22U;
     constexpr std::uint32_t kOscillatorHz = 16000000;
     constexpr std::uint32_t kInputHz = 1000000;
-    constexpr std::uint32_t kUnusedDivisor = 7U << 24U;
+    // The divisors that nothing here uses; the second is the F446's, reserved with this value elsewhere.
+    constexpr std::uint32_t kUnusedDivisors = 7U << 24U | 2U << 28U;
     constexpr std::uint32_t kRegulatorReady = 1U << 14U;
     auto& rcc = Chip::rcc();
     if (!detail::stop_multiplier<Chip>()) {
         return ClockSource::kNone;
     }
     detail::set_regulator<Chip>(plan.regulator_scale);
+    // The bypass can be changed only while the oscillator is off: a boot loader may have used it.
+    clear_bits(rcc.cr, kCrystalOn);
+    if (!detail::wait_for(rcc.cr, kCrystalReady, 0)) {
+        return ClockSource::kNone;
+    }
+    if (plan.external) {
+        set_bits(rcc.cr, kCrystalBypass);
+    } else {
+        clear_bits(rcc.cr, kCrystalBypass);
+    }
     set_bits(rcc.cr, kCrystalOn);
     const bool starts = detail::wait_for(rcc.cr, kCrystalReady, kCrystalReady);
     const bool crystal = starts && detail::crystal_is<Chip>(plan.crystal_hz);
@@ -141,7 +154,7 @@ ClockSource start_clocks(const ClockPlan& plan) noexcept
     }
     const std::uint32_t divisor = (crystal ? plan.crystal_hz : kOscillatorHz) / kInputHz;
     const std::uint32_t multiplier = 2 * plan.core_hz / kInputHz;
-    rcc.pllcfgr.write(divisor | multiplier << 6U | (crystal ? kFromCrystal : 0U) | kUnusedDivisor);
+    rcc.pllcfgr.write(divisor | multiplier << 6U | (crystal ? kFromCrystal : 0U) | kUnusedDivisors);
     set_bits(rcc.cr, kMultiplierOn);
     if (!detail::wait_for(rcc.cr, kMultiplierReady, kMultiplierReady) ||
         !detail::wait_for(Chip::power().csr, kRegulatorReady, kRegulatorReady)) {

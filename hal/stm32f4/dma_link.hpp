@@ -1,9 +1,9 @@
-// DmaLink: the serial line through USART1, both ways by DMA: while the core stands still, as it does
+// DmaLink: the serial line through a USART, both ways by DMA: while the core stands still, as it does
 // when the flash is erased, bytes still come in.
 //
-// Received bytes go round in a ring that stream 2 of DMA2 fills; what is sent leaves a ring through
-// stream 7, a piece at a time (RM0090 table 43: both by channel 4). The port's receive interrupt
-// only wakes the core: the byte is the stream's.
+// Received bytes go round in a ring that one stream fills; what is sent leaves a ring through
+// another, a piece at a time. The port's receive interrupt only wakes the core: the byte is the
+// stream's.
 #pragma once
 
 #include <array>
@@ -11,14 +11,17 @@
 #include <cstdint>
 
 #include "hal/contract/board.hpp"
+#include "hal/stm32f4/dma_streams.hpp"
 #include "hal/stm32f4/registers.hpp"
+#include "hal/stm32f4/serial_ports.hpp"
 
 namespace cusp::hal::stm32f4 {
 
-template <class Chip>
+// `Port` is one of hal/stm32f4/serial_ports.hpp.
+template <class Chip, class Port>
 class DmaLink {
 public:
-    // Precondition: the clocks of USART1 and DMA2 are on and the pins are set.
+    // Precondition: the clocks of port and controller are on and the pins are set.
     void start(std::uint32_t bus_hz, std::uint32_t baud) noexcept;
 
     // See hal/contract/board.hpp.
@@ -44,22 +47,23 @@ private:
     static constexpr std::uint32_t kReceiveByDma = 1U << 6U;
     static constexpr std::uint32_t kTransmitByDma = 1U << 7U;
 
-    static constexpr unsigned kReceiveStream = 2;
-    static constexpr unsigned kSendStream = 7;
-    static constexpr std::uint32_t kReceiveHalf = 16U << 16U;  // in the low flags
-    static constexpr std::uint32_t kReceiveEnd = 32U << 16U;
-    static constexpr std::uint32_t kReceiveFlags = 0x3DU << 16U;
-    static constexpr std::uint32_t kSendFlags = 0x3DU << 22U;  // in the high flags
-    static constexpr std::uint32_t kSendEnd = 32U << 22U;
-    static constexpr std::uint32_t kStreamEnable = 1U << 0U;
+    static constexpr unsigned kReceivePlace = stream_flag_place(Port::kReceiveStream);
+    static constexpr unsigned kSendPlace = stream_flag_place(Port::kSendStream);
+    static constexpr std::uint32_t kReceiveHalf = kStreamHalf << kReceivePlace;
+    static constexpr std::uint32_t kReceiveEnd = kStreamComplete << kReceivePlace;
+    static constexpr std::uint32_t kReceiveFlags = kStreamAllFlags << kReceivePlace;
+    static constexpr std::uint32_t kSendFlags = kStreamAllFlags << kSendPlace;
+    static constexpr std::uint32_t kSendEnd = kStreamComplete << kSendPlace;
     // Bytes, memory goes on; the port's streams are less urgent than the pulses'.
     static constexpr std::uint32_t kBytes = 4U << 25U | 1U << 16U | 1U << 10U;
     static constexpr std::uint32_t kReceiveSettings = kBytes | 1U << 8U;
     static constexpr std::uint32_t kSendSettings = kBytes | 1U << 6U | 1U << 4U;
 
+    static auto& receive_stream() noexcept { return Port::dma().stream[Port::kReceiveStream]; }
+    static auto& send_stream() noexcept { return Port::dma().stream[Port::kSendStream]; }
     std::uint32_t head() const noexcept
     {
-        const std::uint32_t left = Chip::dma2().stream[kReceiveStream].ndtr.read();
+        const std::uint32_t left = receive_stream().ndtr.read();
         return left == 0 || left > kReceiveSize ? 0 : kReceiveSize - left;
     }
     void send_piece() noexcept;
@@ -76,21 +80,20 @@ private:
     std::atomic<bool> lost_{false};
 };
 
-template <class Chip>
-void DmaLink<Chip>::start(std::uint32_t bus_hz, std::uint32_t baud) noexcept
+template <class Chip, class Port>
+void DmaLink<Chip, Port>::start(std::uint32_t bus_hz, std::uint32_t baud) noexcept
 {
-    auto& port = Chip::usart1();
-    auto& dma = Chip::dma2();
-    auto& receive = dma.stream[kReceiveStream];
-    dma.lifcr.write(kReceiveFlags);
-    dma.hifcr.write(kSendFlags);
+    auto& port = Port::usart();
+    auto& receive = receive_stream();
+    stream_flag_clear(Port::dma(), Port::kReceiveStream).write(kReceiveFlags);
+    stream_flag_clear(Port::dma(), Port::kSendStream).write(kSendFlags);
     receive.par.write(Chip::bus_address(&port.dr));
     receive.m0ar.write(Chip::bus_address(received_.data()));
     receive.ndtr.write(kReceiveSize);
     receive.fcr.write(0);
     receive.cr.write(kReceiveSettings);
     receive.cr.write(kReceiveSettings | kStreamEnable);
-    auto& send = dma.stream[kSendStream];
+    auto& send = send_stream();
     send.par.write(Chip::bus_address(&port.dr));
     send.fcr.write(0);
     port.brr.write((bus_hz + baud / 2) / baud);
@@ -98,8 +101,8 @@ void DmaLink<Chip>::start(std::uint32_t bus_hz, std::uint32_t baud) noexcept
     port.cr1.write(kPortEnable | kTransmitter | kReceiver | kReceiveInterrupt);
 }
 
-template <class Chip>
-bool DmaLink<Chip>::try_read(std::uint8_t& byte) noexcept
+template <class Chip, class Port>
+bool DmaLink<Chip, Port>::try_read(std::uint8_t& byte) noexcept
 {
     if (tail_ == head()) {
         return false;
@@ -112,12 +115,12 @@ bool DmaLink<Chip>::try_read(std::uint8_t& byte) noexcept
 
 // Called before each reading. The stream passes its middle and its end: where it has passed both and
 // stands less than half a ring further, it went all the way round.
-template <class Chip>
-bool DmaLink<Chip>::overrun() noexcept
+template <class Chip, class Port>
+bool DmaLink<Chip, Port>::overrun() noexcept
 {
-    const std::uint32_t raised = Chip::dma2().lisr.read();
+    const std::uint32_t raised = stream_flags(Port::dma(), Port::kReceiveStream).read();
     const std::uint32_t now = head();
-    Chip::dma2().lifcr.write(raised & kReceiveFlags);
+    stream_flag_clear(Port::dma(), Port::kReceiveStream).write(raised & kReceiveFlags);
     const std::uint32_t came = (now + kReceiveSize - seen_) % kReceiveSize;
     const bool both = (raised & kReceiveHalf) != 0 && (raised & kReceiveEnd) != 0;
     // A flag may have been raised just after it was read here: it is the next call's.
@@ -128,14 +131,14 @@ bool DmaLink<Chip>::overrun() noexcept
     return lost_.exchange(false, std::memory_order_relaxed) || lapped;
 }
 
-template <class Chip>
-std::uint32_t DmaLink<Chip>::write_room() const noexcept
+template <class Chip, class Port>
+std::uint32_t DmaLink<Chip, Port>::write_room() const noexcept
 {
     return kSendSize - (send_head_ - send_tail_.load(std::memory_order_acquire));
 }
 
-template <class Chip>
-void DmaLink<Chip>::write(Span<const std::uint8_t> bytes) noexcept
+template <class Chip, class Port>
+void DmaLink<Chip, Port>::write(Span<const std::uint8_t> bytes) noexcept
 {
     for (const std::uint8_t byte : bytes) {
         sent_[send_head_ % kSendSize] = byte;
@@ -148,8 +151,8 @@ void DmaLink<Chip>::write(Span<const std::uint8_t> bytes) noexcept
     }
 }
 
-template <class Chip>
-void DmaLink<Chip>::send_piece() noexcept
+template <class Chip, class Port>
+void DmaLink<Chip, Port>::send_piece() noexcept
 {
     const std::uint32_t tail = send_tail_.load(std::memory_order_relaxed);
     const std::uint32_t waiting = send_head_ - tail;
@@ -159,22 +162,22 @@ void DmaLink<Chip>::send_piece() noexcept
         return;
     }
     piece_.store(size, std::memory_order_release);
-    auto& send = Chip::dma2().stream[kSendStream];
+    auto& send = send_stream();
     send.m0ar.write(Chip::bus_address(&sent_[tail % kSendSize]));
     send.ndtr.write(size);
     send.cr.write(kSendSettings);
     send.cr.write(kSendSettings | kStreamEnable);
 }
 
-template <class Chip>
-void DmaLink<Chip>::on_interrupt() noexcept
+template <class Chip, class Port>
+void DmaLink<Chip, Port>::on_interrupt() noexcept
 {
     // The stream's reading of the byte clears the errors, once they were read here.
-    if ((Chip::usart1().sr.read() & kLost) != 0) {
+    if ((Port::usart().sr.read() & kLost) != 0) {
         lost_.store(true, std::memory_order_relaxed);
     }
-    const std::uint32_t raised = Chip::dma2().hisr.read() & kSendFlags;
-    Chip::dma2().hifcr.write(raised);
+    const std::uint32_t raised = stream_flags(Port::dma(), Port::kSendStream).read() & kSendFlags;
+    stream_flag_clear(Port::dma(), Port::kSendStream).write(raised);
     if ((raised & kSendEnd) == 0) {
         return;
     }

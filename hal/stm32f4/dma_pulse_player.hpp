@@ -1,8 +1,10 @@
 // DmaPulsePlayer: plays pulse frames by DMA, so that no interrupt makes a step.
 //
-// A timer asks DMA2 for one word each microsecond; the stream takes it from a ring of two halves, a
-// frame each, and writes it to the port's set/reset register: bits 0 to 15 raise pins, bits 16 to
-// 31 lower them, 0 changes nothing. While one half plays, the servo tick fills the other.
+// A timer asks DMA2 for one word a port each microsecond; a stream takes it from a ring of two
+// halves, a frame each, and writes it to the port's set/reset register: bits 0 to 15 raise pins, bits
+// 16 to 31 lower them, 0 changes nothing. While one half plays, the servo tick fills the other. The
+// lines may lie on up to three ports: one ring and one stream each, all asked by one event of the
+// timer. Their words of a microsecond follow each other within some 20 bus cycles.
 //
 // At each change of half the interrupt erases the half that has just played, so that no word is
 // ever played twice: a frame that comes late finds silence, never yesterday's steps. If motion went
@@ -17,53 +19,26 @@
 
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "firmware/base/pulse_frame.hpp"
 #include "hal/contract/board.hpp"
+#include "hal/stm32f4/dma_streams.hpp"
+#include "hal/stm32f4/pace.hpp"
 #include "hal/stm32f4/pins.hpp"
 #include "hal/stm32f4/registers.hpp"
+#include "hal/stm32f4/step_ports.hpp"
 
 namespace cusp::hal::stm32f4 {
 
-// Lines X Y Z step on pins 0 to 2 of the port and X Y Z direction on pins 3 to 5; `inverted` has a
-// 1 for each line whose pin is low where the line is high.
-constexpr std::uint32_t port_word(PulseLines raise, PulseLines lower, PulseLines inverted) noexcept
-{
-    const auto pins_up = static_cast<std::uint32_t>((raise & ~inverted) | (lower & inverted));
-    const auto pins_down = static_cast<std::uint32_t>((lower & ~inverted) | (raise & inverted));
-    return pins_up | pins_down << 16U;
-}
-
-inline constexpr PulseLines kStepLines = 0x07;
-
-// Which timer asks which stream (RM0090 table 43): timer 8's update asks stream 1 by channel 7,
-// timer 1's asks stream 5 by channel 6.
-template <class Chip>
-struct Timer8Pace {
-    static constexpr unsigned kStream = 1;
-    static constexpr std::uint32_t kChannel = 7;
-    static constexpr unsigned kInterrupt = 57;
-    static constexpr unsigned kClockBit = 1;   // of RCC_APB2ENR
-    static constexpr unsigned kFreezeBit = 1;  // of DBGMCU_APB2_FZ
-    static auto& timer() noexcept { return Chip::timer8(); }
-};
-template <class Chip>
-struct Timer1Pace {
-    static constexpr unsigned kStream = 5;
-    static constexpr std::uint32_t kChannel = 6;
-    static constexpr unsigned kInterrupt = 68;
-    static constexpr unsigned kClockBit = 0;
-    static constexpr unsigned kFreezeBit = 0;
-    static auto& timer() noexcept { return Chip::timer1(); }
-};
-
-// `Chip` as in hal/stm32f4/chip.hpp; `Port` has a static function gpio() that yields the port of
-// the six lines.
-template <class Chip, class Port, class Pace = Timer8Pace<Chip>>
+// `Chip` as in hal/stm32f4/chip.hpp; `Table` has kLines (hal/stm32f4/step_ports.hpp); `Pace` as in
+// hal/stm32f4/pace.hpp.
+template <class Chip, class Table, class Pace>
 class DmaPulsePlayer {
 public:
-    // Gives the lines to the port, sets timers and stream up and starts them on silence.
+    // Makes the lines outputs, sets timers and streams up and starts them on silence.
     // Precondition: the clocks of DMA2 and both timers are on. `timer_hz` and `gate_hz` are what the
     // pace's timer and timer 2 count. `moved`: the last run ended amid motion, which counts as an
     // underrun.
@@ -83,43 +58,41 @@ public:
     // Whether a frame with edges may be on its way to the pins.
     bool moving() const noexcept { return has_edges_[0] || has_edges_[1]; }
 
-    // The stream's interrupt. True where the servo tick is due. Context: the most urgent interrupt;
-    // integers only.
+    // The interrupt of the first port's stream. True where the servo tick is due. Context: the most
+    // urgent interrupt; integers only.
     bool on_interrupt() noexcept;
 
-    // Stops the stream at once with the steps low. Context: any; used by the fault handler.
+    // Stops the streams at once with the steps low. Context: any; used by the fault handler.
     static void stop() noexcept;
 
 private:
+    using Ports = StepPorts<Table>;
+    static constexpr unsigned kPorts = Ports::kCount;
+    static_assert(kPorts <= Pace::kRequests.size(), "the lines lie on more than three ports");
+    using EachPort = std::make_index_sequence<kPorts>;
     using Half = std::array<std::uint32_t, kPulseTicksPerFrame>;
+    using Ring = std::array<Half, 2>;
     static constexpr std::uint32_t kWords = 2 * kPulseTicksPerFrame;
     // Longest time from the first word of a frame to the last, in words: 1000 edges at some ten
-    // instructions, and the interrupts of the serial port in between.
-    static constexpr std::uint32_t kFillTime = 150;
+    // instructions a port, and the interrupts of the serial port in between.
+    static constexpr std::uint32_t kFillTime = 80 + 70 * kPorts;
     // The stream fetches a word ahead of its turn.
     static constexpr std::uint32_t kFetchedAhead = 4;
 
-    // The stream in the flags registers, and its settings (RM0090 sections 10.5.1 to 10.5.5).
-    // Streams 0 to 3 have the low registers, 4 to 7 the high ones.
-    static constexpr std::array<unsigned, 4> kFlagPlaces{0, 6, 16, 22};
-    static constexpr unsigned kFlagPlace = kFlagPlaces[Pace::kStream % 4];
-    static constexpr std::uint32_t kFifoError = 1U << kFlagPlace;
-    static constexpr std::uint32_t kDirectModeError = 4U << kFlagPlace;
-    static constexpr std::uint32_t kTransferError = 8U << kFlagPlace;
-    static constexpr std::uint32_t kHalfTransfer = 16U << kFlagPlace;
-    static constexpr std::uint32_t kTransferComplete = 32U << kFlagPlace;
-    static constexpr std::uint32_t kErrors = kDirectModeError | kTransferError;
-    static constexpr std::uint32_t kAllFlags =
-        kErrors | kFifoError | kHalfTransfer | kTransferComplete;
-    static constexpr std::uint32_t kStreamEnable = 1U << 0U;
-    static constexpr std::uint32_t kStreamSettings = Pace::kChannel << 25U |
-                                                     3U << 16U    // most urgent stream
+    // The first port's stream calls; the others go with it (RM0090 sections 10.5.1 to 10.5.5).
+    static constexpr unsigned kFlagPlace = stream_flag_place(Pace::kRequests[0].stream);
+    static constexpr std::uint32_t kHalfTransfer = kStreamHalf << kFlagPlace;
+    static constexpr std::uint32_t kTransferComplete = kStreamComplete << kFlagPlace;
+    static constexpr std::uint32_t kErrors = (kStreamDirectModeError | kStreamTransferError)
+                                             << kFlagPlace;
+    static constexpr std::uint32_t kAllFlags = kStreamAllFlags << kFlagPlace;
+    static constexpr std::uint32_t kInterrupts = 1U << 4U | 1U << 3U | 1U << 2U | 1U << 1U;
+    static constexpr std::uint32_t kStreamSettings = 3U << 16U    // most urgent stream
                                                      | 2U << 13U  // words from memory
                                                      | 2U << 11U  // words to the port
                                                      | 1U << 10U  // memory address goes on
                                                      | 1U << 8U   // round and round
-                                                     | 1U << 6U   // memory to peripheral
-                                                     | 1U << 4U | 1U << 3U | 1U << 2U | 1U << 1U;
+                                                     | 1U << 6U;  // memory to peripheral
     static constexpr std::uint32_t kTimerEnable = 1U << 0U;
     static constexpr std::uint32_t kOnePulse = 1U << 3U;
     static constexpr std::uint32_t kEnableIsOutput = 1U << 4U;      // of the gate, to ITR1
@@ -128,23 +101,57 @@ private:
     static constexpr std::uint32_t kGateMargin = 20;
     // Which half plays is not known: both flags were up.
     static constexpr unsigned kUnknown = 2;
-    static constexpr PulseLines kLines = 0x3F;
-    static constexpr std::uint32_t kUpdateRequest = 1U << 8U;
+    static constexpr std::uint32_t kAllRequestsAtUpdate = 1U << 3U;  // CCDS
     // A stream that is switched off finishes its word first: some 20 bus cycles.
     static constexpr unsigned kDisableRounds = 1000;
 
-    static auto& stream() noexcept { return Chip::dma2().stream[Pace::kStream]; }
-    static auto& flags() noexcept
+    static auto& gpio(unsigned port) noexcept { return Chip::port(Ports::kLetters[port]); }
+    static auto& stream(unsigned port = 0) noexcept
     {
-        return Pace::kStream < 4 ? Chip::dma2().lisr : Chip::dma2().hisr;
+        return Chip::dma2().stream[Pace::kRequests[port].stream];
     }
+    static constexpr std::uint32_t settings(unsigned port) noexcept
+    {
+        return kStreamSettings | Pace::kRequests[port].channel << 25U |
+               (port == 0 ? kInterrupts : 0U);
+    }
+    static auto& flags() noexcept { return stream_flags(Chip::dma2(), Pace::kRequests[0].stream); }
     static auto& flag_clear() noexcept
     {
-        return Pace::kStream < 4 ? Chip::dma2().lifcr : Chip::dma2().hifcr;
+        return stream_flag_clear(Chip::dma2(), Pace::kRequests[0].stream);
+    }
+    template <std::size_t... kPort>
+    static void set_lines(PinLevels levels, std::index_sequence<kPort...> /*each*/) noexcept
+    {
+        (gpio(kPort).bsrr.write(Ports::template word<kPort>(levels.up, levels.down)), ...);
+    }
+    template <std::size_t... kPort>
+    static PulseLines high_lines(std::index_sequence<kPort...> /*each*/) noexcept
+    {
+        return static_cast<PulseLines>(
+            (Ports::template lines<kPort>(gpio(kPort).odr.read()) | ...));
+    }
+    template <std::size_t... kPort>
+    void fill(unsigned half,
+              const PulseFrame& frame,
+              PulseLines inverted,
+              std::index_sequence<kPort...> /*each*/) noexcept
+    {
+        for (const PulseEdge& edge : frame.edges) {
+            const PinLevels levels = pin_levels(edge.raise, edge.lower, inverted);
+            ((rings_[kPort][half][edge.tick] = Ports::template word<kPort>(levels.up, levels.down)),
+             ...);
+        }
     }
     void start_stream() noexcept;
     // In two thirds of the time that fill() takes.
-    static void silence(Half& half) noexcept { __builtin_memset(half.data(), 0, sizeof half); }
+    void silence(unsigned half) noexcept
+    {
+        for (Ring& ring : rings_) {
+            __builtin_memset(ring[half].data(), 0, sizeof ring[half]);
+        }
+    }
+    static bool in_step() noexcept;
     // Words that are left of the half that plays; 0 where its end has come.
     static std::uint32_t words_left(unsigned playing) noexcept;
     static void begin_gate() noexcept;
@@ -154,7 +161,7 @@ private:
     void lose_place() noexcept;
     void fail() noexcept;
 
-    std::array<Half, 2> halves_{};
+    std::array<Ring, kPorts> rings_{};
     // Written by the servo tick, taken by the interrupt.
     std::array<std::atomic<bool>, 2> ready_{};
     // Whether the frame in this half has an edge.
@@ -166,10 +173,10 @@ private:
     static inline PulseLines inverted_{0};
 };
 
-template <class Chip, class Port, class Pace>
-void DmaPulsePlayer<Chip, Port, Pace>::start(std::uint32_t timer_hz,
-                                             std::uint32_t gate_hz,
-                                             bool moved) noexcept
+template <class Chip, class Table, class Pace>
+void DmaPulsePlayer<Chip, Table, Pace>::start(std::uint32_t timer_hz,
+                                              std::uint32_t gate_hz,
+                                              bool moved) noexcept
 {
     constexpr std::uint32_t kMicrosecondsPerSecond = 1000000;
     auto& gate = Chip::timer2();
@@ -184,73 +191,103 @@ void DmaPulsePlayer<Chip, Port, Pace>::start(std::uint32_t timer_hz,
     timer.psc.write(0);
     timer.arr.write(timer_hz / (kPulseTicksPerFrame * kServoTicksPerSecond) - 1);
     timer.smcr.write(kGatedByTimer2);
-    timer.dier.write(kUpdateRequest);
+    timer.cr2.write(kAllRequestsAtUpdate);
+    std::uint32_t requests = 0;
+    for (unsigned port = 0; port < kPorts; ++port) {
+        requests |= Pace::kRequests[port].enable;
+    }
+    timer.dier.write(requests);
     apply_inversion();
-    for (unsigned pin = 0; pin < 6; ++pin) {
-        set_pin(Port::gpio(), pin, PinMode::kOutput);
+    for (const Pin pin : Table::kLines) {
+        set_pin(Chip::port(pin.port), pin.number, PinMode::kOutput);
     }
     underrun_.store(moved, std::memory_order_relaxed);
     start_stream();
 }
 
-// The port keeps the logical levels; only the pins change.
-template <class Chip, class Port, class Pace>
-void DmaPulsePlayer<Chip, Port, Pace>::apply_inversion() noexcept
+// The lines keep their logical levels; only the pins change.
+template <class Chip, class Table, class Pace>
+void DmaPulsePlayer<Chip, Table, Pace>::apply_inversion() noexcept
 {
-    const auto levels = static_cast<PulseLines>((Port::gpio().odr.read() ^ inverted_) & kLines);
+    const auto levels = static_cast<PulseLines>((high_lines(EachPort{}) ^ inverted_) & kAllLines);
     inverted_ = wanted_inversion_.load(std::memory_order_relaxed);
-    const auto low = static_cast<PulseLines>(~unsigned{levels} & kLines);
-    Port::gpio().bsrr.write(port_word(levels, low, inverted_));
+    const auto low = static_cast<PulseLines>(~unsigned{levels} & kAllLines);
+    set_lines(pin_levels(levels, low, inverted_), EachPort{});
 }
 
-template <class Chip, class Port, class Pace>
-void DmaPulsePlayer<Chip, Port, Pace>::begin_gate() noexcept
+template <class Chip, class Table, class Pace>
+void DmaPulsePlayer<Chip, Table, Pace>::begin_gate() noexcept
 {
     auto& gate = Chip::timer2();
     gate.cnt.write(0);
     gate.cr1.write(kOnePulse | kTimerEnable);
 }
 
-template <class Chip, class Port, class Pace>
-void DmaPulsePlayer<Chip, Port, Pace>::start_stream() noexcept
+template <class Chip, class Table, class Pace>
+void DmaPulsePlayer<Chip, Table, Pace>::start_stream() noexcept
 {
     stop();
     for (unsigned half = 0; half < 2; ++half) {
-        silence(halves_[half]);
+        silence(half);
         ready_[half].store(false, std::memory_order_relaxed);
         has_edges_[half] = false;
     }
     playing_.store(0, std::memory_order_relaxed);
-    auto& dma = stream();
-    flag_clear().write(kAllFlags);
-    dma.par.write(Chip::bus_address(&Port::gpio().bsrr));
-    dma.m0ar.write(Chip::bus_address(halves_.data()));
-    dma.ndtr.write(kWords);
-    dma.fcr.write(0);
-    // The silence is in memory before the stream reads it.
+    // The silence is in memory before a stream reads it.
     std::atomic_thread_fence(std::memory_order_release);
-    dma.cr.write(kStreamSettings);
-    dma.cr.write(kStreamSettings | kStreamEnable);
+    for (unsigned port = 0; port < kPorts; ++port) {
+        const unsigned number = Pace::kRequests[port].stream;
+        stream_flag_clear(Chip::dma2(), number).write(kStreamAllFlags << stream_flag_place(number));
+        auto& dma = stream(port);
+        dma.par.write(Chip::bus_address(&gpio(port).bsrr));
+        dma.m0ar.write(Chip::bus_address(rings_[port].data()));
+        dma.ndtr.write(kWords);
+        dma.fcr.write(0);
+        dma.cr.write(settings(port));
+        dma.cr.write(settings(port) | kStreamEnable);
+    }
     begin_gate();
     Pace::timer().cr1.write(kTimerEnable);
 }
 
-template <class Chip, class Port, class Pace>
-void DmaPulsePlayer<Chip, Port, Pace>::stop() noexcept
+template <class Chip, class Table, class Pace>
+void DmaPulsePlayer<Chip, Table, Pace>::stop() noexcept
 {
     Pace::timer().cr1.write(0);
-    auto& dma = stream();
-    dma.cr.write(kStreamSettings);
-    for (unsigned round = 0; round < kDisableRounds && (dma.cr.read() & kStreamEnable) != 0;
-         ++round) {
+    for (unsigned port = 0; port < kPorts; ++port) {
+        auto& dma = stream(port);
+        dma.cr.write(settings(port));
+        for (unsigned round = 0; round < kDisableRounds && (dma.cr.read() & kStreamEnable) != 0;
+             ++round) {
+        }
     }
-    Port::gpio().bsrr.write(port_word(0, kStepLines, inverted_));
+    set_lines(pin_levels(0, kStepLines, inverted_), EachPort{});
+}
+
+// Whether the streams of further ports stand where the first one's does. One that has met an error
+// of the bus stands still, one that has missed a request is late.
+template <class Chip, class Table, class Pace>
+bool DmaPulsePlayer<Chip, Table, Pace>::in_step() noexcept
+{
+    // A word may be played between two readings; at its end a counter may be 0 or that of the start.
+    constexpr std::uint32_t kAllowed = 2;
+    if constexpr (kPorts == 1) {
+        return true;
+    }
+    const std::uint32_t left = stream().ndtr.read();
+    for (unsigned port = 1; port < kPorts; ++port) {
+        const std::uint32_t ahead = left + kWords - stream(port).ndtr.read() + kAllowed;
+        if (ahead % kWords > 2 * kAllowed) {
+            return false;
+        }
+    }
+    return true;
 }
 
 // The counter is that of both halves, and which of them plays is the flags' to say: at the end of
 // the ring it may still stand at 0 when the first half plays.
-template <class Chip, class Port, class Pace>
-std::uint32_t DmaPulsePlayer<Chip, Port, Pace>::words_left(unsigned playing) noexcept
+template <class Chip, class Table, class Pace>
+std::uint32_t DmaPulsePlayer<Chip, Table, Pace>::words_left(unsigned playing) noexcept
 {
     const std::uint32_t left = stream().ndtr.read();
     if (left == 0) {
@@ -263,8 +300,8 @@ std::uint32_t DmaPulsePlayer<Chip, Port, Pace>::words_left(unsigned playing) noe
     return in_first ? left - kPulseTicksPerFrame : left;
 }
 
-template <class Chip, class Port, class Pace>
-bool DmaPulsePlayer<Chip, Port, Pace>::try_play(const PulseFrame& frame) noexcept
+template <class Chip, class Table, class Pace>
+bool DmaPulsePlayer<Chip, Table, Pace>::try_play(const PulseFrame& frame) noexcept
 {
     if (underrun()) {
         return true;
@@ -281,16 +318,11 @@ bool DmaPulsePlayer<Chip, Port, Pace>::try_play(const PulseFrame& frame) noexcep
     if (wanted != inverted_ && frame.edges.empty() && !moving()) {
         apply_inversion();
     }
-    Half& words = halves_[half];
     const PulseLines inverted = inverted_;
     if (inverted == 0) {
-        for (const PulseEdge& edge : frame.edges) {
-            words[edge.tick] = port_word(edge.raise, edge.lower, 0);
-        }
+        fill(half, frame, 0, EachPort{});
     } else {
-        for (const PulseEdge& edge : frame.edges) {
-            words[edge.tick] = port_word(edge.raise, edge.lower, inverted);
-        }
+        fill(half, frame, inverted, EachPort{});
     }
     has_edges_[half] = !frame.edges.empty();
     ready_[half].store(true, std::memory_order_release);
@@ -302,14 +334,14 @@ bool DmaPulsePlayer<Chip, Port, Pace>::try_play(const PulseFrame& frame) noexcep
     return false;
 }
 
-template <class Chip, class Port, class Pace>
-bool DmaPulsePlayer<Chip, Port, Pace>::on_interrupt() noexcept
+template <class Chip, class Table, class Pace>
+bool DmaPulsePlayer<Chip, Table, Pace>::on_interrupt() noexcept
 {
     const bool paused = gate_ended();
     begin_gate();
     const std::uint32_t raised = flags().read();
     flag_clear().write(raised & kAllFlags);
-    if ((raised & kErrors) != 0 || (paused && moving())) {
+    if ((raised & kErrors) != 0 || !in_step() || (paused && moving())) {
         fail();
         return true;
     }
@@ -326,14 +358,14 @@ bool DmaPulsePlayer<Chip, Port, Pace>::on_interrupt() noexcept
     return true;
 }
 
-template <class Chip, class Port, class Pace>
-void DmaPulsePlayer<Chip, Port, Pace>::finish_half(unsigned playing) noexcept
+template <class Chip, class Table, class Pace>
+void DmaPulsePlayer<Chip, Table, Pace>::finish_half(unsigned playing) noexcept
 {
     const unsigned played = 1U - playing;
     const bool was_moving = has_edges_[played];
     playing_.store(playing, std::memory_order_relaxed);
     if (was_moving) {
-        silence(halves_[played]);
+        silence(played);
         has_edges_[played] = false;
     }
     ready_[played].store(false, std::memory_order_relaxed);
@@ -343,8 +375,8 @@ void DmaPulsePlayer<Chip, Port, Pace>::finish_half(unsigned playing) noexcept
 }
 
 // Both flags: a whole half went by unserved, and the one that plays may be playing again.
-template <class Chip, class Port, class Pace>
-void DmaPulsePlayer<Chip, Port, Pace>::lose_place() noexcept
+template <class Chip, class Table, class Pace>
+void DmaPulsePlayer<Chip, Table, Pace>::lose_place() noexcept
 {
     if (moving()) {
         fail();
@@ -355,15 +387,15 @@ void DmaPulsePlayer<Chip, Port, Pace>::lose_place() noexcept
     ready_[1].store(false, std::memory_order_relaxed);
 }
 
-template <class Chip, class Port, class Pace>
-void DmaPulsePlayer<Chip, Port, Pace>::fail() noexcept
+template <class Chip, class Table, class Pace>
+void DmaPulsePlayer<Chip, Table, Pace>::fail() noexcept
 {
     stop();
     underrun_.store(true, std::memory_order_relaxed);
 }
 
-template <class Chip, class Port, class Pace>
-void DmaPulsePlayer<Chip, Port, Pace>::clear_underrun() noexcept
+template <class Chip, class Table, class Pace>
+void DmaPulsePlayer<Chip, Table, Pace>::clear_underrun() noexcept
 {
     if (underrun()) {
         start_stream();

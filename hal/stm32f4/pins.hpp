@@ -7,6 +7,18 @@
 
 namespace cusp::hal::stm32f4 {
 
+// A pin by its name on the schematic: {'C', 6}. Port 0: the board has none.
+struct Pin {
+    char port{0};  // 'A' to 'I'
+    unsigned number{0};
+};
+constexpr bool is_there(Pin pin) noexcept { return pin.port != 0; }
+// Its port's bit in RCC_AHB1ENR.
+constexpr std::uint32_t clock_bit(Pin pin) noexcept
+{
+    return is_there(pin) ? 1U << static_cast<unsigned>(pin.port - 'A') : 0U;
+}
+
 enum class PinMode : std::uint8_t { kInput = 0, kOutput = 1, kAlternate = 2 };
 enum class Pull : std::uint8_t { kNone = 0, kUp = 1, kDown = 2 };
 

@@ -38,14 +38,24 @@ template <class Chip>
     }
 }
 
-// Switches on the ports A to C, DMA2, timers 2 and 3, USART1, and the timer of the pulses by its bit.
+// Bits of RCC_AHB1ENR, RCC_APB1ENR and RCC_APB2ENR: blocks that are to have a clock.
+struct PeripheralClocks {
+    std::uint32_t ahb1;
+    std::uint32_t apb1;
+    std::uint32_t apb2;
+};
+constexpr PeripheralClocks operator|(PeripheralClocks a, PeripheralClocks b) noexcept
+{
+    return {a.ahb1 | b.ahb1, a.apb1 | b.apb1, a.apb2 | b.apb2};
+}
+
 template <class Chip>
-void start_peripherals(unsigned pulse_timer_bit) noexcept
+void start_peripherals(PeripheralClocks clocks) noexcept
 {
     auto& rcc = Chip::rcc();
-    set_bits(rcc.ahb1enr, 1U << 0U | 1U << 1U | 1U << 2U | 1U << 22U);
-    set_bits(rcc.apb1enr, 1U << 0U | 1U << 1U | 1U << 28U);
-    set_bits(rcc.apb2enr, 1U << pulse_timer_bit | 1U << 4U);
+    set_bits(rcc.ahb1enr, clocks.ahb1);
+    set_bits(rcc.apb1enr, clocks.apb1);
+    set_bits(rcc.apb2enr, clocks.apb2);
     // The clock arrives two bus cycles after the bit is set.
     static_cast<void>(rcc.apb2enr.read());
     static_cast<void>(rcc.apb2enr.read());

@@ -34,9 +34,10 @@ struct StillChip {
     static inline Timer<Word> timer{};
     static inline Timer<Word> gate{};
     static inline hal::stm32f4::Debug<Word> debugger{};
-    static inline Gpio<Word> port{};
+    static inline Gpio<Word> gpio{};
     static auto& dma2() noexcept { return dma; }
     static auto& timer8() noexcept { return timer; }
+    static auto& port(char) noexcept { return gpio; }
     static auto& timer2() noexcept { return gate; }
     static auto& debug() noexcept { return debugger; }
     static std::uint32_t bus_address(const volatile void* memory) noexcept
@@ -44,10 +45,11 @@ struct StillChip {
         return hal::stm32f4::Chip::bus_address(memory);
     }
 };
-struct StillPort {
-    static auto& gpio() noexcept { return StillChip::port; }
+struct OnePort {
+    static constexpr hal::stm32f4::LinePins kLines{
+        {{'C', 0}, {'C', 1}, {'C', 2}, {'C', 3}, {'C', 4}, {'C', 5}}};
 };
-hal::stm32f4::DmaPulsePlayer<StillChip, StillPort> player;
+hal::stm32f4::DmaPulsePlayer<StillChip, OnePort, hal::stm32f4::Timer8Pace<StillChip>> player;
 
 constexpr float kFeed = 50.0F;
 
@@ -164,6 +166,40 @@ void count_pulses(std::string_view frame_name,
     fill.report(out);
 }
 
+struct ThreePorts {
+    static constexpr hal::stm32f4::LinePins kLines{
+        {{'E', 2}, {'D', 5}, {'A', 15}, {'E', 1}, {'D', 4}, {'A', 8}}};
+};
+hal::stm32f4::DmaPulsePlayer<StillChip, ThreePorts, hal::stm32f4::Timer8Pace<StillChip>>
+    player_of_three_ports;
+
+// Lines on three ports: a frame with an edge in each microsecond, the most that there can be.
+void count_three_ports()
+{
+    InstructionMeter fill{"player_3_ports_full"};
+    frame.edges.clear();
+    for (std::uint16_t tick = 0; tick < kPulseTicksPerFrame; ++tick) {
+        const PulseLines steps = 7;
+        const bool rise = tick % 2 == 0;
+        CUSP_ASSERT(frame.edges.try_push_back(
+            {tick, rise ? steps : PulseLines{0}, rise ? PulseLines{0} : steps}));
+    }
+    player_of_three_ports.start(168000000, 84000000);
+    for (unsigned tick = 0; tick < 20; ++tick) {
+        StillChip::gate.cr1.write(1);
+        for (const unsigned stream : {1U, 3U, 4U}) {
+            StillChip::dma.stream[stream].ndtr.write(tick % 2 == 0 ? 1900 : 900);
+        }
+        fill.begin();
+        const bool taken = player_of_three_ports.try_play(frame);
+        StillChip::dma.lisr.write(tick % 2 == 0 ? 1U << 10U : 1U << 11U);
+        static_cast<void>(player_of_three_ports.on_interrupt());
+        fill.end();
+        CUSP_ASSERT(taken && !player_of_three_ports.underrun());
+    }
+    fill.report(out);
+}
+
 // Dense lines of 0.1 mm along a circle of 30 mm, played as they come.
 void count_look_ahead()
 {
@@ -224,6 +260,7 @@ void cusp_main()
     // 10 m/s^2 on each axis.
     count_pulses("frame_to_250k", "player_to_250k", 312500, 10000);
     count_look_ahead();
+    count_three_ports();
     count_parsing();
     hal::qemu::exit_qemu(0);
 }

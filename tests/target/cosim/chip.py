@@ -7,8 +7,12 @@ import re
 import subprocess
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
-# Chip and crystal, as the boards' READMEs say in their first lines.
-CHIPS = {"mill3_f405": ("stm32f405", 8000000), "black_pill_f411": ("stm32f411", 25000000)}
+# Chip and crystal, as the boards' READMEs say in their first lines; "external": a clock in its place.
+CHIPS = {"mill3_f405": ("stm32f405", 8000000), "black_pill_f411": ("stm32f411", 25000000),
+         "nucleo_f446_cnc_shield": ("stm32f446", 8000000, "external"),
+         "skr2_f407": ("stm32f407", 8000000), "octopus_f446": ("stm32f446", 12000000)}
+# Which USART has the pin as its transmitter.
+USARTS = {"PA9": (), "PA2": ("usart2",)}
 # Contacts to ground that are closed where nothing is tripped.
 CLOSED_AT_REST = ("probe", "door", "hold", "reset", "emergency stop", "motor fault")
 LINES = ("X step", "Y step", "Z step", "X direction", "Y direction", "Z direction")
@@ -39,12 +43,14 @@ class Chip:
     """The image of a board from power-up on. A context manager: the end checks for violations."""
 
     def __init__(self, cosim, image, board, crystal=None, may_violate=(), quiet_inputs=True):
-        chip, nominal = CHIPS[board]
+        chip, nominal, *more = CHIPS[board]
         self.may_violate = may_violate
         self.pins = wiring(board)
         self.lines = [self.pins[line] for line in LINES]
+        self.enables = [pin for signal, pin in self.pins.items() if signal.startswith("drives enable")]
         self.process = subprocess.Popen(
-            [str(cosim), chip, str(nominal if crystal is None else crystal), str(image)],
+            [str(cosim), chip, str(nominal if crystal is None else crystal), str(image), *more,
+             *USARTS[self.pins["serial transmit"]]],
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
         if quiet_inputs:
             for signal, pin in self.pins.items():
@@ -122,8 +128,12 @@ class Chip:
 
     def levels(self):
         """name -> level of the pins that the chip drives."""
+        return self.told("pin")
+
+    def told(self, kind):
+        """name -> value of one kind of lines that `pins` answers: pin, function, spindle."""
         return {words[1]: int(words[2]) for words in map(str.split, self.command("pins"))
-                if words[0] == "pin"}
+                if words[0] == kind}
 
     def changes(self):
         """(ns, port, driven, high) of each change since the last call."""
@@ -131,8 +141,8 @@ class Chip:
                 for words in map(str.split, self.command("changes"))]
 
     def edges_of(self, signal, changes):
-        """(ns, level) of each change of one pin, where it is driven."""
-        name = self.pins[signal]
+        """(ns, level) of each change of one pin, where it is driven. `signal`: its name, or the pin's."""
+        name = self.pins.get(signal, signal)
         bit = 1 << int(name[2:])
         edges = []
         for time, port, driven, high in changes:
@@ -146,6 +156,23 @@ class Chip:
         """Number of rising edges of a step line."""
         edges = self.edges_of(f"{axis} step", changes)
         return sum(1 for (_, before), (_, after) in zip(edges, edges[1:]) if after > before)
+
+    def steps_after_an_underrun(self):
+        """The core stands still amid a jog and goes on: what is said, and the steps of X Y Z in a jog after it."""
+        self.ask("$J=G91 X30 Y30 Z30 F3000")
+        self.run(200)
+        self.command("core stop")
+        self.run(50)
+        self.command("core go")
+        heard = self.run(200)
+        self.send("\x18")
+        heard += self.run(50)
+        self.ask("$X")
+        self.changes()
+        self.ask("$J=G91 X1 Y1 Z1 F1200")
+        self.wait_for("Idle")
+        changes = self.changes()
+        return heard, [self.steps(changes, axis) for axis in "XYZ"]
 
     def state(self):
         found = {"violations": []}

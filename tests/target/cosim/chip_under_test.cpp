@@ -10,6 +10,7 @@ namespace cusp::cosim {
 namespace {
 
 constexpr std::uint32_t kBlock = 0x400;
+constexpr unsigned kDma1Clock = 21;
 constexpr unsigned kDma2Clock = 22;
 constexpr unsigned kPulseInterrupts[] = {57, 68};  // DMA2 streams 1 and 5
 
@@ -73,7 +74,8 @@ std::vector<Request> requests_of_timer1(TimerModel::Event event)
 
 ChipKind chip_kind(const std::string& name)
 {
-    // Data sheets DS8626, DS8626, DS10314, DS10693: rates, wait states at 3.3 V, memories.
+    // Data sheets DS8626, DS8626, DS10314, DS10693: rates, wait states at 3.3 V, memories. The F446
+    // without its over-drive.
     if (name == "stm32f405" || name == "stm32f407") {
         return {{8000000, 168000000, 42000000, 84000000, 30000000, 1},
                 1024 * 1024,
@@ -83,7 +85,7 @@ ChipKind chip_kind(const std::string& name)
                 "ABCDEFGHI"};
     }
     if (name == "stm32f446") {
-        return {{8000000, 180000000, 45000000, 90000000, 30000000, 3},
+        return {{8000000, 168000000, 45000000, 90000000, 30000000, 3},
                 512 * 1024,
                 128 * 1024,
                 0,
@@ -158,18 +160,31 @@ void ChipUnderTest::make_blocks()
     }
     power_ = std::make_unique<PowerModel>(circuit_, *clocks_);
     watchdog_ = std::make_unique<WatchdogModel>(circuit_);
+    const auto read_any = [this](std::uint32_t address) {
+        return read(address, 4);
+    };
+    // DMA1 reaches its own bus only, where the ports are not.
+    dma1_ = std::make_unique<DmaModel>(
+        circuit_, "DMA1", std::array<unsigned, 8>{11, 12, 13, 14, 15, 16, 17, 47},
+        DmaModel::Port{read_any, [this](std::uint32_t address, std::uint32_t value) {
+                           if (address >= 0x40010000) {
+                               circuit_.violate("DMA1: no way to " + hexadecimal(address));
+                               return;
+                           }
+                           write(address, 4, value);
+                       }});
     dma2_ = std::make_unique<DmaModel>(
         circuit_, "DMA2", std::array<unsigned, 8>{56, 57, 58, 59, 60, 68, 69, 70},
-        DmaModel::Port{[this](std::uint32_t address) { return read(address, 4); },
-                       [this](std::uint32_t address, std::uint32_t value) {
+        DmaModel::Port{read_any, [this](std::uint32_t address, std::uint32_t value) {
                            write_by_dma(address, value);
                        }});
     add(0x40007000, "PWR", *power_, always);
     add(0x40023800, "RCC", *clocks_, always);
     add(0x40023C00, "FLASH", *flash_, always);
     add(0x40003000, "IWDG", *watchdog_, always);
+    add(0x40026000, "DMA1", *dma1_, [this] { return clocks_->ahb1_on(kDma1Clock); });
     add(0x40026400, "DMA2", *dma2_, [this] { return clocks_->ahb1_on(kDma2Clock); });
-    active_ = {dma2_.get(), watchdog_.get()};
+    active_ = {dma1_.get(), dma2_.get(), watchdog_.get()};
 }
 
 void ChipUnderTest::add_timer(const std::string& name,
@@ -227,28 +242,64 @@ void ChipUnderTest::make_timers()
     }
 }
 
+// RM0090 tables 42 and 43: the streams that take and give bytes, all by channel 4.
+struct ChipUnderTest::SerialWiring {
+    unsigned number;
+    std::uint32_t address;
+    DmaModel& dma;
+    std::vector<unsigned> receive_streams;
+    std::vector<unsigned> send_streams;
+    std::function<std::uint32_t()> bus_hz;
+    std::function<bool()> clocked;
+    unsigned first_pin;  // of port A: transmit, then receive
+    unsigned interrupt;
+};
+
+void ChipUnderTest::add_serial(const SerialWiring& wiring)
+{
+    DmaModel* const dma = &wiring.dma;
+    const auto ask = [dma](const std::vector<unsigned>& streams) {
+        return [dma, streams] {
+            return std::any_of(streams.begin(), streams.end(),
+                               [dma](unsigned stream) { return dma->request(stream, 4); });
+        };
+    };
+    const std::string name = "USART" + std::to_string(wiring.number);
+    auto& usart = usarts_.at(wiring.number - 1);
+    usart = std::make_unique<UsartModel>(
+        circuit_, name,
+        UsartModel::Wiring{wiring.bus_hz, ask(wiring.receive_streams), ask(wiring.send_streams),
+                           [this, first = wiring.first_pin] {
+                               const PortModel& a = *ports_.at('A');
+                               return a.mode(first) == 2 && a.function(first) == 7 &&
+                                      a.mode(first + 1) == 2 && a.function(first + 1) == 7;
+                           },
+                           wiring.interrupt});
+    dma->set_start_listener([port = usart.get()] { port->stream_ready(); });
+    add(wiring.address, name, *usart, wiring.clocked);
+    active_.push_back(usart.get());
+}
+
 void ChipUnderTest::make_serial()
 {
-    const auto give = [this](std::initializer_list<unsigned> streams) {
-        return std::any_of(streams.begin(), streams.end(),
-                           [this](unsigned stream) { return dma2_->request(stream, 4); });
-    };
-    usart1_ = std::make_unique<UsartModel>(
-        circuit_, "USART1",
-        UsartModel::Wiring{[this] { return clocks_->fast_bus_hz(); },
-                           [give] {
-                               return give({2, 5});
-                           },
-                           [give] { return give({7}); },
-                           [this] {
-                               const PortModel& a = *ports_.at('A');
-                               return a.mode(9) == 2 && a.function(9) == 7 && a.mode(10) == 2 &&
-                                      a.function(10) == 7;
-                           },
-                           37});
-    dma2_->set_start_listener([this] { usart1_->stream_ready(); });
-    add(0x40011000, "USART1", *usart1_, [this] { return clocks_->apb2_on(4); });
-    active_.push_back(usart1_.get());
+    add_serial({1,
+                0x40011000,
+                *dma2_,
+                {2, 5},
+                {7},
+                [this] { return clocks_->fast_bus_hz(); },
+                [this] { return clocks_->apb2_on(4); },
+                9,
+                37});
+    add_serial({2,
+                0x40004400,
+                *dma1_,
+                {5},
+                {6},
+                [this] { return clocks_->slow_bus_hz(); },
+                [this] { return clocks_->apb1_on(17); },
+                2,
+                38});
 }
 
 PortModel& ChipUnderTest::port(char letter)
@@ -431,8 +482,11 @@ void ChipUnderTest::reset(ClockModel::ResetCause cause)
     clocks_->reset();
     flash_->reset();
     watchdog_->reset();
+    dma1_->reset();
     dma2_->reset();
-    usart1_->reset();
+    for (const auto& usart : usarts_) {
+        usart->reset();
+    }
     for (const auto& timer : timers_) {
         timer.second->reset();
     }
@@ -477,7 +531,9 @@ void ChipUnderTest::power_cycle()
     writes_left_ = -1;
     freeze_1_ = freeze_2_ = 0;
     held_ = false;
-    usart1_->unplug();
+    for (const auto& usart : usarts_) {
+        usart->unplug();
+    }
     reset(ClockModel::ResetCause::kPowerUp);
 }
 

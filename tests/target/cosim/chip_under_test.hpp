@@ -22,6 +22,7 @@ struct ChipKind {
     std::uint32_t coupled_bytes;  // CCM
     bool has_timer8;
     std::string ports;
+    unsigned serial{1};  // which USART is the board's line
 };
 // stm32f405, stm32f407, stm32f411, stm32f446. Throws std::runtime_error for another.
 ChipKind chip_kind(const std::string& name);
@@ -44,10 +45,14 @@ public:
     CoreModel& core() { return *core_; }
     FlashModel& flash() { return *flash_; }
     ClockModel& clocks() { return *clocks_; }
-    UsartModel& serial() { return *usart1_; }
+    UsartModel& serial() { return *usarts_.at(kind_.serial - 1); }
     PortModel& port(char letter);
     std::map<char, std::unique_ptr<PortModel>>& ports() { return ports_; }
-    std::uint32_t spindle_compare() const { return timers_.at("TIM3")->compare(0); }
+    // Of a channel of timer 3, 1 to 4.
+    std::uint32_t spindle_compare(unsigned channel) const
+    {
+        return timers_.at("TIM3")->compare(channel - 1);
+    }
 
     // The core executes nothing more; `debugger`: as a debugger halts it, which DBGMCU knows of.
     void stop_core(bool debugger);
@@ -74,6 +79,8 @@ private:
     void make_blocks();
     void make_timers();
     void make_serial();
+    struct SerialWiring;
+    void add_serial(const SerialWiring& wiring);
     void add(std::uint32_t address,
              const std::string& name,
              Model& model,
@@ -99,8 +106,8 @@ private:
     std::unique_ptr<FlashModel> flash_;
     std::unique_ptr<Model> power_;
     std::unique_ptr<WatchdogModel> watchdog_;
-    std::unique_ptr<DmaModel> dma2_;
-    std::unique_ptr<UsartModel> usart1_;
+    std::unique_ptr<DmaModel> dma1_, dma2_;
+    std::array<std::unique_ptr<UsartModel>, 2> usarts_;
     std::map<char, std::unique_ptr<PortModel>> ports_;
     std::map<std::string, std::unique_ptr<TimerModel>> timers_;
     std::unique_ptr<CoreModel> core_;

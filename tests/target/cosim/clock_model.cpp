@@ -9,6 +9,7 @@ constexpr Picoseconds kCrystalStart = 2 * kMillisecond;
 constexpr Picoseconds kMultiplierStart = 200 * kMicrosecond;
 constexpr std::uint32_t kCrystalOn = 1U << 16U;
 constexpr std::uint32_t kCrystalReady = 1U << 17U;
+constexpr std::uint32_t kCrystalBypass = 1U << 18U;
 constexpr std::uint32_t kSecurityOn = 1U << 19U;
 constexpr std::uint32_t kMultiplierOn = 1U << 24U;
 constexpr std::uint32_t kMultiplierReady = 1U << 25U;
@@ -60,7 +61,7 @@ void ClockModel::note_reset(ResetCause cause)
 std::uint32_t ClockModel::control() const
 {
     const bool crystal =
-        (cr_ & kCrystalOn) != 0 && crystal_alive_ && circuit_.now - crystal_since_ >= kCrystalStart;
+        (cr_ & kCrystalOn) != 0 && crystal_fits() && circuit_.now - crystal_since_ >= kCrystalStart;
     const bool multiplier =
         (cr_ & kMultiplierOn) != 0 && circuit_.now - multiplier_since_ >= kMultiplierStart;
     const bool oscillator = (cr_ & 1U) != 0;
@@ -97,6 +98,9 @@ std::uint32_t ClockModel::read(std::uint32_t offset)
 void ClockModel::write_control(std::uint32_t value)
 {
     const std::uint32_t risen = value & ~cr_;
+    if (((value ^ cr_) & kCrystalBypass) != 0 && (cr_ & kCrystalOn) != 0) {
+        circuit_.violate("RCC: the bypass is changed while the oscillator is on");
+    }
     if ((risen & kCrystalOn) != 0) {
         crystal_since_ = circuit_.now;
     }
@@ -121,6 +125,10 @@ void ClockModel::write(std::uint32_t offset, std::uint32_t value)
         case 0x04:
             if ((cr_ & kMultiplierOn) != 0) {
                 circuit_.violate("RCC: the multiplier is set while it runs");
+            }
+            // Reserved with this value, or the F446's PLLR, for which 0 and 1 are wrong.
+            if (value >> 28U != pllcfgr_ >> 28U) {
+                circuit_.violate("RCC: bits 28 to 31 of PLLCFGR are changed");
             }
             pllcfgr_ = value;
             break;

@@ -13,6 +13,7 @@ struct ClockFacts {
     std::uint32_t most_fast_hz{84000000};
     std::uint32_t hz_per_wait_state{30000000};
     std::uint32_t full_scale{1};  // VOS that most_hz asks for
+    bool external{false};         // a clock from outside drives OSC_IN in place of a crystal
 };
 
 class ClockModel final : public Model {
@@ -54,6 +55,10 @@ private:
         return field < 4 ? bus : 2 * bus;
     }
     std::uint32_t multiplier_hz() const;
+    bool crystal_fits() const
+    {
+        return crystal_alive_ && ((cr_ >> 18U & 1U) != 0) == facts_.external;
+    }
     std::uint32_t control() const;
     void write_control(std::uint32_t value);
     void update();

@@ -1,6 +1,8 @@
 // Runs the image of a board on models of its chip's registers, as the commands on its input say.
 //
-// usage: cosim CHIP CRYSTAL_HZ IMAGE.bin [INSTRUCTION_PS]
+// usage: cosim CHIP CRYSTAL_HZ IMAGE.bin [external] [usart2]
+//
+// `external`: a clock from outside is there in place of a crystal; `usart2`: the line is USART2.
 //
 // Each command is a line; its answer ends with the line "done". tests/target/cosim/chip.py speaks it.
 // Exit status: 0, or 2 where a command or the image can't be used.
@@ -185,10 +187,14 @@ void Console::tell_pins() const
         for (unsigned pin = 0; pin < 16; ++pin) {
             if (port->driven(pin)) {
                 std::cout << "pin P" << letter << pin << " " << (port->high(pin) ? 1 : 0) << "\n";
+            } else if (port->mode(pin) == 2) {
+                std::cout << "function P" << letter << pin << " " << port->function(pin) << "\n";
             }
         }
     }
-    std::cout << "spindle " << chip_.spindle_compare() << "\n";
+    for (unsigned channel = 1; channel <= 4; ++channel) {
+        std::cout << "spindle " << channel << " " << chip_.spindle_compare(channel) << "\n";
+    }
 }
 
 void Console::tell_changes() const
@@ -270,13 +276,19 @@ int run_commands(int count, char** arguments)
 {
     ChipKind kind = chip_kind(arguments[1]);
     kind.clocks.crystal_hz = static_cast<std::uint32_t>(std::stoul(arguments[2]));
-    ChipUnderTest chip{kind, read_file(arguments[3])};
-    if (count > 4) {
-        chip.core().set_instruction_time(std::stol(arguments[4]));
-    } else {
-        // 1.3 cycles an instruction.
-        chip.core().set_instruction_time(kSecond / kind.clocks.most_hz * 13 / 10);
+    for (int i = 4; i < count; ++i) {
+        const std::string word = arguments[i];
+        if (word == "external") {
+            kind.clocks.external = true;
+        } else if (word == "usart2") {
+            kind.serial = 2;
+        } else {
+            throw std::runtime_error{"no such word: " + word};
+        }
     }
+    ChipUnderTest chip{kind, read_file(arguments[3])};
+    // 1.3 cycles an instruction.
+    chip.core().set_instruction_time(kSecond / kind.clocks.most_hz * 13 / 10);
     Console console{chip};
     for (std::string line; std::getline(std::cin, line);) {
         console.perform(line);
@@ -291,7 +303,7 @@ int run_commands(int count, char** arguments)
 int main(int count, char** arguments)
 {
     if (count < 4) {
-        std::cerr << "usage: cosim CHIP CRYSTAL_HZ IMAGE.bin [INSTRUCTION_PS]\n";
+        std::cerr << "usage: cosim CHIP CRYSTAL_HZ IMAGE.bin [external] [usart2]\n";
         return 2;
     }
     try {

@@ -3,7 +3,7 @@
 
 usage: fast_serial.py --cosim COSIM --board BOARD --image IMAGE.bin [--cusp CUSP]
 
-Only kBaud of the board's traits is changed (mutations.py compiles it); then the serial tests of
+Only kBaud of the board's table is changed (mutations.py compiles it); then the serial tests of
 faults_on_chip.py run with a sender at that rate: settings restored over erased sectors, the most pulses.
 Exit status: that of the tests, 2 where the image can't be built.
 """
@@ -17,8 +17,8 @@ from mutations import Builder
 
 HERE = pathlib.Path(__file__).resolve().parent
 BAUD = 1000000
-TRAITS = {"mill3_f405": "boards/mill3_f405/board_traits.hpp",
-          "black_pill_f411": "boards/black_pill_f411/pill_traits.hpp"}
+TABLES = {"mill3_f405": "mill_table", "black_pill_f411": "pill_table", "nucleo_f446_cnc_shield": "nucleo_table",
+          "skr2_f407": "skr2_table", "octopus_f446": "octopus_table"}
 
 
 def main():
@@ -30,7 +30,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         try:
             builder = Builder(options.image, pathlib.Path(folder))
-            image = builder.make(TRAITS[options.board], "kBaud = 115200;", f"kBaud = {BAUD};")
+            image = builder.make(f"boards/{options.board}/{TABLES[options.board]}.hpp",
+                                 "kBaud = 115200;", f"kBaud = {BAUD};")
         except (OSError, subprocess.CalledProcessError, StopIteration) as error:
             print(f"fast_serial: {error}", file=sys.stderr)
             return 2

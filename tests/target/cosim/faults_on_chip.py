@@ -8,10 +8,13 @@ import re
 import sys
 import unittest
 
-from chip import CHIPS, Chip, CosimFailed
+from chip import CHIPS, ROOT, Chip, CosimFailed
 
 options = None
-QUICK = "$0=2\n$100=800.000\n$110=9000.000\n$120=5000.000\n$800=1000000.000\n"
+QUICK = "$0=2\n" + "".join(f"$10{axis}=800.000\n$11{axis}=9000.000\n$12{axis}=5000.000\n$80{axis}=1000000.000\n"
+                           for axis in range(3))
+# Pins that are channels of timer 3, by alternate function 2.
+TIMER3 = {"PA6": "1", "PA7": "2", "PB0": "3", "PB1": "4"}
 
 
 def chip(**more):
@@ -46,12 +49,14 @@ class Pins(unittest.TestCase):
     def test_inverted_enable_coolant_and_spindle(self):
         with chip() as machine:
             machine.boot()
-            enable, flood = machine.pins["drives enable"], machine.pins["flood"]
-            self.assertEqual((machine.levels()[enable], machine.levels()[flood]), (1, 0))
+            enables, flood = machine.enables, machine.pins["flood"]
+            self.assertEqual([machine.levels()[pin] for pin in enables], [1] * len(enables))
+            self.assertEqual(machine.levels()[flood], 0)
             for line in ("$4=1", "$15=1", "$16=1"):
                 self.assertIn("ok", machine.ask(line))
-            self.assertEqual((machine.levels()[enable], machine.levels()[flood],
-                              machine.levels()[machine.pins["spindle on"]]), (0, 1, 1))
+            self.assertEqual([machine.levels()[pin] for pin in enables], [0] * len(enables))
+            self.assertEqual((machine.levels()[flood], machine.levels()[machine.pins["spindle on"]]),
+                             (1, 1))
             machine.ask("M8 M3 S1000")
             machine.run(5)
             self.assertEqual((machine.levels()[flood],
@@ -66,46 +71,107 @@ class Pins(unittest.TestCase):
             machine.command("power cycle")
             machine.boot()
             changes = machine.changes()
-            for signal, level in (("X step", 1), ("drives enable", 0), ("flood", 1)):
-                seen = {at for _, at in machine.edges_of(signal, changes[1:])}
-                self.assertEqual(seen - {level}, set(), signal)
+            wanted = {pin: 0 for pin in machine.enables}
+            wanted.update({pin: 1 for pin in (*machine.lines[:3], machine.pins["flood"])})
+            for pin, level in wanted.items():
+                edges = machine.edges_of(pin, changes[1:])
+                self.assertEqual({at for _, at in edges} - {level}, set(), pin)
+                self.assertEqual(machine.levels()[pin], level, pin)
 
     def test_the_drives_are_off_at_power_up_until_something_moves(self):
         with chip() as machine:
             machine.boot()
             machine.run(100)
-            enable = machine.edges_of("drives enable", machine.changes())
-            self.assertEqual([level for _, level in enable], [1])
+            changes = machine.changes()
+            for pin in machine.enables:
+                self.assertEqual([level for _, level in machine.edges_of(pin, changes)], [1])
             machine.ask("$J=G91 X0.1 F600")
-            self.assertEqual(machine.levels()[machine.pins["drives enable"]], 0)
+            for pin in machine.enables:
+                self.assertEqual(machine.levels()[pin], 0)
+
+    def test_each_output_is_at_the_pin_of_the_wiring_table(self):
+        with chip() as machine:
+            machine.boot()
+            signals = ("spindle on", "spindle reverse", "flood", "mist")
+
+            def on():
+                return [signal for signal in signals if machine.levels()[machine.pins[signal]]]
+
+            self.assertEqual(on(), [])
+            for line, wanted in (("M3 S12000", ["spindle on"]), ("M5", []), ("M8", ["flood"]), ("M9", []),
+                                 ("M7", ["mist"]), ("M9", []), ("M4 S12000", ["spindle on", "spindle reverse"])):
+                machine.ask(line)
+                machine.run(5)
+                self.assertEqual(on(), wanted, line)
+            pulses = machine.pins["spindle pulses"]
+            self.assertEqual(machine.told("function")[pulses], 2)
+            self.assertEqual(machine.told("spindle")[TIMER3[pulses]], 500)
+            if "drives power" in machine.pins:
+                self.assertEqual(machine.levels()[machine.pins["drives power"]], 1)
+
+    def test_each_switch_is_at_the_pin_of_the_wiring_table(self):
+        with chip() as machine:
+            machine.boot()
+            for signal, letter in (("limit X", "X"), ("limit Y", "Y"), ("limit Z", "Z"), ("probe", "P")):
+                machine.pin(machine.pins[signal], 1)
+                machine.run(20)
+                machine.send("?")
+                self.assertIn(f"|Pn:{letter}|", machine.run(50).replace(">", "|"), signal)
+                machine.pin(machine.pins[signal], 0)
+            machine.run(20)
+            machine.send("?")
+            self.assertNotIn("Pn:", machine.run(50))
+
+    def test_the_start_button_ends_a_hold(self):
+        with chip() as machine:
+            machine.boot()
+            machine.send("G91 G1 X5 F600\n")
+            machine.run(100)
+            machine.send("!")
+            machine.wait_for("Hold")
+            machine.run(200)  # it comes to rest
+            machine.pin(machine.pins["start"], 1)
+            machine.run(50)
+            machine.pin(machine.pins["start"], 0)
+            self.assertEqual(machine.wait_for("Idle")[1][0], 5.0)
 
 
 class StandStill(unittest.TestCase):
     def steps_after(self, how):
-        """Steps and milliseconds' worth of steps after the core stood still amid a fast jog."""
+        """Steps after the core stood still amid a fast jog of all axes, and those of a millisecond before."""
         with chip() as machine:
             machine.boot()
             for line in QUICK.split():
                 self.assertIn("ok", machine.ask(line))
-            machine.ask("$J=G91 X60 F6000")
+            machine.ask("$J=G91 X60 Y60 Z60 F10000")
             machine.run(300.4)
             self.assertEqual(machine.status()[0], "Jog")
             machine.changes()
             machine.run(10)
-            each_millisecond = machine.steps(machine.changes()) / 10
+            changes = machine.changes()
+            each_millisecond = [machine.steps(changes, axis) / 10 for axis in "XYZ"]
             machine.command(f"core {how}")
             machine.run(1000)
-            return machine.steps(machine.changes()), each_millisecond
+            changes = machine.changes()
+            return [(machine.steps(changes, axis), before)
+                    for axis, before in zip("XYZ", each_millisecond)]
 
     def test_a_core_that_locks_up_leaves_at_most_the_frame_that_plays(self):
-        steps, each_millisecond = self.steps_after("stop")
-        self.assertGreater(each_millisecond, 50)
-        self.assertLess(steps, 1.1 * each_millisecond)
+        for steps, each_millisecond in self.steps_after("stop"):
+            self.assertGreater(each_millisecond, 50)
+            self.assertLess(steps, 1.1 * each_millisecond)
 
     def test_a_debugger_that_holds_the_core_holds_the_stream(self):
-        steps, each_millisecond = self.steps_after("halt")
-        self.assertGreater(each_millisecond, 50)
-        self.assertLessEqual(steps, 1)
+        for steps, each_millisecond in self.steps_after("halt"):
+            self.assertGreater(each_millisecond, 50)
+            self.assertLessEqual(steps, 1)
+
+    def test_after_an_underrun_all_lines_step_again(self):
+        with chip() as machine:
+            machine.boot()
+            heard, steps = machine.steps_after_an_underrun()
+            self.assertIn("ALARM:3", heard)
+            self.assertEqual(steps, [800, 800, 800])
 
     def test_a_reset_by_the_watchdog_amid_motion_is_told_and_ends_in_alarm_3(self):
         with chip() as machine:
@@ -144,10 +210,7 @@ class Clocks(unittest.TestCase):
     def test_the_planned_crystal_runs_the_chip_and_nothing_is_said(self):
         heard, rate = self.say(None)
         self.assertNotIn("MSG", heard)
-        self.assertEqual(rate, {"stm32f405": 168000000, "stm32f411": 100000000}[self.chip_name()])
-
-    def chip_name(self):
-        return CHIPS[options.board][0]
+        self.assertEqual(rate, {"stm32f411": 100000000}.get(CHIPS[options.board][0], 168000000))
 
     def test_other_crystals_neither_overclock_nor_stop_the_chip(self):
         rate = self.say(None)[1]
@@ -225,6 +288,20 @@ class Serial(unittest.TestCase):
             self.assertEqual(machine.status()[1], (0.0, 0.0, 0.0))
 
 
+class Limits(unittest.TestCase):
+    def test_more_steps_than_the_board_plays_are_refused_with_both_numbers(self):
+        table, = (ROOT / "boards" / options.board).glob("*_table.hpp")
+        most = int(re.search(r"kMostStepsPerSecond = (\d+);", table.read_text()).group(1))
+        with chip() as machine:
+            machine.boot()
+            for line in ("$0=1", "$100=600.000", f"$110={most // 10}.000"):
+                self.assertIn("ok", machine.ask(line))
+            heard = machine.ask(f"$110={most // 10 + 1}.000")
+            self.assertIn(f"[MSG:$110 x $100 asks for {most + 10} steps/s, this board plays {most}]", heard)
+            self.assertIn("error:12", heard)
+            self.assertEqual(settings_of(machine)["110"], f"{most // 10}.000")
+
+
 class Inputs(unittest.TestCase):
     def test_nothing_wired_stops_the_machine(self):
         with chip(quiet_inputs=False) as machine:
@@ -263,11 +340,13 @@ class Inputs(unittest.TestCase):
             machine.ask("$1=255")
             machine.ask("M3 S1000")
             machine.run(10)
-            self.assertEqual(machine.levels()[machine.pins["drives enable"]], 0)
+            for pin in machine.enables:
+                self.assertEqual(machine.levels()[pin], 0)
             machine.pin(machine.pins["emergency stop"], "open")
             heard = machine.run(20)
             self.assertIn("ALARM:10", heard)
-            self.assertEqual(machine.levels()[machine.pins["drives enable"]], 1)
+            for pin in machine.enables:
+                self.assertEqual(machine.levels()[pin], 1)
             self.assertEqual(machine.levels()[machine.pins["spindle on"]], 0)
             machine.send("\x18")
             self.assertIn("ALARM:10", machine.run(50))  # it is still pressed

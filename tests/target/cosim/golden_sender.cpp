@@ -13,7 +13,8 @@ constexpr std::uint64_t kMostTicks = 3'600'000;
 // A core that goes round in circles. The most that was seen between two ticks, while a NURBS is read
 // ahead, is over 20 million.
 constexpr std::uint64_t kMostInstructions = 200'000'000;
-constexpr std::uint64_t kSilence = 200;  // ticks without an edge after a refusal
+// Ticks without an edge after a refusal: slow moves step a few times a second.
+constexpr std::uint64_t kSilence = 2000;
 
 bool starts_with(const std::string& text, const char* with) { return text.rfind(with, 0) == 0; }
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Plants faults in drivers and traits, one at a time, and shows that the co-simulation finds each.
 
-usage: mutations.py --cosim COSIM --cusp CUSP --board mill3_f405 --image IMAGE.bin
+usage: mutations.py --cosim COSIM --cusp CUSP --board mill3_f405|skr2_f407 --image IMAGE.bin
 
 The board's main.cpp, which has all drivers in it, is compiled again with one line of one header changed
 and linked with the libraries of the build that IMAGE is from; then a short program and one jog run on it.
@@ -23,10 +23,14 @@ from chip import ROOT, Chip, CosimFailed
 PLAYER = "hal/stm32f4/dma_pulse_player.hpp"
 LINK = "hal/stm32f4/dma_link.hpp"
 CLOCKS = "hal/stm32f4/clock_tree.hpp"
+PACE = "hal/stm32f4/pace.hpp"
+PORTS = "hal/stm32f4/step_ports.hpp"
+TABLE = "boards/mill3_f405/mill_table.hpp"
+SKR2 = "boards/skr2_f407/skr2_table.hpp"
 # What a driver may get wrong: file, what stands there, what is put there.
 FAULTS = {
-    "wrong channel": (PLAYER, "kChannel = 7;", "kChannel = 6;"),
-    "wrong stream": (PLAYER, "kStream = 1;", "kStream = 2;"),
+    "wrong channel": (PACE, "{1, 7, detail", "{1, 6, detail"),
+    "wrong stream": (PACE, "{1, 7, detail", "{2, 7, detail"),
     "flags never acknowledged": (PLAYER, "flag_clear().write(raised & kAllFlags);", ""),
     "acknowledged late": (PLAYER, "    const std::uint32_t raised = flags().read();\n"
                           "    flag_clear().write(raised & kAllFlags);\n",
@@ -34,26 +38,44 @@ FAULTS = {
     "halves swapped": (PLAYER, "finish_half(first_over ? 1 : 0)", "finish_half(first_over ? 0 : 1)"),
     "gate shorter than a frame": (PLAYER, "kGateMargin = 20;", "kGateMargin = -200;"),
     "pace off by one": (PLAYER, "kServoTicksPerSecond) - 1);", "kServoTicksPerSecond));"),
-    "port without its clock": ("hal/stm32f4/watchdog.hpp", "1U << 0U | 1U << 1U | 1U << 2U | 1U << 22U",
-                               "1U << 0U | 1U << 1U | 1U << 22U"),
-    "two pins swapped": (PLAYER, "return pins_up | pins_down << 16U;",
-                         "return (pins_up & ~3U) | (pins_up & 1U) << 1U | (pins_up >> 1U & 1U) |"
-                         " pins_down << 16U;"),
-    "lines left inputs": (PLAYER, "set_pin(Port::gpio(), pin, PinMode::kOutput);",
-                          "set_pin(Port::gpio(), pin, PinMode::kInput);"),
+    "port without its clock": ("boards/mill3/chip_traits.hpp", "return ports;", "return ports & ~4U;"),
+    "two lines swapped": (PORTS, "return {static_cast<PulseLines>((raise & ~inverted) | (lower & inverted)),",
+                          "raise = static_cast<PulseLines>((raise & ~3U) | (raise & 1U) << 1U | (raise >> 1U & 1U));\n"
+                          "    return {static_cast<PulseLines>((raise & ~inverted) | (lower & inverted)),"),
+    "lines left inputs": (PLAYER, "pin.number, PinMode::kOutput);", "pin.number, PinMode::kInput);"),
     "stream changed while it is on": (PLAYER, "    begin_gate();\n    const std::uint32_t raised",
                                       "    begin_gate();\n    stream().m0ar.write(0x20000000);\n"
                                       "    const std::uint32_t raised"),
-    "too few wait states": ("boards/mill3_f405/board_traits.hpp", "168000000, 5, 2, 4, 1}",
-                            "168000000, 3, 2, 4, 1}"),
-    "slow bus too fast": ("boards/mill3_f405/board_traits.hpp", "168000000, 5, 2, 4, 1}",
-                          "168000000, 5, 2, 2, 1}"),
+    "too few wait states": (TABLE, "168000000, 5, 2, 4, 1}", "168000000, 3, 2, 4, 1}"),
+    "slow bus too fast": (TABLE, "168000000, 5, 2, 4, 1}", "168000000, 5, 2, 2, 1}"),
     "voltage too low": (CLOCKS, "set_bits(Chip::power().cr, scale << 14U);",
                         "Chip::power().cr.write(0);"),
     "wrong baud rate": (LINK, "port.brr.write((bus_hz + baud / 2) / baud);",
                         "port.brr.write(bus_hz / 16 / baud);"),
-    "limit pins swapped": ("boards/mill3_f405/mill_pins.hpp", "{'B', 12}, {'B', 13}", "{'B', 13}, {'B', 12}"),
+    "limit pins swapped": (TABLE, "{'B', 12}, {'B', 13}", "{'B', 13}, {'B', 12}"),
     "no barrier": ("boards/mill3/mill_image.hpp", '__asm volatile("dsb" ::: "memory");', ""),
+}
+
+# What may go wrong where the lines lie on several ports: planted in the SKR 2, whose three it has.
+FAULTS_OF_PORTS = {
+    "second stream by the wrong channel": (PACE, "{3, 7, detail", "{3, 6, detail"),
+    "third stream on a wrong request": (PACE, "{4, 7, detail::compare_request(3)",
+                                        "{4, 7, detail::compare_request(4)"),
+    "requests spread over the microsecond": (PLAYER, "timer.cr2.write(kAllRequestsAtUpdate);",
+                                             "timer.ccr2.write(40);"),
+    "one ring for two ports": (PLAYER, "bus_address(rings_[port].data())",
+                               "bus_address(rings_[port / 2].data())"),
+    "a word of one port only": (PLAYER, "((rings_[kPort][half][edge.tick] =",
+                                "((rings_[0][half][edge.tick] ="),
+    "a ring that is not erased": (PLAYER, "__builtin_memset(ring[half].data(), 0, sizeof ring[half]);",
+                                  "if (&ring != &rings_.back()) "
+                                  "__builtin_memset(ring[half].data(), 0, sizeof ring[half]);"),
+    "directions of two ports swapped": (SKR2, "{'E', 1}, {'D', 4}", "{'D', 4}, {'E', 1}"),
+    "a port without its clock": ("boards/mill3/chip_traits.hpp", "return ports;", "return ports & ~8U;"),
+    "a stream left on at the stop": (PLAYER, "cr1.write(0);\n    for (unsigned port = 0; port < kPorts;",
+                                     "cr1.write(0);\n    for (unsigned port = 0; port < 2;"),
+    "flags of one stream only cleared": (PLAYER, "stream_flag_clear(Chip::dma2(), number).write(",
+                                         "stream_flag_clear(Chip::dma2(), 1).write("),
 }
 
 
@@ -117,6 +139,10 @@ def find(options, image):
             machine.send("?")
             if "|Pn:X|" not in machine.run(50).replace(">", "|"):
                 return "the limit switch of X is not reported"
+            machine.pin(machine.pins["limit X"], 0)
+            steps = machine.steps_after_an_underrun()[1]
+            if steps != [800, 800, 800]:
+                return f"after an underrun 1 mm is {steps} steps"
     except (AssertionError, CosimFailed, on_chip.RunFailed) as error:
         return str(error).strip().splitlines()[-1]
     return None
@@ -137,17 +163,18 @@ def main():
         missed = []
         try:
             builder = Builder(options.image, folder)
-            said = find(options, builder.make(PLAYER, "kChannel = 7;", "kChannel = 7 ;"))
+            said = find(options, builder.make(PACE, "kClockBit = 1;", "kClockBit = 1 ;"))
             print(f"no fault: {said}")
             missed += ["no fault"] if said else []
-            for fault, (file, old, new) in FAULTS.items():
+            faults = FAULTS_OF_PORTS if options.board == "skr2_f407" else FAULTS
+            for fault, (file, old, new) in faults.items():
                 said = find(options, builder.make(file, old, new))
                 print(f"{fault}: {said or 'NOT FOUND'}", flush=True)
                 missed += [] if said else [fault]
         except (OSError, subprocess.CalledProcessError, StopIteration) as error:
             print(f"mutations: {error}", file=sys.stderr)
             return 2
-    print(f"{len(FAULTS)} faults planted; wrong: {missed or 'none'}")
+    print(f"{len(faults)} faults planted; wrong: {missed or 'none'}")
     return 1 if missed else 0
 
 

@@ -11,6 +11,7 @@ constexpr std::uint32_t kEnable = 1;
 constexpr std::uint32_t kOnePulse = 1U << 3U;
 constexpr std::uint32_t kUpdateFlag = 1;
 constexpr std::uint32_t kUpdateRequest = 1U << 8U;
+constexpr std::uint32_t kCompareRequests = 0xFU << 9U;
 __extension__ using Wide = unsigned __int128;
 
 }  // namespace
@@ -112,11 +113,13 @@ void TimerModel::plan()
     const auto consider = [&](std::uint64_t at) {
         next = next == 0 || at < next ? at : next;
     };
-    if ((wanted & (kUpdateRequest | 1U)) != 0 || (registers_[kCr1] & kOnePulse) != 0) {
+    const std::uint32_t at_update =
+        kUpdateRequest | 1U | (requests_at_update() ? kCompareRequests : 0U);
+    if ((wanted & at_update) != 0 || (registers_[kCr1] & kOnePulse) != 0) {
         consider(std::uint64_t{top()} + 1);
     }
     for (unsigned channel = 0; channel < 4; ++channel) {
-        if ((wanted >> (9 + channel) & 1U) != 0) {
+        if ((wanted >> (9 + channel) & 1U) != 0 && !requests_at_update()) {
             const std::uint64_t at = registers_[kCcr1 + channel];
             consider(at > count_ ? at : at + top() + 1);
         }
@@ -179,13 +182,18 @@ void TimerModel::update_event()
     if ((registers_[kDier] & kUpdateRequest) != 0 && wiring_.dma_request) {
         wiring_.dma_request(Event::kUpdate);
     }
+    for (unsigned channel = 0; channel < 4 && requests_at_update(); ++channel) {
+        if ((registers_[kDier] >> (9 + channel) & 1U) != 0 && wiring_.dma_request) {
+            wiring_.dma_request(static_cast<Event>(1 + channel));
+        }
+    }
     update_line();
 }
 
 void TimerModel::compare_events(std::uint32_t at)
 {
     for (unsigned channel = 0; channel < 4; ++channel) {
-        const bool asks = (registers_[kDier] >> (9 + channel) & 1U) != 0;
+        const bool asks = (registers_[kDier] >> (9 + channel) & 1U) != 0 && !requests_at_update();
         if (asks && registers_[kCcr1 + channel] == at && wiring_.dma_request) {
             wiring_.dma_request(static_cast<Event>(1 + channel));
         }

@@ -60,6 +60,8 @@ private:
         kRegisterCount
     };
     bool counts() const;
+    // CCDS: the compare requests are sent at the update.
+    bool requests_at_update() const { return (registers_[kCr2] >> 3U & 1U) != 0; }
     bool gated() const { return (registers_[kSmcr] & 7U) == 5; }
     Picoseconds time_of(std::uint64_t counts) const;
     std::uint64_t counted() const;

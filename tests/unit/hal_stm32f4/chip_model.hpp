@@ -104,7 +104,7 @@ struct ModelChip {
     static auto& rcc() { return ChipModel::current->rcc; }
     static auto& flash() { return ChipModel::current->flash; }
     static auto& power() { return ChipModel::current->power; }
-    static auto& port_c() { return ChipModel::current->port_c; }
+    static auto& port(char /*letter*/) { return ChipModel::current->port_c; }
     static auto& dma2() { return ChipModel::current->dma2; }
     static auto& timer8() { return ChipModel::current->timer8; }
     static auto& timer2() { return ChipModel::current->timer2; }

@@ -21,13 +21,16 @@ namespace {
 constexpr std::uint32_t kTimerHz = 168000000;
 constexpr std::uint32_t kGateHz = 84000000;
 
-struct Port {
-    static auto& gpio() { return ModelChip::port_c(); }
+struct Table {
+    static constexpr cusp::hal::stm32f4::LinePins kLines{
+        {{'C', 0}, {'C', 1}, {'C', 2}, {'C', 3}, {'C', 4}, {'C', 5}}};
 };
-struct InvertedPort {
-    static auto& gpio() { return ModelChip::port_c(); }
-};
-using Player = cusp::hal::stm32f4::DmaPulsePlayer<ModelChip, Port>;
+// Of its own, since a player's inversion is a static.
+struct InvertedTable : Table {};
+template <class Table>
+using PlayerOf =
+    cusp::hal::stm32f4::DmaPulsePlayer<ModelChip, Table, cusp::hal::stm32f4::Timer8Pace<ModelChip>>;
+using Player = PlayerOf<Table>;
 static_assert(cusp::hal::is_pulse_player<Player>());
 
 PulseFrame pulses_at(std::initializer_list<std::uint16_t> ticks)
@@ -267,7 +270,7 @@ TEST(DmaPulsePlayer, TakesAResetAmidMotionForAnUnderrun)
 
 TEST(DmaPulsePlayer, SwapsTheLevelsOfInvertedLines)
 {
-    cusp::hal::stm32f4::DmaPulsePlayer<ModelChip, InvertedPort> inverted;
+    PlayerOf<InvertedTable> inverted;
     inverted.invert(0x21);
     inverted.start(kTimerHz, kGateHz);
     LONGS_EQUAL(0x21, chip.changes.back().levels);

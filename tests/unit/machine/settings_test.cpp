@@ -47,6 +47,21 @@ TEST(MachineSettings, RefuseStepsTooCloseForThePulse)
     UNSIGNED_LONGS_EQUAL(100, fault->second);
 }
 
+TEST(MachineSettings, RefuseMoreStepsThanTheBoardPlays)
+{
+    // 6000 mm/min at 800 steps/mm are 80 000 steps/s.
+    CHECK_FALSE(settings.find_fault(80000).has_value());
+    const auto fault = settings.find_fault(79999);
+    CHECK(fault.has_value());
+    CHECK(fault->error == Error::kMaxStepRateExceeded);
+    CHECK(fault->of_board);
+    UNSIGNED_LONGS_EQUAL(110, fault->first);
+    UNSIGNED_LONGS_EQUAL(100, fault->second);
+    DOUBLES_EQUAL(80000, fault->amount, 0);
+    DOUBLES_EQUAL(79999, fault->limit, 0);
+    CHECK_FALSE(settings.sound(79999));
+}
+
 TEST(MachineSettings, RefuseAFilterOverAQuarterSecond)
 {
     CHECK(!settings.put(802, 2000));

@@ -1,0 +1,39 @@
+// PillTable: a small controller with an STM32F411 at 100 MHz, on a board of the kind called Black Pill.
+// It has no timer 8, so timer 1 asks for the pulses.
+#pragma once
+
+#include <cstdint>
+
+#include "boards/mill3/mill_panel.hpp"
+#include "hal/stm32f4/clock_tree.hpp"
+#include "hal/stm32f4/pace.hpp"
+#include "hal/stm32f4/serial_ports.hpp"
+#include "hal/stm32f4/step_ports.hpp"
+
+namespace cusp::boards {
+
+struct PillTable {
+    static constexpr hal::stm32f4::LinePins kLines{
+        {{'A', 0}, {'A', 1}, {'A', 2}, {'A', 3}, {'A', 4}, {'A', 5}}};
+    static constexpr PanelPins kPanelPins{
+        {{{'B', 5}, {'B', 6}, {'B', 7}, {'B', 8}}},
+        {{{'B', 9}, {'B', 10}, {'B', 1}, {'B', 0}}},
+        {{{'B', 15}, {'B', 3}}},
+        {{{'B', 12}}},
+        {'B', 13},
+        {'B', 14},
+        {'A', 8},
+        {'A', 7},
+        {{'A', 6}, 1},
+    };
+
+    template <class Chip>
+    using Pace = hal::stm32f4::Timer1Pace<Chip>;
+    template <class Chip>
+    using SerialPort = hal::stm32f4::Usart1Port<Chip>;
+    static constexpr hal::stm32f4::ClockPlan kClocks{25000000, 100000000, 3, 1, 2, 3};
+    static constexpr std::uint32_t kBaud = 115200;
+    static constexpr std::uint32_t kMostStepsPerSecond = 170000;
+};
+
+}  // namespace cusp::boards

@@ -1,0 +1,134 @@
+// ChipTraits: a mill controller with a chip of the STM32F4 family, made of the table of its board.
+//
+// A board's table, such as boards/skr2_f407/skr2_table.hpp, says:
+//   kLines              pins of the six lines, on up to three ports
+//   kPanelPins          pins of inputs, spindle, coolant and drives
+//   Pace                hal/stm32f4/pace.hpp: which timer asks for the pulses
+//   SerialPort          hal/stm32f4/serial_ports.hpp: which USART is the line
+//   kClocks             crystal and rates
+//   kBaud               of the line
+//   kMostStepsPerSecond of each axis while all three move: what the core has time for
+//
+// The traits type of a board says: which parts it is made of (Chip, PulsePlayer, ByteLink, Panel,
+// SettingsStore); start(board), called before the application exists; run(board, application), the
+// main loop; and stop(), the end after a fault.
+#pragma once
+
+#include <cstdint>
+
+#include "boards/mill3/mill_panel.hpp"
+#include "hal/stm32f4/chip.hpp"
+#include "hal/stm32f4/clock_tree.hpp"
+#include "hal/stm32f4/dma_link.hpp"
+#include "hal/stm32f4/dma_pulse_player.hpp"
+#include "hal/stm32f4/flash_settings.hpp"
+#include "hal/stm32f4/pins.hpp"
+#include "hal/stm32f4/reset_reason.hpp"
+#include "hal/stm32f4/watchdog.hpp"
+
+namespace cusp::boards {
+
+template <class Table>
+struct ChipTraits {
+    using Chip = hal::stm32f4::Chip;
+    using Pace = typename Table::template Pace<Chip>;
+    using SerialPort = typename Table::template SerialPort<Chip>;
+    using PulsePlayer = hal::stm32f4::DmaPulsePlayer<Chip, Table, Pace>;
+    using ByteLink = hal::stm32f4::DmaLink<Chip, SerialPort>;
+    using Panel = MillPanel<Chip, ChipTraits>;
+    using SettingsStore = hal::stm32f4::FlashSettings<Chip>;
+
+    // What MillPanel asks.
+    static constexpr bool kSpindleTimer = true;
+    static constexpr const PanelPins& kPanelPins = Table::kPanelPins;
+    static constexpr std::uint32_t kSpindleTimerHz = Table::kClocks.slow_timer_hz();
+
+    static constexpr std::uint32_t kMostStepsPerSecond = Table::kMostStepsPerSecond;
+
+    // Whether the end of a frame calls for the servo tick.
+    static constexpr bool live() noexcept { return true; }
+    static constexpr unsigned player_interrupt() noexcept
+    {
+        return hal::stm32f4::dma2_interrupt(Pace::kRequests[0].stream);
+    }
+    static constexpr unsigned serial_interrupt() noexcept { return SerialPort::kInterrupt; }
+    static constexpr unsigned send_interrupt() noexcept { return SerialPort::kSendInterrupt; }
+
+    template <class Board>
+    static void start(Board& board) noexcept
+    {
+        using namespace hal::stm32f4;
+        note_reset_cause<Chip>();
+        clock_source_ = start_clocks<Chip>(Table::kClocks);
+        if (clock_source_ == ClockSource::kNone) {
+            fault("the clock did not start", __FILE__, __LINE__);
+        }
+        start_peripherals<Chip>(peripheral_clocks());
+        Panel::start();
+        constexpr unsigned kUsartOnPin = 7;
+        for (const Pin pin : {SerialPort::kTransmit, SerialPort::kReceive}) {
+            set_pin_function(Chip::port(pin.port), pin.number, kUsartOnPin);
+        }
+        enable_interrupt<Chip>(serial_interrupt(), kSerialPriority);
+        enable_interrupt<Chip>(send_interrupt(), kSerialPriority);
+        board.byte_link.start(
+            SerialPort::kOnFastBus ? Table::kClocks.fast_bus_hz() : Table::kClocks.slow_bus_hz(),
+            Table::kBaud);
+        set_field(Chip::system().shpr3, 16, 8, kServoTickPriority);
+    }
+
+    // After a fault: all that moves is switched off, then a fresh start that tells the reason.
+    [[noreturn]] static void stop() noexcept
+    {
+        PulsePlayer::stop();
+        Panel::switch_everything_off();
+        hal::stm32f4::reset_chip<Chip>();
+    }
+
+    // After each servo tick: what a reset from now on means for the position.
+    template <class Board>
+    static void after_tick(const Board& board) noexcept
+    {
+        hal::stm32f4::mark_motion(board.pulse_player.moving());
+    }
+
+    template <class Board, class Application>
+    [[noreturn]] static void run(Board& board, Application& application) noexcept
+    {
+        using namespace hal::stm32f4;
+        report_reset(board.byte_link, clock_source_);
+        enable_interrupt<Chip>(player_interrupt(), kPlayerPriority);
+        board.pulse_player.start(Table::kClocks.fast_timer_hz(), Table::kClocks.slow_timer_hz(),
+                                 reset_amid_motion());
+        start_watchdog<Chip>();
+        for (;;) {
+            feed_watchdog<Chip>();
+            if (!application.poll()) {
+                __asm volatile("wfi");
+            }
+        }
+    }
+
+private:
+    static constexpr std::uint32_t clocks_of_ports() noexcept
+    {
+        std::uint32_t ports = clock_bits(kPanelPins) | clock_bit(SerialPort::kTransmit) |
+                              clock_bit(SerialPort::kReceive);
+        for (const Pin pin : Table::kLines) {
+            ports |= clock_bit(pin);
+        }
+        return ports;
+    }
+    // Beside those of the serial line: the ports, DMA2, timers 2 and 3, PWR, the pace's timer.
+    static constexpr hal::stm32f4::PeripheralClocks peripheral_clocks() noexcept
+    {
+        return hal::stm32f4::PeripheralClocks{clocks_of_ports() | 1U << 22U,
+                                              1U << 0U | 1U << 1U | 1U << 28U,
+                                              1U << Pace::kClockBit} |
+               SerialPort::kClocks;
+    }
+
+    static inline hal::stm32f4::ClockSource clock_source_{hal::stm32f4::ClockSource::kNone};
+};
+
+}  // namespace cusp::boards

@@ -1,0 +1,124 @@
+// StepPorts: on which ports the six step and direction lines lie, worked out while compiling.
+//
+//   struct Table { static constexpr LinePins kLines{{{'E', 2}, {'D', 5}, ...}}; };
+//   using Ports = StepPorts<Table>;                // Ports::kCount == 2: ports E and D
+//   Chip::port(Ports::kLetters[0]).bsrr.write(Ports::word<0>(up, down));
+//
+// The ports are numbered in the order in which kLines names them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "firmware/base/pulse_frame.hpp"
+#include "hal/stm32f4/pins.hpp"
+
+namespace cusp::hal::stm32f4 {
+
+// Steps of X Y Z, directions of X Y Z: the order of the bits of PulseLines.
+using LinePins = std::array<Pin, 6>;
+inline constexpr PulseLines kAllLines = 0x3F;
+
+constexpr unsigned count_ports(const LinePins& lines) noexcept
+{
+    std::uint32_t ports = 0;
+    unsigned count = 0;
+    for (const Pin pin : lines) {
+        count += (ports & clock_bit(pin)) == 0 ? 1U : 0U;
+        ports |= clock_bit(pin);
+    }
+    return count;
+}
+
+template <class Table>
+class StepPorts {
+    static constexpr const LinePins& kLines = Table::kLines;
+
+public:
+    static constexpr unsigned kCount = count_ports(kLines);
+
+    static constexpr std::array<char, kCount> kLetters = [] {
+        std::array<char, kCount> letters{};
+        unsigned count = 0;
+        for (const Pin pin : kLines) {
+            bool known = false;
+            for (unsigned i = 0; i < count; ++i) {
+                known = known || letters[i] == pin.port;
+            }
+            if (!known) {
+                letters[count] = pin.port;
+                ++count;
+            }
+        }
+        return letters;
+    }();
+
+    // The port's pins, one bit each, that these lines are.
+    template <unsigned kPort>
+    static std::uint32_t pins(PulseLines lines) noexcept
+    {
+        if constexpr (in_place()) {
+            return lines;
+        } else {
+            return kPins[kPort][lines];
+        }
+    }
+    // What to write to the port's set/reset register.
+    template <unsigned kPort>
+    static std::uint32_t word(PulseLines up, PulseLines down) noexcept
+    {
+        return pins<kPort>(up) | pins<kPort>(down) << 16U;
+    }
+    // The lines that are high among the port's pins.
+    template <unsigned kPort>
+    static PulseLines lines(std::uint32_t pins) noexcept
+    {
+        std::uint32_t found = 0;
+        for (unsigned line = 0; line < kLines.size(); ++line) {
+            if (kLines[line].port == kLetters[kPort]) {
+                found |= (pins >> kLines[line].number & 1U) << line;
+            }
+        }
+        return static_cast<PulseLines>(found);
+    }
+
+private:
+    // Six lines on pins 0 to 5 of one port need no table.
+    static constexpr bool in_place() noexcept
+    {
+        for (unsigned line = 0; line < kLines.size(); ++line) {
+            if (kLines[line].number != line) {
+                return false;
+            }
+        }
+        return kCount == 1;
+    }
+    static constexpr std::array<std::array<std::uint16_t, kAllLines + 1>, kCount> kPins = [] {
+        std::array<std::array<std::uint16_t, kAllLines + 1>, kCount> table{};
+        for (unsigned port = 0; port < kCount; ++port) {
+            for (unsigned lines = 0; lines <= kAllLines; ++lines) {
+                std::uint32_t pins = 0;
+                for (unsigned line = 0; line < kLines.size(); ++line) {
+                    const bool here = kLines[line].port == kLetters[port];
+                    pins |= here ? (lines >> line & 1U) << kLines[line].number : 0U;
+                }
+                table[port][lines] = static_cast<std::uint16_t>(pins);
+            }
+        }
+        return table;
+    }();
+};
+
+// Levels at the pins of lines that go high and low; `inverted` has a 1 for each line whose pin is
+// low where the line is high.
+struct PinLevels {
+    PulseLines up;
+    PulseLines down;
+};
+constexpr PinLevels pin_levels(PulseLines raise, PulseLines lower, PulseLines inverted) noexcept
+{
+    return {static_cast<PulseLines>((raise & ~inverted) | (lower & inverted)),
+            static_cast<PulseLines>((lower & ~inverted) | (raise & inverted))};
+}
+
+}  // namespace cusp::hal::stm32f4
