@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/base/math.hpp"
 #include "host_tools/part_model/facet_distance.hpp"
 
 namespace cusp::finishing {
@@ -17,6 +18,8 @@ constexpr double kLargestFacet = 2;          // the same
 constexpr int kFacetRounds = 5;
 constexpr int kFacetHalvings = 60;
 constexpr std::size_t kMostGaps = 300000;
+constexpr int kWaysAround = 12;
+constexpr double kFallsOff = 0.5;  // radii
 
 // A point exactly on a side would have the normals of two facets.
 Vec3d place_beside(Vec3d corner, Vec3d middle) { return corner + (middle - corner) * 1e-3; }
@@ -49,6 +52,9 @@ MeshScallopCheck::Verdict MeshScallopCheck::judge(const Cell& cell) const
     }
     if (longest > kLargestFacet * step()) {
         return Verdict::kHalve;
+    }
+    if (cell.normal.z < kUprightNormal) {
+        return judge_steep(cell, longest);
     }
     const Vec3d middle = cell.middle();
     const bool upright = cell.normal.z >= kSteepNormal;
@@ -98,12 +104,34 @@ bool MeshScallopCheck::blocked(Vec3d corner, Vec3d normal) const
            !path_fitter_.is_clear(places_.touching_tip(corner, normal));
 }
 
+// Whether the mesh ends or drops within the tool's radius. Beside a drop the ball gets lower, and
+// how low changes from one point to the next: one point does not represent a cell.
+bool MeshScallopCheck::falls_off_beside(Vec3d point) const
+{
+    const double radius = path_fitter_.tool().radius;
+    for (const double away : {0.4 * radius, radius}) {
+        for (int k = 0; k < kWaysAround; ++k) {
+            const double turn = 2 * kPi * k / kWaysAround;
+            const auto top = path_fitter_.model().height_at(point.x + away * std::cos(turn),
+                                                            point.y + away * std::sin(turn));
+            if (!top || top->point.z < point.z - kFallsOff * radius) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 bool MeshScallopCheck::settled(const Cell& cell) const
 {
     const Vec3d middle = cell.middle();
     return std::all_of(cell.corners.begin(), cell.corners.end(),
                        [&](Vec3d corner) { return blocked(corner, cell.normal); }) &&
-           !is_hidden(middle) && places_.settled(middle, cell.normal);
+           !is_hidden(middle) && places_.settled(middle, cell.normal) &&
+           (!falls_off_beside(middle) ||
+            std::all_of(cell.corners.begin(), cell.corners.end(), [&](Vec3d corner) {
+                return places_.has_no_lower_tip(place_beside(corner, middle), cell.normal);
+            }));
 }
 
 // Whether the stock straight over the corners is no higher than the scallop, square to the facet.
@@ -159,7 +187,7 @@ void MeshScallopCheck::check()
     checking_ = true;
     for (const auto& corners : triangles_) {
         const Facet facet{corners};
-        if (facet.normal.z >= kUprightNormal) {
+        if (!is_upright(corners, facet.normal)) {
             check_cell({corners, facet.normal}, kFacetHalvings);
         }
     }
@@ -170,13 +198,18 @@ void MeshScallopCheck::check()
 // or where the tool cannot touch it and `where_blocked` is false.
 std::optional<Vec3d> MeshScallopCheck::missing_tip(const Place& at, bool where_blocked) const
 {
-    if (at.normal.z < kUprightNormal || is_covered(at.point, at.normal, kPlaceShare) ||
-        is_hidden(at.point)) {
+    const bool steep = at.normal.z < kUprightNormal;
+    const bool covered =
+        steep ? is_cut_down(at, kPlaceShare) : is_covered(at.point, at.normal, kPlaceShare);
+    if (covered || is_hidden(at)) {
         return std::nullopt;
     }
     const Vec3d tip = places_.touching_tip(at.point, at.normal);
     if (path_fitter_.is_clear(tip)) {
         return tip;
+    }
+    if (steep) {
+        return where_blocked ? lower_tip_beside(at) : std::nullopt;
     }
     return where_blocked ? places_.lower_tip(at.point, at.normal).tip : std::nullopt;
 }
@@ -188,9 +221,10 @@ std::optional<MeshScallopCheck::Place> MeshScallopCheck::uncovered_point(const C
     if (missing_tip(middle, true)) {
         return middle;
     }
+    const bool falls_off = falls_off_beside(middle.point);
     for (const Vec3d& corner : cell.corners) {
         const Place place{place_beside(corner, middle.point), cell.normal};
-        if (missing_tip(place, false)) {
+        if (missing_tip(place, falls_off)) {
             return place;
         }
     }
@@ -201,18 +235,25 @@ std::optional<MeshScallopCheck::Place> MeshScallopCheck::uncovered_point(const C
 bool MeshScallopCheck::may_be_uncovered(const Cell& cell) const
 {
     const Vec3d middle = cell.middle();
+    if (cell.normal.z < kUprightNormal) {
+        return uncovered_point(cell).has_value();
+    }
     const auto stays = [&](Vec3d at) {
         return is_covered(at, cell.normal, kPlaceShare) || is_hidden(at);
     };
     const auto touched = [&](Vec3d at) {
         return path_fitter_.is_clear(places_.touching_tip(at, cell.normal));
     };
-    if (!stays(middle) && (touched(middle) || !places_.has_no_lower_tip(middle, cell.normal))) {
+    const auto lower = [&](Vec3d at) {
+        return !places_.has_no_lower_tip(at, cell.normal);
+    };
+    if (!stays(middle) && (touched(middle) || lower(middle))) {
         return true;
     }
+    const bool falls_off = falls_off_beside(middle);
     return std::any_of(cell.corners.begin(), cell.corners.end(), [&](Vec3d corner) {
         const Vec3d at = place_beside(corner, middle);
-        return !stays(at) && touched(at);
+        return !stays(at) && (touched(at) || (falls_off && lower(at)));
     });
 }
 
@@ -258,8 +299,9 @@ void MeshScallopCheck::add_missing_passes(const std::function<void(const Points&
                 continue;
             }
             changed.push_back(cell);
-            Points one = trace(*place, {1, 0, 0});
-            Points other = trace(*place, {0, 1, 0});
+            const bool steep = cell.normal.z < kUprightNormal;
+            Points one = steep ? trace_level(*place) : trace(*place, {1, 0, 0});
+            Points other = steep ? Points{} : trace(*place, {0, 1, 0});
             if (length_of(other) > length_of(one)) {
                 std::swap(one, other);
             }
@@ -277,8 +319,10 @@ void MeshScallopCheck::add_missing_passes(const std::function<void(const Points&
     uncovered_.erase(std::remove_if(uncovered_.begin(), uncovered_.end(), met), uncovered_.end());
     for (const Cell& cell : uncovered_) {
         if (const std::optional<Place> place = uncovered_point(cell)) {
-            most_left_ =
-                std::max(most_left_, places_.uncut_at(place->point, place->normal, 0).reachable);
+            const double left = place->normal.z < kUprightNormal
+                                    ? left_beside(*place)
+                                    : places_.uncut_at(place->point, place->normal, 0).reachable;
+            most_left_ = std::max(most_left_, left);
         }
     }
 }

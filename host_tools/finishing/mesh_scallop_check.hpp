@@ -13,8 +13,11 @@ namespace cusp::finishing {
 
 // The counterpart of `ScallopCheck` for facets. The volume that one straight move removes is
 // convex. So a move that removes all three corners of a triangle, raised by the scallop, removes
-// the whole raised triangle. Triangles that no single move covers are halved. Upright facets and
-// facets hidden under others are not checked.
+// the whole raised triangle. Triangles that no single move covers are halved. Facets hidden under
+// others are not checked, nor are upright ones.
+//
+// Over a steep facet the stock may be high and still thin: it counts as thick as it is vertically,
+// multiplied by the cosine of the slope, or as it is along the normal, whichever is less.
 //
 // Not for use by two threads at once.
 class MeshScallopCheck {
@@ -74,9 +77,18 @@ private:
 
     void check_cell(const Cell& cell, int depth);
     Verdict judge(const Cell& cell) const;
+    Verdict judge_steep(const Cell& cell, double longest) const;
+    bool is_upright(const std::array<Vec3d, 3>& corners, Vec3d normal) const;
+    bool is_cut_down(const Place& at, double share) const;
+    std::optional<Vec3d> lower_tip_beside(const Place& at) const;
+    double left_beside(const Place& at) const;
+    Points trace_level(const Place& from) const;
+    std::optional<Place> place_on(Vec3d at) const;
     bool is_hidden(Vec3d point) const;
+    bool is_hidden(const Place& at) const;
     bool low_enough(const Cell& cell) const;
     bool blocked(Vec3d corner, Vec3d normal) const;
+    bool falls_off_beside(Vec3d point) const;
     bool settled(const Cell& cell) const;
     std::optional<Place> uncovered_point(const Cell& cell) const;
     bool may_be_uncovered(const Cell& cell) const;

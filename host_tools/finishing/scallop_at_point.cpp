@@ -115,6 +115,13 @@ ScallopAtPoint::LowerTip ScallopAtPoint::lower_tip(Vec3d point, Vec3d normal, do
                : searched(point, normal, share, now);
 }
 
+std::optional<ReachableHeight::Position> ScallopAtPoint::lowest_below(Vec3d point,
+                                                                      double height) const
+{
+    const std::optional<ReachableHeight::Position> best = reach_.lowest_over(point, height);
+    return best && best->height < height ? best : std::nullopt;
+}
+
 bool ScallopAtPoint::has_no_lower_tip(Vec3d point, Vec3d normal) const
 {
     return quick_verdict(point, normal, 1, swept_.lowest(point.x, point.y)) ==

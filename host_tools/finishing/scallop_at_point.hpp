@@ -77,6 +77,9 @@ public:
     // Precondition: normal.z >= kUprightNormal
     LowerTip lower_tip(Vec3d point, Vec3d normal, double share = 1) const;
 
+    // The lowest position of the tool over the point, if it leaves less than `height` (mm, z).
+    std::optional<ReachableHeight::Position> lowest_below(Vec3d point, double height) const;
+
     // Fast rejection: true only where lower_tip() has none.
     bool has_no_lower_tip(Vec3d point, Vec3d normal) const;
 

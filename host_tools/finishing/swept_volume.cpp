@@ -89,9 +89,9 @@ void SweptVolume::add(const std::vector<Vec3d>& tips)
     }
 }
 
-void SweptVolume::near(Vec3d centre, std::vector<std::uint32_t>& out) const
+template <class Visit>
+void SweptVolume::visit_around(Vec3d centre, const Visit& visit) const
 {
-    out.clear();
     const double reach = (1 + kCutCorner) * pitch_;
     const std::int64_t j_end = cell(centre.y + reach);
     for (std::int64_t i = cell(centre.x - reach); i <= cell(centre.x + reach); ++i) {
@@ -101,16 +101,37 @@ void SweptVolume::near(Vec3d centre, std::vector<std::uint32_t>& out) const
                 continue;
             }
             for (const std::uint32_t number : block->second.squares[number_in_block(i, j)].moves) {
-                const Move& move = moves_[number];
-                const double low = std::min(move.from.z, move.to.z) - pitch_;
-                const double high = std::max(move.from.z, move.to.z) + pitch_;
-                if (centre.z >= low && centre.z <= high &&
-                    (out.empty() || std::find(out.begin(), out.end(), number) == out.end())) {
-                    out.push_back(number);
-                }
+                visit(number);
             }
         }
     }
+}
+
+void SweptVolume::near(Vec3d centre, std::vector<std::uint32_t>& out) const
+{
+    out.clear();
+    visit_around(centre, [&](std::uint32_t number) {
+        const Move& move = moves_[number];
+        const double low = std::min(move.from.z, move.to.z) - pitch_;
+        const double high = std::max(move.from.z, move.to.z) + pitch_;
+        if (centre.z >= low && centre.z <= high &&
+            (out.empty() || std::find(out.begin(), out.end(), number) == out.end())) {
+            out.push_back(number);
+        }
+    });
+}
+
+void SweptVolume::near_or_below(Vec3d centre, std::vector<std::uint32_t>& out) const
+{
+    out.clear();
+    visit_around(centre, [&](std::uint32_t number) {
+        const Move& move = moves_[number];
+        if (centre.z >= std::min(move.from.z, move.to.z) - pitch_) {
+            out.push_back(number);
+        }
+    });
+    std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
 }
 
 bool SweptVolume::removes(std::uint32_t move, Vec3d point, double shrink) const

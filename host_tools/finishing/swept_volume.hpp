@@ -32,6 +32,9 @@ public:
     // The numbers of all moves that pass within `reach` of the centre, and of some others.
     void near(Vec3d centre, std::vector<std::uint32_t>& out) const;
 
+    // As near(), and all moves below the centre, whose shank may pass it.
+    void near_or_below(Vec3d centre, std::vector<std::uint32_t>& out) const;
+
     // Whether the move removes the point, with a tool smaller by `shrink` (mm).
     bool removes(std::uint32_t move, Vec3d point, double shrink) const;
 
@@ -57,6 +60,9 @@ private:
         double low{kInfinite};
         std::array<Square, kBlock * kBlock> squares;
     };
+    // Calls visit(number) for the moves in the squares within reach of the centre, some repeatedly.
+    template <class Visit>
+    void visit_around(Vec3d centre, const Visit& visit) const;
     // Share of the move where the ball is lowest straight over (x, y); none where it misses.
     std::optional<double> lowest_share(const Move& move, double x, double y) const;
     void try_move(std::uint32_t number, double x, double y, Lowest& best) const;

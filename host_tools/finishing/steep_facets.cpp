@@ -1,0 +1,163 @@
+// Facets steeper than 87 degrees: what stands over them, and level passes along them.
+#include <algorithm>
+#include <cmath>
+
+#include "host_tools/finishing/mesh_scallop_check.hpp"
+
+namespace cusp::finishing {
+namespace {
+
+constexpr double kLevelFacet = 1e-9;    // z of a normal: a facet has no height
+constexpr double kHiddenBeside = 1e-5;  // mm: vertices of files are rounded
+constexpr int kLeftHalvings = 20;
+
+Vec3d level_along(Vec3d normal)
+{
+    return Vec3d{-normal.y, normal.x, 0} / std::hypot(normal.x, normal.y);
+}
+
+}  // namespace
+
+// Whether the facet is so upright that nothing thicker than the scallop fits between it and a
+// vertical line from its foot, up to the top of the model.
+bool MeshScallopCheck::is_upright(const std::array<Vec3d, 3>& corners, Vec3d normal) const
+{
+    if (normal.z >= kUprightNormal) {
+        return false;
+    }
+    const double low = std::min({corners[0].z, corners[1].z, corners[2].z});
+    return normal.z < kLevelFacet ||
+           (path_fitter_.model().box_high().z - low) * normal.z <= kPlaceShare * scallop_;
+}
+
+// On a steep wall rounding may raise the wall itself over the point.
+bool MeshScallopCheck::is_hidden(const Place& at) const
+{
+    if (at.normal.z >= kUprightNormal) {
+        return is_hidden(at.point);
+    }
+    const auto top = path_fitter_.model().height_at(at.point.x, at.point.y);
+    return top && top->point.z > at.point.z + std::max(kHidden, kHiddenBeside / at.normal.z);
+}
+
+// Whether the stock over a point of a steep facet is cut down to a share of the scallop, the
+// shank's cut included.
+bool MeshScallopCheck::is_cut_down(const Place& at, double share) const
+{
+    const double allowed = share * scallop_;
+    const double over = places_.swept().lowest(at.point.x, at.point.y).height - at.point.z;
+    if (over * at.normal.z <= allowed) {
+        return true;
+    }
+    const Vec3d top = raised(at.point, at.normal, allowed, false);
+    places_.swept().near_or_below(centre_under(top, at.normal, allowed, path_fitter_.tool().radius),
+                                  near_);
+    return std::any_of(near_.begin(), near_.end(), [&](std::uint32_t move) {
+        return places_.swept().removes(move, top, path_off_);
+    });
+}
+
+// A cell is proved by one move. Where the stock is high but thin, its corners represent it.
+MeshScallopCheck::Verdict MeshScallopCheck::judge_steep(const Cell& cell, double longest) const
+{
+    const Vec3d middle = raised(cell.middle(), cell.normal, scallop_, false);
+    places_.swept().near_or_below(
+        centre_under(middle, cell.normal, scallop_, path_fitter_.tool().radius), near_);
+    for (const std::uint32_t move : near_) {
+        if (std::all_of(cell.corners.begin(), cell.corners.end(), [&](Vec3d corner) {
+                return places_.swept().removes(move, raised(corner, cell.normal, scallop_, false),
+                                               path_off_);
+            })) {
+            return Verdict::kCovered;
+        }
+    }
+    std::array<Place, 4> places;
+    for (std::size_t k = 0; k < 3; ++k) {
+        places[k] = {cell.corners[k], cell.normal};
+    }
+    places[3] = {cell.middle(), cell.normal};
+    const auto hidden = [&](const Place& place) {
+        return is_hidden(place);
+    };
+    if (longest >= kBlockedCell * step()) {
+        return longest < step() && std::all_of(places.begin(), places.end(), hidden)
+                   ? Verdict::kCovered
+                   : Verdict::kHalve;
+    }
+    bool clear = true;
+    bool covered = true;
+    for (const Place& place : places) {
+        if (!is_cut_down(place, kPlaceShare) && !is_hidden(place)) {
+            covered = false;
+            clear = clear && path_fitter_.is_clear(places_.touching_tip(place.point, place.normal));
+        }
+    }
+    if (covered) {
+        return Verdict::kCovered;
+    }
+    return clear ? Verdict::kUncovered : Verdict::kBlocked;
+}
+
+// The lowest tip over a point that the tool cannot touch, if metal is left over what it reaches.
+std::optional<Vec3d> MeshScallopCheck::lower_tip_beside(const Place& at) const
+{
+    const double now = places_.swept().lowest(at.point.x, at.point.y).height;
+    const auto best = places_.lowest_below(at.point, now - scallop_ / at.normal.z);
+    if (!best) {
+        return std::nullopt;
+    }
+    const Vec3d reached{at.point.x, at.point.y, std::max(at.point.z, best->height)};
+    return is_cut_down({reached, at.normal}, 1) ? std::nullopt : std::optional{best->tip};
+}
+
+// mm: the stock left over a point of a steep facet above what the tool can reach.
+double MeshScallopCheck::left_beside(const Place& at) const
+{
+    const auto best = places_.lowest_below(at.point, kInfinite);
+    const double height = best ? std::max(at.point.z, best->height) : at.point.z;
+    const Place reached{{at.point.x, at.point.y, height}, at.normal};
+    double low = 0;
+    double high = path_fitter_.tool().radius;
+    for (int k = 0; k < kLeftHalvings; ++k) {
+        const double middle = 0.5 * (low + high);
+        (is_cut_down(reached, middle / scallop_) ? high : low) = middle;
+    }
+    return high;
+}
+
+std::optional<MeshScallopCheck::Place> MeshScallopCheck::place_on(Vec3d at) const
+{
+    const auto top = path_fitter_.model().height_at(at.x, at.y);
+    return top ? std::optional{Place{top->point, top->normal}} : std::nullopt;
+}
+
+// The missing tips along a wall at the height of a point on it, both ways. Where the wall turns, the
+// next point returns to that height.
+Points MeshScallopCheck::trace_level(const Place& from) const
+{
+    Points out;
+    for (const double sign : {-1.0, 1.0}) {
+        std::optional<Place> at = from;
+        for (int k = 0; k < kMostTraced && at && at->normal.z < kUprightNormal; ++k) {
+            const std::optional<Vec3d> tip = missing_tip(*at, true);
+            if (!tip) {
+                break;
+            }
+            if (k > 0 || sign < 0) {
+                out.push_back(*tip);
+            }
+            at = place_on(at->point + level_along(at->normal) * (sign * kTraceStep * step()));
+            if (at && at->normal.z < kUprightNormal) {
+                const Vec3d n = at->normal;
+                const double back = (at->point.z - from.point.z) * n.z / (n.x * n.x + n.y * n.y);
+                at = place_on(at->point + Vec3d{n.x, n.y, 0} * back);
+            }
+        }
+        if (sign < 0) {
+            std::reverse(out.begin(), out.end());
+        }
+    }
+    return out;
+}
+
+}  // namespace cusp::finishing

@@ -1,0 +1,175 @@
+// Random meshes with steep walls and sharp edges, from a seed: drafts, chamfers, creases, slivers.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "firmware/base/math.hpp"
+#include "tests/support/box_mesh.hpp"
+#include "tests/support/random_jobs.hpp"
+
+namespace cusp::test {
+
+// A place of a profile: how far along, how high.
+using Profile = std::vector<Vec2d>;
+
+// 0.1 to 5 degrees from the vertical, small ones as often as large ones; as a tangent.
+inline double random_draft(Random& random)
+{
+    return std::tan(0.1 * kPi / 180 * std::pow(50.0, uniform(random, 0.0, 1.0)));
+}
+
+inline void add_wall(Random& random, Profile& profile, double rise)
+{
+    const auto chamfer = [&] {
+        if (whole(random, 0, 2) == 0) {
+            const double wide = uniform(random, 0.05, 0.7);
+            const double high = wide * uniform(random, 0.4, 2.0);
+            profile.push_back(profile.back() + Vec2d{wide, rise > 0 ? high : -high});
+        }
+    };
+    chamfer();
+    profile.push_back(profile.back() + Vec2d{std::abs(rise) * random_draft(random), rise});
+    chamfer();
+}
+
+// Gentle ground and walls in turn, up to `length`.
+inline Profile random_profile(Random& random, double length)
+{
+    Profile profile{{0, 0}};
+    while (profile.back().x < length) {
+        const double run = uniform(random, 0.4, 4.0);
+        profile.push_back(profile.back() + Vec2d{run, run * uniform(random, -0.4, 0.4)});
+        if (profile.back().x < length) {
+            const double sign = profile.back().y > 0 ? -1 : 1;
+            add_wall(random, profile, sign * uniform(random, 0.5, 6.0));
+        }
+    }
+    return profile;
+}
+
+// The profile along a bent line: creases cross its walls.
+inline Triangles ribs(Random& random)
+{
+    const Profile profile = random_profile(random, uniform(random, 4.0, 9.0));
+    std::vector<Vec3d> line{{0, 0, 0}};
+    for (int k = whole(random, 1, 3); k > 0; --k) {
+        const double way = uniform(random, 2.0, 4.0);
+        line.push_back(line.back() + Vec3d{way * uniform(random, -0.5, 0.5), way,
+                                           way * uniform(random, -0.3, 0.3)});
+    }
+    Triangles out;
+    for (std::size_t i = 1; i < profile.size(); ++i) {
+        for (std::size_t j = 1; j < line.size(); ++j) {
+            const auto at = [&](std::size_t a, std::size_t b) {
+                return line[b] + Vec3d{profile[a].x, 0, profile[a].y};
+            };
+            add_quad(out, at(i - 1, j - 1), at(i, j - 1), at(i, j), at(i - 1, j));
+        }
+    }
+    return out;
+}
+
+// The profile inwards from the sides of a polygon: a boss, a pocket or both, with plane walls.
+inline Triangles polygon_steps(Random& random)
+{
+    const int corners = whole(random, 3, 9);
+    std::vector<Vec2d> ring;
+    for (int k = 0; k < corners; ++k) {
+        const double turn = 2 * kPi * (k + uniform(random, 0.0, 0.7)) / corners;
+        ring.push_back({std::cos(turn), std::sin(turn)});
+    }
+    const double size = uniform(random, 4.0, 8.0);
+    const Profile profile = random_profile(random, 0.5 * size);
+    Triangles out;
+    const auto at = [&](std::size_t level, int corner) {
+        const double radius = std::max(0.05, size - profile[level].x);
+        const Vec2d way = ring[static_cast<std::size_t>(corner % corners)];
+        return Vec3d{radius * way.x, radius * way.y, profile[level].y};
+    };
+    for (int k = 0; k < corners; ++k) {
+        for (std::size_t i = 1; i < profile.size(); ++i) {
+            add_quad(out, at(i - 1, k), at(i - 1, k + 1), at(i, k + 1), at(i, k));
+        }
+        const std::size_t last = profile.size() - 1;
+        out.push_back({at(last, k), at(last, k + 1), Vec3d{0, 0, profile[last].y - 0.2}});
+    }
+    return out;
+}
+
+// Heights by chance over a net of uneven meshes, the narrow ones steep.
+inline Triangles crags(Random& random)
+{
+    const auto places = [&] {
+        std::vector<double> at{0};
+        for (int k = whole(random, 3, 6); k > 0; --k) {
+            const bool narrow = whole(random, 0, 2) == 0;
+            at.push_back(at.back() +
+                         (narrow ? uniform(random, 0.01, 0.2) : uniform(random, 0.8, 2.5)));
+        }
+        return at;
+    };
+    const std::vector<double> xs = places();
+    const std::vector<double> ys = places();
+    const double rough = uniform(random, 0.5, 4.0);
+    std::vector<std::vector<Vec3d>> net;
+    for (const double x : xs) {
+        net.emplace_back();
+        for (const double y : ys) {
+            net.back().push_back({x, y, rough * uniform(random, 0.0, 1.0)});
+        }
+    }
+    Triangles out;
+    for (std::size_t i = 1; i < xs.size(); ++i) {
+        for (std::size_t j = 1; j < ys.size(); ++j) {
+            add_quad(out, net[i - 1][j - 1], net[i][j - 1], net[i][j], net[i - 1][j]);
+        }
+    }
+    return out;
+}
+
+// Splits some triangles at places near the ends of their sides: slivers of a thousandth of a side.
+inline Triangles with_slivers(Random& random, const Triangles& triangles)
+{
+    Triangles out;
+    for (const auto& t : triangles) {
+        if (whole(random, 0, 3) != 0) {
+            out.push_back(t);
+            continue;
+        }
+        const double share = std::pow(10.0, uniform(random, -3.0, -0.5));
+        const Vec3d on_side = t[0] + (t[1] - t[0]) * share;
+        out.push_back({t[0], on_side, t[2]});
+        out.push_back({on_side, t[1], t[2]});
+    }
+    return out;
+}
+
+inline Triangles turned(const Triangles& triangles, double angle)
+{
+    Triangles out = triangles;
+    for (auto& t : out) {
+        for (Vec3d& p : t) {
+            p = {p.x * std::cos(angle) - p.y * std::sin(angle),
+                 p.x * std::sin(angle) + p.y * std::cos(angle), p.z};
+        }
+    }
+    return out;
+}
+
+inline Triangles random_polyhedron(Random& random)
+{
+    const int kind = whole(random, 0, 2);
+    Triangles out = kind == 0 ? ribs(random) : kind == 1 ? polygon_steps(random) : crags(random);
+    if (whole(random, 0, 1) == 0) {
+        out = with_slivers(random, out);
+    }
+    // Walls along the rows are those that rows miss.
+    const bool along_rows = whole(random, 0, 2) == 0;
+    return turned(out,
+                  along_rows ? 0.5 * kPi * whole(random, 0, 3) : uniform(random, 0.0, 2 * kPi));
+}
+
+}  // namespace cusp::test

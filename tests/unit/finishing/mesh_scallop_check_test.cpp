@@ -1,0 +1,90 @@
+// A wall of 89 degrees at the rim of a plate: rows over the plate leave it, passes along it do not.
+#include "host_tools/finishing/mesh_scallop_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/box_mesh.hpp"
+
+// Last: CppUTest redefines new, which the standard headers can not bear.
+#include "CppUTest/TestHarness.h"
+
+using namespace cusp;
+using namespace cusp::finishing;
+using namespace cusp::part_model;
+using namespace cusp::test;
+using namespace cusp::toolpath;
+
+namespace {
+
+constexpr double kScallop = 0.05;
+constexpr double kLength = 12;  // mm, along y
+constexpr double kHeight = 11.5;
+constexpr double kSlope = 0.0174551;  // tangent of a degree
+
+// A plate x from -6 to 0 at z = 0, and the wall down from its rim.
+Triangles plate_and_wall(double slope)
+{
+    Triangles out;
+    add_quad(out, {-6, 0, 0}, {0, 0, 0}, {0, kLength, 0}, {-6, kLength, 0});
+    const double foot = kHeight * slope;
+    add_quad(out, {0, 0, 0}, {foot, 0, -kHeight}, {foot, kLength, -kHeight}, {0, kLength, 0});
+    return out;
+}
+
+// Passes along y over the plate, and what is missing then.
+std::vector<Points> missing_passes(const Triangles& part, std::size_t& uncovered)
+{
+    const Tool ball{1, ToolShape::kBall, 3, 3};
+    const PartModel model{part};
+    GougeFreePathFitter path_fitter{model, ball, make_tolerance_band(0.01, true)};
+    MeshScallopCheck check{part, path_fitter, kScallop, 0};
+    for (double x = -7; x <= 0.5; x += 0.8) {
+        const double end = std::clamp(x, -6.0, 0.0);
+        check.add(path_fitter.sample_dropped({end, -2, 0}, {end, kLength + 2, 0}));
+    }
+    std::vector<Points> passes;
+    check.check();
+    check.add_missing_passes([&](const Points& tips) {
+        passes.push_back(tips);
+        check.add(tips);
+    });
+    uncovered = check.uncovered();
+    return passes;
+}
+
+}  // namespace
+
+TEST_GROUP(MeshScallopCheck){};
+
+TEST(MeshScallopCheck, AddsPassesAlongAWallOf89Degrees)
+{
+    std::size_t uncovered = 1;
+    const std::vector<Points> passes = missing_passes(plate_and_wall(kSlope), uncovered);
+    LONGS_EQUAL(0, uncovered);
+    CHECK(!passes.empty());
+    // Without them the metal over the foot is as thick as the wall leans: 0.2 mm.
+    SweptVolume swept{3, 1};
+    for (const Points& tips : passes) {
+        swept.add(tips);
+    }
+    for (double y = 0.5; y < kLength; y += 0.5) {
+        for (double z = -0.99 * kHeight; z < -1; z += 0.3) {
+            const double upright = swept.lowest(-z * kSlope, y).height - z;
+            const Vec3d over{-z * kSlope + kScallop, y, z + kScallop * kSlope};
+            std::vector<std::uint32_t> near;
+            swept.near_or_below(over + Vec3d{3 - kScallop, 0, 0}, near);
+            CHECK(upright * kSlope <= kScallop ||
+                  std::any_of(near.begin(), near.end(),
+                              [&](std::uint32_t move) { return swept.removes(move, over, 0); }));
+        }
+    }
+}
+
+// Nothing thicker than the scallop fits between the wall and a vertical line from its foot.
+TEST(MeshScallopCheck, AddsNoneWhereTheWallLeansLessThanTheScallop)
+{
+    std::size_t uncovered = 1;
+    CHECK(missing_passes(plate_and_wall(0.9 * kScallop / kHeight), uncovered).empty());
+    LONGS_EQUAL(0, uncovered);
+}
