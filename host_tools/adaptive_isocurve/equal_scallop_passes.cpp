@@ -197,9 +197,9 @@ private:
     {
         std::array<double, 2> at{};
         std::size_t count = 0;
-        for (const double level : {range.above, range.up_to}) {
-            const double t = (level - width_[i]) / (width_[i + 1] - width_[i]);
-            if ((width_[i] > level) != (width_[i + 1] > level)) {
+        for (const double bound : {range.above, range.up_to}) {
+            const double t = (bound - width_[i]) / (width_[i + 1] - width_[i]);
+            if ((width_[i] > bound) != (width_[i + 1] > bound)) {
                 at[count++] = t;
             }
         }

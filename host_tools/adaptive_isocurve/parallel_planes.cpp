@@ -161,15 +161,15 @@ private:
     double step_for_scallop()
     {
         const double scallop_height = kPlaneScallopShare * (*operation_.scallop - work_.outward());
-        const double level = stepover(operation_.tool.radius, scallop_height, 0);
-        double least = level;
+        const double on_level = stepover(operation_.tool.radius, scallop_height, 0);
+        double least = on_level;
         const auto ask = [&](double step) {
-            steep_ = steep_ || step < kLeastPlaneShare * level;
-            least = step < kLeastPlaneShare * level ? least : std::min(least, step);
+            steep_ = steep_ || step < kLeastPlaneShare * on_level;
+            least = step < kLeastPlaneShare * on_level ? least : std::min(least, step);
         };
         for (const auto& facet : operation_.mesh) {
             const Vec3d n = cross(facet[1] - facet[0], facet[2] - facet[0]);
-            ask(kMeshShare * level * norm(along_slope(across_, n / norm(n))));
+            ask(kMeshShare * on_level * norm(along_slope(across_, n / norm(n))));
         }
         for (std::size_t k = 0; k < work_.surfaces().size(); ++k) {
             const Surface& s = work_.surfaces()[k];
@@ -215,9 +215,9 @@ private:
             const double s = from + (to - from) * k / parts;
             const bool on = is_clear(s, t);
             if (on && !was_on) {
-                begin = last_off(last, s, t);
+                begin = run_end(last, s, t);
             } else if (!on && was_on) {
-                add_run(begin, last_off(s, last, t), t);
+                add_run(begin, run_end(s, last, t), t);
             }
             was_on = on;
             last = s;
@@ -227,13 +227,13 @@ private:
         }
     }
 
-    double last_off(double off, double on, double t)
+    double run_end(double outside, double inside, double t)
     {
         for (int turn = 0; turn < kPlaneEndHalvings; ++turn) {
-            const double middle = 0.5 * (off + on);
-            (is_clear(middle, t) ? on : off) = middle;
+            const double middle = 0.5 * (outside + inside);
+            (is_clear(middle, t) ? inside : outside) = middle;
         }
-        return on;
+        return inside;
     }
 
     void add_run(double from, double to, double t)

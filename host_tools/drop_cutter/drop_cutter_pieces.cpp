@@ -216,9 +216,9 @@ void DropCutter::State::measure_plane(Piece& piece) const
     double high = -kUnbounded;
     std::array<double, 4> ends{kUnbounded, -kUnbounded, kUnbounded, -kUnbounded};
     for (const Vec3d* p = points; p != points + last + 1; ++p) {
-        const double level = p->z - g.x * p->x - g.y * p->y;
-        low = std::min(level, low);
-        high = std::max(level, high);
+        const double z_at_origin = p->z - g.x * p->x - g.y * p->y;
+        low = std::min(z_at_origin, low);
+        high = std::max(z_at_origin, high);
         const double first = p->x + g.x * p->z;
         const double second = run * p->y + g.y * (p->z - g.x * p->x);
         ends = {std::min(first, ends[0]), std::max(first, ends[1]), std::min(second, ends[2]),

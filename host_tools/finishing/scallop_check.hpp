@@ -99,12 +99,20 @@ private:
         int surface;
         double u0, u1, v0, v1;
     };
+    // Bounds from the derivatives and normals at the corners of a cell.
+    struct CellShape {
+        double long_u, long_v;  // mm: lengths along u and v
+        double bow;             // mm: deviation from flat
+        double turn;            // of the normal
+        double least_z;         // of the normals
+    };
     enum class Verdict : std::uint8_t { kCovered, kHalveU, kHalveV, kUncovered };
 
     Corner corner(int surface, double u, double v) const;
     bool inside_trims(int surface, double u, double v) const;
     // at  its corners, as `corners_of` gives them
     void check_cell(const Cell& cell, const std::array<Corner, 4>& at, int depth);
+    static CellShape shape_of(const Cell& cell, const std::array<Corner, 4>& at);
     Verdict judge(const Cell& cell, const std::array<Corner, 4>& at) const;
     bool is_covered(const Corner& at) const
     {

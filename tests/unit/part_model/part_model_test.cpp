@@ -290,6 +290,19 @@ TEST(PartModelDistance, OfARollingBallIsNotProvedWhereItCutsAnotherPlace)
     CHECK(model.move_clearance_between_contacts(high, high, 3, -1e-9).has_value());
 }
 
+// What a model knows of the last contacts refers to cells, which go.
+TEST(PartModelDistance, OfAMoveBetweenContactsIsTheSameAfterCellsAreForgotten)
+{
+    const PartModel model{{plane(1)}};
+    const CcPoint a = model.cc_point(0, 0.3, 0.5, 3);
+    const CcPoint b = model.cc_point(0, 0.35, 0.5, 3);
+    const std::optional<double> before = model.move_clearance_between_contacts(a, b, 3, -0.05);
+    CHECK(before.has_value());
+    model.forget_cells();
+    const std::optional<double> after = model.move_clearance_between_contacts(a, b, 3, -0.05);
+    CHECK(before == after);
+}
+
 TEST_GROUP(PartModelDrop){};
 
 TEST(PartModelDrop, OfABallOnASlopeTouchesBesideTheAxis)
