@@ -17,7 +17,7 @@ using verify::Verification;
 
 namespace {
 
-// Beyond the scale: not cut at all, or left higher than the bound.
+// Colours besides the scale: not cut at all, or left higher than the bound.
 constexpr int kUncut = kColourSteps;
 constexpr int kOver = kColourSteps + 1;
 constexpr const char* kOverColour = "#d7191c";
