@@ -1,4 +1,4 @@
-// Handles the controller's answers and the person's keys.
+// Handles the controller's answers and the user's keys.
 #include <algorithm>
 #include <filesystem>
 
@@ -24,7 +24,7 @@ std::string name_of(const std::string& file, std::uint64_t line)
     return file + ":" + std::to_string(line);
 }
 
-// A line of the program; empty where the file can't be read a second time.
+// A line of the program; empty if the file cannot be read again.
 std::string text_of(const std::string& file, std::uint64_t line)
 {
     std::error_code error;
