@@ -48,7 +48,7 @@ using toolpath::stepover;
 namespace {
 
 // Share of the domain: where the scallop is too high on more, curves are chosen again with scallops
-// that follow the passes, which takes twice as long.
+// computed along the curved passes, which takes twice as long.
 constexpr double kOpenShare = 0.01;
 // Share of the band for the error of an approximated offset.
 constexpr double kOffsetShare = 0.9;

@@ -300,7 +300,7 @@ double judge_strips(DensityTable& table,
                 const double asked = judge(u, across[k - 1], across[k], kJudged) / kJudged;
                 worst = std::max(worst, asked);
                 if (asked > 1) {
-                    table.ask(i, 0.5 * (across[k - 1].v + across[k].v), kTighter * asked);
+                    table.require(i, 0.5 * (across[k - 1].v + across[k].v), kTighter * asked);
                     const std::size_t end = std::min(look.size(), i + kTightened + 1);
                     for (std::size_t m = i < kTightened ? 0 : i - kTightened; m < end; ++m) {
                         changed[m] = true;

@@ -107,8 +107,8 @@ DropCutter::State::State(const std::vector<Surface>& surfaces, const Tool& tool,
     whole_ = {pieces_, nets_, weights_, outlines_};
 }
 
-// Without this the halves of a long series of queries would pile up: gigabytes for a large steep
-// floor. Pieces are halved again when the next query needs them.
+// Without this the halves of a long series of queries would accumulate: gigabytes for a large steep
+// floor. Pieces are halved again when a later query needs them.
 void DropCutter::State::forget_many_halves()
 {
     constexpr std::size_t kMostHalves = 100000;  // some 50 MB

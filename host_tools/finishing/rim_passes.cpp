@@ -39,10 +39,10 @@ std::optional<Vec3d> ScallopCheck::tip_over_rim(int surface, Vec2d place) const
     return tip && now - tip->z > scallop_ ? tip : std::nullopt;
 }
 
-void ScallopCheck::go_over_rim(int surface,
-                               Vec2d from,
-                               Vec2d to,
-                               const std::function<void(const Points&)>& cut)
+void ScallopCheck::add_pass_over_rim(int surface,
+                                     Vec2d from,
+                                     Vec2d to,
+                                     const std::function<void(const Points&)>& cut)
 {
     const double length = length_between(path_fitter_.model(), surface, from, to, kLeastRim);
     const int parts =
@@ -74,7 +74,7 @@ void ScallopCheck::add_rim_passes(int surface, const std::function<void(const Po
                                        Vec2d{s.u_end(), s.v_begin()}, Vec2d{s.u_end(), s.v_end()},
                                        Vec2d{s.u_begin(), s.v_end()}};
     for (std::size_t k = 0; k < corners.size(); ++k) {
-        go_over_rim(surface, corners[k], corners[(k + 1) % corners.size()], cut);
+        add_pass_over_rim(surface, corners[k], corners[(k + 1) % corners.size()], cut);
     }
 }
 

@@ -78,9 +78,9 @@ public:
     // The highest stock measured there above what the tool can reach, mm.
     double most_left() const { return most_left_; }
 
-    // The highest stock measured beside rims and creases above what the tool can reach, mm. Passes
-    // are moved off these edges so as not to gouge them from the side. Not counted as left
-    // elsewhere; 0 for a one-sided tolerance.
+    // mm: the highest stock measured beside rims and creases above what the tool can reach. Passes
+    // are moved off these edges so as not to gouge them from the side. Not included in other
+    // figures; 0 for a one-sided tolerance.
     double left_beside_edges() const { return left_beside_edges_; }
 
 private:
@@ -148,10 +148,10 @@ private:
     double most_left_in(const std::vector<Cell>& cells);
     void measure_beside_edges(const std::vector<Cell>& cells);
     std::optional<Vec3d> tip_over_rim(int surface, Vec2d place) const;
-    void go_over_rim(int surface,
-                     Vec2d from,
-                     Vec2d to,
-                     const std::function<void(const Points&)>& cut);
+    void add_pass_over_rim(int surface,
+                           Vec2d from,
+                           Vec2d to,
+                           const std::function<void(const Points&)>& cut);
     Points trace(int surface, Place place, bool along_u) const;
 
     const std::vector<nurbs::Surface>& surfaces_;
@@ -170,7 +170,7 @@ private:
     bool overflowed_{};
     mutable bool nearly_uncovered_{};  // some tip would remove nearly the scallop
     mutable double near_share_{1};     // share of the scallop that counts as nearly
-    mutable bool moved_clear_{};       // some tip was refused since it would gouge an edge
+    mutable bool moved_clear_{};       // some tip was rejected since it would gouge an edge
     mutable std::vector<std::uint32_t> near_;
 };
 
