@@ -278,7 +278,7 @@ private:
         if (scallop_check_.blocked_area() > kShown) {
             planned.stats.warnings.push_back(fmt::format(
                 "on {:.3g} mm2 the ball does not touch the mesh (feet of walls, concave edges, "
-                "undercuts, valleys narrower than the ball): metal is left standing there",
+                "undercuts, valleys narrower than the ball): stock is left there",
                 scallop_check_.blocked_area()));
         }
         planned.stats.counts.emplace_back("isocurves", curves_);

@@ -125,14 +125,14 @@ private:
             work_.finish(step, proved ? *operation_.scallop : operation_.tool.radius);
         if (steep_) {
             planned.stats.warnings.push_back(
-                "ground that falls off by more than 75 degrees across the planes, or is nearly as "
-                "hollow as the ball, keeps more than the scallop: it asks for planes less than a "
-                "quarter as far apart");
+                "areas steeper than 75 degrees across the planes, or nearly as concave as the "
+                "ball, "
+                "keep more than the scallop: they need planes less than a quarter as far apart");
         }
         if (!proved) {
             planned.stats.warnings.push_back(
-                "nothing is proved of what parallel_planes leaves here (walls, edges, steep "
-                "ground, meshes, or step_over): adaptive_isocurve keeps a scallop there, too");
+                "no scallop is proved for parallel_planes here (walls, edges, steep areas, meshes, "
+                "or step_over): adaptive_isocurve proves one there, too");
         }
         return planned;
     }

@@ -42,7 +42,7 @@ void report_air(const std::vector<ToolMove>& moves, double stock_top, OperationS
             return move.kind == MoveKind::kCut && end_of(move).z < stock_top;
         })) {
         stats.warnings.push_back("nothing of the floor lies below stock.top, " +
-                                 number_text(stock_top) + " mm: the program cuts air");
+                                 number_text(stock_top) + " mm: the program cuts no stock");
     }
 }
 

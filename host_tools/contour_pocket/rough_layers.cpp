@@ -80,7 +80,7 @@ void warn_of_thin_layers(const Job& job, const Operation& operation, RoughResult
         result.operation.stats.warnings.push_back(
             "layers are " + number_text(deep) + " mm deep, less than min_depth, " +
             number_text(*operation.min_depth) +
-            " mm: max_depth and the depth of the pocket leave no other");
+            " mm: max_depth and the depth of the pocket allow no others");
     }
 }
 

@@ -41,7 +41,7 @@ std::string sufficient_grid(const PocketSpace& pocket, const PocketWalls& walls,
         roughness = roughness_of(tried, finish_navigation(tried));
         if (roughness <= *finer.max_roughness) {
             return "grid " + length_text(pocket.job, finer.grid_x) + " x " +
-                   length_text(pocket.job, finer.grid_y) + " would do";
+                   length_text(pocket.job, finer.grid_y) + " suffices";
         }
     }
     return "grid " + length_text(pocket.job, finer.grid_x) + " x " +
@@ -54,7 +54,7 @@ void warn_of_layers(const Job& job, const LayerPlanes& planes, OperationStats& s
         stats.warnings.push_back(
             "layers: " + std::to_string(planes.left_out) + " lie below " +
             length_text(job, job.stock_top - planes.lowest) +
-            " under stock.top, the deepest that the tool gets on this floor, and are left out");
+            " under stock.top, the lowest position of the tool on this floor, and are omitted");
     }
 }
 
@@ -65,7 +65,7 @@ void warn_of_cliffs(const PocketSpace& pocket, OperationStats& stats)
         stats.warnings.push_back("the floor steps by " + length_text(job, cliff->height) +
                                  " at x " + length_text(job, cliff->at.x) + ", y " +
                                  length_text(job, cliff->at.y) +
-                                 ": beside such cliffs more stays than the roughness says");
+                                 ": beside such cliffs more stock is left than the roughness");
     }
 }
 

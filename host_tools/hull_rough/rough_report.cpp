@@ -32,13 +32,13 @@ void add_engagement(const Roughing& work, PlannedOperation& operation)
     stats.counts.emplace_back("entry_deg", work.operation.entry == EntryKind::kPlunge ? 90 : 3);
     stats.warnings.push_back(
         "cuts are at most " + plain_number(work.deepest_cut()) +
-        " mm deep; the first pass of a place, necks and corners are cut at "
+        " mm deep; first passes, necks and corners are cut at "
         "the full width of " +
         plain_number(2 * tool.radius) + " mm (180 degrees), straight passes beside " +
         "another at " + plain_number(step) + " mm (" + plain_number(std::round(degrees)) +
         " degrees); " +
         (work.operation.entry == EntryKind::kPlunge ? "entries plunge"
-                                                    : "entries sink at 3 degrees at most"));
+                                                    : "entries descend at up to 3 degrees"));
 }
 
 // Figures of all layers.
@@ -126,7 +126,7 @@ void add_report(const Roughing& work, std::vector<PlannedOperation>& out, double
         if (work.operation.contour_clearing && layers.zigzags > 0) {
             stats.warnings.push_back(std::to_string(layers.zigzags) +
                                      " layers are cleared by zigzag: loops parallel to their "
-                                     "islands would come too near to them");
+                                     "islands would have too little clearance");
         }
         if (layers.left > 0) {
             stats.warnings.push_back(plain_number(layers.left) +

@@ -67,7 +67,7 @@ std::string left_picture(const Job& job, const Verification& result)
             runs.add(i / size, j / size, step);
         }
     }
-    std::string out = frame.head() + frame.panel(0, "Metal left over what the tool reaches");
+    std::string out = frame.head() + frame.panel(0, "Stock left above the reachable height");
     out += runs.text(frame.x_low, frame.flipped(frame.y_low), side,
                      [](int k) {
                          return "stroke=\"" +

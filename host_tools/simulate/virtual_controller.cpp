@@ -143,12 +143,12 @@ private:
         bool busy = false;
         const bool had_peer = end_.has_peer();
         if (end_.update_peer()) {
-            say("a sender is there");
+            say("a sender has connected");
             if (controller_.is_on()) {
                 end_.write(kBanner);
             }
         } else if (had_peer && !end_.has_peer()) {
-            say("the sender is gone");
+            say("the sender has disconnected");
         }
         to_controller_.put(end_.read());
         const std::string arrived = to_controller_.take();
@@ -254,7 +254,7 @@ private:
     {
         const hal::SimulatedStore& store = controller_.board().settings_store;
         if (store.power_is_cut() && controller_.is_on()) {
-            say("the power failed amid a write to the settings store");
+            say("the power failed during a write to the settings store");
             controller_.power_off();
         }
         if (store.words_written() != words_kept_) {
