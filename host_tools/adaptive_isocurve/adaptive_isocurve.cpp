@@ -48,7 +48,7 @@ using toolpath::stepover;
 namespace {
 
 // Share of the domain: where the scallop is too high on more, curves are chosen again with scallops
-// that follow the passes, which takes twice as long.
+// computed along the curved passes, which takes twice as long.
 constexpr double kOpenShare = 0.01;
 // Share of the band for the error of an approximated offset.
 constexpr double kOffsetShare = 0.9;
@@ -131,7 +131,7 @@ public:
         if (unreached_ > 0) {
             planned.stats.warnings.push_back(fmt::format(
                 "{} of {} curves end where the tool would cut another place of the model (concave "
-                "edges, undercuts, valleys narrower than the ball): metal is left standing there",
+                "edges, undercuts, valleys narrower than the ball): stock is left there",
                 unreached_, curves));
         }
         return planned;
@@ -150,9 +150,9 @@ private:
         if (left > scallop_) {
             stats.counts.emplace_back("left_beside_edges_mm", left);
             stats.warnings.push_back(fmt::format(
-                "up to {:.3f} mm stands beside rims and creases, in slivers about as thin as the "
-                "tolerance: with tolerance_side = \"both\" passes keep off edges that the ball "
-                "would cut into from beside",
+                "up to {:.3f} mm is left beside rims and creases, in slivers about as thin as the "
+                "tolerance: with tolerance_side = \"both\" passes keep clear of edges that the "
+                "ball would gouge from the side",
                 left));
         }
     }

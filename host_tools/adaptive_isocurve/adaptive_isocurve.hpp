@@ -12,7 +12,7 @@
 // iso_distance (isocurve_extraction.hpp) or by scallop (equal_scallop_passes.hpp).
 // OffsetCurveTrimmer maps them to the offset surface and trims them by the rest of the model.
 // SurfaceOperation fits, links and reports the passes. finishing::ScallopCheck proves the scallop
-// and adds missing passes. plan_waterline_roughing() comes first if the job asks for roughing.
+// and adds missing passes. plan_waterline_roughing() comes first if the job has roughing.
 #pragma once
 
 #include <vector>

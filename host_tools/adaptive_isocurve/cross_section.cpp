@@ -1,4 +1,4 @@
-// The step across is square to the isocurve on the surface.
+// The step across is perpendicular to the isocurve on the surface.
 #include "host_tools/adaptive_isocurve/cross_section.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ using nurbs::SurfacePoint;
 
 namespace {
 
-// There is one way across only, that of v.
+// At a pole the only direction across is that of v.
 CrossSection cross_section_at_pole(const SurfacePoint& p)
 {
     const double square = dot(p.dv, p.dv);
@@ -32,7 +32,7 @@ CrossSection cross_section_at(const SurfacePoint& p)
     if (at_pole(p.du, p) || vanishes_along_side(p)) {
         return cross_section_at_pole(p);
     }
-    // All curves meet: there is no way across.
+    // All curves meet here: there is no direction across.
     if (at_pole(p.dv, p)) {
         return {0, std::sqrt(dot(p.dv, p.dv))};
     }
@@ -46,8 +46,8 @@ CrossSection cross_section_at(const SurfacePoint& p)
     const Vec3d bend = p.duu * (a * a) + p.duv * (2 * a) + p.dvv;
     const double square = dot(across, across);
     const double curvature = square > 0 ? -dot(normal, bend) / square : 0;
-    // Rounding decides which side of a level normal is up: the one that asks for more passes
-    // counts.
+    // Rounding decides which side of a horizontal normal is up: the curvature that requires more
+    // passes is used.
     return {normal.z < kLevelNormal ? std::abs(curvature) : curvature, std::sqrt(square)};
 }
 

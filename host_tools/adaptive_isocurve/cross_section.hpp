@@ -5,12 +5,12 @@
 
 namespace cusp::adaptive_isocurve {
 
-// A unit normal whose z is less counts as level: rounding decides which of its sides is up.
+// A unit normal with a smaller z counts as horizontal: rounding decides which of its sides is up.
 constexpr double kLevelNormal = 1e-7;
 
-// Normal curvature across the isocurve of constant v, 1/mm, > 0 where the surface bends away from
-// the tool (convex), as toolpath::stepover() takes it; and the length of the surface across it for a
-// unit of v. Zero speed where the surface is degenerate.
+// Normal curvature across the isocurve of constant v, 1/mm, > 0 where the surface is convex, as
+// toolpath::stepover() takes it; and the length of the surface across it for a unit of v. Zero
+// speed where the surface is degenerate.
 struct CrossSection {
     double curvature{};
     double speed{};

@@ -93,7 +93,7 @@ void DensityTable::fit(const std::vector<DomainCurve>& curves, const StripJudge&
     integrate();
 }
 
-void DensityTable::ask(std::size_t i, double at, double factor)
+void DensityTable::require(std::size_t i, double at, double factor)
 {
     asked_.resize(density_.size(), 1.0);
     const std::size_t j = cell(at);

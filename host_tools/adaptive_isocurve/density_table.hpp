@@ -62,7 +62,7 @@ public:
     void fit(const std::vector<DomainCurve>& curves, const StripJudge& judge);
 
     // Records a factor required between the nodes i and i + 1 of u, at v = `at`, for tighten().
-    void ask(std::size_t i, double at, double factor);
+    void require(std::size_t i, double at, double factor);
 
     // Multiplies the density by the recorded factors, smoothed over the nodes around.
     void tighten();

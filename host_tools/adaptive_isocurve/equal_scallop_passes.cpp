@@ -197,9 +197,9 @@ private:
     {
         std::array<double, 2> at{};
         std::size_t count = 0;
-        for (const double level : {range.above, range.up_to}) {
-            const double t = (level - width_[i]) / (width_[i + 1] - width_[i]);
-            if ((width_[i] > level) != (width_[i + 1] > level)) {
+        for (const double bound : {range.above, range.up_to}) {
+            const double t = (bound - width_[i]) / (width_[i + 1] - width_[i]);
+            if ((width_[i] > bound) != (width_[i + 1] > bound)) {
                 at[count++] = t;
             }
         }
@@ -300,7 +300,7 @@ double judge_strips(DensityTable& table,
                 const double asked = judge(u, across[k - 1], across[k], kJudged) / kJudged;
                 worst = std::max(worst, asked);
                 if (asked > 1) {
-                    table.ask(i, 0.5 * (across[k - 1].v + across[k].v), kTighter * asked);
+                    table.require(i, 0.5 * (across[k - 1].v + across[k].v), kTighter * asked);
                     const std::size_t end = std::min(look.size(), i + kTightened + 1);
                     for (std::size_t m = i < kTightened ? 0 : i - kTightened; m < end; ++m) {
                         changed[m] = true;

@@ -23,9 +23,9 @@ public:
     {
     }
 
-    // The scallop height at u between two passes, square to the surface; kInfinite where neither
-    // ball reaches. The centres of the balls are assumed to move straight, as they do at u. If the
-    // places have curves, as they do at the nearest point of the curve.
+    // The scallop height at u between two passes, along the normal; kInfinite where neither ball
+    // reaches. The centres of the balls are assumed to move straight, in their direction at u. If
+    // the places have curves, the direction is that at the nearest point of the curve.
     //
     // Returns an upper bound where the passes are closer than the ball is wide. The search ends at
     // a bound of at most `sufficient`.

@@ -231,9 +231,9 @@ private:
             const double s = range.from + (range.to - range.from) * k / samples;
             const bool on = drop_at(s, t).has_value();
             if (on && !was_on) {
-                begin = k > 0 ? edge(last, s, t) : s;
+                begin = k > 0 ? run_end(last, s, t) : s;
             } else if (!on && was_on) {
-                cut_run({begin, edge(s, last, t)}, t);
+                cut_run({begin, run_end(s, last, t)}, t);
             }
             was_on = on;
             last = s;
@@ -243,13 +243,13 @@ private:
         }
     }
 
-    double edge(double off, double on, double t) const
+    double run_end(double outside, double inside, double t) const
     {
         for (int turn = 0; turn < kRowEndHalvings; ++turn) {
-            const double middle = 0.5 * (off + on);
-            (drop_at(middle, t) ? on : off) = middle;
+            const double middle = 0.5 * (outside + inside);
+            (drop_at(middle, t) ? inside : outside) = middle;
         }
-        return on;
+        return inside;
     }
 
     void cut_run(const Range& run, double t)
@@ -278,7 +278,7 @@ private:
         if (scallop_check_.blocked_area() > kShown) {
             planned.stats.warnings.push_back(fmt::format(
                 "on {:.3g} mm2 the ball does not touch the mesh (feet of walls, concave edges, "
-                "undercuts, valleys narrower than the ball): metal is left standing there",
+                "undercuts, valleys narrower than the ball): stock is left there",
                 scallop_check_.blocked_area()));
         }
         planned.stats.counts.emplace_back("isocurves", curves_);

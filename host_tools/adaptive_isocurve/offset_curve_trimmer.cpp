@@ -7,6 +7,7 @@
 
 #include "host_tools/adaptive_isocurve/dense_tips.hpp"
 #include "host_tools/part_model/cell_chains.hpp"
+#include "host_tools/part_model/surface_length.hpp"
 
 namespace cusp::adaptive_isocurve {
 
@@ -31,15 +32,7 @@ constexpr std::size_t kMostChecks = 500;
 double length_along(const PartModel& model, int surface, Vec2d from, Vec2d to)
 {
     constexpr int kParts = 12;
-    double sum = 0;
-    Vec3d last = model.evaluate(surface, from.x, from.y).point;
-    for (int k = 1; k <= kParts; ++k) {
-        const Vec2d at = from + (to - from) * (static_cast<double>(k) / kParts);
-        const Vec3d next = model.evaluate(surface, at.x, at.y).point;
-        sum += norm(next - last);
-        last = next;
-    }
-    return sum;
+    return length_between(model, surface, from, to, kParts);
 }
 
 std::vector<double> even(double from, double to, std::size_t parts)

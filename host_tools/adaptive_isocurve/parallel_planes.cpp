@@ -125,14 +125,14 @@ private:
             work_.finish(step, proved ? *operation_.scallop : operation_.tool.radius);
         if (steep_) {
             planned.stats.warnings.push_back(
-                "ground that falls off by more than 75 degrees across the planes, or is nearly as "
-                "hollow as the ball, keeps more than the scallop: it asks for planes less than a "
-                "quarter as far apart");
+                "areas steeper than 75 degrees across the planes, or nearly as concave as the "
+                "ball, "
+                "keep more than the scallop: they need planes less than a quarter as far apart");
         }
         if (!proved) {
             planned.stats.warnings.push_back(
-                "nothing is proved of what parallel_planes leaves here (walls, edges, steep "
-                "ground, meshes, or step_over): adaptive_isocurve keeps a scallop there, too");
+                "no scallop is proved for parallel_planes here (walls, edges, steep areas, meshes, "
+                "or step_over): adaptive_isocurve proves one there, too");
         }
         return planned;
     }
@@ -161,15 +161,15 @@ private:
     double step_for_scallop()
     {
         const double scallop_height = kPlaneScallopShare * (*operation_.scallop - work_.outward());
-        const double level = stepover(operation_.tool.radius, scallop_height, 0);
-        double least = level;
+        const double on_level = stepover(operation_.tool.radius, scallop_height, 0);
+        double least = on_level;
         const auto ask = [&](double step) {
-            steep_ = steep_ || step < kLeastPlaneShare * level;
-            least = step < kLeastPlaneShare * level ? least : std::min(least, step);
+            steep_ = steep_ || step < kLeastPlaneShare * on_level;
+            least = step < kLeastPlaneShare * on_level ? least : std::min(least, step);
         };
         for (const auto& facet : operation_.mesh) {
             const Vec3d n = cross(facet[1] - facet[0], facet[2] - facet[0]);
-            ask(kMeshShare * level * norm(along_slope(across_, n / norm(n))));
+            ask(kMeshShare * on_level * norm(along_slope(across_, n / norm(n))));
         }
         for (std::size_t k = 0; k < work_.surfaces().size(); ++k) {
             const Surface& s = work_.surfaces()[k];
@@ -215,9 +215,9 @@ private:
             const double s = from + (to - from) * k / parts;
             const bool on = is_clear(s, t);
             if (on && !was_on) {
-                begin = last_off(last, s, t);
+                begin = run_end(last, s, t);
             } else if (!on && was_on) {
-                add_run(begin, last_off(s, last, t), t);
+                add_run(begin, run_end(s, last, t), t);
             }
             was_on = on;
             last = s;
@@ -227,13 +227,13 @@ private:
         }
     }
 
-    double last_off(double off, double on, double t)
+    double run_end(double outside, double inside, double t)
     {
         for (int turn = 0; turn < kPlaneEndHalvings; ++turn) {
-            const double middle = 0.5 * (off + on);
-            (is_clear(middle, t) ? on : off) = middle;
+            const double middle = 0.5 * (outside + inside);
+            (is_clear(middle, t) ? inside : outside) = middle;
         }
-        return on;
+        return inside;
     }
 
     void add_run(double from, double to, double t)

@@ -61,7 +61,7 @@ ProvedScallop proved_scallop(const std::vector<Surface>& surfaces,
             cells.check(part.surface, part.low, part.high);
         }
         if (cells.overflowed()) {
-            // More is left than expected, perhaps far more.
+            // More stock is left than expected, perhaps far more.
             bound *= more;
             more *= more;
             continue;

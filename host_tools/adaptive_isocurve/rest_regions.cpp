@@ -55,7 +55,7 @@ private:
     std::vector<Part>& out_;
 };
 
-void keep_short_gaps(std::vector<Part>& parts, double most)
+void keep_short_gaps(std::vector<Part>& parts, double longest)
 {
     for (std::size_t i = 0; i < parts.size();) {
         std::size_t end = i;
@@ -63,7 +63,7 @@ void keep_short_gaps(std::vector<Part>& parts, double most)
         for (; end < parts.size() && parts[end].done; ++end) {
             gap += length(parts[end].edge);
         }
-        if (i > 0 && end < parts.size() && gap < most) {
+        if (i > 0 && end < parts.size() && gap < longest) {
             std::for_each(parts.begin() + static_cast<std::ptrdiff_t>(i),
                           parts.begin() + static_cast<std::ptrdiff_t>(end),
                           [](Part& part) { part.done = false; });

@@ -162,8 +162,8 @@ void SurfaceOperation::check_surfaces()
     }
     if (upright_ > 0 && surfaces_.size() == static_cast<std::size_t>(upright_)) {
         throw InputError(fmt::format(
-            "{}: every surface stands upright (no normal rises by {:g}): seen from above, along "
-            "the tool, there is nothing to cut",
+            "{}: every surface is vertical (no normal rises by {:g}): there is nothing to cut from "
+            "above",
             file_of(operation_), kLeastRise));
     }
 }
@@ -273,8 +273,8 @@ PlannedOperation SurfaceOperation::finish(double spacing, double scallop_bound)
     stats.counts = {{"pass_length_mm", linked.cut_length}, {"link_length_mm", linked.link_length}};
     if (upright_ > 0) {
         stats.warnings.push_back(fmt::format(
-            "{} of {} surfaces stand upright: they do not tell which side of them is metal and are "
-            "cut where their normal points to the left of the way along u",
+            "{} of {} surfaces are vertical: which side of them is the part is not known; they are "
+            "cut where their normal points to the left of the direction of u",
             upright_, surfaces_.size()));
     }
     planned.path = {operation_.tool,         job_.feed, job_.plunge_feed, job_.spindle,
@@ -294,8 +294,8 @@ void report_uncovered_points(OperationStats& stats, std::size_t uncovered, bool 
     }
     if (unseen) {
         stats.warnings.push_back(
-            "too many places keep more than the scallop to look at them all: nothing is proved of "
-            "what is left");
+            "too many places keep more than the scallop to examine all: no bound of the stock left "
+            "is proved");
     }
 }
 

@@ -262,10 +262,10 @@ private:
 
 }  // namespace
 
-Region2d WaterlineSlices::at(double z, double more) const
+Region2d WaterlineSlices::at(double z, double extra) const
 {
     const double side = std::hypot(pitch_x_, pitch_y_);
-    const double keep = tool_.corner_radius + settings_.clearance + more + kNearestEnd * side;
+    const double keep = tool_.corner_radius + settings_.clearance + extra + kNearestEnd * side;
     Levels levels{};
     levels.z = z;
     levels.corner = tool_.corner_radius;

@@ -33,9 +33,9 @@ public:
                     const toolpath::Tool& tool,
                     const SliceSettings& settings);
 
-    // The region of the axis with the tip at height z, at least `clearance` + `more` (mm >= 0) off
-    // the model. A slice of greater `more` lies in one of less.
-    offset::Region2d at(double z, double more) const;
+    // The region of the axis with the tip at height z, at least `clearance` + `extra` (mm >= 0) off
+    // the model. A slice of greater `extra` lies in one of less.
+    offset::Region2d at(double z, double extra) const;
 
     // mm: how much too low the distances may be; contours keep so much more.
     double max_excess() const;

@@ -1,4 +1,4 @@
-// Cuts a map of the stock's height move by move; what lies ahead is cut in a copy of it.
+// Cuts a stock height map move by move; moves ahead are cut in a copy of it.
 #include "host_tools/clearing/axial_depth_tracker.hpp"
 
 #include <algorithm>
@@ -15,10 +15,10 @@ using toolpath::ToolMove;
 
 namespace {
 
-// The stock is known at points only: between them it may be this much higher.
+// The stock is known at points only: between them it may be higher by this much.
 constexpr double kBetween = 0.005;   // mm
-constexpr double kAimed = 0.9;       // of the depth allowed: what cuts at a raised height take
-constexpr double kChord = 0.002;     // mm: curves are tracked along chords this near
+constexpr double kAimed = 0.9;       // share of the allowed depth for cuts at a raised height
+constexpr double kChord = 0.002;     // mm: tolerance of chords of curves
 constexpr double kApart = 1.0 / 20;  // of the tool's radius
 
 }  // namespace
@@ -41,14 +41,14 @@ void AxialDepthTracker::track(const std::vector<ToolMove>& path)
 {
     for (; tracked_moves_ < path.size(); ++tracked_moves_) {
         for (const Vec3d p : points_of(path[tracked_moves_], at_, kChord)) {
-            // Where the first move of a path comes from is over the stock.
+            // The start of a path's first move is above the stock.
             deepest_ = tracked_moves_ > 0 ? std::max(deepest_, stock_.cut(at_, p)) : deepest_;
             at_ = p;
         }
     }
 }
 
-// Calls visit(from, to) with places of the moves, no farther apart than `apart_`.
+// Calls visit(from, to) for points of the moves, at most `apart_` apart.
 template <class Visit>
 void AxialDepthTracker::walk(Vec3d start, const std::vector<ToolMove>& moves, Visit visit) const
 {

@@ -1,7 +1,7 @@
-// Axial depth of cut: how deep moves cut, and how high the stock is ahead of them.
+// Axial depth of cut: the depth of moves, and the height of the stock ahead of them.
 //
-//     AxialDepthTracker depth{box, tool, 0.0, 2.0};    // stock up to z = 0, cuts of 2 mm at most
-//     depth.track(path.moves);                         // all moves so far are cut
+//     AxialDepthTracker depth{box, tool, 0.0, 2.0};    // stock up to z = 0, cuts of at most 2 mm
+//     depth.track(path.moves);                         // removes the stock cut by all moves so far
 //     if (depth.allowed_height_over(start, ahead, 1.0)) { ... }  // `ahead` would cut deeper
 #pragma once
 
@@ -16,38 +16,38 @@ namespace cusp::clearing {
 
 class AxialDepthTracker {
 public:
-    // box        all places that tools may touch
+    // box        everything that tools may touch
     // finest     the smallest of the tools
     // top        z of the uncut stock
-    // max_depth  mm: no cut may be deeper; no value where any may
-    // share      of the finest tool's radius: between points where the stock is known
+    // max_depth  mm: limit of the depth of cut; none: no limit
+    // share      of the finest tool's radius: pitch of the stock height map
     AxialDepthTracker(const offset::Box2d& box,
                       const toolpath::Tool& finest,
                       double top,
                       std::optional<double> max_depth,
                       double share = 1.0 / 12);
 
-    // Another tool begins a path of its own.
+    // Starts the path of another tool.
     void begin(const toolpath::Tool& tool);
 
-    // Takes off what moves cut that were added to the path since.
+    // Removes the stock cut by moves added to the path since the last call.
     void track(const std::vector<toolpath::ToolMove>& path);
 
-    // What moves from `start` would cut, one after the other: no value where that is nowhere deeper
-    // than `share` of max_depth; else the z that a tip on the moves may be raised to.
+    // Simulates moves from `start`: none if no cut is deeper than `share` of max_depth; else the z
+    // to which a tip on the moves may be raised.
     std::optional<double> allowed_height_over(Vec3d start,
                                               const std::vector<toolpath::ToolMove>& moves,
                                               double share);
 
-    // z where a tip that comes down over the place, over the moves, or somewhere on the circle
-    // first touches stock; -kUnbounded where there is none.
+    // z at which a tip descending at the place, over the moves, or anywhere on the circle first
+    // touches stock; -kUnbounded if there is none.
     double stock_top_at(Vec2d place) const;
     double stock_top_over(Vec3d start, const std::vector<toolpath::ToolMove>& moves) const;
     double stock_top_around(Vec2d centre, double radius) const;
 
     std::optional<double> max_depth() const { return max_depth_; }
 
-    // mm: deepest cut of the moves tracked so far.
+    // mm: deepest cut of the tracked moves.
     double deepest() const { return deepest_; }
 
 private:
@@ -55,9 +55,9 @@ private:
     void walk(Vec3d start, const std::vector<toolpath::ToolMove>& moves, Visit visit) const;
 
     StockHeightMap stock_;
-    std::optional<StockHeightMap> ahead_;  // what allowed_height_over() cuts
+    std::optional<StockHeightMap> ahead_;  // the stock after allowed_height_over()
     std::optional<double> max_depth_;
-    double apart_{};  // mm between places of moves ahead
+    double apart_{};  // mm between points of moves ahead
     std::size_t tracked_moves_{0};
     Vec3d at_{};
     double deepest_{0.0};

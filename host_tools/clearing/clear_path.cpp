@@ -1,4 +1,4 @@
-// Steps as long as there is room, or so short that no corner reaches in between two places.
+// Steps as long as the clearance, or so short that no corner reaches in between two points.
 #include "host_tools/clearing/clear_path.hpp"
 
 #include <algorithm>
@@ -12,11 +12,10 @@ using offset::RegionOffset;
 namespace {
 
 constexpr double kSlack = 1e-5;  // mm
-constexpr double kHardly = 0.1;  // mm: less off the contours, places may lie on either side
+constexpr double kHardly = 0.1;  // mm: at less clearance points may be on either side of a contour
 
-// A corner is nearest abreast of the middle between two places h apart: by h^2 / (8 clearance)
-// nearer than both on a straight way, on an arc by its height over the chord, h^2 / (8 radius),
-// more.
+// A corner between two points h apart is nearest to the path at their middle: nearer than both by
+// h^2 / (8 clearance) on a line, and on an arc by its sagitta h^2 / (8 radius) more.
 double spacing(const Edge& way, double clearance)
 {
     const double bend = way.turn == 0 ? 0.0 : 1.0 / way.radius;

@@ -1,13 +1,13 @@
-// Ways through a region that are not loops.
+// Checks of paths through a region, other than loops.
 #pragma once
 
 #include "host_tools/offset/offset.hpp"
 
 namespace cusp::clearing {
 
-// Whether all of the way lies in the region and `clearance` (mm, >= 0) off its contours, but for
-// 1e-5 mm: ways from loop to loop start at just that distance. Where `clearance` is below 0.1 mm,
-// what a thin spike between two places 0.002 mm apart takes is not seen.
+// Whether the whole path lies in the region with `clearance` (mm, >= 0) from its contours, to 1e-5
+// mm, since links between loops start at exactly that distance. With a `clearance` below 0.1 mm
+// thin spikes between two samples 0.002 mm apart are missed.
 bool is_path_clear(const offset::RegionOffset& region, const offset::Edge& way, double clearance);
 
 }  // namespace cusp::clearing

@@ -1,4 +1,4 @@
-// Makes the levels of loops, orders them and decides how each pass starts.
+// Makes the rings of loops, orders them and selects how each pass starts.
 #include "host_tools/clearing/clearing.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ using offset::surrounds;
 
 namespace {
 
-constexpr double kShare = 0.4995;  // of a step: how far from a pass it cuts
+constexpr double kShare = 0.4995;  // of a step: width cut on either side of a pass
 
 struct Loop2d {
     Contour path;
@@ -32,12 +32,12 @@ struct Loop2d {
     bool outer;
 };
 
-// The next level inward: a whole step where spurs into the corners leave nothing between, else the
-// farthest share of it where they do.
+// The next ring inward: at a whole step if cleanup spurs into the corners leave nothing between,
+// else at the largest share of it for which they do.
 struct NextRing {
     double distance;
     Region2d loops;
-    bool by_corners{};  // a farther one would leave something in corners
+    bool by_corners{};  // limited by corners: a larger step would leave stock in them
 };
 
 NextRing next_level(const RegionOffset& offset, double distance, double step, bool cover)
@@ -72,23 +72,23 @@ NextRing next_level(const RegionOffset& offset, double distance, double step, bo
     return {distance + good * step, std::move(*best), true};
 }
 
-// Moves the inner ring nearer until the scallop between is low enough, or farther off where it is
-// lower than allowed. Returns its share of the height allowed; 0 where that is not given.
-double draw_to_suit(NextRing& inner,
+// Moves the inner ring nearer until the scallop between is low enough, or farther if it is lower
+// than allowed. Returns its share of the allowed height; 0 if that is not given.
+double fit_distance(NextRing& inner,
                     const NextRing& level,
                     const RegionOffset& offset,
                     const ClearingSettings& settings)
 {
     constexpr int kRounds = 14;
-    constexpr double kMost = 0.999;  // of the step before
+    constexpr double kMost = 0.999;  // of the last step
     constexpr double kMostAgain = 0.98;
     constexpr double kLeast = 0.5;
-    constexpr double kLittle = 0.85;  // of what may stay
+    constexpr double kLittle = 0.85;  // of the allowed height
     constexpr double kWider = 0.97;
     const double widest = 0.5 * settings.stepover;
     std::optional<NextRing> good;
     double good_left = 0.0;
-    bool bad = false;  // a step that leaves too much was tried
+    bool bad = false;  // a step with too high a scallop was tried
     for (int round = 0; settings.scallop_share_between && round < kRounds; ++round) {
         const double step = inner.distance - level.distance;
         const double left = settings.scallop_share_between(
@@ -116,23 +116,23 @@ double draw_to_suit(NextRing& inner,
     return good_left;
 }
 
-// A level farther inward than `stepover`, and partial loops before it, where that makes the path
+// A ring farther inward than `stepover`, with partial loops before it, if that makes the path
 // shorter.
-struct BehindPartialLoops {
+struct RingAfterPartialLoops {
     NextRing level;
     std::vector<PartialLoop> loops;
-    double cost;   // mm of path a mm of depth
+    double cost;   // mm of path per mm of depth
     double saved;  // mm of path
 };
 
-std::optional<BehindPartialLoops> level_behind_partial_loops(const NextRing& level,
-                                                             double step,
-                                                             const RegionOffset& offset,
-                                                             const ClearingSettings& settings,
-                                                             bool& tried)
+std::optional<RingAfterPartialLoops> ring_after_partial_loops(const NextRing& level,
+                                                              double step,
+                                                              const RegionOffset& offset,
+                                                              const ClearingSettings& settings,
+                                                              bool& tried)
 {
     constexpr double kWorthIt = 0.9;
-    constexpr double kMany = 0.5;  // of the level's length: a nearer level may need fewer
+    constexpr double kMany = 0.5;  // of the ring's length: a nearer ring may need fewer
     constexpr double kNearer = 0.9;
     constexpr int kRounds = 3;
     double wide = settings.partial_stepover ? settings.partial_stepover(level.loops, step) : 0.0;
@@ -140,7 +140,7 @@ std::optional<BehindPartialLoops> level_behind_partial_loops(const NextRing& lev
     for (const Contour& contour : level.loops.contours) {
         whole += length(contour);
     }
-    std::optional<BehindPartialLoops> best;
+    std::optional<RingAfterPartialLoops> best;
     for (int round = 0; round < kRounds && wide > step; ++round) {
         NextRing inner = next_level(offset, level.distance, std::min(wide, settings.stepover),
                                     settings.cover_corners);
@@ -158,8 +158,8 @@ std::optional<BehindPartialLoops> level_behind_partial_loops(const NextRing& lev
         }
         const double added = added_length(*partial);
         const double cost = (whole + added) / apart;
-        best = BehindPartialLoops{std::move(inner), std::move(*partial), cost,
-                                  (whole / step - cost) * apart};
+        best = RingAfterPartialLoops{std::move(inner), std::move(*partial), cost,
+                                     (whole / step - cost) * apart};
         if (added < kMany * whole) {
             break;
         }
@@ -167,7 +167,9 @@ std::optional<BehindPartialLoops> level_behind_partial_loops(const NextRing& lev
     return best;
 }
 
-// Partial loops and what they save are the result's.
+// Adds partial loops, and the length that they save, to the result.
+//
+// Over 60 lines: each ring depends on the step, the factor and the trials of the ring before.
 std::vector<Loop2d> make_levels(const RegionOffset& offset,
                                 const ClearingSettings& settings,
                                 ClearedRegion& result)
@@ -178,8 +180,8 @@ std::vector<Loop2d> make_levels(const RegionOffset& offset,
             settings.stepover_from ? settings.stepover_from(level) : settings.stepover;
         return std::min(asked, settings.stepover);
     };
-    // What moved one ring nearer or farther holds for the next one, mostly: it is first tried at
-    // the share of its stepover that suited the last one.
+    // The factor for one ring mostly suits the next one, which is first tried at that share of its
+    // stepover.
     constexpr double kMostAgain = 1.5;
     constexpr double kLeastSuited = 0.1;
     constexpr double kMostSuited = 2.0;
@@ -188,7 +190,7 @@ std::vector<Loop2d> make_levels(const RegionOffset& offset,
         const double first = std::min(suited * step, std::max(step, 0.5 * settings.stepover));
         return next_level(offset, level.distance, first, settings.cover_corners);
     };
-    // Where partial loops were not worth it they seldom are a level on.
+    // Where partial loops do not pay they seldom do at the next ring.
     int next_try = 0;
     int wait = 1;
     NextRing level{settings.wall_clearance, offset.at(settings.wall_clearance)};
@@ -204,8 +206,8 @@ std::vector<Loop2d> make_levels(const RegionOffset& offset,
         };
         NextRing inner = drawn_from(level, step);
         double inner_step = step;
-        // The step must suit the loops on both of its sides. Loops that move by a fiftieth of it
-        // are not looked at again: a thousandth is taken off for that.
+        // The step must suit the loops on both of its sides. Loops that move by less than a
+        // fiftieth of it are not checked again; a thousandth is subtracted for that.
         constexpr double kAlike = 0.98;
         constexpr double kMargin = 0.999;
         for (int round = 0; round < 4 && !inner.loops.contours.empty(); ++round) {
@@ -220,10 +222,10 @@ std::vector<Loop2d> make_levels(const RegionOffset& offset,
                 break;
             }
         }
-        std::optional<BehindPartialLoops> far;
+        std::optional<RingAfterPartialLoops> far;
         if (k >= next_try) {
             bool tried = false;
-            far = level_behind_partial_loops(level, suited * step, offset, settings, tried);
+            far = ring_after_partial_loops(level, suited * step, offset, settings, tried);
             wait = far ? 1 : (tried ? 2 * wait : wait);
             next_try = k + (tried ? wait : 1);
         }
@@ -241,7 +243,7 @@ std::vector<Loop2d> make_levels(const RegionOffset& offset,
             step = level.loops.contours.empty() ? 0.0 : step_from(level.loops);
             continue;
         }
-        const double left = draw_to_suit(inner, level, offset, settings);
+        const double left = fit_distance(inner, level, offset, settings);
         if (left > 0.0 && !inner.by_corners) {
             const double drawn = (inner.distance - level.distance) / step;
             suited = std::clamp(drawn * std::min(1.0 / std::sqrt(left), kMostAgain), kLeastSuited,
@@ -253,8 +255,8 @@ std::vector<Loop2d> make_levels(const RegionOffset& offset,
     return loops;
 }
 
-// The parent of each loop: the tightest loop of the level before that it lies in. For rings around
-// islands it is turned round: the parent of a ring is the wider ring of the next level.
+// The parent of each loop: the tightest loop of the ring before that contains it. For rings around
+// islands it is reversed: the parent of a ring is the wider ring of the next level.
 std::vector<int> parents_of(const std::vector<Loop2d>& loops,
                             const std::vector<int>& chosen,
                             bool outer)
@@ -283,8 +285,8 @@ public:
     {
     }
 
-    // fresh: no pass beside this one has been cut. beside: the loop may be linked to the pass
-    // before.
+    // fresh   no pass beside this one has been cut
+    // beside  the loop may be linked to the pass before
     void add(const Loop2d& loop, bool fresh)
     {
         ClearingPass pass;

@@ -1,5 +1,5 @@
-// A plane region to closed passes of the tool's centre: offset loops, their order, and how one is
-// reached from the one before. What all planners share for pockets and layers.
+// Converts a plane region to closed passes of the tool's centre: offset loops, their order, and the
+// link from each to the next. Shared by all planners for pockets and layers.
 //
 //     ClearingSettings settings;
 //     settings.wall_clearance = tool.radius;
@@ -25,20 +25,20 @@
 
 namespace cusp::clearing {
 
-// What lies between two neighbouring levels of loops.
+// The strip between two neighbouring rings of loops.
 struct LoopStrip {
     const offset::Region2d& outer;
-    const offset::Region2d& inner;  // empty where the outer one is the last
-    double from;                    // mm: distance of the outer one from the contours
-    double to;                      // mm: of the inner one
+    const offset::Region2d& inner;  // empty if the outer one is the last
+    double from;                    // mm: distance of the outer ring from the contours
+    double to;                      // mm: of the inner ring
     const offset::RegionOffset& walls;
 };
 
-// A part of a loop between two levels, or all of one.
+// A part of a loop between two rings, or a whole loop.
 struct PartialLoop {
-    offset::Contour path;  // runs as loops do: the region inward lies on its left
-    int ring{};            // of the loop outside it, which it refines
-    double depth{};        // mm inward from that one
+    offset::Contour path;  // as for loops, the inward region is on its left
+    int ring{};            // of the loop outside it
+    double depth{};        // mm inward from that loop
     bool whole{};          // the path is closed
 };
 
@@ -46,62 +46,62 @@ struct ClearingSettings {
     // mm: distance of the outermost pass from the contours (tool radius, allowance)
     double wall_clearance{};
     double stepover{};  // mm: largest distance between passes
-    // Where given, the largest distance inward from a level of loops; `stepover` bounds it.
+    // If given, the largest distance inward from a ring of loops; limited by `stepover`.
     std::function<double(const offset::Region2d& level)> stepover_from;
-    // Where given, the scallop between two rings over the height allowed: they are moved nearer
-    // together until it is at most 1, or apart, up to half of `stepover`, where it is less.
+    // If given, the scallop between two rings as a share of the allowed height. Rings are moved
+    // together until it is at most 1, or apart, up to half of `stepover`, if it is less.
     std::function<double(const LoopStrip& strip)> scallop_share_between;
-    // Where given: how far inward the next level may lie if partial loops are made where that is
-    // too far, mm; 0 where whole loops, `stepover` mm apart, are no longer. And these partial
-    // loops; no value where they do not suffice or add more than `max_length` mm of path.
+    // If given: how far inward (mm) the next ring may lie if partial loops fill the strip; 0 if
+    // whole loops `stepover` mm apart are no longer. And these partial loops; none if they do not
+    // suffice or add more than `max_length` mm of path.
     std::function<double(const offset::Region2d& level, double step)> partial_stepover;
     std::function<std::optional<std::vector<PartialLoop>>(const LoopStrip& strip,
                                                           double max_length)>
         partial_loops;
     job::CutDirection direction{job::CutDirection::kClimb};
-    // Draws loops nearer together where corners, necks or the middle would else lie farther than
-    // half a step from every pass.
+    // Reduces the distance of loops where corners, necks or the middle would be farther than half a
+    // step from every pass.
     bool cover_corners{true};
 };
 
 enum class PassStart : std::uint8_t {
     kPlungeEntry,     // in uncut stock: needs a helix, a ramp or a plunge
     kRetractAndDrop,  // beside stock already cut, after a retract
-    kContinue,        // where the pass before ends
+    kContinue,        // at the end of the pass before
     kLink,  // by `link` from the end of the pass before, through stock it has cut or is to cut
 };
 
 struct ClearingPass {
     offset::Contour path;  // closed; starts and ends at path.front().start
-    // Where not empty: cut in place of the path once that has been cut at all heights over it; the
-    // same start.
+    // If not empty: cut instead of the path once that has been cut at all heights above it; with
+    // equal start.
     offset::Contour final_path;
     int ring{};       // 0: next to the contours
-    double offset{};  // of the level from the contours, mm
+    double offset{};  // of the ring from the contours, mm
     PassStart start{};
-    // Tangent arcs where there is room, else a straight line; else along the pass before and over.
+    // Tangent arcs if there is room, else a straight line, else along the pass before and across.
     std::vector<offset::Edge> link;
     bool around_island{};
     bool is_pencil{};
     double wall_distance{};  // mm: from the start of the path to the nearest contour
-    // mm: to the next ring inward; material may be left between, as wide as this.
+    // mm: to the next ring inward; the largest width of stock left between.
     double stepover{};
 };
 
 struct ClearedRegion {
     std::vector<ClearingPass> passes;  // in the order to cut
     int rings{};
-    int leaves{};                      // passes without one further inside
-    double widest_gap{};               // largest step between two levels, mm
+    int leaves{};                      // passes with no other inside
+    double widest_gap{};               // largest step between two rings, mm
     std::vector<PartialLoop> partial;  // for put_in_partial_loops()
-    double saved{};                    // mm of path that partial loops save over whole ones, about
+    double saved{};                    // mm of path saved by partial loops, approximately
     job::CutDirection direction{};
 };
 
-// More levels than these are not made.
+// Limit of the number of rings.
 inline constexpr int kMaxRings = 20000;
 
-// Passes for the region that is left of its contours. Empty where the tool does not fit anywhere.
+// Passes for the region enclosed by its contours. Empty if the tool fits nowhere.
 ClearedRegion clear_region(const offset::Region2d& region, const ClearingSettings& settings);
 
 }  // namespace cusp::clearing

@@ -1,4 +1,5 @@
-// One spur for each stretch of the rest's border that lies too far, checked along the stretch.
+// One cleanup spur for each stretch of the strip's border that is too far from the ring, checked
+// along the stretch.
 #include "host_tools/clearing/corner_cleanup.hpp"
 
 #include <algorithm>
@@ -18,7 +19,7 @@ using offset::RegionOffset;
 
 namespace {
 
-// The border of the rest may lie at just this reach from all of a level.
+// The border of the strip may be at exactly this reach from the whole ring.
 constexpr double kAbout = 1.000001;
 
 struct FarPoint {
@@ -34,16 +35,16 @@ struct Spur {
 
 struct Way {
     FarPoint border;
-    FarPoint inner;  // the ridge, or, where it is easily covered, a place beyond
+    FarPoint inner;  // the ridge, or a point beyond it that is easily covered
     Vec2d inward;
-    bool meets;  // another way before the level
+    bool meets;  // it meets another line before the ring
 };
 
-// What a level and spurs must cover: the rest between its border and the level. Every place of it
-// lies on a straight way inward from the border that ends on the level or, where it meets another
-// such way first, on the ridge of the distance from the walls. A way to the level is no longer than
-// the rest is deep; others are looked at by both of their ends: what covers these of neighbouring
-// ways and is convex, as a spur's reach is, covers all between.
+// The strip that a ring and its spurs must cover: from its border to the ring. Every point of it is
+// on a straight line inward from the border. The line ends on the ring or, where it meets another
+// such line first, on the ridge of the distance from the walls. A line to the ring is no longer
+// than the strip is deep. Other lines are checked at both ends: a convex set that covers the ends
+// of neighbouring lines, as the reach of a spur is, covers everything between.
 class UncutStrip {
 public:
     UncutStrip(const RegionOffset& source,
@@ -87,7 +88,7 @@ public:
 
     bool is_far(const Way& way) const { return is_far(way.border) || is_far(way.inner); }
 
-    // Inward the distance from the walls grows as fast as the way, as far as the ridge.
+    // Inward the distance from the walls grows as fast as the length of the line, up to the ridge.
     FarPoint crest_of(const Way& way) const
     {
         constexpr int kHalvings = 6;
@@ -137,8 +138,8 @@ private:
         return distance_to(edges_[edge], p) < space_.depth * kAbout;
     }
 
-    // No farther from the edge of the level that was the nearest to the place before, or from the
-    // next one, than the rest is deep.
+    // Whether the point is no farther than the strip is deep from the edge of the ring that was
+    // nearest to the point before, or from the next edge.
     bool is_beside(Vec2d p)
     {
         if (lies_beside(p, beside_)) {
@@ -151,10 +152,10 @@ private:
         return false;
     }
 
-    // Place i of n on the edge is beside an edge of the level; the last place of which this follows
-    // for all between: along a straight line the distance from another has no maximum, nor along an
-    // arc that from one with the same centre, but opposite to its middle: where both bulge to one
-    // side they do not get there.
+    // Point i of n on the edge is beside an edge of the ring. Returns the last point for which this
+    // holds for all between: along a line the distance from another line has no maximum; along an
+    // arc the distance from an arc with equal centre has one only opposite its middle, which arcs
+    // bulging to one side do not reach.
     int end_of_free(const Edge& edge, int i, int n) const
     {
         const Edge& level = edges_[beside_];
@@ -198,7 +199,8 @@ private:
         refine(ways, {part.edge, middle, part.to}, between, b);
     }
 
-    // Whether a way between the two may lead beyond reach where they don't, or the other way round.
+    // Whether a line between the two may lead beyond reach where they do not, or the other way
+    // round.
     bool hides(const Way& a, const Way& b) const
     {
         if (is_far(a) || is_far(b)) {
@@ -215,10 +217,10 @@ private:
     const std::vector<Edge>& edges_;  // of the level
     const EdgeTree& ring_;
     const CleanupSpace& space_;
-    std::size_t beside_{};  // of them: the nearest to the place looked at last
+    std::size_t beside_{};  // index of the edge nearest to the last point examined
 };
 
-// The ways start at one within reach, or all lead beyond it.
+// The lines start at one within reach, or all lead beyond it.
 std::vector<std::vector<Way>> far_stretches(std::vector<Way> ways, const UncutStrip& rest)
 {
     const auto first =
@@ -242,7 +244,7 @@ std::vector<std::vector<Way>> far_stretches(std::vector<Way> ways, const UncutSt
     return stretches;
 }
 
-// The clearance changes by no more than the way.
+// The clearance changes no faster than the position.
 bool keeps_room(const RegionOffset& source, Vec2d a, Vec2d b, double room)
 {
     constexpr double kSlack = 1e-6;
@@ -256,7 +258,7 @@ bool keeps_room(const RegionOffset& source, Vec2d a, Vec2d b, double room)
                                                        keeps_room(source, middle, b, room)));
 }
 
-// From the level towards a place as far as leaves `reach` to go.
+// From the ring towards a point, until `reach` remains.
 Spur spur_towards(const FarPoint& far, const EdgeTree& level, double reach)
 {
     const EdgeTree::Nearest foot = level.nearest_edge(far.at);
@@ -265,8 +267,8 @@ Spur spur_towards(const FarPoint& far, const EdgeTree& level, double reach)
 
 const FarPoint& farther(const FarPoint& a, const FarPoint& b) { return a.apart < b.apart ? b : a; }
 
-// Towards the farthest place of the border; where that does not cover the ways, towards the
-// farthest of all.
+// Towards the farthest point of the border; if that does not cover the lines, towards the farthest
+// of all.
 std::optional<Spur> spur_for(std::vector<Way> stretch,
                              const EdgeTree& level,
                              const UncutStrip& rest,
@@ -300,7 +302,7 @@ std::optional<Spur> spur_for(std::vector<Way> stretch,
     return covers_all(by_all) ? std::optional{by_all} : std::nullopt;
 }
 
-// Where along its edge the spur leaves; ordered as the path goes.
+// Where along its edge the spur starts; increasing along the path.
 double along(const Edge& edge, Vec2d foot) { return dot(foot - edge.start, edge.end - edge.start); }
 
 Region2d with_spurs(const Region2d& level, std::vector<Spur> spurs)

@@ -1,4 +1,5 @@
-// Over to a run through what the layer above has cleared, or by a retract; then in and along.
+// Links to a run through stock cleared by the layer above, or retracts; then enters and cuts along
+// it.
 #include "host_tools/clearing/layer_toolpath_writer.hpp"
 
 #include <algorithm>
@@ -14,10 +15,9 @@ using toolpath::MoveKind;
 namespace {
 
 constexpr double kSamePlace = 1e-6;  // mm
-constexpr double kLongLink = 8.0;    // radii: a link longer than this and twice the lift is no gain
+constexpr double kLongLink = 8.0;  // radii: longer links than this and twice the lift save nothing
 
-// Points along the run, so close on arcs that straight moves between them stay within the
-// tolerance.
+// Points along the run; on arcs their chords are within the tolerance.
 std::vector<Vec2d> polyline(const std::vector<Edge>& edges, double tolerance)
 {
     std::vector<Vec2d> out{edges.front().start};

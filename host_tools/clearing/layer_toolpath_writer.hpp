@@ -1,4 +1,4 @@
-// Moves of the cutter through one layer: the way in, along, over to the next run, and out.
+// Moves of the cutter through one layer: entry, cut, link to the next run, and retract.
 #pragma once
 
 #include <functional>
@@ -18,21 +18,21 @@ struct LayerRun {
 
 // One layer, with the queries that its moves need; places are of the cutter's axis, in plan.
 struct LayerSpace {
-    double top{};  // z: the stock is no higher where the layer above was cleared
+    double top{};  // z: limit of the stock's height where the layer above was cleared
     double bottom{};
-    double radius{};  // of the cutter, with what it keeps from the part
+    double radius{};  // of the cutter, with its clearance from the part
     // Whether the axis may be, at `bottom`, everywhere within `extra` mm of the place.
     std::function<bool(Vec2d place, double extra)> has_room;
-    // Whether all of the straight way was cleared down to `top`; empty where nothing was yet.
+    // Whether all of the straight line was cleared down to `top`; empty if nothing is cleared yet.
     std::function<bool(Vec2d from, Vec2d to)> cleared_above;
     // Whether the cutter is beside the stock there.
     std::function<bool(Vec2d place)> beside_stock;
-    // mm: scallops over what counts as cleared, at `top` and at `bottom`.
+    // mm: scallops above cleared planes, at `top` and at `bottom`.
     double scallop_height{};
 };
 
-// Writes runs to a tool path. Rapid moves happen at the clearance height or straight down to 1 mm
-// above stock that is cut; links below it cross only what the layer above has cleared.
+// Writes runs to a tool path. Rapid moves are at the clearance height or straight down to 1 mm
+// above cut stock; links below it cross only stock cleared by the layer above.
 class LayerToolpathWriter {
 public:
     struct Settings {
@@ -42,7 +42,7 @@ public:
         double chord_tolerance{};  // mm, > 0
     };
 
-    // tool_radius  mm: with what the tool keeps from the part
+    // tool_radius  mm: with the tool's clearance from the part
     LayerToolpathWriter(toolpath::Toolpath& path, double tool_radius, Settings settings)
         : writer_{path.moves, {settings.clearance_z, settings.entry, tool_radius}},
           settings_{settings}

@@ -1,4 +1,4 @@
-// Looks from the ends and middles of the edges of the next pass for the place nearest by.
+// Searches for the nearest place from the ends and middles of the edges of the next pass.
 #include "host_tools/clearing/link_along_pass.hpp"
 
 #include <optional>
@@ -19,11 +19,11 @@ struct Crossing {
     std::size_t edge{};  // of the pass before
     Vec2d from;          // on it
     Vec2d to;            // on the next
-    double way{};        // along the pass before, and over
+    double way{};        // mm, along the pass before, and across
     bool backward{};
 };
 
-// Else a part of an arc could turn into all of it.
+// Otherwise a part of an arc could become the whole arc.
 bool has_length(Vec2d from, Vec2d to) { return distance(from, to) >= kPoint; }
 
 // The parts of the pass up to the place, or from its end back to it.

@@ -1,4 +1,4 @@
-// A way from one closed pass to the next that follows the first as far as it must.
+// A link from one closed pass to the next that follows the first as far as necessary.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace cusp::clearing {
 
-// From the start of `before` along it, the shorter way round, to where a place of `next` is no
-// farther than `farthest` (mm), and straight over to that place. Empty where there is none.
+// From the start of `before` along it, in the shorter direction, to where a point of `next` is no
+// farther than `farthest` (mm), and straight to that point. Empty if there is none.
 std::vector<offset::Edge> link_along_pass(const offset::Contour& before,
                                           const offset::Contour& next,
                                           double farthest);

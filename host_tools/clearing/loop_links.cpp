@@ -1,4 +1,4 @@
-// Tries biarcs to several places of the pass.
+// Tries biarcs to several points of the pass.
 #include "host_tools/clearing/loop_links.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using offset::line_edge;
 
 namespace {
 
-// Steps that a link gains on its way over: fewer where the pass soon turns away.
+// Steps along the pass before a link reaches it: fewer where the pass soon turns.
 constexpr double kAhead[] = {2.0, 1.4, 1.0, 0.7, 2.8};
 
 // Turns the loop so that it starts at the point of it nearest to `from`.
@@ -48,7 +48,7 @@ void start_near(Contour& path, Vec2d from)
     path.push_back(between(edge, edge.start, p));
 }
 
-// `way` behind the start of the pass.
+// The point `way` after the start of the pass.
 Vec2d place_after(const Contour& pass, double way)
 {
     for (const Edge& edge : pass) {
@@ -78,7 +78,7 @@ private:
         });
     }
 
-    // Every try splits an edge anew.
+    // Each attempt splits an edge.
     void start_near_to(Vec2d place)
     {
         pass_.path = whole_;
@@ -101,7 +101,7 @@ private:
         return false;
     }
 
-    // From where the pass before ends, in whatever direction, tangent to the pass.
+    // From the end of the pass before, in any direction, tangent to the pass.
     bool reach_by_arc()
     {
         const Vec2d from = before_.front().start;
@@ -112,7 +112,7 @@ private:
             const Vec2d over = pass_.path.front().start - from;
             const Vec2d arriving = tangent_at_start(pass_.path.front());
             const double along = dot(over, arriving);
-            // The arc's tangents are each other's mirror image about its chord.
+            // The tangents of an arc at its ends are mirror images about its chord.
             const Vec2d leaving = over * (2.0 * along / dot(over, over)) - arriving;
             if (along > 0.0 && go_over(leaving)) {
                 return true;

@@ -1,4 +1,4 @@
-// How a pass is reached from the end of the one before it.
+// Links to a pass from the end of the one before it.
 #pragma once
 
 #include "host_tools/clearing/clearing.hpp"
@@ -12,13 +12,13 @@ struct LinkSpace {
     double stepover;        // mm: straight links are shorter than five of these
 };
 
-// Turns the path so that it starts in the middle of its longest edge: an entry there has room on
+// Rotates the path so that it starts in the middle of its longest edge, where an entry has room on
 // both sides.
 void start_at_longest(offset::Contour& path);
 
-// Sets how the pass starts, its link and where on its path that ends: from the end of `before`,
-// tangent to both where that is free, else tangent to the pass, else straight to the nearest point,
-// else along `before` to where the pass is near.
+// Sets how the pass starts, its link and the link's end on its path. From the end of `before`:
+// tangent to both if clear, else tangent to the pass, else straight to the nearest point, else
+// along `before` to where the pass is near.
 void link_to(ClearingPass& pass, const offset::Contour& before, const LinkSpace& room);
 
 }  // namespace cusp::clearing

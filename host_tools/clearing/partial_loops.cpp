@@ -1,4 +1,4 @@
-// Partial loops leave the loop that they refine square to it, where walls only get farther away.
+// Partial loops leave the loop outside them at a right angle, where walls only get farther away.
 #include "host_tools/clearing/partial_loops.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ using offset::reversed;
 
 namespace {
 
-// Parts of a closed loop that follow each other.
+// Consecutive parts of a closed loop.
 struct Stretch {
     std::vector<Edge> edges;
 };
@@ -31,7 +31,7 @@ public:
     {
     }
 
-    // The whole loop where all of it is wanted.
+    // The whole loop if all of it is wanted.
     std::vector<Stretch> on(const Contour& loop) const
     {
         std::vector<Stretch> found;

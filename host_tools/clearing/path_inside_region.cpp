@@ -1,4 +1,4 @@
-// Stops where the straight way meets contours, and goes from stop to stop.
+// Stops where the straight line meets contours, and goes from stop to stop.
 #include "host_tools/clearing/path_inside_region.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ using offset::reversed;
 
 namespace {
 
-// Where the straight way meets a contour; its ends meet none.
+// Where the straight line meets a contour; its ends meet none.
 struct Meeting {
     Vec2d at;
     std::size_t contour;
@@ -49,7 +49,7 @@ void add_part(std::vector<Edge>& way, const Edge& edge, Vec2d from, Vec2d to)
     }
 }
 
-// The way that the contour runs.
+// In the direction of the contour.
 std::vector<Edge> onward(const Contour& contour, const Meeting& from, const Meeting& to)
 {
     std::vector<Edge> way;
@@ -74,7 +74,7 @@ std::vector<Edge> shorter_way_round(const Contour& contour, const Meeting& from,
     return length(back) < length(on) ? back : on;
 }
 
-// The part of the region that has both places.
+// The part of the region that contains both points.
 Region2d part_with(const Region2d& region, Vec2d a, Vec2d b)
 {
     for (const RegionPart& part : connected_parts(region)) {
@@ -93,7 +93,7 @@ Region2d part_with(const Region2d& region, Vec2d a, Vec2d b)
 
 std::vector<Edge> path_inside_region(const Region2d& region, Vec2d from, Vec2d to)
 {
-    constexpr double kNotch = 1e-5;  // mm: as good as inside
+    constexpr double kNotch = 1e-5;  // mm: counts as inside
     const Region2d part = part_with(region, from, to);
     std::vector<Edge> way;
     if (part.contours.empty() || distance(from, to) <= kSamePoint) {

@@ -1,4 +1,4 @@
-// A way between any two places of a region.
+// A path between any two points of a region.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace cusp::clearing {
 
-// Straight from one place to the other and, where that leaves the region, along the contour there,
-// the shorter way round. Empty where no part of the region has both places, or they are one.
+// Straight from one point to the other; where that leaves the region, along the contour in the
+// shorter direction. Empty if no part of the region contains both points, or they are equal.
 std::vector<offset::Edge> path_inside_region(const offset::Region2d& region, Vec2d from, Vec2d to);
 
 }  // namespace cusp::clearing

@@ -1,4 +1,4 @@
-// Cuts the stock in memory, as far as the last move goes that is too steep.
+// Cuts the stock in memory, up to the last move that is too steep.
 #include "host_tools/clearing/plunge_feed_limit.hpp"
 
 #include <algorithm>
@@ -24,22 +24,22 @@ using toolpath::Toolpath;
 
 namespace {
 
-constexpr double kMetalPitch = 1.0 / 12;  // of the finest tool's radius
-constexpr double kDescentChord = 0.002;   // mm: curves are cut along chords this near
-constexpr double kBehind = 0.1;           // of the radius, in plan: so far back stock is cut
-constexpr double kBelow = 0.85;           // of the radius: farther out, moves above meet stock
-constexpr double kSkim = 0.05;        // of the radius: what passes leave each other is no deeper
-constexpr double kOverDescent = 0.1;  // mm: over stock: where upright ones go slower
+constexpr double kStockPitch = 1.0 / 12;  // of the finest tool's radius
+constexpr double kDescentChord = 0.002;   // mm: tolerance of chords of curves
+constexpr double kBehind = 0.1;       // of the radius, in plan: distance up to which stock is cut
+constexpr double kBelow = 0.85;       // of the radius: farther out, moves above meet stock
+constexpr double kSkim = 0.05;        // of the radius: scallops between passes are no higher
+constexpr double kOverDescent = 0.1;  // mm above the stock: vertical moves slow down
 
 bool goes_at_feed(const ToolMove& move)
 {
     return move.kind == MoveKind::kCut || move.kind == MoveKind::kLink;
 }
 
-// Per move, whether it goes down too steeply to do so at the feed. Adds where these lie to `ways`.
+// Per move, whether it descends too steeply for the feed. Adds the lines of such moves to `ways`.
 std::vector<bool> steep_moves(const Toolpath& path, std::vector<Edge>& ways)
 {
-    const Vec2d grain{1e-6, 0.0};  // of ways straight down
+    const Vec2d grain{1e-6, 0.0};  // of vertical lines
     std::vector<bool> steep;
     Vec3d at{};
     for (const ToolMove& move : path.moves) {
@@ -66,7 +66,8 @@ public:
     {
     }
 
-    // steep  which moves are too steep; left: how many of them, here and in the paths that follow
+    // steep  which moves are too steep
+    // left   number of them, here and in the paths that follow
     void run(PlannedOperation& operation, const std::vector<bool>& steep, std::ptrdiff_t& left)
     {
         Toolpath& path = operation.path;
@@ -89,7 +90,7 @@ public:
                     ahead_.push_back(p);
                 }
                 if (i == 0) {
-                    // Where the first move of a path comes from is over the stock.
+                    // The start of a path's first move is above the stock.
                     ahead_.clear();
                     cut_to_ = at_;
                 }
@@ -101,7 +102,7 @@ public:
     }
 
 private:
-    // What the moves cut, up to where that is no farther away than `least`, mm.
+    // Removes the cut of the moves up to where they are no farther away than `least`, mm.
     void take_off(double least)
     {
         std::size_t n = 0;
@@ -137,8 +138,7 @@ private:
         moves.back().kind = deep ? MoveKind::kPlungingCut : move.kind;
     }
 
-    // The cuts just before do not count: they would hide the depth of the stock under a move
-    // straight down.
+    // Cuts just before do not count: they would hide the depth of the stock below a vertical move.
     bool cuts_deep(const std::vector<Vec3d>& places)
     {
         bool deep = false;
@@ -161,7 +161,7 @@ private:
     double largest_;
     double radius_{};
     Vec3d at_{};
-    std::vector<Vec3d> ahead_;  // places of moves that are not cut yet
+    std::vector<Vec3d> ahead_;  // points of moves that are not cut yet
     Vec3d cut_to_{};
 };
 
@@ -184,7 +184,7 @@ void limit_plunge_feed(std::vector<PlannedOperation>& operations, const Job& job
     if (left == 0) {
         return;
     }
-    PlungeFeedLimiter slower{{box, finest, job.stock_top, kMetalPitch}, std::move(ways), largest};
+    PlungeFeedLimiter slower{{box, finest, job.stock_top, kStockPitch}, std::move(ways), largest};
     for (std::size_t i = 0; i < operations.size(); ++i) {
         slower.run(operations[i], steep[i], left);
     }

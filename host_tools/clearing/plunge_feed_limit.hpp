@@ -1,4 +1,4 @@
-// Limits the feed of cuts and links that go down into stock: over cliffs, down steep slopes.
+// Limits the feed of cuts and links that descend into stock: over cliffs, down steep slopes.
 #pragma once
 
 #include <vector>
@@ -9,10 +9,10 @@
 
 namespace cusp::clearing {
 
-// Makes MoveKind::kPlungingCut of cuts and links into stock that at the feed would go down faster
-// than the plunge feed: of upright ones from a little over the stock on, of others as a whole.
+// Converts cuts and links into stock to MoveKind::kPlungingCut if at the feed they would descend
+// faster than the plunge feed: vertical ones from slightly above the stock on, others as a whole.
 // Stock less deep than a twentieth of the tool's radius does not count: scallops between passes.
-// Held by `moves_property_test` and `plunge_feed_limit_test`.
+// Tests: `moves_property_test` and `plunge_feed_limit_test`.
 //
 // operations  in the order to cut, in the stock of `job`
 // box         all places that their axes may reach

@@ -1,4 +1,4 @@
-// Undersides compared at places across the radius.
+// Compares the lower sides of tools at points across the radius.
 #include "host_tools/clearing/rest_between_tools.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ using toolpath::Tool;
 namespace {
 
 // Whether `after`, with its axis `apart` outside the places of `before`, meets no more than the
-// scallop_height: at some distance from those places the stock is the lower side of `before` there.
+// scallop height: at some distance from those places the stock is the lower side of `before`.
 bool nests(const Tool& before, const Tool& after, double apart, double scallop_height)
 {
     constexpr int kPlaces = 256;

@@ -1,4 +1,4 @@
-// Each looked-at position lowers the places under the tool to its lower side.
+// Each sampled position lowers the points under the tool to its lower side.
 #include "host_tools/clearing/stock_height_map.hpp"
 
 #include <algorithm>
@@ -112,10 +112,10 @@ void StockHeightMap::cut_column(std::size_t column,
     }
 }
 
-// The rows of a column where the tool may be lower than it was. With q the squared distance from
+// The rows of a column where the tool may be lower than before. With q the squared distance from
 // the tip, a ball's lower side R - sqrt(R^2 - q) rises by at least (q' - q) / 2R from q to q' > q:
-// places whose q has grown by 2R times what the tool went down are no lower. Flat ends that go down
-// are lower anywhere.
+// points whose q has grown by 2R times the tool's descent are no lower. A descending flat end is
+// lower everywhere.
 StockHeightMap::Range StockHeightMap::maybe_lower(double x, Range rows, Vec3d tip) const
 {
     const Vec2d way{tip.x - last_->tip.x, tip.y - last_->tip.y};
@@ -134,7 +134,7 @@ StockHeightMap::Range StockHeightMap::maybe_lower(double x, Range rows, Vec3d ti
                        : Range{rows.begin, std::clamp(here.end, rows.begin, rows.end)};
 }
 
-// The rows of a column, among those, under the last foot.
+// The rows of a column, among those, below the last position of the flat.
 StockHeightMap::Range StockHeightMap::under_last(double x, Range rows, Vec3d tip) const
 {
     constexpr double kInside = 1.0 - 1e-9;
@@ -151,8 +151,8 @@ StockHeightMap::Range StockHeightMap::under_last(double x, Range rows, Vec3d tip
     return {from, std::clamp(end, from, rows.end)};
 }
 
-// The places under the last position are as low as the tool leaves them there: what it can't lower
-// more is not looked at.
+// The points under the last position are as low as the tool leaves them: rows that it cannot lower
+// further are skipped.
 void StockHeightMap::cut_at(const Position& position, double& deepest)
 {
     const Vec3d tip = position.tip;

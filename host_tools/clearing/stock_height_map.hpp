@@ -1,4 +1,4 @@
-// Height of the stock in a pocket on a fine grid (a Z-map): how deep a move would cut.
+// Height of the stock in a pocket on a fine grid (a Z-map), for the depth of cut of moves.
 #pragma once
 
 #include <array>
@@ -10,29 +10,29 @@
 
 namespace cusp::clearing {
 
-// Heights of the stock at points of a grid (a coarser one in pockets of over four million places).
-// What is thinner than that may be missed.
+// Heights of the stock at points of a grid (a coarser one in pockets of over four million points).
+// Thinner stock may be missed.
 class StockHeightMap {
 public:
-    // box  all places that the tool may touch
-    // top  of the uncut stock
-    // share  of the tool's radius: between places
+    // box    everything that the tool may touch
+    // top    z of the uncut stock
+    // share  of the tool's radius: pitch of the grid
     StockHeightMap(const offset::Box2d& box,
                    const toolpath::Tool& tool,
                    double top,
                    double share = 1.0 / 12);
 
-    // Another tool cuts from here on.
+    // Changes the tool.
     void set_tool(const toolpath::Tool& tool);
 
-    // z at which a tip that comes down over `at` first touches stock, with the part of the tool
-    // within that share of its radius; -kUnbounded where there is none.
+    // z at which a tip descending at `at` first touches stock, with the part of the tool within
+    // that share of its radius; -kUnbounded if there is none.
     double contact_height(Vec2d at, double share = 1.0) const;
 
-    // Takes what the tool sweeps on a straight move. Returns the deepest that it cuts, mm.
+    // Removes the sweep of the tool on a straight move. Returns the deepest cut, mm.
     double cut(Vec3d from, Vec3d to) { return sweep(from, to, false); }
 
-    // As cut(), by a tool that is smaller by slivers: what it would only graze stays, to be counted
+    // As cut(), with a tool reduced by slivers: stock that it would only graze stays, and counts
     // for the next move that meets it.
     double cut_with_shrunk_tool(Vec3d from, Vec3d to) { return sweep(from, to, true); }
 
@@ -54,11 +54,11 @@ private:
     };
 
     double spacing_{};
-    double sliver_{};  // mm: slivers between two positions of a move do not count
+    double sliver_{};  // mm: slivers between two positions of a move are ignored
     Profile tool_{};
-    Profile probe_profile_{};  // the tool, smaller by the slivers
-    // Heights that the tool's lower side has at least, by squared distance: most places under it
-    // are cut already, and need no root.
+    Profile probe_profile_{};  // the tool reduced by the slivers
+    // Lower bounds of the tool's lower side by squared distance: most points under it are already
+    // cut and need no square root.
     std::array<double, 257> at_least_{};
     Vec2d origin_;
     double pitch_;
@@ -66,7 +66,7 @@ private:
     std::size_t rows_;
     double top_;
     std::vector<float> heights_;
-    std::optional<Position> last_;  // the places under it are cut
+    std::optional<Position> last_;  // the points under it are already cut
 
     static Range range(double low, double high, double origin, double pitch, std::size_t count);
     double sweep(Vec3d from, Vec3d to, bool inside);

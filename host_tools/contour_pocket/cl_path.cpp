@@ -1,5 +1,5 @@
-// Looks the floor up along the path, takes the longest moves that stay in the band, proves each of
-// them and raises those that would gouge.
+// Drops the tool at stations along the path, fits the longest moves within the band, and raises
+// moves that would gouge.
 #include "host_tools/contour_pocket/cl_path.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ using offset::line_edge;
 
 namespace {
 
-// The chain with a curve, or lines where none fits, from corner to corner.
+// A chain from corner to corner: a curve where one fits, else lines.
 Chain curves_through(const std::vector<Station>& stations,
                      const std::vector<std::size_t>& corners,
                      const StationBand& band)
@@ -48,7 +48,7 @@ Chain curves_through(const std::vector<Station>& stations,
     return chain;
 }
 
-// Between stations the floor may bend by a little more than at them, and an arc by an eighth.
+// Between stations the floor may bend a little more than at them, and an arc by an eighth.
 constexpr double kUsed = 0.95;
 constexpr double kUsedInPlan = 0.86;
 
@@ -82,7 +82,7 @@ std::vector<Edge> flattened(const std::vector<Edge>& plan,
 
 namespace {
 
-// Returns how much a move had to be raised (mm) to keep off what its stations do not tell of.
+// Returns how far (mm) a move was raised to clear the floor between its stations.
 double path_over_stations(const std::vector<Edge>& plan,
                           const DropCutter& floor,
                           const ClPathSettings& settings,
@@ -135,7 +135,7 @@ ClPath drop_path(const std::vector<Edge>& plan,
                  const DropCutter& floor,
                  const ClPathSettings& settings)
 {
-    // A ridge between lookups far apart would be met by raising whole moves over it.
+    // If lookups are too far apart to show a ridge, whole moves would be raised over it.
     constexpr double kRaised = 0.25;
     ClPath path;
     if (path_over_stations(plan, floor, settings, true, path) >

@@ -1,5 +1,5 @@
-// A path of the tool in plan, dropped onto the floor: a chain of straight moves and arcs of the tip
-// that stay within the tolerances and above the floor.
+// Projection of a tool path in plan onto the floor: a chain of lines and arcs of the tip, within
+// the tolerances and above the floor.
 #pragma once
 
 #include <variant>
@@ -11,24 +11,24 @@
 namespace cusp::contour_pocket {
 
 struct ClPathSettings {
-    double plan_tolerance{};    // mm: how far a move may lie beside the plan path, either way
-    double height_tolerance{};  // mm: width of the band above the floor that moves stay in
-    // false: moves stay within `height_tolerance` on either side of the floor
+    double plan_tolerance{};    // mm: largest distance of a move from the plan path, to either side
+    double height_tolerance{};  // mm: width of the band above the floor for moves
+    // false: moves stay within `height_tolerance` above or below the floor
     bool one_sided{true};
-    bool arcs{false};   // true: helical arcs in plan where they reach farther than a line
+    bool arcs{false};   // true: helical arcs in plan where they are longer than a line
     bool nurbs{false};  // true: cubic B-splines between corners, lines where none fits
-    bool even{false};   // true: each edge in equal pieces (links; see equal_pieces.hpp)
-    // mm: kept off the floor, so that certifying a move needs no finer floor
+    bool even{false};   // true: each edge in equal pieces (for links; see equal_pieces.hpp)
+    // mm: reserve above the floor, so that certifying a move needs no finer floor bounds
     double clearance_reserve{};
-    double allowance{};         // mm: metal left over the floor, measured along the axis
+    double allowance{};         // mm: stock left over the floor, measured along the axis
     double min_z{-kUnbounded};  // mm: the tip stays at or above this z
-    double spacing{};           // mm between the floor heights that moves are made for
-    // mm: cubics between lookups no farther apart are good enough; 0: not known
+    double spacing{};           // mm: largest distance between stations
+    // mm: up to this distance between stations, cubics between them are accurate; 0: not known
     double lookup_spacing{};
 };
 
-// One move; turn 0: straight. An arc rises evenly with its angle and sweeps less than half a turn.
-// Where the curve has points, it is the move.
+// One move; turn 0: straight. An arc climbs linearly with its angle and sweeps less than half a
+// turn. If the curve has points, the curve is the move.
 struct ClMove {
     Vec3d end;
     Vec2d centre{};
@@ -39,27 +39,27 @@ struct ClMove {
 struct ClPath {
     Vec3d start;
     std::vector<ClMove> moves;
-    // mm: lower bound of the gap between floor and tool, over all moves; may be < 0
+    // mm: lower bound of the clearance between floor and tool, over all moves; may be < 0
     double least_clearance{};
-    bool over_floor{true};
-    Vec2d missing;  // a place without floor, where not over_floor
+    bool over_floor{true};  // false: part of the path has no floor below it
+    Vec2d missing;          // a place without floor, unless over_floor
 };
 
-// Coordinates are multiples of this, mm: what is certified is what is written.
+// Coordinates are multiples of this, mm, so the certified path is the written path.
 constexpr double kWrittenStep = 1e-4;
 
-// How near to a path that is cut more than once its moves stay, mm.
+// mm: how near a path cut at several heights keeps to its plan path at each of them.
 double repeated_plan_tolerance(double plan_tolerance);
 
-// The plan path as lines (and arcs) that may then be cut at several heights, each within
-// repeated_plan_tolerance() of the others, and all within `plan_tolerance` (mm) of the plan path:
-// no pass meets a sliver that the one above it left beside a wall at full depth.
+// The plan path as lines (and arcs) that may be cut at several heights, each within
+// repeated_plan_tolerance() of the others and within `plan_tolerance` (mm) of the plan path. So no
+// pass cuts, at full depth, a sliver that the pass above it left beside a wall.
 std::vector<offset::Edge> flattened(const std::vector<offset::Edge>& plan,
                                     double plan_tolerance,
                                     double spacing,
                                     bool arcs);
 
-// Drops a chain of edges onto the floor. Where its end is its start, so are the path's.
+// Projects a chain of edges onto the floor. A closed chain gives a closed path.
 ClPath drop_path(const std::vector<offset::Edge>& plan,
                  const drop_cutter::DropCutter& floor,
                  const ClPathSettings& settings);

@@ -1,5 +1,5 @@
-// A move that gouges is raised by what it lacks, or halved first where only a part of it lacks
-// much.
+// A move that gouges is raised by its shortfall of clearance. It is halved first if only a part of
+// it has a large shortfall.
 #include "host_tools/contour_pocket/cl_path_proof.hpp"
 
 #include <algorithm>
@@ -22,15 +22,14 @@ Vec3d written(Vec3d p)
 
 namespace {
 
-// Chords of a move, each with how far the move itself may lie from it.
+// Chords of a move, each with the largest distance of the move from it.
 struct Chords {
     std::vector<Vec3d> points;
     double sagitta;
     std::vector<std::size_t> spans{};  // of a curve: the knot before the chord to each point
 };
 
-// The second derivative of a cubic changes evenly between knots, so its largest value stands at
-// one.
+// The second derivative of a cubic is linear between knots, so its largest value is at a knot.
 Chords chords_of(const Curve& curve, double fine)
 {
     Chords chords{{point_at(curve, curve.domain_begin())}, fine, {0}};
@@ -90,23 +89,23 @@ double clearance_of(Vec3d start, const ClMove& move, const DropCutter& floor, do
     return least;
 }
 
-// A move that lacks more bands than this grazes a cliff, and is halved down to that share of the
-// tool's radius, so that only what grazes is raised: the shorter, the more it would be raised by.
+// A move with a shortfall of more than `bands` touches a cliff. It is halved down to `shortest` of
+// the tool's radius, so that only the part at the cliff is raised.
 struct Graze {
     double bands;
     double shortest;
 };
 constexpr Graze kGrazes[] = {{10.0, 0.02}, {1.0, 0.1}};
 
-// How deep moves may cut, mm, <= 0.
+// Lower limit of the clearance of moves, mm, <= 0.
 double allowed_clearance(const ClPathSettings& settings)
 {
     return settings.one_sided ? 0.0
                               : -(settings.height_tolerance + 2.0 * settings.clearance_reserve);
 }
 
-// Beside a cliff a move must not begin to climb before its end, nor sink before it is there:
-// raising it helps nothing.
+// Beside a cliff a move must not start to climb before its end, nor descend before its start is
+// passed. Raising a steep move does not help.
 bool is_steep(Vec3d start, const ClMove& move)
 {
     const double along = std::hypot(move.end.x - start.x, move.end.y - start.y);
@@ -115,8 +114,8 @@ bool is_steep(Vec3d start, const ClMove& move)
            rise > 2.0 * along + 10.0 * kWrittenStep;
 }
 
-// The corner of a steep move that goes level at its higher end and upright otherwise.
-Vec3d level_corner(Vec3d start, Vec3d end)
+// The corner that replaces a steep move by a horizontal move at its higher end and a vertical move.
+Vec3d corner_of_steep_move(Vec3d start, Vec3d end)
 {
     return start.z > end.z ? Vec3d{end.x, end.y, start.z} : Vec3d{start.x, start.y, end.z};
 }
@@ -138,8 +137,8 @@ ClMove first_half(Vec3d start, const ClMove& move)
     return half;
 }
 
-// Moves of no more than this length (mm) are raised as a whole by what they lack (mm). Steep ones
-// are made level and upright rather than raised: the shorter, the nearer to where they were.
+// Moves up to this length (mm) are raised as a whole by their shortfall (mm). Steep ones are
+// replaced by horizontal and vertical moves instead: the shorter, the closer to the original.
 double shortest_halved(double radius, double lacks, bool steep, const ClPathSettings& settings)
 {
     for (const Graze& graze : kGrazes) {
@@ -156,7 +155,7 @@ void halve_move(std::vector<ClMove>& moves, std::size_t i, Vec3d start)
     moves.insert(moves.begin() + static_cast<std::ptrdiff_t>(i), half);
 }
 
-// Heights of a move's ends (z) at which it keeps off the floor, and its gap there.
+// z of a move's ends at which it clears the floor, and its clearance there.
 struct Raised {
     double start, end;
     double clearance;
@@ -170,7 +169,7 @@ Raised raised_off(Vec3d start,
                   double fine)
 {
     constexpr int kRounds = 20;
-    constexpr int kGentleRounds = 4;  // later ones raise by more and more
+    constexpr int kGentleRounds = 4;  // then larger steps
     for (int round = 0; clearance < allowed && round < kRounds; ++round) {
         const double more = std::exp2(std::max(0, round - kGentleRounds));
         const Vec3d raise{0.0, 0.0, more * (kWrittenStep + 1.5 * (allowed - clearance))};
@@ -181,8 +180,8 @@ Raised raised_off(Vec3d start,
     return {start.z, move.end.z, clearance};
 }
 
-// Upright moves lead up to the raised move i and down from it: those beside it stay where they are.
-void stand_upright(std::vector<ClMove>& moves, std::size_t i, const Raised& raised)
+// Inserts vertical moves before and after the raised move i, so that its neighbours stay unchanged.
+void add_vertical_moves(std::vector<ClMove>& moves, std::size_t i, const Raised& raised)
 {
     ClMove up{moves[i - 1].end};
     up.end.z = raised.start;
@@ -192,17 +191,17 @@ void stand_upright(std::vector<ClMove>& moves, std::size_t i, const Raised& rais
     moves.insert(moves.insert(at + 1, down) - 1, up);
 }
 
-// Whether a move would climb all its way where its end is raised beside a cliff: of a shorter one
-// nothing is missed.
+// Whether a move is too long to be raised at one end beside a cliff: it would climb over its whole
+// length.
 bool is_long(Vec3d start, const ClMove& move, double radius)
 {
     return move.curve.points.empty() &&
            std::hypot(move.end.x - start.x, move.end.y - start.y) > kGrazes[0].shortest * radius;
 }
 
-// Halves the moves before and behind the move i until those next to it are short. Returns by how
-// many places the move i went back.
-std::size_t part_neighbours(ClPath& path, std::size_t i, double radius)
+// Halves the moves before and after the move i until its neighbours are short. Returns by how many
+// positions the index of move i has grown.
+std::size_t halve_neighbours(ClPath& path, std::size_t i, double radius)
 {
     std::vector<ClMove>& moves = path.moves;
     const auto begin_of = [&](std::size_t k) {
@@ -220,13 +219,14 @@ std::size_t part_neighbours(ClPath& path, std::size_t i, double radius)
 
 }  // namespace
 
-// Raising only ever adds clearance to the neighbours; a closed path's ends are raised together.
+// Raising never reduces the clearance of neighbours. The two ends of a closed path are raised
+// together.
 double certify(ClPath& path, const DropCutter& floor, const ClPathSettings& settings, bool closed)
 {
     const double allowed = allowed_clearance(settings);
     path.least_clearance = 0.0;
     double most = 0.0;
-    // An arc's chords leave half of the cushion to the slope.
+    // The chords of an arc use half of the clearance reserve; the slope has the rest.
     const double fine = std::max(0.5 * settings.clearance_reserve, kWrittenStep);
     for (std::size_t i = 0; i < path.moves.size(); ++i) {
         Vec3d& start = i == 0 ? path.start : path.moves[i - 1].end;
@@ -248,7 +248,7 @@ double certify(ClPath& path, const DropCutter& floor, const ClPathSettings& sett
             continue;
         }
         if (steep && lift > settings.height_tolerance) {
-            const ClMove corner{level_corner(start, end)};
+            const ClMove corner{corner_of_steep_move(start, end)};
             path.moves.insert(path.moves.begin() + static_cast<std::ptrdiff_t>(i), corner);
             --i;
             continue;
@@ -256,16 +256,16 @@ double certify(ClPath& path, const DropCutter& floor, const ClPathSettings& sett
         path.least_clearance = std::min(path.least_clearance, raised.clearance);
         most = std::max(most, lift);
         if (lift > settings.height_tolerance && i > 0 && along > kWrittenStep) {
-            stand_upright(path.moves, i, raised);
+            add_vertical_moves(path.moves, i, raised);
             ++i;
         } else {
             const std::size_t before = lift > settings.height_tolerance
-                                           ? part_neighbours(path, i, floor.tool().radius)
+                                           ? halve_neighbours(path, i, floor.tool().radius)
                                            : 0;
             i += before;
             (i == 0 ? path.start : path.moves[i - 1].end).z = raised.start;
             path.moves[i].end.z = raised.end;
-            // The halves are rounded: they are looked at again.
+            // The halves are rounded, so they are certified again.
             i -= before > 0 ? before + 2 : 0;
         }
     }
@@ -278,16 +278,18 @@ double certify(ClPath& path, const DropCutter& floor, const ClPathSettings& sett
 
 namespace {
 
-// What the control points of a move lack to keep it off the floor; of a straight one, its ends.
-// allowed: their gap, mm; least: the least gap found. Where that lacks more than `most` (mm) the
-// rest is not looked at.
-std::vector<double> lacking(Vec3d start,
-                            const ClMove& move,
-                            const DropCutter& floor,
-                            double fine,
-                            double allowed,
-                            double most,
-                            double& least)
+// Shortfall of clearance at the control points of a move (its ends if it is straight).
+//
+// allowed  mm: required clearance
+// least    mm: the least clearance found is stored here
+// most     mm: at a larger shortfall the remaining chords are skipped
+std::vector<double> shortfalls(Vec3d start,
+                               const ClMove& move,
+                               const DropCutter& floor,
+                               double fine,
+                               double allowed,
+                               double most,
+                               double& least)
 {
     const auto raise = [&](double clearance) {
         least = std::min(least, clearance);
@@ -301,7 +303,7 @@ std::vector<double> lacking(Vec3d start,
     for (std::size_t i = 1; i < chords.points.size() && allowed - least <= most; ++i) {
         const double more =
             raise(floor.move_clearance(chords.points[i - 1], chords.points[i], chords.sagitta));
-        // The four points of the chord's span carry all of it.
+        // The four control points of the chord's span determine it.
         for (std::size_t k = chords.spans[i] - 3; k <= chords.spans[i]; ++k) {
             raises[k] = std::max(raises[k], more);
         }
@@ -311,7 +313,7 @@ std::vector<double> lacking(Vec3d start,
 
 Vec3d raised(Vec3d p, double more) { return more > 0.0 ? written(p + Vec3d{0.0, 0.0, more}) : p; }
 
-// Moves share their ends, and so what these are raised by.
+// Neighbouring moves share their ends, and therefore the larger of two raises.
 void raise_moves(ClPath& path, std::vector<std::vector<double>>& raises, bool closed)
 {
     const std::size_t n = path.moves.size();
@@ -333,7 +335,7 @@ void raise_moves(ClPath& path, std::vector<std::vector<double>>& raises, bool cl
 
 }  // namespace
 
-// Raising a control point lowers nothing: where the curve is clear it stays so.
+// Raising a control point lowers no part of the curve: clear parts stay clear.
 double certify_curves(ClPath& path,
                       const DropCutter& floor,
                       const ClPathSettings& settings,
@@ -348,8 +350,8 @@ double certify_curves(ClPath& path,
         std::vector<std::vector<double>> raises;
         Vec3d start = path.start;
         for (const ClMove& move : path.moves) {
-            raises.push_back(lacking(start, move, floor, fine, allowed, settings.height_tolerance,
-                                     path.least_clearance));
+            raises.push_back(shortfalls(start, move, floor, fine, allowed,
+                                        settings.height_tolerance, path.least_clearance));
             start = move.end;
             if (allowed - path.least_clearance > settings.height_tolerance) {
                 return allowed - path.least_clearance;

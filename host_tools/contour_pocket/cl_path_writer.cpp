@@ -1,4 +1,4 @@
-// Entries slope down gently; what the slope leaves, the pass removes.
+// Entries descend at a gentle slope; the pass removes the stock that the slope leaves.
 #include "host_tools/contour_pocket/cl_path_writer.hpp"
 
 #include <algorithm>
@@ -19,13 +19,13 @@ using toolpath::ToolMove;
 
 namespace {
 
-constexpr double kOverMetal = 0.1;    // mm: where the plunge feed hands over to a slope
-constexpr double kRapidOver = 0.9;    // mm over that: where rapid moves end
-constexpr double kSettled = 0.03;     // mm over the pass: here the slope has met it
-constexpr double kHardlyDeep = 0.15;  // mm straight down: what a helix leaves over the pass
+constexpr double kAboveStock = 0.1;   // mm above the stock: the plunge feed ends
+constexpr double kRapidOver = 0.9;    // mm above that: end of rapid moves
+constexpr double kSettled = 0.03;     // mm above the pass: the slope has reached it
+constexpr double kHardlyDeep = 0.15;  // mm of plunge: height that a helix leaves above the pass
 constexpr double kSamePlace = 1e-6;   // mm in plan
 constexpr int kHelixSides = 48;
-constexpr int kMostPoints = 100000;  // of one entry: where a pass is too short for a slope
+constexpr int kMostPoints = 100000;  // of one entry: a limit where a pass is too short for a slope
 
 double plan_distance(Vec3d a, Vec3d b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
@@ -41,8 +41,8 @@ ToolMove tool_move(MoveKind kind, const ClMove& move)
     return {kind, ArcTo{move.end, centre, ArcPlane::kXY, move.turn < 0}};
 }
 
-// The beginning of a pass, as long in plan as half of `way`, and back to its start.
-std::vector<Vec3d> to_and_fro(const std::vector<Vec3d>& pass, double way)
+// The first part of a pass, in plan half of `way` long, and back to its start.
+std::vector<Vec3d> there_and_back(const std::vector<Vec3d>& pass, double way)
 {
     std::vector<Vec3d> round = beginning(pass, 0.5 * way);
     for (std::size_t i = round.size() - 1; i-- > 0;) {
@@ -70,7 +70,7 @@ void EntryHeights::raise_over(const EntryHeights& other)
 
 EntryHeights heights_over(double stock_top)
 {
-    return {stock_top + kOverMetal + kRapidOver, stock_top + kOverMetal};
+    return {stock_top + kAboveStock + kRapidOver, stock_top + kAboveStock};
 }
 
 std::vector<ToolMove> tool_moves(const ClPath& path, MoveKind kind)
@@ -88,7 +88,7 @@ bool ClPathWriter::is_over(Vec3d place) const
     return is_down() && plan_distance(writer_.at(), place) < kSamePlace;
 }
 
-// To over the start, as low as stock allows. Returns that z.
+// Moves above the start, as low as the stock allows. Returns that z.
 double ClPathWriter::begin_entry(Vec3d start, const EntryHeights& heights)
 {
     const double z = std::max(heights.stock_top, start.z);
@@ -114,7 +114,7 @@ void ClPathWriter::enter_along(const ClPath& path, const EntryHeights& heights, 
     const double way = (z - path.start.z) / kEntrySlope;
     const bool open = plan_distance(pass.front(), pass.back()) > kSamePlace;
     if (open || (stands && way < plan_length(pass))) {
-        pass = to_and_fro(pass, way);
+        pass = there_and_back(pass, way);
     }
     const double round = plan_length(pass);
     const double lowest =
@@ -130,7 +130,7 @@ void ClPathWriter::enter_along(const ClPath& path, const EntryHeights& heights, 
         sloped = false;
         for (std::size_t i = 1; i < pass.size(); ++i) {
             z -= kEntrySlope * plan_distance(pass[i - 1], pass[i]);
-            // No corner of the slope lies just over the pass.
+            // Corners of the slope keep clear of the pass.
             const bool over = z > pass[i].z + kSettled;
             sloped = sloped || over;
             plunge({pass[i].x, pass[i].y, over ? z : pass[i].z});
@@ -138,7 +138,7 @@ void ClPathWriter::enter_along(const ClPath& path, const EntryHeights& heights, 
     }
 }
 
-// Straight there, higher where the floor between is in the way.
+// A straight move there, or a higher one if the floor is in the way.
 void ClPathWriter::plunge_over(Vec3d end, const std::function<double(Vec3d, Vec3d)>& clearance)
 {
     constexpr int kRounds = 12;
@@ -158,7 +158,8 @@ void ClPathWriter::plunge_over(Vec3d end, const std::function<double(Vec3d, Vec3
 
 double ClPathWriter::enter_by_helix(const Helix& helix, const HelixFloor& floor)
 {
-    // What stays under the helix is removed on the way to the pass, or on the slope along it.
+    // Stock that remains below the helix is removed on the way to the pass, or by the slope along
+    // it.
     constexpr double kOver = 0.05;
     constexpr double kHelixRapidOver = 0.5;
     constexpr double kGentle = 0.1;
@@ -204,7 +205,7 @@ void ClPathWriter::follow(MoveKind kind, const ClPath& path)
             continue;
         }
         writer_.add(tool_move(kind, move));
-        // A spline's control points but the first, which counts as the move itself.
+        // The first control point of a spline counts as the move itself.
         spline_points += std::max(0, static_cast<int>(move.curve.points.size()) - 2);
     }
     if (kind == MoveKind::kCut) {

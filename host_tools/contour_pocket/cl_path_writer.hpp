@@ -1,7 +1,8 @@
 // Writes CL paths over a floor: entries that follow an uneven floor, cuts and links.
 //
-// What ToolpathWriter's entries need, a level circle or a run whose beginning lies at depth, a
-// floor seldom offers. Here a helix goes as low as the floor allows on each side, and the slope
+// The entries of ToolpathWriter need a level circle, or a run that starts at depth; a curved floor
+// seldom has one. Here a helix follows the floor on each side, and the slope runs along the whole
+// pass.
 // runs round the whole pass.
 #pragma once
 
@@ -14,7 +15,7 @@
 
 namespace cusp::contour_pocket {
 
-// Over the start of a pass: where rapid moves end and where stock may begin, z in mm.
+// Above the start of a pass: the end of rapid moves, and the possible top of stock, z in mm.
 struct EntryHeights {
     double rapid;
     double stock_top;
@@ -22,13 +23,13 @@ struct EntryHeights {
     void raise_over(const EntryHeights& other);
 };
 
-// Over stock that reaches up to z, mm.
+// For stock up to z, mm.
 EntryHeights heights_over(double stock_top);
 
-// Of slopes and helices: 4.6 degrees.
+// Slope of ramps and helices: 4.6 degrees.
 inline constexpr double kEntrySlope = 0.08;
 
-// The path's moves, of one kind.
+// The path's moves, all of the given kind.
 std::vector<toolpath::ToolMove> tool_moves(const ClPath& path, toolpath::MoveKind kind);
 
 class ClPathWriter {
@@ -38,27 +39,27 @@ public:
     ClPathWriter(const ClPathWriter&) = delete;
     ClPathWriter& operator=(const ClPathWriter&) = delete;
 
-    // Down to the start of a pass of straight moves: round it again and again on a gentle slope
-    // until it lies wholly at its depth, to and fro along the beginning of an open one or where
-    // that is shorter; straight down where `plunge`. From where the tool is, where that is over the
-    // start.
+    // Descends to the start of a pass of straight moves. The tool repeats the pass on a gentle
+    // slope until all of it is at depth. It goes there and back along the first part of an open or
+    // short pass, and plunges with `plunge`. A tool that is already above the start begins from
+    // there.
     void enter_along(const ClPath& path, const EntryHeights& heights, bool plunge);
 
-    // A helix about the start of a pass.
+    // A helix around the start of a pass.
     struct Helix {
         Vec3d centre;   // the start
         double radius;  // mm
-        bool whole;     // down to the start itself; else to somewhere over it, mostly
+        bool whole;     // true: ends at the start itself; false: may end above it
         EntryHeights heights;
     };
-    // The floor that a helix follows.
+    // The floor below a helix.
     struct HelixFloor {
-        // The lowest z that the tip may have over a place.
+        // The lowest z of the tip at a place.
         std::function<double(Vec2d)> lowest;
-        // The gap under a straight move, mm; negative where it would gouge.
+        // Clearance of a straight move, mm; negative if it would gouge.
         std::function<double(Vec3d, Vec3d)> clearance;
     };
-    // Returns the z it ends at.
+    // Returns the z at its end.
     double enter_by_helix(const Helix& helix, const HelixFloor& floor);
 
     void cut(const ClPath& pass) { follow(toolpath::MoveKind::kCut, pass); }
@@ -67,21 +68,21 @@ public:
 
     Vec3d place() const { return writer_.at(); }
 
-    // Whether the tool is somewhere below the clearance height, and how far.
+    // Whether the tool is below the clearance height.
     bool is_down() const { return below_clearance() > 0.0; }
     double below_clearance() const
     {
         return writer_.started() ? writer_.clearance_z() - place().z : 0.0;
     }
 
-    // Whether the tool is straight over the place, on it or under it, below the clearance height.
+    // Whether the tool is below the clearance height, vertically above, at or below the place.
     bool is_over(Vec3d place) const;
 
     const std::vector<toolpath::ToolMove>& moves() const { return moves_; }
     std::vector<toolpath::ToolMove> take() { return std::move(moves_); }
     int retracts() const { return writer_.retracts(); }
     int points() const { return points_; }
-    // Entries that had no room for a slope and went down by more than a helix leaves.
+    // Number of entries that had no room for a slope and plunged farther than a helix leaves.
     int steep_plunges() const { return steep_plunges_; }
 
 private:

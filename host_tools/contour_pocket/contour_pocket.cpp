@@ -1,4 +1,4 @@
-// The finish: passes from the floor's path interval, in the paper's order; roughing layers before
+// Plans the finish: passes by the floor's stepover, in the paper's order. Roughing layers precede
 // it.
 #include "host_tools/contour_pocket/contour_pocket.hpp"
 
@@ -49,8 +49,8 @@ using toolpath::Toolpath;
 
 namespace {
 
-// mm: the largest rise of the profile of `tool` over that of `other` on one axis: how much higher
-// than its tip `tool` leaves stock that `other` meets.
+// mm: the largest rise of the profile of `tool` above that of `other` on one axis: how far above
+// its tip `tool` leaves stock that `other` cuts.
 double highest_over(const Tool& tool, const Tool& other)
 {
     constexpr int kPlaces = 16;
@@ -62,15 +62,15 @@ double highest_over(const Tool& tool, const Tool& other)
     return most;
 }
 
-// Limits of the cost of partial loops, as shares of the path with entries. With them more stock is
-// left at cliffs.
+// Limits of the cost of partial loops, as shares of the path length with entries. At cliffs partial
+// loops leave more stock.
 constexpr double kDoubtful = 0.5;
 constexpr double kWorthIt = 0.97;
 constexpr double kWorthItAtCliffs = 0.8;
 
 constexpr double kLevelsDone = 0.6;  // of the progress
 
-constexpr double kStockPitch = 1.0 / 24;  // of the finest tool's radius: where the stock is known
+constexpr double kStockPitch = 1.0 / 24;  // of the finest tool's radius
 
 // Such a floor has no cliffs.
 bool is_one_whole_surface(const Operation& operation)
@@ -102,7 +102,7 @@ public:
 
     const DropCutter& floor() const { return floor_; }
 
-    // rough: what has been cut before; null where the stock is whole.
+    // rough  the operations cut before; null for whole stock
     PlannedOperation plan(const RoughResult* rough)
     {
         begun_ = rough != nullptr ? kRoughingDone : 0.0;
@@ -231,7 +231,7 @@ private:
         return result;
     }
 
-    // Pencil passes are left out: loops have cut the stock there to where the map shows it.
+    // Without pencil passes: the loops before them have cut that stock, as the map shows.
     std::vector<bool> stock_beside(const ClearedRegion& cleared, std::vector<bool> beside) const
     {
         for (std::size_t i = 0; operation_.max_depth && i < beside.size(); ++i) {
@@ -240,9 +240,8 @@ private:
         return beside;
     }
 
-    // Which passes meet stock that roughing did not reach: the allowance beside the walls, corners,
-    // necks and valleys of the floor that its tool does not fit into. Loops of its tool leave stock
-    // at cliffs, too.
+    // Which passes meet stock that roughing has not reached: the allowance beside walls, and
+    // corners, necks and valleys too narrow for its tool. Its loops also leave stock at cliffs.
     std::vector<bool> beside_roughing(const ClearedRegion& cleared, const RoughResult& rough) const
     {
         const double radius = operation_.tool.radius;
@@ -277,8 +276,8 @@ private:
         return beside;
     }
 
-    // Depths for passes beside what roughing left: its own, and as many more as the finishing tool
-    // goes deeper.
+    // Depths for passes beside such stock: those of roughing, and more for the finishing tool,
+    // which goes deeper.
     std::vector<double> depths_beside(const ClearedRegion& cleared, const RoughResult& rough) const
     {
         std::vector<double> heights = rough.heights;
@@ -294,7 +293,7 @@ private:
         return heights;
     }
 
-    // Passes along cliffs keep nearer to theirs as it is.
+    // Pencil passes already keep closer to their plan path.
     void flatten(ClearedRegion& cleared, const CutSettings& settings) const
     {
         for (std::size_t i = 0; i < cleared.passes.size(); ++i) {
@@ -316,19 +315,20 @@ private:
         settings.path_settings.clearance_reserve = tolerances_.accuracy;
         settings.path_settings.spacing = std::clamp(
             std::sqrt(3.0 * radius * tolerances_.height_tolerance), 0.05 * radius, radius);
-        // As good as lookups are.
+        // The accuracy of lookups.
         settings.path_settings.lookup_spacing =
             loop_scallop_.lookup_spacing(region_, 0.5 * tolerances_.accuracy);
         settings.path_settings.arcs = operation_.output != OutputForm::kLines;
         settings.path_settings.nurbs = operation_.output == OutputForm::kNurbs;
         settings.entry = operation_.entry;
         settings.wall_clearance = tolerances_.wall_clearance;
-        // What roughing leaves between its loops on a slope is deepest where it is narrowest.
+        // Between its loops on a slope, roughing leaves the deepest stock where it is narrowest.
         settings.depth_share = 0.7;
         const double top = job_.stock_top;
         settings.entry_heights = [top, roughed](double pass) {
             const double metal = std::max(top, pass);
-            // What roughing left is entered at the plunge feed: beside walls it has full height.
+            // Stock left by roughing is entered at the plunge feed: beside walls it has full
+            // height.
             const double slope = roughed ? std::min(metal, pass + *roughed + 0.5) : metal;
             return EntryHeights{heights_over(metal).rapid, heights_over(slope).stock_top};
         };
@@ -398,7 +398,8 @@ std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operatio
     const Region2d region = make_region(operation, tolerances.fit);
     check_work(job, operation, region, tolerances);
     std::optional<AxialDepthTracker> depth;
-    // Entries beside cliffs of the floor and beside what roughing left depend on the stock.
+    // Entries beside cliffs of the floor and beside stock left by roughing depend on the stock
+    // height.
     if (operation.max_depth || !operation.layers.empty() || !is_one_whole_surface(operation)) {
         const Tool& rougher = operation.tools.empty() ? operation.tool : operation.tools.front();
         const bool finer = rougher.radius < operation.tool.radius;

@@ -1,4 +1,4 @@
-// More pieces of an edge until all of them stay in the bands.
+// The number of pieces of an edge grows until all of them are within the band.
 #include "host_tools/contour_pocket/equal_pieces.hpp"
 
 #include <algorithm>
@@ -13,12 +13,12 @@ using offset::Edge;
 
 namespace {
 
-// Where the corners of the chords leave the tangent by less than this, they are made so blunt that
-// no machine stops at them.
+// Corners of chords that leave the tangent by less than this become so blunt that no machine stops
+// at them.
 constexpr double kOffTangent = 0.03;     // mm
 constexpr double kBlunt = 0.45;          // degrees
-constexpr double kBluntest = 2.0;        // degrees: where pieces would be shorter than
-constexpr double kShortestPiece = 0.05;  // mm: many of them in a tick hold a machine up, too
+constexpr double kBluntest = 2.0;        // degrees: where pieces would be too short
+constexpr double kShortestPiece = 0.05;  // mm: many shorter ones in a tick slow a machine
 constexpr double kMostPieces = 4096;     // of one edge
 constexpr double kDegree = kPi / 180.0;
 
@@ -47,7 +47,7 @@ public:
         return static_cast<int>(std::clamp(count, 1.0, kMostPieces));
     }
 
-    // Every place between the ends of every piece is in its band.
+    // Whether every station of every piece is within its band.
     bool fits(int count) const
     {
         for (int i = 0; i < count; ++i) {

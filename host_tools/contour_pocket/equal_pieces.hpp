@@ -1,4 +1,4 @@
-// Curves of links in even pieces: no corner comes to lie beside the pass that they are tangent to.
+// Links as equal pieces, so that no corner lies beside the pass that a link is tangent to.
 #pragma once
 
 #include "host_tools/contour_pocket/tolerance_chain.hpp"
@@ -6,14 +6,12 @@
 
 namespace cusp::contour_pocket {
 
-// Each edge as equal lines (arcs where `arcs`), as few as stay within the band over the floor's
-// height + `allowance` at every `spacing` (mm); places lower than `min_z` count as if they were
-// level.
+// Each edge as equal lines (arcs if `arcs`), as few as stay within the band above the floor's
+// height + `allowance` at every `spacing` (mm). Places below `min_z` count as being at `min_z`.
 //
-// The longest moves that fit, as chain_through() takes them, may end in a short one a few
-// micrometres off the loop that the link joins. A machine that stops there (G61) has more set
-// points beside the loop than the loop has itself, and who looks for a path's nearest set points
-// finds the wrong ones.
+// The longest moves, as chain_through() takes them, may end in a short one a few micrometres off
+// the loop that the link joins. A machine that stops there (G61) has more set points beside the
+// loop than the loop has, and a search for a path's nearest set points finds the wrong ones.
 struct EqualPieces {
     StationBand band;
     double allowance;

@@ -1,4 +1,4 @@
-// Each edge's CL points are computed when the height of a place near it is first needed.
+// The CL points of an edge are computed at the first query near it.
 #include "host_tools/contour_pocket/height_after_passes.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// Interval arithmetic on the spreads of the derivatives over cells that are halved while the answer
-// is loose.
+// Interval arithmetic on the spreads of the derivatives over cells, which are halved while the
+// bounds are loose.
 #include "host_tools/contour_pocket/height_bounds.hpp"
 
 #include <algorithm>
@@ -45,9 +45,9 @@ Enclosure dot(const EnclosureVector& a, const EnclosureVector& b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-// Along a straight way of the plan with unit direction e the height's second derivative is
-// N . (S_ss a^2 + 2 S_st a b + S_tt b^2) / N_z with a = e x S_t / N_z, b = S_s x e / N_z and
-// N = S_s x S_t.
+// Along a line of the plan with unit direction e the second derivative of the height is
+//   N . (S_ss a^2 + 2 S_st a b + S_tt b^2) / N_z
+// with a = e x S_t / N_z, b = S_s x e / N_z and N = S_s x S_t.
 BendBounds bounds_of(const BezierCell& cell, const BezierCell::Spread& e)
 {
     const SurfacePoint& m = cell.middle();
@@ -108,7 +108,8 @@ double proven_reach(double radius, double scallop_height, const BendBounds& boun
         const double fall = 0.5 * bounds.down * d * d;
         const double higher = 2.0 * foot * rise + (climb + rise) * (climb + rise);
         const double lower = (climb + fall) * (climb + fall) - 2.0 * foot * cosine * fall;
-        // Downhill a pass that lies higher than the slope says, uphill one that lies lower.
+        // The worst case is a pass higher than the slope predicts on the downhill side, and a lower
+        // one uphill.
         const double across = climb * climb;
         return foot * foot + d * d + std::max({higher, lower, across}) <= radius * radius;
     };
@@ -135,16 +136,16 @@ HeightBounds::HeightBounds(const std::vector<Surface>& floor, double reach)
     }
     std::vector<Cell> found;
     for (const BezierPatch& patch : bezier_patches(surface)) {
-        look(BezierCell{patch, 0}, 0, found);
+        subdivide(BezierCell{patch, 0}, 0, found);
     }
     for (const Cell& cell : found) {
         field_ = {std::min(field_.x0, cell.box.x0), std::min(field_.y0, cell.box.y0),
                   std::max(field_.x1, cell.box.x1), std::max(field_.y1, cell.box.y1)};
     }
-    sort(found);
+    fill_bins(found);
 }
 
-void HeightBounds::look(const BezierCell& cell, int halvings, std::vector<Cell>& found) const
+void HeightBounds::subdivide(const BezierCell& cell, int halvings, std::vector<Cell>& found) const
 {
     constexpr int kMostHalvings = 10;
     constexpr double kLoose = 1.1;
@@ -161,11 +162,11 @@ void HeightBounds::look(const BezierCell& cell, int halvings, std::vector<Cell>&
         return;
     }
     for (const BezierCell* half : cell.halves()) {
-        look(*half, halvings + 1, found);
+        subdivide(*half, halvings + 1, found);
     }
 }
 
-void HeightBounds::sort(const std::vector<Cell>& found)
+void HeightBounds::fill_bins(const std::vector<Cell>& found)
 {
     constexpr double kMostBins = 400.0;  // a side
     bin_ =

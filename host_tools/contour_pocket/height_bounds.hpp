@@ -1,5 +1,5 @@
-// Bounds of a floor's slope and bend near a place, proven from its control points; and the stepover
-// of a ball that such bounds prove.
+// Proved bounds of a floor's slope and second derivative near a place, from its control points, and
+// the stepover of a ball that they prove.
 #pragma once
 
 #include <vector>
@@ -13,32 +13,31 @@ class BezierCell;
 
 namespace cusp::contour_pocket {
 
-// Of the floor as a height z(x, y), in any direction of the plan; infinite where nothing is proven.
+// Bounds of the floor as a height z(x, y), in any plan direction; infinite where nothing is proved.
 struct BendBounds {
     double slope{};
-    double up{};    // second derivative, 1/mm: at most
-    double down{};  // at least -down
+    double up{};    // largest second derivative, 1/mm
+    double down{};  // minus the least second derivative, 1/mm
 };
 
-// Largest distance in plan, mm, between places of the ball's axis and the nearest pass, so that the
-// floor that the ball would touch from there is left no higher than `scallop_height`, square to the
-// floor; 0 where nothing is proven.
+// Largest plan distance, mm, between places of the ball's axis and the nearest pass for which the
+// scallop on the floor is at most `scallop_height`, along the normal; 0 where nothing is proved.
 //
-// The tip's height over a floor that bends up by at most K < 1/R bends up by at most K / (1 - K R),
-// and down by no more than the floor (the height is the highest of the floor's heights moved by the
-// tool's shape). From the place of height 0 and gradient g the pass at distance d then lies
-// g d + r high, with r between -down d^2 / 2 and up d^2 / 2; its ball reaches the place
-// `scallop_height` over the floor where, with q = R - scallop_height,
-// q^2 + 2 q r cos(slope) + d^2 + (g d + r)^2 <= R^2.
+// Proof: over a floor with second derivatives up to K < 1/R, those of the tip's height are at most
+// K / (1 - K R), and at least those of the floor, since the tip's height is a maximum of shifted
+// heights of the floor. Seen from a place with height 0 and gradient g, the pass at distance d has
+// the height g d + r, with r between -down d^2 / 2 and up d^2 / 2. With q = R - scallop_height, its
+// ball reaches the point `scallop_height` above the floor where
+//   q^2 + 2 q r cos(slope) + d^2 + (g d + r)^2 <= R^2.
 double proven_reach(double radius, double scallop_height, const BendBounds& bounds);
 
 class HeightBounds {
 public:
-    // reach  mm: what lies within it of a box counts for the box
+    // reach  mm: queries include everything within this distance of their box
     HeightBounds(const std::vector<nurbs::Surface>& floor, double reach);
 
-    // Within reach of the box. Known for a single surface without trims and without edges inside,
-    // away from its ends.
+    // Bounds within reach of the box. Finite only for a single surface without trims or inner
+    // creases, away from its ends.
     BendBounds near(const offset::Box2d& box) const;
 
 private:
@@ -46,8 +45,10 @@ private:
         offset::Box2d box;
         BendBounds bounds;
     };
-    void look(const part_model::BezierCell& cell, int halvings, std::vector<Cell>& found) const;
-    void sort(const std::vector<Cell>& found);
+    void subdivide(const part_model::BezierCell& cell,
+                   int halvings,
+                   std::vector<Cell>& found) const;
+    void fill_bins(const std::vector<Cell>& found);
     template <class Visit>
     void visit(const offset::Box2d& box, Visit visit) const;
 

@@ -1,11 +1,10 @@
-// Ways inward from the outer loops, compared with what both levels' paths cut.
+// Lines inward from the outer loops, compared with what the paths of both rings cut.
 #include "host_tools/contour_pocket/loop_scallop.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "firmware/base/math.hpp"
 #include "host_tools/clearing/corner_cleanup.hpp"
 #include "host_tools/contour_pocket/loop_spacing.hpp"
 #include "host_tools/contour_pocket/station_row.hpp"
@@ -26,12 +25,12 @@ using toolpath::Tool;
 
 namespace {
 
-constexpr double kAlong = 1.0 / 6.0;         // of the tool's radius: ways are no farther apart
+constexpr double kAlong = 1.0 / 6.0;  // of the tool's radius: largest distance between cross lines
 constexpr double kNearestWays = 1.0 / 48.0;  // of it: where the scallop changes
-constexpr double kFine = 0.02;               // of the tool's radius: places on a way are no closer
-constexpr double kEnough = 4.0;              // more need not be known
+constexpr double kFine = 0.02;   // of the tool's radius: least distance between probes on a line
+constexpr double kEnough = 4.0;  // larger relative scallops need not be exact
 
-// Beside the rim of a flat bottom the scallop is low enough over a crescent only: as deep as the
+// Beside the rim of a flat bottom the scallop is low enough only over a crescent: as deep as the
 // scallop on a steep floor, and as long as the chord there.
 double cross_lines_apart(const Tool& tool, double scallop_height)
 {
@@ -59,7 +58,7 @@ LoopScallop::LoopScallop(const DropCutter& floor,
 {
 }
 
-// mm from a pass within which no scallop is too high.
+// mm: distance from a pass within which no scallop is too high.
 double LoopScallop::proven(const BendBounds& bounds) const
 {
     if (!ball_ || !std::isfinite(bounds.slope)) {
@@ -69,7 +68,7 @@ double LoopScallop::proven(const BendBounds& bounds) const
     return proven_reach(floor_.tool().radius, allowed(secant), bounds) - tolerances_.plan_tolerance;
 }
 
-// The same beside a level in that box, as far as the next one.
+// As above, for passes in the box and floor up to `step` (mm) beside it.
 double LoopScallop::proven(const Box2d& level, double step) const
 {
     return proven(
@@ -92,10 +91,10 @@ bool LoopScallop::reaches_floor(const Region2d& region) const
     return ball_ && bounds_.near(box_of(region)).up * floor_.tool().radius < 1.0;
 }
 
-// Where the second derivative stays in a range of width w, the cubic through heights and slopes at
-// distance h is w h^2 / 32 off at most: its remainder is the integral of the second derivative with
-// a kernel that straight lines vanish under, of the absolute integral h^2 / 16. That of the tip's
-// z: see proven_reach().
+// A cubic through heights and slopes a distance h apart has an error of at most w h^2 / 32, where w
+// is the width of the range of the second derivative: the remainder is the integral of the second
+// derivative with a kernel orthogonal to straight lines, of absolute integral h^2 / 16.
+// proven_reach() gives the range for the tip's z.
 double LoopScallop::lookup_spacing(const Region2d& region, double max_error) const
 {
     const BendBounds bounds = bounds_.near(box_of(region));
@@ -119,8 +118,8 @@ double LoopScallop::relative_scallop(const LoopStrip& strip)
     if (step <= least_stepover(floor_.tool(), tolerances_)) {
         return 0.0;
     }
-    const Look look{strip, 0.0, step, false};
-    look_closely(step);
+    const Search search{strip, 0.0, step, false};
+    set_resolution(step);
     segments_.clear();
     set_paths(strip.outer, step);
     set_paths(strip.inner, step);
@@ -129,7 +128,7 @@ double LoopScallop::relative_scallop(const LoopStrip& strip)
     for (const Contour& contour : strip.outer.contours) {
         Contour loop;
         for (std::size_t e = 0; e < contour.size(); ++e) {
-            // The second visit of a spur goes back over the first.
+            // The second edge of a cleanup spur goes back over the first.
             if (!starts_cleanup_spur(contour, e) &&
                 !(e > 0 && starts_cleanup_spur(contour, e - 1))) {
                 loop.push_back(contour[e]);
@@ -139,22 +138,22 @@ double LoopScallop::relative_scallop(const LoopStrip& strip)
             const Edge& before = loop[(e + loop.size() - 1) % loop.size()];
             const Edge& after = loop[(e + 1) % loop.size()];
             const Corners corners{turns(before, loop[e]), turns(loop[e], after)};
-            most = std::max(most, cross_lines_along(loop[e], corners, look));
+            most = std::max(most, cross_lines_along(loop[e], corners, search));
         }
     }
     return most;
 }
 
-// Neighbouring moves may stray from their paths, each its own way; a ridge grows as the square of
-// their distance.
-void LoopScallop::look_closely(double step)
+// Neighbouring moves may each deviate from their paths; a scallop grows with the square of their
+// distance.
+void LoopScallop::set_resolution(double step)
 {
     places_ = std::clamp(static_cast<int>(step / (kFine * floor_.tool().radius)), 3, kPlaces);
     const double strayed = step / (step + 2.0 * tolerances_.plan_tolerance);
-    strayed_ = strayed * strayed;
+    scallop_share_ = strayed * strayed;
 }
 
-// Places without floor are refused when the path is laid.
+// Places without floor are refused when the path is projected.
 void LoopScallop::set_paths(const Region2d& level, double step)
 {
     const double height = 0.2 * tolerances_.scallop_height;
@@ -202,7 +201,8 @@ void LoopScallop::sort_segments(double cell)
     }
 }
 
-// A place on the very rim is touched from nowhere else, not even from a hair's breadth aside.
+// A point on the rim itself is touched from one position only, so touched points are moved slightly
+// inward.
 Vec2d LoopScallop::inside_rim(Vec2d at, Vec2d touched) const
 {
     constexpr double kInside = 0.9999;
@@ -211,8 +211,8 @@ Vec2d LoopScallop::inside_rim(Vec2d at, Vec2d touched) const
     return out > most ? at + (touched - at) * (most / out) : touched;
 }
 
-// A ball's lower side lies along the floor beside the place that it touches; under the rim of a
-// flat foot the floor falls away, and the place must be known itself.
+// Beside the contact, the lower side of a ball follows the floor. Below the rim of a flat bottom
+// the floor falls away, so the contact itself is needed.
 LoopScallop::Probe LoopScallop::probe(Vec2d at) const
 {
     const Tool& tool = floor_.tool();
@@ -237,7 +237,7 @@ LoopScallop::Probe LoopScallop::probe(Vec2d at) const
     return {at, cl->z, touched, side, cl->slope, secant};
 }
 
-// What the paths beside `near` leave at `at`: z.
+// z left at `at` by the paths around `near`.
 double LoopScallop::left_at(Vec2d at, Vec2d near) const
 {
     const int i = static_cast<int>(std::floor((near.x - field_.x0) / cell_));
@@ -257,8 +257,8 @@ double LoopScallop::left_at(Vec2d at, Vec2d near) const
     return least;
 }
 
-// On a slope a move beside its path is higher over the floor, or is raised where it would gouge: by
-// no more than half again its distance from the path, square to the floor.
+// On a slope, a move beside its path is higher above the floor, or is raised where it would gouge:
+// by at most 1.5 times its distance from the path, along the normal.
 double LoopScallop::allowed(double secant) const
 {
     constexpr double kRaised = 1.5;
@@ -270,110 +270,50 @@ double LoopScallop::allowed(double secant) const
     return std::max(tolerances_.scallop_height + on_slope, kLeast * tolerances_.scallop_height);
 }
 
-// Square to the floor, where the tool touches it; as a share of the height allowed.
+// Height left at the contact, along the normal, as a share of the allowed height.
 double LoopScallop::uncut(const Probe& probe, bool stretches) const
 {
     if (!probe.floor) {
         return 0.0;
     }
     const double share = std::max(0.0, left_at(probe.touched, probe.at) - *probe.floor) /
-                         (probe.secant * strayed_ * allowed(probe.secant));
+                         (probe.secant * scallop_share_ * allowed(probe.secant));
     return stretches && ball_ && share > 1.0 && clear_square_to(probe) ? 1.0 : share;
 }
 
-// The tool rests on both sides of a valley where the continuations of its heights meet, lower than
-// at either place; where they don't, at the lower one.
-LoopScallop::Lowest LoopScallop::where_sides_meet(const Probe& a, const Probe& b)
-{
-    const Vec2d move = b.at - a.at;
-    const double fall = -dot(a.gradient, move);
-    const double rise = dot(b.gradient, move);
-    const double share = (a.tip - b.tip + rise) / (fall + rise);
-    if (fall > 0.0 && rise > 0.0 && share > 0.0 && share < 1.0) {
-        return {a.at + move * share, a.tip - fall * share};
-    }
-    return a.tip < b.tip ? Lowest{a.at, a.tip} : Lowest{b.at, b.tip};
-}
-
-// Where a ball does not reach the floor, between the places that it touches from two neighbouring
-// ones: over what it leaves at best.
-double LoopScallop::left_under(const Probe& a, const Probe& b) const
-{
-    constexpr int kPieces = 4;
-    constexpr double kFar = 0.1;  // of the tool's radius: nearer ones hide nothing
-    const Tool& tool = floor_.tool();
-    const double apart = distance(a.touched, b.touched);
-    const bool known = a.floor && b.floor;
-    if (!known || apart < std::max(kFar * tool.radius, 3.0 * distance(a.at, b.at))) {
-        return 0.0;
-    }
-    const Lowest lowest = where_sides_meet(a, b);
-    double most = 0.0;
-    for (int i = 1; i < kPieces; ++i) {
-        const double share = static_cast<double>(i) / kPieces;
-        const Vec2d p = a.touched + (b.touched - a.touched) * share;
-        const double best =
-            std::min({a.tip + profile_height(tool, distance(a.at, p)),
-                      b.tip + profile_height(tool, distance(b.at, p)),
-                      lowest.height + profile_height(tool, distance(lowest.at, p))});
-        // The floor of a valley is as steep as its sides only beside them.
-        const Vec2d slope = a.gradient * (1.0 - share) + b.gradient * share;
-        const double secant = std::sqrt(1.0 + dot(slope, slope));
-        const double stands = std::min({left_at(p, a.at), left_at(p, lowest.at), left_at(p, b.at)});
-        most = std::max(most, (stands - best) / (secant * strayed_ * allowed(secant)));
-    }
-    return most;
-}
-
-// Over a valley whose bottom a flat end does not reach: what the paths leave over the middle and
-// the rim of the flat at its lowest position between two neighbouring places. Down along the valley
-// the rim cuts steps.
-double LoopScallop::left_under_foot(const Probe& a, const Probe& b) const
-{
-    constexpr double kTurned = 0.1;  // slope: from where on it is no bend
-    constexpr int kRound = 12;       // places on the rim
-    constexpr double kInside = 0.9999;
-    const bool known = a.floor && b.floor;
-    const Vec2d move = b.at - a.at;
-    if (!known || dot(b.gradient - a.gradient, move) <= kTurned * std::sqrt(dot(move, move))) {
-        return 0.0;
-    }
-    const Lowest lowest = where_sides_meet(a, b);
-    const Tool& tool = floor_.tool();
-    const double foot = kInside * (tool.radius - tool.corner_radius);
-    double most = lowest.height;
-    for (int i = 0; i <= kRound; ++i) {
-        const double angle = 2 * kPi * i / kRound;
-        const Vec2d way{std::cos(angle), std::sin(angle)};
-        const Vec2d p = i < kRound ? lowest.at + way * foot : lowest.at;
-        const double stands =
-            std::min({left_at(p, lowest.at), left_at(p, (lowest.at + p) * 0.5), left_at(p, p)});
-        most = stands < kUnbounded ? std::max(most, stands) : most;  // else beyond both levels
-    }
-    // A step is highest just before the next pass, by up to a place more than was looked at.
-    const double unseen = static_cast<double>(places_) / (places_ - 1);
-    return unseen * (most - lowest.height) / (strayed_ * allowed(1.0));
-}
-
-// Along a valley the two sides that the tool rests on are met by different ways.
-double LoopScallop::left_beside(const CrossLine& a, const CrossLine& b) const
+// The highest ridge between the n + 1 probes of a cross line, from the heights left at them.
+double LoopScallop::highest_between(const std::array<double, kPlaces + 1>& found,
+                                    std::size_t n) const
 {
     double most = 0.0;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(std::min(a.count, b.count)); ++i) {
-        most = std::max(most, left_between(a.probes[i], b.probes[i]));
+    // Between two probes the height left by one pass rises and that left by the other falls. The
+    // ridge is no higher than the intersection of their linear continuations, except for curvature.
+    for (std::size_t i = 2; i + 1 < n; ++i) {
+        const double rise = found[i] - found[i - 1];
+        const double fall = found[i + 1] - found[i + 2];
+        const double meeting = (found[i + 1] - found[i] + fall) / (rise + fall);
+        if (rise > 0.0 && fall > 0.0 && meeting >= 0.0 && meeting <= 1.0) {
+            most = std::max(most, found[i] + rise * meeting);
+        }
+    }
+    // The steps of a flat bottom rise up to the next pass and end there.
+    for (std::size_t i = 1; !ball_ && i < n; ++i) {
+        const double rise = found[i] - found[i - 1];
+        const double fall = found[i] - found[i + 1];
+        most = std::max(most, found[i] + std::min(std::max(0.0, rise), std::max(0.0, fall)));
     }
     return most;
 }
 
 LoopScallop::CrossLine LoopScallop::cross_line(const Edge& edge,
                                                double along,
-                                               const Look& look) const
+                                               const Search& search) const
 {
     constexpr double kSlack = 1e-6;
-    const double step = look.step;
+    const double step = search.step;
     const Vec2d tangent = tangent_on(edge, along);
     const Vec2d inward = left_normal(tangent);
-    const Vec2d foot = point_on(edge, along) + inward * look.foot;
+    const Vec2d foot = point_on(edge, along) + inward * search.foot;
     const auto place = [&](double t) {
         return foot + inward * t;
     };
@@ -381,9 +321,10 @@ LoopScallop::CrossLine LoopScallop::cross_line(const Edge& edge,
     const Box2d around{std::min(foot.x, last.x) - step, std::min(foot.y, last.y) - step,
                        std::max(foot.x, last.x) + step, std::max(foot.y, last.y) + step};
     const auto nearest_here = [&](double t) {
-        return !look.strip.walls.any_nearer(place(t), look.strip.from + look.foot + t - kSlack);
+        return !search.strip.walls.any_nearer(place(t),
+                                              search.strip.from + search.foot + t - kSlack);
     };
-    const bool part = look.foot > 0.0;
+    const bool part = search.foot > 0.0;
     if ((part && !nearest_here(0.0)) ||
         (ball_ && 2.0 * proven(bounds_.near(around)) >= step && (!part || nearest_here(step)))) {
         return {along, 0.0, 0.0};
@@ -411,32 +352,17 @@ LoopScallop::CrossLine LoopScallop::cross_line(const Edge& edge,
         result.probes[static_cast<std::size_t>(i)] = here;
         result.count = i + 1;
         climb = i == 0 ? dot(here.gradient, tangent) : climb;
-        const double stock_beside = uncut(here, look.stretches);
+        const double stock_beside = uncut(here, search.stretches);
         found[static_cast<std::size_t>(i)] = stock_beside;
         most = std::max(most, stock_beside);
     }
-    // Between two places what one pass leaves rises and what the other leaves falls: the ridge is
-    // no higher than where their continuations meet, but for their bend.
-    for (std::size_t i = 2; i + 1 < static_cast<std::size_t>(n); ++i) {
-        const double rise = found[i] - found[i - 1];
-        const double fall = found[i + 1] - found[i + 2];
-        const double meeting = (found[i + 1] - found[i] + fall) / (rise + fall);
-        if (rise > 0.0 && fall > 0.0 && meeting >= 0.0 && meeting <= 1.0) {
-            most = std::max(most, found[i] + rise * meeting);
-        }
-    }
-    // The steps of a flat foot rise as far as the next pass and end there.
-    for (std::size_t i = 1; !ball_ && i < static_cast<std::size_t>(n); ++i) {
-        const double rise = found[i] - found[i - 1];
-        const double fall = found[i] - found[i + 1];
-        most = std::max(most, found[i] + std::min(std::max(0.0, rise), std::max(0.0, fall)));
-    }
+    most = std::max(most, highest_between(found, static_cast<std::size_t>(n)));
     result.share = most;
     result.climb = climb;
     return result;
 }
 
-// Beside a corner ways end early, where they meet those from its other side.
+// Beside a corner cross lines end early, where they meet those from its other side.
 std::vector<double> LoopScallop::places_along(const Edge& edge, Corners corners, double step) const
 {
     const double whole = length(edge);
@@ -458,15 +384,15 @@ std::vector<double> LoopScallop::places_along(const Edge& edge, Corners corners,
     return places;
 }
 
-double LoopScallop::cross_lines_along(const Edge& edge, Corners corners, const Look& look) const
+double LoopScallop::cross_lines_along(const Edge& edge, Corners corners, const Search& search) const
 {
-    const std::vector<double> places = places_along(edge, corners, look.step);
-    CrossLine last = cross_line(edge, 0.0, look);
+    const std::vector<double> places = places_along(edge, corners, search.step);
+    CrossLine last = cross_line(edge, 0.0, search);
     double most = last.share;
     for (std::size_t i = 1; i < places.size() && most < kEnough; ++i) {
-        const CrossLine next = cross_line(edge, places[i], look);
-        most =
-            std::max({most, next.share, left_beside(last, next), between(edge, last, next, look)});
+        const CrossLine next = cross_line(edge, places[i], search);
+        most = std::max(
+            {most, next.share, left_beside(last, next), between(edge, last, next, search)});
         last = next;
     }
     return most;
@@ -475,7 +401,7 @@ double LoopScallop::cross_lines_along(const Edge& edge, Corners corners, const L
 double LoopScallop::between(const Edge& edge,
                             const CrossLine& a,
                             const CrossLine& b,
-                            const Look& look) const
+                            const Search& search) const
 {
     constexpr double kNear = 0.6;
     constexpr double kEven = 0.1;
@@ -487,8 +413,9 @@ double LoopScallop::between(const Edge& edge,
         (!uneven && !turns_level)) {
         return 0.0;
     }
-    const CrossLine middle = cross_line(edge, 0.5 * (a.along + b.along), look);
-    return std::max({middle.share, between(edge, a, middle, look), between(edge, middle, b, look)});
+    const CrossLine middle = cross_line(edge, 0.5 * (a.along + b.along), search);
+    return std::max(
+        {middle.share, between(edge, a, middle, search), between(edge, middle, b, search)});
 }
 
 }  // namespace cusp::contour_pocket

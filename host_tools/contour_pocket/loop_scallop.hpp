@@ -1,4 +1,4 @@
-// The highest scallop that two neighbouring rings of loops leave in the strip between them.
+// The highest scallop between two neighbouring rings of loops.
 #pragma once
 
 #include <array>
@@ -20,39 +20,38 @@ public:
                 const std::vector<nurbs::Surface>& surfaces,
                 const ToleranceSplit& tolerances);
 
-    // The largest scallop of the strip, square to the floor, over the surface that the tool could
-    // cut by passing everywhere; as a share of the height allowed between passes.
+    // The largest scallop of the strip, along the normal, over the surface that the tool can cut;
+    // as a share of the height allowed between passes.
     //
-    // Where bounds of the floor's slope and bend prove that no scallop within half the strip's
-    // width of a pass is too high (HeightBounds, balls only), nothing is sampled: every place lies
-    // so near to a pass (clear_region()).
+    // For balls, HeightBounds may prove that no scallop is too high within half the strip's width
+    // of a pass. Every place of the strip is that near to a pass (clear_region()), so nothing is
+    // sampled then.
     //
-    // Every place of the strip lies on a line straight inward from the outer ring. Such lines are a
-    // sixth of the tool's radius apart (less under a flat bottom). They are closer where the
-    // scallop changes and, for tools with a flat bottom, where the passes turn level: there they
-    // leave steps. On each line the floor is looked up at the contacts of evenly spaced tool
-    // positions, and compared with what both rings' paths cut there. Ends of lines that meet others
-    // are sampled too.
+    // Else the strip is sampled on lines straight inward from the outer ring, at most a sixth of
+    // the tool's radius apart (less for flat bottoms). They are denser where the scallop changes
+    // and, for flat bottoms, where the passes become level, since steps are left there. On each
+    // line the floor is computed at the contacts of evenly spaced tool positions, and compared with
+    // the cut of both rings' paths. The ends of lines that meet others are sampled too.
     double relative_scallop(const clearing::LoopStrip& strip);
 
-    // How far inward from the level the next one may lie so that relative_scallop() is 1 at most by
-    // those bounds alone, mm; 0 where they prove nothing.
+    // mm: how far inward from the ring the next one may lie so that HeightBounds alone prove a
+    // relative_scallop() of at most 1; 0 where they prove nothing.
     double proven_stepover(const offset::Region2d& level) const;
 
-    // How far apart along a straight way two of the tip's heights and slopes may be known so that
-    // the cubic through them is `max_error` (mm) from the true height at most, by those bounds; 0
+    // mm: how far apart along a straight line the tip's heights and slopes may be computed so that
+    // the cubic through them is within `max_error` (mm) of the true height, by HeightBounds; 0
     // where they prove nothing.
     double lookup_spacing(const offset::Region2d& region, double max_error) const;
 
-    // True where those bounds prove that the ball reaches all of the floor around the region: no
-    // valley is bent tighter than it.
+    // True where HeightBounds prove that the ball reaches all of the floor around the region: no
+    // valley has a radius below the ball's.
     bool reaches_floor(const offset::Region2d& region) const;
 
-    // Place by place, for partial loops. begin() takes the strip, add() the paths that are cut
-    // between its rings, too. Then stretches() finds the parts of edges of the outer ring from
-    // which lines inward meet too high a scallop, `from` to `to` (mm) from the contours.
+    // For partial loops. begin() takes the strip, add() the paths cut between its rings. Then
+    // stretches() finds the parts of edges of the outer ring from which cross lines meet too high a
+    // scallop, `from` to `to` (mm) from the contours.
     //
-    // Here the scallop's height is measured along the axis: on steep floors that is more.
+    // Here the scallop is measured along the axis: on steep floors that is more.
     void begin(const clearing::LoopStrip& strip);
     void add(const std::vector<clearing::PartialLoop>& loops);
     std::vector<offset::Edge> stretches(const std::vector<offset::Edge>& edges,
@@ -61,7 +60,7 @@ public:
                                         double to);
 
 private:
-    static constexpr int kPlaces = 8;  // on a way, at most
+    static constexpr int kPlaces = 8;  // on a cross line, at most
     struct Probe {
         Vec2d at;
         double tip;  // z
@@ -70,38 +69,38 @@ private:
         Vec2d gradient;
         double secant;
     };
-    // A line inward from a place of an edge.
+    // A line inward from a point of an edge.
     struct CrossLine {
         double along;  // share of the edge
-        double share;  // of the height allowed, the most on it
+        double share;  // largest share of the allowed height on it
         double climb;  // slope of the tip's height along the edge
         std::array<Probe, kPlaces + 1> probes{};
-        int count{0};  // of them that were looked at
+        int count{0};  // of valid probes
     };
-    // What ways are laid for: the strip, or with partial loops the part of it from `foot` mm off
-    // its outer level on.
-    struct Look {
+    // The search of one edge: the strip, or for partial loops the part of it from `foot` mm off its
+    // outer ring on.
+    struct Search {
         const clearing::LoopStrip& strip;
         double foot;
-        double step;     // mm: how long ways are
+        double step;     // mm: length of cross lines
         bool stretches;  // for partial loops
     };
-    void look_closely(double step);
+    void set_resolution(double step);
     void set_paths(const offset::Region2d& level, double step);
     void sort_segments(double cell);
-    CrossLine cross_line(const offset::Edge& edge, double along, const Look& look) const;
+    CrossLine cross_line(const offset::Edge& edge, double along, const Search& search) const;
     struct Corners {
         bool before, after;
     };
     std::vector<double> places_along(const offset::Edge& edge, Corners corners, double step) const;
-    double cross_lines_along(const offset::Edge& edge, Corners corners, const Look& look) const;
+    double cross_lines_along(const offset::Edge& edge, Corners corners, const Search& search) const;
     void stretches_on(const offset::Edge& edge,
-                      const Look& look,
+                      const Search& search,
                       std::vector<offset::Edge>& found) const;
     double between(const offset::Edge& edge,
                    const CrossLine& a,
                    const CrossLine& b,
-                   const Look& look) const;
+                   const Search& search) const;
     Vec2d inside_rim(Vec2d at, Vec2d touched) const;
     Probe probe(Vec2d at) const;
     double allowed(double secant) const;
@@ -113,12 +112,13 @@ private:
     };
     static Lowest where_sides_meet(const Probe& a, const Probe& b);
     double left_under(const Probe& a, const Probe& b) const;
-    double left_under_foot(const Probe& a, const Probe& b) const;
+    double left_under_flat(const Probe& a, const Probe& b) const;
     double left_between(const Probe& a, const Probe& b) const
     {
-        return ball_ ? left_under(a, b) : left_under_foot(a, b);
+        return ball_ ? left_under(a, b) : left_under_flat(a, b);
     }
     double left_beside(const CrossLine& a, const CrossLine& b) const;
+    double highest_between(const std::array<double, kPlaces + 1>& found, std::size_t n) const;
     double left_at(Vec2d at, Vec2d near) const;
 
     double proven(const offset::Box2d& level, double step) const;
@@ -127,7 +127,7 @@ private:
     const drop_cutter::DropCutter& floor_;
     const ToleranceSplit& tolerances_;
     bool ball_;
-    double apart_;  // mm between ways, at most
+    double apart_;  // mm: largest distance of cross lines
     HeightBounds bounds_;
     std::vector<TipSegment> segments_;
     offset::Box2d field_{};
@@ -135,8 +135,8 @@ private:
     int columns_{};
     int rows_{};
     std::vector<std::vector<std::uint32_t>> cells_;
-    int places_{3};     // on a way from one level to the other
-    double strayed_{};  // what of a ridge's height moves beside their paths leave allowed
+    int places_{3};           // on a cross line from one ring to the other
+    double scallop_share_{};  // of a scallop, after deviations of moves from their paths
 };
 
 }  // namespace cusp::contour_pocket

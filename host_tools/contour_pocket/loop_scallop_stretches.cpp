@@ -1,5 +1,5 @@
-// Ways inward one after the other: where one of two neighbours meets too much, the stretch between
-// them counts.
+// Cross lines in turn: where one of two neighbours has too high a scallop, the stretch between them
+// counts.
 #include <algorithm>
 #include <cmath>
 
@@ -42,22 +42,24 @@ std::vector<Edge> LoopScallop::stretches(const std::vector<Edge>& edges,
     if (to - from <= least_stepover(floor_.tool(), tolerances_)) {
         return {};
     }
-    const Look look{strip, from - strip.from, to - from, true};
-    look_closely(look.step);
+    const Search search{strip, from - strip.from, to - from, true};
+    set_resolution(search.step);
     std::vector<Edge> found;
     for (const Edge& edge : edges) {
-        stretches_on(edge, look, found);
+        stretches_on(edge, search, found);
     }
     return found;
 }
 
-void LoopScallop::stretches_on(const Edge& edge, const Look& look, std::vector<Edge>& found) const
+void LoopScallop::stretches_on(const Edge& edge,
+                               const Search& search,
+                               std::vector<Edge>& found) const
 {
     constexpr double kPoint = 1e-6;  // mm
-    // Under a flat bottom steps are left over narrow places, between the lines.
+    // A flat bottom leaves steps over narrow places between the lines.
     const double most = ball_ ? 1.0 : 0.85;
-    const bool corners = look.foot == 0.0;
-    const std::vector<double> places = places_along(edge, {corners, corners}, look.step);
+    const bool corners = search.foot == 0.0;
+    const std::vector<double> places = places_along(edge, {corners, corners}, search.step);
     double begin = -1.0;
     const auto close = [&](double end) {
         const Vec2d a = point_on(edge, begin);
@@ -67,11 +69,11 @@ void LoopScallop::stretches_on(const Edge& edge, const Look& look, std::vector<E
         }
         begin = -1.0;
     };
-    CrossLine last = cross_line(edge, places.front(), look);
+    CrossLine last = cross_line(edge, places.front(), search);
     for (std::size_t i = 1; i < places.size(); ++i) {
-        const CrossLine next = cross_line(edge, places[i], look);
+        const CrossLine next = cross_line(edge, places[i], search);
         const double share = std::max(
-            {last.share, next.share, left_beside(last, next), between(edge, last, next, look)});
+            {last.share, next.share, left_beside(last, next), between(edge, last, next, search)});
         if (share > most) {
             begin = begin < 0.0 ? places[i - 1] : begin;
         } else if (begin >= 0.0) {
@@ -84,10 +86,10 @@ void LoopScallop::stretches_on(const Edge& edge, const Look& look, std::vector<E
     }
 }
 
-// Whether the stock over the contact is no higher than allowed, square to the floor.
+// Whether the stock above the contact is no higher than allowed, along the normal.
 bool LoopScallop::clear_square_to(const Probe& probe) const
 {
-    const double high = strayed_ * allowed(probe.secant);
+    const double high = scallop_share_ * allowed(probe.secant);
     const Vec2d way = probe.gradient * (-1.0 / probe.secant);
     const Vec2d place = probe.touched + way * high;
     return left_at(place, probe.at) <= *probe.floor + high / probe.secant;

@@ -1,4 +1,4 @@
-// Sections of the floor across every loop, and in every direction at corners.
+// Sections of the floor across every loop, and in all directions at corners.
 #include "host_tools/contour_pocket/loop_spacing.hpp"
 
 #include <algorithm>
@@ -21,10 +21,10 @@ using toolpath::Tool;
 
 namespace {
 
-constexpr double kSamplesApart = 0.3;  // of the tool's radius: samples along a loop are no closer
-constexpr double kLeastShare = 0.02;   // of the tool's radius: no interval by a ridge is less
+constexpr double kSamplesApart = 0.3;  // of the tool's radius: between samples
+constexpr double kLeastShare = 0.02;   // of the tool's radius: least stepover by a scallop
 
-// Curvature of the tip's height over a floor of that curvature and slope, for a ball.
+// Curvature of the tip's height for a ball, from the floor's curvature and slope.
 double bend_of_tip(const Tool& tool, const DropCutter::Section& section)
 {
     const double over = 1.0 + section.curvature * tool.corner_radius;
@@ -68,7 +68,7 @@ double least_stepover(const Tool& tool, const ToleranceSplit& tolerances)
     return std::max(0.5 * tolerances.scallop_height, 0.01 * tool.radius);
 }
 
-// Neighbouring moves may stray from their paths, each its own way.
+// Neighbouring moves may each deviate from their paths.
 double LoopSpacing::within_limits(double interval) const
 {
     const double stray = tolerances_.one_sided ? 2.0 * tolerances_.plan_tolerance : 0.0;
@@ -147,7 +147,7 @@ double LoopSpacing::with_partial_loops(const Region2d& level, double step) const
     return best;
 }
 
-// To a fiftieth of the scallop's height.
+// Accurate to a fiftieth of the scallop's height.
 DropCutter::CcPoint LoopSpacing::contact(Vec2d at) const
 {
     return floor_.cc_point(at, 0.02 * tolerances_.scallop_height);
@@ -176,7 +176,8 @@ void LoopSpacing::across(Vec2d at, const DropCutter::CcPoint& here, Vec2d direct
     }
 }
 
-// The tip's height and slope change between two places as the curvatures at both say.
+// Whether the tip's height and slope change between two places as predicted by the curvatures at
+// both.
 bool LoopSpacing::as_expected(const DropCutter::CcPoint& a,
                               const DropCutter::CcPoint& b,
                               Vec2d direction,
@@ -195,7 +196,7 @@ bool LoopSpacing::as_expected(const DropCutter::CcPoint& a,
 double LoopSpacing::by_scallop(Vec2d at, Vec2d direction, double most) const
 {
     constexpr int kPlaces = 32;
-    constexpr int kWindow = 4;  // places by which the windows looked at differ
+    constexpr int kWindow = 4;  // places by which successive windows differ
     constexpr int kHalvings = 6;
     const auto low_enough = [&](double apart) {
         std::vector<double> heights;
@@ -206,8 +207,8 @@ double LoopSpacing::by_scallop(Vec2d at, Vec2d direction, double most) const
             }
             heights.push_back(cl->z);
         }
-        // The level's interval may turn out smaller: a valley that this pass clears would then lie
-        // between two passes.
+        // The spacing may become smaller: a valley that this pass clears would then lie between two
+        // passes.
         while (heights.size() > 2) {
             const double reach = apart * static_cast<double>(heights.size() - 1) / kPlaces;
             if (scallop_between(floor_.tool(), heights, reach) > tolerances_.scallop_height) {
@@ -229,8 +230,8 @@ double LoopSpacing::by_scallop(Vec2d at, Vec2d direction, double most) const
     return good;
 }
 
-// Closer where the floor is uneven along the edge. Of a chain of short edges only every one is
-// looked at that begins `kSamplesApart` after the last sample.
+// Samples are denser where the floor is uneven along the edge. Of a chain of short edges, only
+// those that begin at least kSamplesApart after the last sample are examined.
 void LoopSpacing::along(const Edge& edge)
 {
     const double radius = floor_.tool().radius;

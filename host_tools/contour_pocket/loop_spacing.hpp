@@ -1,4 +1,4 @@
-// How far inward from a ring of loops the next one may lie.
+// Spacing of the rings of loops: how far inward from a ring the next one may lie.
 #pragma once
 
 #include "host_tools/contour_pocket/pocket_task.hpp"
@@ -6,25 +6,25 @@
 
 namespace cusp::contour_pocket {
 
-// The highest scallop, square to the floor, that passes at the first and the last of evenly spaced
-// places leave over the profile that passes at all of them would cut.
+// The highest scallop, along the normal, that passes at the first and the last of evenly spaced
+// places leave above the profile that passes at all of them would cut.
 //
-//   heights  of the tip at the places, mm; at least two
-//   apart    mm from the first place to the last
+// heights  mm, of the tip at the places; at least two
+// apart    mm from the first place to the last
 double scallop_between(const toolpath::Tool& tool,
                        const std::vector<double>& heights,
                        double apart);
 
-// No stepover is less, mm: half the scallop's height, which on the steepest floors bounds the steps
-// that a flat end mill leaves, or a hundredth of the tool's radius, which bounds the work.
+// mm: lower limit of the stepover. Half the scallop's height bounds the steps of a flat end mill on
+// the steepest floors; a hundredth of the tool's radius bounds the computation.
 double least_stepover(const toolpath::Tool& tool, const ToleranceSplit& tolerances);
 
 class LoopSpacing {
 public:
-    // corners   sections in every direction at corners, where loops meet at an angle
-    // scallops  where the floor between two passes differs from what its curvature at one of them
-    //           predicts (a valley tighter than the tool, an edge), the scallop itself is computed;
-    //           else that is left to LoopScallop
+    // corners   also sections in all directions at corners, where loops meet at an angle
+    // scallops  where the floor between two passes differs from the prediction by its curvature (a
+    //           valley tighter than the tool, a crease), the scallop itself is computed; else
+    //           LoopScallop does that
     LoopSpacing(const drop_cutter::DropCutter& floor,
                 const ToleranceSplit& tolerances,
                 bool corners,
@@ -33,16 +33,16 @@ public:
     {
     }
 
-    // The least distance inward from the ring, mm, at which no scallop between is higher than
-    // allowed, by plan_stepover() and the scallop itself.
+    // mm: the least distance inward from the ring at which no scallop is higher than allowed, by
+    // plan_stepover() and the scallop itself.
     //
-    //   proven  mm: a distance at which no scallop is too high, see LoopScallop. It is returned as
-    //           soon as some place of the ring allows hardly more: others could only allow less.
+    // proven  mm: a distance at which no scallop is too high, see LoopScallop. It is returned as
+    //         soon as a place of the ring allows hardly more, since others could only allow less.
     double stepover_from(const offset::Region2d& level, double proven = 0.0);
 
-    // How far inward the next level may lie, mm, so that the path is shortest if parts of the level
-    // that need less get partial loops in halves, quarters ... of that; 0 where that is not worth
-    // it over whole loops `step` apart. By the formula alone.
+    // mm: how far inward the next ring may lie for the shortest path if parts that need less get
+    // partial loops at halves, quarters ... of that; 0 if whole loops `step` apart are as good. By
+    // the stepover formula alone.
     double with_partial_loops(const offset::Region2d& level, double step) const;
 
 private:

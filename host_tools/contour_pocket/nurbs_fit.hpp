@@ -1,4 +1,4 @@
-// Cubic B-splines through the bands of stations, by least squares. Needs Eigen (CUSP_EIGEN).
+// Least-squares cubic B-splines through the bands of stations. Needs Eigen (CUSP_EIGEN).
 #pragma once
 
 #include <optional>
@@ -8,12 +8,12 @@
 
 namespace cusp::contour_pocket {
 
-// False in a build without Eigen: fit_cubic() then never finds a curve.
+// False in a build without Eigen: fit_cubic() then finds no curve.
 bool nurbs_fit_available();
 
 // The curve with the fewest control points found that starts and ends at the first and last station
-// (at the middle of the band) and passes every station within the band; no value where half as many
-// control points as stations do not suffice.
+// (in the middle of the band) and passes every station within the band. None if it would need more
+// than half as many control points as stations.
 std::optional<nurbs::Curve> fit_cubic(const std::vector<Station>& stations,
                                       const StationBand& band);
 

@@ -6,7 +6,7 @@
 #include "host_tools/contour_pocket/cl_path.hpp"
 #include "host_tools/contour_pocket/nurbs_fit.hpp"
 
-// Eigen's headers are not written for our warnings.
+// Eigen's headers do not compile without these warnings.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wsign-conversion"
@@ -37,7 +37,7 @@ std::vector<double> uniform_knots(int count)
     return knots;
 }
 
-// The four basis functions that are not 0 at t, and the first one's index (Cox-de Boor).
+// The four nonzero basis functions at t, and the index of the first (Cox-de Boor).
 int basis_at(const std::vector<double>& knots, int count, double t, Row& basis)
 {
     const int spans = count - 3;
@@ -130,9 +130,9 @@ std::optional<Curve> least_squares(const Samples& samples, int count)
     return curve;
 }
 
-// From one station to the next a curve is no farther from the even way between its ends than an
-// eighth of the square of the step times the second derivative by which it differs from it. The
-// second derivative of a cubic changes evenly between knots: largest at a station or at a knot.
+// Between two stations a curve deviates from linear motion between its ends by at most an eighth of
+// the squared step times its second derivative. That of a cubic is linear between knots, so the
+// largest value is at a station or a knot.
 bool stays_between(
     const Curve& curve, const Station& a, const Station& b, double from, double to, Vec3d most)
 {
@@ -168,7 +168,7 @@ bool passes(const Curve& curve,
             return false;
         }
     }
-    // At stations a part of the tolerance is left for what lies between them.
+    // Part of the tolerance is reserved for the curve between stations.
     const Vec3d between{0.16 * band.plan_tolerance, 0.16 * band.plan_tolerance,
                         0.3 * (band.high - band.low)};
     for (std::size_t k = 1; k < stations.size(); ++k) {

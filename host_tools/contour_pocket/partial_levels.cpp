@@ -1,4 +1,4 @@
-// Halves strips breadth first, so that every stretch is looked at with all coarser loops in place.
+// Halves strips breadth first: each stretch is examined when all coarser loops are in place.
 #include "host_tools/contour_pocket/partial_levels.hpp"
 
 #include <cmath>
@@ -17,7 +17,7 @@ using offset::Edge;
 
 namespace {
 
-// A part of the strip in which the scallop may be too high, inward from `feet`.
+// A part of the strip with possibly too high a scallop, inward from `feet`.
 struct Part {
     std::vector<Edge> feet;
     double from;

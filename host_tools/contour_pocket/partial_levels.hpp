@@ -1,4 +1,4 @@
-// Partial loops between two rings that are too far apart for some of the floor between them.
+// Partial loops between two rings whose distance is too large for part of the floor between them.
 #pragma once
 
 #include <optional>
@@ -9,10 +9,10 @@
 
 namespace cusp::contour_pocket {
 
-// Loops halfway between the rings over the stretches where the scallop is too high, again in both
-// halves, until it is nowhere too high (LoopScallop::stretches()) or passes are as near as they may
-// be (least_stepover()). No value where it is too high beside a spur into a corner, or
-// where the loops add more than `max_length` mm of path.
+// Loops halfway between the rings along the stretches with too high a scallop, repeated in both
+// halves until no scallop is too high (LoopScallop::stretches()) or passes are as close as allowed
+// (least_stepover()). None if the scallop is too high beside a cleanup spur, or if the loops add
+// more than `max_length` mm of path.
 std::optional<std::vector<clearing::PartialLoop>> partial_levels(const clearing::LoopStrip& strip,
                                                                  LoopScallop& loop_scallop,
                                                                  double radius,

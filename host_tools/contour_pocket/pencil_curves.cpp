@@ -1,5 +1,5 @@
-// Halving finds a line between two places; from there it is followed step by step both ways. At
-// sharp corners a circle of places finds where it goes on.
+// Bisection finds a point of a line between two samples. From there the line is traced step by step
+// in both directions; at sharp corners a circle of samples finds its continuation.
 #include "host_tools/contour_pocket/pencil_curves.hpp"
 
 #include <algorithm>
@@ -25,14 +25,14 @@ namespace {
 constexpr double kGrid = 0.125;         // of the tool's radius
 constexpr double kMostCells = 600.0;    // a side
 constexpr double kTurn = 0.15;          // of the slope
-constexpr double kUpright = 20.0;       // turns of the slope by more are jumps
+constexpr double kUpright = 20.0;       // larger changes of the slope are jumps
 constexpr double kLongestStep = 0.1;    // of the radius
 constexpr double kShortestStep = 2e-3;  // of the radius
-constexpr double kBeside = 0.35;        // of a step: how far beside its end the line is looked for
-constexpr double kSame = 0.04;          // of the radius: how far along a line its places tell of it
-constexpr double kBesideSame = 0.005;   // of the radius: lines farther beside each other are two
+constexpr double kBeside = 0.35;        // of a step: search beside its end
+constexpr double kSame = 0.04;          // of the radius: along a line, near its points
+constexpr double kBesideSame = 0.005;   // of the radius: beside a line
 constexpr double kParallel = 0.9;       // cosine
-constexpr double kDimple = 6.0;         // half sides of the grid: farther off it is another's
+constexpr double kDimple = 6.0;         // half sides of the grid: largest distance
 
 class LineTracer {
 public:
@@ -57,7 +57,7 @@ public:
             std::vector<GridPlace> column;
             for (int j = 0; j < rows; ++j) {
                 const Vec2d at{box.x0 + grid * i, box.y0 + grid * j};
-                column.push_back({at, look(at)});
+                column.push_back({at, sample(at)});
                 const auto here = static_cast<std::size_t>(j);
                 if (j > 0) {
                     start_on_edge(column[here - 1], column[here]);
@@ -72,38 +72,38 @@ public:
     }
 
 private:
-    struct Look {
+    struct Sample {
         Vec2d at;
-        DropCutter::ClPoint rest;
+        DropCutter::ClPoint cl;
     };
 
-    std::optional<Look> look(Vec2d at) const
+    std::optional<Sample> sample(Vec2d at) const
     {
         if (!search_.inside(at)) {
             return std::nullopt;
         }
         const std::optional<DropCutter::ClPoint> cl = floor_.drop(at);
-        return cl ? std::optional{Look{at, *cl}} : std::nullopt;
+        return cl ? std::optional{Sample{at, *cl}} : std::nullopt;
     }
 
     struct GridPlace {
         Vec2d at;
-        std::optional<Look> look;
+        std::optional<Sample> sample;
     };
 
-    // A curve may run along walls, nearer to the border of the tool's positions than a cell.
+    // A curve may run along walls, less than a cell from the border of the tool's positions.
     void start_on_edge(const GridPlace& a, const GridPlace& b)
     {
-        if (a.look && b.look) {
-            start_between(a.look, b.look);
-        } else if (a.look) {
-            start_between(a.look, look(last_inside(a.at, b.at)));
-        } else if (b.look) {
-            start_between(look(last_inside(b.at, a.at)), b.look);
+        if (a.sample && b.sample) {
+            start_between(a.sample, b.sample);
+        } else if (a.sample) {
+            start_between(a.sample, sample(last_inside(a.at, b.at)));
+        } else if (b.sample) {
+            start_between(sample(last_inside(b.at, a.at)), b.sample);
         }
     }
 
-    // On the way from a place inside to one that is not.
+    // The last point inside on the segment from an inside point to one outside.
     Vec2d last_inside(Vec2d in, Vec2d out) const
     {
         while (distance(in, out) > nearest_) {
@@ -114,87 +114,89 @@ private:
     }
 
     struct Bend {
-        double jump;  // mm that the slopes at the ends do not explain
+        double jump;  // mm not explained by the slopes at both ends
         double turn;  // of the slope, upward
     };
 
-    static Bend bend(const Look& a, const Look& b)
+    static Bend bend(const Sample& a, const Sample& b)
     {
         const Vec2d way = b.at - a.at;
         const double apart = std::sqrt(dot(way, way));
-        const double by_slopes = 0.5 * dot(a.rest.slope + b.rest.slope, way);
-        return {std::abs(b.rest.z - a.rest.z - by_slopes),
-                dot(b.rest.slope - a.rest.slope, way) / apart};
+        const double by_slopes = 0.5 * dot(a.cl.slope + b.cl.slope, way);
+        return {std::abs(b.cl.z - a.cl.z - by_slopes), dot(b.cl.slope - a.cl.slope, way) / apart};
     }
 
-    // A smooth valley as tight as the tool turns no more over that way.
-    bool is_uneven(const Look& a, const Look& b) const
+    // Where a smooth valley is as tight as the tool, the slope turns no more over that distance.
+    bool is_uneven(const Sample& a, const Sample& b) const
     {
         return bend(a, b).jump > search_.jump || is_tight(a, b);
     }
 
-    bool is_tight(const Look& a, const Look& b) const
+    bool is_tight(const Sample& a, const Sample& b) const
     {
         return bend(a, b).turn > kTurn + distance(a.at, b.at) / radius_;
     }
 
-    // Where between two places a line passes, and the nearest ones on its sides.
+    // Where a line passes between two places, and the nearest samples on both sides.
     struct Crossing {
         PencilPoint point;
-        Look before;
-        Look behind;
+        Sample before;
+        Sample behind;
     };
 
-    std::optional<Crossing> crossing(const std::optional<Look>& from,
-                                     const std::optional<Look>& to) const
+    std::optional<Crossing> crossing(const std::optional<Sample>& from,
+                                     const std::optional<Sample>& to) const
     {
         if (!from || !to || !is_uneven(*from, *to)) {
             return std::nullopt;
         }
-        Look a = *from;
-        Look b = *to;
-        const auto weight = [](const Look& p, const Look& q) {
+        Sample a = *from;
+        Sample b = *to;
+        const auto weight = [](const Sample& p, const Sample& q) {
             const Bend found = bend(p, q);
             return found.jump + 0.5 * std::max(0.0, found.turn) * distance(p.at, q.at);
         };
         while (distance(a.at, b.at) > nearest_) {
-            const std::optional<Look> middle = look((a.at + b.at) * 0.5);
+            const std::optional<Sample> middle = sample((a.at + b.at) * 0.5);
             if (!middle) {
                 return std::nullopt;
             }
             (weight(a, *middle) > weight(*middle, b) ? b : a) = *middle;
         }
-        const double rise = b.rest.z - a.rest.z;
+        const double rise = b.cl.z - a.cl.z;
         const double turn = bend(a, b).turn;
         const bool jump = std::abs(rise) > search_.jump || turn > kUpright;
         if (!jump && turn < kTurn) {
             return std::nullopt;
         }
         const Vec2d way = unit(b.at - a.at);
-        const double climb = dot(a.rest.slope + b.rest.slope, way);
+        const double climb = dot(a.cl.slope + b.cl.slope, way);
         const bool low_first = jump ? rise > 0.0 : climb > 0.0;
         const PencilPoint point =
             low_first ? PencilPoint{a.at, way * -1.0, jump} : PencilPoint{b.at, way, jump};
         return Crossing{point, a, b};
     }
 
-    std::optional<PencilPoint> between(const std::optional<Look>& a,
-                                       const std::optional<Look>& b) const
+    std::optional<PencilPoint> between(const std::optional<Sample>& a,
+                                       const std::optional<Sample>& b) const
     {
         const std::optional<Crossing> found = crossing(a, b);
         return found ? std::optional{found->point} : std::nullopt;
     }
 
-    std::optional<PencilPoint> between(Vec2d a, Vec2d b) const { return between(look(a), look(b)); }
+    std::optional<PencilPoint> between(Vec2d a, Vec2d b) const
+    {
+        return between(sample(a), sample(b));
+    }
 
-    // Places of the lines found so far, by square cells of side kSame radii.
+    // Points of the lines found so far, in square cells of side kSame radii.
     using Cell = std::array<int, 2>;
     struct Traced {
         Vec2d at;
-        Vec2d way;  // of the line there; zero at its start
+        Vec2d way;  // direction of the line; zero at its start
         std::size_t line;
         std::size_t point;
-        double gone;  // mm: of the way that line was followed
+        double gone;  // mm: distance along the line from its start
     };
 
     Cell cell_of(Vec2d p) const
@@ -203,7 +205,7 @@ private:
                 static_cast<int>(std::floor(p.y / traced_cell_))};
     }
 
-    // Whether the line that was followed to there passes by p: a ledge has two beside each other.
+    // Whether the line traced up to there passes by p. A ledge has two lines beside each other.
     bool passes_by(const Traced& place, Vec2d p) const
     {
         const Vec2d arm = p - place.at;
@@ -245,14 +247,16 @@ private:
         }
     }
 
-    // Halving finds the steepest line: beside a jump there may be others, of ledges.
-    void start_between(const std::optional<Look>& a, const std::optional<Look>& b, int ledges = 0)
+    // Bisection finds the steepest line. Beside a jump there may be others, those of ledges.
+    void start_between(const std::optional<Sample>& a,
+                       const std::optional<Sample>& b,
+                       int ledges = 0)
     {
         constexpr int kMostLedges = 3;
         const std::optional<Crossing> found = crossing(a, b);
         if (!found) {
             if (a && b && is_tight(*a, *b)) {
-                go_through_dimple(*a, *b);
+                cross_dimple(*a, *b);
             }
             return;
         }
@@ -271,7 +275,7 @@ private:
         if (traced_near(found.at, traced_cell_, passes)) {
             return;
         }
-        const std::optional<PencilPoint> start = squared(found);
+        const std::optional<PencilPoint> start = met_perpendicular(found);
         if (!start) {
             return;
         }
@@ -289,35 +293,35 @@ private:
         }
     }
 
-    // A tool that sinks into a hole is lowest at one place, from where no curve leads on. The
-    // nearer the line from a to b passes it the tighter it turns, and smoothly. That place gets a
+    // In a hole narrower than the tool the tip has a single lowest place, with no curve from it:
+    // the nearer a section passes it, the tighter and yet smoother it bends. The place gets a
     // straight line through it.
-    void go_through_dimple(const Look& a, const Look& b)
+    void cross_dimple(const Sample& a, const Sample& b)
     {
         const double step = 0.5 * distance(a.at, b.at);
         const Vec2d start = (a.at + b.at) * 0.5;
-        double lowest = std::min(a.rest.z, b.rest.z);
+        double lowest = std::min(a.cl.z, b.cl.z);
         const auto lower = [&](Vec2d to) {
-            const auto there = distance(to, start) < kDimple * step ? look(to) : std::nullopt;
-            const bool found = there && there->rest.z < lowest;
-            lowest = found ? there->rest.z : lowest;
+            const auto there = distance(to, start) < kDimple * step ? sample(to) : std::nullopt;
+            const bool found = there && there->cl.z < lowest;
+            lowest = found ? there->cl.z : lowest;
             return found;
         };
         const Vec2d bottom = pattern_search(start, step, nearest_, lower);
         const auto any = [](const Traced&) {
             return true;
         };
-        if (traced_near(bottom, traced_cell_, any) || !rises_all_round(bottom)) {
+        if (traced_near(bottom, traced_cell_, any) || !rises_in_all_directions(bottom)) {
             return;
         }
         std::vector<PencilPoint> way;
         const auto add = [&](int k) {
             const Vec2d at = bottom + Vec2d{k * kLongestStep * radius_, 0.0};
-            const bool stands = look(at).has_value();
-            if (stands) {
+            const bool found = sample(at).has_value();
+            if (found) {
                 way.push_back({at, {}, false});
             }
-            return stands;
+            return found;
         };
         constexpr int kSteps = 10;
         for (int k = 0; k <= kSteps && add(-k); ++k) {
@@ -329,13 +333,13 @@ private:
         mark(bottom, bottom, lines_.size() - 1, 0, 0.0);
     }
 
-    // Whether slopes turn there whichever way it is passed.
-    bool rises_all_round(Vec2d bottom) const
+    // Whether the slope turns up there in every direction.
+    bool rises_in_all_directions(Vec2d bottom) const
     {
         const double out = 0.2 * kGrid * radius_;
         for (const Vec2d way : {Vec2d{out, 0.0}, Vec2d{0.0, out}}) {
-            const std::optional<Look> a = look(bottom - way);
-            const std::optional<Look> b = look(bottom + way);
+            const std::optional<Sample> a = sample(bottom - way);
+            const std::optional<Sample> b = sample(bottom + way);
             if (!a || !b || bend(*a, *b).turn < kTurn) {
                 return false;
             }
@@ -343,8 +347,9 @@ private:
         return true;
     }
 
-    // The same place of the line, met square to it: by two more places beside.
-    std::optional<PencilPoint> squared(const PencilPoint& start) const
+    // The same point of the line, found again on a section perpendicular to it, from two
+    // neighbouring points.
+    std::optional<PencilPoint> met_perpendicular(const PencilPoint& start) const
     {
         const double step = 4.0 * kShortestStep * radius_;
         const std::vector<PencilPoint> around = circle(start.at, step);
@@ -357,18 +362,18 @@ private:
         return found ? found : around.front();
     }
 
-    // Where lines leave a circle about a place.
+    // Where lines leave a circle around a place.
     std::vector<PencilPoint> circle(Vec2d centre, double out) const
     {
         constexpr int kPlaces = 24;
         std::vector<PencilPoint> found;
         const auto place = [&](int i) {
             const double angle = 2 * kPi * (i + 0.37) / kPlaces;
-            return look(centre + Vec2d{std::cos(angle), std::sin(angle)} * out);
+            return sample(centre + Vec2d{std::cos(angle), std::sin(angle)} * out);
         };
-        std::optional<Look> last = place(0);
+        std::optional<Sample> last = place(0);
         for (int i = 1; i <= kPlaces; ++i) {
-            std::optional<Look> next = place(i);
+            std::optional<Sample> next = place(i);
             if (const auto point = between(last, next)) {
                 found.push_back(*point);
             }
@@ -382,7 +387,7 @@ private:
         Vec2d way;
     };
 
-    // The next place of the line, as far on as its chord allows.
+    // The next point of the line, as far on as the tolerance of chords allows.
     std::optional<Step> next(const PencilPoint& from, Vec2d way, double& step) const
     {
         const double shortest = kShortestStep * radius_;
@@ -416,7 +421,7 @@ private:
         return best;
     }
 
-    // On from the last place of the last line.
+    // Traces on from the last point of the last line.
     void follow(Vec2d way)
     {
         constexpr int kMostPoints = 200000;
@@ -433,7 +438,7 @@ private:
             const double apart = distance(last.at, on->point.at);
             gone += apart;
             const double reach = std::min(0.7 * apart, 0.7 * traced_cell_);
-            // One that comes round beside its start would go round for ever.
+            // A line that returns beside its start would never end.
             const auto far_back = [&](const Traced& place) {
                 const double since = place.point < first_of_way_back_ ? 0.0 : place.gone;
                 const bool far = place.line != line || gone - since > 4.0 * traced_cell_;
@@ -456,7 +461,7 @@ private:
     const DropCutter& floor_;
     const PencilSearch& search_;
     double radius_;
-    double nearest_;  // mm: halving ends
+    double nearest_;  // mm: bisection ends
     double traced_cell_;
     std::vector<PencilCurve> lines_;
     std::map<Cell, std::vector<Traced>> traced_;

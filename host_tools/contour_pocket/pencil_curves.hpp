@@ -11,9 +11,9 @@
 namespace cusp::contour_pocket {
 
 struct PencilPoint {
-    Vec2d at;        // just on the low side: where the CL point is lower, or else climbs less
+    Vec2d at;        // just on the low side: the CL point is lower there, or climbs less
     Vec2d low_side;  // from the line to the low side, unit vector
-    bool jump;       // of the height; else its slope turns
+    bool jump;       // of the height; else the slope turns
 };
 
 struct PencilCurve {
@@ -22,15 +22,15 @@ struct PencilCurve {
 };
 
 struct PencilSearch {
-    offset::Box2d box;                        // that is searched
+    offset::Box2d box;                        // searched
     std::function<bool(Vec2d place)> inside;  // whether the tool's axis may be there
-    double jump{};                            // mm: smaller ones are not followed
-    double fine{};                            // mm: how far chords of a line may lie from it
+    double jump{};                            // mm: smaller jumps are ignored
+    double fine{};                            // mm: tolerance of the chords of a line
 };
 
 // Searches a grid of an eighth of the tool's radius (coarser where the box is longer than 600 such
-// cells) and follows the curves from there. Curves that no edge of the grid crosses are missed.
-// Turns of the slope count from 0.15 on.
+// cells) and traces the curves from there. Curves that cross no edge of the grid are missed. A turn
+// of the slope counts from 0.15.
 std::vector<PencilCurve> pencil_curves(const drop_cutter::DropCutter& floor,
                                        const PencilSearch& search);
 

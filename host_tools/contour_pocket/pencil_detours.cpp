@@ -1,4 +1,4 @@
-// Looks from the ends of the cliff passes' edges, which are short.
+// Searches from the ends of the pencil passes' edges, which are short.
 #include "host_tools/contour_pocket/pencil_detours.hpp"
 
 #include <algorithm>
@@ -31,8 +31,8 @@ constexpr double kOnePlace = 1e-6;  // mm
 struct Place {
     std::size_t pass;
     std::size_t edge;
-    Vec2d at;            // on the pass
-    std::size_t corner;  // of the cliff pass: the start of that edge, or its end
+    Vec2d at;            // on the loop
+    std::size_t corner;  // of the pencil pass: the start of that edge, or its end
     double apart;        // mm from that corner
 };
 
@@ -41,7 +41,7 @@ bool is_closed(const Contour& path)
     return distance(path.front().start, path.back().end) < kOnePlace;
 }
 
-// From the corner on to the end and, where that is not the start, back over all of it.
+// From the corner to the end and, unless that is the start again, back over all of it.
 std::vector<Edge> out_and_back(const Contour& pencil, const Place& place)
 {
     const auto middle = pencil.begin() + static_cast<std::ptrdiff_t>(place.corner);
@@ -73,7 +73,7 @@ public:
     {
     }
 
-    // The place where a detour along the pencil pass may leave a pass, if any.
+    // The place where a detour along the pencil pass may leave a loop, if any.
     std::optional<Place> find(const Contour& pencil) const
     {
         constexpr double kBeside = 0.1;  // of the radius
@@ -102,7 +102,8 @@ private:
         std::size_t edge;
     };
 
-    // Passes that are entered from above start with a slope along all of them.
+    // The edges of loops. Passes entered from above are left out: they start with a slope along all
+    // of them.
     std::vector<Edge> sorted(const ClearedRegion& cleared)
     {
         std::vector<Edge> edges;
@@ -129,7 +130,7 @@ struct PencilDetour {
     ClearingPass pass;
 };
 
-// The pass up to each place, the way out there, and so on.
+// The pass up to each place, the detour from there, and so on.
 void divide(const ClearingPass& pass,
             std::vector<PencilDetour>& detours,
             std::vector<ClearingPass>& result)
@@ -176,7 +177,7 @@ void add_pencil_passes(ClearedRegion& cleared,
                        const std::vector<ClearingPass>& pencils,
                        const Region2d& reach)
 {
-    // No part lies inside another: islands have no inside.
+    // Reach regions are not nested: islands have no inside.
     const auto part_of = [&](const ClearingPass& pass) {
         return std::find_if(reach.contours.begin(), reach.contours.end(), [&](const Contour& c) {
             return area(c) > 0.0 && surrounds(c, pass.path.front().start);

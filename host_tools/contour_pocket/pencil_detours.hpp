@@ -1,4 +1,4 @@
-// Pencil passes as detours out of a loop and back: no retract, and no entry beside a wall of stock.
+// Pencil passes as detours from a loop and back: no retract, and no entry beside a wall of stock.
 #pragma once
 
 #include <vector>
@@ -8,12 +8,12 @@
 
 namespace cusp::contour_pocket {
 
-// Adds each pencil pass to the loop that it comes nearest to. Of several loops within a tenth of
-// the tool's radius that is the one cut last, so that the stock beside is cut. The loop is divided
-// there, and the detour lies between its parts (PassStart::kContinue). Returns the pencil passes
-// that have no loop within the radius.
+// Adds each pencil pass to the nearest loop. Of several loops within a tenth of the tool's radius,
+// the one cut last is taken, so the stock beside it is already cut. The loop is divided there, and
+// the detour lies between its parts (PassStart::kContinue). Returns the pencil passes without a
+// loop within the radius.
 //
-//   wall_clearance  mm: distance of the tool's axis from the contours on its way out
+// wall_clearance  mm: distance of the tool's axis from the contours on the detour
 std::vector<clearing::ClearingPass> add_pencil_detours(
     clearing::ClearedRegion& cleared,
     const std::vector<clearing::ClearingPass>& pencils,
@@ -21,10 +21,10 @@ std::vector<clearing::ClearingPass> add_pencil_detours(
     double wall_clearance,
     double radius);
 
-// Adds the pencil passes behind the last pass in their part of `reach`, so that links to them cross
-// stock that is cut.
+// Adds the pencil passes after the last pass in their part of `reach`, so that links to them cross
+// material that is already cut.
 //
-//   reach  where the tool's axis may be: the offset of the walls that holds all passes
+// reach  where the tool's axis may be: the offset of the walls that contains all passes
 void add_pencil_passes(clearing::ClearedRegion& cleared,
                        const std::vector<clearing::ClearingPass>& pencils,
                        const offset::Region2d& reach);

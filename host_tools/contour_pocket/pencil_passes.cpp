@@ -1,4 +1,4 @@
-// Follows the lines that pencil_curves() finds as far as they are worth it.
+// Follows the lines of pencil_curves() where a pass along them removes enough stock.
 #include "host_tools/contour_pocket/pencil_passes.hpp"
 
 #include <algorithm>
@@ -23,11 +23,11 @@ using toolpath::Tool;
 
 namespace {
 
-constexpr double kAlong = 0.1;       // of the radius: between places that are looked at
-constexpr double kWorthOn = 3.0;     // radii: over shorter gaps a pass goes on
+constexpr double kAlong = 0.1;       // of the radius: distance of samples
+constexpr double kWorthOn = 3.0;     // radii: a pass continues over shorter gaps
 constexpr double kFarthest = 4.0;    // of `distance`
 constexpr double kFragment = 2.0;    // radii: shorter lines
-constexpr double kLifted = 0.02;     // of the radius: length of a pass that may lie high
+constexpr double kLifted = 0.02;     // of the radius: length of a pass that may be raised
 constexpr double kLeastStep = 1e-4;  // mm
 
 class PencilPassMaker {
@@ -60,8 +60,8 @@ public:
                 return length_of(line) > kFragment * floor_.tool().radius;
             });
         follow(lines.begin(), fragments);
-        // Where the tip's height is all but upright its line is found in pieces, some beside others
-        // that have been followed.
+        // Where the tip's height is nearly vertical, its line is found in pieces, some of them
+        // beside lines already followed.
         ClearedRegion followed = cleared_;
         followed.passes.insert(followed.passes.end(), passes_.begin(), passes_.end());
         leavings_.emplace(followed, floor_);
@@ -103,7 +103,7 @@ private:
         return !walls_.any_nearer(p, settings_.wall_clearance) && walls_.contains(p);
     }
 
-    // Whether the pass, as it is certified, stays down, but for climbs where it meets other cliffs.
+    // Whether the certified pass stays low, except for climbs where it meets other cliffs.
     bool lies_low(const ClearingPass& pass) const
     {
         ClPathSettings path_settings = settings_.path_settings;
@@ -122,7 +122,7 @@ private:
         return length < kLifted * floor_.tool().radius;
     }
 
-    // The places of the curve where passes may run, and where they cut enough.
+    // Passes along the parts of the curve where passes may run and remove enough.
     std::vector<ClearingPass> along(const PencilCurve& line, double off)
     {
         std::vector<Vec2d> path;
@@ -150,7 +150,7 @@ private:
         return passes_on(path, resolution);
     }
 
-    // Whether the tool there takes off more than may stay.
+    // Whether the tool there removes more than may remain.
     bool is_worth(Vec2d q)
     {
         constexpr double kRings[] = {0.0, 0.3, 0.55, 0.75, 0.9, 0.985};
@@ -172,7 +172,7 @@ private:
         return false;
     }
 
-    // Rather on along the line than up and down again.
+    // Passes continue over short gaps instead of retracting.
     void fill_openings(const std::vector<Vec2d>& path, std::vector<bool>& resolution) const
     {
         const double longest = kWorthOn * floor_.tool().radius;
@@ -192,7 +192,7 @@ private:
         }
     }
 
-    // A pass for each stretch of the path, from the place before it to the one behind it.
+    // A pass for each stretch of the path, from the place before it to the place after it.
     std::vector<ClearingPass> passes_on(const std::vector<Vec2d>& path,
                                         const std::vector<bool>& resolution) const
     {
@@ -226,7 +226,7 @@ private:
     const DropCutter& floor_;
     const ClearedRegion& cleared_;
     std::optional<HeightAfterPasses> leavings_;
-    bool jumps_count_{true};  // whatever they leave
+    bool jumps_count_{true};  // whatever stock they leave
     const PencilSettings& settings_;
     std::vector<ClearingPass> passes_;
 };

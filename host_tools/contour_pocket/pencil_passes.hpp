@@ -1,5 +1,5 @@
 // Pencil passes: along the feet of cliffs and creases of a floor, where loops that cross them at an
-// angle leave material.
+// angle leave stock.
 #pragma once
 
 #include <vector>
@@ -12,9 +12,9 @@ namespace cusp::contour_pocket {
 
 struct PencilSettings {
     double wall_clearance{};  // mm: least distance of the tool's axis from the contours
-    double max_uncut{};       // mm: height that may stay over what the tool could cut
-    double distance{};        // mm: how far beside a jump passes run at least
-    // Short curves are followed always; else only where long ones leave more than `max_uncut`.
+    double max_uncut{};       // mm: height that may remain above what the tool can cut
+    double distance{};        // mm: least distance of passes from a jump
+    // true: short curves are always followed; false: only those of long ones that leave too much
     bool fragments{true};
     // Chords of a curve keep within a third of the plan tolerance.
     ClPathSettings path_settings;
@@ -22,8 +22,9 @@ struct PencilSettings {
 
 // Open and closed passes, all PassStart::kRetractAndDrop. Where the CL height jumps they run along
 // all of the low side, `distance` from the jump, or up to four times as far where a nearer pass
-// would climb. Where only its slope turns up they run where the tool cuts more than `max_uncut` off
-// what the given passes leave, square to the floor, sampled every tenth of the tool's radius.
+// would climb. Where only its slope turns up they run where the tool removes more than `max_uncut`
+// (mm, along the normal) of the stock that the given passes leave, sampled every tenth of the
+// tool's radius.
 std::vector<clearing::ClearingPass> pencil_passes(const offset::Region2d& region,
                                                   const drop_cutter::DropCutter& floor,
                                                   const clearing::ClearedRegion& cleared,

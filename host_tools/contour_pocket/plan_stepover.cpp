@@ -1,4 +1,4 @@
-// Centres of a ball are offset in plan, so the distance of its contacts is scaled to theirs.
+// The stepover of contacts, converted to that of the ball's centres in plan.
 #include "host_tools/contour_pocket/plan_stepover.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ double plan_stepover(double radius, double scallop_height, double curvature, dou
     constexpr double kNoRoom = 1e-4;
     const double flat = stepover(radius, scallop_height, 0.0);
     const double cosine = 1.0 / std::sqrt(1.0 + slope * slope);
-    // Centres lie this much farther apart than contacts.
+    // Centres are farther apart than contacts by this factor.
     const double outward = 1.0 + radius * curvature;
     const double contacts = stepover(radius, scallop_height, curvature, kInfinite);
     if (outward < kNoRoom || contacts == kInfinite) {
@@ -38,8 +38,8 @@ double plan_stepover(const Tool& tool, double scallop_height, const DropCutter::
     const double corner = tool.corner_radius;
     const double flat = tool.radius - corner;
     const double cosine = 1.0 / std::sqrt(1.0 + slope * slope);
-    // The flat bottom, tilted by the slope across, rises over the floor by `tilt` a millimetre and
-    // by half the curvature times the distance squared.
+    // The flat bottom, tilted by the slope across, is above the floor by `tilt` per millimetre and
+    // by half the curvature times the squared distance.
     const double tilt = std::abs(slope) * cosine;
     const double bend = std::abs(curvature);
     const double by_flat = 2.0 * scallop_height /
@@ -48,7 +48,8 @@ double plan_stepover(const Tool& tool, double scallop_height, const DropCutter::
     if (corner > scallop_height) {
         interval = std::max(interval, plan_stepover(corner, scallop_height, curvature, slope));
     }
-    // Climbing, the bottom's rim sweeps an ellipse as wide as the bottom and as high as its tilt.
+    // On a climbing pass the rim of the bottom sweeps an ellipse as wide as the bottom and as high
+    // as its tilt.
     const double climb =
         std::abs(section.slope_along) / std::sqrt(1.0 + section.slope_along * section.slope_along);
     if (climb > 1e-6) {

@@ -1,4 +1,4 @@
-// One pass after the other, the next from where the last one ends wherever there is a way.
+// Passes in order, each linked from the end of the one before where a link exists.
 #include "host_tools/contour_pocket/pocket_path_writer.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ using toolpath::MoveKind;
 namespace {
 
 constexpr double kSamePlace = kWrittenStep;  // paths are rounded to it
-constexpr double kBarelyOver = 0.03;         // mm over a pass: no slope is needed
+constexpr double kBarelyOver = 0.03;         // mm above a pass: no slope is needed
 
 double lowest_of(const ClPath& path)
 {
@@ -42,8 +42,8 @@ double lowest_of(const ClPath& path)
     return lowest;
 }
 
-// From level to level of one pass: along it.
-EntryKind way_down(EntryKind entry)
+// The entry from one layer of a pass to the next: along the pass.
+EntryKind layer_entry(EntryKind entry)
 {
     return entry == EntryKind::kPlunge ? entry : EntryKind::kRamp;
 }
@@ -79,11 +79,11 @@ void PocketPathWriter::enter(const ProjectedPass& cut, const CutSettings& settin
     const double radius = std::min(0.6 * tool, pass.wall_distance - settings.wall_clearance - 1e-3);
     const double round = length(pass.path);
     const Vec2d start = pass.path.front().start;
-    const bool stands = moves_.is_over(cut.path.start);
-    // Along a pass that is hardly longer than a point a ramp is a plunge: a small helix is better,
-    // though the middle of the tool cuts more.
-    const bool helix = (settings.entry == EntryKind::kHelix && !stands) ||
-                       (settings.entry == EntryKind::kAuto && round < 6.0 * tool && !stands) ||
+    const bool is_above = moves_.is_over(cut.path.start);
+    // On a very short pass a ramp is nearly a plunge. A small helix is better, though more is cut
+    // by the middle of the tool.
+    const bool helix = (settings.entry == EntryKind::kHelix && !is_above) ||
+                       (settings.entry == EntryKind::kAuto && round < 6.0 * tool && !is_above) ||
                        (settings.entry != EntryKind::kPlunge && round < 0.5 * tool);
     const bool lines = !path_settings.arcs && !path_settings.nurbs;
     path_settings.arcs = path_settings.nurbs = false;
@@ -92,12 +92,12 @@ void PocketPathWriter::enter(const ProjectedPass& cut, const CutSettings& settin
     const bool open = is_open(pass);
     if (depth_ != nullptr) {
         const EntryHeights over = heights_over(depth_->stock_top_at(start));
-        // Open passes lie in stock that closed ones have cut.
+        // Closed passes have already cut the stock around open ones.
         heights.stock_top = open ? over.stock_top : heights.stock_top;
         heights.raise_over(over);
     }
     const double around = helix ? stock_top_around(start, radius) : 0.0;
-    // A helix reaches farther than the pass, into stock that no pass has met.
+    // A helix extends beyond the pass, into stock that no pass has cut.
     const bool shallow =
         depth_ == nullptr || around - path.start.z <= depth_->max_depth().value_or(kUnbounded);
     const bool wide = radius > 0.2 * tool || (radius > 0.02 * tool && 2 * kPi * radius > round);
@@ -126,7 +126,7 @@ bool PocketPathWriter::too_deep(const ClPath& path, const CutSettings& settings)
     return depth_ != nullptr && allowed_height_over(path, settings).has_value();
 }
 
-// Requires a depth tracker.
+// Precondition: a depth tracker.
 std::optional<double> PocketPathWriter::allowed_height_over(const ClPath& path,
                                                             const CutSettings& settings) const
 {
@@ -134,7 +134,7 @@ std::optional<double> PocketPathWriter::allowed_height_over(const ClPath& path,
                                        settings.depth_share);
 }
 
-// Requires a depth tracker.
+// Precondition: a depth tracker.
 double PocketPathWriter::stock_top_over(const ClPath& path) const
 {
     return depth_->stock_top_over(path.start, tool_moves(path, MoveKind::kCut));
@@ -153,7 +153,7 @@ PocketPathWriter::ProjectedPass PocketPathWriter::project_pass(const ClearingPas
     return result;
 }
 
-// False where the way over would cut too deep.
+// False if the link would cut too deep.
 bool PocketPathWriter::link(const ProjectedPass& projected_pass, const CutSettings& settings)
 {
     ClPathSettings linking = settings.path_settings;
@@ -168,7 +168,7 @@ bool PocketPathWriter::link(const ProjectedPass& projected_pass, const CutSettin
     return true;
 }
 
-// Whether the way above the stock is no longer than a retract and the way down.
+// Whether the path above the stock is no longer than a retract and a descent.
 bool PocketPathWriter::is_shorter_than_retract(const std::vector<Edge>& way) const
 {
     constexpr double kLongest = 8.0;  // radii
@@ -176,7 +176,7 @@ bool PocketPathWriter::is_shorter_than_retract(const std::vector<Edge>& way) con
            length(way) <= 2.0 * moves_.below_clearance() + kLongest * operation_.tool.radius;
 }
 
-// Above the stock along the way, and above `z`.
+// Follows the path above the stock along it, and above `z`.
 void PocketPathWriter::follow_above(const std::vector<Edge>& way,
                                     double z,
                                     const CutSettings& settings)
@@ -192,13 +192,13 @@ void PocketPathWriter::follow_above(const std::vector<Edge>& way,
     moves_.link(path);
 }
 
-// Straight to the start of the pass; false where a wall is in the way, or it is far.
+// A straight link to the start of the pass; false if a wall is in the way, or it is too long.
 bool PocketPathWriter::link_above_stock(const ProjectedPass& projected_pass,
                                         const CutSettings& settings)
 {
     const Vec2d from = in_plan(moves_.place());
     const Edge way = line_edge(from, projected_pass.pass.path.front().start);
-    const bool entered = way_down(settings.entry) == settings.entry;
+    const bool entered = layer_entry(settings.entry) == settings.entry;
     if ((projected_pass.pass.start == PassStart::kPlungeEntry && !entered) ||
         !is_shorter_than_retract({way}) ||
         !is_path_clear(walls_, way,
@@ -209,7 +209,7 @@ bool PocketPathWriter::link_above_stock(const ProjectedPass& projected_pass,
     return true;
 }
 
-// As far as it is; false where there is no way.
+// Of any length; false if no path exists.
 bool PocketPathWriter::link_around(const ProjectedPass& projected_pass, const CutSettings& settings)
 {
     if (!reach_) {
@@ -227,7 +227,7 @@ bool PocketPathWriter::link_around(const ProjectedPass& projected_pass, const Cu
     return true;
 }
 
-// From the end of one pass to the start of one before it: straight, or back along the links
+// From the end of one pass to the start of an earlier one: straight, or back along the links
 // between.
 void PocketPathWriter::return_over(const std::vector<ClearingPass>& passes,
                                    std::size_t from,
@@ -250,7 +250,7 @@ void PocketPathWriter::return_over(const std::vector<ClearingPass>& passes,
     }
 }
 
-// By its link, where the tool is at its start and it does not cut too deep, else by an entry.
+// By the pass's link if the tool is at its start and it does not cut too deep, else by an entry.
 void PocketPathWriter::begin(const ProjectedPass& projected_pass, const CutSettings& settings)
 {
     const ClearingPass& pass = projected_pass.pass;
@@ -279,8 +279,8 @@ void PocketPathWriter::track_moves()
     }
 }
 
-// Cuts the pass at heights over itself, as low as the stock allows, until it is not too deep; open
-// ones to and fro. Returns the pass as it is to be cut last, from the same path in plan.
+// Cuts the pass at heights above it, as low as the stock allows, until the pass itself is not too
+// deep; open passes alternate in direction. Returns the final pass, from the same plan path.
 PocketPathWriter::ProjectedPass PocketPathWriter::cut_above(const ProjectedPass& deep,
                                                             const CutSettings& settings,
                                                             bool repeated)
@@ -306,7 +306,7 @@ PocketPathWriter::ProjectedPass PocketPathWriter::cut_above(const ProjectedPass&
             return heights_over(std::max(highest, pass));
         };
         begin(project_pass(flat, entering, true), entering);
-        entering.entry = way_down(settings.entry);
+        entering.entry = layer_entry(settings.entry);
         if (is_open(flat)) {
             flat.path = reversed(flat.path);
             last = project_pass(flat, settings, true);
@@ -325,7 +325,7 @@ void PocketPathWriter::cut_pass(ClearingPass& pass, const CutSettings& settings,
     CutSettings entering = settings;
     if (too_deep(now.path, settings)) {
         now = cut_above(now, settings, repeated);
-        entering.entry = way_down(settings.entry);
+        entering.entry = layer_entry(settings.entry);
     }
     begin(now, entering);
     if (is_open(now.pass)) {
@@ -333,7 +333,7 @@ void PocketPathWriter::cut_pass(ClearingPass& pass, const CutSettings& settings,
     }
 }
 
-// Its path as often as it is too deep, what comes last once.
+// Cuts the path as many times as its depth requires, and the end of the pass once.
 void PocketPathWriter::cut_final(ClearingPass& pass, const CutSettings& settings, bool repeated)
 {
     if (!pass.final_path.empty()) {
@@ -347,7 +347,7 @@ void PocketPathWriter::cut_final(ClearingPass& pass, const CutSettings& settings
     cut_pass(pass, settings, repeated);
 }
 
-// Stock that roughing left beside these is cut level by level.
+// Stock left by roughing beside these passes is cut level by level.
 void PocketPathWriter::cut_beside_stock(std::vector<ClearingPass>& passes,
                                         const CutSettings& settings)
 {
@@ -371,7 +371,7 @@ void PocketPathWriter::cut_beside_stock(std::vector<ClearingPass>& passes,
                     return_over(passes, last, i, over);
                 }
                 cut_pass(passes[i], over, true);
-                over.entry = way_down(settings.entry);
+                over.entry = layer_entry(settings.entry);
                 last = i;
             }
         }

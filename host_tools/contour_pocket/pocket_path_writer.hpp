@@ -1,4 +1,5 @@
-// Cuts the passes of a cleared region on a floor: drops each onto it, enters, links and retracts.
+// Writes the passes of a cleared region on a floor: projects each onto it, enters, links and
+// retracts.
 #pragma once
 
 #include <functional>
@@ -12,12 +13,12 @@
 
 namespace cusp::contour_pocket {
 
-// Stock that roughing left beside some passes, up to its top: too thin for the stock map to show.
+// Stock left by roughing beside some passes, up to its top: too thin to appear in the stock height
+// map.
 struct StockBesidePasses {
-    std::vector<bool> passes;  // which; empty: none
+    std::vector<bool> passes;  // which passes; empty: none
     double top{};              // z of the stock
-    // z, downward: such passes are cut at these first, as far as they lie deeper; those that are
-    // linked to each other together.
+    // z, descending: such passes are cut at these heights first, if deeper; linked passes together.
     std::vector<double> heights;
 };
 
@@ -25,30 +26,30 @@ struct CutSettings {
     ClPathSettings path_settings;
     job::EntryKind entry{job::EntryKind::kAuto};
     double wall_clearance{};  // mm: least distance of the tool's centre from the walls
-    // Passes that nowhere go deeper than this are left out (cut by the layer above).
+    // Passes that nowhere go below this z are omitted (the layer above has cut them).
     double skip_above{kUnbounded};
-    // Which passes have paths that are cut at several heights (flattened()); empty: none.
+    // Which passes are cut at several heights (flattened()); empty: none.
     std::vector<bool> repeated;
     StockBesidePasses stock_beside;
     // Fraction of max_depth that a pass may cut where the stock height is known.
     double depth_share{1.0};
-    // Retracts that may have been made at the end, the last one included; no fewer than there are
-    // entries. Where entries need the rest, other passes are reached above the stock, however far.
+    // Limit of the retracts up to the end, the last one included; at least the number of entries.
+    // Where entries need the remaining ones, links above the stock may have any length.
     int retracts{};
-    // Where entries start, from the height of the pass there.
+    // Heights where entries start, from the height of the pass there.
     std::function<EntryHeights(double)> entry_heights;
-    // Where given, called with the share of the passes that is written.
+    // If given, called with the share of passes written.
     std::function<void(double)> progress;
 };
 
-// Where the tool's axis may be that keeps `wall_clearance` mm off the walls but for rounding.
+// Where the tool's axis may be: at least `wall_clearance` mm from the walls, except for rounding.
 offset::Region2d reach_of(const offset::RegionOffset& walls, double wall_clearance);
 
 class PocketPathWriter {
 public:
     // walls  of the pocket
-    // depth  where given, passes that would cut too deep are cut at levels over them first, and
-    //        entries start over the stock; passes that have no link are reached by short ways above
+    // depth  if given, passes that would cut too deep are first cut at levels above them, and
+    //        entries start above the stock; passes without a link are reached by short links above
     //        it
     PocketPathWriter(const job::Operation& operation,
                      const drop_cutter::DropCutter& floor,
@@ -59,13 +60,13 @@ public:
     {
     }
 
-    // Throws InputError where a pass leaves the floor. The tool stays where the last pass ends.
+    // Errors: InputError if a pass leaves the floor. The tool stays at the end of the last pass.
     void cut(const clearing::ClearedRegion& cleared, const CutSettings& settings);
 
-    // Takes the tool up from its last pass.
+    // Retracts from the last pass.
     void end();
 
-    // mm; 0, or negative by how much some move may cut into the floor.
+    // mm: 0, or the negative of the deepest possible gouge of a move.
     double least_clearance() const { return least_clearance_; }
 
 private:
@@ -107,7 +108,7 @@ private:
     ClPathWriter& moves_;
     clearing::AxialDepthTracker* depth_;
     double least_clearance_{0.0};
-    int allowed_retracts_{0};  // until now
+    int allowed_retracts_{0};  // up to now
     std::optional<offset::Region2d> reach_;
 };
 

@@ -1,4 +1,4 @@
-// Counts are for programs that read the statistics, warnings for people.
+// Counts are read by programs, warnings by people.
 #include "host_tools/contour_pocket/pocket_report.hpp"
 
 #include <algorithm>
@@ -19,8 +19,8 @@ using toolpath::ToolMove;
 
 namespace {
 
-// Area of the pocket that the tool's body, its axis among `centres`, can't sweep beside walls,
-// mm^2: corners and necks.
+// mm2: area of the pocket beside walls (corners and necks) that the tool's body cannot sweep with
+// its axis in `centres`.
 double unswept_area(const Region2d& region, const Region2d& centres, double radius)
 {
     return area(region) - (centres.contours.empty() ? 0.0 : area(grown(centres, radius)));
@@ -42,13 +42,13 @@ void report_air(const std::vector<ToolMove>& moves, double stock_top, OperationS
             return move.kind == MoveKind::kCut && end_of(move).z < stock_top;
         })) {
         stats.warnings.push_back("nothing of the floor lies below stock.top, " +
-                                 number_text(stock_top) + " mm: the program cuts air");
+                                 number_text(stock_top) + " mm: the program cuts no stock");
     }
 }
 
 void report_depth(const AxialDepthTracker& depth, OperationStats& stats)
 {
-    constexpr double kSliver = 0.02;  // mm: no deeper than slivers are
+    constexpr double kSliver = 0.02;  // mm: up to the depth of slivers
     if (!depth.max_depth()) {
         return;
     }

@@ -1,4 +1,4 @@
-// What the statistics and warnings of a planned pocket say about air, depth of cut and uncut stock.
+// Statistics and warnings of a planned pocket: cuts above the stock, depth of cut, uncut stock.
 #pragma once
 
 #include <vector>
@@ -11,12 +11,12 @@
 
 namespace cusp::contour_pocket {
 
-// Warns where no cut lies below the stock's top (z).
+// Warns if no cut is below the stock's top (z).
 void report_air(const std::vector<toolpath::ToolMove>& moves,
                 double stock_top,
                 toolpath::OperationStats& stats);
 
-// Adds the deepest cut where the depth is limited, and warns where that is over the limit.
+// Adds the deepest cut if the depth is limited, and warns if it exceeds the limit.
 void report_depth(const clearing::AxialDepthTracker& depth, toolpath::OperationStats& stats);
 
 struct FinishedPocket {
@@ -26,11 +26,11 @@ struct FinishedPocket {
     const offset::RegionOffset& walls;  // of the region
     const drop_cutter::DropCutter& floor;
     double wall_clearance;  // mm: of the tool's axis
-    bool valleys;           // false where the tool reaches all of the floor
+    bool valleys;           // false if the tool reaches all of the floor
 };
 
-// Adds area, number, volume and height of the places that the tool does not reach, and names the
-// largest of them.
+// Adds area, number, volume and height of the regions that the tool does not reach, and names the
+// largest.
 void report_uncut(const FinishedPocket& pocket, toolpath::OperationStats& stats);
 
 }  // namespace cusp::contour_pocket

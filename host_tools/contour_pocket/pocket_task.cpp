@@ -1,4 +1,4 @@
-// Each refusal names the file, the quantity, its value and its limit.
+// Error messages name the file, the quantity, its value and its limit.
 #include "host_tools/contour_pocket/pocket_task.hpp"
 
 #include <algorithm>
@@ -32,17 +32,16 @@ using toolpath::Tool;
 
 namespace {
 
-// Of the radius of the finishing tool: with more, "within tolerance" says nothing about a pocket.
+// Of the radius of the finishing tool: a larger tolerance is meaningless for a pocket.
 constexpr double kMostTolerance = 0.25;
-// Radii of the finishing tool. Beyond these a length is in the wrong units, or a tool in another's
-// place.
+// In radii of the finishing tool. Larger lengths mean wrong units, or the wrong tool.
 constexpr double kMostDepth = 1e3;
-constexpr double kMostWay = 1e7;
+constexpr double kMaxPassLength = 1e7;
 constexpr int kMostLayers = 1000;
 
 std::string place_text(Vec2d p) { return "(" + number_text(p.x) + ", " + number_text(p.y) + ")"; }
 
-// share: of the finishing tool's radius, the largest value
+// share  largest value, as a share of the finishing tool's radius
 void check_range(
     const Job& job, const Operation& operation, const char* key, double value, double share)
 {
@@ -127,7 +126,7 @@ ToleranceSplit split_tolerances(const Job& job, const Operation& operation)
     tolerances.fit = 0.1 * operation.plan_tolerance;
     tolerances.accuracy = std::min(0.1 * operation.floor_tolerance, 5e-3);
     tolerances.height_tolerance = operation.floor_tolerance - 2.0 * tolerances.accuracy;
-    // Passes may lie closer or wider by what the plan tolerance lets them wander.
+    // The plan tolerance allows passes to be closer or farther apart than planned.
     tolerances.scallop_height = *operation.scallop - operation.floor_tolerance;
     if (tolerances.one_sided) {
         if (tolerances.scallop_height <= 0.0) {
@@ -153,10 +152,10 @@ ToleranceSplit split_tolerances(const Job& job, const Operation& operation)
 RoughAndFinish split_between_rough_and_finish(const Operation& operation,
                                               const ToleranceSplit& tolerances)
 {
-    constexpr double kNear = 0.2;  // of the room: smaller takes more moves to follow curves
+    constexpr double kNear = 0.2;  // of the room: with less, fits of curves need more moves
     const bool roughs = operation.max_depth || !operation.layers.empty();
     const double near = std::max(kNear * tolerances.plan_tolerance, kWrittenStep);
-    const double apart = 2.0 * kWrittenStep;  // ends are written to whole steps
+    const double apart = 2.0 * kWrittenStep;  // ends are rounded to whole steps
     const double rest = tolerances.plan_tolerance - near - apart;
     RoughAndFinish shared{tolerances, tolerances};
     if (!roughs || operation.allowance > 0.0 || rest < near) {
@@ -217,10 +216,10 @@ void check_work(const Job& job,
                           2.0 * std::sqrt(std::max(0.0, tolerances.scallop_height *
                                                             (round - tolerances.scallop_height)));
     const double way = room / std::min(across, 2.0 * tool.radius);
-    if (way > kMostWay * tool.radius) {
+    if (way > kMaxPassLength * tool.radius) {
         throw InputError(operation.boundary_file + ": the pocket of " + number_text(room) +
                          " mm^2 takes " + number_text(way) + " mm of passes, the limit is " +
-                         number_text(kMostWay * tool.radius) + " mm for the tool of radius " +
+                         number_text(kMaxPassLength * tool.radius) + " mm for the tool of radius " +
                          radius);
     }
 }

@@ -1,4 +1,4 @@
-// A pocket's operation, checked: its tolerances split, its region in plan, its floor.
+// Checks of a pocket's operation: tolerances of each step, region in plan, floor.
 #pragma once
 
 #include <string>
@@ -9,48 +9,48 @@
 
 namespace cusp::contour_pocket {
 
-// The part of the operation's tolerances that each step has, mm.
+// The share of the operation's tolerances for each step, mm.
 struct ToleranceSplit {
     bool one_sided{};
-    double fit{};               // of free curves by arcs
-    double plan_tolerance{};    // of moves beside the plan path, either way
-    double height_tolerance{};  // of moves over the floor
-    double scallop_height{};    // height between passes
-    double wall_clearance{};    // distance of the outermost pass from the walls
+    double fit{};               // of free-form curves by arcs
+    double plan_tolerance{};    // of moves beside the plan path, to either side
+    double height_tolerance{};  // of moves above the floor
+    double scallop_height{};    // between passes
+    double wall_clearance{};    // least distance of the outermost pass from the walls
     double accuracy{};          // of floor heights
 };
 
-// Throws InputError where a value is missing or out of range.
+// Errors: InputError for a value that is missing or out of range.
 ToleranceSplit split_tolerances(const job::Job& job, const job::Operation& operation);
 
-// Of an operation that roughs: the two split the tolerance in plan.
+// The plan tolerance of an operation that roughs is shared between both steps.
 struct RoughAndFinish {
     ToleranceSplit rough;
     ToleranceSplit finish;
 };
 
-// Without an allowance both follow the walls as near as the tolerance allows. Roughing has the part
-// nearer to the walls: else finishing would cut slivers off them at their full height.
+// Without an allowance both follow the walls as near as the tolerance allows, roughing nearer: else
+// finishing would cut slivers off them at full height.
 RoughAndFinish split_between_rough_and_finish(const job::Operation& operation,
                                               const ToleranceSplit& tolerances);
 
-// The pocket seen from above; free curves within `tolerance` (mm). Throws InputError where loops
-// cross.
+// The pocket in plan; free-form curves are fitted within `tolerance` (mm). Errors: InputError for
+// crossing loops.
 offset::Region2d make_region(const job::Operation& operation, double tolerance);
 
-// Throws InputError where the pocket is deeper or needs more passes than makes sense for the tool.
+// Errors: InputError if the pocket is too deep, or needs too many passes, for the tool's size.
 void check_work(const job::Job& job,
                 const job::Operation& operation,
                 const offset::Region2d& region,
                 const ToleranceSplit& tolerances);
 
-// How many layers no deeper than `of` a depth makes, mm, at least one. Throws InputError where they
-// are too many.
+// Number of layers no deeper than `of` in a depth (mm), at least one. Errors: InputError if too
+// many.
 int layer_count(const job::Job& job, const job::Operation& operation, double deep, double of);
 
-// Throws InputError where a place of the boundary or of an island has no floor; where there are
-// several surfaces or trims, a place inside, too: sampled every quarter of the tool's radius
-// (coarser in pockets of more than 250 such places a side).
+// Errors: InputError if a point of the boundary or of an island has no floor. With several surfaces
+// or trims inner points are checked too, every quarter of the tool's radius (coarser in pockets of
+// more than 250 such cells a side).
 void check_coverage(const job::Operation& operation,
                     const offset::Region2d& region,
                     const drop_cutter::DropCutter& floor);
@@ -60,10 +60,10 @@ void check_coverage(const job::Operation& operation,
 // Warns of entries that had no room for a slope.
 void report_plunges(int plunges, toolpath::OperationStats& stats);
 
-// The operation as messages name it, up to the word that says what is wrong.
+// The operation's name at the start of messages.
 std::string operation_text(const job::Job& job, const job::Operation& operation);
 
-// A number as messages and comments show it.
+// A number as written in messages and comments.
 std::string number_text(double value);
 
 }  // namespace cusp::contour_pocket

@@ -1,9 +1,10 @@
-// The same loops at every depth; where the floor rises above a layer the tool rides over it.
+// The same loops at every depth; where the floor is above a layer the tool follows the floor.
 #include "host_tools/contour_pocket/rough_layers.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "host_tools/contour_pocket/pocket_path_writer.hpp"
 
@@ -31,8 +32,8 @@ struct RoughStep {
     double scallop_height;  // mm left between them
 };
 
-// A ball's ridges are kept to a fifth of the depth of cut, so that the next layer is not much
-// deeper than asked for.
+// Scallops of a ball are limited to a fifth of the depth of cut, so that the next layer is little
+// deeper than requested.
 RoughStep rough_step(const Tool& tool, double depth)
 {
     const double c = tool.corner_radius;
@@ -59,8 +60,8 @@ std::vector<double> layer_heights(const Job& job,
         };
         int n = count(depth);
         if (const double least = operation.min_depth.value_or(0.0); deep < n * least) {
-            // Fewer layers, as far as max_depth lets them: passes that ridges of the layer above
-            // make too deep are cut twice.
+            // Fewer layers, as far as max_depth allows: passes that become too deep over scallops
+            // of the layer above are cut twice.
             n = std::max(count(*operation.max_depth), static_cast<int>(deep / least + 1e-9));
         }
         for (int i = 1; i <= n; ++i) {
@@ -71,7 +72,7 @@ std::vector<double> layer_heights(const Job& job,
     return heights;
 }
 
-// max_depth goes before min_depth.
+// max_depth has priority over min_depth.
 void warn_of_thin_layers(const Job& job, const Operation& operation, RoughResult& result)
 {
     const double deep = result.heights.empty() ? 0.0 : job.stock_top - result.heights.front();
@@ -79,7 +80,80 @@ void warn_of_thin_layers(const Job& job, const Operation& operation, RoughResult
         result.operation.stats.warnings.push_back(
             "layers are " + number_text(deep) + " mm deep, less than min_depth, " +
             number_text(*operation.min_depth) +
-            " mm: max_depth and the depth of the pocket leave no other");
+            " mm: max_depth and the depth of the pocket allow no others");
+    }
+}
+
+CutSettings rough_settings(const Operation& operation,
+                           const Tool& tool,
+                           const ToleranceSplit& tolerances,
+                           double wall_clearance)
+{
+    CutSettings settings;
+    settings.entry = operation.entry;
+    settings.wall_clearance = wall_clearance;
+    settings.path_settings.plan_tolerance = tolerances.plan_tolerance;
+    settings.path_settings.height_tolerance =
+        std::max(tolerances.height_tolerance, 0.1 * operation.allowance);
+    settings.path_settings.clearance_reserve = tolerances.accuracy;
+    settings.path_settings.allowance = operation.allowance;
+    settings.path_settings.spacing = 0.2 * tool.radius;
+    settings.path_settings.arcs = operation.output != OutputForm::kLines;
+    return settings;
+}
+
+// Fills path and statistics but the gouge bound and the time; takes the moves.
+void fill_operation(const Job& job,
+                    const Operation& operation,
+                    const ClearedRegion& cleared,
+                    ClPathWriter& moves,
+                    RoughResult& result)
+{
+    const std::size_t layers = result.heights.size();
+    result.operation.path.feed = job.feed;
+    result.operation.path.plunge_feed = job.plunge_feed;
+    result.operation.path.spindle = job.spindle;
+    result.operation.path.comments = {"contour_pocket: " + std::to_string(layers) +
+                                      " roughing layers, allowance " +
+                                      number_text(operation.allowance) + " mm"};
+    OperationStats& stats = result.operation.stats;
+    stats.strategy = operation.strategy;
+    stats.roughing = true;
+    stats.passes = static_cast<int>(cleared.passes.size());
+    stats.levels = cleared.rings;
+    stats.cl_points = moves.points();
+    stats.retracts = moves.retracts();
+    stats.scallop_bound_mm = result.left;
+    stats.counts = {{"layers", static_cast<double>(layers)},
+                    {"loops", static_cast<double>(cleared.passes.size())},
+                    {"leaves", static_cast<double>(cleared.leaves)},
+                    {"islands", static_cast<double>(operation.islands.size())}};
+    report_plunges(moves.steep_plunges(), stats);
+    result.operation.path.moves = moves.take();
+}
+
+// Cuts the loops at every height.
+//
+// retracts  allowed for each layer
+void cut_layers(const Job& job,
+                const ClearedRegion& cleared,
+                const std::vector<double>& heights,
+                int retracts,
+                CutSettings settings,
+                PocketPathWriter& cutter)
+{
+    double above = job.stock_top;
+    for (std::size_t layer = 0; layer < heights.size(); ++layer) {
+        job.report_progress(kRoughingDone * static_cast<double>(layer) /
+                            static_cast<double>(heights.size()));
+        settings.path_settings.min_z = heights[layer];
+        settings.retracts += retracts;
+        settings.entry_heights = [&](double pass) {
+            // The layer above has cut the same loops.
+            return heights_over(std::max(above, pass));
+        };
+        cutter.cut(cleared, settings);
+        settings.skip_above = above = heights[layer];
     }
 }
 
@@ -145,16 +219,8 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     if (cleared.passes.empty()) {
         return result;
     }
-    CutSettings settings;
-    settings.entry = operation.entry;
-    settings.wall_clearance = clearing.wall_clearance;
-    settings.path_settings.plan_tolerance = tolerances.plan_tolerance;
-    settings.path_settings.height_tolerance =
-        std::max(tolerances.height_tolerance, 0.1 * operation.allowance);
-    settings.path_settings.clearance_reserve = tolerances.accuracy;
-    settings.path_settings.allowance = operation.allowance;
-    settings.path_settings.spacing = 0.2 * rough.tool.radius;
-    settings.path_settings.arcs = operation.output != OutputForm::kLines;
+    CutSettings settings =
+        rough_settings(operation, rough.tool, tolerances, clearing.wall_clearance);
     for (ClearingPass& pass : cleared.passes) {
         pass.path = flattened(pass.path, settings.path_settings.plan_tolerance,
                               settings.path_settings.spacing, settings.path_settings.arcs);
@@ -168,46 +234,14 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     }
     const int each = cleared.leaves + static_cast<int>(operation.islands.size());
     const double bottom = lowest_tip(cleared, floor) + operation.allowance;
-    double above = job.stock_top;
-    const std::vector<double> heights =
+    result.heights =
         layer_heights(job, operation, bottom, std::max(0.1 * depth, depth - step.scallop_height));
-    for (const double level : heights) {
-        const double layer = static_cast<double>(result.heights.size());
-        job.report_progress(kRoughingDone * layer / static_cast<double>(heights.size()));
-        settings.path_settings.min_z = level;
-        settings.retracts += each;
-        settings.entry_heights = [&](double pass) {
-            // The same loops were cut there by the layer above.
-            return heights_over(std::max(above, pass));
-        };
-        cutter.cut(cleared, settings);
-        settings.skip_above = above = level;
-        result.heights.push_back(level);
-    }
+    cut_layers(job, cleared, result.heights, each, std::move(settings), cutter);
     cutter.end();
     warn_of_thin_layers(job, operation, result);
-    const std::size_t layers = result.heights.size();
-    result.operation.path.feed = job.feed;
-    result.operation.path.plunge_feed = job.plunge_feed;
-    result.operation.path.spindle = job.spindle;
-    result.operation.path.comments = {"contour_pocket: " + std::to_string(layers) +
-                                      " roughing layers, allowance " +
-                                      number_text(operation.allowance) + " mm"};
+    fill_operation(job, operation, cleared, moves, result);
     OperationStats& stats = result.operation.stats;
-    stats.strategy = operation.strategy;
-    stats.roughing = true;
-    stats.passes = static_cast<int>(cleared.passes.size());
-    stats.levels = cleared.rings;
-    stats.cl_points = moves.points();
-    stats.retracts = moves.retracts();
     stats.gouge_bound_mm = std::max(0.0, -cutter.least_clearance());
-    stats.scallop_bound_mm = result.left;
-    stats.counts = {{"layers", static_cast<double>(layers)},
-                    {"loops", static_cast<double>(cleared.passes.size())},
-                    {"leaves", static_cast<double>(cleared.leaves)},
-                    {"islands", static_cast<double>(operation.islands.size())}};
-    report_plunges(moves.steep_plunges(), stats);
-    result.operation.path.moves = moves.take();
     stats.planning_s =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return result;

@@ -10,20 +10,22 @@
 namespace cusp::contour_pocket {
 
 struct RoughResult {
-    toolpath::PlannedOperation operation;  // without moves where the tool fits nowhere
-    std::vector<double> heights;  // z of the layers, from the top; none where it fits nowhere
-    double wall_clearance{};      // mm: least distance of the tool's centre from the walls
-    double left{};  // mm over the floor at most, where the floor is level: allowance and scallops
+    toolpath::PlannedOperation operation;  // without moves if the tool fits nowhere
+    std::vector<double> heights;           // z of the layers, descending; empty if it fits nowhere
+    double wall_clearance{};               // mm: least distance of the tool's centre from the walls
+    double left{};  // mm: largest height above a level floor: allowance and scallops
 };
 
 // Depth of cut of a layer, mm: max_depth, or the tallest of operation.layers.
 double layer_depth(const job::Operation& operation);
 
-// z of the tip where the passes go lowest, sampled every tool radius.
+// z of the tip at the lowest point of the passes, sampled every tool radius.
 double lowest_tip(const clearing::ClearedRegion& cleared, const drop_cutter::DropCutter& floor);
 
-// Layers for operation.tools.front(), at the depths operation.layers or no deeper than
-// operation.max_depth each; no value where neither is given. cut_depth: see PocketPathWriter.
+// Layers for operation.tools.front(), at the depths of operation.layers or no deeper than
+// operation.max_depth each; none if neither is given.
+//
+// cut_depth  see PocketPathWriter
 std::optional<RoughResult> plan_rough_layers(const job::Job& job,
                                              const job::Operation& operation,
                                              const offset::Region2d& region,

@@ -1,4 +1,4 @@
-// Even stations along each edge, halved where the slope changes.
+// Equally spaced stations along each edge, halved where the slope changes.
 #include "host_tools/contour_pocket/station_row.hpp"
 
 #include <algorithm>
@@ -17,20 +17,20 @@ using offset::unit;
 
 namespace {
 
-constexpr double kClosest = 2e-3;      // mm between stations: they are not halved further
+constexpr double kClosest = 2e-3;      // mm between stations: no closer
 constexpr double kSmooth = 0.999;      // cosine of 2.6 degrees
-constexpr std::size_t kStretch = 6;    // stations that two lookups may tell on any floor
-constexpr double kTurned = 1.0;        // radians: where they tell more
-constexpr double kLookupShare = 0.06;  // of the height allowed: how well they must
+constexpr std::size_t kStretch = 6;    // stations predicted by two samples on any floor
+constexpr double kTurned = 1.0;        // radians: longer stretches on smooth floors
+constexpr double kLookupShare = 0.06;  // of the allowed height: accuracy of predictions
 
-// The unit tangent where an edge passes the point.
-Vec2d way_of(const Edge& edge, Vec2d at)
+// The unit tangent of an edge at a point of it.
+Vec2d tangent_at(const Edge& edge, Vec2d at)
 {
     return edge.turn == 0 ? unit(edge.end - edge.start)
                           : left_normal(unit(at - edge.centre)) * edge.turn;
 }
 
-// Points of an edge, evenly apart: turned on from one to the next.
+// Equally spaced points of an edge, each rotated from the one before.
 class EvenPoints {
 public:
     EvenPoints(const Edge& edge, double whole, int n) : edge_{edge}, arm_{edge.start - edge.centre}
@@ -45,8 +45,8 @@ public:
     Vec2d next()
     {
         if (edge_.turn == 0) {
-            way_ = way_ + step_;
-            return edge_.start + way_;
+            offset_ = offset_ + step_;
+            return edge_.start + offset_;
         }
         arm_ = arm_ * step_.x + left_normal(arm_) * step_.y;
         return edge_.centre + arm_;
@@ -55,18 +55,18 @@ public:
 private:
     const Edge& edge_;
     Vec2d arm_;
-    Vec2d way_{};
+    Vec2d offset_{};
     Vec2d step_;
 };
 
-// A place to be, and the part of an edge that leads to it.
+// The end of a part of an edge.
 struct Stop {
     const Edge* edge;
     Vec2d at;
     double from, to;  // shares of the edge
     double bend;
     double along;  // mm from the start of the plan
-    bool kink;     // the way turns here
+    bool kink;     // the tangent jumps here
     bool exact;
 };
 
@@ -80,7 +80,7 @@ public:
     StationRow run(const std::vector<Edge>& plan)
     {
         find_stops(plan);
-        row_.stations.push_back(look(plan.front().start, 0.0));
+        row_.stations.push_back(station_at(plan.front().start, 0.0));
         row_.stations.back().exact = starts_exact_;
         row_.corners.push_back(0);
         for (std::size_t i = 0; i < stops_.size() && !row_.missing;) {
@@ -102,8 +102,8 @@ private:
         double along = 0.0;
         for (std::size_t e = 0; e < plan.size(); ++e) {
             const Edge& edge = plan[e];
-            // Both visits of a spur are to meet at one point: a corner micrometres beside the
-            // path's other visit would be no place that anyone could tell from it.
+            // Both visits of a spur meet at one point: a corner micrometres beside the other visit
+            // could not be distinguished from it.
             if (starts_cleanup_spur(plan, e) || (e > 1 && starts_cleanup_spur(plan, e - 2))) {
                 (stops_.empty() ? starts_exact_ : stops_.back().exact) = true;
             }
@@ -127,7 +127,7 @@ private:
         }
     }
 
-    // Of a stretch without kinks that starts with a stop.
+    // End of the stretch without kinks that starts with this stop.
     std::size_t end_of_stretch(std::size_t first) const
     {
         std::size_t last = first;
@@ -148,7 +148,7 @@ private:
 
     double begin_of(std::size_t i) const { return i == 0 ? 0.0 : stops_[i - 1].along; }
 
-    Station look(Vec2d at, double bend)
+    Station station_at(Vec2d at, double bend)
     {
         if (floor_ == nullptr) {
             return {at, 0.0, {}, bend};
@@ -161,7 +161,7 @@ private:
         return {at, cl->z, cl->slope, bend};
     }
 
-    // A station with its place and direction along the plan.
+    // A station with its position and direction along the plan path.
     struct Place {
         Station station;
         double along;
@@ -171,17 +171,17 @@ private:
     Place place_of(std::size_t i)
     {
         const Stop& stop = stops_[i];
-        return {look(stop.at, stop.bend), stop.along, way_of(*stop.edge, stop.at)};
+        return {station_at(stop.at, stop.bend), stop.along, tangent_at(*stop.edge, stop.at)};
     }
 
-    // Of a stretch: the last station.
+    // The last station added, as the start of a stretch.
     Place start_of(std::size_t first) const
     {
         const Station& last = row_.stations.back();
-        return {last, begin_of(first), way_of(*stops_[first].edge, last.at)};
+        return {last, begin_of(first), tangent_at(*stops_[first].edge, last.at)};
     }
 
-    // The stop in the middle, by number where the stretch is short.
+    // The middle stop; by number if the stretch is short.
     std::size_t halfway(std::size_t first, std::size_t last) const
     {
         std::size_t half = first + (last - first) / 2;
@@ -195,15 +195,15 @@ private:
         return half;
     }
 
-    // The middle of a stretch, and its end.
+    // The middle and the end of a stretch.
     struct Lookups {
         Place middle;
         Place end;
     };
 
-    // Stations between the stretch's middle and its ends are interpolated by cubics where the cubic
-    // from end to end predicts the middle. Else a long stretch is halved, and all of a short one is
-    // looked up.
+    // Stations between the stretch's middle and its ends are interpolated by cubics if the cubic
+    // from end to end predicts the middle. Else a long stretch is halved, and a short one is
+    // sampled at every station.
     void fill(const Place& start, std::size_t first, std::size_t last, const Lookups& known)
     {
         if (row_.missing) {
@@ -231,7 +231,7 @@ private:
         }
     }
 
-    // False, and nothing added, where the stations are not even.
+    // False, and nothing added, if the stations are not even.
     bool interpolate(std::size_t first,
                      std::size_t half,
                      std::size_t last,
@@ -262,7 +262,7 @@ private:
         }
     }
 
-    // On the cubic with the heights and slopes at two places.
+    // On the cubic through the heights and slopes at two places.
     static Station between(const Place& a, const Place& b, const Stop& stop)
     {
         const double whole = b.along - a.along;
@@ -287,7 +287,7 @@ private:
     void step_to(std::size_t i)
     {
         const Stop& stop = stops_[i];
-        Station next = look(stop.at, stop.bend);
+        Station next = station_at(stop.at, stop.bend);
         halve(*stop.edge, length(*stop.edge), stop.from, stop.to, next);
         add(next, stop);
     }
@@ -303,7 +303,7 @@ private:
         return hidden < 0.05 * spacing_.height && jump(a, b) < 0.5 * spacing_.height;
     }
 
-    // Stations between the last one and `next`, shares `from` and `to` of the edge.
+    // Adds stations between the last one and `next`, at shares `from` to `to` of the edge.
     void halve(const Edge& edge, double whole, double from, double to, Station& next)
     {
         const Station& last = row_.stations.back();
@@ -318,7 +318,7 @@ private:
             return;
         }
         const double middle = 0.5 * (from + to);
-        Station between = look(point_on(edge, middle), next.bend);
+        Station between = station_at(point_on(edge, middle), next.bend);
         halve(edge, whole, from, middle, between);
         row_.stations.push_back(between);
         halve(edge, whole, middle, to, next);

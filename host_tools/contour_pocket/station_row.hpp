@@ -1,5 +1,4 @@
-// Places along a plan path where the floor is looked up, close enough that it hides nothing between
-// them.
+// Stations along a plan path, close enough that linear interpolation follows the floor.
 #pragma once
 
 #include <optional>
@@ -11,22 +10,22 @@
 namespace cusp::contour_pocket {
 
 struct StationSpacing {
-    double along;           // mm between stations at most
-    double plan_tolerance;  // mm: chords of arcs keep within an eighth of it
-    double height;          // mm: chords of the floor keep within a twentieth of it
-    bool sparse;  // where the floor is smooth most stations are interpolated, to a tenth of it
-    double lookup_spacing{};  // mm: between lookups no farther apart nothing hides; 0: not known
+    double along;           // mm: largest distance of stations
+    double plan_tolerance;  // mm: chords of arcs are within an eighth of it
+    double height;          // mm: chords of the floor are within a twentieth of it
+    bool sparse;  // on smooth floors most stations are interpolated, within a tenth of `height`
+    double lookup_spacing{};  // mm: up to this distance interpolation is accurate; 0: not known
 };
 
 struct StationRow {
-    std::vector<Station> stations;     // heights: the tip's lowest
+    std::vector<Station> stations;     // heights: the lowest of the tip
     std::vector<std::size_t> corners;  // first and last included
-    std::optional<Vec2d> missing;      // a place without floor; the stations are not complete then
+    std::optional<Vec2d> missing;      // a place without floor: the stations are incomplete then
 };
 
-// Where the floor's slope changes from one station to the next so much that the chord between them
-// would lie off the floor, there are more of them: a valley that the tool can't round off is met at
-// its bottom.
+// Stations are denser where the floor's slope changes so much from one to the next that the chord
+// between them would deviate from the floor. A valley tighter than the tool gets a station at its
+// bottom.
 //
 // floor  null: a level floor at z = 0
 StationRow stations_along(const std::vector<offset::Edge>& plan,

@@ -1,4 +1,4 @@
-// The lowest that a straight move cuts over a place, for each shape of end.
+// The lowest cut of a straight move above a place, for each shape of tool end.
 #include "host_tools/contour_pocket/tip_segment.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ double cut_over(const Tool& tool, const TipSegment& segment, Vec2d at, double be
         return kUnbounded;
     }
     const double slope = (segment.end.z - segment.start.z) / whole;
-    // The place lifts a tool that comes past as an edge would that falls away from it.
+    // The place raises a passing tool like an edge that falls away from it.
     const auto edge = drop_on_edge(tool, {-slope, away, -along, whole - along});
     return edge ? segment.start.z + slope * along - edge->lift : kUnbounded;
 }

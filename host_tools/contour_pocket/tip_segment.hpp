@@ -1,4 +1,4 @@
-// What a straight move of the tip cuts.
+// The cut of a straight move of the tip.
 #pragma once
 
 #include "host_tools/offset/contour.hpp"
@@ -6,14 +6,14 @@
 
 namespace cusp::contour_pocket {
 
-// A straight piece of a path of the tip.
+// A straight part of a path of the tip.
 struct TipSegment {
     Vec3d start;
     Vec3d end;
 };
 
-// How low the tool, moved along the segment, cuts over the plan position: z, mm; kUnbounded where
-// it does not get there, or where it is known soon that it is not lower than `below`.
+// z, mm: how low the tool, moved along the segment, cuts at the plan position; kUnbounded if it
+// does not reach the position, or quickly if it cuts no lower than `below`.
 double cut_over(const toolpath::Tool& tool,
                 const TipSegment& segment,
                 Vec2d at,

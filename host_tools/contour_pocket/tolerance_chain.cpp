@@ -1,4 +1,4 @@
-// Greedy wedges for lines, circles through three places for arcs.
+// Greedy wedges for lines, circles through three points for arcs.
 #include "host_tools/contour_pocket/tolerance_chain.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ using offset::unit;
 
 namespace {
 
-// What the path may stray between stations, to what it may at them.
+// Allowed deviation between stations, relative to that at stations.
 constexpr double kBetween = 1.15;
 
 // Directions between two unit vectors, less than half a turn counter-clockwise from low to high.
@@ -26,7 +26,7 @@ struct Wedge {
     }
 };
 
-// From the origin to all that lies within `room` of the end of `arm`, which is `apart` > room long.
+// From the origin to all points within `room` of the end of `arm`, whose length is `apart` > room.
 Wedge wedge_about(Vec2d arm, double apart, double room)
 {
     const Vec2d way = arm * (1.0 / apart);
@@ -36,7 +36,7 @@ Wedge wedge_about(Vec2d arm, double apart, double room)
     return {ahead - aside, ahead + aside};
 }
 
-// Slopes of z that a straight rise from a point may have, narrowed by bands farther along.
+// Possible slopes of z of a straight line from a point, narrowed by the bands of stations.
 struct Rise {
     double low{-kUnbounded};
     double high{kUnbounded};
@@ -81,7 +81,7 @@ public:
     }
 
 private:
-    // Appends the longest move from station i; the station it ends at.
+    // Appends the longest move from station i; returns the station at its end.
     std::size_t extend(Chain& chain, std::size_t i)
     {
         Reach best = farthest_line(i);
@@ -104,7 +104,7 @@ private:
 
     bool ends_home(std::size_t j) const { return fixed_end_ && j == last_; }
 
-    // How far a line from here can pass all stations; `way` is the middle of its directions.
+    // How far a line from here can pass all stations; `way` becomes the middle of its directions.
     std::size_t widest_wedge(std::size_t i, Vec2d& way) const
     {
         std::size_t good = i + 1;
@@ -118,7 +118,7 @@ private:
             const double room = ends_home(k) ? 1e-9 : band_.plan_tolerance;
             if (apart <= room) {
                 if (set) {
-                    break;  // the path comes back
+                    break;  // the path returns
                 }
                 good = k;
                 continue;
@@ -158,7 +158,7 @@ private:
                 if (reach->station >= limit || reach->station == i + 1) {
                     return *reach;
                 }
-                // The floor stops it earlier; fewer stations leave the direction more room.
+                // The floor limits it: fewer stations leave a wider range of directions.
                 limit = reach->station;
             } else {
                 limit = i + 1;
@@ -185,8 +185,8 @@ private:
         return {j, {middle_of(stations_[j])}};
     }
 
-    // The line in a direction up to station `limit` or as far as z allows. No value where not even
-    // the first station is passed.
+    // The line in a direction up to station `limit` or as far as z allows. None if not even the
+    // first station is within reach.
     std::optional<Reach> line_to(std::size_t i, std::size_t limit, Vec2d way) const
     {
         const bool home = ends_home(limit);
@@ -217,7 +217,7 @@ private:
         return reach;
     }
 
-    // Places on a circle from here through a station near the middle to station j.
+    // An arc from here through a station near the middle to station j.
     std::optional<Reach> arc_to(std::size_t i, std::size_t j) const
     {
         const Vec2d end = ends_home(j) ? in_plan(home_) : stations_[j].at;
@@ -307,7 +307,7 @@ private:
     std::size_t last_;  // of the run up to an exact station
     Vec2d at_{};
     double z_{};
-    Vec3d home_{};  // where station `last_` must be met
+    Vec3d home_{};  // required position at station `last_`
     bool fixed_end_{};
 };
 

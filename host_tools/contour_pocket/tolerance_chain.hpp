@@ -1,4 +1,4 @@
-// The fewest lines and arcs through a band about a row of stations.
+// The fewest lines and arcs through the bands of a row of stations.
 #pragma once
 
 #include <vector>
@@ -7,19 +7,19 @@
 
 namespace cusp::contour_pocket {
 
-// A place on the plan path with the lowest height of the tip there.
+// A point of the plan path with the lowest height of the tip there.
 struct Station {
     Vec2d at;
     double height;
     Vec2d gradient;  // of the floor, dz/dx and dz/dy
-    double bend{};   // of the plan path from the station before, 1/mm, > 0 to the left
-    bool exact{};    // a move ends here, at half of the band
+    double bend{};   // curvature of the plan path from the last station, 1/mm, > 0 to the left
+    bool exact{};    // a move ends here, in the middle of the band
 };
 
 // How far from a station moves may pass it.
 struct StationBand {
-    double plan_tolerance;  // mm: in plan, either way
-    double low;             // mm over the station's height
+    double plan_tolerance;  // mm: in plan, to either side
+    double low;             // mm above the station's height
     double high;
 
     double middle() const { return 0.5 * (low + high); }
@@ -30,10 +30,11 @@ struct Chain {
     std::vector<ClMove> moves;
 };
 
-// Goes from station to station by the longest move that passes every station within the band: a
-// straight move is looked for among all that the stations' bands let through (a wedge that narrows
-// from station to station), not only between stations. O(n) for lines. closed: the last station is
-// the first, and the chain ends where it starts.
+// Takes the longest move from station to station that passes all stations within the band. A
+// straight move is chosen among all lines through the stations' bands (a wedge that narrows from
+// station to station), not only those between stations. O(n) for lines.
+//
+// closed  the last station is the first, and the chain ends at its start
 Chain chain_through(const std::vector<Station>& stations,
                     const StationBand& band,
                     bool arcs,

@@ -1,5 +1,5 @@
-// Cells beside walls by distance; valleys where the tip's slope turns up sharply from cell to cell,
-// by lowering the tool on a finer grid around them.
+// Cells beside walls are found by distance. Valleys are found where the tip's slope turns up
+// sharply from cell to cell, by dropping the tool on a finer grid around them.
 #include "host_tools/contour_pocket/uncut_regions.hpp"
 
 #include <algorithm>
@@ -25,16 +25,16 @@ namespace {
 
 constexpr double kMostCells = 500.0;  // a side
 
-// A needle: where it rests is the floor itself.
+// A needle: its CL height is the floor's height.
 Tool needle() { return {1, ToolShape::kFlat, 1e-3, 0.0}; }
 
-class RestSearch {
+class UncutRegionSearch {
 public:
-    RestSearch(const RegionOffset& walls,
-               const Region2d& centres,
-               const std::vector<Surface>& floor,
-               const DropCutter& tips,
-               double wall_clearance)
+    UncutRegionSearch(const RegionOffset& walls,
+                      const Region2d& centres,
+                      const std::vector<Surface>& floor,
+                      const DropCutter& tips,
+                      double wall_clearance)
         : walls_{walls},
           centres_{edges_of(centres)},
           tips_{tips},
@@ -54,7 +54,7 @@ public:
 
     std::vector<UncutRegion> run(const UncutSettings& settings)
     {
-        find_rest_at_walls(settings.top, settings.min_height);
+        find_uncut_at_walls(settings.top, settings.min_height);
         if (settings.valleys) {
             find_valleys(settings.min_height);
         }
@@ -83,11 +83,11 @@ private:
         return {box_.x0 + cell_ * (i + 0.5), box_.y0 + cell_ * (j + 0.5)};
     }
 
-    // Inside or not changes only where a contour is near, and how near changes by no more than the
-    // way between: most cells follow from those beside them.
+    // Inside or outside changes only at a contour, and the distance from contours changes no faster
+    // than the position: most cells follow from their neighbours.
     void find_places()
     {
-        constexpr double kFarthest = 16.0;  // cells: further is not looked for
+        constexpr double kFarthest = 16.0;  // cells: limit of the search
         struct Room {
             double least{0.0};
             double most{kUnbounded};
@@ -120,7 +120,7 @@ private:
         }
     }
 
-    void find_rest_at_walls(double top, double min_height)
+    void find_uncut_at_walls(double top, double min_height)
     {
         for (int i = 0; i < columns_; ++i) {
             for (int j = 0; j < rows_; ++j) {
@@ -146,7 +146,7 @@ private:
         for (int i = 0; i + 2 < columns_; i += 2) {
             for (int j = 0; j + 2 < rows_; j += 2) {
                 if (turns_up(i, j, i + 2, j) || turns_up(i, j, i, j + 2)) {
-                    look_around(i, j, min_height);
+                    search_around(i, j, min_height);
                 }
             }
         }
@@ -172,22 +172,22 @@ private:
         return *slope;
     }
 
-    void look_around(int i, int j, double min_height)
+    void search_around(int i, int j, double min_height)
     {
         for (int k = std::max(0, i - 1); k <= std::min(columns_ - 1, i + 3); ++k) {
             for (int l = std::max(0, j - 1); l <= std::min(rows_ - 1, j + 3); ++l) {
                 double& rest = rest_[index(k, l)];
                 if (rest == 0.0 && places_[index(k, l)] != Place::kOutside) {
-                    const double left = left_over(centre(k, l));
+                    const double left = uncut_height(centre(k, l));
                     rest = left > min_height ? left : 0.0;
                 }
             }
         }
     }
 
-    // How far the tool, at the best of the places on a grid of half the cells, stays over the
-    // floor at p.
-    double left_over(Vec2d p)
+    // Height above the floor at p that remains below the tool at the best position on a grid of
+    // half the cells.
+    double uncut_height(Vec2d p)
     {
         const auto floor = floor_.drop(p);
         if (!floor) {
@@ -224,7 +224,7 @@ private:
         return *height;
     }
 
-    // The cells that hang together with this one, which are taken off the grid.
+    // The connected cells around this one, removed from the grid.
     UncutRegion taken_place(int i, int j)
     {
         UncutRegion place;
@@ -264,11 +264,11 @@ private:
     double cell_{};
     int columns_{};
     int rows_{};
-    std::vector<double> rest_;  // mm over the floor
+    std::vector<double> rest_;  // mm above the floor
     std::vector<bool> by_wall_;
     std::vector<Place> places_;
     std::vector<std::optional<Vec2d>> slopes_;
-    std::vector<std::optional<double>> heights_;  // of the tip, kUnbounded where walls are too near
+    std::vector<std::optional<double>> heights_;  // of the tip; kUnbounded if walls are too near
 };
 
 }  // namespace
@@ -279,7 +279,7 @@ std::vector<UncutRegion> uncut_regions(const RegionOffset& walls,
                                        const DropCutter& tips,
                                        const UncutSettings& settings)
 {
-    return RestSearch{walls, centres, floor, tips, settings.wall_clearance}.run(settings);
+    return UncutRegionSearch{walls, centres, floor, tips, settings.wall_clearance}.run(settings);
 }
 
 }  // namespace cusp::contour_pocket

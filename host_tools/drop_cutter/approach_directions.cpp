@@ -32,9 +32,9 @@ std::size_t ApproachDirections::add(Vec3d contact)
     contacts_.push_back(contact);
     const BlockedCap added = blocked_cap(contacts_.size() - 1);
     const Vec3d way = added.direction;
-    const double level = std::hypot(way.x, way.y);
-    const double most = way.z > 0 ? norm(way) : level;
-    const bool shank = way.z > 0 && level < radius_ + contact_radius_;
+    const double horizontal = std::hypot(way.x, way.y);
+    const double most = way.z > 0 ? norm(way) : horizontal;
+    const bool shank = way.z > 0 && horizontal < radius_ + contact_radius_;
     if (most > added.least || shank) {
         blocked_caps_.push_back(added);
     }
@@ -44,10 +44,10 @@ std::size_t ApproachDirections::add(Vec3d contact)
 std::array<ApproachDirections::Triangle, 4> ApproachDirections::half_sphere()
 {
     const Vec3d up{0, 0, 1};
-    const std::array<Vec3d, 4> level{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{-1, 0, 0},
-                                     Vec3d{0, -1, 0}};
-    return {Triangle{up, level[0], level[1]}, Triangle{up, level[1], level[2]},
-            Triangle{up, level[2], level[3]}, Triangle{up, level[3], level[0]}};
+    const std::array<Vec3d, 4> horizontal{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{-1, 0, 0},
+                                          Vec3d{0, -1, 0}};
+    return {Triangle{up, horizontal[0], horizontal[1]}, Triangle{up, horizontal[1], horizontal[2]},
+            Triangle{up, horizontal[2], horizontal[3]}, Triangle{up, horizontal[3], horizontal[0]}};
 }
 
 std::array<ApproachDirections::Triangle, 4> ApproachDirections::quarters(const Triangle& t)

@@ -5,7 +5,7 @@
 //     if (const auto cl = cutter.drop({10.0, 5.0})) {        // cl->z: at most 0.001 mm too high
 //         const Vec2d cc = cutter.cc_place({10.0, 5.0}, *cl);  // in plan: where the tool touches
 //         const double gap = cutter.move_clearance({10.0, 5.0, cl->z}, {12.0, 5.0, cl->z});
-//     }                                                      // gap < 0: how deep the move may gouge
+//     }                                                      // gap < 0: depth of a gouge
 //
 // Method: branch and bound. A piece of a surface lies in the convex hull of its control points, so
 // it lies below a plane through the highest of them. Dropping the tool on these planes bounds its
@@ -57,9 +57,10 @@ public:
     // The place in plan where the tool over `at` touches the surface, as drop() found it.
     Vec2d cc_place(Vec2d at, const ClPoint& cl) const;
 
-    // From this call on, move_clearance() measures what a ball cuts into rims and creases square to
-    // the face that ends there, as a tolerance does; see `EdgeGougeCheck`. allowed (mm, > 0): how
-    // deep moves may cut.
+    // From this call on, move_clearance() measures gouges of a ball into rims and creases along the
+    // normal of the face that ends there, as tolerances do; see `EdgeGougeCheck`.
+    //
+    // allowed  mm, > 0: how deep moves may cut
     void check_edge_gouges(double allowed);
 
     // Lower bound of the clearance between the tool, moved straight from tip a to tip b, and the
@@ -77,8 +78,8 @@ public:
         double z;  // mm, of the tip; -kUnbounded where no surface lies under the tool
         nurbs::SurfacePoint surface;
         Vec3d normal;
-        bool
-            found;  // false where no surface lies under the tool, or it is upright or singular there
+        // false where no surface lies under the tool, or it is vertical or singular there
+        bool found;
     };
     // The contact as accurate as the thin piece that the tool rests on.
     CcPoint cc_point(Vec2d at, double max_error) const;

@@ -109,15 +109,15 @@ double DropCutter::State::ball_clearance(const Piece& piece,
         const auto over = [&](const Vec3d& p) {
             return p.z - g.x * p.x - g.y * p.y - piece.z_at_origin;
         };
-        const double level = 1.0 / piece.secant;
+        const double cos_slope = 1.0 / piece.secant;
         const double tz =
-            apart(below ? -kUnbounded : -piece.thickness, 0.0, over(a), over(b)) * level;
+            apart(below ? -kUnbounded : -piece.thickness, 0.0, over(a), over(b)) * cos_slope;
         if (tz >= reach) {
             return 0.0;
         }
         const double run = 1.0 + g.x * g.x;
         const double along = 1.0 / std::sqrt(run);
-        const double aside = along * level;
+        const double aside = along * cos_slope;
         const auto first = [&](const Vec3d& p) {
             return along * (p.x + g.x * p.z);
         };
@@ -151,7 +151,7 @@ double DropCutter::State::apart_from_plate(const Piece& piece, Vec3d a, Vec3d b)
     constexpr double kEndless = 1e200;
     const Outline& outline = outlines_[piece.outline];
     const Vec2d g = piece.gradient;
-    const double level = 1.0 / piece.secant;
+    const double cos_slope = 1.0 / piece.secant;
     const double plane = piece.z_at_origin - 0.5 * piece.thickness;
     const auto over = [&](Vec3d p) {
         return p.z - plane - g.x * p.x - g.y * p.y;
@@ -165,7 +165,8 @@ double DropCutter::State::apart_from_plate(const Piece& piece, Vec3d a, Vec3d b)
         if (height < 0.0) {
             return holds({p.x, p.y}) ? 0.0 : kUnbounded;
         }
-        return holds(in_plan(p) + g * (height * level * level)) ? height * level : kUnbounded;
+        return holds(in_plan(p) + g * (height * cos_slope * cos_slope)) ? height * cos_slope
+                                                                        : kUnbounded;
     };
     const double from = over(a);
     const double to = over(b);
@@ -279,6 +280,7 @@ DropCutter::State::NextStep DropCutter::State::next_step(const Piece& piece,
     return halve_move ? NextStep::kHalveMove : NextStep::kHalvePiece;
 }
 
+// Over 60 lines: the steps of one search share its stack and its bound.
 double DropCutter::State::move_clearance(Vec3d a, Vec3d b, double margin)
 {
     forget_many_halves();

@@ -107,8 +107,8 @@ DropCutter::State::State(const std::vector<Surface>& surfaces, const Tool& tool,
     whole_ = {pieces_, nets_, weights_, outlines_};
 }
 
-// Without this the halves of a long series of queries would pile up: gigabytes for a large steep
-// floor. Pieces are halved again when the next query needs them.
+// Without this the halves of a long series of queries would accumulate: gigabytes for a large steep
+// floor. Pieces are halved again when a later query needs them.
 void DropCutter::State::forget_many_halves()
 {
     constexpr std::size_t kMostHalves = 100000;  // some 50 MB
@@ -216,9 +216,9 @@ void DropCutter::State::measure_plane(Piece& piece) const
     double high = -kUnbounded;
     std::array<double, 4> ends{kUnbounded, -kUnbounded, kUnbounded, -kUnbounded};
     for (const Vec3d* p = points; p != points + last + 1; ++p) {
-        const double level = p->z - g.x * p->x - g.y * p->y;
-        low = std::min(level, low);
-        high = std::max(level, high);
+        const double z_at_origin = p->z - g.x * p->x - g.y * p->y;
+        low = std::min(z_at_origin, low);
+        high = std::max(z_at_origin, high);
         const double first = p->x + g.x * p->z;
         const double second = run * p->y + g.y * (p->z - g.x * p->x);
         ends = {std::min(first, ends[0]), std::max(first, ends[1]), std::min(second, ends[2]),

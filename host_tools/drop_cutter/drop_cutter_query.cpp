@@ -67,7 +67,9 @@ double DropCutter::State::over_plane(const Piece& piece, Vec2d at)
 // Upper bound of the tip's height over this piece; -kUnbounded where the tool does not reach it, or
 // where the bound is known not to exceed `best`.
 //
-//   tight  set to whether halving the piece would lower the bound by its thickness at most
+// tight  set to whether halving the piece would lower the bound by its thickness at most
+//
+// Over 60 lines: cases in the order of their cost, each of which may decide.
 double DropCutter::State::bound(const Piece& piece,
                                 const Query& query,
                                 double best,
@@ -157,6 +159,7 @@ std::uint32_t DropCutter::State::guess(Vec2d at) const
     return index;
 }
 
+// Over 60 lines: the steps of one search share its stack and the best height.
 std::optional<DropCutter::ClPoint> DropCutter::State::drop(Vec2d at, double max_error)
 {
     forget_many_halves();
@@ -206,7 +209,7 @@ std::optional<DropCutter::ClPoint> DropCutter::State::drop(Vec2d at, double max_
         }
     };
     // The search starts at the predicted contact and climbs to the root: a parent adds only the
-    // sibling of the piece before. A tool with a flat rests on the rim of that, which the slope
+    // sibling of the piece before. A tool with a flat touches with the flat's rim, which the slope
     // does not predict: its search starts at the last contact.
     const bool ball = tool_.corner_radius == r;
     const std::uint32_t first = ball ? guess(at) : last_;

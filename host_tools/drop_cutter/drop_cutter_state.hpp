@@ -1,4 +1,4 @@
-// What a drop cutter knows: the tree of pieces, halved when needed, and the bounds of one piece.
+// State of a drop cutter: the tree of pieces, halved when needed, and the bounds of one piece.
 #pragma once
 
 #include <algorithm>
@@ -187,8 +187,8 @@ struct DropCutter::State {
     std::vector<Piece> pieces_;         // halved when first needed
     std::vector<Vec3d> nets_;           // control points; times their weights where those differ
     std::vector<double> weights_;       // parallel to nets_, up to the last patch with weights
-    std::vector<Outline> outlines_{1};  // the first one stands for none
-    // The same before any piece was halved.
+    std::vector<Outline> outlines_{1};  // the first one means none
+    // The pieces before any was halved.
     struct Whole {
         std::vector<Piece> pieces;
         std::vector<Vec3d> nets;

@@ -267,6 +267,7 @@ void LowestPositionSearch::store(Vec3d place, Proof proof)
 //
 // exact  drops are made exactly at the middles, not at the nearest node of a grid
 //
+// Over 60 lines: the steps of one search share the parts that are open and blocked.
 // Precondition: the tool is a ball
 std::optional<LowestPositionSearch::Position> LowestPositionSearch::divided(double height,
                                                                             Vec3d place,

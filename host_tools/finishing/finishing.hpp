@@ -11,7 +11,7 @@
 //     for (double y = 0; y <= 30; y += 0.5) {
 //         cut(fitter.sample_dropped({0, y, 0}, {40, y, 0}));
 //     }
-//     check.check(0);                                     // surface 0: where is too much left?
+//     check.check(0);                                     // surface 0: records uncovered cells
 //     check.add_missing_passes(cut, [](double) {});       // passes there
 //     const LinkedPasses path = link_passes(passes, {2.0, 10.0, 1.0}, fitter);
 //     check.uncovered() == 0 && fitter.least_clearance() >= 0;  // proved: scallop and gouges

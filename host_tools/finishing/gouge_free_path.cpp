@@ -259,7 +259,7 @@ void GougeFreePathFitter::append_clear_line(Vec3d a, Vec3d b, int depth, Points&
     }
     const double length = norm(b - a);
     if (length < kShortestLine || depth > kDeepestHalving) {
-        // Both ends are clear: the tool is lifted over what lies between.
+        // Both ends are clear: the tool is raised over the part between.
         const double up = std::max(length, kShortestLine);
         const double top = std::max(a.z, b.z) + up;
         for (const Vec3d& next : {Vec3d{a.x, a.y, top}, Vec3d{b.x, b.y, top}, b}) {
@@ -335,7 +335,7 @@ Points GougeFreePathFitter::fit_lines(const Points& dense, const CcParameterList
     std::size_t from = 0;
     std::size_t guess = 4;
     while (from + 1 < dense.size()) {
-        if (!last) {  // the model knows the cells of the last contacts
+        if (!last) {  // the model caches the cells of the last contacts
             model_.forget_many_cells();
         }
         const std::size_t to = chord_end(dense, from, guess);

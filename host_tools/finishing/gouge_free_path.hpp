@@ -31,8 +31,8 @@ ToleranceBand make_tolerance_band(double tolerance, bool one_sided);
 
 using Points = std::vector<Vec3d>;
 
-// The contact of a tip: the ball is `offset` off the surface there, along the normal, to a fiftieth
-// of the band. Ends of lines are exact.
+// The contact of a tip: the ball is `offset` off the surface there, along the normal, within a
+// fiftieth of the band. Ends of lines are exact.
 struct CcParameters {
     int surface{-1};  // -1: not known
     double u{};
@@ -40,7 +40,7 @@ struct CcParameters {
 };
 using CcParameterList = std::vector<CcParameters>;  // one per dense point; empty: none is known
 
-// Not for use by two threads at once: the model keeps what queries find.
+// Not for use by two threads at once: the model caches cells found by queries.
 class GougeFreePathFitter {
 public:
     GougeFreePathFitter(const part_model::PartModel& model,

@@ -25,11 +25,12 @@ std::array<ApproachDirections::Triangle, 8> fan(Vec3d towards)
     const double rise = std::max(towards.z, kLeastRise * norm(towards));
     const Vec3d raised{towards.x, towards.y, rise};
     std::array<ApproachDirections::Triangle, 8> out;
-    Vec3d level{1, 0, 0};
+    Vec3d horizontal{1, 0, 0};
     for (ApproachDirections::Triangle& part : out) {
-        const Vec3d next{kEighth * (level.x - level.y), kEighth * (level.x + level.y), 0};
-        part = {raised / norm(raised), level, next};
-        level = next;
+        const Vec3d next{kEighth * (horizontal.x - horizontal.y),
+                         kEighth * (horizontal.x + horizontal.y), 0};
+        part = {raised / norm(raised), horizontal, next};
+        horizontal = next;
     }
     out.back()[2] = out.front()[1];
     return out;

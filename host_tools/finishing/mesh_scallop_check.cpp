@@ -134,7 +134,8 @@ bool MeshScallopCheck::settled(const Cell& cell) const
             }));
 }
 
-// Whether the stock straight over the corners is no higher than the scallop, square to the facet.
+// Whether the stock vertically above the corners is no higher than the scallop, along the normal of
+// the facet.
 bool MeshScallopCheck::low_enough(const Cell& cell) const
 {
     return std::all_of(cell.corners.begin(), cell.corners.end(), [&](Vec3d corner) {
@@ -157,7 +158,7 @@ void MeshScallopCheck::check_cell(const Cell& cell, int depth)
             blocked_area_ += 0.5 * norm(cross(cell.corners[1] - cell.corners[0],
                                               cell.corners[2] - cell.corners[0]));
         }
-        // Where the tool cannot touch there is usually no lower position. Rough ground has very
+        // Where the tool cannot touch there is usually no lower position. Rough meshes have very
         // many such cells.
         if (verdict == Verdict::kSettled ||
             (verdict == Verdict::kBlocked && !may_be_uncovered(cell))) {

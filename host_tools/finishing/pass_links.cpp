@@ -42,7 +42,7 @@ std::vector<ToolMove> reversed_moves(Vec3d start, const std::vector<ToolMove>& m
     return out;
 }
 
-void turn_round(SurfacePass& pass)
+void reverse(SurfacePass& pass)
 {
     std::reverse(pass.points.begin(), pass.points.end());
     if (pass.curve) {
@@ -72,7 +72,7 @@ public:
 
     LinkedPasses finish()
     {
-        // Only those between passes.
+        // Only retracts between passes count.
         out_.retracts = writer_.retracts();
         writer_.retract();
         out_.points = static_cast<int>(out_.moves.size());
@@ -168,7 +168,7 @@ LinkedPasses link_passes(std::vector<SurfacePass> passes,
             }
         }
         if (turned) {
-            turn_round(passes[next]);
+            reverse(passes[next]);
         }
     }
     return linker.finish();

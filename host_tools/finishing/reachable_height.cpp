@@ -116,8 +116,8 @@ std::optional<ReachableHeight::Position> ReachableHeight::exact_over(Vec3d place
     return Position{*tip, search_.height_under(*tip + Vec3d{0, 0, radius_}, place)};
 }
 
-// The lowest position is often beside a cliff that the ball just misses; an exact drop there rests
-// on top of the cliff. A little away from the cliff the position is hardly higher.
+// The lowest position is often beside a cliff that the ball just misses; an exact drop there may
+// land on top of the cliff. Slightly away from the cliff the position is hardly higher.
 std::optional<ReachableHeight::Position> ReachableHeight::beside(Vec3d place,
                                                                  Vec3d brink,
                                                                  double resolution,

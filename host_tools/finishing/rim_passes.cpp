@@ -4,11 +4,12 @@
 #include <cmath>
 
 #include "host_tools/finishing/scallop_check.hpp"
+#include "host_tools/part_model/surface_length.hpp"
 
 namespace cusp::finishing {
 
 using nurbs::Surface;
-using part_model::PartModel;
+using part_model::length_between;
 
 namespace {
 
@@ -16,19 +17,6 @@ constexpr double kUprightRim = 0.2;  // z of the normal: less is proved along th
 constexpr double kRimStep = 0.125;   // in stepovers
 constexpr int kLeastRim = 16;        // points
 constexpr int kMostRim = 4000;
-
-double length_between(const PartModel& model, int surface, Vec2d from, Vec2d to)
-{
-    double sum = 0;
-    Vec3d last = model.evaluate(surface, from.x, from.y).point;
-    for (int k = 1; k <= kLeastRim; ++k) {
-        const Vec2d at = from + (to - from) * (static_cast<double>(k) / kLeastRim);
-        const Vec3d next = model.evaluate(surface, at.x, at.y).point;
-        sum += norm(next - last);
-        last = next;
-    }
-    return sum;
-}
 
 }  // namespace
 
@@ -51,12 +39,12 @@ std::optional<Vec3d> ScallopCheck::tip_over_rim(int surface, Vec2d place) const
     return tip && now - tip->z > scallop_ ? tip : std::nullopt;
 }
 
-void ScallopCheck::go_over_rim(int surface,
-                               Vec2d from,
-                               Vec2d to,
-                               const std::function<void(const Points&)>& cut)
+void ScallopCheck::add_pass_over_rim(int surface,
+                                     Vec2d from,
+                                     Vec2d to,
+                                     const std::function<void(const Points&)>& cut)
 {
-    const double length = length_between(path_fitter_.model(), surface, from, to);
+    const double length = length_between(path_fitter_.model(), surface, from, to, kLeastRim);
     const int parts =
         std::clamp(static_cast<int>(length / (kRimStep * places_.step())), kLeastRim, kMostRim);
     Points run;
@@ -86,7 +74,7 @@ void ScallopCheck::add_rim_passes(int surface, const std::function<void(const Po
                                        Vec2d{s.u_end(), s.v_begin()}, Vec2d{s.u_end(), s.v_end()},
                                        Vec2d{s.u_begin(), s.v_end()}};
     for (std::size_t k = 0; k < corners.size(); ++k) {
-        go_over_rim(surface, corners[k], corners[(k + 1) % corners.size()], cut);
+        add_pass_over_rim(surface, corners[k], corners[(k + 1) % corners.size()], cut);
     }
 }
 

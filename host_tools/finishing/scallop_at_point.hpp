@@ -91,8 +91,8 @@ public:
         double beside_edges{};  // mm: above the lowest position of the tool, where passes may not
                                 // take that since it would gouge an edge from the side
     };
-    // The stock left at a point, square to the surface; at most the radius. Values below
-    // `resolution` may be inexact, which saves most of the search.
+    // The stock left at a point, along the normal; at most the radius. Values below `resolution`
+    // may be inexact, which saves most of the search.
     Uncut uncut_at(Vec3d point, Vec3d normal, double resolution) const;
 
     // Passes through the best tips of neighbouring points. Tips may lie apart (on two sides of a

@@ -111,34 +111,43 @@ std::array<double, 2> ScallopCheck::sides_of(const Cell& cell) const
     return {norm(at(cell.u1, cell.v0) - first), norm(at(cell.u0, cell.v1) - first)};
 }
 
-ScallopCheck::Verdict ScallopCheck::judge(const Cell& cell, const std::array<Corner, 4>& at) const
+ScallopCheck::CellShape ScallopCheck::shape_of(const Cell& cell, const std::array<Corner, 4>& at)
 {
     const double width_u = cell.u1 - cell.u0;
     const double width_v = cell.v1 - cell.v0;
     std::array<double, 4> along_u{};
     std::array<double, 4> along_v{};
     std::array<double, 4> bow{};
-    double turn = 0;
-    double least_z = 1;
+    CellShape shape{0, 0, 0, 0, 1};
     for (std::size_t k = 0; k < 4; ++k) {
         const SurfacePoint& p = at[k].point;
         along_u[k] = norm(p.du) * width_u;
         along_v[k] = norm(p.dv) * width_v;
         bow[k] = 0.25 * (norm(p.duu) * width_u * width_u + norm(p.dvv) * width_v * width_v);
-        turn = std::max(turn, norm(at[k].normal - at[0].normal));
-        least_z = std::min(least_z, at[k].normal.z);
+        shape.turn = std::max(shape.turn, norm(at[k].normal - at[0].normal));
+        shape.least_z = std::min(shape.least_z, at[k].normal.z);
     }
-    const double long_u = std::max(largest(along_u), norm(at[1].point.point - at[0].point.point));
-    const double long_v = std::max(largest(along_v), norm(at[2].point.point - at[0].point.point));
+    shape.bow = largest(bow);
+    shape.long_u = std::max(largest(along_u), norm(at[1].point.point - at[0].point.point));
+    shape.long_v = std::max(largest(along_v), norm(at[2].point.point - at[0].point.point));
+    return shape;
+}
+
+// Over 60 lines: a list of cases, each of which may decide.
+ScallopCheck::Verdict ScallopCheck::judge(const Cell& cell, const std::array<Corner, 4>& at) const
+{
+    const CellShape shape = shape_of(cell, at);
+    const double long_u = shape.long_u;
+    const double long_v = shape.long_v;
+    const double size = std::max(long_u, long_v);
     const Verdict longer = long_u >= long_v ? Verdict::kHalveU : Verdict::kHalveV;
-    if (std::max(long_u, long_v) > kLargest * places_.step() || turn > 0.5) {
-        if (std::max(long_u, long_v) > kSmallest * places_.step()) {
-            return longer;
-        }
+    if (size > kSmallest * places_.step() &&
+        (size > kLargest * places_.step() || shape.turn > 0.5)) {
+        return longer;
     }
-    const bool upright = least_z >= kSteepNormal;
-    const double bend = upright ? turn / least_z : turn;
-    const double less = path_off_ + largest(bow) + 0.5 * scallop_ * bend * bend;
+    const bool upright = shape.least_z >= kSteepNormal;
+    const double bend = upright ? shape.turn / shape.least_z : shape.turn;
+    const double shrink = path_off_ + shape.bow + 0.5 * scallop_ * bend * bend;
     const Corner middle = middle_of(cell);
     const Vec3d middle_top = raised(middle.point.point, middle.normal, scallop_,
                                     upright && middle.normal.z >= kSteepNormal);
@@ -152,7 +161,7 @@ ScallopCheck::Verdict ScallopCheck::judge(const Cell& cell, const std::array<Cor
     for (const std::uint32_t move : near_) {
         unsigned covers = 0;
         for (unsigned k = 0; k < 4; ++k) {
-            if (places_.swept().removes(move, tops[k], less)) {
+            if (places_.swept().removes(move, tops[k], shrink)) {
                 covers |= 1U << k;
             }
         }
@@ -169,18 +178,17 @@ ScallopCheck::Verdict ScallopCheck::judge(const Cell& cell, const std::array<Cor
         }
         return false;
     };
-    if (std::max(long_u, long_v) < kBlockedCell * places_.step()) {
+    if (size < kBlockedCell * places_.step()) {
         if (blocked_somewhere(at)) {
             return thinned(cell, at, long_u, long_v);
         }
         if (is_uncovered(at)) {
             return Verdict::kUncovered;
         }
-    } else if (std::max(long_u, long_v) < kSettledCell * places_.step() &&
-               settled(cell, at, middle)) {
+    } else if (size < kSettledCell * places_.step() && settled(cell, at, middle)) {
         return Verdict::kCovered;
     }
-    if (std::max(long_u, long_v) < kSmallest * places_.step()) {
+    if (size < kSmallest * places_.step()) {
         const bool each =
             std::all_of(at.begin(), at.end(), [&](const Corner& c) { return is_covered(c); });
         return each ? Verdict::kCovered : Verdict::kUncovered;
@@ -194,7 +202,7 @@ ScallopCheck::Verdict ScallopCheck::judge(const Cell& cell, const std::array<Cor
             return Verdict::kHalveU;
         }
     }
-    if (near_.empty() && std::max(long_u, long_v) < places_.step() &&
+    if (near_.empty() && size < places_.step() &&
         ((lies_under_others(cell, at) && !silhouette_above(at)) || lies_under_itself(at, middle))) {
         return Verdict::kCovered;
     }

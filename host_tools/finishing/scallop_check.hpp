@@ -78,9 +78,9 @@ public:
     // The highest stock measured there above what the tool can reach, mm.
     double most_left() const { return most_left_; }
 
-    // The highest stock measured beside rims and creases above what the tool can reach, mm. Passes
-    // are moved off these edges so as not to gouge them from the side. Not counted as left
-    // elsewhere; 0 for a one-sided tolerance.
+    // mm: the highest stock measured beside rims and creases above what the tool can reach. Passes
+    // are moved off these edges so as not to gouge them from the side. Not included in other
+    // figures; 0 for a one-sided tolerance.
     double left_beside_edges() const { return left_beside_edges_; }
 
 private:
@@ -99,12 +99,20 @@ private:
         int surface;
         double u0, u1, v0, v1;
     };
+    // Bounds from the derivatives and normals at the corners of a cell.
+    struct CellShape {
+        double long_u, long_v;  // mm: lengths along u and v
+        double bow;             // mm: deviation from flat
+        double turn;            // of the normal
+        double least_z;         // of the normals
+    };
     enum class Verdict : std::uint8_t { kCovered, kHalveU, kHalveV, kUncovered };
 
     Corner corner(int surface, double u, double v) const;
     bool inside_trims(int surface, double u, double v) const;
     // at  its corners, as `corners_of` gives them
     void check_cell(const Cell& cell, const std::array<Corner, 4>& at, int depth);
+    static CellShape shape_of(const Cell& cell, const std::array<Corner, 4>& at);
     Verdict judge(const Cell& cell, const std::array<Corner, 4>& at) const;
     bool is_covered(const Corner& at) const
     {
@@ -140,10 +148,10 @@ private:
     double most_left_in(const std::vector<Cell>& cells);
     void measure_beside_edges(const std::vector<Cell>& cells);
     std::optional<Vec3d> tip_over_rim(int surface, Vec2d place) const;
-    void go_over_rim(int surface,
-                     Vec2d from,
-                     Vec2d to,
-                     const std::function<void(const Points&)>& cut);
+    void add_pass_over_rim(int surface,
+                           Vec2d from,
+                           Vec2d to,
+                           const std::function<void(const Points&)>& cut);
     Points trace(int surface, Place place, bool along_u) const;
 
     const std::vector<nurbs::Surface>& surfaces_;
@@ -162,7 +170,7 @@ private:
     bool overflowed_{};
     mutable bool nearly_uncovered_{};  // some tip would remove nearly the scallop
     mutable double near_share_{1};     // share of the scallop that counts as nearly
-    mutable bool moved_clear_{};       // some tip was refused since it would gouge an edge
+    mutable bool moved_clear_{};       // some tip was rejected since it would gouge an edge
     mutable std::vector<std::uint32_t> near_;
 };
 

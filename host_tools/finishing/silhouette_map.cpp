@@ -6,11 +6,14 @@
 #include <cmath>
 #include <cstdint>
 
+#include "host_tools/part_model/surface_length.hpp"
+
 namespace cusp::finishing {
 
 using nurbs::BezierPatch;
 using nurbs::Surface;
 using nurbs::SurfacePoint;
+using part_model::longest_row;
 using part_model::PartModel;
 
 namespace {
@@ -20,26 +23,6 @@ constexpr std::size_t kMostSamples = 1000;  // of a patch, each way
 constexpr double kOpen = -kInfinite;
 
 enum class Facing : std::uint8_t { kUnknown, kTrimmed, kUp, kDown };
-
-// Upper bound of the length of a patch along u or v, from its control points.
-double longest_row(const Surface& s, bool along_u)
-{
-    double most = 0;
-    const int rows = along_u ? s.size_v : s.size_u;
-    const int count = along_u ? s.size_u : s.size_v;
-    for (int row = 0; row < rows; ++row) {
-        double sum = 0;
-        for (int k = 1; k < count; ++k) {
-            const auto point = [&](int at) {
-                const int index = along_u ? at * s.size_v + row : row * s.size_v + at;
-                return s.points[static_cast<std::size_t>(index)];
-            };
-            sum += norm(point(k) - point(k - 1));
-        }
-        most = std::max(most, sum);
-    }
-    return most;
-}
 
 }  // namespace
 

@@ -33,9 +33,10 @@ bool lies_within(double square_radius, Vec3d p, const SweptVolume::Move& move)
     }
     const Vec3d d = move.to - move.from;
     const Vec3d off = p - move.from;
-    const double level = d.x * d.x + d.y * d.y;
-    const double t = level > 0 ? std::clamp((off.x * d.x + off.y * d.y) / level, 0.0, 1.0) : 0;
-    const double low = level > 0 ? move.from.z + d.z * t : std::min(move.from.z, move.to.z);
+    const double plan_square = d.x * d.x + d.y * d.y;
+    const double t =
+        plan_square > 0 ? std::clamp((off.x * d.x + off.y * d.y) / plan_square, 0.0, 1.0) : 0;
+    const double low = plan_square > 0 ? move.from.z + d.z * t : std::min(move.from.z, move.to.z);
     const double x = off.x - d.x * t;
     const double y = off.y - d.y * t;
     return p.z >= low && x * x + y * y <= square_radius;

@@ -25,11 +25,14 @@ VisibilityFromAbove::VisibilityFromAbove(const std::vector<Surface>& surfaces,
 }
 
 // On a slope the neighbouring squares of a point's own surface are higher than the point.
-double VisibilityFromAbove::roof_over(double z) const { return z + kHidden + 2 * tops_.pitch(); }
+double VisibilityFromAbove::hiding_height(double z) const
+{
+    return z + kHidden + 2 * tops_.pitch();
+}
 
 bool VisibilityFromAbove::under_others(Vec3d place) const
 {
-    return tops_.least_around(place.x, place.y) > roof_over(place.z);
+    return tops_.least_around(place.x, place.y) > hiding_height(place.z);
 }
 
 bool VisibilityFromAbove::under_itself(Vec3d place, int surface) const
@@ -43,7 +46,7 @@ bool VisibilityFromAbove::is_hidden(Vec3d place, Vec3d normal) const
     if (!under_others(place)) {
         return tops_.finds_over(place, kHidden);
     }
-    if (!(tops_.highest_silhouette(at, at) > roof_over(place.z))) {
+    if (!(tops_.highest_silhouette(at, at) > hiding_height(place.z))) {
         return true;
     }
     // A needle touches any surface over the point with its shank.
@@ -60,7 +63,7 @@ bool VisibilityFromAbove::silhouette_above(const std::array<Vec3d, 4>& corners) 
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
-    return tops_.highest_silhouette({low.x, low.y}, {high.x, high.y}) > roof_over(low.z);
+    return tops_.highest_silhouette({low.x, low.y}, {high.x, high.y}) > hiding_height(low.z);
 }
 
 }  // namespace cusp::finishing

@@ -33,11 +33,11 @@ public:
     bool under_itself(Vec3d place, int surface) const;
 
     // Whether silhouettes cross a part of a surface, given by its corners, well above it: then it
-    // may be visible between corners that are hidden.
+    // may be visible between hidden corners.
     bool silhouette_above(const std::array<Vec3d, 4>& corners) const;
 
 private:
-    double roof_over(double z) const;
+    double hiding_height(double z) const;
 
     const GougeFreePathFitter& path_fitter_;
     SilhouetteMap tops_;

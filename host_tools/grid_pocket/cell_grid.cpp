@@ -1,5 +1,5 @@
-// Cells far from every wall take the answer of their neighbour: the distance changes by no more
-// than the way.
+// Cells far from every wall are decided by their neighbour: the distance from walls changes no
+// faster than the position.
 #include "host_tools/grid_pocket/cell_grid.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ using offset::RegionOffset;
 
 namespace {
 
-// Whole cells that cover `length`; a last one of less than a millionth is rounding.
+// Number of cells that cover `length`; a remainder below a millionth of a cell is rounding.
 int cells(double length, double size) { return static_cast<int>(std::ceil(length / size - 1e-6)); }
 
 }  // namespace
@@ -27,7 +27,7 @@ CellGrid::CellGrid(const RegionOffset& pocket, double gx, double gy, double radi
     rows_ = cells(box.y1 - box.y0, gy);
     inside_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
     for (int row = 0; row < rows_; ++row) {
-        double known = 0;  // clearance at the last cell computed, less the way since
+        double known = 0;  // clearance at the last cell computed, less the distance since
         for (int column = 0; column < columns_; ++column) {
             const Cell c{column, row};
             known -= gx;

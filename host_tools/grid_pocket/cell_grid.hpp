@@ -1,5 +1,5 @@
-// The pocket as cells: those whose centre the cutter's axis may reach. Choi, Cho & Kim,
-// section 3.2.
+// The pocket as cells: those whose centre the cutter's axis can reach. Choi, Cho & Kim, section
+// 3.2.
 #pragma once
 
 #include <cmath>
@@ -17,11 +17,11 @@ struct Cell {
     friend bool operator!=(Cell a, Cell b) { return !(a == b); }
 };
 
-// A rectangular block of cells over the pocket's box, each inside or not.
+// A rectangular block of cells over the pocket's box, each inside or outside.
 class CellGrid {
 public:
-    // Cells of gx by gy mm from the least corner of the pocket's box; a cell is inside when its
-    // centre lies in the region at least `radius` mm from every wall (to 1e-6 mm).
+    // Cells of gx by gy mm from the lower left corner of the pocket's box. A cell is inside if its
+    // centre lies in the region, at least `radius` mm from every wall (to 1e-6 mm).
     CellGrid(const offset::RegionOffset& pocket, double gx, double gy, double radius);
 
     int columns() const { return columns_; }

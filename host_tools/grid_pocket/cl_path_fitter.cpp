@@ -1,4 +1,5 @@
-// Bands begin over exact heights by a margin for what lies between them; each move is then proven.
+// Bands start above exact heights by a margin for the surface between samples; then each move is
+// proved clear.
 #include "host_tools/grid_pocket/cl_path_fitter.hpp"
 
 #include <algorithm>
@@ -22,23 +23,23 @@ using toolpath::ToolShape;
 
 namespace {
 
-// A move is proven clear when the bound on its clearance is above this.
+// A move is proved clear if the bound of its clearance exceeds this.
 constexpr double kProven = -1e-6;
 
-// Moves shorter than this are lifted rather than divided.
+// Shorter moves are raised instead of divided.
 constexpr double kShortestPiece = 0.02;
 
-// Distance of arcs from the chords that replace them in proofs, over their tolerance.
+// Sagitta of the chords that replace arcs in proofs, as a share of their tolerance.
 constexpr double kArcSagitta = 0.025;
 
-// Of a two-sided tolerance: the rest is for what lies between vertices.
+// Share of a two-sided tolerance for vertices; the rest is for the path between them.
 constexpr double kTwoSided = 0.95;
 
-// Below this a height is a rounding of the G-code.
+// Heights below this are rounding of the G-code.
 constexpr double kRounding = 2e-4;
 
-// Moves stay this many times the drop cutter's accuracy inside their band, so that they can be
-// proven: on a slope of 60 degrees half of a height is clearance.
+// Moves stay this multiple of the drop cutter's accuracy inside their band, so that they can be
+// proved: on a slope of 60 degrees half of a height is clearance.
 constexpr double kReserve = 2.0;
 
 Tool grown_tool(Tool tool, double by)
@@ -49,7 +50,7 @@ Tool grown_tool(Tool tool, double by)
     return tool;
 }
 
-// The tool, smaller all round.
+// The tool, reduced on all sides.
 Tool shrunk_tool(Tool tool, double by)
 {
     tool.radius -= by;
@@ -85,7 +86,7 @@ ClPathFitter::ClPathFitter(const std::vector<Surface>& floor,
 
 std::optional<double> ClPathFitter::height(Vec2d at) const
 {
-    // A tool grown all round by the allowance has its tip that much lower.
+    // A tool grown on all sides by the allowance has its tip that much lower.
     const std::optional<DropCutter::ClPoint> cl = drop_cutter_->drop(at);
     return cl ? std::optional{cl->z + allowance_} : std::nullopt;
 }
@@ -105,7 +106,7 @@ double ClPathFitter::used_of(double tolerance) const
     return std::max(kTwoSided * tolerance - reserve(), tolerance / 2);
 }
 
-// Where the floor ends, the passes go on at its lowest.
+// Beyond the floor, passes continue at its lowest height.
 double ClPathFitter::path_height(Vec2d at) const
 {
     return std::max(min_z_, height(at).value_or(lowest()));
@@ -132,8 +133,8 @@ double ClPathFitter::move_clearance(Vec3d a, Vec3d b, double margin) const
     if (!gouge_cutter_ || clear >= kProven - allowed) {
         return clear;
     }
-    // A bound of a deep gouge is good to a tenth only. What a tool shrunk by the gouge allowed keeps
-    // clear of, the tool gouges by no more than that.
+    // The bound of a deep gouge is accurate to a tenth only. If a tool reduced by the allowed gouge
+    // is clear, the tool gouges by no more than that.
     const Vec3d up{0, 0, allowed - allowance_};
     return std::max(clear, gouge_cutter_->move_clearance(a + up, b + up, margin) - allowed);
 }
@@ -161,7 +162,7 @@ std::vector<BandPoint> ClPathFitter::band(Vec2d a, Vec2d b, double tolerance) co
             continue;
         }
         // The exact height is an upper envelope of arcs of the tool's corner: between two places it
-        // rises above their chord by no more than such an arc does.
+        // rises above their chord by no more than such an arc.
         const double before = i > 0 ? std::abs(z - heights[i - 1]) / step : 0.0;
         const double after = i + 1 < heights.size() ? std::abs(heights[i + 1] - z) / step : 0.0;
         const double slope = std::max(before, after);
@@ -172,8 +173,8 @@ std::vector<BandPoint> ClPathFitter::band(Vec2d a, Vec2d b, double tolerance) co
     return out;
 }
 
-// Lower bound, at most 0, of the gap under a move that bulges by up to `sagitta` mm, in its upright
-// plane, from the straight line.
+// Lower bound, at most 0, of the clearance of a move that bulges by up to `sagitta` mm, in its
+// vertical plane, from the straight line.
 double ClPathFitter::bulged_clearance(Vec3d a, Vec3d b, double sagitta) const
 {
     if (is_ball()) {
@@ -205,7 +206,8 @@ void ClPathFitter::chord(ToolpathWriter& moves, Vec3d end, MoveKind kind, int de
         chord(moves, end, kind, depth + 1);
         return;
     }
-    // On slopes a lift along the axis gains less than its length: it is doubled until it does.
+    // On slopes, raising along the axis adds less clearance than its length, so it is doubled until
+    // it suffices.
     constexpr int kMostLifts = 10;
     Vec3d lift{0, 0, (proven - kept) * 1.5};
     double left = bulged_clearance(from + lift, end + lift, 0);
@@ -238,8 +240,9 @@ void ClPathFitter::follow_segment(ToolpathWriter& moves, Vec2d a, Vec2d b, MoveK
     }
 }
 
-// The rim of a flat end follows the floor itself, which may bend more between places than the band
-// allows for. Raises the band under each chord by what that lacks; returns whether any lacks some.
+// The rim of a flat end follows the floor itself, which may bend more between samples than the band
+// assumes. Raises the band below each chord by the shortfall of clearance; returns whether any was
+// raised.
 bool ClPathFitter::raise_band(std::vector<BandPoint>& places,
                               const std::vector<ProfilePoint>& points,
                               const std::function<Vec3d(const ProfilePoint&)>& point) const
@@ -277,10 +280,11 @@ void ClPathFitter::follow(ToolpathWriter& moves, const std::vector<Vec2d>& corne
     }
 }
 
-// Lower bound of the gap along the arc, at most 0; where it gouges too deep the rest is left out.
+// Lower bound of the clearance along the arc, at most 0; it may end early at a gouge that is too
+// deep.
 double ClPathFitter::arc_clearance(Vec3d from, const ArcTo& arc, double curvature) const
 {
-    // Chords of the arc, moved by the sagitta to the side that the arc bulges to when that is down.
+    // Chords of the arc, moved by the sagitta towards the arc's bulge if that is downward.
     const double radius = 1 / std::abs(curvature);
     const double chord = norm(arc.end - from);
     const double angle = 2 * std::asin(std::min(1.0, chord / 2 / radius));
@@ -324,7 +328,8 @@ std::vector<Vec3d> ClPathFitter::arc_vertices(Vec2d a, Vec2d b) const
         const Vec2d at = a + (b - a) * (places[i].s / length);
         double z = (places[i].low + places[i].high) / 2;
         if (!settings_.both_sides) {
-            // The fitter measures square to the path: on slopes the same distance is higher.
+            // The fitter measures perpendicular to the path: on slopes that distance is longer
+            // along the axis.
             const BandPoint& before = places[i > 0 ? i - 1 : i];
             const BandPoint& after = places[i + 1 < places.size() ? i + 1 : i];
             const double slope = (after.high - before.high) / (after.s - before.s);

@@ -1,4 +1,4 @@
-// Fits moves to the CL heights of a path in plan: few moves, each proven not to gouge.
+// Fits few moves to the CL heights of a path in plan, each proved free of gouges.
 #pragma once
 
 #include <algorithm>
@@ -16,67 +16,66 @@
 namespace cusp::grid_pocket {
 
 struct FollowSettings {
-    double tolerance{};       // mm, > 0: height of the band over the exact tip height
-    bool both_sides{};        // the band reaches as far below it: the paper's rule
+    double tolerance{};       // mm, > 0: height of the band above the exact tip height
+    bool both_sides{};        // the band extends as far below it: the paper's rule
     bool arcs{};              // G18 and G19 arcs on runs along an axis
-    double arc_tolerance{};   // mm, > 0: the band's height where arcs are fitted
+    double arc_tolerance{};   // mm, > 0: the band's height for fitted arcs
     double max_arc_radius{};  // mm: flatter arcs become lines
-    double sample{};          // mm, > 0: between heights along a run
+    double sample{};          // mm, > 0: between sampled heights along a run
 };
 
-// How far a move may be from the exact height, mm.
+// Largest distance of a move from the exact height, mm.
 double band_height(const FollowSettings& settings);
 
-// The CL height over a smooth floor is assumed to bend no tighter than with this radius, mm. For a
-// ball that is proven. The rim of a flat end follows the floor itself: there the proof of each move
-// decides.
+// mm: least radius of curvature assumed for the CL height over a smooth floor. For a ball this is
+// proved. The rim of a flat end follows the floor itself, so there the proof of each move decides.
 double bend_radius(const toolpath::Tool& tool);
 
 class ClPathFitter {
 public:
-    // Heights leave `allowance` mm, square to the surface, all over the floor.
+    // allowance  mm left over all of the floor, along the normal
     ClPathFitter(const std::vector<nurbs::Surface>& floor,
                  const toolpath::Tool& tool,
                  double allowance,
                  FollowSettings settings);
 
-    // A fitter that stays at `level` (z) or above: the floor of a roughing layer.
+    // A fitter that stays at or above `level` (z): the floor of a roughing layer.
     ClPathFitter above(double level) const;
 
-    // Exact height of the tip over (x, y); none where no surface lies under the tool.
+    // Exact height of the tip at (x, y); none if no surface lies below the tool.
     std::optional<double> height(Vec2d at) const;
 
-    // Height at which moves pass the point: the exact one, or the middle of the band.
+    // Height at which moves pass the point: the exact height, or the middle of the band.
     double start_height(Vec2d at) const;
 
-    // The lowest that moves over the point may be.
+    // Lower limit of moves at the point.
     double lowest_height(Vec2d at) const;
 
-    // The floor's lowest z: where it ends, passes go on at that height.
+    // The floor's lowest z: passes beyond the floor continue at that height.
     double lowest() const { return drop_cutter_->lowest(); }
 
-    // No move is lower than this.
+    // Lower limit of all moves.
     double bottom() const { return std::max(min_z_, lowest() + allowance_ - allowed_gouge()); }
 
-    // Cuts along the corners, straight in plan between them; the tip is at the first.
+    // Cuts along the corners, straight in plan between them. Precondition: the tip is at the first.
     void follow(toolpath::ToolpathWriter& moves,
                 const std::vector<Vec2d>& corners,
                 toolpath::MoveKind kind);
 
-    // Cuts along an arc in plan, with the tip at its start, where the floor is level along it and
-    // the arc is proven clear. Returns whether it did.
+    // Cuts along an arc in plan from the tip's position, if the floor is level along it and the arc
+    // is proved clear. Returns whether it did.
     bool follow_level_arc(toolpath::ToolpathWriter& moves,
                           const offset::Edge& arc,
                           toolpath::MoveKind kind);
 
-    // follow() as chords from `start`, along at most `length` mm.
+    // The moves of follow() as chords from `start`, along at most `length` mm.
     std::vector<Vec3d> chords(const std::vector<Vec2d>& corners, double length) const;
 
-    // Lower bound, at most 0, of the gap under a straight move whose tool may be `margin` mm beside
-    // it; see DropCutter::move_clearance().
+    // Lower bound, at most 0, of the clearance of a straight move if the tool may be up to `margin`
+    // mm beside it; see DropCutter::move_clearance().
     double move_clearance(Vec3d a, Vec3d b, double margin = 0.0) const;
 
-    // Largest depth that any move so far may cut into the floor; 0 where all are proven clear.
+    // mm: largest possible depth of a gouge by any move so far; 0 if all are proved clear.
     double gouge_bound() const { return gouge_bound_; }
 
     // Includes the gouge bound of another fitter over this floor.
@@ -84,23 +83,23 @@ public:
 
 private:
     std::shared_ptr<const drop_cutter::DropCutter> drop_cutter_;  // tool grown by the allowance
-    // Of a two-sided tolerance: that tool, smaller by the gouge allowed.
+    // For a two-sided tolerance: that tool, reduced by the allowed gouge.
     std::shared_ptr<const drop_cutter::DropCutter> gouge_cutter_;
-    double accuracy_;  // mm: drops are at most this much too high, clearances too low
+    double accuracy_;  // mm: heights are at most this much too high, clearances too low
     double allowance_;
     FollowSettings settings_;
     double min_z_{-kUnbounded};
     double gouge_bound_{0};
 
-    // How deep a move may cut: nothing, or the band where it reaches below the floor.
+    // Largest allowed gouge: 0, or the band where it extends below the floor.
     double allowed_gouge() const { return settings_.both_sides ? band_height(settings_) : 0.0; }
-    // mm over an exact height: moves no lower than that can be proven not to gouge.
+    // mm above an exact height: moves at least that high can be proved clear.
     double reserve() const;
     bool is_ball() const
     {
         return drop_cutter_->tool().corner_radius == drop_cutter_->tool().radius;
     }
-    // mm: the part of a two-sided tolerance that bands take.
+    // mm: the share of a two-sided tolerance that bands use.
     double used_of(double tolerance) const;
     double path_height(Vec2d at) const;
 

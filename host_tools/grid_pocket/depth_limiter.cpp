@@ -1,4 +1,4 @@
-// A stretch that is too deep is cut at levels, each as low as the stock allows.
+// A stretch that would be cut too deep is cut at several levels, each as low as the stock allows.
 #include "host_tools/grid_pocket/depth_limiter.hpp"
 
 #include <algorithm>
@@ -15,16 +15,16 @@ using toolpath::ToolpathWriter;
 
 namespace {
 
-// Shorter segments are left out, mm.
+// Shorter segments are ignored, mm.
 constexpr double kNoWay = 1e-9;
 
-// Heights of the floor are computed at every so many places of a run; between them only where the
-// depth may be over the limit by this share of it.
+// Heights of the floor are computed at every kSparse-th sample of a run, and between them only
+// where the depth may be above this share of the limit.
 constexpr int kSparse = 8;
 constexpr double kNearLimit = 0.4;
 
 constexpr int kMaxLevels = 1000;
-constexpr double kEntryLength = 4.0;  // radii of a run: what an entry may cut
+constexpr double kEntryLength = 4.0;  // radii: length of a run that an entry may cut
 
 }  // namespace
 
@@ -45,7 +45,7 @@ std::vector<DepthLimiter::Stretch> DepthLimiter::deep_stretches(const ClPathFitt
     };
     const double max_depth = *depth_.max_depth();
     std::vector<Stretch> out;
-    double before = 0;  // lowest heights over the floor at places of every kSparse-th number
+    double before = 0;  // lowest height at the last kSparse-th sample
     double after = 0;
     int known = -1;
     for (int i = 0; i <= count; ++i) {
@@ -182,7 +182,7 @@ void DepthLimiter::lower(ClPathFitter& floor,
             highest = std::max(highest, stretch.min_z);
             lowest = std::min(lowest, stretch.low);
         }
-        // Beside a cliff moves are higher than the floor, and so is the stock.
+        // Beside a cliff, moves and hence the stock are higher than the floor.
         const double level = last ? std::min(highest, *last - *depth_.max_depth()) : highest;
         if (level <= lowest) {
             break;

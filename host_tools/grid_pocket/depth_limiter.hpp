@@ -1,5 +1,5 @@
 // Limits the axial depth of cut of runs over the floor: where a run would cut deeper than
-// max_depth, passes above it cut first.
+// max_depth, passes above it are added first.
 #pragma once
 
 #include <optional>
@@ -13,20 +13,20 @@ namespace cusp::grid_pocket {
 
 class DepthLimiter {
 public:
-    // writer, path  that the runs are added to; outlive this
-    // depth         of the path; the depth is tracked with and without a limit
+    // writer, path  that runs are added to; must outlive this
+    // depth         of the path; tracked with and without a limit
     DepthLimiter(toolpath::ToolpathWriter& writer,
                  const toolpath::Toolpath& path,
                  clearing::AxialDepthTracker depth);
 
-    // As enter_run(), but to the first level where stock is too deep over the start of the run.
+    // As enter_run(), but to the first level where stock above the start of the run is too deep.
     void enter(const ClPathFitter& floor,
                const std::vector<Vec2d>& corners,
                double stock_top,
                bool link,
                const toolpath::ToolpathWriter::HelixFloor& circle);
 
-    // As ClPathFitter::follow(), with the tip at the first corner or over it.
+    // As ClPathFitter::follow(), with the tip at or above the first corner.
     void follow(ClPathFitter& floor,
                 const std::vector<Vec2d>& corners,
                 const toolpath::ToolpathWriter::HelixFloor& circle);
@@ -34,13 +34,13 @@ public:
     // Whether following the corners would cut too deep anywhere.
     bool too_deep(const ClPathFitter& floor, const std::vector<Vec2d>& corners);
 
-    // Tracks all moves so far.
+    // Tracks the depth of all moves so far.
     void track_moves() { depth_.track(path_.moves); }
 
-    // mm: deepest cut of the moves tracked so far.
+    // mm: deepest cut of the tracked moves.
     double deepest() const { return depth_.deepest(); }
 
-    // Passes that were added.
+    // Number of passes added.
     int added() const { return added_; }
 
 private:
@@ -48,17 +48,17 @@ private:
         double begin;  // mm along a segment
         double end;
         double min_z;  // z of a tip that does not cut too deep there
-        double low;    // the lowest that moves may be
+        double low;    // lower limit of moves
     };
 
     toolpath::ToolpathWriter& writer_;
     const toolpath::Toolpath& path_;
     clearing::AxialDepthTracker depth_;
-    double spacing_;  // mm between places of a run that are looked at
+    double spacing_;  // mm between samples of a run
     int added_{0};
 
     bool is_limited() const { return depth_.max_depth().has_value(); }
-    // Where a tip at the lowest over the floor would cut too deep.
+    // Where a tip at the lowest height over the floor would cut too deep.
     std::vector<Stretch> deep_stretches(const ClPathFitter& floor, Vec2d a, Vec2d b) const;
     void follow_segment(ClPathFitter& floor,
                         Vec2d a,

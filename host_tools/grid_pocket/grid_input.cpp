@@ -1,4 +1,4 @@
-// Checks name the key, the value and the limit in the units of the job.
+// Error messages name the key, the value and the limit in the units of the job.
 #include "host_tools/grid_pocket/grid_input.hpp"
 
 #include <algorithm>
@@ -30,7 +30,7 @@ namespace {
 
 constexpr double kInch = 25.4;
 
-// Memory and time grow with cells: more than this is a slip of the decimal point.
+// Memory and time grow with the cells: more than this is probably a typing error.
 constexpr double kMostCells = 4e6;
 
 bool has_free_curve(const Loop& loop)
@@ -110,7 +110,7 @@ void check_grid_input(const Job& job, const Operation& operation)
         if (!(size > 0)) {
             refuse_grid_pocket(job, "grid " + length_text(job, size) + " must be above 0");
         }
-        // As many digits as a job file may carry.
+        // The precision of numbers in a job file.
         if (size > most * (1 + 1e-4)) {
             refuse_grid_pocket(job, "grid " + length_text(job, size) +
                                         " is over the diameter / sqrt 2, " +

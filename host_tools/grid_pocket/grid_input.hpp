@@ -1,4 +1,4 @@
-// What the strategy is given, checked and brought to regions and cells.
+// Checks of the strategy's input, and its conversion to regions and cells.
 #pragma once
 
 #include <string>
@@ -8,23 +8,24 @@
 
 namespace cusp::grid_pocket {
 
-// Throws InputError that names the job and the strategy.
+// Throws InputError with the names of the job and the strategy.
 [[noreturn]] void refuse_grid_pocket(const job::Job& job, const std::string& what);
 
 // A number for a message, in the job's units.
 std::string length_text(const job::Job& job, double mm);
 
-// Refuses what can't be used before any geometry is looked at.
+// Errors: InputError for keys that are wrong regardless of geometry.
 void check_grid_input(const job::Job& job, const job::Operation& operation);
 
-// The pocket between boundary and islands. Lines are exact; free curves lie within `wall_error` mm.
+// The pocket between boundary and islands. Lines are exact; free-form curves are within
+// `wall_error` mm.
 struct PocketWalls {
     offset::Region2d region;
     double wall_error{};
 };
 PocketWalls pocket_walls(const job::Job& job, const job::Operation& operation);
 
-// Refuses a pocket with a place that no floor lies under, or only one that is trimmed away.
+// Errors: InputError if part of the pocket has no floor below it, or only trimmed surface.
 void check_grid_floor(const job::Job& job,
                       const job::Operation& operation,
                       const offset::Region2d& region);

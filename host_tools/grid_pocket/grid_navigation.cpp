@@ -1,4 +1,4 @@
-// One pass over the cells; dead ends search outwards over what was visited.
+// One traversal of the cells; from dead ends a search runs over visited cells.
 #include "host_tools/grid_pocket/grid_navigation.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ struct Heading {
     int y;
 };
 
-// In the order of the paper's priority numbers, for travel along `h`.
+// In the order of the paper's priorities, for travel along `h`.
 std::array<Heading, 4> priorities(Heading h)
 {
     return {Heading{h.y, -h.x}, h, Heading{-h.y, h.x}, Heading{-h.x, -h.y}};
@@ -24,11 +24,11 @@ Cell towards(Cell c, Heading h) { return {c.column + h.x, c.row + h.y}; }
 
 class Navigator {
 public:
-    // looked_at: free cells that a dead end looks at for one in sight.
-    Navigator(const CellGrid& grid, const NavigationRules& rules, std::size_t looked_at)
+    // tried_exits  number of free cells that are tried for a straight link from a dead end
+    Navigator(const CellGrid& grid, const NavigationRules& rules, std::size_t tried_exits)
         : grid_{grid},
           rules_{rules},
-          looked_at_{looked_at},
+          tried_exits_{tried_exits},
           state_(grid.size(), State::kClosed),
           seen_(grid.size(), 0),
           from_(grid.size(), 0)
@@ -58,7 +58,7 @@ private:
     enum class State : std::uint8_t { kClosed, kFree, kVisited };
     const CellGrid& grid_;
     const NavigationRules& rules_;
-    std::size_t looked_at_;
+    std::size_t tried_exits_;
     std::vector<State> state_;
     std::vector<std::uint32_t> seen_;  // number of the search that reached the cell
     std::vector<std::size_t> from_;
@@ -100,15 +100,15 @@ private:
         return h.has_value();
     }
 
-    // A visited cell with a free neighbour, and the free cell that the priorities take from it.
+    // A visited cell with a free neighbour, and the free cell that the priorities select from it.
     struct Exit {
         Cell beside;
         Cell target;
         Heading heading;
     };
 
-    // Over visited cells outwards to the exits, nearest first: the first one in sight among those
-    // looked at, else the first.
+    // Searches over visited cells for exits, nearest first: the first one with a straight link
+    // among those tried, else the nearest.
     std::optional<Exit> find_exit()
     {
         ++search_;
@@ -116,7 +116,7 @@ private:
         seen_[queue[0]] = search_;
         std::optional<Exit> nearest;
         std::size_t looked = 0;
-        std::size_t last = grid_.size();  // cells to look over
+        std::size_t last = grid_.size();  // limit of the search
         for (std::size_t done = 0; done < std::min(queue.size(), last); ++done) {
             const Cell c = grid_.cell(queue[done]);
             if (const auto exit = exit_at(c, done == 0 ? queue[done] : from_[queue[done]])) {
@@ -127,7 +127,7 @@ private:
                     nearest = exit;
                     last = 4 * done + 1000;
                 }
-                if (++looked >= looked_at_) {
+                if (++looked >= tried_exits_) {
                     return nearest;
                 }
             }
@@ -193,10 +193,11 @@ private:
         if (auto bends = fewest_bends(from, to, stops_beside(way))) {
             return std::move(*bends);
         }
-        return bends_on(from, to, way);
+        return bends_on_path(from, to, way);
     }
 
-    // Places where a link along the way may turn: some of its own, and the corners around it.
+    // Candidates for the bends of a link along the path: points of the path, and corners of walls
+    // near it.
     std::vector<Vec2d> stops_beside(const std::vector<Vec2d>& way) const
     {
         constexpr std::size_t kOfWay = 24;
@@ -224,7 +225,7 @@ private:
         return stops;
     }
 
-    // Breadth first over the stops that see each other; nothing where they do not lead there.
+    // Breadth-first search over the candidates that are mutually visible; none if there is no path.
     std::optional<std::vector<Vec2d>> fewest_bends(Vec2d from,
                                                    Vec2d to,
                                                    const std::vector<Vec2d>& stops) const
@@ -257,8 +258,9 @@ private:
         return std::nullopt;
     }
 
-    // On the way itself: each stretch is tried to the end, then half as far, and so on.
-    std::vector<Vec2d> bends_on(Vec2d from, Vec2d to, const std::vector<Vec2d>& way) const
+    // Bends on the path itself: a straight line to its end is tried first, then half as far, and so
+    // on.
+    std::vector<Vec2d> bends_on_path(Vec2d from, Vec2d to, const std::vector<Vec2d>& way) const
     {
         std::vector<Vec2d> stops{from};
         stops.insert(stops.end(), way.begin(), way.end());
@@ -278,7 +280,7 @@ private:
     }
 };
 
-// The links that bend most become lifts, until bends are within a hundredth of the steps.
+// Replaces the links with the most bends by lifts, until bends are within a hundredth of the steps.
 void lift_worst_links(Navigation& navigation)
 {
     std::vector<NavigationStep*> bent;
@@ -320,8 +322,8 @@ Navigation navigate(const CellGrid& grid, const NavigationRules& rules)
 
 Navigation reversed(Navigation navigation)
 {
-    // A step's kind and bends say how its cell is reached; the other way round they belong to the
-    // cell before.
+    // A step's kind and bends describe the move to its cell; reversed they belong to the cell
+    // before.
     auto& steps = navigation.steps;
     for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
         steps[i].kind = steps[i + 1].kind;

@@ -1,4 +1,5 @@
-// Corners of the cells' way become runs; between runs the tool stays down where the way is cut.
+// Corners of the path over cells become runs; between runs the tool links over material already
+// cut.
 #include "host_tools/grid_pocket/grid_passes.hpp"
 
 #include <algorithm>
@@ -26,8 +27,8 @@ using toolpath::ToolpathWriter;
 
 namespace {
 
-// Points along the edge after its start. Chords of an arc stay on the pocket's side of it: inside
-// an arc about a centre in the pocket, tangents around a corner of the wall.
+// Points along the edge after its start. Chords of an arc stay on the pocket's side of it: secants
+// inside an arc around a centre in the pocket, tangents around a corner of the wall.
 void append_chords(const Edge& edge,
                    double tolerance,
                    bool around_corner,
@@ -48,7 +49,7 @@ void append_chords(const Edge& edge,
     corners.push_back(edge.end);
 }
 
-// Entries ramp along their run unless the job asks for another kind.
+// Entries ramp along their run by default.
 EntrySettings entry_settings(const PocketSpace& pocket)
 {
     const Operation& operation = pocket.operation;
@@ -108,14 +109,14 @@ void GridPasses::enter(ClPathFitter& floor,
 
 void GridPasses::layer(double plane)
 {
-    // What the layers above have brought down to the floor is left alone; the rest is followed as
-    // low as the layer and the floor allow, so that no fin is left between layers on a slope.
+    // Cells that the layers above have cut down to the floor are omitted. The others are cut as low
+    // as the layer and the floor allow, so that no fin is left between layers on a slope.
     const double above = std::min(last_plane_.value_or(kUnbounded), pocket_.job.stock_top);
     NavigationRules rules;
     rules.free = [&](Cell c) {
         return pocket_.grid.inside(c) && pocket_.rough_heights[pocket_.grid.index(c)] < above;
     };
-    pocket_.add_ways(rules);
+    pocket_.add_clearances(rules);
     const Navigation navigation = reversed(navigate(pocket_.grid, rules));
     count(navigation);
     ClPathFitter floor = pocket_.rough.above(plane);
@@ -228,7 +229,7 @@ double GridPasses::stock_top_under(Vec2d at) const
 {
     const CellGrid& grid = pocket_.grid;
     const Tool& tool = pocket_.operation.tool;
-    // Between cells the stock has scallops, and a cell's own height up to its corners.
+    // Between cells the stock has scallops, and a cell's own height extends to its corners.
     const double half = std::hypot(grid.gx(), grid.gy()) / 2;
     const double corner = tool.corner_radius;
     const double in = std::min(half, corner);
@@ -255,7 +256,7 @@ bool GridPasses::can_link(Vec2d to) const
     if (!last_plane_ || *last_plane_ > pocket_.job.stock_top || writer_.is_retracted()) {
         return false;
     }
-    // The link runs higher than this over the layer above.
+    // Links are higher than this above the layer above.
     constexpr double kOver = 0.01;  // mm
     const Vec3d from{here().x, here().y, *last_plane_ + kOver};
     const Vec3d end{to.x, to.y, *last_plane_ + kOver};
@@ -279,8 +280,8 @@ bool GridPasses::cut_along(Vec3d from, Vec3d to) const
 
 Contour GridPasses::wall_loop(const Contour& contour) const
 {
-    // Boundary loops have the pocket on their left: counter-clockwise, as in the paper, which
-    // with a spindle that turns clockwise leaves the wall on the right and climbs.
+    // Boundary loops have the pocket on their left: counter-clockwise, as in the paper. With a
+    // spindle that turns clockwise that leaves the wall on the right: climb milling.
     const bool climb = pocket_.operation.direction_of_cut == CutDirection::kClimb;
     Contour loop = climb ? contour : reversed(contour);
     const auto nearest =
@@ -332,7 +333,7 @@ ToolpathWriter::HelixFloor GridPasses::circle_over(const ClPathFitter& floor) co
         if (pocket_.walls.clearance(centre) < pocket_.kept + radius + sagitta) {
             return std::nullopt;
         }
-        // Chords outside the circle: what they and the tool around them keep from, the arcs do too.
+        // Chords outside the circle: whatever clearance they have, the arcs have too.
         const double out = (radius + sagitta) / std::cos(kPi / kSides);
         const auto at = [&](int i) {
             const double angle = 2 * kPi * i / kSides;

@@ -11,19 +11,19 @@ namespace cusp::grid_pocket {
 
 class GridPasses {
 public:
-    // pocket and path outlive this; `pocket.rough_heights` are needed for layers only.
+    // pocket, path  must outlive this; `pocket.rough_heights` are needed for layers only
     GridPasses(PocketSpace& pocket, toolpath::Toolpath& path);
 
-    // One rough layer: the navigation over the cells that the floor leaves free, then the wall.
+    // One roughing layer: the navigation over the cells that the floor leaves free, then the wall.
     void layer(double plane);
 
-    // P: the whole navigation over the floor.
+    // Pass P of the paper: the whole navigation over the floor.
     void main_path(const Navigation& navigation);
 
-    // W: along boundary and islands.
+    // Pass W: along boundary and islands.
     void wall();
 
-    // N: over the steps along 'x' or 'y' that are no track yet; adds them to the tracks.
+    // Pass N: over the steps along 'x' or 'y' that are not yet tracks; adds them to the tracks.
     void zigzag(char axis, Tracks& tracks);
 
     void finish();
@@ -35,20 +35,20 @@ public:
     int steps() const { return steps_; }
     int retracts() const { return writer_.retracts(); }
     const toolpath::ToolpathWriter& writer() const { return writer_; }
-    // mm: none where everything is cut in one layer.
+    // mm; none if everything is cut in one layer.
     std::optional<double> deepest_cut() const
     {
         return depth_ ? std::optional<double>{depth_->deepest()} : std::nullopt;
     }
-    // Passes that keep runs from cutting deeper than max_depth.
+    // Number of passes added to keep runs within max_depth.
     int depth_passes() const { return depth_ ? depth_->added() : 0; }
 
 private:
     PocketSpace& pocket_;
     toolpath::Toolpath& path_;
     toolpath::ToolpathWriter writer_;
-    std::optional<DepthLimiter> depth_;  // for pockets in layers
-    std::vector<float> stock_tops_;      // top of the stock over each cell
+    std::optional<DepthLimiter> depth_;  // for pockets with layers
+    std::vector<float> stock_tops_;      // z of the stock over each cell
     std::optional<double> last_plane_;   // of the layers so far
     std::size_t main_moves_{0};
     int backtracks_{0};
@@ -61,22 +61,22 @@ private:
     {
         return static_cast<double>(stock_tops_[pocket_.grid.index(c)]);
     }
-    // z at which the tool, coming down over a place, may first touch stock.
+    // z at which a descending tool may first touch stock at a place.
     double stock_top_under(Vec2d at) const;
     void count(const Navigation& navigation);
-    // True where the steps before and after `i` go the same way, one cell each.
+    // Whether the steps before and after `i` have the same direction, one cell each.
     static bool straight(const Navigation& navigation, std::size_t i);
     // Returns the number of moves that cut.
     std::size_t follow_navigation(const Navigation& navigation, ClPathFitter& floor);
     void follow(ClPathFitter& floor, const std::vector<Vec2d>& corners);
     void enter(ClPathFitter& floor, const std::vector<Vec2d>& corners, double stock_top, bool link);
     void begin_run(const std::vector<Vec2d>& corners, double stock_top, ClPathFitter& floor);
-    // Whether a straight link at the height of the layer above leads there: that layer has cut all
-    // that the floor leaves free, but for scallops between tracks.
+    // Whether a straight link at the height of the layer above reaches the place. That layer has
+    // cut all that the floor leaves free, except for scallops between tracks.
     bool can_link(Vec2d to) const;
-    // Whether the layer above has visited every cell under the move.
+    // Whether the layer above has visited every cell below the move.
     bool cut_along(Vec3d from, Vec3d to) const;
-    // The pass along the wall, from the place that is nearest.
+    // The pass along the wall, from its nearest point on.
     offset::Contour wall_loop(const offset::Contour& contour) const;
     // Points along an edge of such a loop, after its start.
     void append_points(const offset::Edge& edge, std::vector<Vec2d>& corners) const;
@@ -85,10 +85,10 @@ private:
     Vec2d here() const;
     // For helices over what `floor` leaves.
     toolpath::ToolpathWriter::HelixFloor circle_over(const ClPathFitter& floor) const;
-    // To the first corner: along the floor where nothing is between, else by an entry at a cell
-    // beside it, which the main path has cut.
+    // To the first corner: along the floor if nothing is in between, else by an entry at a cell
+    // beside it that the main path has cut.
     void approach(const std::vector<Vec2d>& corners);
-    // Along the wall where its rough floor lies below `above`.
+    // Along the wall where its roughing floor is below `above`.
     void wall_level(double above, ClPathFitter& floor);
     void cut_level(std::vector<Vec2d>& run, double above, ClPathFitter& floor);
     double height_or(Vec2d at) const;

@@ -1,4 +1,5 @@
-// Checks, looks at the roughness, then cuts layers, main path, wall and zigzags, in this order.
+// Checks the input, computes the roughness, then cuts layers, main path, wall and zigzags, in this
+// order.
 #include "host_tools/grid_pocket/grid_pocket.hpp"
 
 #include <chrono>
@@ -23,11 +24,9 @@ namespace {
 
 constexpr double kDepthRounding = 1e-3;  // mm
 
-// A grid of the same shape that keeps max_roughness, tried out; the height between tracks goes with
-// the square of their distance.
-std::string grid_that_would_do(const PocketSpace& pocket,
-                               const PocketWalls& walls,
-                               double roughness)
+// A grid of equal proportions that keeps max_roughness, by trial. The scallop height grows with the
+// square of the distance of tracks.
+std::string sufficient_grid(const PocketSpace& pocket, const PocketWalls& walls, double roughness)
 {
     Operation finer = pocket.operation;
     for (int attempt = 0; attempt < 4; ++attempt) {
@@ -42,7 +41,7 @@ std::string grid_that_would_do(const PocketSpace& pocket,
         roughness = roughness_of(tried, finish_navigation(tried));
         if (roughness <= *finer.max_roughness) {
             return "grid " + length_text(pocket.job, finer.grid_x) + " x " +
-                   length_text(pocket.job, finer.grid_y) + " would do";
+                   length_text(pocket.job, finer.grid_y) + " suffices";
         }
     }
     return "grid " + length_text(pocket.job, finer.grid_x) + " x " +
@@ -55,7 +54,7 @@ void warn_of_layers(const Job& job, const LayerPlanes& planes, OperationStats& s
         stats.warnings.push_back(
             "layers: " + std::to_string(planes.left_out) + " lie below " +
             length_text(job, job.stock_top - planes.lowest) +
-            " under stock.top, the deepest that the tool gets on this floor, and are left out");
+            " under stock.top, the lowest position of the tool on this floor, and are omitted");
     }
 }
 
@@ -66,7 +65,7 @@ void warn_of_cliffs(const PocketSpace& pocket, OperationStats& stats)
         stats.warnings.push_back("the floor steps by " + length_text(job, cliff->height) +
                                  " at x " + length_text(job, cliff->at.x) + ", y " +
                                  length_text(job, cliff->at.y) +
-                                 ": beside such cliffs more stays than the roughness says");
+                                 ": beside such cliffs more stock is left than the roughness");
     }
 }
 
@@ -94,6 +93,47 @@ void warn_of_entries(const ToolpathWriter& writer, OperationStats& stats)
     }
 }
 
+// Fills the statistics, warnings and comments of the finished path.
+void fill_report(const PocketSpace& pocket,
+                 const LayerPlanes& planes,
+                 const GridPasses& planner,
+                 double roughness,
+                 PlannedOperation& out)
+{
+    const Job& job = pocket.job;
+    const std::size_t cells = pocket.grid.count_inside();
+    OperationStats& stats = out.stats;
+    stats.strategy = "grid_pocket";
+    stats.passes = planner.passes();
+    stats.levels = static_cast<int>(planes.z.size()) + 1;
+    stats.cl_points = static_cast<int>(out.path.moves.size());
+    stats.retracts = planner.retracts();
+    stats.gouge_bound_mm = pocket.finish.gouge_bound();
+    const FollowSettings settings = follow_settings(pocket.operation);
+    stats.scallop_bound_mm =
+        roughness + (settings.arcs ? settings.arc_tolerance : settings.tolerance);
+    stats.counts = {{"cells", static_cast<double>(cells)},
+                    {"steps", planner.steps()},
+                    {"dead_ends", planner.dead_ends()},
+                    {"backtracks", planner.backtracks()},
+                    {"dead_end_lifts", planner.lifts()},
+                    {"main_path_moves", static_cast<double>(planner.main_moves())},
+                    {"layers", static_cast<double>(planes.z.size())},
+                    {"roughness_mm", roughness},
+                    {"helices", planner.writer().helices()}};
+    if (const auto deepest = planner.deepest_cut()) {
+        stats.counts.emplace_back("deepest_cut_mm", *deepest);
+        stats.counts.emplace_back("depth_passes", planner.depth_passes());
+    }
+    warn_of_depth(job, pocket.operation, planner, stats);
+    out.path.comments = {"grid_pocket: " + std::to_string(cells) + " cells, roughness " +
+                         length_text(job, roughness) + ", gouge at most " +
+                         length_text(job, stats.gouge_bound_mm)};
+    warn_of_layers(job, planes, stats);
+    warn_of_cliffs(pocket, stats);
+    warn_of_entries(planner.writer(), stats);
+}
+
 }  // namespace
 
 std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& operation)
@@ -103,7 +143,6 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
     const PocketWalls walls = pocket_walls(job, operation);
     check_grid_floor(job, operation, walls.region);
     PocketSpace pocket{job, operation, walls};
-    const std::size_t cells = pocket.grid.count_inside();
     if (pocket.centres.contours.empty()) {
         refuse_grid_pocket(job, "no place in the pocket is " + length_text(job, pocket.kept) +
                                     " from its walls: the tool does not fit");
@@ -117,7 +156,7 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
         refuse_grid_pocket(job, "roughness " + length_text(job, roughness) +
                                     " is over max_roughness " +
                                     length_text(job, *operation.max_roughness) + "; " +
-                                    grid_that_would_do(pocket, walls, roughness));
+                                    sufficient_grid(pocket, walls, roughness));
     }
     PlannedOperation out;
     out.path.tool = operation.tool;
@@ -139,7 +178,6 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
     job.report_progress(0.5);
     planner.main_path(navigation);
     job.report_progress(0.9);
-    const std::size_t main_moves = planner.main_moves();
     planner.wall();
     Tracks tracks = tracks_of(pocket.grid, navigation);
     for (const char axis : operation.zigzag) {
@@ -147,36 +185,7 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
     }
     planner.finish();
     job.report_progress(1);
-    OperationStats& stats = out.stats;
-    stats.strategy = "grid_pocket";
-    stats.passes = planner.passes();
-    stats.levels = static_cast<int>(planes.z.size()) + 1;
-    stats.cl_points = static_cast<int>(out.path.moves.size());
-    stats.retracts = planner.retracts();
-    stats.gouge_bound_mm = pocket.finish.gouge_bound();
-    const FollowSettings settings = follow_settings(operation);
-    stats.scallop_bound_mm =
-        roughness + (settings.arcs ? settings.arc_tolerance : settings.tolerance);
-    stats.counts = {{"cells", static_cast<double>(cells)},
-                    {"steps", planner.steps()},
-                    {"dead_ends", planner.dead_ends()},
-                    {"backtracks", planner.backtracks()},
-                    {"dead_end_lifts", planner.lifts()},
-                    {"main_path_moves", static_cast<double>(main_moves)},
-                    {"layers", static_cast<double>(planes.z.size())},
-                    {"roughness_mm", roughness},
-                    {"helices", planner.writer().helices()}};
-    if (const auto deepest = planner.deepest_cut()) {
-        stats.counts.emplace_back("deepest_cut_mm", *deepest);
-        stats.counts.emplace_back("depth_passes", planner.depth_passes());
-    }
-    warn_of_depth(job, operation, planner, stats);
-    out.path.comments = {"grid_pocket: " + std::to_string(cells) + " cells, roughness " +
-                         length_text(job, roughness) + ", gouge at most " +
-                         length_text(job, stats.gouge_bound_mm)};
-    warn_of_layers(job, planes, stats);
-    warn_of_cliffs(pocket, stats);
-    warn_of_entries(planner.writer(), stats);
+    fill_report(pocket, planes, planner, roughness, out);
     std::vector<PlannedOperation> result;
     result.push_back(std::move(out));
     limit_plunge_feed(result, job, box_of(walls.region));

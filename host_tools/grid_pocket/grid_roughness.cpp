@@ -1,5 +1,5 @@
-// With its axis at c, between tracks, the tool would touch the surface at q, beside c towards the
-// rising side. The height left over q is the lowest of the tool on the tracks around.
+// With its axis at c, between tracks, the tool would touch the surface at q, beside c on the rising
+// side. The height left at q is the lowest of the tool on the tracks around.
 #include "host_tools/grid_pocket/grid_roughness.hpp"
 
 #include <algorithm>
@@ -14,22 +14,22 @@ using toolpath::Tool;
 
 namespace {
 
-// Exact heights that one look at the roughness may ask for.
+// Limit of exact heights for one roughness.
 constexpr int kMostHeights = 20000;
 
-// Squares ranked this much under the highest found are not looked at.
+// Squares ranked this much below the highest found are skipped.
 constexpr double kRankDoubt = 1.35;
 
-// Between the places looked at a ridge may be this much higher, as a share of it; the rim of a flat
-// end makes steps that fall between them.
+// A ridge between lattice places may be higher than the highest place by this factor; the rim of a
+// flat end leaves steps between them.
 constexpr double kBetween = 1.03;
 constexpr double kBetweenSteps = 1.25;
 
-// mm: a place that a flat end touches lies on its rim, to rounding.
+// mm: a contact of a flat end lies on its rim, except for rounding.
 constexpr double kOnTheRim = 1e-6;
 
-// What the tools at `tips` leave over the place that a tool at `here` touches, with the slope of
-// the tip's height there.
+// Height that tools at `tips` leave above the contact of a tool at `here`, with the slope of the
+// tip's height there.
 double left_by(const Tool& tool, Vec3d here, Vec2d slope, const std::vector<Vec3d>& tips)
 {
     const double steep = norm(slope);
@@ -48,8 +48,8 @@ double left_by(const Tool& tool, Vec3d here, Vec2d slope, const std::vector<Vec3
         }
         double left = (tip.z + profile_height(tool, std::min(away, rim)) - z) / secant;
         if (corner == tool.radius) {
-            // For a ball also along the normal: the lower point where it meets the ball on the
-            // track. The larger of both counts.
+            // For a ball also along the normal: the lower point where the normal meets the ball on
+            // the track. The larger of both heights counts.
             const Vec3d d = tip - here;
             const double along = dot(normal, d);
             const double across = dot(d, d) - along * along;
@@ -59,7 +59,7 @@ double left_by(const Tool& tool, Vec3d here, Vec2d slope, const std::vector<Vec3
         }
         least = std::min(least, left);
     }
-    // A touch that no track reaches over is none: the slope was taken across a kink.
+    // A contact that no track covers is spurious: the slope was computed across a kink.
     return least < kUnbounded ? std::clamp(least, 0.0, tool.radius) : 0.0;
 }
 
@@ -70,7 +70,7 @@ public:
     {
     }
 
-    // Rank of the square whose lower left cell is `c`: by the heights over cells alone.
+    // Rank of the square whose lower left cell is `c`, by the heights at cells alone.
     double ranked(Cell c)
     {
         const std::array<Cell, 4> cells = corners(c);
@@ -79,7 +79,7 @@ public:
         return inside == 4 ? between_cells(cells) : beside_wall(c, cells);
     }
 
-    // The same with exact heights; `asked` grows by their number.
+    // The scallop of the square with exact heights; `asked` grows by their number.
     double exact(Cell c, int& asked)
     {
         const double reach = std::max(tool_.corner_radius, tool_.radius / 4);
@@ -133,7 +133,7 @@ private:
         return grid_.inside(a) && grid_.inside(b) && (east ? tracks_.east(a) : tracks_.north(a));
     }
 
-    // In the middle of the square and of its sides, with the height as a paraboloid through it.
+    // At the middle of the square and of its sides, with the height as a paraboloid.
     double between_cells(const std::array<Cell, 4>& cells)
     {
         const double gx = grid_.gx();
@@ -189,7 +189,7 @@ private:
         return count > 0 ? sum / count : 0;
     }
 
-    // By the distance to the next track in plan, stretched by the slope between the square's cells.
+    // By the distance to the next track in plan, scaled by the slope between the square's cells.
     double beside_wall(Cell c, const std::array<Cell, 4>& cells) const
     {
         const double middle =
@@ -208,7 +208,7 @@ private:
                 }
             }
         }
-        // Between the places looked at it may be this much farther.
+        // Between the samples the distance may be larger by this much.
         farthest += half / 6;
         const double steep = steepest(cells);
         const double reach = tool_.corner_radius > 0 ? tool_.corner_radius : tool_.radius;
@@ -283,8 +283,8 @@ private:
         }
     }
 
-    // Slopes of the tip's height: across the place and, where the tool touches on two sides and the
-    // slope changes at once, on each side.
+    // Slopes of the tip's height: the central difference and, where the tool touches on two sides
+    // and the slope jumps, those on each side.
     std::array<Vec2d, 5> slopes(int i, int j) const
     {
         const auto step = [&](int di, int dj, double length) {
@@ -308,7 +308,7 @@ private:
                 Vec2d{x1, y1}};
     }
 
-    // Cells of the square and around it, and the lattice's places on its tracks.
+    // Cells of the square and around it, and the lattice places on its tracks.
     void collect_tracks(Cell c)
     {
         tips_.clear();
@@ -348,7 +348,7 @@ private:
         const std::size_t cells = tips_.size();
         const double wall = surface_.to_wall_pass(in_plan(here));
         if (wall < tool_.radius) {
-            // The pass beside the place, and a little on either way, where a flat end may need it.
+            // The wall pass beside the place, and slightly to either side, for flat ends.
             const Vec2d foot = surface_.on_wall_pass(in_plan(here));
             for (const Vec2d shift :
                  {Vec2d{0, 0}, Vec2d{0.3, 0}, Vec2d{-0.3, 0}, Vec2d{0, 0.3}, Vec2d{0, -0.3}}) {
@@ -370,8 +370,8 @@ private:
         return most;
     }
 
-    // Over the rim of a flat end, which may touch the surface in several places. What the tool at
-    // `here` would leave is never below what can be reached: no place can count for too much.
+    // For the rim of a flat end, which may touch the surface in several places. The result is at
+    // least the height that can be reached, so no place counts for too much.
     double left_around(Vec3d here) const
     {
         constexpr int kPlaces = 24;
@@ -395,7 +395,7 @@ private:
         return most;
     }
 
-    // From the highest place of the lattice over ever smaller steps to the top.
+    // Pattern search from the highest lattice place to the top of the ridge.
     double climb(Vec2d top, double most, int& asked)
     {
         Vec2d step{grid_.gx() / nx_ / 2, grid_.gy() / ny_ / 2};

@@ -1,4 +1,4 @@
-// The paper's surface roughness, the scallop between tracks, computed before anything is cut.
+// The paper's surface roughness: the scallop between tracks, computed before cutting.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace cusp::grid_pocket {
 
-// Which sides between neighbouring cells the cutter runs along, either way.
+// The sides between neighbouring cells along which the cutter runs, in either direction.
 class Tracks {
 public:
     explicit Tracks(const CellGrid& grid) : grid_{grid}, bits_(grid.size(), 0) {}
@@ -26,26 +26,27 @@ private:
     std::vector<std::uint8_t> bits_;
 };
 
-// What the roughness is computed from besides the tracks.
+// Input of the roughness besides the tracks.
 struct TipSurface {
-    const std::vector<double>& heights;  // of the tip over each cell; read where it is inside
-    // Exact CL height over any point where the axis may be.
+    const std::vector<double>& heights;  // of the tip at each cell; read for cells inside
+    // Exact CL height at any point where the axis may be.
     std::function<std::optional<double>(Vec2d)> height;
-    // mm from a point to the pass along the wall; negative beyond it.
+    // mm from a point to the wall pass; negative beyond it.
     std::function<double(Vec2d)> to_wall_pass;
-    // The place of that pass nearest to a point.
+    // The point of that pass nearest to a point.
     std::function<Vec2d(Vec2d)> on_wall_pass;
 };
 
-// The largest scallop, square to the surface, that the tracks and the pass along the wall leave
-// over the surface that the tool could cut.
+// The largest scallop, along the normal, that the tracks and the wall pass leave over the surface
+// that the tool can cut.
 //
-// All squares between cells are ranked by the heights over the cells. From the highest down they
+// All squares between cells are ranked by the heights at the cells. From the highest rank down they
 // are computed with exact heights on a lattice of up to 14 x 14 places, until no other square can
-// be higher. Between the places of the lattice the crest is followed to its top. Where too many
-// squares are alike, the rest count with the largest ratio found between exact and ranked value.
+// be higher. Between lattice places a pattern search finds the top of the ridge. If too many
+// squares have similar ranks, the remaining ones count with the largest ratio found between exact
+// and ranked value.
 //
-// For a ball the result is not below what a cut in memory leaves, and mostly less than a tenth
+// For a ball the result is at least the scallop of a cut in memory, and mostly less than a tenth
 // above it; for a flat end it is coarser (tests/property/grid_pocket).
 double grid_roughness(const CellGrid& grid,
                       const TipSurface& surface,

@@ -1,5 +1,5 @@
-// Distances decide on moves: along a line the distance from the walls changes by no more than the
-// way.
+// Moves are decided by distances: along a line the distance from the walls changes no faster than
+// the position.
 #include "host_tools/grid_pocket/pocket_space.hpp"
 
 #include <algorithm>
@@ -18,14 +18,13 @@ using offset::Edge;
 
 namespace {
 
-constexpr double kHeightsShare = 0.15;  // of the time of a plan
-// Of max_depth: where that is too much, extra passes take it.
+constexpr double kHeightsShare = 0.15;  // of the planning time
+// Share of max_depth for the distance of layers: where even that is too deep, passes are added.
 constexpr double kLeastStep = 0.85;
 constexpr double kNoHeight = std::numeric_limits<double>::quiet_NaN();
 
-// Where links turn around an arc of the pass along the walls: where its tangents meet, one place
-// for each third of a turn; near wide corners also on the arc, where a narrow pocket leaves no
-// more.
+// Bends of links around an arc of the wall pass: the intersections of its tangents, one for each
+// third of a turn; near wide corners also points on the arc, for narrow pockets.
 void add_corner(const Edge& arc, std::vector<Vec2d>& out)
 {
     constexpr double kLeastSweep = 0.1;  // flatter arcs belong to a curved wall
@@ -48,8 +47,8 @@ void add_corner(const Edge& arc, std::vector<Vec2d>& out)
     }
 }
 
-// How much higher the stock is beside a new track between cells than beside a repeated one: the
-// tool was over the cells only.
+// How much higher the stock is beside a new track between cells than beside a repeated one, since
+// the tool was at the cells only.
 double ridge_over_tracks(const Operation& operation)
 {
     const double corner = operation.tool.corner_radius;
@@ -61,7 +60,7 @@ double ridge_over_tracks(const Operation& operation)
                     rise(operation.grid_y, operation.grid_x));
 }
 
-// The half with the larger step is halved until it is too short to be a slope.
+// Bisects the half with the larger step until it is too short to be a slope.
 Cliff steepest_between(const ClPathFitter& floor, Vec2d a, Vec2d b)
 {
     constexpr double kNoSlope = 0.01;  // mm
@@ -81,7 +80,7 @@ Cliff steepest_between(const ClPathFitter& floor, Vec2d a, Vec2d b)
     return {a, std::abs(zb - za)};
 }
 
-// Steps between neighbours that only the zigzags along `axis` cut.
+// Steps between neighbours that are cut only by zigzags along `axis`.
 void add_zigzag(const PocketSpace& pocket, char axis, Tracks& tracks)
 {
     for (std::size_t i = 0; i < pocket.grid.size(); ++i) {
@@ -103,7 +102,7 @@ FollowSettings follow_settings(const Operation& operation)
     s.arcs = operation.output == OutputForm::kArcs;
     s.arc_tolerance = operation.arc_tolerance > 0 ? operation.arc_tolerance : s.tolerance;
     s.max_arc_radius = operation.max_arc_radius > 0 ? operation.max_arc_radius : 1e3;
-    // Between places this far apart the tip's height rises over a chord by about an eighth of the
+    // At this distance of samples the tip's height rises above a chord by about an eighth of the
     // band.
     const double bend = std::sqrt(0.5 * bend_radius(operation.tool) * band_height(s));
     s.sample = std::min(std::max(operation.grid_x, operation.grid_y), bend);
@@ -141,7 +140,7 @@ bool PocketSpace::clear(Vec2d a, Vec2d b) const
     return walls.clearance(b) >= kept - kOnTheWall;
 }
 
-void PocketSpace::add_ways(NavigationRules& rules) const
+void PocketSpace::add_clearances(NavigationRules& rules) const
 {
     rules.clear_step = [this](Cell a, Cell b) {
         return clear(a, b);
@@ -151,7 +150,7 @@ void PocketSpace::add_ways(NavigationRules& rules) const
     };
     for (const Contour& contour : centres.contours) {
         for (const Edge& edge : contour) {
-            // The pass along the walls rounds corners of the wall clockwise.
+            // The wall pass goes clockwise around corners of the wall.
             if (edge.turn < 0) {
                 add_corner(edge, rules.corners);
             }
@@ -189,7 +188,7 @@ Navigation finish_navigation(const PocketSpace& pocket)
     rules.free = [&](Cell c) {
         return pocket.grid.inside(c);
     };
-    pocket.add_ways(rules);
+    pocket.add_clearances(rules);
     return reversed(navigate(pocket.grid, rules));
 }
 
@@ -261,12 +260,12 @@ LayerPlanes layer_planes(const PocketSpace& pocket)
             planes.push_back(pocket.job.stock_top - depth);
         }
     } else if (operation.max_depth) {
-        // A layer leaves ridges between its tracks and stays over the floor by its tolerance, and
-        // the finish meets the allowance: all add to the next depth of cut.
+        // A layer leaves scallops between its tracks, is above the floor by its tolerance, and the
+        // finish also cuts the allowance: all add to the next depth of cut.
         const double scallop_height = ridge_over_tracks(operation);
         const FollowSettings follow = follow_settings(operation);
         const double over = band_height(follow) * (follow.both_sides ? 2 : 1);
-        // With min_depth the extra passes that keep to max_depth may be more.
+        // With min_depth, more passes may be added to keep max_depth.
         const double step =
             std::max({*operation.max_depth - scallop_height - over - operation.allowance,
                       *operation.max_depth * kLeastStep, operation.min_depth.value_or(0)});

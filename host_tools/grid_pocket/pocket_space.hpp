@@ -1,4 +1,4 @@
-// The pocket for its passes: where the axis may be, how low, and in which order.
+// The pocket for its passes: where the axis may be, heights of the tip, order of the cells.
 #pragma once
 
 #include <optional>
@@ -11,19 +11,19 @@
 
 namespace cusp::grid_pocket {
 
-// Beyond the radius, mm, so that G-code rounded to its last digit still keeps it.
+// mm beyond the radius, so that rounded G-code still keeps the distance.
 constexpr double kWallRounding = 5e-4;
 
-// How the operation's tolerances and output bound the moves over the floor.
+// The settings that follow from the operation's tolerances and output.
 FollowSettings follow_settings(const job::Operation& operation);
 
-// Everything about the pocket that the passes share.
+// Data of the pocket common to all passes.
 struct PocketSpace {
     const job::Job& job;
     const job::Operation& operation;
-    double kept;  // mm from the axis to the walls
+    double kept;  // mm: least distance of the axis from the walls
     offset::RegionOffset walls;
-    offset::Region2d centres;  // where the pass along the walls runs
+    offset::Region2d centres;  // the wall pass is its border
     offset::EdgeTree centre_edges;
     CellGrid grid;
     ClPathFitter finish;
@@ -33,18 +33,19 @@ struct PocketSpace {
 
     PocketSpace(const job::Job& j, const job::Operation& o, const PocketWalls& pocket);
 
-    // The place of the pass along the walls nearest to a point. Precondition: there is such a pass.
+    // The point of the wall pass nearest to a point. Precondition: the pass exists.
     Vec2d on_wall_pass(Vec2d p) const;
 
-    // Whether the axis may go straight from a to b.
+    // Whether the axis may move straight from a to b.
     bool clear(Vec2d a, Vec2d b) const;
     bool clear(Cell a, Cell b) const { return clear(grid.centre(a), grid.centre(b)); }
 
-    // Where a navigation may go. The rules must not outlive this.
-    void add_ways(NavigationRules& rules) const;
+    // Sets the rules for clear moves. They must not outlive this.
+    void add_clearances(NavigationRules& rules) const;
 };
 
-// Heights of the tip over all cells inside, NaN elsewhere. Errors: InputError where no floor lies.
+// Heights of the tip at all cells inside, NaN elsewhere. Errors: InputError where there is no
+// floor.
 std::vector<double> heights_over(const PocketSpace& pocket, const ClPathFitter& follower);
 
 // All cells, in the order they are machined.
@@ -53,7 +54,7 @@ Navigation finish_navigation(const PocketSpace& pocket);
 // The steps between neighbours that the navigation takes.
 Tracks tracks_of(const CellGrid& grid, const Navigation& navigation);
 
-// Of the main path with the operation's zigzags and the wall's pass, mm.
+// mm: of the main path with the operation's zigzags and the wall pass.
 double roughness_of(const PocketSpace& pocket, const Navigation& navigation);
 
 // A place where the CL height jumps.
@@ -63,16 +64,16 @@ struct Cliff {
 };
 
 // The highest cliff between neighbouring cells, if any is higher than the tool's radius: the
-// roughness does not count the material that stays beside it.
+// roughness does not include stock left beside it.
 std::optional<Cliff> highest_cliff(const PocketSpace& pocket);
 
 struct LayerPlanes {
     std::vector<double> z;  // descending
-    int left_out;           // of the job's layers, those that no cell reaches
-    double lowest;          // z that the tip reaches
+    int left_out;           // number of the job's layers that no cell reaches
+    double lowest;          // z: the lowest of the tip
 };
 
-// Layers are so much nearer than max_depth that scallops, tolerance and allowance fit in, too.
+// Distances of layers are less than max_depth by the scallops, tolerance and allowance.
 LayerPlanes layer_planes(const PocketSpace& pocket);
 
 }  // namespace cusp::grid_pocket

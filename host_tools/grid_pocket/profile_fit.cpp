@@ -1,4 +1,5 @@
-// The slopes that keep a line from the chord's start inside the band narrow with every place.
+// The range of slopes that keep a line from the chord's start inside the band narrows with every
+// sample.
 #include "host_tools/grid_pocket/profile_fit.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Retract, rapid and entry, or a link over stock that is cut.
+// Retract, rapid and entry, or a link over stock already cut.
 #include "host_tools/grid_pocket/run_entry.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Ways to the start of a run over the floor.
+// Moves to the start of a run over the floor.
 #pragma once
 
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace cusp::grid_pocket {
 
-// The beginning of a run that a ramp may go along, at the floor's height.
+// The first part of a run, at the floor's height, for a ramp along it.
 std::vector<Vec3d> run_beginning(const ClPathFitter& floor,
                                  const std::vector<Vec2d>& corners,
                                  double tool_radius);
 
-// To the start of a run, given by its beginning, through stock that may begin below `stock_top`
-// (z). With `link` the tool gets there 1 mm over that, without a retract.
+// To the start of a run, given by its first part, through stock that may begin below `stock_top`
+// (z). With `link` the tool moves there 1 mm above that, without a retract.
 void enter_run(toolpath::ToolpathWriter& writer,
                const std::vector<Vec3d>& run,
                double stock_top,

@@ -1,4 +1,4 @@
-// Runs are gathered line by line and then picked up from line to line.
+// Runs are collected line by line and then ordered from line to line.
 #include "host_tools/grid_pocket/zigzag_runs.hpp"
 
 #include <algorithm>
@@ -49,9 +49,9 @@ Lines gather(const CellGrid& grid,
     return lines;
 }
 
-class PickUp {
+class RunOrder {
 public:
-    PickUp(Lines lines, char axis) : lines_{std::move(lines)}, axis_{axis} {}
+    RunOrder(Lines lines, char axis) : lines_{std::move(lines)}, axis_{axis} {}
 
     std::vector<GridRun> order()
     {
@@ -65,7 +65,7 @@ public:
     }
 
 private:
-    // Places between the end of a run and the start of the next in the line beside it.
+    // Cells between the end of a run and the start of the next in the neighbouring line.
     static constexpr int kNear = 6;
     Lines lines_;
     char axis_;
@@ -105,7 +105,7 @@ private:
         const int here = place_of(axis_, out_.back().last);
         int least = kNear + 1;
         std::optional<std::pair<std::size_t, bool>> best;
-        // Runs of a line are ascending: only those around the place can be near.
+        // Runs of a line are ascending: only those around the cell can be near.
         const auto after = std::partition_point(runs.begin(), runs.end(), [&](const GridRun& r) {
             return place_of(axis_, r.last) < here - kNear;
         });
@@ -133,7 +133,7 @@ std::vector<GridRun> zigzag_runs(const CellGrid& grid,
                                  Tracks& tracks,
                                  const std::function<bool(Cell, Cell)>& clear)
 {
-    return PickUp{gather(grid, axis, tracks, clear), axis}.order();
+    return RunOrder{gather(grid, axis, tracks, clear), axis}.order();
 }
 
 }  // namespace cusp::grid_pocket

@@ -1,5 +1,5 @@
-// The steps between neighbouring cells that the main path did not take, as runs along rows or
-// columns: the optional zigzags of Choi, Cho & Kim, figure 3.
+// Runs along rows or columns over the steps between neighbouring cells that the main path did not
+// take: the optional zigzags of Choi, Cho & Kim, figure 3.
 #pragma once
 
 #include <functional>
@@ -14,9 +14,9 @@ struct GridRun {
     Cell last;
 };
 
-// Runs along `axis` ('x' or 'y') over every clear step that is no track yet; adds them to the
-// tracks. Each run is followed by a near one in the next line, so that the runs beside a diagonal
-// of the main path make one way back and forth. O(n log n).
+// Runs along `axis` ('x' or 'y') over every clear step that is not yet a track; adds them to the
+// tracks. After each run follows a near one in the next line, so that runs beside a diagonal of the
+// main path form a zigzag. O(n log n).
 std::vector<GridRun> zigzag_runs(const CellGrid& grid,
                                  char axis,
                                  Tracks& tracks,

@@ -91,7 +91,7 @@ private:
     }
 };
 
-// Upright sides of the union. `up` sides have the union on their left: loops turn
+// Sides of the union along y. `up` sides have the union on their left: loops turn
 // counter-clockwise.
 struct Side {
     double x;
@@ -100,7 +100,7 @@ struct Side {
     bool up;
 };
 
-std::vector<Side> upright_sides(const std::vector<Rectangle>& boxes)
+std::vector<Side> sides_along_y(const std::vector<Rectangle>& boxes)
 {
     std::vector<Side> sides;
     Coverage coverage;
@@ -120,7 +120,7 @@ struct Corner {
     Vec2d point;
     std::size_t side;
     bool at_top;
-    bool leaves;  // the loop runs away from this corner along its upright side
+    bool leaves;  // the loop leaves this corner along its side in y
 };
 
 // Joins touching sides at one x with the same direction, so that loops have no needless corners.
@@ -179,7 +179,7 @@ double union_area(const std::vector<Rectangle>& boxes, const Rectangle& window)
                           std::min(box.x_max, window.x_max), std::min(box.y_max, window.y_max)});
     }
     double area = 0;
-    for (const Side& side : upright_sides(inside)) {
+    for (const Side& side : sides_along_y(inside)) {
         area += (side.up ? 1 : -1) * (side.x - window.x_min) * (side.y_max - side.y_min);
     }
     return area;
@@ -187,7 +187,7 @@ double union_area(const std::vector<Rectangle>& boxes, const Rectangle& window)
 
 std::vector<std::vector<Vec2d>> union_outline(const std::vector<Rectangle>& boxes)
 {
-    const std::vector<Side> sides = joined(upright_sides(boxes));
+    const std::vector<Side> sides = joined(sides_along_y(boxes));
     const std::vector<std::size_t> next = followers(sides);
     std::vector<std::vector<Vec2d>> loops;
     std::vector<bool> done(sides.size(), false);

@@ -77,11 +77,11 @@ private:
         while (!stack_.empty()) {
             const Square square = stack_.back();
             stack_.pop_back();
-            look_at(square, window);
+            examine(square, window);
         }
     }
 
-    void look_at(const Square& square, const Rectangle& window)
+    void examine(const Square& square, const Rectangle& window)
     {
         const Vec2d m = square.middle;
         const double half = square.side / 2;
@@ -150,13 +150,13 @@ private:
             return false;
         }
         // The last point that the first run clears: the second run has to clear it too.
-        Vec2d held = a;
+        Vec2d last_cleared = a;
         Vec2d open = b;
         for (int i = 0; i < 24; ++i) {
-            const Vec2d middle = (held + open) * 0.5;
-            (clears(first, middle) ? held : open) = middle;
+            const Vec2d middle = (last_cleared + open) * 0.5;
+            (clears(first, middle) ? last_cleared : open) = middle;
         }
-        return clears(second, held);
+        return clears(second, last_cleared);
     }
 };
 

@@ -32,13 +32,45 @@ void add_engagement(const Roughing& work, PlannedOperation& operation)
     stats.counts.emplace_back("entry_deg", work.operation.entry == EntryKind::kPlunge ? 90 : 3);
     stats.warnings.push_back(
         "cuts are at most " + plain_number(work.deepest_cut()) +
-        " mm deep; the first pass of a place, necks and corners are cut at "
+        " mm deep; first passes, necks and corners are cut at "
         "the full width of " +
         plain_number(2 * tool.radius) + " mm (180 degrees), straight passes beside " +
         "another at " + plain_number(step) + " mm (" + plain_number(std::round(degrees)) +
         " degrees); " +
         (work.operation.entry == EntryKind::kPlunge ? "entries plunge"
-                                                    : "entries sink at 3 degrees at most"));
+                                                    : "entries descend at up to 3 degrees"));
+}
+
+// Figures of all layers.
+struct LayerFigures {
+    double thinnest{kUnbounded};  // mm
+    double thickest{};
+    int islands{};
+    int zigzags{};      // layers cleared by zigzag
+    double closed{};    // mm^2, LayerClearing::closed_area
+    double left{};      // mm^2 that no run clears
+    std::string place;  // the first such spot
+};
+
+LayerFigures layer_figures(const Roughing& work)
+{
+    LayerFigures sums;
+    for (std::size_t layer = 0; layer < work.layers(); ++layer) {
+        sums.thinnest = std::min(sums.thinnest, work.thickness(layer));
+        sums.thickest = std::max(sums.thickest, work.thickness(layer));
+        const LayerClearing& clearing = work.clearings[layer][work.choice.of_layer[layer]];
+        sums.islands += clearing.islands;
+        sums.zigzags += clearing.by_contours ? 0 : 1;
+        sums.closed += clearing.closed_area;
+        if (sums.left <= 0 && clearing.left.area > 0) {
+            const Rectangle& spot = clearing.left.squares.front();
+            sums.place = "x " + plain_number((spot.x_min + spot.x_max) / 2) + ", y " +
+                         plain_number((spot.y_min + spot.y_max) / 2) + ", z " +
+                         plain_number(work.bottom(layer)) + " mm";
+        }
+        sums.left += clearing.left.area;
+    }
+    return sums;
 }
 
 }  // namespace
@@ -58,28 +90,7 @@ std::string plain_number(double value)
 
 void add_report(const Roughing& work, std::vector<PlannedOperation>& out, double seconds)
 {
-    double thinnest = kUnbounded;
-    double thickest = 0;
-    int islands = 0;
-    int zigzags = 0;
-    double closed = 0;
-    double left = 0;
-    std::string left_place;
-    for (std::size_t layer = 0; layer < work.layers(); ++layer) {
-        thinnest = std::min(thinnest, work.thickness(layer));
-        thickest = std::max(thickest, work.thickness(layer));
-        const LayerClearing& clearing = work.clearings[layer][work.choice.of_layer[layer]];
-        islands += clearing.islands;
-        zigzags += clearing.by_contours ? 0 : 1;
-        closed += clearing.closed_area;
-        if (left <= 0 && clearing.left.area > 0) {
-            const Rectangle& spot = clearing.left.squares.front();
-            left_place = "x " + plain_number((spot.x_min + spot.x_max) / 2) + ", y " +
-                         plain_number((spot.y_min + spot.y_max) / 2) + ", z " +
-                         plain_number(work.bottom(layer)) + " mm";
-        }
-        left += clearing.left.area;
-    }
+    const LayerFigures layers = layer_figures(work);
     const Rectangle& plan = work.stock.plan;
     const double volume = (plan.x_max - plan.x_min) * (plan.y_max - plan.y_min) *
                           (work.stock.top - work.plan.planes.back());
@@ -98,33 +109,33 @@ void add_report(const Roughing& work, std::vector<PlannedOperation>& out, double
         stats.counts = {{"layers", static_cast<double>(work.layers())},
                         {"raw_layers", work.plan.raw_layers},
                         {"split_layers", work.plan.split_layers},
-                        {"thinnest_layer_mm", thinnest},
-                        {"thickest_layer_mm", thickest},
+                        {"thinnest_layer_mm", layers.thinnest},
+                        {"thickest_layer_mm", layers.thickest},
                         {"patches", static_cast<double>(work.plan.patches.size())},
                         {"boxes", static_cast<double>(work.boxes)},
-                        {"islands", islands},
-                        {"zigzag_layers", zigzags},
+                        {"islands", layers.islands},
+                        {"zigzag_layers", layers.zigzags},
                         {"stock_mm3", volume},
                         {"left_under_boxes_mm3", work.left_under_boxes},
                         {"tool_changes", work.choice.changes},
                         {"seconds_saved_by_tools", saved},
                         {"deepest_cut_mm", work.deepest_cut()},
-                        {"closed_mm2", closed},
-                        {"left_mm2", left}};
+                        {"closed_mm2", layers.closed},
+                        {"left_mm2", layers.left}};
         add_engagement(work, operation);
-        if (work.operation.contour_clearing && zigzags > 0) {
-            stats.warnings.push_back(std::to_string(zigzags) +
+        if (work.operation.contour_clearing && layers.zigzags > 0) {
+            stats.warnings.push_back(std::to_string(layers.zigzags) +
                                      " layers are cleared by zigzag: loops parallel to their "
-                                     "islands would come too near to them");
+                                     "islands would have too little clearance");
         }
-        if (left > 0) {
-            stats.warnings.push_back(plain_number(left) +
-                                     " mm2 of layers are left uncleared, first at " + left_place);
+        if (layers.left > 0) {
+            stats.warnings.push_back(plain_number(layers.left) +
+                                     " mm2 of layers are left uncleared, first at " + layers.place);
         }
         // Each comment fits in one line of G-code.
         operation.path.comments = {
             "hull_rough: " + std::to_string(work.layers()) + " layers of " +
-                plain_number(thinnest) + " to " + plain_number(thickest) + " mm",
+                plain_number(layers.thinnest) + " to " + plain_number(layers.thickest) + " mm",
             "no overcut by the hulls of " + std::to_string(work.plan.patches.size()) + " patches",
             "cuts at most " + plain_number(work.deepest_cut()) + " mm deep"};
     }

@@ -73,7 +73,7 @@ double area(const Region2d& region);  // mm^2, holes taken off
 Contour reversed(const Contour& contour);
 
 // Whether a ray from the point to the right crosses the edge an odd number of times. The parity
-// over all edges of a contour tells whether the contour runs around the point.
+// over all edges of a contour shows whether the contour runs around the point.
 bool crossed_by_ray(const Edge& edge, Vec2d point);
 
 // Whether the contour runs around the point, in either direction.

@@ -11,8 +11,7 @@ namespace cusp::offset {
 // Edges from the curve's start to its end, with common tangents inside the curve.
 //
 // tolerance  mm, > 0: largest distance of the edges from the curve. Curves that are lines or
-//            circles
-//            to 1e-8 mm are taken as such.
+//            circles to 1e-8 mm are converted exactly.
 std::vector<Edge> fit_edges(const nurbs::Curve& curve, double tolerance);
 
 // The two arcs between two points that leave and arrive with the given unit tangents; none where

@@ -6,9 +6,9 @@
 
 namespace cusp::offset {
 
-// Points common to both edges: crossings and touches, or the ends of a common part. `slack` (mm) is
-// how far beyond an end a crossing still counts.
+// Points common to both edges: crossings and touches, or the ends of a common part. `overrun` (mm)
+// is how far beyond an end a crossing still counts.
 using Crossings = StaticVector<Vec2d, 4>;
-Crossings crossings(const Edge& a, const Edge& b, double slack);
+Crossings crossings(const Edge& a, const Edge& b, double overrun);
 
 }  // namespace cusp::offset

@@ -224,6 +224,35 @@ Vec2d middle_of(const Run& run)
     return longest->centre + unit(chord_middle - longest->centre) * longest->radius;
 }
 
+Vec2d start_of(const Run& run) { return run.edges.front().start; }
+
+// The unused run that starts at the end of `last` with the sharpest left turn, if any.
+//
+// by_x  the open runs, by x of their starts
+std::optional<std::size_t> next_run(const std::vector<Run>& runs,
+                                    const std::vector<std::size_t>& by_x,
+                                    const std::vector<bool>& used,
+                                    const Edge& last)
+{
+    auto at = std::lower_bound(by_x.begin(), by_x.end(), last.end.x - kSameVertex,
+                               [&](std::size_t i, double x) { return start_of(runs[i]).x < x; });
+    std::optional<std::size_t> best;
+    double best_turn = -kUnbounded;
+    const Vec2d arriving = tangent_at_end(last);
+    for (; at != by_x.end() && start_of(runs[*at]).x <= last.end.x + kSameVertex; ++at) {
+        if (used[*at] || std::abs(start_of(runs[*at]).y - last.end.y) > kSameVertex) {
+            continue;
+        }
+        const Vec2d leaving = tangent_at_start(runs[*at].edges.front());
+        const double turn = std::atan2(cross(arriving, leaving), dot(arriving, leaving));
+        if (turn > best_turn) {
+            best = *at;
+            best_turn = turn;
+        }
+    }
+    return best;
+}
+
 // Joins runs at common ends. If several start at a vertex, the sharpest left turn separates parts
 // that only touch. None where an end has no partner.
 std::optional<Region2d> joined(std::vector<Run>& runs)
@@ -237,49 +266,28 @@ std::optional<Region2d> joined(std::vector<Run>& runs)
             by_x.push_back(i);
         }
     }
-    const auto start_of = [&](std::size_t i) {
-        return runs[i].edges.front().start;
-    };
-    std::sort(by_x.begin(), by_x.end(),
-              [&](std::size_t a, std::size_t b) { return start_of(a).x < start_of(b).x; });
+    std::sort(by_x.begin(), by_x.end(), [&](std::size_t a, std::size_t b) {
+        return start_of(runs[a]).x < start_of(runs[b]).x;
+    });
     std::vector<bool> used(runs.size(), false);
-    const auto successor = [&](const Edge& last) -> std::optional<std::size_t> {
-        auto at = std::lower_bound(by_x.begin(), by_x.end(), last.end.x - kSameVertex,
-                                   [&](std::size_t i, double x) { return start_of(i).x < x; });
-        std::optional<std::size_t> best;
-        double best_turn = -kUnbounded;
-        const Vec2d arriving = tangent_at_end(last);
-        for (; at != by_x.end() && start_of(*at).x <= last.end.x + kSameVertex; ++at) {
-            if (used[*at] || std::abs(start_of(*at).y - last.end.y) > kSameVertex) {
-                continue;
-            }
-            const Vec2d leaving = tangent_at_start(runs[*at].edges.front());
-            const double turn = std::atan2(cross(arriving, leaving), dot(arriving, leaving));
-            if (turn > best_turn) {
-                best = *at;
-                best_turn = turn;
-            }
-        }
-        return best;
-    };
     for (const std::size_t first : by_x) {
         if (used[first]) {
             continue;
         }
         Contour contour;
         std::optional<std::size_t> at = first;
-        const Vec2d origin = start_of(first);
+        const Vec2d origin = start_of(runs[first]);
         while (true) {
             if (!at) {
                 return std::nullopt;
             }
             used[*at] = true;
             if (!contour.empty()) {
-                contour.back().end = start_of(*at);
+                contour.back().end = start_of(runs[*at]);
             }
             contour.insert(contour.end(), runs[*at].edges.begin(), runs[*at].edges.end());
             const Vec2d end = contour.back().end;
-            at = successor(contour.back());
+            at = next_run(runs, by_x, used, contour.back());
             const bool home = distance(end, origin) < kSameVertex;
             if (home) {
                 contour.back().end = origin;

@@ -235,6 +235,18 @@ SurfacePoint BezierCell::at(double s, double t) const
     return at_any_degree(s, t);
 }
 
+SurfacePoint BezierCell::by_domain(SurfacePoint p) const
+{
+    const double width_u = u_end_ - u_begin_;
+    const double width_v = v_end_ - v_begin_;
+    p.du = p.du / width_u;
+    p.dv = p.dv / width_v;
+    p.duu = p.duu / (width_u * width_u);
+    p.duv = p.duv / (width_u * width_v);
+    p.dvv = p.dvv / (width_v * width_v);
+    return p;
+}
+
 SurfacePoint BezierCell::tangents_at(double s, double t) const
 {
     if (weights_.empty() && count_s_ == 4 && count_t_ == 4) {

@@ -1,6 +1,7 @@
 // A piece of a Bezier patch with bounds of its points and derivatives, from its control points.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <vector>
@@ -49,6 +50,15 @@ public:
 
     double u(double s) const { return u_begin_ + s * (u_end_ - u_begin_); }
     double v(double t) const { return v_begin_ + t * (v_end_ - v_begin_); }
+    // The local parameters of u and v, clamped to [0, 1].
+    double s_of(double u) const
+    {
+        return std::clamp((u - u_begin_) / (u_end_ - u_begin_), 0.0, 1.0);
+    }
+    double t_of(double v) const
+    {
+        return std::clamp((v - v_begin_) / (v_end_ - v_begin_), 0.0, 1.0);
+    }
     double u_begin() const { return u_begin_; }
     double u_end() const { return u_end_; }
     double v_begin() const { return v_begin_; }
@@ -56,6 +66,9 @@ public:
     // Whether the cell reaches the patch's first or last u, or v.
     bool ends_in_u() const { return first_u_ || last_u_; }
     bool ends_in_v() const { return first_v_ || last_v_; }
+
+    // A point of the cell with derivatives by its own parameters, as derivatives by u and v.
+    nurbs::SurfacePoint by_domain(nurbs::SurfacePoint p) const;
 
     Vec3d low() const { return low_; }
     Vec3d high() const { return high_; }

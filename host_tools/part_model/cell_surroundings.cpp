@@ -23,20 +23,6 @@ namespace {
 constexpr double kMostSkew = 0.9;     // cosine between du and dv
 constexpr double kMostShorter = 0.9;  // of a length in the tangent plane
 
-// Derivatives by u and v; those of the cell are by its own parameters.
-SurfacePoint scaled_middle(const BezierCell& cell)
-{
-    const double width_u = cell.u_end() - cell.u_begin();
-    const double width_v = cell.v_end() - cell.v_begin();
-    SurfacePoint p = cell.middle();
-    p.du = p.du / width_u;
-    p.dv = p.dv / width_v;
-    p.duu = p.duu / (width_u * width_u);
-    p.duv = p.duv / (width_u * width_v);
-    p.dvv = p.dvv / (width_v * width_v);
-    return p;
-}
-
 BezierCell::Spread scaled_spread(const BezierCell& cell)
 {
     const double width_u = cell.u_end() - cell.u_begin();
@@ -54,13 +40,15 @@ BezierCell::Spread scaled_spread(const BezierCell& cell)
 class BendBound {
 public:
     explicit BendBound(const BezierCell& cell)
-        : middle_{scaled_middle(cell)}, own_{scaled_spread(cell)}, normal_{upward_normal(middle_)}
+        : middle_{cell.by_domain(cell.middle())},
+          own_{scaled_spread(cell)},
+          normal_{upward_normal(middle_)}
     {
     }
 
     void add(const BezierCell& cell)
     {
-        const SurfacePoint p = scaled_middle(cell);
+        const SurfacePoint p = cell.by_domain(cell.middle());
         const BezierCell::Spread e = scaled_spread(cell);
         across_u_ = std::max(across_u_, in_plane(p.du - middle_.du) + e.ds);
         across_v_ = std::max(across_v_, in_plane(p.dv - middle_.dv) + e.dt);

@@ -10,6 +10,7 @@
 
 #include "host_tools/part_model/cell_chains.hpp"
 #include "host_tools/part_model/contour_lattice.hpp"
+#include "host_tools/part_model/surface_length.hpp"
 
 namespace cusp::part_model {
 
@@ -257,26 +258,7 @@ int samples_along(double length)
 
 DomainSamples samples_over(const Surface& surface)
 {
-    // Isocurves are no longer than the longest row and column of control points.
-    const auto size_u = static_cast<std::size_t>(surface.size_u);
-    const auto size_v = static_cast<std::size_t>(surface.size_v);
-    double longest_u = 0;
-    double longest_v = 0;
-    for (std::size_t j = 0; j < size_v; ++j) {
-        double length = 0;
-        for (std::size_t i = 1; i < size_u; ++i) {
-            length += norm(surface.points[i * size_v + j] - surface.points[(i - 1) * size_v + j]);
-        }
-        longest_u = std::max(longest_u, length);
-    }
-    for (std::size_t i = 0; i < size_u; ++i) {
-        double length = 0;
-        for (std::size_t j = 1; j < size_v; ++j) {
-            length += norm(surface.points[i * size_v + j] - surface.points[i * size_v + j - 1]);
-        }
-        longest_v = std::max(longest_v, length);
-    }
-    return {samples_along(longest_u), samples_along(longest_v)};
+    return {samples_along(longest_row(surface, true)), samples_along(longest_row(surface, false))};
 }
 
 std::vector<std::vector<Vec2d>> domain_contour(const Surface& surface,

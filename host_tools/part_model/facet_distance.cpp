@@ -21,18 +21,18 @@ std::optional<FacetContact> drop_ball_on_side(Vec3d a, Vec3d b, double x, double
 {
     const Vec3d d = b - a;
     const double square = dot(d, d);
-    const double level = (d.x * d.x + d.y * d.y) / square;
-    if (level < 1e-14) {
+    const double cos_square = (d.x * d.x + d.y * d.y) / square;
+    if (cos_square < 1e-14) {
         return std::nullopt;
     }
     const double along = ((x - a.x) * d.x + (y - a.y) * d.y);
     const double half = along * d.z / square;
     const double off = square_in_plan(a, x, y) - along * along / square - radius * radius;
-    const double root = half * half - level * off;
+    const double root = half * half - cos_square * off;
     if (root < 0) {
         return std::nullopt;
     }
-    const double rise = (half + std::sqrt(root)) / level;
+    const double rise = (half + std::sqrt(root)) / cos_square;
     const double share = (along + rise * d.z) / square;
     if (share < 0 || share > 1) {
         return std::nullopt;

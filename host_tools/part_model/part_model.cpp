@@ -218,27 +218,15 @@ double PartModel::edge_error() const { return state_->edges.empty() ? 0 : state_
 SurfacePoint PartModel::evaluate(int surface, double u, double v) const
 {
     const BezierCell& cell = state_->cell_at(surface, u, v);
-    const double width_u = cell.u_end() - cell.u_begin();
-    const double width_v = cell.v_end() - cell.v_begin();
-    SurfacePoint p = cell.at(std::clamp((u - cell.u_begin()) / width_u, 0.0, 1.0),
-                             std::clamp((v - cell.v_begin()) / width_v, 0.0, 1.0));
-    p.du = p.du / width_u;
-    p.dv = p.dv / width_v;
-    p.duu = p.duu / (width_u * width_u);
-    p.duv = p.duv / (width_u * width_v);
-    p.dvv = p.dvv / (width_v * width_v);
-    return p;
+    return cell.by_domain(cell.at(cell.s_of(u), cell.t_of(v)));
 }
 
 SurfacePoint PartModel::tangents(int surface, double u, double v) const
 {
     const BezierCell& cell = state_->cell_at(surface, u, v);
-    const double width_u = cell.u_end() - cell.u_begin();
-    const double width_v = cell.v_end() - cell.v_begin();
-    SurfacePoint p = cell.tangents_at(std::clamp((u - cell.u_begin()) / width_u, 0.0, 1.0),
-                                      std::clamp((v - cell.v_begin()) / width_v, 0.0, 1.0));
-    p.du = p.du / width_u;
-    p.dv = p.dv / width_v;
+    SurfacePoint p = cell.tangents_at(cell.s_of(u), cell.t_of(v));
+    p.du = p.du / (cell.u_end() - cell.u_begin());
+    p.dv = p.dv / (cell.v_end() - cell.v_begin());
     return p;
 }
 
@@ -309,6 +297,8 @@ std::optional<double> PartModel::drop_height(const Tool& tool,
     return found ? std::optional{found->tip} : std::nullopt;
 }
 
+// Sphere tracing downwards, with a lower bound from the points touched. Over 60 lines: the steps of
+// one iteration share its bounds.
 std::optional<PartModel::DroppedCutter> PartModel::drop_cutter(const Tool& tool,
                                                                double x,
                                                                double y,

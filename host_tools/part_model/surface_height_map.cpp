@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "host_tools/part_model/surface_length.hpp"
+
 namespace cusp::part_model {
 
 using nurbs::BezierPatch;
@@ -31,23 +33,8 @@ double facing(const SurfacePoint& s)
 
 int parts_along(const Surface& patch, bool along_u, double width)
 {
-    // Isocurves are no longer than the longest row of control points.
-    const auto size_u = static_cast<std::size_t>(patch.size_u);
-    const auto size_v = static_cast<std::size_t>(patch.size_v);
-    const std::size_t rows = along_u ? size_v : size_u;
-    const std::size_t steps = along_u ? size_u : size_v;
-    double longest = 0;
-    for (std::size_t k = 0; k < rows; ++k) {
-        const auto point = [&](std::size_t i) {
-            return patch.points[along_u ? i * size_v + k : k * size_v + i];
-        };
-        double length = 0;
-        for (std::size_t i = 1; i < steps; ++i) {
-            length += norm(point(i) - point(i - 1));
-        }
-        longest = std::max(longest, length);
-    }
-    return static_cast<int>(std::clamp(std::ceil(longest / width), 2.0, double{kMostParts}));
+    return static_cast<int>(
+        std::clamp(std::ceil(longest_row(patch, along_u) / width), 2.0, double{kMostParts}));
 }
 
 }  // namespace

@@ -17,17 +17,17 @@ double ball_edge_distance(const ToolCore& core, const std::array<Vec3d, 2>& edge
 {
     const Vec3d d = edge[1] - edge[0];
     const Vec3d from = core.end - edge[0];
-    const double level = d.x * d.x + d.y * d.y;
+    const double plan_square = d.x * d.x + d.y * d.y;
     const double along = from.x * d.x + from.y * d.y;
     const double rise = d.z * d.z;
     double t = 0;
-    if (level + rise > 0) {
-        const double in_space = std::clamp((along + from.z * d.z) / (level + rise), 0.0, 1.0);
+    if (plan_square + rise > 0) {
+        const double in_space = std::clamp((along + from.z * d.z) / (plan_square + rise), 0.0, 1.0);
         t = in_space;
         if (edge[0].z + t * d.z > core.end.z) {
             // The squared distance is convex and smooth: if its part below the core's end still
             // falls there, the minimum is above.
-            const double seen = level > 0 ? std::clamp(along / level, 0.0, 1.0) : t;
+            const double seen = plan_square > 0 ? std::clamp(along / plan_square, 0.0, 1.0) : t;
             const double height = edge[0].z + seen * d.z;
             t = height >= core.end.z ? seen : from.z / d.z;
         }

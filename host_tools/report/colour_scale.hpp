@@ -17,9 +17,10 @@ int step_of(double value, double low, double high);
 // 1, 2 or 5 times a power of ten, at most `most`; 1 where that is not above 0.
 double round_below(double most);
 
-// The scale as an upright bar with round numbers.
+// The scale as a vertical bar with round numbers.
 //
-// x, y    of its upper left corner; height and size of the text in the picture's units
+// x, y          of its upper left corner
+// height, text  height of the bar and size of its text, in the picture's units
 std::string scale_bar(double x,
                       double y,
                       double height,

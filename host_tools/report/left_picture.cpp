@@ -17,7 +17,7 @@ using verify::Verification;
 
 namespace {
 
-// Beyond the scale: not cut at all, or left higher than the bound.
+// Colours besides the scale: not cut at all, or left higher than the bound.
 constexpr int kUncut = kColourSteps;
 constexpr int kOver = kColourSteps + 1;
 constexpr const char* kOverColour = "#d7191c";
@@ -67,7 +67,7 @@ std::string left_picture(const Job& job, const Verification& result)
             runs.add(i / size, j / size, step);
         }
     }
-    std::string out = frame.head() + frame.panel(0, "Metal left over what the tool reaches");
+    std::string out = frame.head() + frame.panel(0, "Stock left above the reachable height");
     out += runs.text(frame.x_low, frame.flipped(frame.y_low), side,
                      [](int k) {
                          return "stroke=\"" +

@@ -59,7 +59,7 @@ std::string line_between(double x1, double y1, double x2, double y2, const char*
 struct MotionPanel {
     int row;
     double seconds;  // at the right end
-    double most;     // at the upper end
+    double most;     // value at the upper end
 
     double bottom() const { return kTop + row * (kPanelHeight + kGap) + kPanelHeight; }
     double x(double time) const { return kLeft + kPlotWidth * time / seconds; }

@@ -1,4 +1,4 @@
-// How fast and how hard a run moved, over time, as SVG.
+// Speed of a run and its shares of the limits over time, as SVG.
 #pragma once
 
 #include <string>
@@ -8,8 +8,9 @@
 
 namespace cusp::report {
 
-// Four panels, one over the other, over the same seconds: the speed along the path in mm/s, and for each axis its
-// velocity, acceleration and jerk in per cent of their limits. What is drawn at a time is the greatest of that stretch.
+// Four panels, one above the other, with one time axis: the speed along the path in mm/s, and for
+// each axis its velocity, acceleration and jerk in per cent of their limits. The value drawn at a
+// time is the largest of that stretch.
 std::string motion_picture(const program_run::MotionProfile& profile, const MachineLimits& limits);
 
 }  // namespace cusp::report

@@ -1,4 +1,4 @@
-// A part seen from above, as SVG.
+// A part in plan, as SVG.
 #pragma once
 
 #include <string>

@@ -8,8 +8,8 @@
 
 namespace cusp::report {
 
-// The part seen from above, once or several times side by side, at one scale. Lengths in the
-// picture are mm.
+// The part in plan, once or several times side by side, at one scale. Lengths in the picture are
+// mm.
 struct PictureFrame {
     double x_low, x_high, y_low, y_high;  // mm
     int panels{1};
@@ -27,7 +27,8 @@ struct PictureFrame {
     double scale_x() const { return x_high + (panels - 1) * stride() + margin(); }
 
     std::string head() const;
-    // Everything up to the next "</g>" belongs to this panel, counted from 0; with its title.
+    // Opens a panel with its title: everything up to the next "</g>" belongs to it. Panels count
+    // from 0.
     std::string panel(int number, const std::string& title) const;
     // A bar of a round length, below the first panel.
     std::string ruler() const;

@@ -1,11 +1,11 @@
-// Pictures (SVG) of what a program does and leaves, seen from above. The front door of `report`;
-// part_picture.hpp draws a part by itself.
+// Pictures (SVG) in plan of a program's path and of the stock it leaves. The front door of
+// `report`; part_picture.hpp draws a part alone.
 //
 //     const verify::Verification result = verify::verify(job, "part.ngc", {}, progress);
 //     files::write_text("path.svg", path_picture(job, result.program));  // a panel for each tool
 //     files::write_text("left.svg", left_picture(job, result));          // black: nothing was cut
 //
-// Every picture has a ruler in mm and a scale of colours. The same input gives the same bytes.
+// Each picture has a ruler in mm and a scale of colours. Equal input gives equal bytes.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ namespace cusp::report {
 // The path over the walls of the part: cuts coloured by height, rapid moves dashed.
 std::string path_picture(const job::Job& job, const verify::Program& program);
 
-// What is left over the floor: a map of colours with its scale; black where nothing was cut.
+// The stock left over the floor: a map of colours with its scale; black where nothing was cut.
 std::string left_picture(const job::Job& job, const verify::Verification& result);
 
 }  // namespace cusp::report

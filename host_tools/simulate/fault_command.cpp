@@ -1,4 +1,4 @@
-// Words of the control port.
+// Parses the commands of the control port.
 #include "host_tools/simulate/fault_command.hpp"
 
 #include <array>
@@ -20,7 +20,7 @@ std::optional<double> number_in(std::string_view text)
     return number;
 }
 
-// The next word, and the rest stays in `text`.
+// Returns the next word; the remainder stays in `text`.
 std::string_view next_word(std::string_view& text, const char* separators)
 {
     const std::size_t first = text.find_first_not_of(separators);
@@ -60,7 +60,7 @@ std::optional<FaultKind> kind_named(std::string_view word)
     return std::nullopt;
 }
 
-// Reads what follows the word. Returns whether it is as it should be.
+// Parses the arguments of the command. Returns whether they are valid.
 bool read_rest(FaultCommand& command, std::string_view rest)
 {
     std::string_view words = rest;

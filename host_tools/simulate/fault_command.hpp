@@ -1,5 +1,5 @@
-// FaultCommand: one line of the virtual controller's control port: faults to inject, and the hands
-// of a person at the panel.
+// FaultCommand: one line of the virtual controller's control port: faults to inject, and operation
+// of its panel.
 #pragma once
 
 #include <cstdint>
@@ -15,15 +15,15 @@ enum class FaultKind : std::uint8_t {
     kPlug,           // plug
     kPowerOff,       // power off
     kPowerOn,        // power on
-    kCutPowerAfter,  // cut N              words written to the settings store from now on
+    kCutPowerAfter,  // cut N              words written to the settings store until power fails
     kInputHigh,      // high INPUT         x y z limits, probe, door, hold, start, reset
     kInputLow,       // low INPUT
     kInputFree,      // free INPUT
-    kProbePlate,     // plate Z            mm over the place of power-up
+    kProbePlate,     // plate Z            mm above the position at power-up
     kLineFaults,     // line noise=P loss=P doubling=P delay=P
-    kLoseFrame,      // lose-frame         a pulse frame comes too late
+    kLoseFrame,      // lose-frame         a pulse frame is late
     kOverrun,        // overrun            the serial port loses bytes
-    kWhere,          // where              tells place, steps, inputs and outputs
+    kWhere,          // where              reports position, steps, inputs and outputs
 };
 
 struct FaultCommand {
@@ -33,13 +33,13 @@ struct FaultCommand {
     hal::LineFaults faults;
 };
 
-// None where the line is no command.
+// None if the line is no command.
 std::optional<FaultCommand> parse_fault_command(std::string_view line);
 
-// "noise=0.005,loss=0.001": none where it is malformed or a probability is not in 0 to 1.
+// "noise=0.005,loss=0.001": none if malformed, or if a probability is not in 0 to 1.
 std::optional<hal::LineFaults> parse_line_faults(std::string_view text);
 
-// The bit of InputBit that an input's name means; 0 where there is none of this name.
+// The bit of InputBit for an input's name; 0 if there is none of this name.
 std::uint16_t input_named(std::string_view name);
 
 }  // namespace cusp::simulate

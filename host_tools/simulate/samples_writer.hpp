@@ -9,11 +9,11 @@
 
 namespace cusp::simulate {
 
-// Rows `t_us,x_nm,y_nm,z_nm,line`: where the machine is at t_us on the clock of the pulse trace, and the line of the
-// program that it executes; 0 before the first.
+// Rows `t_us,x_nm,y_nm,z_nm,line`: the machine position at t_us on the clock of the pulse trace,
+// and the line of the program that it executes; 0 before the first.
 class SamplesWriter {
 public:
-    // Throws InputError, as the rest.
+    // Errors: all members throw InputError if the file cannot be written.
     explicit SamplesWriter(const std::string& file);
 
     void write(std::uint64_t microseconds, Position at, std::uint32_t line);

@@ -1,5 +1,5 @@
-// Scripts: realtime bytes with the servo ticks at which they come, so that holds and overrides
-// repeat.
+// Scripts: realtime bytes with the servo ticks of their arrival, for repeatable holds and
+// overrides.
 #include <fmt/format.h>
 #include <fstream>
 #include <sstream>

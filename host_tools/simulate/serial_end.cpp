@@ -1,4 +1,4 @@
-// Senders come and go.
+// Connection of senders, one at a time.
 #include "host_tools/simulate/serial_end.hpp"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace cusp::simulate {
 namespace {
 
-// Answers beyond this are lost where nobody reads them, as on a wire.
+// Output beyond this is lost if nobody reads it, as on a serial line.
 constexpr std::size_t kMostWaiting = 1 << 20;
 
 }  // namespace
@@ -49,7 +49,7 @@ void SerialEnd::unplug()
     terminal_.reset();
 }
 
-bool SerialEnd::look()
+bool SerialEnd::update_peer()
 {
     if (!plugged_) {
         return false;
@@ -70,15 +70,15 @@ bool SerialEnd::look()
     return has_peer_ && !had_peer;
 }
 
-// A sender that comes again may be here before its hang-up is read: the newcomer waits a little. A
-// second sender is turned away.
+// A sender may reconnect before its hang-up is detected, so a new connection waits a little. A
+// second sender is refused.
 bool SerialEnd::accept_sender()
 {
-    constexpr unsigned kPatience = 200;  // looks
+    constexpr unsigned kPatience = 200;  // calls of update_peer()
     hal::Descriptor sender = listener_->accept_waiting();
     if (sender.is_open()) {
         next_ = std::move(sender);
-        next_looks_ = 0;
+        next_waits_ = 0;
     }
     if (!has_peer_) {
         waiting_.clear();
@@ -89,7 +89,7 @@ bool SerialEnd::accept_sender()
         has_peer_ = true;
         return true;
     }
-    if (next_.is_open() && ++next_looks_ > kPatience) {
+    if (next_.is_open() && ++next_waits_ > kPatience) {
         next_ = {};
     }
     return false;
@@ -127,7 +127,7 @@ int SerialEnd::descriptor() const
     if (listener_ && !has_peer_) {
         return listener_->descriptor();
     }
-    // The controller's end of a terminal that nobody holds reads as hung up all the time.
+    // Without a sender the controller's end of a terminal always reads as hung up.
     return has_peer_ ? link_.descriptor() : -1;
 }
 

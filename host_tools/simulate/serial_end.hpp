@@ -1,5 +1,5 @@
-// SerialEnd: the virtual controller's end of its line, whoever is at the other: a pseudo-terminal
-// or a TCP port that senders come to and leave.
+// SerialEnd: the virtual controller's end of its line: a pseudo-terminal or a TCP port that senders
+// open and close.
 #pragma once
 
 #include <memory>
@@ -13,26 +13,26 @@ namespace cusp::simulate {
 
 class SerialEnd {
 public:
-    // Throws InputError where the place can't be opened.
+    // Throws InputError if the port cannot be opened.
     explicit SerialEnd(const std::string& pty_link);
     explicit SerialEnd(const hal::TcpAddress& address);
 
-    // Looks who came and who left. Returns whether somebody has just come.
-    bool look();
+    // Updates whether a sender is connected. Returns whether one has just connected.
+    bool update_peer();
     bool has_peer() const { return has_peer_; }
 
-    // What arrived since.
+    // Bytes received since the last call.
     std::string read();
-    // Hands on as much as is taken; keeps the rest for the next time.
+    // Sends as much as is accepted; keeps the rest for the next call.
     void write(const std::string& bytes);
 
-    // Pulls the plug: the terminal is gone, the socket closed; and puts it back.
+    // Removes the connection (the terminal, the socket), and restores it.
     void unplug();
     void plug();
 
-    // To wait on; -1 where there is nothing to wait for.
+    // To wait on; -1 if there is nothing to wait for.
     int descriptor() const;
-    // What a sender opens.
+    // The name that a sender opens.
     std::string name() const;
 
 private:
@@ -41,8 +41,8 @@ private:
     std::string pty_link_;
     std::optional<hal::PseudoTerminal> terminal_;
     std::optional<hal::TcpListener> listener_;
-    hal::Descriptor next_;  // a sender that came while there is one
-    unsigned next_looks_{0};
+    hal::Descriptor next_;  // a sender that connected while there is one
+    unsigned next_waits_{0};
     hal::DescriptorLink link_;
     std::string waiting_;
     bool has_peer_{false};

@@ -8,17 +8,17 @@
 
 namespace cusp::simulate {
 
-// The default settings with what the file says. Blank lines, and text after the value in
-// parentheses or after ';' or '#', are passed over.
+// The default settings, changed by the file. Blank lines are ignored, and so is text after the
+// value in parentheses or after ';' or '#'.
 //
-// Throws InputError, naming file, line, setting, value and limit, where the file can't be read, a
-// line is no setting, a value is out of range, or settings can't be used together.
+// Errors: InputError with file, line, setting, value and limit if the file cannot be read, a line
+// is no setting, a value is out of range, or settings contradict each other.
 machine::Settings read_settings_file(const std::string& file);
 
 // All settings as a file.
 std::string settings_text(const machine::Settings& settings);
 
-// The lines `$N=v`, without line ends, that turn the defaults into these settings.
+// The lines `$N=v`, without line ends, that change the defaults to these settings.
 std::vector<std::string> settings_commands(const machine::Settings& settings);
 
 }  // namespace cusp::simulate

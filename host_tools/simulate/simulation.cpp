@@ -1,4 +1,4 @@
-// A run between its files.
+// A run with its input and output files.
 #include "host_tools/simulate/simulation.hpp"
 
 #include <chrono>
@@ -16,7 +16,7 @@ namespace {
 
 using WallClock = std::chrono::steady_clock;
 
-// Hands the set points and edges of a run to those who want them.
+// Passes the set points and edges of a run to its writers and callbacks.
 class Recorder {
 public:
     explicit Recorder(const SimulationOptions& options) : options_{options}
@@ -26,7 +26,7 @@ public:
         }
     }
 
-    // What the run itself is to do. The recorder outlives it.
+    // Options of the run itself. The recorder must outlive it.
     RunOptions run_options()
     {
         RunOptions run = options_;
@@ -88,7 +88,7 @@ private:
     std::uint32_t line_{0};
 };
 
-// Tells of progress and asks whether to stop, some ten times a second.
+// Reports progress and polls for a stop, some ten times a second.
 class Reporter {
 public:
     Reporter(ProgramRun& run, const SimulationOptions& options) : run_{run}, options_{options} {}

@@ -9,8 +9,8 @@
 //         fmt::print("{:.1f} s, off the path by {} mm\n", run.duration_s, run.max_deviation_mm);
 //     }
 //
-// The simulation is the sender too: a line goes out as soon as the one before is answered, in no
-// time. The first error or alarm ends the run.
+// The simulation also acts as the sender: a line is sent as soon as the one before is answered,
+// without delay. The first error or alarm ends the run.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ namespace cusp::simulate {
 
 using SetPoint = program_run::SetPoint;
 
-// How far a run is; called some ten times a second.
+// Progress of a run; reported some ten times a second.
 struct SimulationProgress {
     double fraction;     // of the program's bytes
     std::uint64_t line;  // sent last
@@ -41,7 +41,7 @@ struct SimulationOptions : program_run::RunOptions {
     std::function<void(const SimulationProgress&)> progress;
     // Called when the first set point of a line has been reached; for tables of times.
     std::function<void(std::uint32_t line, double seconds)> line_started;
-    // Ends the run where it returns true; asked some ten times a second.
+    // Ends the run if it returns true; polled some ten times a second.
     std::function<bool()> stop;
 };
 
@@ -49,7 +49,7 @@ struct SimulationResult : program_run::RunResult {
     double wall_s{0};
 };
 
-// Throws InputError where a file can't be read or written.
+// Errors: InputError if a file cannot be read or written.
 SimulationResult simulate(const std::string& program_file, const SimulationOptions& options);
 
 // The result as JSON, one key a figure.

@@ -14,16 +14,16 @@ namespace cusp::simulate {
 // plus), spindle and coolant. Spindle and coolant change at the start of a servo tick.
 class VcdWriter : public program_run::EdgeListener<VcdWriter> {
 public:
-    // Watches the outputs of `mill`, which outlives it. Throws InputError.
+    // Records the outputs of `mill`, which must outlive it. Throws InputError.
     //
-    //   start   pulse tick of virtual time that is 0 in the dump
-    //   levels  of the lines then
+    // start   pulse tick of virtual time that is 0 in the dump
+    // levels  of the lines at that time
     VcdWriter(const std::string& file,
               const hal::SimulatedMill& mill,
               std::uint64_t start,
               PulseLines levels);
 
-    // Ends the dump with the time at which the last frame is over.
+    // Ends the dump with the time at the end of the last frame.
     void close();
 
     // Spindle and coolant.

@@ -1,4 +1,4 @@
-// Real time for the simulated controller.
+// Runs the simulated controller in real time.
 #include "host_tools/simulate/virtual_controller.hpp"
 
 #include <algorithm>
@@ -32,10 +32,10 @@ using Clock = std::chrono::steady_clock;
 using board_sim::SimulatedController;
 
 constexpr std::chrono::microseconds kTick{1'000'000 / kServoTicksPerSecond};
-// A host that was asleep does not make the mill run after the time it missed.
+// After a suspended host resumes, the mill does not catch up the missed time.
 constexpr std::chrono::milliseconds kMostLag{100};
 
-// What a board with USB says when a sender raises DTR.
+// The message of a board with USB when a sender raises DTR.
 constexpr const char* kBanner = "\r\nGrbl 1.1h ['$' for help]\r\n";
 
 SerialEnd open_end(const ServeOptions& options)
@@ -43,7 +43,7 @@ SerialEnd open_end(const ServeOptions& options)
     return options.tcp ? SerialEnd{*options.tcp} : SerialEnd{options.pty_link};
 }
 
-// The store with the settings file put into it.
+// Fills the store from the settings file.
 void fill_store(const ServeOptions& options, hal::SimulatedStore& store)
 {
     if (options.settings_file.empty()) {
@@ -76,7 +76,7 @@ public:
         board.mill.force_high(options.stuck_high);
         board.mill.force_low(options.stuck_low);
         controller_.power_on();
-        // Nobody hears its first words; who comes gets the banner.
+        // Its first output is lost without a sender; a sender gets the banner on connecting.
         controller_.settle();
         controller_.board().byte_link.take_answers();
         if (options.control) {
@@ -106,7 +106,7 @@ public:
             }
             while (next_tick <= now) {
                 if (now - next_tick > kTick) {
-                    controller_.tick();  // late: the work between the ticks is due as well
+                    controller_.tick();  // late: the work between ticks is due as well
                 } else {
                     controller_.tick_amid_work();
                 }
@@ -114,7 +114,7 @@ public:
                 from_controller_.advance();
                 next_tick += kTick;
             }
-            obey_control();
+            run_control_commands();
             watch_store();
         }
         if (vcd_) {
@@ -135,20 +135,20 @@ private:
         ::ppoll(sources, 2, &timeout, nullptr);
     }
 
-    // Bytes in, a little of the firmware's work, bytes out. Returns whether work is left: neither a
-    // question nor a tick waits until all is done.
+    // Bytes in, a slice of the firmware's work, bytes out. Returns whether work is left, so that
+    // neither a status request nor a tick waits until all is done.
     bool exchange()
     {
         constexpr unsigned kSlices = 32;
         bool busy = false;
         const bool had_peer = end_.has_peer();
-        if (end_.look()) {
-            say("a sender is there");
+        if (end_.update_peer()) {
+            say("a sender has connected");
             if (controller_.is_on()) {
                 end_.write(kBanner);
             }
         } else if (had_peer && !end_.has_peer()) {
-            say("the sender is gone");
+            say("the sender has disconnected");
         }
         to_controller_.put(end_.read());
         const std::string arrived = to_controller_.take();
@@ -161,23 +161,23 @@ private:
         return busy;
     }
 
-    void obey_control()
+    void run_control_commands()
     {
         if (!control_) {
             return;
         }
-        control_->look();
+        control_->update_peer();
         control_text_ += control_->read();
         std::size_t end = 0;
         while ((end = control_text_.find('\n')) != std::string::npos) {
             const std::string line = control_text_.substr(0, end);
             control_text_.erase(0, end + 1);
-            control_->write(obey(line) + "\n");
+            control_->write(run_command(line) + "\n");
         }
         control_->write({});
     }
 
-    std::string obey(const std::string& line)
+    std::string run_command(const std::string& line)
     {
         const auto command = parse_fault_command(line);
         if (!command) {
@@ -249,12 +249,12 @@ private:
             int{outputs.mist}, controller_.is_on() ? "on" : "off");
     }
 
-    // The store has changed: so may the settings have. A power cut takes the controller with it.
+    // A change of the store may be a change of settings. A power cut stops the controller.
     void watch_store()
     {
         const hal::SimulatedStore& store = controller_.board().settings_store;
         if (store.power_is_cut() && controller_.is_on()) {
-            say("the power failed amid a write to the settings store");
+            say("the power failed during a write to the settings store");
             controller_.power_off();
         }
         if (store.words_written() != words_kept_) {

@@ -1,5 +1,5 @@
 // VirtualController: the whole firmware and its mill in real time, behind a pseudo-terminal or a
-// socket, for any Grbl sender; with faults on demand.
+// socket, for any Grbl sender; with fault injection.
 #pragma once
 
 #include <atomic>
@@ -15,29 +15,29 @@
 namespace cusp::simulate {
 
 struct ServeOptions {
-    // One of these two.
+    // Exactly one of these two.
     std::string pty_link;
     std::optional<hal::TcpAddress> tcp;
-    // Settings as text: read at the start where it is there, rewritten when settings change. What a
-    // settings file can't hold (offsets, startup lines) goes to the file of this name with ".store"
-    // behind it. Empty: nothing is kept.
+    // Settings as text: read at the start if the file exists, rewritten when settings change. Data
+    // that a settings file cannot hold (offsets, startup lines) is stored in a file of this name
+    // with ".store" appended. Empty: nothing is stored.
     std::string settings_file;
-    // Where commands for the panel and the faults are taken: fault_command.hpp lists them.
+    // Port for commands to the panel and for faults: see fault_command.hpp.
     std::optional<hal::TcpAddress> control;
     std::optional<double> probe_z;
-    hal::LineFaults faults;  // of the line, both ways
+    hal::LineFaults faults;  // of the line, in both directions
     std::uint32_t seed{1};
     // The power fails after this many words written to the settings store.
     std::optional<std::uint64_t> cut_power_after;
-    // Inputs that read high (or low) whatever the switches say: bits of InputBit.
+    // Inputs that always read high (or low), whatever the switches: bits of InputBit.
     std::uint16_t stuck_high{0};
     std::uint16_t stuck_low{0};
     std::string vcd_file;
-    // One sentence for the person who serves: who came, who went, what failed.
+    // Messages for the user: connections, disconnections, faults.
     std::function<void(const std::string&)> notice;
 };
 
-// Runs until `stop` is set. Throws InputError where the place can't be opened or the settings can't
+// Runs until `stop` is set. Errors: InputError if the port cannot be opened or the settings cannot
 // be used.
 void serve(const ServeOptions& options, const std::atomic<int>& stop);
 

@@ -1,4 +1,4 @@
-// Lines of the approach. Lengths go as millimetres with six decimals: exact.
+// Lines of the approach. Lengths are millimetres with six decimals: exact.
 #include "host_tools/stream/approach.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 using gcode::ModalState;
 using gcode::Motion;
 
-// The plunge feed where the program never went straight down.
+// The plunge feed if the program never moved straight down.
 constexpr float kPlungeFeed = 100.0F;  // mm/min
 
 std::string words_of(std::int64_t nanometres)
@@ -53,7 +53,7 @@ void restore_accessories(const ModalState& modal, std::vector<std::string>& line
     lines.push_back(fmt::format("S{:.3f}", static_cast<double>(modal.spindle_speed)));
     if (modal.spindle != gcode::SpindleMode::kOff) {
         lines.push_back(modal.spindle == gcode::SpindleMode::kClockwise ? "M3" : "M4");
-        lines.push_back("G4P3");  // up to speed
+        lines.push_back("G4P3");  // spindle start-up time
     }
     if (modal.mist) {
         lines.push_back("M7");
@@ -63,13 +63,13 @@ void restore_accessories(const ModalState& modal, std::vector<std::string>& line
     }
 }
 
-// The modal state of the program's own lines; in millimetres until the last of them.
+// The modal state for the program's own lines; in millimetres up to the last of them.
 void restore_modal(const ModalState& modal, std::vector<std::string>& lines)
 {
     if (modal.feed > 0 && !modal.inverse_time) {
         lines.push_back(fmt::format("F{:.4f}", static_cast<double>(modal.feed)));
     }
-    // A reset controller is at the defaults; a stock Grbl may not know these words.
+    // A reset controller has the defaults; a stock Grbl may not know these words.
     if (modal.exact_path) {
         lines.push_back("G61");
     } else if (!modal.default_tolerance) {
@@ -99,7 +99,7 @@ Approach make_approach(const ResumePoint& point,
     const std::size_t system = point.modal.coordinate_system;
     const Position shift = point.parameters.coordinate_offset;
     const std::int64_t length = point.parameters.tool_length_offset_nm;
-    // Coordinates without G92, in which the tool is driven until the point is reached.
+    // Coordinates without G92, used until the point is reached.
     const Position was = point.parameters.work_offsets[system] + Position{0, 0, length};
     const bool changed = point.parameters.work_offsets[system] != before.work_offsets[system];
     const Position is = changed ? was : now.work_offsets[system] + Position{0, 0, length};

@@ -1,4 +1,4 @@
-// Lines that rebuild the modal state of a resume point and bring the tool there from above.
+// Lines that restore the modal state of a resume point and move the tool there from above.
 #pragma once
 
 #include <cstdint>
@@ -19,17 +19,17 @@ struct Approach {
     double plunge_feed{0};  // mm/min
 };
 
-// Raises the tool, moves over the point, starts spindle and coolant, goes down at the plunge feed,
-// and leaves units, plane, distance, feed, path, tool length and G92 as they were. The controller
-// has been reset before.
+// Raises the tool, moves over the point, starts spindle and coolant, descends at the plunge feed,
+// and restores units, plane, distance, feed, path, tool length and G92. Precondition: the
+// controller has been reset.
 //
-//   point    where to resume
-//   before   offsets when the program began: what the program has changed since is set again, the
-//            rest stays as a person may have set it
-//   now      offsets that the controller has now
-//   machine  where the tool is now
-//   safe_z   height to travel at, mm in the program's coordinates; none: the highest that the
-//            program was at. Never below where the tool is.
+// point    where to resume
+// before   offsets at the start of the program: changes by the program are restored, others stay as
+//          the user may have set them
+// now      the controller's present offsets
+// machine  present machine position
+// safe_z   height of travel, mm in the program's coordinates; none: the program's highest. Never
+//          below the tool's present height
 Approach make_approach(const ResumePoint& point,
                        const gcode::Parameters& before,
                        const gcode::Parameters& now,

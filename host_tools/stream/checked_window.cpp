@@ -1,4 +1,4 @@
-// Sends again from the first line that is missing.
+// Resends from the first missing line.
 #include "host_tools/stream/checked_window.hpp"
 
 #include <algorithm>
@@ -12,9 +12,9 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// Longer than the answers to sent lines take.
+// Longer than the delay of answers to sent lines.
 constexpr milliseconds kDry{40};
-// Shorter than the silence after which the controller ends the checks.
+// Shorter than the silence after which the controller stops checking.
 constexpr milliseconds kMostPatience{1600};
 constexpr std::size_t kDigits = 8;
 
@@ -76,7 +76,7 @@ void CheckedWindow::add(std::uint64_t program_line, std::string_view text)
     ++next_number_;
 }
 
-// Lines are sent, and no further answer to them is due.
+// Whether lines are sent but no further answer to them is due.
 bool CheckedWindow::wants_to_ask(Clock::time_point now) const
 {
     return sent_ > 0 && !draining_ && (under_way_ == 0 || now - quiet_since_ >= patience_);
@@ -148,7 +148,7 @@ std::optional<CheckedWindow::Verdict> CheckedWindow::take(std::string_view line,
         return std::nullopt;
     }
     const auto number = number_after(*answer, " N");
-    // A number that was never sent is no answer to this sender.
+    // A number that was never sent is not an answer to this sender.
     if (!number || *number == 0 || *number > next_number_) {
         return std::nullopt;
     }
@@ -173,7 +173,7 @@ std::optional<CheckedWindow::Verdict> CheckedWindow::take(std::string_view line,
     return verdict;
 }
 
-// Neither a report nor a message, so it was an answer.
+// Neither a report nor a message, so it must be a damaged answer.
 void CheckedWindow::count_damaged(std::string_view line)
 {
     if (line.empty() || line.front() == '<' || line.front() == '[') {

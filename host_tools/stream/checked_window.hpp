@@ -1,11 +1,11 @@
 // CheckedWindow: sends lines with numbers and CRCs to a controller that refuses damaged, repeated
 // and lost ones. Each is executed once, in order, on any serial line.
 //
-// The protocol is docs/protocol.md's, "Checked lines". Answers count only if their own CRC is
-// right; an answer for line k means that all before it are done too. After a refusal the sender
-// waits for all answers that are due, then continues with the line expected. After silence or a
-// damaged answer it sends an empty line, whose answer names the line expected. On a bad serial line
-// fewer lines are in flight.
+// The protocol is described in docs/protocol.md, "Checked lines". Answers count only with a correct
+// CRC; an answer to line k means that all lines before it are done too. After a refusal the sender
+// waits for all due answers, then continues with the expected line. After silence or a damaged
+// answer it sends an empty line, whose answer names the expected line. On a bad serial line fewer
+// lines are in flight.
 #pragma once
 
 #include <chrono>
@@ -17,22 +17,22 @@
 
 namespace cusp::stream {
 
-// A line as it goes over the wire, without line end.
+// A line as sent, without line end.
 std::string checked_line(std::uint32_t number, std::string_view text);
 
-// What follows the CRC check of an answer: "ok N5*...": the text before '*'. None where the CRC is
+// The text of an answer with a correct CRC: in "ok N5*..." the text before '*'. None if the CRC is
 // missing or wrong.
 std::optional<std::string> checked_answer(std::string_view line);
 
-// The number that a refusal, "resend N5*...", wants next. None where it is none or is damaged.
+// The number requested by a refusal, "resend N5*...". None if it is no refusal or is damaged.
 std::optional<std::uint32_t> refused_number(std::string_view line);
 
 class CheckedWindow {
 public:
     using Clock = std::chrono::steady_clock;
 
-    //   capacity  of the controller's buffer, bytes; half of it is used, since a line may be under
-    //             way twice
+    // capacity  of the controller's buffer, bytes; half of it is used, since a line may be in
+    //           flight twice
     explicit CheckedWindow(std::size_t capacity) : capacity_{capacity / 2}, room_{capacity_} {}
 
     void set_capacity(std::size_t capacity) { capacity_ = room_ = capacity / 2; }
@@ -41,32 +41,32 @@ public:
     bool has_room() const { return lines_.size() < kMostLines; }
     void add(std::uint64_t program_line, std::string_view text);
 
-    // The next line to put on the wire, with line end; none where there is none, no room for it, or
-    // the line has to run dry first.
+    // The next line to send, with line end; none if there is none, no room for it, or answers have
+    // to be awaited first.
     std::optional<std::string> next(Clock::time_point now);
 
-    // What an answer comes to.
+    // Result of an answer.
     struct Verdict {
         std::uint64_t done_lines{0};
         std::uint64_t program_line{0};  // of the last line that is done; 0: none
         int error{0};                   // of that line; 0: ok
     };
-    // A line from the controller that may be an answer. None where it is none or is damaged.
+    // Processes a line from the controller. None if it is no answer, or a damaged one.
     std::optional<Verdict> take(std::string_view line, Clock::time_point now);
 
-    // Answers without a check came where only checked ones are due: the controller does not check
-    // lines any more.
+    // Unchecked answers arrive although only checked ones are due: the controller no longer checks
+    // lines.
     bool lapsed() const { return plain_answers_ >= kMostPlain; }
 
     bool empty() const { return lines_.empty(); }
     std::uint64_t resent() const { return resent_; }
-    // The program's line that a checked number stands for; 0 where it is too long past.
+    // The program's line of a checked number; 0 if it is no longer stored.
     std::uint64_t program_line_of(std::uint32_t number) const;
 
 private:
     static constexpr std::size_t kMostLines = 256;
     static constexpr std::size_t kMostRemembered = 4096;
-    // Damage makes a plain answer of a checked one once in a long while, never so many in a row.
+    // Damage rarely turns a checked answer into a plain one, and never so many in a row.
     static constexpr unsigned kMostPlain = 4;
     static constexpr std::chrono::milliseconds kFirstPatience{100};
 
@@ -81,8 +81,8 @@ private:
     void count_damaged(std::string_view line);
 
     std::size_t capacity_;
-    std::size_t room_;           // bytes to use of it: less on a bad line
-    std::size_t under_way_{0};   // line ends without an answer, as far as is known
+    std::size_t room_;           // bytes of it in use: fewer on a bad line
+    std::size_t under_way_{0};   // line ends without an answer so far
     unsigned plain_answers_{0};  // in a row
     std::deque<Line> lines_;     // not known to be executed
     std::size_t sent_{0};        // of lines_, on the wire

@@ -1,4 +1,4 @@
-// Reading of listings.
+// Parses the listings.
 #include "host_tools/stream/controller_facts.hpp"
 
 #include <charconv>

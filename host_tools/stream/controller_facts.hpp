@@ -13,10 +13,10 @@ namespace cusp::stream {
 
 class ControllerFacts {
 public:
-    // A line of the controller; lines that answer none of the four are ignored.
+    // Parses a line of the controller; lines that answer none of the four commands are ignored.
     void take(std::string_view line);
 
-    // Bytes of its receive buffer; no value where it names none.
+    // Bytes of the receive buffer; none if the controller does not report it.
     std::optional<std::size_t> receive_buffer() const { return receive_buffer_; }
 
     // Unknown settings are left out; settings that the controller does not list have their

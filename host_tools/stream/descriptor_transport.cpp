@@ -53,7 +53,7 @@ std::string DescriptorTransport::read(std::chrono::milliseconds timeout)
         return {bytes.data(), static_cast<std::size_t>(count)};
     }
     if (count == 0 || !is_passing(errno)) {
-        // A pseudo-terminal whose controller is gone reads as EIO, or as nothing from then on.
+        // A pseudo-terminal without its controller reads as EIO, or as nothing from then on.
         lose(count == 0 || errno == EIO ? 0 : errno);
     }
     return {};

@@ -1,9 +1,10 @@
 // ExecutedLine: the line that the tool has certainly reached, from reports and answers.
 //
-// A report's Ln names the line that the path has reached; the tool follows it within half a second,
-// the longest filters included. So the newest line counts that was reported at least half a second
-// before the controller's last output. A controller that names no lines has executed as many lines
-// as it has answered beyond the blocks of its planner: each motion takes at least one block.
+// The Ln field of a report is the line that the path has reached; the tool follows within half a
+// second, the longest filters included. So the newest line counts that was reported at least half a
+// second before the controller's last output. A controller whose reports have no Ln has executed as
+// many lines as it has answered beyond the blocks of its planner, since each motion takes at least
+// one block.
 #pragma once
 
 #include <chrono>
@@ -16,10 +17,10 @@ class ExecutedLine {
 public:
     using Clock = std::chrono::steady_clock;
 
-    // Where the program begins, or goes on.
+    // Line at which the program starts or resumes.
     void begin_at(std::uint64_t line) { line_ = begin_ = line; }
 
-    // A report that named a line.
+    // A report with a line number.
     void reported(std::uint64_t line, Clock::time_point now)
     {
         constexpr std::chrono::milliseconds kLag{500};
@@ -31,7 +32,7 @@ public:
             line_ = reports_.front().line;
             reports_.pop_front();
         }
-        // Lines never go back: a report that did was damaged, or the one before it was.
+        // Lines never decrease: a report that did was damaged, or the one before it was.
         while (!reports_.empty() && reports_.back().line > line) {
             reports_.pop_back();
         }
@@ -39,9 +40,9 @@ public:
             reports_.push_back({line, now});
         }
     }
-    // A report in motion that named none.
+    // A report in motion without a line number.
     void reported_none() { ++unnamed_; }
-    // Free planner blocks, where a report tells them.
+    // Free planner blocks, if a report contains them.
     void blocks_free(std::size_t blocks) { blocks_ = blocks > blocks_ ? blocks : blocks_; }
 
     void answered(std::uint64_t line)
@@ -69,7 +70,7 @@ private:
     std::uint64_t begin_{0};
     bool names_lines_{false};
     unsigned unnamed_{0};
-    std::size_t blocks_{16};  // a stock Grbl's
+    std::size_t blocks_{16};  // as a stock Grbl has
     std::deque<Report> reports_;
     std::deque<std::uint64_t> answered_;
 };

@@ -7,8 +7,8 @@
 
 namespace cusp::stream {
 
-// Reads standard input. A terminal gives keys at once, and is put back as it was; a pipe or file
-// gives its characters as keys as well.
+// Reads standard input. A terminal delivers keys at once, and its mode is restored at the end;
+// characters of a pipe or file count as keys too.
 class Keyboard {
 public:
     Keyboard();
@@ -16,12 +16,12 @@ public:
     Keyboard& operator=(const Keyboard&) = delete;
     ~Keyboard();
 
-    // kNone where no known key was pressed.
+    // kNone if no known key was pressed.
     StreamKey read();
 
     bool is_terminal() const { return is_terminal_; }
 
-    // What the keys do, for a person.
+    // Description of the keys.
     static const char* legend();
 
 private:

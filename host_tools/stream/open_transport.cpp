@@ -1,4 +1,4 @@
-// Which transport a port name means.
+// Selects the transport by the name of the port.
 #include <filesystem>
 #include <system_error>
 

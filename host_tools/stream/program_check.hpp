@@ -1,4 +1,4 @@
-// ProgramCheck: whether a program is, up to a line, the one that was sent.
+// ProgramCheck: whether a program is unchanged up to a line.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ private:
     std::uint64_t line_{0};
 };
 
-// The checks of lines in flight, kept until they are executed; of very many only some.
+// The checks of lines in flight, stored until they are executed; of very many only some.
 class ProgramChecks {
 public:
     struct Mark {
@@ -50,8 +50,7 @@ public:
         }
     }
 
-    // The last mark before `line`; its line is 0 where there is none yet. Marks before it are
-    // forgotten.
+    // The last mark before `line`; its line is 0 if there is none yet. Marks before it are dropped.
     Mark before(std::uint64_t line)
     {
         while (!marks_.empty() && marks_.front().line < line) {

@@ -23,11 +23,11 @@ class ProgressDisplay {
 public:
     explicit ProgressDisplay(std::FILE* out);
 
-    //   fraction      of the program's time where that is known, else of its lines; 0 to 1
-    //   seconds_left  where known
+    // fraction      of the program's time if known, else of its lines; 0 to 1
+    // seconds_left  if known
     void show(const StreamProgress& progress, double fraction, std::optional<double> seconds_left);
 
-    // A line of its own, the bar below it.
+    // Prints a line above the bar.
     void say(const std::string& text);
 
     // Ends the line of the bar, so that its last state stays visible.

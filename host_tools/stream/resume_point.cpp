@@ -1,4 +1,4 @@
-// Reading a program up to a line.
+// Interprets a program up to a line.
 #include "host_tools/stream/resume_point.hpp"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ public:
         interpreter_.reset();
         interpreter_.set_parameters(start.parameters);
         interpreter_.set_position(start.machine);
-        // One word at a time: those that mean nothing alone are refused and change nothing.
+        // One word at a time: words without meaning alone are refused and change nothing.
         std::istringstream words{start.modal};
         std::string word;
         while (words >> word) {
@@ -74,7 +74,7 @@ public:
             highest_z_nm_, plunge_feed_};
     }
 
-    // Returns whether the line pauses for a person: no resume point lies before it.
+    // Returns whether the line pauses for the user: no resume point lies before it.
     bool run(const std::string& text, std::uint64_t line)
     {
         if (text.front() == '$') {

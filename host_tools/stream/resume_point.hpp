@@ -1,9 +1,9 @@
 // ResumePoint: where an interrupted program can be resumed, and the modal state there.
 //
-// The program is read from its start by the firmware's own interpreter, so that the modal state is
-// that of the controller. Not every line can be the first: none inside a NURBS or a drilling cycle,
-// none that relies on the G2 or G3 of an earlier line. The resume point is the last possible line
-// before the one that was executing. What is cut twice is cut at the same place.
+// The program is interpreted from its start by the firmware's own interpreter, so that the modal
+// state is that of the controller. A line inside a NURBS or a drilling cycle cannot be the first,
+// nor one that relies on the G2 or G3 of an earlier line. The resume point is the last possible
+// line before the one that was executing. Anything cut twice is cut at the same place.
 #pragma once
 
 #include <cstdint>
@@ -21,13 +21,13 @@ struct ResumePoint {
     gcode::ModalState modal;
     gcode::Parameters parameters;
     Position position;             // machine
-    std::int64_t highest_z_nm{0};  // that the tool was at since the program began, machine
-    // Of the last feed move straight down, mm/min; none: there was none.
+    std::int64_t highest_z_nm{0};  // the tool's highest since the start of the program, machine
+    // Of the last feed move straight down, mm/min; none if there was none.
     std::optional<float> plunge_feed;
 };
 
-// Throws InputError where the state can't be known: a probe or a $ command that moves stands before
-// the line; where the program is not the one of the record; or where it has no such line.
+// Errors: InputError if the state is unknown (a probe or a moving $ command precedes the line), if
+// the program is not that of the record, or if it has no such line.
 ResumePoint find_resume_point(const std::string& program, const TransferRecord& record);
 
 }  // namespace cusp::stream

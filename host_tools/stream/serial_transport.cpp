@@ -1,4 +1,4 @@
-// libserialport 0.1.1, with locking and hang-up, which it lacks.
+// libserialport 0.1.1, with locking and detection of hang-ups, which it lacks.
 #include "host_tools/stream/serial_transport.hpp"
 
 #include <array>
@@ -31,7 +31,7 @@ void demand(sp_return result, const std::string& device, const std::string& what
     }
 }
 
-// sp_open() locks nothing.
+// sp_open() does not lock the device.
 void lock(sp_port* port, const std::string& device)
 {
     int descriptor = -1;
@@ -87,7 +87,7 @@ std::string SerialTransport::read(std::chrono::milliseconds timeout)
     if (count > 0) {
         return {bytes.data(), static_cast<std::size_t>(count)};
     }
-    // Reads of a dead port return nothing at once; asking for the count of waiting bytes fails.
+    // Reads of a disconnected port return nothing at once; the query of waiting bytes fails.
     if (sp_input_waiting(port_.get()) < 0) {
         throw LinkLost{"the device is gone: " + last_error("no answer from the port")};
     }

@@ -1,4 +1,4 @@
-// The transfer: lines, rest, and stopping.
+// The transfer: lines, end of motion, and stopping.
 #include "host_tools/stream/streamer.hpp"
 
 namespace cusp::stream {
@@ -12,7 +12,7 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr char kSoftReset = '\x18';
-// A machine at full speed comes to rest well within this.
+// A machine at full speed stops well within this.
 constexpr milliseconds kHoldLimit{10'000};
 constexpr milliseconds kResetLimit{3000};
 
@@ -31,7 +31,7 @@ StreamReport Streamer::run(ProgramLines& program, const std::atomic<int>& stop)
     StreamReport report;
     try {
         greet();
-        // Checked lines: no unchecked command may be sent, since damage could turn it into another.
+        // Checked lines: unchecked commands are not sent, since damage could turn one into another.
         if (options_.checked) {
             switch_checks_on();
         }
@@ -153,7 +153,7 @@ void Streamer::send_checked_program(ProgramLines& program)
 
 void Streamer::wait_for_rest()
 {
-    // The second of two idle reports was asked for after the last answer.
+    // The second of two idle reports was requested after the last answer.
     for (int idle = 0; idle < 2;) {
         const std::uint64_t before = statuses_;
         send_realtime('?');
@@ -213,8 +213,8 @@ void Streamer::send_line(std::uint64_t number, std::string text)
 
 void Streamer::send_realtime(char byte)
 {
-    // On a checked line all but the question count at their third repetition; whoever sent before
-    // may have left lines checked.
+    // With checked lines a realtime byte takes effect at its third repetition, except '?'. An
+    // earlier sender may have left checking on.
     const bool repeats = (checked_ || !sending_) && byte != '?';
     std::string bytes(repeats ? 3 : 1, byte);
     const auto start = Clock::now();

@@ -7,8 +7,8 @@
 //     const StreamReport report = streamer.run(program, stop);
 //     if (report.outcome == StreamOutcome::kError) { ... report.text ... }
 //
-// Flow control counts characters (FlowWindow). Realtime bytes overtake waiting lines. Only lines
-// that are not yet answered are held in memory.
+// Flow control counts characters (FlowWindow). Realtime bytes are sent before waiting lines. Only
+// unanswered lines are held in memory.
 #pragma once
 
 #include <atomic>
@@ -36,28 +36,28 @@ namespace cusp::stream {
 struct StreamResume {
     TransferRecord record;
     std::uint64_t line{0};  // of the file, the first to send
-    // Asks the person. The controller is at rest. homes: it will be homed first. place_lost: it
-    // seems to have lost the position of the tool.
+    // Asks the user. The controller is at rest. homes: it will be homed first. place_lost: the tool
+    // position seems to be lost.
     std::function<bool(const ControllerFacts&, Position machine, bool homes, bool place_lost)>
         confirm;
-    // The lines that go before the program's.
+    // The lines to be sent before the program's.
     std::function<std::vector<std::string>(const ControllerFacts&, Position machine)> approach;
 };
 
 struct StreamOptions {
-    // Bytes of the controller's receive buffer; 0: ask it, 128 where it names none.
+    // Bytes of the controller's receive buffer; 0: query it, 128 if unknown.
     std::size_t window{0};
     std::chrono::milliseconds status_interval{200};
-    // Silence, despite status requests, after which the link counts as lost.
+    // Silence, despite status requests, after which the link is considered lost.
     std::chrono::milliseconds silence_limit{5000};
     // Lines with numbers and CRCs, for bad serial lines; the controller must support them.
     bool checked{false};
     // Longest time until the controller's first output.
     std::chrono::milliseconds greeting_limit{5000};
-    // Lines carry their number in the file as N word, so that reports can name them.
+    // Lines get their number in the file as N word, so that reports can refer to them.
     bool numbers{true};
     std::optional<StreamResume> resume;
-    // Gets what is needed to resume, from time to time and at the end.
+    // Receives the data needed to resume, from time to time and at the end.
     std::function<void(const TransferRecord&)> keep;
 };
 
@@ -70,7 +70,7 @@ struct StreamProgress {
     std::uint64_t lines_resent{0};
     Vec3d work_offset;
     int feed_override{100};
-    bool done{false};  // all of it, and the machine rests
+    bool done{false};  // all of it, and the machine is at rest
 };
 
 enum class StreamKey : std::uint8_t {
@@ -97,15 +97,15 @@ public:
     virtual void ready(const ControllerFacts& facts) = 0;
     // Called some fifty times a second.
     virtual void progress(const StreamProgress& progress) = 0;
-    // A sentence for the person at the machine.
+    // A message to the user at the machine.
     virtual void notice(const std::string& text) = 0;
-    // The key that was pressed; kNone where none was.
+    // The key that was pressed; kNone if none was.
     virtual StreamKey key() = 0;
 };
 
 enum class StreamOutcome : std::uint8_t {
     kDone,
-    kStopped,  // by the person: held, then reset
+    kStopped,  // by the user: held, then reset
     kError,    // the controller refused a line
     kAlarm,
     kLinkLost,
@@ -114,27 +114,27 @@ enum class StreamOutcome : std::uint8_t {
 
 struct StreamReport {
     StreamOutcome outcome{StreamOutcome::kDone};
-    std::string text;  // what happened, in words; empty where all went well
+    std::string text;  // what happened, in words; empty after success
     StreamProgress progress;
-    // What is needed to resume; none where nothing of the program was sent.
+    // The data needed to resume; none if nothing of the program was sent.
     std::optional<TransferRecord> record;
 };
 
 class Streamer {
 public:
-    // All three outlive the streamer.
+    // All three must outlive the streamer.
     Streamer(Transport& transport, StreamWatcher& watcher, const StreamOptions& options);
 
-    // Sends the program and waits until the machine has come to rest.
+    // Sends the program and waits until the machine is at rest.
     //
-    //   stop  set by a signal handler: holds, then resets; set to 2 or more: resets at once
+    // stop  set by a signal handler: holds, then resets; set to 2 or more: resets at once
     StreamReport run(dialect::ProgramLines& program, const std::atomic<int>& stop);
 
 private:
     using Clock = std::chrono::steady_clock;
     static constexpr std::chrono::milliseconds kPump{20};
 
-    // Each throws Ending where the transfer is over.
+    // Each throws Ending if the transfer is over.
     struct Ending {
         StreamOutcome outcome;
         std::string text;
@@ -191,7 +191,7 @@ private:
     std::uint64_t own_errors_{0};
     bool stopping_{false};
     ControllerFacts facts_;
-    // of the command that was asked last, where lines are checked
+    // of the last query, with checked lines
     std::vector<std::string> listing_;
     bool in_check_mode_{false};
     std::deque<dialect::ProgramLine> first_lines_;  // of the approach, and the first of the program

@@ -1,4 +1,4 @@
-// Handles the controller's answers and the person's keys.
+// Handles the controller's answers and the user's keys.
 #include <algorithm>
 #include <filesystem>
 
@@ -24,7 +24,7 @@ std::string name_of(const std::string& file, std::uint64_t line)
     return file + ":" + std::to_string(line);
 }
 
-// A line of the program; empty where the file can't be read a second time.
+// A line of the program; empty if the file cannot be read again.
 std::string text_of(const std::string& file, std::uint64_t line)
 {
     std::error_code error;
@@ -78,9 +78,8 @@ void Streamer::take_line(const std::string& line)
         case AnswerKind::kBanner:
             ++banners_;
             if (!stopping_ && sending_) {
-                throw Ending{
-                    StreamOutcome::kLinkLost,
-                    "the controller has started anew: its power failed or somebody reset it"};
+                throw Ending{StreamOutcome::kLinkLost,
+                             "the controller has restarted: its power failed or it was reset"};
             }
             window_.clear();
             break;
@@ -164,7 +163,7 @@ void Streamer::take_error(std::uint64_t line, int code)
         return;
     }
     const std::string where =
-        line == 0 ? std::string{"the way back to the work"} : name_of(file_, line);
+        line == 0 ? std::string{"the approach to the resume point"} : name_of(file_, line);
     throw Ending{StreamOutcome::kError,
                  where + ": error:" + std::to_string(code) + ": " +
                      refusal(code, line == 0 ? "" : text_of(file_, line)).text};
@@ -176,7 +175,7 @@ void Streamer::take_checked(const std::string& line)
     if (checked_->lapsed() && !stopping_) {
         throw Ending{
             StreamOutcome::kError,
-            "the controller has stopped checking lines: somebody else reset it, or it heard "
+            "the controller has stopped checking lines: it was reset from elsewhere, or received "
             "no line for seconds"};
     }
     if (!verdict || verdict->done_lines == 0) {

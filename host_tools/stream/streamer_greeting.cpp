@@ -1,4 +1,4 @@
-// The greeting: waits for the controller, learns its settings, switches checks on, resumes.
+// The greeting: waits for the controller, reads its settings, enables checks, resumes.
 #include <algorithm>
 #include <map>
 
@@ -40,7 +40,7 @@ void Streamer::greet()
     }
 }
 
-// Before a resume: whatever still runs of the program is held, and all modes are the defaults.
+// Before a resume: motion of the earlier run is held, and all modes are set to the defaults.
 void Streamer::come_to_idle()
 {
     hold_and_reset();
@@ -78,11 +78,11 @@ void Streamer::learn_controller()
                                                          FlowWindow::kGrblBuffer));
 }
 
-// A command of the streamer's own, and its answer. A refusal is an answer.
+// Sends a command of the streamer's own and waits for the answer, which may be a refusal.
 void Streamer::ask(const std::string& command)
 {
     // A controller that resets when its port is opened may do so now, and one that checks lines
-    // ignores the command: then it is sent again.
+    // ignores the command; then it is sent again.
     constexpr int kAttempts = 4;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
         const std::uint64_t answers = own_answers_;
@@ -100,8 +100,8 @@ void Streamer::ask(const std::string& command)
     throw Ending{StreamOutcome::kNotReady, "the controller answers ? but not " + command};
 }
 
-// The command goes once, but what it lists is not checked on its way back: a line of it is believed
-// that came twice.
+// The command is sent checked, but its listing comes back unchecked: a line of it is accepted if it
+// was received twice.
 void Streamer::ask_checked(const std::string& command)
 {
     constexpr int kMostTimes = 6;
@@ -131,7 +131,7 @@ void Streamer::send_checked_command(const std::string& command)
     }
 }
 
-// Homing is answered when it is finished; meanwhile the reports tell that the line lives.
+// Homing is answered when it is finished; meanwhile reports show that the link works.
 void Streamer::home()
 {
     constexpr std::chrono::minutes kHomingLimit{10};
@@ -201,7 +201,7 @@ void Streamer::prepare_resume(ProgramLines& program)
     if (!goes_on) {
         throw Ending{StreamOutcome::kNotReady, "not resumed"};
     }
-    // While a person thought, the checks may have lapsed.
+    // The checks may have lapsed while waiting for the user.
     if (checked_) {
         checked_.reset();
         switch_checks_on();
@@ -210,7 +210,7 @@ void Streamer::prepare_resume(ProgramLines& program)
         home();
     }
     for (const std::string& line : resume.approach(facts_, machine_position())) {
-        // Under the number of the line that they lead to.
+        // With the number of the line that follows them.
         first_lines_.push_back(
             {0, options_.checked || !options_.numbers ? line : numbered_line(line, resume.line)});
     }
@@ -225,7 +225,7 @@ void Streamer::prepare_resume(ProgramLines& program)
     }
 }
 
-// $CRC=1 itself is not guarded: where it is damaged it is answered with an error, or not at all.
+// $CRC=1 itself is not protected: if damaged it is answered with an error, or not at all.
 void Streamer::switch_checks_on()
 {
     constexpr int kAttempts = 20;
@@ -248,7 +248,7 @@ void Streamer::switch_checks_on()
     throw Ending{StreamOutcome::kNotReady, "the controller does not know checked lines ($CRC=1)"};
 }
 
-// A transfer that was cut off has left lines checked: the refusal tells the number that ends it.
+// An interrupted transfer has left checking on: the refusal contains the number that ends it.
 void Streamer::leave_checks(const std::string& refusal)
 {
     const auto number = refused_number(refusal);

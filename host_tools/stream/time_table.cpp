@@ -1,4 +1,4 @@
-// Simulates the program for the time left.
+// Simulates the program to estimate the remaining time.
 #include "host_tools/stream/time_table.hpp"
 
 #include <algorithm>

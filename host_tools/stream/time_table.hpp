@@ -1,4 +1,4 @@
-// TimeTable: when each line of a program begins, from a simulation that runs beside the transfer.
+// TimeTable: start times of the lines of a program, from a simulation in parallel to the transfer.
 #pragma once
 
 #include <atomic>
@@ -13,11 +13,11 @@
 
 namespace cusp::stream {
 
-// The firmware's own planner makes the times. Memory is bounded: of a long program only some lines
-// are recorded.
+// Times are those of the firmware's own planner. Memory is bounded: of a long program only some
+// lines are recorded.
 class TimeTable {
 public:
-    // Begins at once, in a thread of its own; a program that can't be simulated gives no times.
+    // Starts at once, in its own thread; a program that cannot be simulated has no times.
     TimeTable(const std::string& program_file, const machine::Settings& settings);
     TimeTable(const TimeTable&) = delete;
     TimeTable& operator=(const TimeTable&) = delete;
@@ -27,7 +27,7 @@ public:
         double done_s;   // up to the line
         double total_s;  // of the program
     };
-    // Once the whole program is known.
+    // None until the whole program is simulated.
     std::optional<Times> at_line(std::uint64_t line) const;
 
 private:

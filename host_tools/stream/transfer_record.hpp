@@ -1,5 +1,5 @@
-// TransferRecord: a file beside a program while it is sent, so that an interrupted transfer can be
-// resumed, also by another process.
+// TransferRecord: a file beside a program during its transfer, so that an interrupted transfer can
+// be resumed, even by another process.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace cusp::stream {
 
-// State of the controller when the program began.
+// State of the controller at the start of the program.
 struct TransferStart {
     Position machine;
     std::string modal;  // words of `$G`
@@ -21,26 +21,26 @@ struct TransferStart {
 
 struct TransferRecord {
     TransferStart start;
-    // Number in the file of a line that the tool had certainly reached: lines before it are done.
+    // Number in the file of a line that the tool has certainly reached: lines before it are done.
     std::uint64_t executed_line{0};
     Position last_seen;  // of the machine
-    // Number of a line up to executed_line, and the CRC-32 of the bare text of all lines up to it:
-    // a program that was changed behind that line may still be resumed.
+    // Number of a line up to executed_line, and the CRC-32 of the text of all lines up to it: a
+    // program changed after that line can still be resumed.
     std::uint64_t checked_line{0};
     std::uint32_t crc{0};
     std::string ending;  // why the transfer ended; empty while it runs
 };
 
-// Where the record of a program is kept: its name with ".resume" behind it.
+// File name of a program's record: the program's name with ".resume" appended.
 std::string record_file(const std::string& program);
 
-// Writes it whole or not at all. Returns false where the place can't be written.
+// Writes it completely or not at all. Returns false if the file cannot be written.
 bool write_record(const std::string& program, const TransferRecord& record);
 
-// No value where there is no record. Throws InputError where it can't be read.
+// None if there is no record. Errors: InputError if it cannot be read.
 std::optional<TransferRecord> read_record(const std::string& program);
 
-// The transfer went to its end.
+// Deletes the record after a complete transfer.
 void drop_record(const std::string& program);
 
 }  // namespace cusp::stream

@@ -9,7 +9,7 @@
 
 namespace cusp::stream {
 
-// The controller can't be reached any more. The text names the failure.
+// The controller can no longer be reached. The text names the failure.
 class LinkLost : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
@@ -23,19 +23,19 @@ public:
     Transport& operator=(const Transport&) = delete;
     virtual ~Transport() = default;
 
-    // Writes as many bytes as are taken at once. Returns their number.
+    // Writes as many bytes as are accepted at once. Returns their number.
     virtual std::size_t write(std::string_view bytes) = 0;
 
-    // What has arrived; waits for the first byte up to `timeout`.
+    // Bytes that have arrived; waits for the first one up to `timeout`.
     virtual std::string read(std::chrono::milliseconds timeout) = 0;
 };
 
-// Opens a port for this program alone.
+// Opens a port exclusively.
 //
-//   port  "tcp:HOST:PORT"; a pseudo-terminal or a link to one; or a serial device
-//   baud  of a serial device
+// port  "tcp:HOST:PORT"; a pseudo-terminal or a link to one; or a serial device
+// baud  of a serial device
 //
-// Throws InputError where it can't be opened.
+// Errors: InputError if it cannot be opened.
 std::unique_ptr<Transport> open_transport(const std::string& port, int baud);
 
 }  // namespace cusp::stream

@@ -8,7 +8,7 @@
 
 namespace cusp::verify {
 
-// Calls work(begin, end, number of the band) for disjoint ranges that cover [0, count), each on a
+// Calls work(begin, end, number of the band) for disjoint ranges that cover [0, count), each in a
 // thread of its own. `work` must not throw.
 template <class Work>
 void for_each_band(std::size_t count, Work work)

@@ -1,4 +1,5 @@
-// The definitions are those of an ideal tool: what it can't reach is not its fault.
+// The figures compare the cut with that of ideal tools: stock that no tool can reach does not
+// count.
 #include "host_tools/verify/floor_judgement.hpp"
 
 #include <algorithm>
@@ -45,7 +46,7 @@ HeightGrid grown(const HeightGrid& grid, std::size_t n)
     return {grid.x0 - by, grid.y0 - by, grid.pitch, grid.nx + 2 * n, grid.ny + 2 * n, false};
 }
 
-// What the tools leave at best, over `level` (the grid without shifts).
+// The least heights that the tools can leave, at `level` (the grid without shifts).
 std::vector<double> best_heights(const FloorQuestion& q,
                                  const HeightGrid& level,
                                  const std::vector<double>& part)
@@ -113,7 +114,7 @@ std::vector<double> maximum_around(const std::vector<double>& values,
 }
 
 struct Ideal {
-    std::vector<double> height;  // what a perfect program leaves; not finite where it can't come
+    std::vector<double> height;  // after a perfect program; not finite where no tool can come
     std::vector<char> unfit;     // no tool fits there
 };
 
@@ -123,13 +124,13 @@ Ideal ideal_heights(const FloorQuestion& q, const PartHeights& part)
     level.shifted = false;
     const PartHeights flat = part_heights(q.surfaces, q.mesh, level);
     const std::vector<double> best = best_heights(q, level, flat.z);
-    // the closing of a map of points is high by this much on a smooth floor
+    // on a smooth floor the closing of a height map by a tool is too high by up to this
     const double max_error = 0.002 + level.pitch * level.pitch / (4 * least_radius(q.tools));
     std::vector<double> unfit(level.size(), 0.0);
     for (std::size_t k = 0; k < level.size(); ++k) {
         unfit[k] = std::isfinite(flat.z[k]) && !(best[k] - flat.z[k] <= max_error) ? 1.0 : 0.0;
     }
-    // the shifted points lie up to half a pitch beside the level ones
+    // shifted points are up to half a pitch beside the points without shifts
     constexpr std::size_t kAround = 2;
     const std::vector<double> near_unfit = maximum_around(unfit, level, kAround);
     const std::vector<double> most = maximum_around(best, level, kAround);
@@ -143,7 +144,7 @@ Ideal ideal_heights(const FloorQuestion& q, const PartHeights& part)
     return ideal;
 }
 
-// Places inside the walls where the stock is more than the scallop over the part.
+// Points inside the walls where the stock is higher than the scallop above the part.
 std::vector<std::size_t> doubtful_places(const FloorQuestion& q,
                                          const PartHeights& part,
                                          const std::vector<double>& clear)
@@ -159,9 +160,9 @@ std::vector<std::size_t> doubtful_places(const FloorQuestion& q,
     return places;
 }
 
-// Computes the lowest height that the tools can cut at these places themselves: the grid misses
-// rims and crests between its points, and the lowest places of narrow valleys. Returns at how many
-// of them the stock is more than the scallop over that.
+// Replaces the grid's heights at these points by the lowest height that the tools can cut there:
+// the grid misses rims and crests between its points, and the lowest points of narrow valleys.
+// Returns the number of points where the stock is still higher than the scallop above that.
 std::size_t settle(const FloorQuestion& q,
                    const PartHeights& part,
                    const std::vector<std::size_t>& places,
@@ -184,8 +185,8 @@ std::size_t settle(const FloorQuestion& q,
     }));
 }
 
-// Of many doubtful places some are settled first. They detect a program that left much everywhere;
-// the other places keep the grid's heights then.
+// If there are many doubtful points, some are settled first: they detect a grossly uncut floor. The
+// other points then keep the grid's heights.
 void settle_doubts(const FloorQuestion& q,
                    const PartHeights& part,
                    const std::vector<double>& clear,
@@ -193,7 +194,7 @@ void settle_doubts(const FloorQuestion& q,
 {
     constexpr std::size_t kMany = 40000;
     constexpr std::size_t kFirst = 10000;
-    constexpr double kHopeless = 0.1;  // of the floor: ten times what is refused
+    constexpr double kGrosslyUncut = 0.1;  // of the floor: ten times the allowed share
     std::vector<std::size_t> places = doubtful_places(q, part, clear);
     if (places.size() <= kMany) {
         settle(q, part, places, ideal);
@@ -208,12 +209,12 @@ void settle_doubts(const FloorQuestion& q,
     const double open = static_cast<double>(settle(q, part, first, ideal));
     const double floor = static_cast<double>(
         std::count_if(part.z.begin(), part.z.end(), [](double z) { return std::isfinite(z); }));
-    if (open * static_cast<double>(each) <= kHopeless * floor) {
+    if (open * static_cast<double>(each) <= kGrosslyUncut * floor) {
         settle(q, part, rest, ideal);
     }
 }
 
-// Finds the thickest material over the surface that the tools can cut.
+// Finds the thickest stock above the surface that the tools can cut.
 void find_thickest(const FloorQuestion& q,
                    const Ideal& ideal,
                    const std::vector<double>& clear,
@@ -222,7 +223,7 @@ void find_thickest(const FloorQuestion& q,
 {
     struct High {
         std::size_t k;
-        double over;  // mm, upright
+        double over;  // mm, along the axis
     };
     std::vector<High> all;
     const double radius = least_radius(q.tools);
@@ -253,7 +254,7 @@ struct Sums {
     std::size_t unreachable{};
     std::size_t uncovered{};
     double total{};
-    std::vector<double> seen;  // where something was cut
+    std::vector<double> seen;  // where some stock was cut
 };
 
 void fill_figures(const Sums& sums, std::size_t cells, VerifyFigures& figures)
@@ -279,6 +280,30 @@ void fill_figures(const Sums& sums, std::size_t cells, VerifyFigures& figures)
     figures.scallop_mean = sums.total / static_cast<double>(sorted.size());
 }
 
+// mm: distance of each point from the walls.
+std::vector<double> wall_clearances(const FloorQuestion& q)
+{
+    std::vector<double> clear(q.grid.size(), kFar);
+    for_each_band(q.grid.nx, [&](std::size_t begin, std::size_t end, std::size_t) {
+        for (std::size_t i = begin; i < end && !q.walls.empty(); ++i) {
+            for (std::size_t j = 0; j < q.grid.ny; ++j) {
+                clear[q.grid.index(i, j)] = clearance(q.walls, q.grid.x(i, j), q.grid.y(i, j));
+            }
+        }
+    });
+    return clear;
+}
+
+// Beyond walls the part's height is the stock's top.
+void fill_beyond_walls(const FloorQuestion& q, const std::vector<double>& clear, PartHeights& part)
+{
+    for (std::size_t k = 0; k < q.grid.size(); ++k) {
+        if (clear[k] < 0) {
+            part.z[k] = q.top;
+        }
+    }
+}
+
 }  // namespace
 
 FloorMaps judge_floor(const FloorQuestion& q, VerifyFigures& figures)
@@ -289,14 +314,7 @@ FloorMaps judge_floor(const FloorQuestion& q, VerifyFigures& figures)
     const double bound = q.scallop.value_or(kFar);
     std::vector<double> left(q.grid.size(), kNone);
     std::vector<double> gouge(q.grid.size(), 0.0);
-    std::vector<double> clear(q.grid.size(), kFar);
-    for_each_band(q.grid.nx, [&](std::size_t begin, std::size_t end, std::size_t) {
-        for (std::size_t i = begin; i < end && !q.walls.empty(); ++i) {
-            for (std::size_t j = 0; j < q.grid.ny; ++j) {
-                clear[q.grid.index(i, j)] = clearance(q.walls, q.grid.x(i, j), q.grid.y(i, j));
-            }
-        }
-    });
+    const std::vector<double> clear = wall_clearances(q);
     if (q.scallop) {
         settle_doubts(q, part, clear, ideal);
     }
@@ -319,7 +337,7 @@ FloorMaps judge_floor(const FloorQuestion& q, VerifyFigures& figures)
         if (!std::isfinite(ideal.height[k]) || !(clear[k] >= 0)) {
             continue;
         }
-        // where the uncut stock is no more than may be left, there is nothing to cut
+        // uncut stock within the bound needs no cut
         const bool done =
             touched || (q.top - ideal.height[k]) * part.cosine[k] <= q.scallop.value_or(kFlush);
         left[k] = done ? (q.cut[k] - ideal.height[k]) * part.cosine[k] : kFar;
@@ -344,11 +362,7 @@ FloorMaps judge_floor(const FloorQuestion& q, VerifyFigures& figures)
         find_thickest(q, ideal, clear, left, figures);
     }
     fill_figures(sums, cells, figures);
-    for (std::size_t k = 0; k < q.grid.size(); ++k) {
-        if (clear[k] < 0) {
-            part.z[k] = q.top;
-        }
-    }
+    fill_beyond_walls(q, clear, part);
     return {std::move(left), std::move(gouge), std::move(part.z)};
 }
 

@@ -17,20 +17,20 @@ namespace cusp::verify {
 struct FloorQuestion {
     const std::vector<nurbs::Surface>& surfaces;
     const std::vector<std::array<Vec3d, 3>>& mesh;
-    const std::vector<toolpath::Tool>& tools;  // those that the program cuts with
+    const std::vector<toolpath::Tool>& tools;  // those that the program uses
     const std::vector<WallDistance>& walls;
     const HeightGrid& grid;
     const std::vector<double>& cut;  // heights of the stock after cutting
     double top;                      // of the uncut stock
     std::optional<double> scallop;
-    double path_clearance;                   // mm: how far the path may have to stay off the floor
-    const std::vector<ToolPositions>& runs;  // of all tools, those that only rough, too
+    double path_clearance;  // mm: largest distance that the path may keep from the floor
+    const std::vector<ToolPositions>& runs;  // of all tools, roughing tools included
     double most_left;                        // mm: thicknesses below it may be inexact
 };
 
 // Per grid point.
 struct FloorMaps {
-    // mm over what can be reached; NaN outside the floor, +infinity where nothing was cut.
+    // mm above the reachable height; NaN outside the floor, +infinity where nothing was cut.
     std::vector<double> left;
     // mm cut below the part inside the walls; 0 where none is.
     std::vector<double> gouge;

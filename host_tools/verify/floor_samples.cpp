@@ -1,4 +1,4 @@
-// The highest of all points under the ball; a comparison rejects most of them.
+// The maximum over all points below the ball; a comparison rejects most of them.
 #include "host_tools/verify/floor_samples.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A ball dropped on the points of a height map: quick, and never too high.
+// Drop cutter for a ball on the points of a height map: fast, and never too high.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace cusp::verify {
 
-// Between points the ball sinks in by a part of the pitch's square over its radius, more beside
-// cliffs. A point that stops it stops it on the floor, too.
+// Between points the ball is too low by up to a fraction of the squared pitch over its radius, more
+// beside cliffs. So a ball blocked by the points is blocked by the floor too.
 class FloorSamples {
 public:
     // heights  of the floor at the grid's points; NaN where there is none

@@ -1,4 +1,4 @@
-// The points, seen from above, at which heights are kept.
+// The grid of points in plan at which heights are stored.
 #pragma once
 
 #include <cmath>
@@ -36,7 +36,7 @@ struct HeightGrid {
         return shifted ? pitch * (turn - std::floor(turn) - 0.5) : 0.0;
     }
 
-    // The first and the end column that can lie in [low, high], one pitch to spare.
+    // The first and the end column that can lie in [low, high], with a margin of one pitch.
     std::size_t first_column(double low) const { return clamped((low - x0) / pitch - 1, nx); }
     std::size_t end_column(double high) const { return clamped((high - x0) / pitch + 2, nx); }
     std::size_t first_row(double low) const { return clamped((low - y0) / pitch - 1, ny); }

@@ -1,4 +1,4 @@
-// Every thread cuts its own band of columns along the whole path.
+// Each thread cuts its own band of columns along the whole path.
 #include "host_tools/verify/machined_stock.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ using toolpath::Tool;
 
 namespace {
 
-// The tool's lower side over its tip, at the square of a radius that lies within it.
+// The tool's lower side above its tip, by the squared distance from the axis.
 struct Profile {
     double flat;    // radius of the flat bottom
     double corner;  // radius of the corner
@@ -40,8 +40,8 @@ double half_chord(double squared_radius, double distance)
     return std::sqrt(std::max(0.0, squared_radius - distance * distance));
 }
 
-// The flat bottom of a tool on its way from one position to the next: what it leaves on a slope is
-// as low as its rim comes there, between the positions too.
+// The flat bottom of a tool moving from one position to the next: on a slope its rim cuts lower
+// between the positions too.
 class FlatSweep {
 public:
     FlatSweep(Vec3d from, Vec3d to, double radius) : from_{from}, square_{radius * radius}
@@ -59,7 +59,7 @@ public:
         slope_ = (to.z - from.z) / length_;
     }
 
-    // z; kUnbounded where the flat bottom does not come.
+    // z; kUnbounded where the flat bottom does not pass.
     double lowest(double x, double y) const
     {
         const double dx = x - from_.x;
@@ -100,7 +100,7 @@ CutFigures MachinedStock::cut_band(const ToolPositions& positions,
 {
     const Tool& tool = positions.tool;
     const double shrink = spacing * spacing / (4 * tool.radius) + 0.002;
-    // Rounder corners leave no more between positions than the square of their distance.
+    // Tools with round corners leave no more between positions than the square of their distance.
     const bool edged = tool.radius > tool.corner_radius && tool.corner_radius < spacing;
     constexpr std::size_t kReport = 4096;
     CutFigures figures;
@@ -125,7 +125,7 @@ CutFigures MachinedStock::cut_band(const ToolPositions& positions,
 double MachinedStock::cut_at(
     const Tool& tool, Vec3d tip, double shrink, std::size_t begin, std::size_t end)
 {
-    // Rows that are compared together: most are below the tool's lower side.
+    // Rows that are compared together: most are below the tool.
     constexpr std::size_t kRun = 16;
     const Profile profile{tool, 0};
     const Profile probe{tool, shrink};
@@ -171,7 +171,7 @@ double MachinedStock::cut_at(
     return deepest;
 }
 
-// Under the lower of the two ends all is cut already: a crescent beside it is left.
+// Only a crescent beside the lower of the two end positions is still uncut.
 void MachinedStock::sweep_flat(
     const Tool& tool, Vec3d from, Vec3d to, std::size_t begin, std::size_t end)
 {

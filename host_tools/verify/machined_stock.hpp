@@ -1,4 +1,4 @@
-// Material removal: the stock as a map of heights, and what each position of a tool takes from it.
+// Material removal: the stock as a height map, and the cut of each position of a tool.
 #pragma once
 
 #include <functional>
@@ -17,11 +17,11 @@ struct ToolPositions {
 };
 
 struct CutFigures {
-    double rapid_cut{};  // mm: the deepest that a rapid move cuts into stock
-    double cut_depth{};  // mm: the deepest that a feed move does
+    double rapid_cut{};  // mm: deepest cut of a rapid move into stock
+    double cut_depth{};  // mm: deepest cut of a feed move
 };
 
-// Calls progress(share done) now and then.
+// Called with the share done, from time to time.
 using Progress = std::function<void(double)>;
 
 // A Z-map of its own, not clearing::StockHeightMap, whose planners it judges: docs/decisions/0009.
@@ -29,11 +29,11 @@ class MachinedStock {
 public:
     MachinedStock(const HeightGrid& grid, double top);
 
-    // Removes what the tool sweeps, position by position; under a flat bottom with a sharp edge
-    // also what it takes between them.
+    // Removes the volume of the tool at each position; for a flat bottom with a sharp edge also its
+    // sweep between positions.
     //
-    // spacing  mm between positions: depths are measured with a tool that is smaller by what the
-    //          slivers between two positions can be high
+    // spacing  mm between positions: depths are measured with a tool reduced by the height of the
+    //          slivers between two positions
     CutFigures cut(const ToolPositions& positions, double spacing, const Progress& progress);
 
     const std::vector<double>& heights() const { return heights_; }
@@ -45,7 +45,7 @@ private:
                         std::size_t begin,
                         std::size_t end,
                         const Progress& progress);
-    // Returns how deep, mm. shrink: what the measuring tool is smaller by.
+    // Returns the depth, mm. shrink: reduction of the measuring tool, mm.
     double cut_at(
         const toolpath::Tool& tool, Vec3d tip, double shrink, std::size_t begin, std::size_t end);
     void sweep_flat(
@@ -54,7 +54,7 @@ private:
     HeightGrid grid_;
     double top_;
     std::vector<double> heights_;
-    std::vector<double> row_x_;  // mm: what a row's points lie beside their columns
+    std::vector<double> row_x_;  // mm: offset of a row's points from their columns
     std::vector<double> row_y_;  // mm: of rows in a column without a shift
 };
 

@@ -1,4 +1,4 @@
-// Walks each Bezier patch in small quads and solves for the grid points below each.
+// Divides each Bezier patch into small quads and solves for the grid points over each.
 #include "host_tools/verify/part_heights.hpp"
 
 #include <algorithm>
@@ -136,7 +136,7 @@ std::array<float, 2> lean_of(Vec3d normal)
     return {static_cast<float>(normal.x), static_cast<float>(normal.y)};
 }
 
-// Fills the columns [begin, end) of the grid below one quad.
+// Fills the columns [begin, end) of the grid over one quad.
 void fill(const Quad& quad,
           const Trims& trims,
           const HeightGrid& grid,
@@ -144,7 +144,7 @@ void fill(const Quad& quad,
           std::size_t end,
           PartHeights& heights)
 {
-    // a quad answers for points a little beyond it: its edges are not straight
+    // a quad includes points slightly beyond it, since its edges are not straight
     constexpr double kBeyond = 1.6;
     const double reach_x = kBeyond * (std::abs(quad.du.x) + std::abs(quad.dv.x));
     const double reach_y = kBeyond * (std::abs(quad.du.y) + std::abs(quad.dv.y));
@@ -183,7 +183,7 @@ void fill(const Quad& quad,
     }
 }
 
-// The same below one triangle.
+// Fills the grid over one triangle.
 void fill(const std::array<Vec3d, 3>& t, const HeightGrid& grid, PartHeights& heights)
 {
     constexpr double kUpright = 1e-9;  // z of the normal

@@ -1,4 +1,4 @@
-// The part seen from above: the upper envelope of its surfaces over a grid.
+// The part in plan: the upper envelope of its surfaces on a grid.
 #pragma once
 
 #include <array>
@@ -10,14 +10,13 @@
 namespace cusp::verify {
 
 struct PartHeights {
-    std::vector<double> z;                   // NaN where no surface lies
-    std::vector<double> cosine;              // of the slope there; 1 on flat ground
+    std::vector<double> z;                   // NaN where there is no surface
+    std::vector<double> cosine;              // of the slope; 1 where it is horizontal
     std::vector<std::array<float, 2>> lean;  // x and y of the upward normal
 };
 
-// Heights are roots of the surfaces' equations (Newton), not interpolated. Upright
-// surfaces have no height. Trims are honoured.
-// Triangles count as they are; upright ones have no height.
+// Heights are roots of the surfaces' equations (Newton's method), not interpolated; trims are
+// honoured. Triangles are exact. Vertical surfaces and triangles have no height.
 PartHeights part_heights(const std::vector<nurbs::Surface>& surfaces,
                          const std::vector<std::array<Vec3d, 3>>& triangles,
                          const HeightGrid& grid);
@@ -26,7 +25,7 @@ struct PartBox {
     double x_low, x_high, y_low, y_high, z_low, z_high;
 };
 
-// Of the surfaces' points, sampled, and of the triangles.
+// From samples of the surfaces, and all triangles.
 PartBox part_box(const std::vector<nurbs::Surface>& surfaces,
                  const std::vector<std::array<Vec3d, 3>>& triangles = {});
 

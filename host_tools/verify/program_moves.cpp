@@ -1,4 +1,4 @@
-// Feeds a program to gcode::Interpreter line by line, and samples what it yields.
+// Feeds a program to gcode::Interpreter line by line, and samples the resulting moves.
 #include "host_tools/verify/program_moves.hpp"
 
 #include <algorithm>
@@ -63,7 +63,7 @@ void append_piece(const path::BezierPiece& piece,
                   Vec3d start,
                   std::vector<Vec3d>& points)
 {
-    // the parameter runs unevenly: halve where neighbours are too far apart
+    // the parameter is not proportional to length: halve where neighbours are too far apart
     double length = 0;
     Vec3d last{};
     constexpr int kParts = 32;

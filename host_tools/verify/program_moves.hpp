@@ -1,5 +1,4 @@
-// A program as the moves that the controller's own interpreter makes of it, with the tool that
-// cuts.
+// A program as the moves of the controller's own interpreter, each with its tool.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +12,7 @@ namespace cusp::verify {
 
 struct ProgramMove {
     path::Move move;
-    int tool;  // the T word before it; 0 where there was none
+    int tool;  // the last T word before it; 0 if none
 };
 
 struct Program {
@@ -21,13 +20,13 @@ struct Program {
     toolpath::MoveCounts counts;  // a NURBS of many pieces counts once
 };
 
-// Machine coordinates are program coordinates: offsets are those of a fresh controller, whose
-// tool is at x = y = 0 and at `start_z`.
+// Machine coordinates are program coordinates: offsets are those of a fresh controller, with the
+// tool at x = y = 0 and at `start_z`.
 //
-// Errors: InputError that names the line and the controller's error.
+// Errors: InputError with the line and the controller's error.
 Program read_program(const std::string& file, double start_z);
 
-// Points of a move, at most `spacing` mm apart, the end included and the start not; mm.
+// Points of a move, mm, at most `spacing` apart; with its end, without its start.
 void append_points(const path::Move& move, double spacing, std::vector<Vec3d>& points);
 
 }  // namespace cusp::verify

@@ -1,5 +1,5 @@
-// Dilation by the tool, its rims between grid points included, gives the lowest tips, erosion by it
-// what they cut.
+// Dilation by the tool, rims between grid points included, gives the lowest tips; erosion by the
+// tool gives their cut.
 #include "host_tools/verify/reachable.hpp"
 
 #include <algorithm>
@@ -14,10 +14,10 @@ using toolpath::Tool;
 
 namespace {
 
-// A place of the tool's lower side: at a grid point, or on the way to the next one.
+// A point of the tool's lower side: at a grid point, or on a line to the next one.
 struct Place {
     std::ptrdiff_t i, j;
-    float height;  // over the tip
+    float height;  // above the tip
     std::ptrdiff_t step_i, step_j;
     float share;  // of the step
 };
@@ -37,9 +37,9 @@ std::vector<Place> points_under(const Tool& tool, double pitch)
     return places;
 }
 
-// Where circles of a tool's lower side cross the lines of the grid: the edge of its foot and its
-// rim. On a slope a flat end rests on its rim, up to a pitch farther out than the last grid point
-// under it.
+// Where circles of a tool's lower side cross the lines of the grid: the edge of its flat and its
+// rim. On a slope a flat end touches with its rim, up to a pitch outside the last grid point below
+// it.
 std::vector<Place> rims_of(const Tool& tool, double pitch)
 {
     std::vector<Place> rims;

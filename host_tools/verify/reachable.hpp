@@ -1,4 +1,4 @@
-// What a tool leaves at best: the part's heights closed by the tool.
+// Reachable height of a tool: the closing of the part's heights by the tool.
 #pragma once
 
 #include <vector>
@@ -8,11 +8,11 @@
 
 namespace cusp::verify {
 
-// heights    of the part over the grid; -infinity where there is none
-// forbidden  where the tool's axis may not be (not 0)
+// heights    of the part on the grid; -infinity where there is none
+// forbidden  nonzero where the tool's axis may not be
 //
-// Returns, per grid point, the lowest that the tool cuts when its tip goes everywhere it may
-// without cutting the part; +infinity where it can't come.
+// Returns, per grid point, the lowest cut of a tool whose tip goes to all allowed places without
+// gouging the part; +infinity where it cannot come.
 std::vector<float> lowest_reachable(const std::vector<float>& heights,
                                     const std::vector<char>& forbidden,
                                     const HeightGrid& grid,

@@ -1,4 +1,4 @@
-// Positions are kept in squares seen from above.
+// Positions are stored in squares in plan.
 #include "host_tools/verify/residual_thickness.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Thickness of the material that a program left over a place, measured the shortest way: a sliver
+// Thickness of the stock left at a point, measured as the shortest distance through it: a sliver
 // beside a cliff is high along the axis, and yet thin.
 #pragma once
 
@@ -12,11 +12,11 @@ namespace cusp::verify {
 
 class ResidualThickness {
 public:
-    // runs  all positions of the tools; they must outlive this
-    // top   of the uncut stock: positions from there on cut nothing
+    // runs  all positions of the tools; must outlive this
+    // top   of the uncut stock: positions above it cut nothing
     ResidualThickness(const std::vector<ToolPositions>& runs, double top);
 
-    // mm from a place in the material to the nearest position of a tool. Too high by at most the
+    // mm from a point in the stock to the nearest position of a tool. Too high by at most the
     // slivers between two positions.
     //
     // max_distance  mm: an upper bound of the result, as the height of material over the place

@@ -1,4 +1,4 @@
-// Where a tool can touch the place one drop suffices; else the lowest position is searched for.
+// Where a tool can touch the point, one drop suffices; else the lowest position is searched.
 #include "host_tools/verify/tool_access.hpp"
 
 #include <algorithm>
@@ -18,9 +18,9 @@ constexpr double kPitch = 0.125;        // radii, of the grid of drops
 constexpr double kDropAccuracy = 1e-4;  // mm
 constexpr double kAgrees = 3e-4;        // mm
 constexpr double kTouches = 1e-3;       // mm: nothing is lower than the floor
-// Beside cliffs samples seldom decide: after this many places in a row where they did not, they are
-// tried at every so many places only.
-constexpr int kInVain = 4;
+// Beside cliffs samples seldom decide. After this many consecutive failures they are used only at
+// every kAgain-th point.
+constexpr int kMostFailures = 4;
 constexpr int kAgain = 8;
 
 }  // namespace
@@ -106,7 +106,7 @@ double ToolAccess::lowest_over(Vec3d place, Vec3d normal, double resolution)
 {
     double lowest = kUnreached;
     for (Cutter& cutter : cutters_) {
-        // the position of a tool that touches the place
+        // the position of a tool that touches the point
         const double level = std::hypot(normal.x, normal.y);
         const double flat = cutter.tool.radius - cutter.tool.corner_radius;
         const double out = cutter.grown_tool.corner_radius + (level > 0 ? flat / level : 0.0);
@@ -114,16 +114,17 @@ double ToolAccess::lowest_over(Vec3d place, Vec3d normal, double resolution)
         const double touched =
             place.z + kTouches + (1 / std::max(normal.z, 0.05)) * path_clearance_;
         const double lower = std::min(resolution, lowest);
-        if (cutter.on_samples && (cutter.in_vain < kInVain || ++cutter.skipped % kAgain == 0)) {
-            // The first position that gets lower is enough to ask the floor itself.
+        if (cutter.on_samples &&
+            (cutter.failures < kMostFailures || ++cutter.skipped % kAgain == 0)) {
+            // The first lower position suffices: the floor itself then decides.
             const double sufficient = std::nextafter(lower, -kUnreached);
             const auto hoped = cutter.on_samples->lowest_over(place, lower, sufficient, touching);
             if (hoped && hoped->height >= lower) {
-                cutter.in_vain = 0;
+                cutter.failures = 0;
                 lowest = std::min(lowest, hoped->height);
                 continue;
             }
-            ++cutter.in_vain;
+            ++cutter.failures;
         }
         const auto answer = cutter.search->lowest_over(place, lower, touched, touching);
         if (answer) {

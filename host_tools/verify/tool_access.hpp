@@ -1,5 +1,5 @@
-// How low the tools get over single places of the floor, where the grid of heights is too coarse
-// for the verdict.
+// Reachable height of the tools over single points of the floor, where the grid of heights is too
+// coarse for the verdict.
 #pragma once
 
 #include <array>
@@ -15,14 +15,13 @@
 
 namespace cusp::verify {
 
-// Drops each tool on the surfaces themselves, improved from the best places of a grid an eighth of
-// the radius fine (`LowestPositionSearch`). Where a ball gets no lower on points of the floor
-// alone, it gets no lower on the surfaces, and these are left out. Not for use by two threads at
-// once.
+// Drops each tool on the surfaces, starting from the best places of a grid with a pitch of an
+// eighth of the radius (`LowestPositionSearch`). Where the samples of the floor alone prove that a
+// ball gets no lower, the surfaces are skipped. Not for use by two threads at once.
 class ToolAccess {
 public:
-    // samples   points of the floor
-    // path_clearance  mm: how far the tools have to stay off the floor
+    // samples         points of the floor
+    // path_clearance  mm: distance that the tools have to keep from the floor
     ToolAccess(const std::vector<nurbs::Surface>& surfaces,
                const std::vector<std::array<Vec3d, 3>>& mesh,
                const std::vector<toolpath::Tool>& tools,
@@ -32,10 +31,10 @@ public:
     ToolAccess(const ToolAccess&) = delete;  // its searches drop tools of its own
     ToolAccess& operator=(const ToolAccess&) = delete;
 
-    // Returns the height that the tools leave at best straight over the place; infinite where none
-    // can come. Accuracy 1e-3 mm, as far as the search finds the best position.
+    // The lowest height that the tools can leave vertically above or below the point; infinite
+    // where none can come. Accuracy 1e-3 mm, as far as the search finds the best position.
     //
-    // normal  of the floor there, unit, upward
+    // normal      of the floor there, a unit vector, upward
     // resolution  mm: heights above this may be inexact
     double lowest_over(Vec3d place, Vec3d normal, double resolution);
 
@@ -46,8 +45,8 @@ private:
         std::optional<drop_cutter::DropCutter> floor;
         std::optional<drop_cutter::LowestPositionSearch> search;
         std::optional<drop_cutter::LowestPositionSearch> on_samples;  // of a ball
-        int in_vain;  // places in a row where that did not decide
-        int skipped;  // places where it was left out then
+        int failures;  // consecutive points that it did not decide
+        int skipped;   // points that skipped it since
     };
     bool within_walls(const Cutter& cutter, double x, double y) const;
     drop_cutter::LowestPositionSearch::DroppedTool drop_on_samples(const Cutter& cutter,

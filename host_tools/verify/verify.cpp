@@ -24,12 +24,12 @@ using toolpath::ToolShape;
 
 namespace {
 
-constexpr double kDefaultPitch = 0.173;  // out of step with round path intervals
+constexpr double kDefaultPitch = 0.173;  // no simple ratio to common stepovers
 constexpr double kDefaultSpacing = 0.1;
 constexpr double kMostCells = 4e6;
-// Deeper than slivers and rounding: a rapid move that cuts.
+// Rapid moves that cut deeper than slivers and rounding.
 constexpr double kRapidCutAllowed = 0.005;
-// mm: the chords of walls and the map of heights are this good.
+// mm: accuracy of the chords of walls and of the height map.
 constexpr double kJudgement = 5e-4;
 // Share of the floor that may be above the scallop bound: the corners between loops.
 constexpr double kUncoveredAllowed = 0.01;
@@ -93,8 +93,8 @@ const Tool& tool_of(const Job& job, int number, const std::string& program)
     throw InputError(fmt::format("{}: T{} is no tool of the job {}", program, number, job.file));
 }
 
-// The tools that owe the scallop: a larger one that roughs before may come deeper into a valley
-// than they do. All that cut where no operation promises one.
+// The tools that have to leave the scallop: a larger roughing tool may cut deeper into a valley
+// than they can. All tools that cut if no operation has a scallop.
 std::vector<Tool> finishing_tools(const Job& job, const std::vector<ToolPositions>& runs)
 {
     std::vector<Tool> all;
@@ -123,7 +123,7 @@ ToolFigures& figures_of(const Tool& tool, VerifyFigures& figures)
     return figures.tools.back();
 }
 
-// Runs of positions, a new one at every change of tool; lengths on the way.
+// Runs of positions, a new one at every change of tool; adds up lengths.
 std::vector<ToolPositions> positions_of(const Job& job,
                                         const Program& program,
                                         const std::string& file,
@@ -140,7 +140,7 @@ std::vector<ToolPositions> positions_of(const Job& job,
         }
         const bool rapid = m.move.kind == path::MoveKind::kRapid;
         ToolPositions& run = runs.back();
-        if (k == 0) {  // where the tool comes from is not known
+        if (k == 0) {  // the machine's start position is unknown
             run.tips.push_back(to_millimetres(m.move.end));
         } else {
             const double length = path::length(m.move);
@@ -180,7 +180,7 @@ HeightGrid make_grid(const Job& job,
     return {box.x_low + used / 2, box.y_low + used / 2, used, count(width), count(height), true};
 }
 
-// How deep balls go into the part, by exact distances.
+// Depth of gouges by balls, by exact distances.
 std::optional<double> ball_gouge(const Scene& scene,
                                  const std::vector<ToolPositions>& runs,
                                  double top)
@@ -203,7 +203,7 @@ std::optional<double> ball_gouge(const Scene& scene,
     return deepest;
 }
 
-// The thickness that may be left anywhere, and its error between positions.
+// mm: the thickness that may be left anywhere, with the error between positions.
 double most_left(const Scene& scene, const std::vector<Tool>& tools, double spacing)
 {
     double least = tools.front().radius;
@@ -258,6 +258,32 @@ void judge(const Scene& scene, Verification& result)
     }
 }
 
+// Cuts the stock run by run; fills the figures of depths.
+void cut_stock(const std::vector<ToolPositions>& runs,
+               double spacing,
+               const Progress& progress,
+               MachinedStock& stock,
+               VerifyFigures& figures)
+{
+    for (const ToolPositions& run : runs) {
+        figures.tool_positions += run.tips.size();
+    }
+    std::size_t done = 0;
+    for (const ToolPositions& run : runs) {
+        const CutFigures cut = stock.cut(run, spacing, [&](double share) {
+            progress((static_cast<double>(done) + share * static_cast<double>(run.tips.size())) /
+                     static_cast<double>(figures.tool_positions));
+        });
+        done += run.tips.size();
+        figures.rapid_cut_max = std::max(figures.rapid_cut_max, cut.rapid_cut);
+        figures.cut_depth_max = std::max(figures.cut_depth_max, cut.cut_depth);
+        if (cut.cut_depth > 0) {
+            double& of_tool = figures_of(run.tool, figures).cut_depth_max;
+            of_tool = std::max(of_tool, cut.cut_depth);
+        }
+    }
+}
+
 }  // namespace
 
 Verification verify(const Job& job,
@@ -269,7 +295,7 @@ Verification verify(const Job& job,
     Verification result;
     result.bounds = {scene.floor_tolerance, scene.plan_tolerance, kRapidCutAllowed,
                      kUncoveredAllowed};
-    // from above, as far as any program starts, so that its first move is one
+    // high enough above any program's start that its first move descends
     constexpr double kStartAbove = 1000;
     result.program = read_program(program_file, job.stock_top + kStartAbove);
     VerifyFigures& figures = result.figures;
@@ -288,27 +314,13 @@ Verification verify(const Job& job,
 
     MachinedStock stock{result.grid, job.stock_top};
     const std::vector<Tool> tools = finishing_tools(job, runs);
-    double widest = 0;
-    for (const ToolPositions& run : runs) {
-        figures.tool_positions += run.tips.size();
-    }
-    std::size_t done = 0;
-    for (const ToolPositions& run : runs) {
-        const CutFigures cut = stock.cut(run, spacing, [&](double share) {
-            progress((static_cast<double>(done) + share * static_cast<double>(run.tips.size())) /
-                     static_cast<double>(figures.tool_positions));
-        });
-        done += run.tips.size();
-        figures.rapid_cut_max = std::max(figures.rapid_cut_max, cut.rapid_cut);
-        figures.cut_depth_max = std::max(figures.cut_depth_max, cut.cut_depth);
-        if (cut.cut_depth > 0) {
-            double& of_tool = figures_of(run.tool, figures).cut_depth_max;
-            of_tool = std::max(of_tool, cut.cut_depth);
-        }
-        widest = std::max(widest, run.tool.radius);
-    }
+    cut_stock(runs, spacing, progress, stock, figures);
     progress(1.0);
 
+    double widest = 0;
+    for (const ToolPositions& run : runs) {
+        widest = std::max(widest, run.tool.radius);
+    }
     std::vector<WallDistance> walls;
     for (const auto& [loop, outer] : scene.loops) {
         walls.emplace_back(loop, outer, widest + 2 * result.grid.pitch);

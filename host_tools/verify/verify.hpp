@@ -1,8 +1,9 @@
-// Cuts a job's stock with a program, in memory, and compares what is left with the part.
+// Verification: cuts a job's stock with a program in memory, and compares the stock left with the
+// part.
 //
 //     const Verification result = verify(job, "part.ngc", {}, [](double) {});
 //     for (const std::string& bound : result.broken) { fmt::print("broken: {}\n", bound); }
-//     result.figures.gouge_max;  // mm; result.left is the map of what is left
+//     result.figures.gouge_max;  // mm; result.left is the map of the stock left
 #pragma once
 
 #include <optional>
@@ -22,13 +23,13 @@ struct VerifySettings {
     std::optional<double> spacing;  // mm between tool positions; else 0.1, likewise
 };
 
-// Material left over the surface that the tools can cut.
+// Stock left over the surface that the tools can cut.
 struct ThickestLeft {
-    double thickness;  // mm, the shortest way through it
-    Vec3d place;       // as low as the tools get there
+    double thickness;  // mm, the shortest distance through it
+    Vec3d place;       // the lowest point that the tools can reach there
 };
 
-// What one tool of the program did.
+// Figures of one tool of the program.
 struct ToolFigures {
     toolpath::Tool tool;
     double cut_length{};  // mm
@@ -36,37 +37,37 @@ struct ToolFigures {
     double cut_depth_max{};
 };
 
-// All in mm, square to the surface where a surface is meant.
+// In mm; heights are along the normal.
 struct VerifyFigures {
     toolpath::MoveCounts moves;
     double cut_length{};
     double rapid_length{};  // without the program's first move
     std::size_t tool_positions{};
     std::size_t cells{};                   // of the floor that the tools reach
-    double gouge_max{};                    // cut below the surface, from the map of heights
-    std::optional<double> ball_gouge_max;  // the deepest a ball cuts, from exact distances
-    std::optional<double> wall_gouge_max;  // tool through a boundary or an island
-    std::optional<double> wall_left_max;   // beside walls, over what the tool can reach
+    double gouge_max{};                    // cut below the surface, from the height map
+    std::optional<double> ball_gouge_max;  // deepest gouge by a ball, from exact distances
+    std::optional<double> wall_gouge_max;  // deepest cut through a boundary or an island
+    std::optional<double> wall_left_max;   // beside walls, above the reachable height
     double rapid_cut_max{};
     double cut_depth_max{};
     std::vector<ToolFigures> tools;  // those that cut, in the order of their first cut
     double unreachable_share{};      // of the part, where no tool of the program fits
     double uncut_share{};
     std::optional<double> scallop_bound;
-    double scallop_max{};  // material left above the surface, or above what the tools can reach
+    double scallop_max{};  // stock left above the surface, or above the reachable height
     double scallop_p99{};
     double scallop_mean{};
     double left_volume{};                       // mm^3
-    std::optional<ThickestLeft> thickest_left;  // where it is more than scallop and tolerance
-    double uncovered_share{};                   // left above the scallop bound
+    std::optional<ThickestLeft> thickest_left;  // if it is more than scallop and tolerance
+    double uncovered_share{};                   // of the floor: left above the scallop bound
 };
 
 // The limits of the figures, mm. The error of the judgement is added to each.
 struct VerifyBounds {
     double floor_tolerance{};  // gouges of the floor
     double plan_tolerance{};   // gouges of walls
-    double rapid_cut{};        // the deepest that a rapid move may cut into stock
-    double uncovered_share{};  // of the floor, that may be above the scallop
+    double rapid_cut{};        // the deepest allowed cut of a rapid move
+    double uncovered_share{};  // allowed share of the floor above the scallop
 };
 
 struct Verification {
@@ -75,18 +76,18 @@ struct Verification {
     std::vector<std::string> broken;  // each bound that does not hold, in words; empty: all hold
     // for pictures
     HeightGrid grid;
-    std::vector<double> left;   // mm above what is reachable; NaN outside the floor, +inf uncut
+    std::vector<double> left;   // mm above the reachable height; NaN outside the floor, +inf uncut
     std::vector<double> gouge;  // mm cut below the part inside the walls; 0 where none is
     std::vector<double> part;   // z; NaN where there is none, the stock's top beyond walls
     Program program;
 };
 
-// The bounds are those of the job: gouge by the floor tolerances, walls by the plan tolerances, the
-// scallop of the last operation that names one on 99 % of the floor, and material no thicker than
-// that and the floor tolerance on all of it; a rapid move cuts nothing. Slivers beside cliffs may
-// be high, measured square to the floor, and yet thin.
+// The bounds are those of the job. Gouges: the floor tolerances. Walls: the plan tolerances.
+// Scallop: that of the last operation that has one, on 99 % of the floor. Thickness of the stock
+// left: that scallop and the floor tolerance, everywhere. Rapid moves: no cut. Slivers beside
+// cliffs may be high along the normal, and yet thin.
 //
-// Errors: InputError where the program can't be read or names a tool that the job lacks.
+// Errors: InputError if the program cannot be read or names a tool that the job lacks.
 Verification verify(const job::Job& job,
                     const std::string& program_file,
                     const VerifySettings& settings,

@@ -1,4 +1,4 @@
-// How far a point, seen from above, is from the wall along a loop.
+// Signed distance in plan of a point from the wall along a loop.
 #pragma once
 
 #include <cstddef>

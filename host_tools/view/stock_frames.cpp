@@ -80,6 +80,30 @@ HeightGrid coarse_grid(const HeightGrid& fine)
             false};
 }
 
+namespace {
+
+Bytes framed(const HeightGrid& grid,
+             double low,
+             double high,
+             const std::vector<double>& ticks,
+             const Bytes& planes)
+{
+    Bytes out;
+    out.put_u32(grid.nx);
+    out.put_u32(grid.ny);
+    out.put_u32(ticks.size() + 1);
+    for (const double value : {grid.x0, grid.y0, grid.pitch, low, high}) {
+        out.put_f64(value);
+    }
+    for (const double value : ticks) {
+        out.put_f64(value);
+    }
+    out.put(deflated(planes.text()));
+    return out;
+}
+
+}  // namespace
+
 Bytes stock_frames(const CuttingPath& path, const Job& job, const HeightGrid& grid)
 {
     const double high = job.stock_top;
@@ -128,18 +152,7 @@ Bytes stock_frames(const CuttingPath& path, const Job& job, const HeightGrid& gr
     if (left < each) {
         keep_frame(tick);
     }
-    Bytes out;
-    out.put_u32(grid.nx);
-    out.put_u32(grid.ny);
-    out.put_u32(ticks.size() + 1);
-    for (const double value : {grid.x0, grid.y0, grid.pitch, low, high}) {
-        out.put_f64(value);
-    }
-    for (const double value : ticks) {
-        out.put_f64(value);
-    }
-    out.put(deflated(planes.text()));
-    return out;
+    return framed(grid, low, high, ticks, planes);
 }
 
 }  // namespace cusp::view

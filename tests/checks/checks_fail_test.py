@@ -160,6 +160,28 @@ class ChecksOfTheTree(unittest.TestCase):
         self.write("docs/architecture.md", "| `firmware/base` | `vec.hpp` |\n| `firmware/path` | `arc.hpp` |\n")
         self.assertIn("firmware/path/arc.hpp does not exist", self.run_check("front_doors.py")[1])
 
+    def test_sizes_refuses_long_files_and_functions_and_private_parts_first(self):
+        self.assertEqual(self.run_check("sizes.py")[0], 2)
+        body = "\n".join(["    step();"] * 56)
+        function = "namespace cusp {\n\n%sint cut(int a,\n        int b)\n{\n" + body + "\n%s}\n\n}  // namespace cusp\n"
+        place = "host_tools/clearing/cut.cpp"
+        self.write(place, function % ("// Cuts.\n", ""))
+        self.assertEqual(self.run_check("sizes.py")[0], 0)
+        self.write(place, function % ("// Cuts.\n", "    step();\n"))
+        status, text = self.run_check("sizes.py")
+        self.assertEqual(status, 1)
+        self.assertIn(f"{place}:4: a function of 61 lines", text)
+        self.write(place, function % ("// Over 60 lines: a list of steps.\n", "    step();\n"))
+        self.assertEqual(self.run_check("sizes.py")[0], 0)
+        self.write("host_tools/clearing/ring.hpp", "class Ring {\npublic:\n    int of() const;\n\nprivate:\n    int of_;\n};\n")
+        self.assertEqual(self.run_check("sizes.py")[0], 0)
+        self.write("host_tools/clearing/ring.hpp", "class Ring {\n    int of_;\n\nprivate:\n    int at_;\n\npublic:\n};\n")
+        status, text = self.run_check("sizes.py")
+        self.assertEqual(status, 1)
+        self.assertIn("host_tools/clearing/ring.hpp:1: a class", text)
+        self.write("host_tools/clearing/ring.hpp", "// A ring.\n" * 501)
+        self.assertIn("501 lines; limit 500", self.run_check("sizes.py")[1])
+
     def test_glossary_refuses_a_noun_that_it_lacks(self):
         self.assertEqual(self.run_check("glossary.py")[0], 2)
         self.write("docs/glossary.md", "| word | meaning |\n| pencil pass, ring | along a wall |\n")

@@ -105,7 +105,7 @@ SURFACES = (
     (with_weight(1e6), "weight 3 is 1000000: the larger may be 1000 times"),
     ({"knotvector_u": [0, 0, 0, 1e-300, 1, 1, 1]}, "knotvector_u holds 0 4 times"),
     ({"knotvector_u": [0, 0, 0, 5e299, 1e300, 1e300, 1e300]}, "knotvector_u is 1e+300 long"),
-    ({"points": [[x, 10, z] for x in (0, 10, 20, 30) for z in (0, 10)]}, "every surface stands upright"),
+    ({"points": [[x, 10, z] for x in (0, 10, 20, 30) for z in (0, 10)]}, "every surface is vertical"),
     (with_point([1e300, 0, 0]), "control point 3 has x = 1e+300 mm, the limit is"),
     (with_point([0, float("inf"), 0]), "not JSON"),
     (with_point([0, 0, None]), "is not a number"),
@@ -329,12 +329,12 @@ class BadParts(unittest.TestCase):
     def test_an_undercut_is_left_standing(self):
         # it comes back below itself
         points = [[x, y, z] for x, z in ((0, 0), (24, 2), (24, 8), (8, 10)) for y in (0, 20)]
-        self.planned({"points": points}, JOB, "metal is left standing")
+        self.planned({"points": points}, JOB, "stock is left there")
 
     def test_a_valley_narrower_than_the_tool_is_left_standing(self):
         points = [[x, y, z] for x, z in ((0, 10), (14, -10), (16, -10), (30, 10)) for y in (0, 20)]
         self.planned({"points": points}, JOB.replace("diameter = 4", "diameter = 12"),
-                     "metal is left standing")
+                     "stock is left there")
 
     def test_what_a_mesh_keeps_is_told(self):
         # a narrow valley, and a roof over its side
@@ -344,7 +344,7 @@ class BadParts(unittest.TestCase):
         (self.folder / "valley.stl").write_bytes(binary_stl(facets))
         result = self.plan(JOB.replace("FLOOR", "valley.stl").replace("diameter = 4", "diameter = 12"))
         self.assertEqual(0, result.returncode, result.stdout)
-        self.assertIn("metal is left standing", result.stdout)
+        self.assertIn("stock is left there", result.stdout)
 
     def test_an_edge_that_is_one_point_is_a_pole(self):
         points = [[0, 10, 0], [0, 10, 0]] + FLOOR["control_points"]["points"][2:]

@@ -210,7 +210,7 @@ class Interrupted(ResumeTest):
             self.mill.command("power off")
             self.mill.command("power on")
         text = self.finish(self.interrupt(5.5, blink), 1, 20)
-        self.assertIn("started anew", text)
+        self.assertIn("restarted", text)
         self.finish(self.start("--resume", "--yes"), 0)
         self.judge()
 

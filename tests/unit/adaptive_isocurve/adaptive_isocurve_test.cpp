@@ -1,4 +1,4 @@
-// Whole plans, judged by the certified distance of dense places of the path.
+// Whole plans, judged by the certified distance of densely sampled points of the path.
 #include "host_tools/adaptive_isocurve/adaptive_isocurve.hpp"
 
 #include <cmath>
@@ -26,7 +26,7 @@ using namespace cusp::toolpath;
 
 namespace {
 
-// All that the path cuts.
+// All cuts of the path.
 SweptVolume swept_by(const Toolpath& path)
 {
     SweptVolume swept{path.tool.radius, path.tool.radius};
@@ -62,7 +62,7 @@ double deepest_cut(const Toolpath& path, const std::vector<Surface>& floor)
     return deepest;
 }
 
-// Of each run of cuts: its way from start to end, and its middle.
+// For each run of cuts: the vector from start to end, and its middle.
 std::vector<Vec3d> pass_middles(const Toolpath& path)
 {
     std::vector<Vec3d> out;
@@ -104,7 +104,7 @@ TEST(AdaptiveIsocurve, NeverEntersAModelOfSeveralSurfaces)
 
 TEST(AdaptiveIsocurve, LeavesNoSliverOverTheOpenRimOfAnUprightWall)
 {
-    // What a one-sided tolerance keeps off the wall would stand up to the stock's top otherwise.
+    // Otherwise a sliver as thick as the one-sided tolerance would remain up to the stock's top.
     const Job made = job_for({upright_rim()}, "adaptive_isocurve");
     const auto planned = plan_adaptive_isocurve(made, made.operations.front());
     const SweptVolume swept = swept_by(planned.front().path);
@@ -129,8 +129,7 @@ TEST(AdaptiveIsocurve, SaysWhatATwoSidedToleranceLeavesBesideEdges)
 
 TEST(AdaptiveIsocurve, RowsOverASlopedMeshReachItsRims)
 {
-    // The ball stands beyond the rims, the lower one along x and those along y, where it touches
-    // them.
+    // The ball is beyond the rims, the lower one along x and those along y, where it touches them.
     Job made = job_for({}, "adaptive_isocurve");
     Operation& slope = made.operations.front();
     const Vec3d a{0, 0, 0}, b{10, 0, 10};
@@ -143,14 +142,15 @@ TEST(AdaptiveIsocurve, RowsOverASlopedMeshReachItsRims)
         const Vec3d in = p + ((a + c) * 0.5 - p) * 1e-3;
         CHECK((swept.lowest(in.x, in.y).height - in.z) / tilt <= 0.2);
     }
-    // All passes are rows: none had to be added where they left metal.
+    // All passes are rows: no pass was added for stock left between them.
     CHECK(planned.stats.counts[2].first == "isocurves");
     DOUBLES_EQUAL(planned.stats.passes, planned.stats.counts[2].second, 0);
 }
 
 TEST(AdaptiveIsocurve, CutsThePoleOfABowlOnce)
 {
-    // A curve along the pole followed what rounding made of its normals, ten times the bowl's way.
+    // A curve along the pole followed the rounding of its normals, ten times the length of the
+    // bowl.
     Job made = job_for({bowl()}, "adaptive_isocurve");
     made.operations.front().tool.radius = made.operations.front().tool.corner_radius = 3;
     made.operations.front().floor_tolerance = 0.1;
@@ -175,7 +175,7 @@ TEST(AdaptiveIsocurve, KeepsTheScallopBesideARimThatTheBallPassesOutside)
     finish.direction = 'v';
     const auto planned = plan_adaptive_isocurve(bowl, finish).front();
     CHECK(planned.stats.scallop_bound_mm <= 0.1);
-    // What a ball could do that stands on the passes' floor, beyond the bowl's open side.
+    // The reach of a ball on the passes' floor beyond the bowl's open side.
     const PartModel model{finish.floor};
     Tool lifted = finish.tool;
     lifted.radius += 0.6 * finish.floor_tolerance;
@@ -213,7 +213,7 @@ TEST(AdaptiveIsocurve, KeepsTheScallopOverAGapThatAFloorIsSeenThrough)
         finish.direction = direction;
         const auto planned = plan_adaptive_isocurve(roof, finish).front();
         CHECK(planned.stats.scallop_bound_mm <= 0.1);
-        // A ball on both rims sinks between them: it may stand no higher than level with them.
+        // A ball on both rims drops between them: it may be no higher than level with them.
         const SweptVolume swept = swept_by(planned.path);
         for (double y = 0.6; y < 3.5; y += 0.05) {
             CHECK(swept.lowest(5, y).height <= -2.5 + 0.1);
@@ -223,7 +223,7 @@ TEST(AdaptiveIsocurve, KeepsTheScallopOverAGapThatAFloorIsSeenThrough)
 
 TEST(AdaptiveIsocurve, BoundsWhatPassesOfAGivenDistanceLeaveBesideEdges)
 {
-    // Two walls that meet in an edge under which no isocurve of either ends.
+    // Two walls that meet in an edge below which no isocurve of either ends.
     Job made = job_for({wall(0, -1), wall(1.05, 3)}, "adaptive_isocurve");
     made.operations.front().scallop.reset();
     made.operations.front().iso_distance = 0.5;
@@ -294,7 +294,7 @@ TEST(AdaptiveIsocurve, IsocurvesAreThoseOfTheApproximatedOffsetToItsBound)
     }
     CHECK_EQUAL(planned.stats.passes, static_cast<int>(exact));
     CHECK(bound <= 0.4 * operation.floor_tolerance);
-    // The ball stands the lift of 0.6 tolerances over the surface, to the bound.
+    // The ball is 0.6 tolerances above the surface, within the bound.
     const PartModel model{operation.floor};
     for (const ToolMove& move : planned.path.moves) {
         if (const NurbsTo* nurbs = std::get_if<NurbsTo>(&move.shape)) {
@@ -343,7 +343,8 @@ TEST(AdaptiveIsocurve, RetractsAfterEachPassOneWay)
     CHECK(planned.stats.retracts >= planned.stats.passes / 2);
 }
 
-// Climb: metal lies to the right of the way, so that passes follow each other to the right.
+// Climb milling: stock is to the right of the direction of travel, so each pass is to the right of
+// the one before.
 TEST(AdaptiveIsocurve, CutsOneWayInTheDirectionAskedFor)
 {
     operation.floor.pop_back();

@@ -11,7 +11,8 @@ using namespace cusp::nurbs;
 
 TEST_GROUP(CrossSectionTest){};
 
-// S_u is rounding at the pole of a ball: a curvature from that asked for endless numbers of passes.
+// At the pole of a ball S_u is rounding: a curvature from it would require endless numbers of
+// passes.
 TEST(CrossSectionTest, OfABallIsTheSameAtItsPole)
 {
     constexpr double kRadius = 12;
@@ -27,7 +28,7 @@ TEST(CrossSectionTest, OfABallIsTheSameAtItsPole)
     DOUBLES_EQUAL(kRadius, section.speed, 1e-12);
 }
 
-// And S_v where the poles are the ends of the curves.
+// The same for S_v where the poles are the ends of the curves.
 TEST(CrossSectionTest, KnowsNoCurvatureWhereAllCurvesMeet)
 {
     constexpr double kRadius = 12;

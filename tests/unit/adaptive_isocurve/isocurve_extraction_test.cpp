@@ -14,7 +14,7 @@ using namespace cusp::test;
 
 TEST_GROUP(IsocurveExtraction){};
 
-// Its first isocurve is its last, too: they are no distance apart, with all of the rod between.
+// Its first isocurve is also its last: their distance is 0, with all of the rod between.
 TEST(IsocurveExtraction, CompleteOnesGoAllTheWayRoundAClosedSurface)
 {
     constexpr double kRadius = 2;

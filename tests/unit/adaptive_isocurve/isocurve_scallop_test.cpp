@@ -1,11 +1,11 @@
-// Ridges on twisted and sheared patches against a ball that is stepped along both passes.
+// Scallops on twisted and sheared patches, compared with those of a ball stepped along both passes.
 #include "host_tools/adaptive_isocurve/isocurve_scallop.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-// Last: CppUTest redefines new, which the standard headers can not bear.
+// Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"
 
 namespace cusp::test {
@@ -23,7 +23,7 @@ constexpr int kPlaces = 120;     // along a strip
 constexpr int kAcross = 40;      // of it
 constexpr double kSteep = 1e-4;  // mm: of the steps
 
-// z = twist x y about the middle; the far side is `shear` mm farther along.
+// z = twist x y around the middle; the far side is shifted by `shear` mm.
 Surface patch(double twist, double shear)
 {
     Surface s;
@@ -41,7 +41,7 @@ Surface patch(double twist, double shear)
     return s;
 }
 
-// Most that the ball leaves between two passes, square to the surface.
+// The largest height left by the ball between two passes, along the normal.
 double stepped(const Surface& s, const DomainCurve& low, const DomainCurve& high)
 {
     std::vector<Vec3d> centres;
@@ -92,7 +92,7 @@ TEST_GROUP(IsocurveScallop){};
 
 TEST(IsocurveScallop, OnATwistedPatch)
 {
-    // the way of the centre turns away from the isocurve
+    // the direction of the centre differs from that of the isocurve
     for (const double twist : {0.02, 0.05, -0.05}) {
         compare(twist, 0, isocurve(0, 0.5, 0, 1), isocurve(0, 0.6, 0, 1));
         compare(twist, 0, isocurve(0, 0.05, 0, 1), isocurve(0, 0.13, 0, 1));
@@ -101,7 +101,7 @@ TEST(IsocurveScallop, OnATwistedPatch)
 
 TEST(IsocurveScallop, AtTheEndsOfPassesOnAShearedPatch)
 {
-    // places at the end of one pass are nearest to the other beyond its end
+    // points at the end of one pass are nearest to the other one beyond its end
     compare(0, 15, isocurve(0, 0.5, 0, 1), isocurve(0, 0.6, 0, 1));
     compare(0.03, -15, isocurve(0, 0.3, 0, 1), isocurve(0, 0.38, 0, 1));
 }
@@ -122,7 +122,7 @@ TEST(IsocurveScallop, BesidePassesThatBend)
 
 TEST(IsocurveScallop, BesideAPassThatTurnsAwayAtItsEnd)
 {
-    // its tangents run by near places that it never comes near to
+    // its tangents pass near places that it never comes near to
     DomainCurve low{0, {}, {}};
     DomainCurve high{0, {}, {}};
     for (int k = 0; k <= 40; ++k) {

@@ -1,4 +1,4 @@
-// What planes leave, judged by the path that was cut.
+// Stock left by parallel planes, from the path that was cut.
 #include "host_tools/adaptive_isocurve/parallel_planes.hpp"
 
 #include <cmath>
@@ -40,7 +40,7 @@ SweptVolume cut_by(const Toolpath& path)
     return swept;
 }
 
-// The most that stands over the surface, upright, its rims included.
+// The largest height left over the surface along the axis, its rims included.
 double most_over(const SweptVolume& swept, const Surface& s)
 {
     constexpr int kLooks = 150;
@@ -55,7 +55,7 @@ double most_over(const SweptVolume& swept, const Surface& s)
     return most;
 }
 
-// Hollow along x, hardly rounder than the ball of radius 2; its sides rise to 30 degrees.
+// Concave along x, with little more than the radius 2 of the ball; its sides rise to 30 degrees.
 Surface hollow()
 {
     constexpr double kRadius = 2.5;
@@ -83,7 +83,7 @@ TEST_GROUP(ParallelPlanes){};
 
 TEST(ParallelPlanes, KeepTheScallopInAHollow)
 {
-    // Centres are a fifth as far apart as the places touched.
+    // Centres are five times closer than contacts.
     Job job = job_for({hollow()}, "parallel_planes");
     job.operations.front().scallop = 0.05;
     const PlannedOperation planned = planes_over(job);
@@ -94,7 +94,7 @@ TEST(ParallelPlanes, KeepTheScallopInAHollow)
 
 TEST(ParallelPlanes, ReachTheRimsOfASlope)
 {
-    // Beyond which the ball stands.
+    // The ball is beyond these.
     const Surface slope = wall(9, 0);
     Surface flat = slope;
     for (Vec3d& p : flat.points) {
@@ -137,7 +137,8 @@ TEST(ParallelPlanes, RunOverTheTrianglesOfAMesh)
     DOUBLES_EQUAL(0, planned.stats.gouge_bound_mm, 1e-6);
 }
 
-// A part of metres took points a millimetre apart, one of a millimetre was looked at in two places.
+// Points were a millimetre apart on a part of metres, and a part of one millimetre had only two
+// samples.
 TEST(ParallelPlanes, TakeAsManyPointsHoweverLargeThePart)
 {
     const auto planned_at = [](double scale) {
@@ -175,7 +176,7 @@ TEST(ParallelPlanes, OverASpeckAreFew)
     try {
         CHECK(planes_over(job).stats.passes < 20);
     } catch (const InputError&) {
-        // it is no more than a place, and may be refused
+        // it is no larger than a point, and may be refused
     }
 }
 

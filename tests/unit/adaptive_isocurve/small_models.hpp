@@ -1,4 +1,4 @@
-// Surfaces of a few millimetres that are hard in some way, and jobs over them.
+// Surfaces of a few millimetres that are difficult in some way, and jobs over them.
 #pragma once
 
 #include <array>
@@ -40,7 +40,7 @@ inline nurbs::Surface wall(double x, double z)
     return s;
 }
 
-// A floor that bends up into a wall, upright at its open rim: x from 0 to 5, z from -5 to 0.
+// A floor that bends up into a wall, vertical at its open rim: x from 0 to 5, z from -5 to 0.
 inline nurbs::Surface upright_rim()
 {
     nurbs::Surface s;
@@ -55,8 +55,8 @@ inline nurbs::Surface upright_rim()
     return s;
 }
 
-// Level, with a trough along x that a ball of radius 2 does not fit into: only from beyond its ends
-// does the ball get lower there.
+// Horizontal, with a trough along x that is too narrow for a ball of radius 2: the ball gets lower
+// only beyond its ends.
 inline nurbs::Surface trough()
 {
     nurbs::Surface s;
@@ -101,7 +101,7 @@ inline nurbs::Surface bowl()
     return s;
 }
 
-// Open at y = 0, as wide as 4 mm: a ball of radius 3 reaches down into it from beyond that side.
+// Open at y = 0, and 4 mm wide: a ball of radius 3 reaches into it from beyond that side.
 inline nurbs::Surface half_bowl()
 {
     const double half = std::sqrt(0.5);
@@ -133,7 +133,7 @@ inline nurbs::Surface plane(Vec3d low, Vec3d high_y, Vec3d high_x, Vec3d high)
     return s;
 }
 
-// A roof, open by 0.6 mm along its ridge at x = 5, z = -2.5: through the gap a floor is seen.
+// A roof with a gap of 0.6 mm along its ridge at x = 5, z = -2.5: a floor is visible through it.
 inline std::vector<nurbs::Surface> open_roof()
 {
     return {plane({0, 0, -4.7}, {0, 4, -4.7}, {4.7, 0, -2.5}, {4.7, 4, -2.5}),

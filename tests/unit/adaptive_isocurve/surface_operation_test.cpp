@@ -1,4 +1,4 @@
-// What can't be planned is refused by name, value and limit.
+// Jobs that cannot be planned are refused with name, value and limit.
 #include "CppUTest/TestHarness.h"
 
 #include "host_tools/adaptive_isocurve/adaptive_isocurve.hpp"

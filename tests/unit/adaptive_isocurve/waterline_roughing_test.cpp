@@ -1,4 +1,4 @@
-// Depths of levels, and what smaller cutters take after larger ones.
+// Depths of levels, and what smaller cutters remove after larger ones.
 #include "host_tools/adaptive_isocurve/waterline_roughing.hpp"
 
 #include <cmath>
@@ -63,7 +63,7 @@ TEST(WaterlineRoughing, ASmallerCutterTakesOnlyWhatTheLargerOneCouldNotReach)
     CHECK_EQUAL(1, both.front().path.tool.number);
     CHECK_EQUAL(2, both.back().path.tool.number);
     CHECK(std::abs(cut_length(large.front()) - cut_length(both.front())) < 20);
-    // The channel is all that is left: 6 of 41 mm.
+    // Only the channel is left: 6 of 41 mm.
     CHECK(cut_length(both.back()) < 0.35 * cut_length(small.front()));
     for (const ToolMove& move : both.back().path.moves) {
         const Vec3d at = end_of(move);
@@ -113,7 +113,7 @@ TEST(WaterlineRoughing, DepthsAreEqualAndTheirRidgesKeepThemWithinMaxDepth)
     }
 }
 
-// 4.9 mm in levels of at most 2.5: a ball's ridges would make them three.
+// 4.9 mm in levels of at most 2.5: with the scallops of a ball there would be three.
 TEST(WaterlineRoughing, MinDepthLowersRidgesWhereLevelsWouldElseBeThinner)
 {
     const Job job = channel_job();
@@ -124,7 +124,7 @@ TEST(WaterlineRoughing, MinDepthLowersRidgesWhereLevelsWouldElseBeThinner)
     CHECK_EQUAL(2U, depths.heights.size());
     CHECK(depths.scallop_height > 0.04);
     CHECK(depths.thinnest + depths.scallop_height <= 2.5);
-    // Two levels of 2.6 would be deeper than max_depth: it goes before min_depth.
+    // Two levels of 2.6 would be deeper than max_depth, which has priority over min_depth.
     DOUBLES_EQUAL(5.2 / 3, rough_depths(job, operation, {kFlat3}, 0, -5.2).thinnest, 1e-9);
 }
 
@@ -158,7 +158,7 @@ TEST(WaterlineRoughing, RestPartsAreWhatLeavesTheClearedPlaces)
     CHECK_EQUAL(1U, rest_regions(runs, 8.0, {{&region, 2.0}}).size());
 }
 
-// A closed slot 6 mm wide in a plate: nothing for 10 mm.
+// A closed slot 6 mm wide in a plate, too narrow for 10 mm.
 TEST(WaterlineRoughing, WhereNoCutterFitsOnlyTheFinishIsPlanned)
 {
     Job job = channel_job();

@@ -1,5 +1,5 @@
-// Slices of offsets: they keep their distance everywhere, lie in each other, and are no smaller
-// than they must be.
+// Slices of offsets: they keep their distance everywhere, are nested, and are no smaller than
+// necessary.
 #include "host_tools/adaptive_isocurve/waterline_slices.hpp"
 
 #include <cmath>
@@ -46,7 +46,7 @@ SliceSettings settings(double keep) { return {keep, 0.005, 0.15, {-20, -20, 20, 
 }  // namespace
 
 TEST_GROUP(WaterlineSlices){
-    // Cells of the model are many: the count of allocations would take all the time.
+    // The model has many cells: counting allocations would take nearly all the time.
     void setup() override{MemoryLeakWarningPlugin::turnOffNewDeleteOverloads();
 }
 void teardown() override
@@ -98,7 +98,7 @@ TEST(WaterlineSlices, KeepTheirDistanceEverywhereAndLieInEachOther)
                     CHECK(contains(above, p));
                     CHECK(model.distance(tool, {p.x, p.y, z}, 1).distance >= 0.2 - 1e-7);
                 } else if (std::abs(p.x) < 19 && std::abs(p.y) < 19) {
-                    // What is left out is near to what may not be entered.
+                    // Omitted points are near to points that may not be entered.
                     CHECK(model.distance(tool, {p.x, p.y, z}, 1).distance <= 0.2 + 0.3);
                 }
             }

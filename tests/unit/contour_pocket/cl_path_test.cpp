@@ -6,7 +6,7 @@
 #include "host_tools/contour_pocket/station_row.hpp"
 #include "tests/support/holed_sheet.hpp"
 
-// Last: CppUTest redefines new, which the standard headers can not bear.
+// Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"
 
 namespace cusp::test {
@@ -65,7 +65,7 @@ ClPathSettings settings()
     return s;
 }
 
-// How high the path's tip stands over its lowest place, densely sampled.
+// Height of the path's tip above its lowest allowed position, densely sampled.
 double most_over(const ClPath& path, const DropCutter& floor)
 {
     double most = 0.0;
@@ -81,7 +81,7 @@ double most_over(const ClPath& path, const DropCutter& floor)
     return most;
 }
 
-// Of the path in plan, mm, as far as its tip stands over its lowest place by more than `over`.
+// mm: length of the path in plan where its tip is higher than that by more than `over`.
 double length_over(const ClPath& path, const DropCutter& floor, double over)
 {
     constexpr int kPlaces = 20;
@@ -132,8 +132,8 @@ TEST(ClPath, ARidgeBetweenLookupsIsFollowed)
     }
 }
 
-// A cliff beside the path is met by moves that stray from it: they are raised there, and not over
-// all of their length.
+// Moves that deviate from the path towards a cliff beside it are raised there, and not over all of
+// their length.
 TEST(ClPath, AMoveThatGrazesACliffIsRaisedOnlyThere)
 {
     constexpr int kCases = 40;
@@ -166,7 +166,7 @@ TEST(ClPath, AMoveThatGrazesACliffIsRaisedOnlyThere)
     CHECK(longest < 0.2 * kBall.radius);
 }
 
-// Into a hole and out of it: what is raised at its rim leaves the long moves beside it down.
+// Into a hole and out of it: moves raised at its rim leave the long moves beside it low.
 TEST(ClPath, LongMovesUpToARimStayDown)
 {
     const Tool ball{1, ToolShape::kBall, 2.0, 2.0};
@@ -193,8 +193,8 @@ TEST(ClPath, LongMovesUpToARimStayDown)
     CHECK(longest < 0.2 * ball.radius);
 }
 
-// Where a curve has too few places to go by: lines start and end where it would, and are nowhere
-// farther beside the way than it may be.
+// Where a curve has too few samples: lines start and end where it would, and are nowhere farther
+// from the path than allowed.
 TEST(ClPath, LinesInPlaceOfAShortCurveStayBesideTheWay)
 {
     const DropCutter tips{{hill(60.0, 0.0)}, kBall, kAccuracy};
@@ -226,8 +226,8 @@ TEST(ClPath, LinesInPlaceOfAShortCurveStayBesideTheWay)
     }
 }
 
-// Level and upright moves are for cliffs. On a steep floor without one, what lacks a micrometre is
-// raised by as much.
+// Horizontal and vertical moves are for cliffs. On a steep floor without one, a shortfall of a
+// micrometre gives a raise of a micrometre.
 TEST(ClPath, MovesUpASmoothSteepFloorStandNoMoreThanTheBandOverIt)
 {
     const Tool tools[] = {{1, ToolShape::kBall, 2.0, 2.0},
@@ -244,7 +244,7 @@ TEST(ClPath, MovesUpASmoothSteepFloorStandNoMoreThanTheBandOverIt)
             laying.arcs = i % 2 == 0;
             const ClPath path = drop_path({line_edge({x, 3.0}, {20.0 - x, 17.0})}, floor, laying);
             DOUBLES_EQUAL(0.0, path.least_clearance, 1e-9);
-            // beside its path a move stands as much higher as the floor falls there
+            // beside its path a move is higher by as much as the floor falls there
             CHECK(most_over(path, floor) <=
                   2.0 * (laying.height_tolerance + kSteepest * laying.plan_tolerance));
         }

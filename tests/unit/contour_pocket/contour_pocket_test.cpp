@@ -9,7 +9,7 @@
 #include "tests/support/refusal.hpp"
 #include "tests/support/test_jobs.hpp"
 
-// Last: CppUTest redefines new, which the standard headers can not bear.
+// Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"
 
 namespace cusp::test {
@@ -140,8 +140,8 @@ TEST(ContourPocket, TellsItsProgressThroughRoughingAndFinish)
     CHECK(progress.rises(0.3));
 }
 
-// How far cutting moves go down below all that came before at their place at most, looked at along
-// the moves.
+// The largest depth of cutting moves below all earlier cuts at their place, sampled along the
+// moves.
 double deepest_first_cut(const std::vector<PlannedOperation>& planned, double top)
 {
     std::map<std::pair<int, int>, double> metal;
@@ -212,7 +212,7 @@ TEST(ContourPocket, CutsValleysThatRoughingDoesNotReachInLayers)
     CHECK(deepest_first_cut(plan_contour_pocket(job(), operation), 0.0) <= 2.0 + 0.4);
 }
 
-// Roughing's loops leave terraces on a slope, each as high as the slope climbs between two loops.
+// Roughing loops leave terraces on a slope, each as high as the slope climbs between two loops.
 TEST(ContourPocket, CutsTheTerracesThatRoughingLeavesInLayers)
 {
     Operation operation = pocket();

@@ -33,7 +33,7 @@ Surface floor_of(int n, const Height& height)
     s.knots_v = s.knots_u;
     for (int i = 0; i < n; ++i) {
         for (int j = 0; j < n; ++j) {
-            // The points of a straight net stand at the knots' averages.
+            // The points of a straight net are at the averages of knots.
             const auto at = [&](int k) {
                 const auto first = s.knots_u.begin() + k + 1;
                 return kSide * ((first[0] + first[1] + first[2]) / (3.0 * (n - 3)) - 0.5);
@@ -54,8 +54,8 @@ Region2d square(double half)
     return {{{line_edge(a, b), line_edge(b, c), line_edge(c, d), line_edge(d, a)}}};
 }
 
-// What stands between two square loops, as a share of what may; all of it is made of moves that
-// keep to their paths.
+// The scallop between two square loops, as a share of the allowed height, if all moves follow their
+// paths exactly.
 double share(const Surface& floor, const Tool& tool, double cusp, double step)
 {
     ToleranceSplit tolerances;
@@ -74,7 +74,7 @@ TEST_GROUP(LoopScallop){};
 TEST(LoopScallop, KnowsTheCuspOfALevelFloor)
 {
     const Surface level = floor_of(4, [](double, double) { return -3.0; });
-    // In the loop's corners a way ends farther from both.
+    // In the loop's corners a cross line ends farther from both.
     const double apart = plan_stepover(6.0, 0.4, 0.0, 0.0);
     CHECK(share(level, kBall, 0.4, apart / std::sqrt(2.0)) < 1.01);
     CHECK(share(level, kBall, 0.4, 1.1 * apart) > 1.2);
@@ -90,7 +90,8 @@ TEST(LoopScallop, SeesAValleyBetweenTwoPasses)
 TEST(LoopScallop, SeesTheStepsOfAFlatEndMill)
 {
     const Surface slope = floor_of(4, [](double x, double) { return 0.5 * x; });
-    // Two passes across a slope leave a step of the interval's rise, square to the floor.
+    // Two passes across a slope leave a step as high as the slope over a stepover, along the
+    // normal.
     const double step = 0.1 * std::sqrt(1.25) / 0.5;
     const double found = share(slope, kFlat, 0.1, step);
     DOUBLES_EQUAL(1.0, found, 0.1);
@@ -143,7 +144,7 @@ TEST(HeightBounds, ProveTheIntervalOfALevelFloor)
     DOUBLES_EQUAL(half, proven_reach(6.0, 0.4, {0.0, 0.0, 0.0}), 1e-6);
 }
 
-// The formula is for circles, which bend more beside their lowest place than a parabola does.
+// The formula is for circles, which curve more beside their lowest point than a parabola.
 TEST(HeightBounds, ProveNearlyTheIntervalOfABentFloor)
 {
     for (const double rho : {-12.0, -50.0, 20.0, 50.0}) {
@@ -170,8 +171,8 @@ TEST(LoopScallop, LowRidgesOfAFlatEndAreKnownToBeLow)
     CHECK(low < 0.6);
 }
 
-// Down a furrow that it does not fit into a flat end leaves steps as high as the furrow falls from
-// pass to pass.
+// Down a valley that is too narrow for it a flat end leaves steps as high as the valley falls
+// between passes.
 TEST(LoopScallop, StepsThatAFlatEndLeavesDownAFurrowCount)
 {
     const Tool flat{1, ToolShape::kFlat, 2.0, 0.0};

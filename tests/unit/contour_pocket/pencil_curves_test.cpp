@@ -1,4 +1,4 @@
-// Where the tip stands lowest at one place, from which no line leads on.
+// The tip lowest at a single place, with no line from it.
 #include "host_tools/contour_pocket/pencil_curves.hpp"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 #include "tests/support/holed_sheet.hpp"
 
-// Last: CppUTest redefines new, which the standard headers can not bear.
+// Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"
 
 namespace cusp::test {
@@ -21,7 +21,7 @@ namespace {
 
 TEST_GROUP(PencilCurves){};
 
-// Over holes that the ball only sinks into, wherever the search's grid lies.
+// Over holes narrower than the ball, for any position of the search's grid.
 TEST(PencilCurves, AWayGoesThroughTheBottomOfADimple)
 {
     constexpr unsigned kSeed = 5;

@@ -1,4 +1,4 @@
-// Where a patch that lies askew over a floor ends, and the tool comes down beside it.
+// The end of a patch at an angle over a floor, and drops of the tool beside it.
 #include "host_tools/drop_cutter/drop_cutter.hpp"
 
 #include <array>
@@ -9,7 +9,7 @@
 #include "host_tools/offset/contour.hpp"
 #include "tests/support/plates.hpp"
 
-// Last: CppUTest redefines new, which the standard headers can not bear.
+// Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"
 
 namespace cusp::test {
@@ -33,7 +33,7 @@ Surface level_patch(double along, double across, double angle, double z)
 
 struct Step {
     Tool tool;
-    double reach;  // from the patch, seen from above, to the axis where the tool comes down
+    double reach;  // in plan: from the patch to the axis of the dropped tool
 };
 
 const Step kSteps[] = {
@@ -124,7 +124,7 @@ TEST(DropCutter, OfARingDoesNotCoverWhatIsInside)
     CHECK(std::abs(place->x) + std::abs(place->y) < 4);
 }
 
-// More than it holds of what was halved: it begins anew, and says the same.
+// More halves than it keeps: it starts again, with equal results.
 TEST(DropCutter, ManyQuestionsDoNotFillTheMemory)
 {
     constexpr double kAccuracy = 1e-8;

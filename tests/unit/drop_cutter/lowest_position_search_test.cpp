@@ -1,5 +1,5 @@
-// The lowest position of a tool over places that it can't touch, against the best of positions
-// tried one by one, and closed forms.
+// The lowest position of a tool over points that it cannot touch, compared with the best of
+// positions tried one by one, and with closed forms.
 #include "host_tools/drop_cutter/lowest_position_search.hpp"
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "host_tools/drop_cutter/drop_cutter.hpp"
 
-// Last: CppUTest redefines new, which the standard headers can not bear.
+// Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"
 
 using namespace cusp;
@@ -36,9 +36,8 @@ LowestPositionSearch search_over(const DropCutter& floor, const Tool& tool, doub
             }};
 }
 
-// The least that any of many positions leaves over the place.
-// Positions that only graze the place count for nothing: there heights turn on the floor's
-// accuracy.
+// The least height that any of many positions leaves at the point. Positions that only graze the
+// point do not count: their heights depend on the floor's accuracy.
 double least_tried(const DropCutter& floor, const Tool& tool, Vec3d place, double pitch)
 {
     constexpr double kCovered = 0.9999;
@@ -59,7 +58,7 @@ double least_tried(const DropCutter& floor, const Tool& tool, Vec3d place, doubl
 
 TEST_GROUP(LowestPositionSearch){};
 
-// In a furrow between planes of slope 1 and 2 the ball's middle is where both distances are R.
+// In a valley between planes of slope 1 and 2 the ball's centre is where both distances are R.
 TEST(LowestPositionSearch, FindsTheBallOnBothSidesOfAFurrow)
 {
     const std::vector<Surface> furrow{facet({-10, -10, 10}, {-10, 10, 10}, {0, -10, 0}, {0, 10, 0}),
@@ -92,7 +91,8 @@ TEST(LowestPositionSearch, ATouchedPlaceTakesOneDropAtTheGuess)
     LONGS_EQUAL(1, drops);
 }
 
-// Two twisted sheets with a gap between them that the tools sink into, cliffs at both sides.
+// Two twisted sheets with a gap between them that is too narrow for the tools, cliffs on both
+// sides.
 TEST(LowestPositionSearch, IsNoHigherThanTheBestOfManyPositions)
 {
     constexpr unsigned kSeed = 71;
@@ -121,10 +121,10 @@ TEST(LowestPositionSearch, IsNoHigherThanTheBestOfManyPositions)
                     "seed " + std::to_string(kSeed) + " round " + std::to_string(round) + " tool " +
                     std::to_string(tool.number) + ": " +
                     std::to_string(answer ? answer->height : 0) + " > " + std::to_string(tried);
-                // a flat end's rim is a stair to every search
+                // a flat end's rim is a step to every search
                 const double near = tool.corner_radius > 0 ? 1e-3 : 5e-3;
                 CHECK_TEXT(answer && answer->height <= tried + near, where.c_str());
-                // and the tool really gets there
+                // and the tool really reaches it
                 const double tip = answer->centre.z - tool.corner_radius;
                 CHECK(tip >= floor.tip_height({answer->centre.x, answer->centre.y}) - 1e-3);
             }
@@ -132,8 +132,8 @@ TEST(LowestPositionSearch, IsNoHigherThanTheBestOfManyPositions)
     }
 }
 
-// A steep sheet between level ones: on it and beside its rims little but the ball's flank gets down
-// to a place.
+// A steep sheet between level ones: on it and beside its rims usually only the ball's side reaches
+// a point.
 TEST(LowestPositionSearch, FindsWhereOnlyTheFlankOfTheBallGetsLower)
 {
     constexpr unsigned kSeed = 12;

@@ -1,5 +1,4 @@
-// Beside the rim of a hole: how low the tool may stand and how much room its moves keep, by brute
-// force.
+// Beside the rim of a hole: heights of drops and clearances of moves, compared with brute force.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -10,7 +9,7 @@
 #include "host_tools/part_model/trim_region.hpp"
 #include "tests/support/holed_sheet.hpp"
 
-// Last: CppUTest redefines new, which the standard headers can not bear.
+// Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"
 
 namespace cusp::test {
@@ -25,9 +24,9 @@ namespace {
 constexpr double kAccuracy = 2e-3;
 constexpr double kHole = 0.25;
 constexpr double kRadius = 3.0;
-constexpr double kAround = 7.5;  // mm: the rim's way from the middle, about
+constexpr double kAround = 7.5;  // mm: distance of the rim from the middle, about
 
-// Places of the floor: a grid, and the rim twenty times as dense.
+// Samples of the floor: a grid, and the rim twenty times as dense.
 std::vector<Vec3d> places_of(const std::vector<Surface>& floor)
 {
     constexpr double kOnRim = 0.01;  // mm
@@ -97,7 +96,7 @@ TEST_GROUP(TrimmedFloor)
 
 TEST(TrimmedFloor, HoldsEveryToolAtItsRim)
 {
-    constexpr double kBetween = 2e-3;  // mm: what places let through
+    constexpr double kBetween = 2e-3;  // mm: error by the distance of samples
     for (const Tool& tool :
          {Tool{1, ToolShape::kBall, kRadius, kRadius}, Tool{1, ToolShape::kBull, kRadius, 1.0},
           Tool{1, ToolShape::kFlat, kRadius, 0.0}}) {
@@ -111,7 +110,7 @@ TEST(TrimmedFloor, HoldsEveryToolAtItsRim)
     }
 }
 
-// Moves that slide over the rim touch it all their way: they are looked at without being halved.
+// Moves that slide over the rim touch it all along: they are examined without being halved.
 TEST(TrimmedFloor, TellsTheRoomOfMovesOverItsRim)
 {
     const Tool ball{1, ToolShape::kBall, kRadius, kRadius};
@@ -130,7 +129,7 @@ TEST(TrimmedFloor, TellsTheRoomOfMovesOverItsRim)
     }
 }
 
-// The sheet is the top of metal: a ball on the plate can not reach under the rim.
+// The sheet is the top of solid material: a ball on the plate cannot reach below the rim.
 TEST(TrimmedFloor, LeavesNoWayUnderItsRim)
 {
     const Tool ball{1, ToolShape::kBall, kRadius, kRadius};
@@ -153,7 +152,8 @@ TEST(TrimmedFloor, LeavesNoWayUnderItsRim)
     CHECK(under > 20);
 }
 
-// Where it falls off the rim the ball stands its radius away from it, to where the rim is known.
+// Where the floor ends at the rim the ball is its radius away from the rim, within the rim's
+// accuracy.
 TEST(TrimmedFloor, EndsAtASmoothRim)
 {
     const Tool ball{1, ToolShape::kBall, kRadius, kRadius};

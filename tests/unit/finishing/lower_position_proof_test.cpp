@@ -1,5 +1,5 @@
-// Whether a ball gets lower over places of rough and of smooth meshes, against a ball let down on a
-// fine grid round each.
+// Whether a ball gets lower over points of rough and of smooth meshes, compared with a ball dropped
+// on a fine grid around each.
 #include "host_tools/finishing/lower_position_proof.hpp"
 
 #include <array>
@@ -8,7 +8,7 @@
 #include <optional>
 #include <random>
 
-// Last: CppUTest redefines new, which the standard headers can not bear.
+// Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"
 
 using namespace cusp;
@@ -25,7 +25,7 @@ constexpr double kFine = 0.06;
 
 using Mesh = std::vector<std::array<Vec3d, 3>>;
 
-// Triangles of `pitch` over a bowl, each corner off it by chance.
+// Triangles of size `pitch` over a bowl, each corner displaced at random.
 Mesh rough_bowl(double pitch, double noise, std::mt19937& random)
 {
     std::normal_distribution<double> off{0, noise};
@@ -62,7 +62,7 @@ struct Ground {
         double height;
         Vec3d centre;
     };
-    // What a ball of a fine grid leaves at least over (x, y), and its middle.
+    // The least height that a ball of a fine grid leaves at (x, y), and its centre.
     Lowest lowest(double x, double y) const
     {
         Lowest best{1e300, {}};
@@ -84,7 +84,7 @@ struct Ground {
     std::optional<GougeFreePathFitter> path_fitter;
 };
 
-// How many of the places are told to have no lower ball just under the lowest of the grid.
+// Number of points without a lower ball just below the lowest of the grid, by the proof.
 int told_places(double pitch, double noise, int places, std::mt19937& random)
 {
     const Ground ground{rough_bowl(pitch, noise, random)};
@@ -98,7 +98,7 @@ int told_places(double pitch, double noise, int places, std::mt19937& random)
         for (const double over : {-0.03, -0.01, -1e-4, 1e-4, 0.003, 0.01, 0.03}) {
             const LowerPositionProof::Verdict answer =
                 lower.verdict_over({x, y, best.height + over}, best.centre);
-            // A ball of the grid is one; one that is none of it is not much lower.
+            // A ball of the grid is lower; one that is not of the grid is not much lower.
             CHECK_TRUE(over < 0 || answer != LowerPositionProof::Verdict::kNone);
             CHECK_TRUE(over > -0.03 || answer != LowerPositionProof::Verdict::kOne);
             proved += over == -0.03 && answer == LowerPositionProof::Verdict::kNone ? 1 : 0;
@@ -117,7 +117,8 @@ TEST(LowerPositionProof, NoBallIsLowerWhereItSaysSoAndMostlyItDoes)
     std::mt19937 random{seed};
     std::printf("seed %u\n", seed);
     constexpr int kPlaces = 12;
-    // The ball stands on few points of the rough one; smooth ground bars as much from everywhere.
+    // On the rough mesh the ball touches few points; on smooth ground contacts block directions
+    // everywhere.
     CHECK_TRUE(told_places(1.0, 0.1, kPlaces, random) > kPlaces / 2);
     CHECK_TRUE(told_places(0.4, 0.1, kPlaces, random) > kPlaces / 2);
     told_places(0.5, 0.0, kPlaces, random);

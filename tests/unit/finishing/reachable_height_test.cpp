@@ -1,5 +1,5 @@
-// How low a ball gets beside a rim over a floor, touching it or kept off it, against all places
-// across the rim.
+// How low a ball gets beside a rim over a floor, touching it or kept off it, compared with all
+// positions across the rim.
 #include "host_tools/finishing/reachable_height.hpp"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 #include "firmware/base/math.hpp"
 
-// Last: CppUTest redefines new, which the standard headers can not bear.
+// Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"
 
 using namespace cusp;
@@ -23,7 +23,7 @@ constexpr double kRadius = 2;
 constexpr double kTolerance = 0.02;
 constexpr double kFloor = -1;
 constexpr double kAccuracy = 1e-4;
-constexpr double kClose = 2e-3;  // mm: what a search may miss
+constexpr double kClose = 2e-3;  // mm: allowed error of a search
 
 Surface plate(Vec3d low, Vec3d high, Vec3d along)
 {
@@ -47,8 +47,8 @@ struct Step {
         path_fitter.check_edge_gouges(surfaces);
     }
 
-    // z of the ball's middle, on the model and, if wanted, off the rim: as far as the face's depth
-    // allowed, square to the face, wants it.
+    // z of the ball's centre on the model and, if requested, clear of the rim by the face's allowed
+    // depth, along its normal.
     double middle(double x, bool kept_off) const
     {
         double z = kFloor + kRadius;
@@ -114,7 +114,7 @@ TEST(ReachableHeight, GetsAsLowBesideARimAsAnyPlaceAcrossIt)
             CHECK(!reach.lowest_clear_of_edges(place, *near, kept - kClose));
             const auto answer = reach.lowest_clear_of_edges(place, *near, kept + kClose);
             CHECK(answer && answer->height <= kept + kClose);
-            // It is where the passes may go.
+            // Passes may go there.
             CHECK(norm(step.path_fitter.moved_clear_of_edges({answer->tip}).front() - answer->tip) <
                   1e-6);
         }

@@ -1,9 +1,9 @@
-// Cells of surfaces that nothing has cut yet.
+// Cells of surfaces that are not yet cut.
 #include "host_tools/finishing/scallop_check.hpp"
 
 #include <cmath>
 
-// Last: CppUTest redefines new, which the standard headers can not bear.
+// Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"
 
 using namespace cusp;
@@ -31,7 +31,7 @@ Surface plate()
 
 TEST_GROUP(ScallopCheck){};
 
-// All of a bare plate in the smallest cells would be five million.
+// In the smallest cells an uncovered plate would have five million of them.
 TEST(ScallopCheck, CutsBareGroundWithoutHalvingItToTheLast)
 {
     constexpr double kScallop = 0.02;

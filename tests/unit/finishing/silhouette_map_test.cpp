@@ -1,11 +1,11 @@
-// What lies under a lying half pipe's side, a hair's breadth from its edge as seen from above.
+// Points below the side of a horizontal half pipe, very near to its silhouette.
 #include "host_tools/finishing/silhouette_map.hpp"
 
 #include <cmath>
 #include <utility>
 #include <vector>
 
-// Last: CppUTest redefines new, which the standard headers can not bear.
+// Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"
 
 using namespace cusp;

@@ -1,4 +1,4 @@
-// The lowest free place over a point against every move tried by many balls along it.
+// The lowest free place over a point, compared with every move as many balls along it.
 #include "host_tools/finishing/swept_volume.hpp"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-// Last: CppUTest redefines new, which the standard headers can not bear.
+// Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"
 
 using namespace cusp;
@@ -59,7 +59,7 @@ TEST(SweptVolume, LeaveWhatTheLowestOfAllBallsLeaves)
             const double found = swept.lowest(x, y).height;
             if (std::isfinite(by_balls)) {
                 CHECK(found <= by_balls + 1e-9);
-                // At the edge of a ball a step between balls of 0.01 mm counts many times.
+                // At the edge of a ball a step of 0.01 mm between balls has a large effect.
                 CHECK(found > by_balls - 0.3);
             }
         }
@@ -76,7 +76,7 @@ TEST(SweptVolume, LeaveNothingFreeBesideThem)
     DOUBLES_EQUAL(3, swept.lowest(5, 2).height, 1e-6);
 }
 
-// Over a wall the metal that may stand straight above a place is beside the shank, not the ball.
+// Over a wall, stock straight above a point is beside the shank, not the ball.
 TEST(SweptVolume, RemoveWhatTheShankPasses)
 {
     constexpr unsigned kSeed = 70;

@@ -1,4 +1,4 @@
-// No cut is deeper than max_depth, beside cliffs and under them too; what stands is known.
+// No cut is deeper than max_depth, beside cliffs and below them too; the stock height is known.
 #include <utility>
 
 #include "CppUTest/TestHarness.h"
@@ -32,7 +32,7 @@ Surface level(const Box2d& box, double z)
     return s;
 }
 
-// A table with upright sides, 7 mm over a level floor.
+// A table with vertical sides, 7 mm above a level floor.
 Operation beside_a_cliff()
 {
     Operation operation;
@@ -56,7 +56,7 @@ TEST(DepthLimiter, StockIsMetAtTheToolsLowerSide)
     DOUBLES_EQUAL(0, metal.contact_height({0, 0}), 0.05);
     DOUBLES_EQUAL(2, metal.cut({-8, 0, -2}, {8, 0, -2}), 0.05);
     DOUBLES_EQUAL(-2, metal.contact_height({0, 0}), 0.05);
-    // Beside the groove of the ball its rim still meets the top.
+    // Beside the groove of the ball its rim still meets the stock's top.
     CHECK(metal.contact_height({0, 2}) > -0.5);
     DOUBLES_EQUAL(0, metal.cut({-8, 0, -2}, {8, 0, -2}), 1e-9);
     DOUBLES_EQUAL(1, metal.cut({-8, 0, -3}, {8, 0, -3}), 0.05);
@@ -69,7 +69,7 @@ TEST(DepthLimiter, HoldsBesideACliffThatTheAllowanceStandsOn)
     const auto plan = plan_grid_pocket(plain_job(), operation);
     CHECK(count_of(plan[0], "deepest_cut_mm") <= 1.5);
     CHECK(count_of(plan[0], "depth_passes") > 0);
-    // Only of what stays beside the table.
+    // Only from the stock left beside the table.
     LONGS_EQUAL(1, plan[0].stats.warnings.size());
     STRCMP_CONTAINS("the floor steps by ", plan[0].stats.warnings[0].c_str());
 }

@@ -1,4 +1,4 @@
-// The order of cells: the paper's priorities, and what it costs to leave dead ends.
+// The order of cells: the paper's priorities, and the cost of leaving dead ends.
 #include "host_tools/grid_pocket/grid_navigation.hpp"
 
 #include <cstdio>

@@ -196,7 +196,7 @@ TEST(GridPlan, NamesAGridThatKeepsTheRoughness)
     operation.boundary = kSmall;
     operation.max_roughness = 0.02;
     const std::string text = refusal(operation);
-    CHECK(text.find("would do") != std::string::npos);
+    CHECK(text.find("suffices") != std::string::npos);
     const std::size_t from = text.find("; grid ") + 7;
     operation.grid_x = std::stod(text.substr(from));
     operation.grid_y = std::stod(text.substr(text.find(" x ", from) + 3));

@@ -1,4 +1,4 @@
-// Chords stay in their band, at places and between them.
+// Chords stay in their band, at samples and between them.
 #include "host_tools/grid_pocket/profile_fit.hpp"
 
 #include <algorithm>

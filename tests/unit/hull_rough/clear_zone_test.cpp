@@ -1,4 +1,4 @@
-// Where the axis may stand, against distances by brute force.
+// Allowed positions of the axis, compared with distances by brute force.
 #include "host_tools/hull_rough/clear_zone.hpp"
 
 #include <cmath>
@@ -91,7 +91,7 @@ TEST(ClearZone, CoversEveryStretchOfEveryLineOnce)
     }
     double level = 0;
     for (const Chain& chain : zigzag_chains(zone, layout)) {
-        // Stretches stand between the links; a link that runs level only goes back over its line.
+        // Lines along y link the stretches; a horizontal link only goes back over its line.
         for (std::size_t i = 1; i < chain.size(); ++i) {
             level += chain[i].y == chain[i - 1].y ? std::abs(chain[i].x - chain[i - 1].x) : 0;
         }

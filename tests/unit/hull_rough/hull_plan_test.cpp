@@ -51,8 +51,8 @@ public:
         }
     }
 
-    // Cuts with a flat tool along a move. Less than the radius is cut for depth: slivers between
-    // looked-at places are no metal.
+    // Cuts with a flat tool along a move. Depth is measured with a slightly smaller tool: slivers
+    // between sampled places are no stock.
     void cut(const Tool& tool, MoveKind kind, Vec3d a, Vec3d b)
     {
         const int steps = static_cast<int>(std::ceil(std::hypot(b.x - a.x, b.y - a.y) / 0.4)) + 1;
@@ -73,7 +73,7 @@ public:
         return sum;
     }
 
-    // How far a tip at `z` over any looked-at surface point would cut into it.
+    // Depth of a gouge by a tip at `z` over any sampled surface point.
     double deepest_gouge(const Tool& tool, Vec3d tip) const
     {
         double deepest = 0;

@@ -1,4 +1,5 @@
-// Bare spots of a layer: found where a line is missing, none where lines and outlines are whole.
+// Uncovered spots of a layer: found where a line is missing, none where lines and outlines are
+// complete.
 #include "host_tools/hull_rough/layer_coverage.hpp"
 
 #include "CppUTest/TestHarness.h"

@@ -111,7 +111,7 @@ TEST(Offset, GrowsARegionWithRoundedCorners)
     DOUBLES_EQUAL(100.0 + 4 * 20.0 + kPi * 4.0, total_area(result), 1e-9);
 }
 
-// An arc that rounding has left a direction but no length turned points far from it inside out.
+// An arc that by rounding had a direction but no length turned points far from it inside out.
 TEST(Offset, AnArcWithoutLengthChangesNoPointsSide)
 {
     Contour square = rectangle(0, 0, 20, 20);

@@ -1,4 +1,4 @@
-// Moves of a ball past the rim of a level plate, against what they take off it seen from above.
+// Moves of a ball past the rim of a level plate, compared with what they remove from it in plan.
 #include "host_tools/part_model/edge_gouge_check.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 constexpr double kRadius = 2;
 constexpr double kDeepest = 0.005;
 constexpr double kBand = 0.0045;
-constexpr double kPieces = 5e-5;  // radii that edges in pieces count for more
+constexpr double kPieces = 5e-5;  // radii: error of edges as polylines
 
 // 10 by 10 mm, its upper side at z = 0.
 Surface plate()
@@ -29,7 +29,7 @@ Surface plate()
     return s;
 }
 
-// How far a ball whose tip is at `tip` reaches below the rim x = 0.
+// Depth of a ball with its tip at `tip` below the rim x = 0.
 double below_rim(Vec3d tip)
 {
     const double square = kRadius * kRadius - tip.x * tip.x;
@@ -44,7 +44,7 @@ TEST(EdgeGougeCheck, MovesTheBallThatPassesTheRimFromBeside)
 {
     const EdgeGougeCheck guard{{plate()}, kRadius, kDeepest};
     for (const double beside : {0.3, 1.0, 1.7, 1.95}) {
-        // Half the tolerance in, square to the ball: far more off the plate.
+        // A gouge of half the tolerance along the ball's normal removes far more of the plate.
         const double centre = std::sqrt(std::pow(kRadius - kDeepest, 2) - beside * beside);
         const Vec3d from{-beside, 1, centre - kRadius};
         const Vec3d to{-beside, 9, centre - kRadius};
@@ -74,7 +74,7 @@ TEST(EdgeGougeCheck, FindsTheRimBetweenTwoFarPlaces)
     }
 }
 
-// The ball's middle is under the plate, its shank passes the rim.
+// The ball's centre is below the plate; its shank passes the rim.
 TEST(EdgeGougeCheck, KeepsTheShankOffARimOverTheBall)
 {
     const EdgeGougeCheck guard{{plate()}, kRadius, kDeepest};
@@ -101,7 +101,7 @@ TEST(EdgeGougeCheck, RaisesTheBallBesideTheRimUntilItNeedsNoPush)
         const Vec3d raised = guard.raised_clear(tip, kBand).tip;
         CHECK(raised.x == tip.x && raised.y == tip.y && raised.z >= tip.z);
         DOUBLES_EQUAL(0, norm(guard.moved_clear({raised}, kBand).front() - raised), 1e-6);
-        // No higher than it has to be.
+        // No higher than necessary.
         if (raised.z > tip.z) {
             CHECK(norm(guard.moved_clear({raised - Vec3d{0, 0, 1e-4}}, kBand).front() -
                        (raised - Vec3d{0, 0, 1e-4})) > 0);

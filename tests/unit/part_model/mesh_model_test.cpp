@@ -1,4 +1,4 @@
-// Meshes against dense samples of their triangles.
+// Meshes compared with dense samples of their triangles.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -36,7 +36,8 @@ std::vector<Triangle> random_triangles(std::mt19937& random, int count)
     return out;
 }
 
-// Of samples: the least distance from the core, a disc and all above it; high by their spacing.
+// From samples: the least distance from the core, a disc and all above it; too high by their
+// spacing.
 double sampled_clearance(const std::vector<Triangle>& triangles, const Tool& tool, Vec3d tip)
 {
     constexpr int kParts = 60;
@@ -96,7 +97,7 @@ TEST(MeshModel, BallRestsOnTheHighestPlaceThatItTouches)
         ++rests;
         DOUBLES_EQUAL(kBall.radius, norm(rest->centre - rest->point), 1e-9);
         DOUBLES_EQUAL(0, model.distance(kBall, {x, y, *z}, 1).distance, 1e-8);
-        // From there upward it is free all the way.
+        // Above that it is clear everywhere.
         for (double up = 0.1; up < 12; up += 0.7) {
             CHECK(model.distance(kBall, {x, y, *z + up}, 1).distance > 0);
         }

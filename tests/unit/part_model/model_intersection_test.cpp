@@ -1,4 +1,4 @@
-// What is left of plates and domes under each other.
+// Intersections of plates and domes.
 #include "host_tools/part_model/model_intersection.hpp"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include "host_tools/part_model/trim_region.hpp"
 #include "tests/support/plates.hpp"
 
-// Last: CppUTest redefines new, which the standard headers can not bear.
+// Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"
 
 namespace cusp::test {
@@ -103,7 +103,7 @@ TEST(ModelIntersection, AModelOfSeveralSurfacesIsTheirUnion)
 
 TEST(ModelIntersection, ANarrowStripIsFound)
 {
-    // a ridge 0.1 mm wide at the plate's height, oblique to the looks
+    // a ridge 0.1 mm wide at the plate's height, oblique to the samples
     Surface ridge;
     ridge.degree_u = 1;
     ridge.degree_v = 2;
@@ -120,7 +120,7 @@ TEST(ModelIntersection, ANarrowStripIsFound)
     }
     const auto left = intersection_of({{plate(0, 3, 20, 20, 0)}, {ridge}});
     LONGS_EQUAL(2, left.size());
-    // z = 4.0002 (v - 0.5)^2 - 0.00005; what is 0.00001 higher counts as the same
+    // z = 4.0002 (v - 0.5)^2 - 0.00005; differences of 0.00001 count as equal
     DOUBLES_EQUAL(2 * std::sqrt(0.00006 / 4.0002), area(left[1]), 3e-5);
 }
 

@@ -1,4 +1,4 @@
-// Approximated offsets: the bound is what samples never exceed, and isocurves are those of the
+// Approximated offsets: samples never exceed the bound, and isocurves are those of the
 // approximation.
 #include "host_tools/part_model/offset_surface.hpp"
 

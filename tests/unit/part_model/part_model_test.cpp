@@ -1,4 +1,4 @@
-// Clearance and drop against planes, cylinders and dense samples, whose answers are known.
+// Clearance and drop over planes, cylinders and dense samples, with known results.
 #include "host_tools/part_model/part_model.hpp"
 
 #include <algorithm>
@@ -140,7 +140,8 @@ TEST(PartModelDistance, AgreesWithDenseSamplesOnRandomSurfaces)
     }
 }
 
-// What is asked for between two bounds is told within the slack; below and above, on which side.
+// Results between the two limits are accurate within the resolution; below and above, only the side
+// is known.
 TEST(PartModelDistance, WithinBoundsIsTheExactOneLessTheSlack)
 {
     constexpr unsigned kSeed = 8;
@@ -179,7 +180,8 @@ TEST(PartModelDistance, PassesThroughATrimmedHole)
     DOUBLES_EQUAL(-2, model.distance(kBall, {2, 2, 1 - 3.0}, 10).distance, 1e-6);
 }
 
-// Below the hole's rim and over it, near the middle too, where all of the rim is about as far.
+// Below the hole's rim and above it, near the middle too, where all of the rim is about equally
+// far.
 TEST(PartModelDistance, AgreesWithDenseSamplesRoundATrimmedHole)
 {
     constexpr unsigned kSeed = 5;
@@ -224,7 +226,7 @@ TEST(PartModelDistance, AgreesWithDenseSamplesRoundATrimmedHole)
 TEST(PartModelDistance, AlongAMoveIsBoundedFromBelow)
 {
     const PartModel model{{plane(0)}};
-    // Dives from 1 mm over the plane to 1 mm under it.
+    // Descends from 1 mm above the plane to 1 mm below it.
     const double bound = model.move_clearance(kBall, {5, 5, 1}, {9, 5, -1}, 0, 1e-4);
     CHECK(bound <= -1 + 1e-9);
     CHECK(bound >= -1 - 1e-3);
@@ -275,7 +277,7 @@ TEST(PartModelDistance, OfARollingBallIsBoundedFromBelowOnRandomSurfaces)
 
 TEST(PartModelDistance, OfARollingBallIsNotProvedWhereItCutsAnotherPlace)
 {
-    // A slot whose walls are nearer than the ball is wide: two planes that meet in a valley.
+    // A slot narrower than the ball: two planes that meet in a valley.
     Surface left = plane(-1);
     Surface right = plane(1);
     for (Vec3d& p : right.points) {
@@ -288,6 +290,19 @@ TEST(PartModelDistance, OfARollingBallIsNotProvedWhereItCutsAnotherPlace)
     CHECK(!model.move_clearance_between_contacts(deep, deep, 3, 0));
     CHECK(!model.move_clearance_between_contacts(high, deep, 3, 0));
     CHECK(model.move_clearance_between_contacts(high, high, 3, -1e-9).has_value());
+}
+
+// The model's data of the last contacts refers to cells, which are released.
+TEST(PartModelDistance, OfAMoveBetweenContactsIsTheSameAfterCellsAreForgotten)
+{
+    const PartModel model{{plane(1)}};
+    const CcPoint a = model.cc_point(0, 0.3, 0.5, 3);
+    const CcPoint b = model.cc_point(0, 0.35, 0.5, 3);
+    const std::optional<double> before = model.move_clearance_between_contacts(a, b, 3, -0.05);
+    CHECK(before.has_value());
+    model.forget_cells();
+    const std::optional<double> after = model.move_clearance_between_contacts(a, b, 3, -0.05);
+    CHECK(before == after);
 }
 
 TEST_GROUP(PartModelDrop){};
@@ -341,7 +356,7 @@ TEST(PartModelDrop, MissesBesideTheModel)
     CHECK_FALSE(model.drop_height(kBall, 30, 10).has_value());
 }
 
-// From above, the tool is hardly off the upper plane's rim all the way down.
+// From above, the tool is hardly off the upper plane's rim all along.
 TEST(PartModelDrop, PassesAnUprightRimThatItHardlyMisses)
 {
     Surface upper = plane(0);

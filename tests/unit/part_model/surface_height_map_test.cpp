@@ -1,4 +1,4 @@
-// A tube and a holed sheet, seen from above.
+// A tube and a holed sheet in plan.
 #include "host_tools/part_model/surface_height_map.hpp"
 
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "tests/support/holed_sheet.hpp"
 #include "tests/support/tube.hpp"
 
-// Last: CppUTest redefines new, which the standard headers can not bear.
+// Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"
 
 namespace cusp::test {
@@ -45,7 +45,7 @@ TEST(SurfaceHeightMap, IsFoundBesideTheSilhouette)
         const double at = kRadius - beside;
         const auto height = heights.at(at, 12.3);
         CHECK(height.has_value());
-        // the root is told in x to 1e-7 mm
+        // the root is accurate in x to 1e-7 mm
         DOUBLES_EQUAL(std::sqrt(kRadius * kRadius - at * at), *height, 2e-7 * kRadius / beside);
     }
     CHECK(!heights.at(kRadius + 1e-5, 12.3));

@@ -5,7 +5,7 @@
 
 #include "tests/support/plates.hpp"
 
-// Last: CppUTest redefines new, which the standard headers can not bear.
+// Last: CppUTest redefines new, which breaks standard headers included after it.
 #include "CppUTest/TestHarness.h"
 
 namespace cusp::test {
@@ -74,7 +74,7 @@ Surface bent_sheet()
 }
 
 TEST_GROUP(TrimRegion){
-    // A place of each curve, and a way to its left.
+    // A point of each curve, and a direction to its left.
     template <class Check>
     void along_edges(const Surface& surface, const Check& check){for (const std::vector<Curve>& loop
                                                                       : surface.trims){
@@ -89,7 +89,7 @@ check(in_plan(p.point), left*(1.0 / norm(left)));
 }
 }
 
-// All that stays by the loops is inside, and little more.
+// All points kept by the loops are inside, and little more.
 void check_region(const Surface& surface)
 {
     const TrimRegion region{surface, kEdgeError};

@@ -1,4 +1,4 @@
-// Settings files: what is read, and how bad ones are refused.
+// Settings files: what is read, and how invalid ones are refused.
 #include "host_tools/simulate/settings_file.hpp"
 
 #include "CppUTest/TestHarness.h"

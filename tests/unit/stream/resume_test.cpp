@@ -1,4 +1,4 @@
-// Where a program can be taken up again, and the lines that lead there.
+// Where a program can be resumed, and the lines that lead there.
 #include <string>
 #include <vector>
 

@@ -1,4 +1,4 @@
-// ScriptedTransport: a controller made of a function, for tests of the streamer.
+// ScriptedTransport: a controller given by a function, for tests of the streamer.
 #pragma once
 
 #include <deque>
@@ -11,10 +11,10 @@
 
 namespace cusp::test {
 
-// Behaves as Grbl does at its simplest: answers ok to each line, reports as told.
+// Minimal Grbl: answers ok to each line, reports as scripted.
 class ScriptedTransport : public stream::Transport {
 public:
-    // What a line is answered with.
+    // The answer to a line.
     std::function<std::string(const std::string&)> answer = [](const std::string&) {
         return std::string{"ok\r\n"};
     };
@@ -22,10 +22,10 @@ public:
         return std::string{};
     };
     std::string state{"Idle"};
-    // A byte is answered no sooner than this many reads later.
+    // A byte is answered at the earliest this many reads later.
     int delay{0};
     bool gone{false};
-    // Bytes that write() takes at once.
+    // Bytes that write() accepts at once.
     std::size_t mouthful{1000};
 
     std::vector<std::string> lines;

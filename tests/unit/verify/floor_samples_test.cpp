@@ -1,4 +1,4 @@
-// A ball let down on points of a dome, against the ball on the dome.
+// A ball dropped on points of a dome, compared with the ball on the dome.
 #include "host_tools/verify/floor_samples.hpp"
 
 #include <cmath>
@@ -45,7 +45,7 @@ TEST(FloorSamples, StopTheBallAtAPointOfTheFloorHardlyLowerThanTheFloorDoes)
         const LowestPositionSearch::DroppedTool rest = samples.drop_ball(kBall, x, y);
         const double exact = std::sqrt((kDome + kBall) * (kDome + kBall) - x * x - y * y);
         CHECK(rest.centre.z <= exact + 1e-9);
-        // What lies between points, more of it upright where the dome is steep.
+        // The error between points is larger along the axis where the dome is steep.
         const double upright = exact / (kDome + kBall);
         const double apart = kPitch / upright;
         CHECK(rest.centre.z >= exact - apart * apart * (1 / kBall + 1 / kDome) / upright);

@@ -1,4 +1,4 @@
-// Programs as moves: what is read, and which file and line is blamed.
+// Programs as moves: what is read, and the file and line of errors.
 #include "host_tools/verify/program_moves.hpp"
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Verdicts on paths whose faults are known: a parallel path over a plane and a cylinder's inside,
-// then the same path lowered, widened, and with a rapid move through metal.
+// Verdicts on paths with known faults: a parallel path over a plane and the inside of a cylinder,
+// then the same path lowered, widened, and with a rapid move through stock.
 #include "host_tools/verify/verify.hpp"
 
 #include <cmath>
@@ -91,7 +91,7 @@ TEST(Verify, TellsWhatEachToolCut)
     const std::string second = "[[tool]]\nshape = \"flat\"\ndiameter = 8\nnumber = 7\n";
     const Job job = read_job(folder.with("job.toml", "[[tool]]" + kJob.substr(7) + second));
     // a groove of the flat end 2 mm deep, and one of the ball 4.5 mm deep
-    // the job's first tool stands for the moves before the first T word, which cut nothing
+    // the job's first tool is used for the moves before the first T word, which cut nothing
     const std::string program =
         "G21 G90\nG0 Z5\nT7\nG0 X5 Y10\nG1 Z-2 F1000\nG1 X25\nG0 Z5\nT1\nG0 X5 Y3\nG1 Z-4.5\n"
         "G1 X20\nG0 Z5\nT7\nG0 X10\nG1 Z4\nG0 Z5\nM30\n";
@@ -103,7 +103,7 @@ TEST(Verify, TellsWhatEachToolCut)
     LONGS_EQUAL(1, ball.tool.number);
     LONGS_EQUAL(7, flat.tool.number);
     DOUBLES_EQUAL(2, flat.cut_depth_max, 0.01);
-    // between what its shank meets and what stands over it a position (0.1 mm) further in
+    // between the stock that its shank meets and the stock over a position (0.1 mm) further in
     CHECK(ball.cut_depth_max > 4.5 - 3);
     CHECK(ball.cut_depth_max < 4.5 - (3 - std::sqrt(9 - 2.9 * 2.9)));
     DOUBLES_EQUAL(7 + 20 + 1, flat.cut_length, 1e-6);
@@ -119,7 +119,7 @@ TEST(Verify, MeasuresThePathThatIsTooLow)
     CHECK(!result.broken.empty());
 }
 
-// Of so many places not all are settled.
+// Of so many points not all are settled.
 TEST(Verify, TellsAProgramThatLeavesMuchEverywhere)
 {
     settings.pitch = 0.07;
@@ -134,9 +134,9 @@ TEST(Verify, AllowsGougesBelowTheTolerance)
     LONGS_EQUAL(0, verdict(passes(-5.01, 1)).broken.size());
 }
 
-// A flat end that climbs straight up a plane of slope 1 rests on its rim all the way: little stands
-// where it went. Then one that goes as deep as it fits into a furrow between two such planes: what
-// stands over the bottom is out of its reach.
+// A flat end that climbs straight up a plane of slope 1 touches with its rim all along and leaves
+// little stock. Then one that goes as deep as it fits into a valley between two such planes: it
+// cannot reach the stock over the bottom.
 TEST(Verify, KnowsWhereTheRimOfAFlatEndCutsOnASlope)
 {
     const auto floor = [](const std::string& along, const std::string& points) {
@@ -167,7 +167,7 @@ TEST(Verify, KnowsWhereTheRimOfAFlatEndCutsOnASlope)
     }
     const VerifyFigures plane = judged(climbs);
     DOUBLES_EQUAL(0.0, plane.gouge_max, 1e-3);
-    // the rim comes this much short of the floor half way between passes
+    // half way between passes the rim is this far above the floor
     CHECK(plane.scallop_max <= (1.0 - std::sqrt(1.0 - 0.1 * 0.1)) * std::sqrt(0.5) + 1e-3);
 
     folder.with("floor.json", floor(R"("size_u": 3, "knotvector_u": [0, 0, 0.5, 1, 1])",
@@ -186,10 +186,10 @@ TEST(Verify, KnowsWhereTheRimOfAFlatEndCutsOnASlope)
     DOUBLES_EQUAL(0.0, furrow.uncovered_share, 0.0);
 }
 
-// A slot a little narrower than the ball between two level sheets. All that the ball can do over
-// the slot's floor is to sink between the rims; the map of heights misses those by half a pitch,
-// and lets it fall through. (The floor ends where the ball does not come from beyond the slot's
-// ends.) Without the passes in the middle metal is left.
+// A slot slightly narrower than the ball between two level sheets. Over the slot's floor the ball
+// can only drop between the rims; the height map misses those by half a pitch, and lets it fall
+// through. (The floor ends where the ball cannot come from beyond the slot's ends.) Without the
+// passes in the middle stock is left.
 TEST(Verify, KnowsHowLowABallSinksBetweenTwoRims)
 {
     const auto sheet = [](double x0, double x1, double y0, double y1, double z) {
@@ -240,7 +240,7 @@ TEST(Verify, AsksForNoCutWhereOnlyTheScallopStandsAtFirst)
     CHECK(!verdict(idle, "[stock]\ntop = -4.7\n").broken.empty());
 }
 
-// A pass that is lifted over 2.5 mm of its way: less than a hundredth of the floor.
+// A pass that is raised over 2.5 mm of its length: less than a hundredth of the floor.
 TEST(Verify, RefusesOnePlaceThatWasLeftOut)
 {
     folder.with("plane.json", kPlane);
@@ -257,15 +257,15 @@ TEST(Verify, RefusesOnePlaceThatWasLeftOut)
     STRCMP_CONTAINS("left_thickness_mm", result.broken.front().c_str());
     STRCMP_CONTAINS("is over 0.2", result.broken.front().c_str());
     CHECK(result.figures.thickest_left.has_value());
-    // the ball came within 1.25 mm of the middle of what was left out
+    // the ball came within 1.25 mm of the middle of the omitted part
     DOUBLES_EQUAL(std::sqrt(9 + 1.25 * 1.25) - 3, result.figures.thickest_left->thickness, 0.03);
     DOUBLES_EQUAL(15.25, result.figures.thickest_left->place.x, 0.3);
     DOUBLES_EQUAL(8, result.figures.thickest_left->place.y, 0.8);
     DOUBLES_EQUAL(-5, result.figures.thickest_left->place.z, 0.021);
 }
 
-// A path that keeps 0.01 mm farther off an upright wall than it has to leaves a sliver as high as
-// the wall. (That goes on beyond the floor, else the ball would come from there.)
+// A path that keeps 0.01 mm farther from a vertical wall than necessary leaves a sliver as high as
+// the wall. (The wall extends beyond the floor, else the ball would come from there.)
 TEST(Verify, RefusesNoSliverThinnerThanTheTolerance)
 {
     const auto level = [](int x0, int x1, int y0, int y1, int z) {
