@@ -145,6 +145,10 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     if (cleared.passes.empty()) {
         return result;
     }
+    const double bottom = lowest_tip(cleared, floor) + operation.allowance;
+    if (operation.layers.empty() && bottom >= job.stock_top) {
+        return result;
+    }
     CutSettings settings;
     settings.entry = operation.entry;
     settings.wall_clearance = clearing.wall_clearance;
@@ -167,7 +171,6 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
         cut_depth->begin(rough.tool);
     }
     const int each = cleared.leaves + static_cast<int>(operation.islands.size());
-    const double bottom = lowest_tip(cleared, floor) + operation.allowance;
     double above = job.stock_top;
     const std::vector<double> heights =
         layer_heights(job, operation, bottom, std::max(0.1 * depth, depth - step.scallop_height));

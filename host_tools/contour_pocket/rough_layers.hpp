@@ -10,9 +10,9 @@
 namespace cusp::contour_pocket {
 
 struct RoughResult {
-    toolpath::PlannedOperation operation;  // without moves where the tool fits nowhere
-    std::vector<double> heights;  // z of the layers, from the top; none where it fits nowhere
-    double wall_clearance{};      // mm: least distance of the tool's centre from the walls
+    toolpath::PlannedOperation operation;  // without moves where nothing is to be roughed
+    std::vector<double> heights;           // z of the layers, from the top; none without moves
+    double wall_clearance{};               // mm: least distance of the tool's centre from the walls
     double left{};  // mm over the floor at most, where the floor is level: allowance and scallops
 };
 

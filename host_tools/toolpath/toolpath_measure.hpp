@@ -37,6 +37,12 @@ struct MachineRates {
 // straight way as long; the simulator knows the time to the tick.
 PathMeasure measure(const Toolpath& path, Vec3d start, const MachineRates& rates = {});
 
+// Length of the parts of all feed moves at which the tip is above z, mm; curves by chords within
+// 0.01 mm.
+//
+// start  where the tool is before the path's first move
+double cut_length_above(const Toolpath& path, Vec3d start, double z);
+
 // Points of a move from `start`, chords within `tolerance` mm of it, the end included and the start
 // not.
 std::vector<Vec3d> points_of(const ToolMove& move, Vec3d start, double tolerance);
