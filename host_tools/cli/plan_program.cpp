@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "host_tools/cli/share_progress.hpp"
+#include "host_tools/cli/simulated_times.hpp"
 #include "host_tools/cli/stock_warning.hpp"
 #include "host_tools/cli/strategies.hpp"
 #include "host_tools/files/files.hpp"
@@ -24,6 +25,7 @@ using job::Job;
 using job::Operation;
 using job::PocketRefusal;
 using toolpath::MachineRates;
+using toolpath::PathMeasure;
 using toolpath::PlannedOperation;
 using toolpath::ProgramForm;
 
@@ -84,10 +86,28 @@ Plan plan_job(Job& job, const MachineRates& rates, std::FILE* said)
     return plan;
 }
 
-std::string program_of(const Job& job,
-                       const std::string& title,
-                       double blend,
-                       const Plan& plan)
+// Programs of days keep the times of `measure`: a day of the machine takes a minute.
+void put_simulated_times(const std::string& program,
+                         const std::vector<std::size_t>& begins,
+                         Plan& plan)
+{
+    constexpr double kLongest = 12 * 3600;  // s
+    double measured = 0;
+    for (const PathMeasure& measure : plan.measures) {
+        measured += measure.estimated_s;
+    }
+    if (measured > kLongest) {
+        return;
+    }
+    if (const auto seconds = simulated_times(program, begins)) {
+        for (std::size_t i = 0; i < plan.measures.size(); ++i) {
+            plan.measures[i].estimated_s = (*seconds)[i];
+        }
+    }
+}
+
+// The G-code; puts the times into the plan that it takes on the controller.
+std::string program_of(const Job& job, const std::string& title, double blend, Plan& plan)
 {
     constexpr double kInch = 25.4;
     ProgramForm form{
@@ -96,8 +116,10 @@ std::string program_of(const Job& job,
         form.blend_tolerance = blend * (job.inch ? kInch : 1.0);
     }
     std::ostringstream lines;
-    write_program(lines, form, plan.operations);
-    return lines.str();
+    const std::vector<std::size_t> begins = write_program(lines, form, plan.operations);
+    std::string program = lines.str();
+    put_simulated_times(program, begins, plan);
+    return program;
 }
 
 void write_plan(const Job& job,

@@ -102,6 +102,18 @@ class Cli(unittest.TestCase):
         said = self.run_cusp("plan", "job.toml", "-o", "p.ngc")
         self.assertNotIn("stock:", said.stdout)
 
+    def test_the_estimate_is_the_time_that_the_core_takes(self):
+        self.write("job.toml", self.finish_job(0))
+        self.expect(0, "wrote", "plan", "job.toml", "-o", "p.ngc", "--stats", "p.json")
+        self.expect(0, "", "sim", "p.ngc", "--stats", "s.json")
+        plan = json.loads((self.folder / "p.json").read_text())
+        sim = json.loads((self.folder / "s.json").read_text())
+        self.assertAlmostEqual(1, plan["estimated_s"] / sim["duration_s"], delta=0.002)
+        each = [operation["estimated_s"] for operation in plan["operations"]]
+        self.assertEqual(2, len(each))
+        self.assertAlmostEqual(plan["estimated_s"], sum(each), delta=1e-6)
+        self.assertGreater(min(each), 1)
+
     def test_help_and_version_are_no_errors(self):
         self.expect(0, "Exit status", "--help")
         self.expect(0, "scallop", "verify", "--help")
