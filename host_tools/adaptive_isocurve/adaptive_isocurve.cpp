@@ -394,17 +394,17 @@ std::vector<PlannedOperation> plan(const Job& job, const Operation& operation, b
     if (operation.roughing) {
         out = plan_waterline_roughing(job, operation);
     }
-    const bool only_finishes = out.empty();
+    std::vector<std::string> why_not_roughed;
+    if (!out.empty() && out.front().path.moves.empty()) {
+        why_not_roughed = std::move(out.front().stats.warnings);
+        out.clear();
+    }
     const auto begin = std::chrono::steady_clock::now();
     out.push_back(mesh ? plan_mesh_isocurves(job, operation) : planner->plan(complete));
     out.back().stats.planning_s =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    if (operation.roughing && only_finishes) {
-        out.back().stats.warnings.push_back(fmt::format(
-            "nothing is roughed: no roughing tool fits into the stock with an allowance of {:g} "
-            "mm; the finish cuts all of it",
-            operation.allowance));
-    }
+    std::vector<std::string>& warnings = out.back().stats.warnings;
+    warnings.insert(warnings.end(), why_not_roughed.begin(), why_not_roughed.end());
     return out;
 }
 

@@ -98,9 +98,7 @@ RoughDepths rough_depths(const Job& job,
     }
     const double deep = top - bottom;
     if (operation.layers.empty() && deep < kWritten / 2) {
-        refuse(job, fmt::format("with an allowance of {:g} mm the lowest level is at z = {:g} mm, "
-                                "the stock's top at {:g} mm: nothing is to be roughed",
-                                operation.allowance, bottom, top));
+        return {};
     }
     const double rests = tools.size() > 1 ? 1.0 + kRestOfScallop : 1.0;
     const double wanted = rests * std::min(kScallopOfDepth * depth, 0.15 * roundest(tools));

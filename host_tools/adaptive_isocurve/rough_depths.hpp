@@ -8,7 +8,7 @@
 namespace cusp::adaptive_isocurve {
 
 struct RoughDepths {
-    std::vector<double> heights;  // z of the tip, level by level, falling
+    std::vector<double> heights;  // z of the tip, level by level, falling; empty: nothing to rough
     double scallop_height{};      // mm: between passes of one cutter
     double rest_height{};         // mm: stock that a later cutter may leave above its own underside
     double thinnest{};            // mm: the least depth of a level
@@ -29,8 +29,10 @@ PassSpacing pass_spacing(const toolpath::Tool& tool, double scallop_height);
 //
 // tools  all roughing tools; not empty
 //
+// No heights where `top` is not above `bottom`, unless the job gives layers.
+//
 // Errors: InputError where max_depth is not above 0.002 mm or makes too many levels; where `layers`
-// lie below the bottom or violate max_depth or min_depth; where there is nothing to rough.
+// lie below the bottom or violate max_depth or min_depth.
 RoughDepths rough_depths(const job::Job& job,
                          const job::Operation& operation,
                          const std::vector<toolpath::Tool>& tools,

@@ -69,6 +69,13 @@ void check(const Job& job, const Operation& operation, const std::vector<Tool>& 
     }
 }
 
+std::vector<PlannedOperation> nothing_roughed(const std::string& why)
+{
+    PlannedOperation none;
+    none.stats.warnings = {"nothing is roughed: " + why + "; the finish cuts all of it"};
+    return {std::move(none)};
+}
+
 }  // namespace
 
 std::vector<PlannedOperation> plan_waterline_roughing(const Job& job, const Operation& operation)
@@ -83,6 +90,12 @@ std::vector<PlannedOperation> plan_waterline_roughing(const Job& job, const Oper
     RoughWork work{
         job, operation, model, stock, rough_depths(job, operation, tools, stock.top, stock.bottom),
         0.0, 0.0,       share};
+    if (work.depths.heights.empty()) {
+        return nothing_roughed(fmt::format(
+            "with an allowance of {:g} mm the lowest level is at z = {:.6g} mm, the stock's top at "
+            "{:.6g} mm",
+            operation.allowance, stock.bottom, stock.top));
+    }
     std::vector<PlannedOperation> out;
     std::vector<RoughedWaterlines> before;
     std::vector<std::string> warnings;
@@ -102,7 +115,9 @@ std::vector<PlannedOperation> plan_waterline_roughing(const Job& job, const Oper
         out.push_back(std::move(roughed.planned));
     }
     if (out.empty()) {
-        return out;
+        return nothing_roughed(
+            fmt::format("no roughing tool fits into the stock with an allowance of {:g} mm",
+                        operation.allowance));
     }
     const double least = operation.min_depth.value_or(0);
     if (work.depths.thinnest < least - kRounded) {

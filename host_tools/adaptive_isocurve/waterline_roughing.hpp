@@ -11,7 +11,7 @@ namespace cusp::adaptive_isocurve {
 
 // Levels of equal depth from the top of the stock down to the lowest point of the model
 // (`rough_depths`: max_depth, min_depth, layers), for operation.tools of any shapes, the largest
-// first. One result for each tool that finds stock; none where no tool fits into the stock.
+// first. One result for each tool that finds stock; where none does, one without moves.
 // operation.allowance stays on the model, along its normal.
 //
 // Rest machining: a smaller tool cuts where it removes more than a quarter of the scallop height.
@@ -23,7 +23,7 @@ namespace cusp::adaptive_isocurve {
 // lies in the one above, so no cut is deeper than max_depth, scallops and rests of other tools
 // included.
 //
-// Errors: InputError where depth, tool or tolerance cannot be used, or there is nothing to rough.
+// Errors: InputError where depth, tool or tolerance cannot be used.
 // Source: Elber & Cohen 1993, section 4.
 std::vector<toolpath::PlannedOperation> plan_waterline_roughing(const job::Job& job,
                                                                 const job::Operation& operation);

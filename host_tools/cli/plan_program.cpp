@@ -1,10 +1,13 @@
 // Plans operation by operation; writes files when all are planned.
 #include "host_tools/cli/plan_program.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <sstream>
 
 #include "host_tools/cli/share_progress.hpp"
+#include "host_tools/cli/simulated_times.hpp"
+#include "host_tools/cli/stock_warning.hpp"
 #include "host_tools/cli/strategies.hpp"
 #include "host_tools/files/files.hpp"
 #include "host_tools/input_error/input_error.hpp"
@@ -12,6 +15,7 @@
 #include "host_tools/toolpath/toolpath_measure.hpp"
 
 #include "fmt/format.h"
+#include "fmt/ranges.h"
 #include "nlohmann/json.hpp"
 
 namespace cusp::cli {
@@ -19,7 +23,9 @@ namespace cusp::cli {
 using files::write_text;
 using job::Job;
 using job::Operation;
+using job::PocketRefusal;
 using toolpath::MachineRates;
+using toolpath::PathMeasure;
 using toolpath::PlannedOperation;
 using toolpath::ProgramForm;
 
@@ -28,6 +34,23 @@ namespace {
 double seconds_since(std::chrono::steady_clock::time_point begin)
 {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// A pocket among several of one drawing that the tool does not fit into is left out.
+std::vector<PlannedOperation> planned(const Job& job, const Operation& operation, Plan& plan)
+{
+    const auto is_of_same_table = [&](const Operation& other) {
+        return other.number == operation.number;
+    };
+    try {
+        return plan_operation(job, operation);
+    } catch (const PocketRefusal& error) {
+        if (std::count_if(job.operations.begin(), job.operations.end(), is_of_same_table) < 2) {
+            throw;
+        }
+        plan.warnings.push_back(std::string{error.what()} + ": left out");
+        return {};
+    }
 }
 
 Plan plan_job(Job& job, const MachineRates& rates, std::FILE* said)
@@ -43,10 +66,15 @@ Plan plan_job(Job& job, const MachineRates& rates, std::FILE* said)
         std::fflush(said);
         const auto begin = std::chrono::steady_clock::now();
         job.progress = ShareProgress{"planning", kQuiet};
-        std::vector<PlannedOperation> planned = plan_operation(job, operation);
+        std::vector<PlannedOperation> results = planned(job, operation, plan);
         job.report_progress(1.0);
-        const double seconds = seconds_since(begin) / static_cast<double>(planned.size());
-        for (PlannedOperation& result : planned) {
+        const double seconds = seconds_since(begin) / static_cast<double>(results.size());
+        for (PlannedOperation& result : results) {
+            if (result.path.moves.empty()) {
+                const auto& why = result.stats.warnings;
+                plan.warnings.insert(plan.warnings.end(), why.begin(), why.end());
+                continue;
+            }
             if (result.stats.planning_s <= 0) {
                 result.stats.planning_s = seconds;
             }
@@ -58,19 +86,47 @@ Plan plan_job(Job& job, const MachineRates& rates, std::FILE* said)
     return plan;
 }
 
+// Programs of days keep the times of `measure`: a day of the machine takes a minute.
+void put_simulated_times(const std::string& program,
+                         const std::vector<std::size_t>& begins,
+                         Plan& plan)
+{
+    constexpr double kLongest = 12 * 3600;  // s
+    double measured = 0;
+    for (const PathMeasure& measure : plan.measures) {
+        measured += measure.estimated_s;
+    }
+    if (measured > kLongest) {
+        return;
+    }
+    if (const auto seconds = simulated_times(program, begins)) {
+        for (std::size_t i = 0; i < plan.measures.size(); ++i) {
+            plan.measures[i].estimated_s = (*seconds)[i];
+        }
+    }
+}
+
+// The G-code; puts the times into the plan that it takes on the controller.
+std::string program_of(const Job& job, const std::string& title, double blend, Plan& plan)
+{
+    constexpr double kInch = 25.4;
+    ProgramForm form{
+        "cusp " CUSP_VERSION ", " + title, job.inch, job.stock_top + job.clearance, {}};
+    if (blend > 0) {
+        form.blend_tolerance = blend * (job.inch ? kInch : 1.0);
+    }
+    std::ostringstream lines;
+    const std::vector<std::size_t> begins = write_program(lines, form, plan.operations);
+    std::string program = lines.str();
+    put_simulated_times(program, begins, plan);
+    return program;
+}
+
 void write_plan(const Job& job,
-                const std::string& title,
+                const std::string& program,
                 const PlanOutput& output,
                 const Plan& plan)
 {
-    ProgramForm form{
-        "cusp " CUSP_VERSION ", " + title, job.inch, job.stock_top + job.clearance, {}};
-    if (output.blend > 0) {
-        form.blend_tolerance = output.blend * (job.inch ? 25.4 : 1.0);
-    }
-    std::ostringstream lines;
-    write_program(lines, form, plan.operations);
-    const std::string program = lines.str();
     write_text(output.program, program);
     if (!output.stats.empty()) {
         nlohmann::ordered_json about{
@@ -90,9 +146,13 @@ Plan plan_program(Job& job, const std::string& title, const PlanOutput& output)
     rates.exact_stop = !(output.blend > 0);
     Plan plan = plan_job(job, rates, output.said);
     if (plan.operations.empty()) {
-        throw InputError(job.file + ": no operation leaves anything to cut");
+        throw InputError(fmt::format("{}: no operation leaves anything to cut: {}", job.file,
+                                     fmt::join(plan.warnings, "; ")));
     }
-    write_plan(job, title, output, plan);
+    if (const auto warning = stock_warning(job, plan)) {
+        plan.warnings.push_back(*warning);
+    }
+    write_plan(job, program_of(job, title, output.blend, plan), output, plan);
     return plan;
 }
 

@@ -95,6 +95,13 @@ Json totals(const Plan& plan)
             {"estimated_s", sum.estimated_s}};
 }
 
+void print_warnings(const std::vector<std::string>& warnings)
+{
+    for (const std::string& warning : warnings) {
+        fmt::print(stderr, "cusp: warning: {}\n", warning);
+    }
+}
+
 }  // namespace
 
 void print_summary(const Plan& plan,
@@ -109,13 +116,10 @@ void print_summary(const Plan& plan,
     fmt::print(said, "gouge at most {:.4f} mm, scallop at most {:.4f} mm; planned in {:.2f} s\n",
                all["gouge_bound_mm"].get<double>(), all["scallop_bound_mm"].get<double>(),
                all["planning_s"].get<double>());
-    for (const std::string& note : notes) {
-        fmt::print(stderr, "cusp: warning: {}\n", note);
-    }
+    print_warnings(notes);
+    print_warnings(plan.warnings);
     for (const PlannedOperation& operation : plan.operations) {
-        for (const std::string& warning : operation.stats.warnings) {
-            fmt::print(stderr, "cusp: warning: {}\n", warning);
-        }
+        print_warnings(operation.stats.warnings);
     }
     fmt::print(said, "wrote {}\n", output);
 }
@@ -124,6 +128,9 @@ nlohmann::ordered_json plan_statistics(const Plan& plan, const Json& about)
 {
     Json stats = totals(plan);
     stats.update(about);
+    if (!plan.warnings.empty()) {
+        stats["warnings"] = plan.warnings;
+    }
     for (std::size_t i = 0; i < plan.operations.size(); ++i) {
         stats["operations"].push_back(operation_stats(plan.operations[i], plan.measures[i]));
     }

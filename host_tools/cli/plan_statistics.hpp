@@ -15,6 +15,7 @@ namespace cusp::cli {
 struct Plan {
     std::vector<toolpath::PlannedOperation> operations;  // not empty
     std::vector<toolpath::PathMeasure> measures;         // of each
+    std::vector<std::string> warnings;                   // of no single operation that is planned
 };
 
 // Lengths and times on `said`, warnings and notes on the standard error stream.

@@ -35,6 +35,7 @@ using job::Job;
 using job::kRoughingDone;
 using job::Operation;
 using job::OutputForm;
+using job::PocketRefusal;
 using offset::area;
 using offset::Contour;
 using offset::Edge;
@@ -192,9 +193,9 @@ private:
             }
         }
         if (cleared.passes.empty()) {
-            throw InputError(operation_.boundary_file + ": the tool of radius " +
-                             number_text(operation_.tool.radius) +
-                             " mm fits nowhere into the pocket");
+            throw PocketRefusal(operation_.boundary_file + ": the tool of radius " +
+                                number_text(operation_.tool.radius) +
+                                " mm fits nowhere into the pocket");
         }
         if (cleared.rings >= kMaxRings) {
             throw InputError(operation_text(job_, operation_) + "scallop " +
@@ -422,7 +423,8 @@ std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operatio
         const Tool& tool = rough->operation.path.tool;
         result.back().stats.warnings.push_back(
             "tool " + number_text(tool.number) + " of radius " + number_text(tool.radius) +
-            " mm fits nowhere with the allowance: nothing is roughed");
+            " mm fits nowhere, or the stock is no higher than the allowance, " +
+            number_text(operation.allowance) + " mm: nothing is roughed");
     }
     const double roughing_s = rough ? rough->operation.stats.planning_s : 0.0;
     const auto end = std::chrono::steady_clock::now();

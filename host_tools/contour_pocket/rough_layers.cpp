@@ -219,6 +219,10 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     if (cleared.passes.empty()) {
         return result;
     }
+    const double bottom = lowest_tip(cleared, floor) + operation.allowance;
+    if (operation.layers.empty() && bottom >= job.stock_top) {
+        return result;
+    }
     CutSettings settings =
         rough_settings(operation, rough.tool, tolerances, clearing.wall_clearance);
     for (ClearingPass& pass : cleared.passes) {
@@ -233,7 +237,6 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
         cut_depth->begin(rough.tool);
     }
     const int each = cleared.leaves + static_cast<int>(operation.islands.size());
-    const double bottom = lowest_tip(cleared, floor) + operation.allowance;
     result.heights =
         layer_heights(job, operation, bottom, std::max(0.1 * depth, depth - step.scallop_height));
     cut_layers(job, cleared, result.heights, each, std::move(settings), cutter);

@@ -10,8 +10,8 @@
 namespace cusp::contour_pocket {
 
 struct RoughResult {
-    toolpath::PlannedOperation operation;  // without moves if the tool fits nowhere
-    std::vector<double> heights;           // z of the layers, descending; empty if it fits nowhere
+    toolpath::PlannedOperation operation;  // without moves where nothing is to be roughed
+    std::vector<double> heights;           // z of the layers, descending; none without moves
     double wall_clearance{};               // mm: least distance of the tool's centre from the walls
     double left{};  // mm: largest height above a level floor: allowance and scallops
 };

@@ -16,6 +16,7 @@ namespace cusp::grid_pocket {
 using clearing::limit_plunge_feed;
 using job::Job;
 using job::Operation;
+using job::PocketRefusal;
 using toolpath::OperationStats;
 using toolpath::PlannedOperation;
 using toolpath::ToolpathWriter;
@@ -144,8 +145,9 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
     check_grid_floor(job, operation, walls.region);
     PocketSpace pocket{job, operation, walls};
     if (pocket.centres.contours.empty()) {
-        refuse_grid_pocket(job, "no place in the pocket is " + length_text(job, pocket.kept) +
-                                    " from its walls: the tool does not fit");
+        throw PocketRefusal(job.file + ": grid_pocket: no place in the pocket is " +
+                            length_text(job, pocket.kept) +
+                            " from its walls: the tool does not fit");
     }
     pocket.heights = heights_over(pocket, pocket.finish);
     const Navigation navigation = finish_navigation(pocket);

@@ -129,10 +129,6 @@ LayerPlan planned_layers(const Job& job,
                          const StockBox& stock,
                          DepthLimits limits)
 {
-    if (stock.top - stock.bottom < 1e-3) {
-        refuse(job, "the part is flat: its hull is " + plain_number(stock.top - stock.bottom) +
-                        " mm high and leaves nothing to rough");
-    }
     if ((stock.top - stock.bottom) / limits.most > 1e4) {
         refuse(job, "max_depth " + plain_number(limits.most) +
                         " mm makes more than 10000 layers of a stock " +
@@ -178,7 +174,8 @@ void round_up(LayerPlan& plan, double most_depth, bool inch)
     plan.planes = std::move(planes);
 }
 
-void clear_layers(Roughing& work)
+// Returns false where no tool clears anything in any layer.
+bool clear_layers(Roughing& work)
 {
     const Operation& operation = work.operation;
     std::vector<std::vector<ToolOffer>> offers;
@@ -203,11 +200,18 @@ void clear_layers(Roughing& work)
     }
     constexpr double kNoArea = 1e-6;  // mm^2
     if (cleared < kNoArea) {
-        refuse(work.job, "no cutter reaches into the stock in any layer; the smallest has radius " +
-                             plain_number(work.tools.back().radius) + " mm, with an allowance of " +
-                             plain_number(operation.allowance) + " mm");
+        return false;
     }
     work.choice = choose_tools(offers, kChangeSeconds);
+    return true;
+}
+
+std::vector<PlannedOperation> nothing_roughed(const std::string& why)
+{
+    PlannedOperation none;
+    none.stats.strategy = "hull_rough";
+    none.stats.warnings = {"hull_rough: nothing is roughed: " + why};
+    return {std::move(none)};
 }
 
 }  // namespace
@@ -244,11 +248,21 @@ std::vector<PlannedOperation> plan_hull_rough(const Job& job, const Operation& o
     }
     const StockBox stock = stock_of(job, operation.floor);
     const DepthLimits limits = depth_limits(job, operation, tools.back());
+    constexpr double kNoHeight = 1e-3;  // mm
+    if (stock.top - stock.bottom < kNoHeight) {
+        return nothing_roughed("the part is flat: its hull is " +
+                               plain_number(stock.top - stock.bottom) + " mm high");
+    }
     LayerPlan plan = planned_layers(job, operation, std::move(patches), stock, limits);
     round_up(plan, limits.most, job.inch);
     Roughing work{job, operation, std::move(tools), stock, std::move(plan), limits.most, {}, {},
                   0,   0};
-    clear_layers(work);
+    if (!clear_layers(work)) {
+        return nothing_roughed(
+            "no cutter reaches into the stock in any layer; the smallest has radius " +
+            plain_number(work.tools.back().radius) + " mm, with an allowance of " +
+            plain_number(operation.allowance) + " mm");
+    }
     std::vector<PlannedOperation> out = write_layers(work);
     job.report_progress(1);
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <string_view>
 
 #include "firmware/base/math.hpp"
@@ -223,6 +222,34 @@ void CurveMaker::add_vertices(const DxfEntity& entity, const std::vector<Vertex>
     }
 }
 
+// The curve in pieces, where inner knots as often as the degree and once more take it apart: chains
+// of Bezier curves are written so. Numbers of knots or weights that are wrong are left to the check.
+std::vector<Curve> parted(const Curve& curve)
+{
+    const std::size_t order = static_cast<std::size_t>(curve.degree) + 1;
+    const std::size_t count = curve.points.size();
+    if (curve.knots.size() != count + order || curve.weights.size() != count) {
+        return {curve};
+    }
+    std::vector<Curve> parts;
+    std::size_t begin = 0;
+    for (std::size_t end = 1; end <= count; ++end) {
+        const bool breaks = end < count && curve.knots[end] > curve.knots[end - 1] &&
+                            curve.knots[end] == curve.knots[end + order - 1];
+        if (!breaks && end < count) {
+            continue;
+        }
+        const auto from = static_cast<std::ptrdiff_t>(begin);
+        const auto to = static_cast<std::ptrdiff_t>(end);
+        parts.push_back({curve.degree,
+                         {curve.knots.begin() + from, curve.knots.begin() + to + curve.degree + 1},
+                         {curve.points.begin() + from, curve.points.begin() + to},
+                         {curve.weights.begin() + from, curve.weights.begin() + to}});
+        begin = end;
+    }
+    return parts;
+}
+
 void CurveMaker::add_spline(const DxfEntity& entity)
 {
     Curve curve;
@@ -243,8 +270,11 @@ void CurveMaker::add_spline(const DxfEntity& entity)
     if (curve.weights.empty()) {
         curve.weights.assign(curve.points.size(), 1.0);
     }
-    check_curve(curve, fmt::format("{}:{}: SPLINE", drawing_.file(), entity.line));
-    curves_.push_back(clamped(curve));
+    const std::string place = fmt::format("{}:{}: SPLINE", drawing_.file(), entity.line);
+    for (const Curve& part : parted(curve)) {
+        check_curve(part, place);
+        curves_.push_back(clamped(part));
+    }
 }
 
 void CurveMaker::add(const DxfEntity& entity)
@@ -348,32 +378,6 @@ void CurveMaker::add_all(const std::vector<DxfEntity>& entities, std::string_vie
     }
 }
 
-double apart(Vec3d a, Vec3d b) { return std::hypot(a.x - b.x, a.y - b.y); }
-
-// Each curve followed by the one that starts or ends nearest to its end.
-std::vector<Curve> in_order(std::vector<Curve> curves)
-{
-    for (std::size_t i = 0; i + 1 < curves.size(); ++i) {
-        const Vec3d end = curves[i].points.back();
-        std::size_t nearest = i + 1;
-        double least = std::numeric_limits<double>::infinity();
-        for (std::size_t k = i + 1; k < curves.size(); ++k) {
-            const double distance =
-                std::min(apart(end, curves[k].points.front()), apart(end, curves[k].points.back()));
-            if (distance < least) {
-                least = distance;
-                nearest = k;
-            }
-        }
-        std::swap(curves[i + 1], curves[nearest]);
-        Curve& next = curves[i + 1];
-        if (apart(end, next.points.back()) < apart(end, next.points.front())) {
-            next = reversed(next);
-        }
-    }
-    return curves;
-}
-
 std::vector<Curve> CurveMaker::read()
 {
     add_all(drawing_.entities(), "", 0);
@@ -422,7 +426,7 @@ std::vector<Curve> read_dxf_curves(const std::string& file,
     if (curves.empty()) {
         throw InputError(no_curve(file, layer));
     }
-    return in_order(std::move(curves));
+    return curves;
 }
 
 DxfLayers read_dxf_layers(const std::string& file, double millimetres)

@@ -42,7 +42,8 @@ std::vector<nurbs::Surface> read_surfaces(const std::string& file,
 std::vector<std::array<Vec3d, 3>> read_mesh(const std::string& file,
                                             double millimetres,
                                             std::vector<std::string>* notes = nullptr);
-// Closed to 1e-3 mm, simple, oriented counter-clockwise. `name` of a drawing may end in #layer.
+// The one loop of a file: closed to 1e-3 mm, simple, counter-clockwise. `name` of a drawing may end
+// in #layer. file_loops.hpp reads several.
 job::Loop read_loop(const std::string& name, double millimetres = 1.0);
 
 }  // namespace cusp::import

@@ -10,10 +10,12 @@
 #include "host_tools/import/import.hpp"
 #include "host_tools/import/job_table.hpp"
 #include "host_tools/import/job_text.hpp"
+#include "host_tools/import/known_keys.hpp"
 #include "host_tools/import/operation_check.hpp"
-#include "host_tools/import/owned_keys.hpp"
 #include "host_tools/import/part_files.hpp"
 #include "host_tools/import/path_ending.hpp"
+#include "host_tools/import/stock_top.hpp"
+#include "host_tools/import/tool_table.hpp"
 #include "host_tools/import/trim_loops.hpp"
 #include "host_tools/job/job.hpp"
 #include "host_tools/part_model/model_intersection.hpp"
@@ -33,7 +35,6 @@ using nurbs::Curve;
 using nurbs::Surface;
 using part_model::intersection_of;
 using toolpath::Tool;
-using toolpath::ToolShape;
 
 namespace {
 
@@ -41,8 +42,6 @@ constexpr double kMillimetresPerInch = 25.4;
 constexpr double kDefaultTolerance = 0.02;  // mm
 constexpr double kDefaultClearance = 5.0;   // mm
 constexpr double kDefaultLargestArcRadius = 1000.0;
-// Tool numbers as controllers take them.
-constexpr Range kToolNumber{1, 255};
 
 const std::vector<std::string> kStrategies{"contour_pocket",     "adaptive_isocurve",
                                            "grid_pocket",        "hull_rough",
@@ -61,12 +60,13 @@ public:
 
 private:
     void read_units(JobTable& top);
-    Tool read_tool(const toml::table& table, std::size_t index);
     void read_tools(JobTable& top);
     void read_cutting(JobTable& top);
     void read_stock(JobTable& top);
+    void settle_stock(const toml::table& document);
     std::optional<std::array<double, 2>> read_interval(JobTable& stock, const char* key);
-    Operation read_operation(const toml::table& table, std::size_t index);
+    void read_operation(const toml::table& table, std::size_t index);
+    std::vector<Operation> read_pockets(JobTable& table, Operation operation);
     void read_common(JobTable& table, Operation& operation);
     void read_depths(JobTable& table, Operation& operation);
     void read_tool_choice(JobTable& table, Operation& operation);
@@ -95,6 +95,7 @@ private:
     PartFiles& parts_;
     double unit_{1.0};  // mm
     Job job_;
+    std::optional<double> stock_top_;  // where the job gives it
     // By the files of the floor, those it was intersected with, and the tolerance.
     using Names = std::vector<std::string>;
     std::map<std::tuple<Names, Names, double>, std::vector<Surface>> intersections_;
@@ -112,35 +113,6 @@ void JobReader::read_units(JobTable& top)
     unit_ = job_.inch ? kMillimetresPerInch : 1.0;
 }
 
-Tool JobReader::read_tool(const toml::table& table, std::size_t index)
-{
-    JobTable keys{table, file_, fmt::format("tool {}", index)};
-    Tool tool;
-    tool.number = keys.whole_number("number", kToolNumber).value_or(static_cast<int>(index));
-    const std::string shape = keys.one_of("shape", {"ball", "flat", "bull"}).value_or("");
-    if (shape.empty()) {
-        keys.refuse("shape", "is missing: \"ball\", \"flat\" or \"bull\"");
-    }
-    tool.shape = shape == "ball"   ? ToolShape::kBall
-                 : shape == "flat" ? ToolShape::kFlat
-                                   : ToolShape::kBull;
-    tool.radius = keys.required_number("diameter", kPositive) * unit_ / 2;
-    const auto corner = length(keys, "corner_radius", kPositive);
-    if (tool.shape == ToolShape::kBull && !corner) {
-        keys.refuse("corner_radius", "is missing: a bull tool needs it");
-    }
-    if (tool.shape != ToolShape::kBull && corner) {
-        keys.refuse("corner_radius", fmt::format("belongs to a bull tool, this one is {}", shape));
-    }
-    tool.corner_radius = tool.shape == ToolShape::kBall ? tool.radius : corner.value_or(0);
-    if (tool.corner_radius > tool.radius) {
-        keys.refuse("corner_radius", fmt::format("is {:g} mm, the tool's radius is only {:g} mm",
-                                                 tool.corner_radius, tool.radius));
-    }
-    keys.refuse_unknown_keys();
-    return tool;
-}
-
 void JobReader::read_tools(JobTable& top)
 {
     const auto tables = top.tables("tool");
@@ -148,7 +120,7 @@ void JobReader::read_tools(JobTable& top)
         top.refuse("tool", "is missing: a table [tool] or several [[tool]]");
     }
     for (std::size_t i = 0; i < tables.size(); ++i) {
-        const Tool tool = read_tool(*tables[i], i + 1);
+        const Tool tool = read_tool(*tables[i], file_, i + 1, unit_);
         for (const Tool& other : job_.tools) {
             if (other.number == tool.number) {
                 top.refuse("tool", fmt::format("two tools have the number {}", tool.number));
@@ -164,12 +136,12 @@ void JobReader::read_cutting(JobTable& top)
     if (table == nullptr) {
         top.refuse("cutting", "is missing: a table [cutting] with at least feed");
     }
-    JobTable keys{*table, file_, "cutting"};
+    JobTable keys{*table, file_, "cutting", cutting_keys()};
     job_.feed = keys.required_number("feed", kFeed) * unit_;
     // cutter makers recommend a quarter of the feed for plunging where they give no figure
     job_.plunge_feed = length(keys, "plunge_feed", kFeed, job_.feed / 4);
     job_.spindle = keys.number("spindle", kNotNegative).value_or(0);
-    keys.refuse_unknown_keys();
+    keys.check_all_read();
 }
 
 std::optional<std::array<double, 2>> JobReader::read_interval(JobTable& stock, const char* key)
@@ -188,17 +160,26 @@ void JobReader::read_stock(JobTable& top)
 {
     static const toml::table kNothing;
     const toml::table* table = top.table("stock");
-    JobTable keys{table == nullptr ? kNothing : *table, file_, "stock"};
-    job_.stock_top = length(keys, "top", kAnyNumber, 0.0);
+    JobTable keys{table == nullptr ? kNothing : *table, file_, "stock", stock_keys()};
+    stock_top_ = length(keys, "top", kAnyNumber);
     job_.clearance = length(keys, "clearance", kPositive, kDefaultClearance);
     job_.stock_bottom = length(keys, "bottom", kAnyNumber);
-    if (job_.stock_bottom && !(*job_.stock_bottom < job_.stock_top)) {
-        keys.refuse("bottom", fmt::format("is {:g} mm, not below the top at {:g} mm",
-                                          *job_.stock_bottom, job_.stock_top));
-    }
     job_.stock_x = read_interval(keys, "x");
     job_.stock_y = read_interval(keys, "y");
-    keys.refuse_unknown_keys();
+    keys.check_all_read();
+}
+
+// When all parts are read.
+void JobReader::settle_stock(const toml::table& document)
+{
+    job_.part_top = part_top(job_);
+    job_.stock_top = stock_top_ ? *stock_top_ : default_stock_top(job_);
+    if (job_.stock_bottom && !(*job_.stock_bottom < job_.stock_top)) {
+        const JobTable keys{*document["stock"].as_table(), file_, "stock", stock_keys()};
+        keys.refuse("bottom",
+                    fmt::format("is {:g} mm, not below the top at {:g} mm{}", *job_.stock_bottom,
+                                job_.stock_top, stock_top_ ? "" : ", the part's"));
+    }
 }
 
 const Tool& JobReader::tool_numbered(const JobTable& table, const char* key, int number) const
@@ -402,19 +383,36 @@ void JobReader::read_parts(JobTable& table, Operation& operation)
     if (!bodies.empty()) {
         intersect(table, bodies, operation);
     }
-    if (const auto name = table.text("boundary")) {
-        operation.boundary_file = path_of(*name);
-        operation.boundary = parts_.loop(operation.boundary_file, unit_);
-    }
-    for (const std::string& name : table.texts("islands").value_or(std::vector<std::string>{})) {
-        operation.island_files.push_back(path_of(name));
-        operation.islands.push_back(parts_.loop(operation.island_files.back(), unit_));
-    }
 }
 
-Operation JobReader::read_operation(const toml::table& entry, std::size_t index)
+// The operation for each of its pockets; itself where it has no boundary.
+std::vector<Operation> JobReader::read_pockets(JobTable& table, Operation operation)
 {
-    JobTable table{entry, file_, fmt::format("operation {}", index)};
+    const auto loops_of = [&](const std::string& name) {
+        return parts_.loops(path_of(name), unit_, operation.plan_tolerance);
+    };
+    std::vector<FileLoop> islands;
+    for (const std::string& name : table.texts("islands").value_or(std::vector<std::string>{})) {
+        for (const FileLoop& loop : loops_of(name)) {
+            if (loop.depth == 0) {
+                islands.push_back(loop);
+            }
+        }
+    }
+    if (const auto name = table.text("boundary")) {
+        operation.boundary_file = path_of(*name);
+        return pockets_of(operation, loops_of(*name), islands);
+    }
+    for (const FileLoop& island : islands) {
+        operation.islands.push_back(island.loop);
+        operation.island_files.push_back(island.name);
+    }
+    return {std::move(operation)};
+}
+
+void JobReader::read_operation(const toml::table& entry, std::size_t index)
+{
+    JobTable table{entry, file_, fmt::format("operation {}", index), operation_keys()};
     Operation operation;
     const auto strategy = table.one_of("strategy", kStrategies);
     if (!strategy) {
@@ -426,11 +424,13 @@ Operation JobReader::read_operation(const toml::table& entry, std::size_t index)
     read_common(table, operation);
     read_depths(table, operation);
     read_strategy_keys(table, operation);
-    read_parts(table, operation);
-    table.refuse_unknown_keys();
     refuse_keys_of_others(entry, table, operation.strategy);
-    check_operation(table, operation);
-    return operation;
+    read_parts(table, operation);
+    for (Operation& pocket : read_pockets(table, std::move(operation))) {
+        check_operation(table, pocket);
+        job_.operations.push_back(std::move(pocket));
+    }
+    table.check_all_read();
 }
 
 Job JobReader::read(const std::string& text)
@@ -443,19 +443,20 @@ Job JobReader::read(const std::string& text)
         throw InputError(fmt::format("{}:{}: not TOML: {}", file_, error.source().begin.line,
                                      error.description()));
     }
-    JobTable top{document, file_, ""};
+    JobTable top{document, file_, "", job_keys()};
     read_units(top);
     read_tools(top);
     read_cutting(top);
     read_stock(top);
     const auto operations = top.tables("operation");
-    top.refuse_unknown_keys();
+    top.check_all_read();
     if (operations.empty()) {
         top.refuse("operation", "is missing: at least one [[operation]]");
     }
     for (std::size_t i = 0; i < operations.size(); ++i) {
-        job_.operations.push_back(read_operation(*operations[i], i + 1));
+        read_operation(*operations[i], i + 1);
     }
+    settle_stock(document);
     job_.notes = parts_.notes();
     return std::move(job_);  // meshes are large
 }

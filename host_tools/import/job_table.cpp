@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "host_tools/input_error/input_error.hpp"
 
@@ -39,9 +40,13 @@ std::string range_in_words(Range range)
 
 }  // namespace
 
-JobTable::JobTable(const toml::table& table, std::string file, std::string place)
-    : table_{table}, file_{std::move(file)}, place_{std::move(place)}
+JobTable::JobTable(const toml::table& table,
+                   std::string file,
+                   std::string place,
+                   std::vector<std::string> known)
+    : table_{table}, file_{std::move(file)}, place_{std::move(place)}, known_{std::move(known)}
 {
+    refuse_unknown_keys();
 }
 
 void JobTable::refuse(const char* key, const std::string& reason) const
@@ -55,7 +60,7 @@ void JobTable::refuse(const char* key, const std::string& reason) const
 
 const toml::node* JobTable::find(const char* key)
 {
-    asked_.emplace_back(key);
+    read_.insert(key);
     return table_.get(key);
 }
 
@@ -206,14 +211,23 @@ void JobTable::refuse_unknown_keys() const
 {
     for (const auto& entry : table_) {
         const std::string key{entry.first.str()};
-        if (std::find(asked_.begin(), asked_.end(), key) != asked_.end()) {
+        if (std::find(known_.begin(), known_.end(), key) != known_.end()) {
             continue;
         }
         const auto nearest = std::min_element(
-            asked_.begin(), asked_.end(), [&](const std::string& a, const std::string& b) {
+            known_.begin(), known_.end(), [&](const std::string& a, const std::string& b) {
                 return letters_apart(a, key) < letters_apart(b, key);
             });
         refuse(key.c_str(), fmt::format("unknown key; the nearest known one is {}", *nearest));
+    }
+}
+
+void JobTable::check_all_read() const
+{
+    for (const std::string& key : known_) {
+        if (read_.count(key) == 0) {
+            throw std::logic_error("the key " + key + " is known but never read");
+        }
     }
 }
 

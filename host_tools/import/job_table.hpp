@@ -1,8 +1,9 @@
-// One table of a job file: each key is read once, with its range; keys that were never read are
-// refused.
+// One table of a job file: unknown keys are refused first; each known key is read once, with its
+// range.
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,14 @@ namespace cusp::import {
 class JobTable {
 public:
     // place  how messages name the table, such as "operation 2"; "" for the file itself
-    JobTable(const toml::table& table, std::string file, std::string place);
+    // known  every key that the table may have
+    //
+    // Throws InputError where the table has another key, and names the nearest known one: a typo
+    // is named before the key that it makes missing.
+    JobTable(const toml::table& table,
+             std::string file,
+             std::string place,
+             std::vector<std::string> known);
 
     // Each returns nothing where the key is absent and throws InputError where its value is of
     // another kind or outside its range.
@@ -37,17 +45,19 @@ public:
 
     [[noreturn]] void refuse(const char* key, const std::string& reason) const;
 
-    // Throws where the table holds a key that was never asked for, and names the nearest that was.
-    void refuse_unknown_keys() const;
+    // Throws std::logic_error where a known key was never read: it would have no effect.
+    void check_all_read() const;
 
 private:
+    void refuse_unknown_keys() const;
     const toml::node* find(const char* key);
     double checked(const toml::node& node, const char* key, Range range) const;
 
     const toml::table& table_;
     std::string file_;
     std::string place_;
-    std::vector<std::string> asked_;
+    std::vector<std::string> known_;
+    std::set<std::string> read_;
 };
 
 }  // namespace cusp::import

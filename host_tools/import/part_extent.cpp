@@ -1,18 +1,25 @@
-// Measures each side of the box as the highest place of a model that is turned so that it is up.
+// Climbs towards each side of the box on the Bezier patches that may reach farthest.
 #include "host_tools/import/part_extent.hpp"
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <utility>
 
-#include "host_tools/part_model/part_model.hpp"
+#include "host_tools/part_model/pattern_search.hpp"
+#include "host_tools/part_model/trim_region.hpp"
 
 namespace cusp::import {
 
+using nurbs::BezierPatch;
 using nurbs::Surface;
-using part_model::PartModel;
+using part_model::pattern_search;
+using part_model::TrimRegion;
 
 namespace {
+
+constexpr double kEdgeError = 1e-4;  // mm, of trims
+constexpr double kRounding = 1e-9;   // mm, of control points
 
 Vec3d least(Vec3d a, Vec3d b)
 {
@@ -24,58 +31,123 @@ Vec3d greatest(Vec3d a, Vec3d b)
     return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
 }
 
-// The highest place after `turn`, which maps the points of the surfaces. No surface rises over its
-// control points, so surfaces that might rise most come first, and few are evaluated.
-template <class Turn>
-double highest_after(const Turn& turn, const std::vector<Surface>& surfaces)
-{
-    std::vector<std::pair<double, const Surface*>> bounds;
-    for (const Surface& surface : surfaces) {
-        double bound = turn(surface.points.front()).z;
-        for (const Vec3d point : surface.points) {
-            bound = std::max(bound, turn(point).z);
+// An axis to one side.
+struct Side {
+    unsigned axis;
+    double sign;
+
+    double reach(Vec3d p) const { return sign * p[axis]; }
+};
+
+class FarthestPlaces {
+public:
+    explicit FarthestPlaces(const std::vector<Surface>& surfaces)
+        : surfaces_{surfaces}, regions_(surfaces.size())
+    {
+        for (std::size_t k = 0; k < surfaces.size(); ++k) {
+            for (BezierPatch& patch : bezier_patches(surfaces[k])) {
+                patches_.push_back({k, std::move(patch)});
+            }
         }
-        bounds.emplace_back(bound, &surface);
     }
-    std::stable_sort(bounds.begin(), bounds.end(),
-                     [](const auto& a, const auto& b) { return a.first > b.first; });
-    double highest = -std::numeric_limits<double>::infinity();
-    for (const auto& [bound, surface] : bounds) {
-        if (bound <= highest) {
-            break;
+
+    // The coordinate of the farthest place. No patch reaches beyond its control points.
+    double farthest(Side side)
+    {
+        std::vector<std::pair<double, const Patch*>> bounds;
+        for (const Patch& patch : patches_) {
+            double bound = -std::numeric_limits<double>::infinity();
+            for (const Vec3d point : patch.bezier.surface.points) {
+                bound = std::max(bound, side.reach(point));
+            }
+            bounds.emplace_back(bound, &patch);
         }
-        Surface turned = *surface;
-        std::transform(turned.points.begin(), turned.points.end(), turned.points.begin(), turn);
-        highest = std::max(highest, PartModel{std::vector{turned}}.highest());
+        std::stable_sort(bounds.begin(), bounds.end(),
+                         [](const auto& a, const auto& b) { return a.first > b.first; });
+        std::vector<bool> looked_at_edges(surfaces_.size(), false);
+        double most = -std::numeric_limits<double>::infinity();
+        for (const auto& [bound, patch] : bounds) {
+            if (bound <= most + kRounding) {
+                break;
+            }
+            if (!looked_at_edges[patch->surface]) {
+                looked_at_edges[patch->surface] = true;
+                for (const auto& edge : region(patch->surface).edges()) {
+                    most = std::max({most, side.reach(edge[0]), side.reach(edge[1])});
+                }
+            }
+            most = std::max(most, climbed(*patch, side));
+        }
+        return side.sign * most;
     }
-    return highest;
-}
+
+private:
+    struct Patch {
+        std::size_t surface;
+        BezierPatch bezier;
+    };
+
+    const TrimRegion& region(std::size_t surface)
+    {
+        std::optional<TrimRegion>& made = regions_[surface];
+        if (!made) {
+            made.emplace(surfaces_[surface], kEdgeError);
+        }
+        return *made;
+    }
+
+    // From the farthest place of a lattice; minus infinity where trims leave none of it.
+    double climbed(const Patch& patch, Side side)
+    {
+        constexpr int kCells = 8;
+        constexpr double kFinest = 1e-7;  // of the patch
+        const Surface& s = patch.bezier.surface;
+        const TrimRegion& trims = region(patch.surface);
+        double most = -std::numeric_limits<double>::infinity();
+        const auto is_farther = [&](Vec2d place) {
+            if (std::min(place.x, place.y) < 0 || std::max(place.x, place.y) > 1) {
+                return false;
+            }
+            const double u = s.u_begin() + place.x * (s.u_end() - s.u_begin());
+            const double v = s.v_begin() + place.y * (s.v_end() - s.v_begin());
+            const double reach = side.reach(point_at(s, u, v));
+            if (reach <= most || (trims.trimmed() && !trims.inside(u, v))) {
+                return false;
+            }
+            most = reach;
+            return true;
+        };
+        std::optional<Vec2d> best;
+        for (int k = 0; k < (kCells + 1) * (kCells + 1); ++k) {
+            const Vec2d place{static_cast<double>(k % (kCells + 1)) / kCells,
+                              static_cast<double>(k / (kCells + 1)) / kCells};
+            if (is_farther(place)) {
+                best = place;
+            }
+        }
+        if (best) {
+            pattern_search(*best, 0.5 / kCells, kFinest, is_farther);
+        }
+        return most;
+    }
+
+    const std::vector<Surface>& surfaces_;
+    std::vector<std::optional<TrimRegion>> regions_;
+    std::vector<Patch> patches_;
+};
 
 }  // namespace
 
 PartExtent extent_of_surfaces(const std::vector<Surface>& surfaces)
 {
-    const auto highest = [&](auto turn) {
-        return highest_after(turn, surfaces);
-    };
-    PartExtent box;
-    box.high = {highest([](Vec3d p) {
-                    return Vec3d{p.y, p.z, p.x};
-                }),
-                highest([](Vec3d p) {
-                    return Vec3d{p.z, p.x, p.y};
-                }),
-                highest([](Vec3d p) { return p; })};
-    box.low = {-highest([](Vec3d p) {
-                   return Vec3d{p.y, -p.z, -p.x};
-               }),
-               -highest([](Vec3d p) {
-                   return Vec3d{p.z, -p.x, -p.y};
-               }),
-               -highest([](Vec3d p) {
-                   return Vec3d{p.x, -p.y, -p.z};
-               })};
-    return box;
+    FarthestPlaces places{surfaces};
+    return {{places.farthest({0, -1}), places.farthest({1, -1}), places.farthest({2, -1})},
+            {places.farthest({0, 1}), places.farthest({1, 1}), places.farthest({2, 1})}};
+}
+
+double highest_of_surfaces(const std::vector<Surface>& surfaces)
+{
+    return FarthestPlaces{surfaces}.farthest({2, 1});
 }
 
 PartExtent extent_of_triangles(const Triangles& triangles)

@@ -5,7 +5,6 @@
 
 namespace cusp::import {
 
-using job::Loop;
 using nurbs::Surface;
 
 const std::vector<Surface>& PartFiles::surfaces(const std::string& file,
@@ -30,11 +29,13 @@ const Triangles& PartFiles::mesh(const std::string& file, double millimetres)
     return found->second;
 }
 
-const Loop& PartFiles::loop(const std::string& file, double millimetres)
+const std::vector<FileLoop>& PartFiles::loops(const std::string& file,
+                                              double millimetres,
+                                              double join)
 {
-    const auto [found, is_new] = loops_.try_emplace(file);
+    const auto [found, is_new] = loops_.try_emplace({file, join});
     if (is_new) {
-        found->second = read_loop(file, millimetres);
+        found->second = read_loops(file, millimetres, join, notes_);
     }
     return found->second;
 }

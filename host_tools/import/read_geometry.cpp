@@ -6,22 +6,21 @@
 #include <utility>
 
 #include "host_tools/import/cad_surfaces.hpp"
-#include "host_tools/import/dxf_curves.hpp"
+#include "host_tools/import/file_loops.hpp"
 #include "host_tools/import/geometry_json.hpp"
 #include "host_tools/import/height_field.hpp"
 #include "host_tools/import/import.hpp"
+#include "host_tools/import/loop_nesting.hpp"
 #include "host_tools/import/mesh_patches.hpp"
 #include "host_tools/import/nurbs_validity.hpp"
 #include "host_tools/import/path_ending.hpp"
 #include "host_tools/import/stl_facets.hpp"
 #include "host_tools/job/job.hpp"
-#include "host_tools/job/loop_shape.hpp"
 
 #include "fmt/format.h"
 
 namespace cusp::import {
 
-using job::closed_loop;
 using job::Loop;
 using nurbs::Surface;
 
@@ -150,20 +149,12 @@ std::vector<std::array<Vec3d, 3>> read_mesh(const std::string& file,
 
 Loop read_loop(const std::string& name, double millimetres)
 {
-    // "plate.dxf#outline" asks for one layer
-    const std::size_t mark = name.rfind('#');
-    const bool layered = mark != std::string::npos && path_ending(name.substr(0, mark)) == ".dxf";
-    const std::string file = layered ? name.substr(0, mark) : name;
-    const std::string ending = path_ending(file);
-    if (ending == ".json") {
-        return closed_loop(read_json_curves(file, millimetres), file);
+    std::vector<std::string> unread;
+    std::vector<FileLoop> loops = read_loops(name, millimetres, kEndsMeet, unread);
+    if (loops.size() > 1) {
+        throw InputError(fmt::format("{}: holds {} loops, one is needed", name, loops.size()));
     }
-    if (ending == ".dxf") {
-        return closed_loop(read_dxf_curves(file, millimetres, layered ? name.substr(mark + 1) : ""),
-                           name);
-    }
-    throw InputError(
-        fmt::format("{}: loops are read from .json and .dxf, not from \"{}\"", file, ending));
+    return std::move(loops.front().loop);
 }
 
 }  // namespace cusp::import

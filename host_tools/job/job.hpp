@@ -34,6 +34,12 @@ enum class CutDirection : std::uint8_t { kClimb, kConventional };
 using toolpath::EntryKind;
 enum class Traversal : std::uint8_t { kZigzag, kOneWay };
 
+// A pocket that the tool fits nowhere into. Where a drawing bounds several, the others are cut.
+class PocketRefusal : public InputError {
+public:
+    using InputError::InputError;
+};
+
 // A closed chain of curves, in order, counter-clockwise seen from above; z is ignored.
 using Loop = std::vector<nurbs::Curve>;
 
@@ -97,6 +103,8 @@ struct Job {
     double plunge_feed{};  // mm/min
     double spindle{};      // rpm
     double stock_top{};
+    // z of the highest place of what operations without a boundary cut; none: all have one.
+    std::optional<double> part_top;
     double clearance{};  // above stock_top
     std::optional<double> stock_bottom;
     std::optional<std::array<double, 2>> stock_x;

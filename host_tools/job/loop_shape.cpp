@@ -292,9 +292,9 @@ Loop chained(Loop loop, double allowed_gap, const std::string& place)
     return loop;
 }
 
-Loop closed_loop(const Loop& loop, const std::string& place)
+Loop closed_loop(const Loop& loop, const std::string& place, double allowed_gap)
 {
-    const Loop chain = chained(loop, kAllowedGap, place);
+    const Loop chain = chained(loop, allowed_gap, place);
     const std::vector<Vec2d> closed = loop_polyline(chain, kChordTolerance);
     check_simple(closed, place);
     const double area = signed_area(closed);

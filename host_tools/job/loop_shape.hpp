@@ -35,7 +35,7 @@ Loop reversed(const Loop& loop);
 // chained(), then turned counter-clockwise.
 //
 // Errors: as chained(); also a loop that encloses nothing or crosses itself.
-Loop closed_loop(const Loop& loop, const std::string& place);
+Loop closed_loop(const Loop& loop, const std::string& place, double allowed_gap = 1e-3);
 
 // True where no point of `inner` lies inside `outer` (both closed polylines).
 bool lies_outside(const std::vector<Vec2d>& inner, const std::vector<Vec2d>& outer);

@@ -6,6 +6,11 @@
 #include "nlohmann/json.hpp"
 
 namespace cusp::part_info {
+
+using import::ClosedLoop;
+using import::LoopNesting;
+using import::OpenChain;
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -24,7 +29,7 @@ double share(double part, double whole) { return whole > 0 ? rounded(part / whol
 Json loop_json(const ClosedLoop& loop, std::size_t number)
 {
     Json out{{"number", number},
-             {"curves", loop.curves},
+             {"curves", loop.curves.size()},
              {"length_mm", rounded(loop.length)},
              {"area_mm2", rounded(loop.area)},
              {"counter_clockwise", loop.counter_clockwise},
@@ -58,6 +63,10 @@ Json layer_json(const LayerInfo& layer)
     }
     for (const OpenChain& chain : nesting.open) {
         out["open_chains"].push_back(chain_json(chain));
+    }
+    if (nesting.bridged > 0) {
+        out["bridged_gaps"] = nesting.bridged;
+        out["widest_gap_mm"] = rounded(nesting.widest_gap);
     }
     if (nesting.crossing) {
         out["loops_cross_at_mm"] = point(*nesting.crossing);

@@ -6,6 +6,11 @@
 #include "fmt/format.h"
 
 namespace cusp::part_info {
+
+using import::ClosedLoop;
+using import::LoopNesting;
+using import::OpenChain;
+
 namespace {
 
 constexpr double kInch = 25.4;
@@ -87,7 +92,7 @@ void add_loops(const LoopNesting& nesting, Lines& lines)
         text += fmt::format("{} {}: length {} mm, area {} mm2, {}, {}",
                             loop.depth % 2 == 0 ? "loop" : "hole", k + 1, number(loop.length),
                             number(loop.area), loop.counter_clockwise ? "ccw" : "cw",
-                            count(loop.curves, "curve", "curves"));
+                            count(loop.curves.size(), "curve", "curves"));
         text += loop.parent < 0 ? "" : fmt::format(", in {}", loop.parent + 1);
         if (loop.crossing) {
             text += ", crosses itself at " + place(*loop.crossing);
@@ -127,6 +132,10 @@ void add_layer(const LayerInfo& layer, Lines& lines)
     }
     if (nesting.repeated > 0) {
         lines.add("", count(nesting.repeated, "curve", "curves") + " drawn twice, left out");
+    }
+    if (nesting.bridged > 0) {
+        lines.add("", fmt::format("{} of up to {} mm joined", count(nesting.bridged, "gap", "gaps"),
+                                  number(nesting.widest_gap)));
     }
     if (nesting.crossing) {
         lines.add("", "loops cross each other at " + place(*nesting.crossing));

@@ -23,8 +23,10 @@ namespace cusp::part_info {
 using import::CadModel;
 using import::DxfLayer;
 using import::DxfLayers;
+using import::extent_of_surfaces;
 using import::extent_of_triangles;
 using import::Facets;
+using import::nest_loops;
 using import::path_ending;
 using import::read_cad_model;
 using import::read_dxf_layers;
@@ -84,7 +86,7 @@ void take_box_of_layers(PartInfo& info)
 
 void read_curves(PartInfo& info, const std::vector<Curve>& curves)
 {
-    info.layers.push_back({"", false, "", nest_loops(curves)});
+    info.layers.push_back({"", false, "", nest_loops(curves, import::kEndsMeet)});
     take_box_of_layers(info);
     info.box_low.z = kInfinite;
     info.box_high.z = -kInfinite;
@@ -159,12 +161,17 @@ double largest_asked_for(const PartInfo& info)
     return kLargestBall * norm(info.box_high - info.box_low);
 }
 
+void take_box(PartInfo& info, const import::PartExtent& extent)
+{
+    info.box_low = extent.low;
+    info.box_high = extent.high;
+}
+
 void inspect_surfaces(PartInfo& info, const std::vector<double>& outwards, double tolerance)
 {
     info.pieces = info.surfaces.size();
     const SurfacePlaces found = surface_places(info.surfaces, outwards);
-    info.box_low = found.box_low;
-    info.box_high = found.box_high;
+    take_box(info, extent_of_surfaces(info.surfaces));
     const SurfaceFacets facets = surface_facets(info.surfaces, kFacetShare * tolerance);
     const PartModel model{facets.triangles};
     const std::vector<char> hidden = hidden_points(top_of(model), found.places);
@@ -182,9 +189,7 @@ void inspect_surfaces(PartInfo& info, const std::vector<double>& outwards, doubl
 void inspect_mesh(PartInfo& info, double tolerance)
 {
     info.pieces = info.triangles.size();
-    const import::PartExtent extent = extent_of_triangles(info.triangles);
-    info.box_low = extent.low;
-    info.box_high = extent.high;
+    take_box(info, extent_of_triangles(info.triangles));
     std::vector<GroundPlace> places;
     std::vector<GroundPlace> creases;
     {

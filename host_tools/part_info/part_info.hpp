@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
+#include "host_tools/import/loop_nesting.hpp"
 #include "host_tools/nurbs/nurbs.hpp"
 #include "host_tools/part_info/ball_reach.hpp"
 #include "host_tools/part_info/ground.hpp"
-#include "host_tools/part_info/loop_nesting.hpp"
 #include "host_tools/part_info/mesh_health.hpp"
 #include "host_tools/part_info/surface_places.hpp"
 
@@ -36,7 +36,7 @@ struct LayerInfo {
     std::string name;  // "" where the file has no layers
     bool hidden{};     // switched off or frozen: left out where no layer is asked for
     std::string problem;
-    LoopNesting loops;
+    import::LoopNesting loops;
 };
 
 struct PartInfo {

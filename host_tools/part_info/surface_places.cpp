@@ -64,8 +64,6 @@ public:
     Gathering(const std::vector<Surface>& surfaces, const std::vector<double>& outwards)
         : surfaces_{surfaces}, outwards_{outwards}
     {
-        out_.box_low = {kInfinite, kInfinite, kInfinite};
-        out_.box_high = out_.box_low * -1.0;
         for (const Surface& surface : surfaces) {
             regions_.emplace_back(surface, kEdgeError);
         }
@@ -90,7 +88,6 @@ public:
         for (std::size_t k = 0; k < surfaces_.size(); ++k) {
             add_edges(static_cast<int>(k));
         }
-        widen_box();
         return std::move(out_);
     }
 
@@ -191,64 +188,6 @@ private:
                 add(surface, derivatives_at(s, loop[k].x, loop[k].y), loop[k].x, loop[k].y, 0);
             }
         }
-    }
-
-    // Starts at the outermost places, since faces bulge between them.
-    void widen_box()
-    {
-        for (double Vec3d::*axis : {&Vec3d::x, &Vec3d::y, &Vec3d::z}) {
-            for (const double side : {-1.0, 1.0}) {
-                widen(axis, side);
-            }
-        }
-    }
-
-    void widen(double Vec3d::*axis, double side)
-    {
-        std::vector<double> most(surfaces_.size(), -kInfinite);
-        std::vector<std::size_t> best(surfaces_.size(), 0);
-        for (std::size_t k = 0; k < out_.places.size(); ++k) {
-            const auto s = static_cast<std::size_t>(out_.at[k].surface);
-            if (const double reach = side * out_.places[k].point.*axis; reach > most[s]) {
-                most[s] = reach;
-                best[s] = k;
-            }
-        }
-        double farthest = -kInfinite;
-        for (std::size_t s = 0; s < surfaces_.size(); ++s) {
-            for (const auto& edge : regions_[s].edges()) {
-                farthest = std::max({farthest, side * edge[0].*axis, side * edge[1].*axis});
-            }
-            if (most[s] > -kInfinite) {
-                farthest = std::max(farthest, walked(s, best[s], axis, side));
-            }
-        }
-        Vec3d& bound = side < 0 ? out_.box_low : out_.box_high;
-        bound.*axis = side * farthest;
-    }
-
-    double walked(std::size_t s, std::size_t from, double Vec3d::*axis, double side) const
-    {
-        const Surface& surface = surfaces_[s];
-        const double width_u = surface.u_end() - surface.u_begin();
-        const double width_v = surface.v_end() - surface.v_begin();
-        double most = side * out_.places[from].point.*axis;
-        const SurfaceAt& at = out_.at[from];
-        constexpr double kFirst = 0.02;
-        constexpr double kFinest = 1e-7;
-        pattern_search({at.u / width_u, at.v / width_v}, kFirst, kFinest, [&](Vec2d place) {
-            const double u = place.x * width_u;
-            const double v = place.y * width_v;
-            if (u < surface.u_begin() || u > surface.u_end() || v < surface.v_begin() ||
-                v > surface.v_end() || !kept(regions_[s], u, v)) {
-                return false;
-            }
-            const double reach = side * point_at(surface, u, v).*axis;
-            const bool farther = reach > most;
-            most = std::max(most, reach);
-            return farther;
-        });
-        return most;
     }
 
     const std::vector<Surface>& surfaces_;

@@ -1,4 +1,4 @@
-// Samples NURBS faces; their box and smallest hollow radius.
+// Samples NURBS faces, and finds their smallest hollow radius.
 #pragma once
 
 #include <array>
@@ -18,8 +18,6 @@ struct SurfaceAt {
 struct SurfacePlaces {
     std::vector<GroundPlace> places;
     std::vector<SurfaceAt> at;  // of each
-    Vec3d box_low, box_high;    // mm, to 1e-6; a search, where
-                                // import::extent_of_surfaces() is a bound that trims widen by 1e-4
 };
 
 // Middles of cells, some 30 000 in all but at least nine for each Bezier patch, with their areas;

@@ -11,12 +11,12 @@
 
 namespace cusp::report {
 
+using import::ClosedLoop;
+using import::OpenChain;
 using part_info::BallReach;
-using part_info::ClosedLoop;
 using part_info::Ground;
 using part_info::kLevelDegrees;
 using part_info::LayerInfo;
-using part_info::OpenChain;
 using part_info::PartInfo;
 using verify::HeightGrid;
 using verify::PartHeights;

@@ -384,16 +384,20 @@ std::string fixed_point(double value, int decimals)
     return trimmed(fmt::format("{:.{}f}", value, decimals));
 }
 
-void write_program(std::ostream& out,
-                   const ProgramForm& form,
-                   const std::vector<PlannedOperation>& operations)
+std::vector<std::size_t> write_program(std::ostream& out,
+                                       const ProgramForm& form,
+                                       const std::vector<PlannedOperation>& operations)
 {
+    const std::ostream::pos_type start = out.tellp();
+    std::vector<std::size_t> begins;
     ProgramWriter writer{out, form};
     writer.begin(operations);
     for (const PlannedOperation& operation : operations) {
+        begins.push_back(static_cast<std::size_t>(out.tellp() - start));
         writer.operation(operation.path);
     }
     writer.end();
+    return begins;
 }
 
 }  // namespace cusp::toolpath

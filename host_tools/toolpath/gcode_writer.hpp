@@ -24,9 +24,11 @@ struct ProgramForm {
 //
 // The form of the program: header comment; G17 G20/G21 G40 G49 G54 G80
 // G90 G94; `G0 Z` alone; the operations, tools changed by M5, T, M0; retract, M5, M30.
-void write_program(std::ostream& out,
-                   const ProgramForm& form,
-                   const std::vector<PlannedOperation>& operations);
+//
+// Returns where each operation begins, in bytes from the program's first.
+std::vector<std::size_t> write_program(std::ostream& out,
+                                       const ProgramForm& form,
+                                       const std::vector<PlannedOperation>& operations);
 
 // A number in fixed point with at most `decimals`, without trailing zeros.
 std::string fixed_point(double value, int decimals);

@@ -78,7 +78,7 @@ struct OperationStats {
     std::vector<std::string> warnings;  // rest material, slots: for people
 };
 
-// A planned operation.
+// A planned operation. Where nothing is to be cut it has no moves, and stats.warnings say why.
 struct PlannedOperation {
     Toolpath path;
     OperationStats stats;

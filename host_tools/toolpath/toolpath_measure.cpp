@@ -258,6 +258,14 @@ void add_curve_points(const Curve& curve, double tolerance, std::vector<Vec3d>& 
     }
 }
 
+// The part of a straight way that is above z.
+double length_above(Vec3d a, Vec3d b, double z)
+{
+    const double low = std::min(a.z, b.z);
+    const double high = std::max(a.z, b.z);
+    return high <= z ? 0 : norm(b - a) * (low >= z ? 1 : (high - z) / (high - low));
+}
+
 }  // namespace
 
 Vec3d end_of(const ToolMove& move)
@@ -314,6 +322,24 @@ double feed_of(const Toolpath& path, const ToolMove& move, Vec3d start)
     }
     const double down = move.kind == MoveKind::kPlungingCut ? steepest_descent(move, start) : 0;
     return down * path.feed > path.plunge_feed ? path.plunge_feed / down : path.feed;
+}
+
+double cut_length_above(const Toolpath& path, Vec3d start, double z)
+{
+    constexpr double kChord = 0.01;  // mm
+    double length = 0;
+    Vec3d at = start;
+    for (const ToolMove& move : path.moves) {
+        if (move.kind == MoveKind::kRapid) {
+            at = end_of(move);
+            continue;
+        }
+        for (const Vec3d p : points_of(move, at, kChord)) {
+            length += length_above(at, p, z);
+            at = p;
+        }
+    }
+    return length;
 }
 
 PathMeasure measure(const Toolpath& path, Vec3d start, const MachineRates& rates)

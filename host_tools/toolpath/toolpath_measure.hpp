@@ -34,8 +34,14 @@ struct MachineRates {
 // start  where the tool is before the path's first move
 //
 // estimated_s is the time of trapezoids with look-ahead, and from stop to stop what jerk adds to a
-// straight way as long; the simulator knows the time to the tick.
+// straight way as long: up to 15 % short. The simulator knows the time to the tick.
 PathMeasure measure(const Toolpath& path, Vec3d start, const MachineRates& rates = {});
+
+// Length of the parts of all feed moves at which the tip is above z, mm; curves by chords within
+// 0.01 mm.
+//
+// start  where the tool is before the path's first move
+double cut_length_above(const Toolpath& path, Vec3d start, double z);
 
 // Points of a move from `start`, chords within `tolerance` mm of it, the end included and the start
 // not.

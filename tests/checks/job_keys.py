@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-READER = "host_tools/import/job_reader.cpp"
+READERS = ("host_tools/import/job_reader.cpp", "host_tools/import/tool_table.cpp")
 DOCUMENT = "docs/job_file.md"
 # table.number("key", ...), length(table, "key", ...), read_interval(stock, "key")
 READ = re.compile(r'(?:\b(?:number|numbers|required_number|whole_number|one_of|text|texts|flag)\(|\b(?:length|read_interval)\(\w+, )"(\w+)"')
@@ -18,7 +18,7 @@ ROW = re.compile(r"^\| ((?:`\w+`(?:, )?)+) \|", re.MULTILINE)
 def main(arguments):
     top = pathlib.Path(arguments[1])
     try:
-        known = set(READ.findall((top / READER).read_text()))
+        known = {key for reader in READERS for key in READ.findall((top / reader).read_text())}
         told = {key for row in ROW.findall((top / DOCUMENT).read_text()) for key in re.findall(r"\w+", row)}
     except OSError as error:
         print(f"job_keys: {error}", file=sys.stderr)
@@ -27,9 +27,9 @@ def main(arguments):
         print("job_keys: no keys found", file=sys.stderr)
         return 2
     for key in sorted(known - told):
-        print(f"{DOCUMENT}: does not tell the key {key} of {READER}")
+        print(f"{DOCUMENT}: does not tell the key {key} of {' and '.join(READERS)}")
     for key in sorted(told - known):
-        print(f"{DOCUMENT}: tells a key {key} that {READER} does not know")
+        print(f"{DOCUMENT}: tells a key {key} that {' and '.join(READERS)} do not know")
     if known == told:
         print(f"job_keys: all {len(known)} keys are told")
     return 0 if known == told else 1

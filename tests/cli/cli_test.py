@@ -69,6 +69,51 @@ class Cli(unittest.TestCase):
         self.expect(2, words, "plan", "job.toml", "-o", "p.ngc")
         self.assertFalse((self.folder / "p.ngc").exists())
 
+    # The floor, 4 mm under its stock, as one that lies in the top: nothing for hull_rough.
+    def test_nothing_to_rough_is_a_warning_where_another_operation_cuts(self):
+        rough = '[[operation]]\nstrategy = "hull_rough"\nfloor = "floor.json"\nmax_depth = 2\n'
+        head, finish = JOB.replace("top = 0", "top = -4").split("[[operation]]")
+        why = "hull_rough: nothing is roughed: the part is flat"
+        self.write("job.toml", head + rough + "[[operation]]" + finish)
+        self.expect(0, "cusp: warning: " + why, "plan", "job.toml", "-o", "p.ngc",
+                    "--stats", "p.json")
+        stats = json.loads((self.folder / "p.json").read_text())
+        self.assertIn(why, stats["warnings"][0])
+        self.assertEqual(["contour_pocket"], [o["strategy"] for o in stats["operations"]])
+        (self.folder / "p.ngc").unlink()
+        self.refused_plan("no operation leaves anything to cut: " + why, head + rough)
+
+    def finish_job(self, top):
+        head, finish = JOB.replace("top = 0", f"top = {top}").split("[[operation]]")
+        return head + '[[operation]]\nstrategy = "adaptive_isocurve"\nroughing = true\n' \
+            'max_depth = 3\nfloor = "floor.json"\nscallop = 0.2\n'
+
+    # The floor is level at z = -4.
+    def test_a_stock_far_from_the_part_is_a_warning_with_the_share_of_air(self):
+        self.write("job.toml", self.finish_job(30))
+        self.expect(0, "stock: its top, z = 30 mm, is 34 mm above the part's, z = -4 mm", "plan",
+                    "job.toml", "-o", "p.ngc", "--stats", "p.json")
+        self.assertRegex(json.loads((self.folder / "p.json").read_text())["warnings"][0],
+                         r"m of feed moves \(9\d %\) are over the part, in air where")
+        self.write("job.toml", self.finish_job(-6))
+        self.expect(0, "z = -6 mm, is 2 mm below the part's, z = -4 mm", "plan", "job.toml", "-o",
+                    "p.ngc")
+        self.write("job.toml", self.finish_job(-4))
+        said = self.run_cusp("plan", "job.toml", "-o", "p.ngc")
+        self.assertNotIn("stock:", said.stdout)
+
+    def test_the_estimate_is_the_time_that_the_core_takes(self):
+        self.write("job.toml", self.finish_job(0))
+        self.expect(0, "wrote", "plan", "job.toml", "-o", "p.ngc", "--stats", "p.json")
+        self.expect(0, "", "sim", "p.ngc", "--stats", "s.json")
+        plan = json.loads((self.folder / "p.json").read_text())
+        sim = json.loads((self.folder / "s.json").read_text())
+        self.assertAlmostEqual(1, plan["estimated_s"] / sim["duration_s"], delta=0.002)
+        each = [operation["estimated_s"] for operation in plan["operations"]]
+        self.assertEqual(2, len(each))
+        self.assertAlmostEqual(plan["estimated_s"], sum(each), delta=1e-6)
+        self.assertGreater(min(each), 1)
+
     def test_help_and_version_are_no_errors(self):
         self.expect(0, "Exit status", "--help")
         self.expect(0, "scallop", "verify", "--help")

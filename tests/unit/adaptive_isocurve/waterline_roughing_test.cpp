@@ -46,6 +46,18 @@ double cut_length(const PlannedOperation& planned)
     return measure(planned.path, {}).cut_length_mm;
 }
 
+// Plans the job with a ball of 4 mm, and looks for the reason why nothing is roughed.
+void finish_says(const char* why, Job job)
+{
+    Operation& operation = job.operations.front();
+    operation.tool = {3, ToolShape::kBall, 2, 2};
+    operation.scallop = 0.3;
+    const auto planned = plan_adaptive_isocurve(job, operation);
+    CHECK_EQUAL(1U, planned.size());
+    CHECK_EQUAL(3, planned.front().path.tool.number);
+    STRCMP_CONTAINS(why, planned.front().stats.warnings.back().c_str());
+}
+
 }  // namespace
 
 TEST_GROUP(WaterlineRoughing){};
@@ -158,6 +170,18 @@ TEST(WaterlineRoughing, RestPartsAreWhatLeavesTheClearedPlaces)
     CHECK_EQUAL(1U, rest_regions(runs, 8.0, {{&region, 2.0}}).size());
 }
 
+// What lies over the floor is less than the allowance.
+TEST(WaterlineRoughing, WhereTheStockIsLowerThanTheAllowanceOnlyTheFinishIsPlanned)
+{
+    Job job = channel_job();
+    Operation& operation = job.operations.front();
+    operation.floor = {plate(0, 0, 41, 30, -0.2)};
+    operation.allowance = 0.3;
+    job.stock_top = 0;
+    CHECK(plan_waterline_roughing(job, operation).front().path.moves.empty());
+    finish_says("the lowest level is at z = 0.1 mm, the stock's top at 0 mm", job);
+}
+
 // A closed slot 6 mm wide in a plate, too narrow for 10 mm.
 TEST(WaterlineRoughing, WhereNoCutterFitsOnlyTheFinishIsPlanned)
 {
@@ -167,11 +191,6 @@ TEST(WaterlineRoughing, WhereNoCutterFitsOnlyTheFinishIsPlanned)
                        plate(19, 0, 27, 8, 0), plate(19, 22, 27, 30, 0)};
     job.stock_top = 0;
     operation.allowance = 0.3;
-    CHECK(plan_waterline_roughing(job, operation).empty());
-    operation.tool = {3, ToolShape::kBall, 2, 2};
-    operation.scallop = 0.3;
-    const auto planned = plan_adaptive_isocurve(job, operation);
-    CHECK_EQUAL(1U, planned.size());
-    CHECK_EQUAL(3, planned.front().path.tool.number);
-    STRCMP_CONTAINS("nothing is roughed", planned.front().stats.warnings.back().c_str());
+    CHECK(plan_waterline_roughing(job, operation).front().path.moves.empty());
+    finish_says("no roughing tool fits into the stock with an allowance of 0.3 mm", job);
 }

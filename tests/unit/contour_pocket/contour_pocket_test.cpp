@@ -359,6 +359,17 @@ TEST(ContourPocket, WarnsOfARoughingToolThatFitsNowhere)
     CHECK(says(planned.back().stats.warnings.back(), "tool 2 of radius 30 mm fits nowhere"));
 }
 
+TEST(ContourPocket, OnlyFinishesWhatIsNoHigherThanTheAllowance)
+{
+    Operation operation = pocket();
+    operation.floor = {plane(60.0, -0.2)};
+    operation.max_depth = 3.0;
+    operation.allowance = 0.3;
+    const std::vector<PlannedOperation> planned = plan_contour_pocket(job(), operation);
+    LONGS_EQUAL(1, planned.size());
+    CHECK(says(planned.back().stats.warnings.back(), "no higher than the allowance, 0.3 mm"));
+}
+
 TEST(ContourPocket, WarnsThatItCutsAir)
 {
     Operation operation = pocket();

@@ -226,13 +226,6 @@ TEST(HullPlan, RefusesInputThatCannotBeUsedWithItsValueAndLimit)
         o.max_depth = 1e-5;
         o.min_depth = 0.0;
     });
-    says("the smallest has radius 6.0 mm, with an allowance of 100.0 mm",
-         [](Operation& o) { o.allowance = 100; });
-    says("the part is flat: its hull is 0.0 mm high", [](Operation& o) {
-        for (Vec3d& p : o.floor.front().points) {
-            p.z = 0;
-        }
-    });
     says("boundary and islands are not used", [](Operation& o) {
         o.boundary = loop_of({{0, 0}, {9, 0}, {9, 9}});
     });
@@ -240,5 +233,24 @@ TEST(HullPlan, RefusesInputThatCannotBeUsedWithItsValueAndLimit)
          [](Operation& o) { o.max_depth = std::numeric_limits<double>::infinity(); });
     says("leave nothing of it", [](Operation& o) {
         o.floor.front().trims = {loop_of({{2, 2}, {3, 2}, {3, 3}, {2, 3}})};
+    });
+}
+
+TEST(HullPlan, WhereNothingIsToBeRoughedItSaysWhyAndHasNoMoves)
+{
+    const auto says = [](const char* part, const std::function<void(Operation&)>& change) {
+        Operation operation = tap_operation(0);
+        change(operation);
+        const auto planned = plan_hull_rough(plain_job(), operation);
+        CHECK_EQUAL(1U, planned.size());
+        CHECK(planned.front().path.moves.empty());
+        STRCMP_CONTAINS(part, planned.front().stats.warnings.front().c_str());
+    };
+    says("the smallest has radius 6.0 mm, with an allowance of 100.0 mm",
+         [](Operation& o) { o.allowance = 100; });
+    says("the part is flat: its hull is 0.0 mm high", [](Operation& o) {
+        for (Vec3d& p : o.floor.front().points) {
+            p.z = 0;
+        }
     });
 }

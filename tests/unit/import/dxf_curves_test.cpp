@@ -6,6 +6,7 @@
 #include "CppUTest/TestHarness.h"
 
 #include "firmware/base/math.hpp"
+#include "host_tools/import/file_loops.hpp"
 #include "host_tools/import/import.hpp"
 #include "host_tools/job/job.hpp"
 #include "host_tools/job/loop_shape.hpp"
@@ -257,4 +258,89 @@ TEST(DxfCurves, RefuseReferencesThatCannotBeDrawn)
                         .c_str());
     STRCMP_CONTAINS("without group 10",
                     refused(with_blocks(block("a", kSquare), insert("a", "20\n0\n"))).c_str());
+}
+
+namespace {
+
+// A closed square as an LWPOLYLINE.
+std::string square(double low_x, double low_y, double side, const std::string& layer = "0")
+{
+    std::string out = "0\nLWPOLYLINE\n8\n" + layer + "\n90\n4\n70\n1\n";
+    for (const Vec2d corner : {Vec2d{0, 0}, Vec2d{1, 0}, Vec2d{1, 1}, Vec2d{0, 1}}) {
+        out += "10\n" + std::to_string(low_x + side * corner.x) + "\n20\n" +
+               std::to_string(low_y + side * corner.y) + "\n";
+    }
+    return out;
+}
+
+std::vector<double> areas_of(const std::vector<Loop>& loops)
+{
+    std::vector<double> areas;
+    for (const Loop& loop : loops) {
+        areas.push_back(signed_area(loop_polyline(loop, 1e-4)));
+    }
+    return areas;
+}
+
+}  // namespace
+
+TEST(DxfCurves, BoundPocketsByTheirNesting)
+{
+    // a plate with two holes, a pad in one of them; another plate beside it
+    const std::string file = folder.with(
+        "d.dxf", drawing(square(0, 0, 100) + square(10, 10, 30) + square(60, 60, 10) +
+                         square(20, 20, 5) + square(200, 0, 50) + square(210, 10, 6, "keep")));
+    std::vector<std::string> notes;
+    Operation operation;
+    operation.strategy = "contour_pocket";
+    const auto pockets = pockets_of(operation, read_loops(file + "#0", 1, 0.02, notes),
+                                    read_loops(file + "#keep", 1, 0.02, notes));
+    CHECK(notes.empty());
+    CHECK_EQUAL(3U, pockets.size());
+    const double bounds[] = {10000, 2500, 25};
+    for (std::size_t k = 0; k < 3; ++k) {
+        DOUBLES_EQUAL(bounds[k], areas_of({*pockets[k].boundary})[0], 1e-6);
+    }
+    CHECK((areas_of(pockets[0].islands) == std::vector<double>{900, 100}));
+    CHECK((areas_of(pockets[1].islands) == std::vector<double>{36}));
+    CHECK(pockets[2].islands.empty());
+    STRCMP_CONTAINS("d.dxf#0: loop 2 of 5, at x 200 y 0 mm", pockets[1].boundary_file.c_str());
+    const std::string outside = cusp::test::refusal([&] {
+        pockets_of(operation, read_loops(file + "#0", 1, 0.02, notes),
+                   read_loops(folder.with("e.dxf", drawing(square(-20, 0, 5))), 1, 0.02, notes));
+    });
+    STRCMP_CONTAINS("the island lies outside all 3 pockets", outside.c_str());
+}
+
+TEST(DxfCurves, AreJoinedAtGapsUpToTheToleranceAndNotBeyond)
+{
+    // gaps of 0.015 and 0.01, with a side of 0.012 between them
+    const std::string soup = line("0", "0", "10", "0") + line("10.015", "0", "10.015", "0.012") +
+                             line("10.015", "0.022", "10", "10") + line("0", "0", "10", "10");
+    const std::string file = folder.with("d.dxf", drawing(soup));
+    std::vector<std::string> notes;
+    const auto loops = read_loops(file, 1, 0.02, notes);
+    CHECK_EQUAL(1U, loops.size());
+    DOUBLES_EQUAL(50, areas_of({loops[0].loop})[0], 0.2);
+    CHECK_EQUAL(1U, notes.size());
+    STRCMP_CONTAINS("d.dxf: 2 gaps of up to 0.015 mm are joined; at most 0.02 mm are",
+                    notes[0].c_str());
+    const std::string open = cusp::test::refusal([&] { read_loops(file, 1, 0.012, notes); });
+    STRCMP_CONTAINS("the loop is open: 4 curves from x 10 y 0 to x 10.015 y 0 mm", open.c_str());
+    STRCMP_CONTAINS("is 0.015 mm, at most 0.012 are joined (plan_tolerance)", open.c_str());
+}
+
+TEST(DxfCurves, TakeChainsOfBezierCurvesApart)
+{
+    // two parabolas over the chords from 0 to 4 and from 4 to 8, in one SPLINE
+    const std::string chain =
+        "0\nSPLINE\n70\n8\n71\n2\n72\n9\n73\n6\n40\n0\n40\n0\n40\n0\n40\n1\n40\n1\n40\n1\n"
+        "40\n3\n40\n3\n40\n3\n10\n0\n20\n0\n10\n2\n20\n4\n10\n4\n20\n0\n"
+        "10\n4\n20\n0\n10\n6\n20\n4\n10\n8\n20\n0\n";
+    DOUBLES_EQUAL(2 * 16.0 / 3, area(chain + line("0", "0", "8", "0")), 1e-3);
+    CHECK_EQUAL(3U, read_dxf_curves(folder.file("d.dxf"), 1).size());
+    // a knot too many is still an error
+    std::string broken = chain;
+    broken.replace(broken.find("40\n3\n40\n3"), 5, "40\n1\n");
+    STRCMP_CONTAINS("SPLINE", refused(drawing(broken)).c_str());
 }

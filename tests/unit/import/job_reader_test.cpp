@@ -239,6 +239,47 @@ TEST(JobReader, RefusesAKeyOfAnotherStrategyWithItsPlace)
                     refused(kHead + pocket("scallop = 0.4\nstep_over = 2\n")).c_str());
 }
 
+TEST(JobReader, NamesATypoBeforeTheKeyThatItMakesMissing)
+{
+    STRCMP_CONTAINS("job.toml:7: cutting: feedrate: unknown key; the nearest known one is feed",
+                    refused_head("feed = 1200.0", "feedrate = 1200").c_str());
+    STRCMP_CONTAINS("cuting: unknown key; the nearest known one is cutting",
+                    refused_head("[cutting]", "[cuting]").c_str());
+    STRCMP_CONTAINS("strategi: unknown key",
+                    refused(kHead + "[[operation]]\nstrategi = \"contour_pocket\"\n").c_str());
+}
+
+TEST(JobReader, RefusesIsoSpacingWhereNoStrategyTakesIt)
+{
+    const std::string key = "iso_spacing = \"even\"\n";
+    STRCMP_CONTAINS("iso_spacing: is a key of adaptive_isocurve, not of contour_pocket",
+                    refused(kHead + pocket(key)).c_str());
+    STRCMP_CONTAINS("not of complete_isocurves",
+                    refused(kHead + "[[operation]]\nstrategy = \"complete_isocurves\"\n" +
+                            "iso_distance = 1\n" + key)
+                        .c_str());
+}
+
+TEST(JobReader, TakesThePartsTopForAStockWithoutOne)
+{
+    folder.with("ramp.stl",
+                "solid p\nfacet normal 0 0 1\nouter loop\nvertex 0 0 -3\nvertex 10 0 7.5\n"
+                "vertex 0 10 -3\nendloop\nendfacet\nendsolid p\n");
+    std::string head = kHead;
+    head.erase(head.find("top = 0.0\n"), 10);
+    const std::string finish =
+        "[[operation]]\nstrategy = \"adaptive_isocurve\"\nfloor = \"ramp.stl\"\nscallop = 0.4\n";
+    const Job over = read(head + finish);
+    DOUBLES_EQUAL(7.5, over.stock_top, 1e-12);
+    DOUBLES_EQUAL(7.5, *over.part_top, 1e-12);
+    DOUBLES_EQUAL(0, read(kHead + finish).stock_top, 0);
+    STRCMP_CONTAINS("stock: bottom: is 8 mm, not below the top at 7.5 mm, the part's",
+                    refused(head + "bottom = 8\n" + finish).c_str());
+    const Job in_pocket = read(head + pocket());  // its floor lies below 0
+    DOUBLES_EQUAL(0, in_pocket.stock_top, 0);
+    CHECK(!in_pocket.part_top);
+}
+
 TEST(JobReader, RefusesBrokenTomlWithItsLine)
 {
     STRCMP_CONTAINS("job.toml:2: not TOML", refused("units = \"mm\"\n[tool\n").c_str());

@@ -34,6 +34,19 @@ TEST(ToolpathMeasure, SumsLengthsAndCounts)
     DOUBLES_EQUAL(10, sum.link_length_mm, 1e-12);
 }
 
+TEST(ToolpathMeasure, LengthsAboveAHeightCountPartsOfMovesAndNoRapids)
+{
+    Toolpath path;
+    path.moves = {{MoveKind::kRapid, LineTo{{0, 0, 5}}},
+                  {MoveKind::kPlunge, LineTo{{0, 0, -5}}},
+                  {MoveKind::kCut, LineTo{{30, 0, -5}}},
+                  {MoveKind::kLink, ArcTo{{30, 10, 5}, {30, 5, 0}, ArcPlane::kXY, false}}};
+    const double helix = std::hypot(5 * kPi, 10);
+    DOUBLES_EQUAL(2 + 0.2 * helix, cut_length_above(path, {9, 9, 9}, 3), 0.01);
+    DOUBLES_EQUAL(0, cut_length_above(path, {9, 9, 9}, 5), 0);
+    DOUBLES_EQUAL(40 + helix, cut_length_above(path, {9, 9, 9}, -6), 0.01);
+}
+
 TEST(ToolpathMeasure, EstimatesTheTimeFromRestToRest)
 {
     Toolpath path;

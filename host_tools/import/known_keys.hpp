@@ -1,11 +1,18 @@
-// Which keys of an operation belong to which strategies.
+// The keys of a job's tables, and which keys of an operation belong to which strategies.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "host_tools/import/job_table.hpp"
 
 namespace cusp::import {
+
+std::vector<std::string> job_keys();
+std::vector<std::string> tool_keys();
+std::vector<std::string> cutting_keys();
+std::vector<std::string> stock_keys();
+std::vector<std::string> operation_keys();
 
 // Throws InputError where the operation has a key that its strategy does not know.
 void refuse_keys_of_others(const toml::table& entry,

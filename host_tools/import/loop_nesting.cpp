@@ -1,5 +1,6 @@
-// Ends are found in a grid of squares; chains are walked from their open ends first.
-#include "host_tools/part_info/loop_nesting.hpp"
+// Ends are found in a grid of squares; chains are walked from their open ends first. What stays open
+// is joined once more, at gaps up to the tolerance.
+#include "host_tools/import/loop_nesting.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +13,7 @@
 
 #include "host_tools/job/loop_shape.hpp"
 
-namespace cusp::part_info {
+namespace cusp::import {
 
 using job::crossing_of;
 using job::encloses;
@@ -22,14 +23,16 @@ using nurbs::CurvePoint;
 
 namespace {
 
-constexpr double kMeets = 1e-3;             // mm, as loops of a job are closed
 constexpr double kOutline = 1e-3;           // mm, of chords
 constexpr double kRepeated = 1e-4;          // mm: curves nearer than that are one
 constexpr std::size_t kMostSides = 200000;  // of outlines that are searched for crossings
 
+// Curves in order, each from the end of the one before.
+using Chain = std::vector<Curve>;
+
 struct End {
-    std::size_t curve;
-    bool last;  // of the curve
+    std::size_t chain;
+    bool last;  // of the chain
     Vec2d at;
 };
 
@@ -119,41 +122,55 @@ std::vector<Curve> without_repeats(const std::vector<Curve>& curves, std::size_t
     return out;
 }
 
-class Chains {
+Chain reversed_chain(const Chain& chain)
+{
+    Chain back;
+    for (auto curve = chain.rbegin(); curve != chain.rend(); ++curve) {
+        back.push_back(reversed(*curve));
+    }
+    return back;
+}
+
+// Joins chains whose ends meet.
+class Joining {
 public:
-    explicit Chains(const std::vector<Curve>& curves)
-        : curves_{curves}, grid_{kMeets}, used_(curves.size(), false)
+    // meets  mm: ends no farther apart meet
+    Joining(const std::vector<Chain>& chains, double meets)
+        : chains_{chains}, meets_{meets}, grid_{meets}, used_(chains.size(), false)
     {
-        for (std::size_t k = 0; k < curves.size(); ++k) {
+        for (std::size_t k = 0; k < chains.size(); ++k) {
             for (const bool last : {false, true}) {
-                const Vec3d at = last ? curves[k].points.back() : curves[k].points.front();
+                const Vec3d at =
+                    last ? chains[k].back().points.back() : chains[k].front().points.front();
                 grid_.add(ends_.size(), in_plan(at));
                 ends_.push_back({k, last, in_plan(at)});
             }
         }
     }
 
-    void sort_into(LoopNesting& nesting)
+    // Returns the chains that stay open.
+    std::vector<Chain> sort_into(LoopNesting& nesting)
     {
-        // Open chains first, from their ends; the remaining curves form loops.
+        // Open chains first, from their ends; the remaining ones form loops.
         for (const bool from_open_ends : {true, false}) {
             for (std::size_t e = 0; e < ends_.size(); ++e) {
-                if (!used_[ends_[e].curve] && (!from_open_ends || is_open(e))) {
+                if (!used_[ends_[e].chain] && (!from_open_ends || is_open(e))) {
                     add_chain(e, nesting);
                 }
             }
         }
+        return std::move(open_);
     }
 
 private:
-    // An unused curve's end that meets this one; the number of ends where there is none.
+    // An unused chain's end that meets this one; the number of ends where there is none.
     std::size_t next_to(std::size_t end) const
     {
         std::size_t nearest = ends_.size();
-        double least = kMeets;
+        double least = meets_;
         grid_.near(ends_[end].at, [&](std::size_t other) {
             const double apart = norm(ends_[other].at - ends_[end].at);
-            if (other != end && !used_[ends_[other].curve] && apart <= least) {
+            if (other != end && !used_[ends_[other].chain] && apart <= least) {
                 least = apart;
                 nearest = other;
             }
@@ -164,47 +181,76 @@ private:
     {
         bool meets = false;
         grid_.near(ends_[end].at, [&](std::size_t other) {
-            meets = meets || (other != end && norm(ends_[other].at - ends_[end].at) <= kMeets);
+            meets = meets || (other != end && norm(ends_[other].at - ends_[end].at) <= meets_);
         });
         return !meets;
     }
 
+    void note_gap(double gap, LoopNesting& nesting) const
+    {
+        if (gap > kEndsMeet) {
+            ++nesting.bridged;
+            nesting.widest_gap = std::max(nesting.widest_gap, gap);
+        }
+    }
+
     void add_chain(std::size_t first, LoopNesting& nesting)
     {
-        std::vector<Curve> chain;
+        Chain chain;
         const Vec2d begin = ends_[first].at;
         Vec2d end = begin;
+        Measures sum;
+        bool closed = false;
         for (std::size_t at = first; at < ends_.size();) {
             const End& from = ends_[at];
-            used_[from.curve] = true;
-            chain.push_back(from.last ? reversed(curves_[from.curve]) : curves_[from.curve]);
+            used_[from.chain] = true;
+            const Chain& next = chains_[from.chain];
+            Chain turned = from.last ? reversed_chain(next) : next;
+            for (Curve& curve : turned) {
+                const Measures one = measures_of(curve, begin);
+                sum.length += one.length;
+                sum.area += one.area;
+                chain.push_back(std::move(curve));
+            }
             const std::size_t other = at ^ 1U;
             end = ends_[other].at;
-            at = norm(end - begin) <= kMeets ? ends_.size() : next_to(other);
+            closed = norm(end - begin) <= meets_ && sum.length > 2 * meets_;
+            at = closed ? ends_.size() : next_to(other);
+            if (at < ends_.size()) {
+                note_gap(norm(ends_[at].at - end), nesting);
+            }
         }
-        Measures sum;
-        for (const Curve& curve : chain) {
-            const Measures one = measures_of(curve, begin);
-            sum.length += one.length;
-            sum.area += one.area;
-        }
-        if (norm(end - begin) <= kMeets && sum.length > 2 * kMeets) {
+        if (closed) {
+            note_gap(norm(end - begin), nesting);
             const std::vector<Vec2d> outline = loop_polyline(chain, kOutline);
-            nesting.loops.push_back({outline, chain.size(), sum.length, std::abs(sum.area),
+            nesting.loops.push_back({std::move(chain), outline, sum.length, std::abs(sum.area),
                                      sum.area > 0, -1, 0, std::nullopt});
             return;
         }
-        // loop_polyline() closes what it is given
-        std::vector<Vec2d> outline = loop_polyline(chain, kOutline);
-        outline.back() = end;
-        nesting.open.push_back({outline, chain.size(), sum.length, begin, end, 0, begin, end});
+        open_.push_back(std::move(chain));
     }
 
-    const std::vector<Curve>& curves_;
+    const std::vector<Chain>& chains_;
+    double meets_;
     EndGrid grid_;
     std::vector<End> ends_;
     std::vector<bool> used_;
+    std::vector<Chain> open_;
 };
+
+OpenChain open_chain(const Chain& chain)
+{
+    double length = 0;
+    for (const Curve& curve : chain) {
+        length += measures_of(curve, {}).length;
+    }
+    const Vec2d begin = in_plan(chain.front().points.front());
+    const Vec2d end = in_plan(chain.back().points.back());
+    // loop_polyline() closes what it is given
+    std::vector<Vec2d> outline = loop_polyline(chain, kOutline);
+    outline.back() = end;
+    return {outline, chain.size(), length, begin, end, 0, begin, end};
+}
 
 void measure_gaps(std::vector<OpenChain>& open)
 {
@@ -308,12 +354,21 @@ void find_crossings(LoopNesting& nesting)
 
 }  // namespace
 
-LoopNesting nest_loops(const std::vector<Curve>& curves)
+LoopNesting nest_loops(const std::vector<Curve>& curves, double join)
 {
     LoopNesting nesting;
     nesting.curves = curves.size();
-    const std::vector<Curve> once = without_repeats(curves, nesting.repeated);
-    Chains{once}.sort_into(nesting);
+    std::vector<Chain> chains;
+    for (Curve& curve : without_repeats(curves, nesting.repeated)) {
+        chains.push_back({std::move(curve)});
+    }
+    chains = Joining{chains, kEndsMeet}.sort_into(nesting);
+    if (join > kEndsMeet && !chains.empty()) {
+        chains = Joining{chains, join}.sort_into(nesting);
+    }
+    for (const Chain& chain : chains) {
+        nesting.open.push_back(open_chain(chain));
+    }
     std::stable_sort(nesting.loops.begin(), nesting.loops.end(),
                      [](const ClosedLoop& a, const ClosedLoop& b) { return a.area > b.area; });
     nest(nesting.loops);
@@ -322,4 +377,4 @@ LoopNesting nest_loops(const std::vector<Curve>& curves)
     return nesting;
 }
 
-}  // namespace cusp::part_info
+}  // namespace cusp::import

@@ -1,5 +1,5 @@
 // Loops by their closed forms: lengths, areas, what lies in what, and how far open ends are apart.
-#include "host_tools/part_info/loop_nesting.hpp"
+#include "host_tools/import/loop_nesting.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 using namespace cusp;
 using namespace cusp::nurbs;
-using namespace cusp::part_info;
+using namespace cusp::import;
 using namespace cusp::test;
 
 namespace {
@@ -80,6 +80,18 @@ TEST(LoopNesting, AnOpenChainNamesItsEndsAndTheGap)
     DOUBLES_EQUAL(0.5, chain.gap, 1e-9);
     DOUBLES_EQUAL(0.5, std::abs(chain.gap_from.y - chain.gap_to.y), 1e-9);
     DOUBLES_EQUAL(0, chain.gap_from.x, 1e-9);
+}
+
+TEST(LoopNesting, GapsUpToTheToleranceAreJoinedAndCounted)
+{
+    std::vector<Curve> curves = square(0, 10);
+    curves.back().points.back() = {0, 0.015, 0};
+    const LoopNesting found = nest_loops(curves, 0.02);
+    UNSIGNED_LONGS_EQUAL(1, found.loops.size());
+    UNSIGNED_LONGS_EQUAL(4, found.loops[0].curves.size());
+    UNSIGNED_LONGS_EQUAL(1, found.bridged);
+    DOUBLES_EQUAL(0.015, found.widest_gap, 1e-12);
+    UNSIGNED_LONGS_EQUAL(1, nest_loops(curves, 0.01).open.size());
 }
 
 TEST(LoopNesting, TheGapIsToTheNearestChain)

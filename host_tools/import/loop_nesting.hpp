@@ -7,12 +7,17 @@
 
 #include "host_tools/nurbs/nurbs.hpp"
 
-namespace cusp::part_info {
+namespace cusp::import {
+
+// mm: ends no farther apart meet.
+inline constexpr double kEndsMeet = 1e-3;
+// mm: ends of open chains no farther apart are joined, where no job gives its plan_tolerance.
+inline constexpr double kJoinTolerance = 0.02;
 
 // Seen from above, mm.
 struct ClosedLoop {
-    std::vector<Vec2d> outline;  // chords within 1e-3 mm; the last point is the first again
-    std::size_t curves{};
+    std::vector<nurbs::Curve> curves;  // in order
+    std::vector<Vec2d> outline;        // chords within 1e-3 mm; the last point is the first again
     double length{};
     double area{};                  // above 0, or 0
     bool counter_clockwise{};       // as drawn
@@ -36,13 +41,16 @@ struct LoopNesting {
     std::size_t repeated{};         // drawn a second time over another one; left out
     std::vector<ClosedLoop> loops;  // the largest first
     std::vector<OpenChain> open;
+    std::size_t bridged{};          // gaps over 1e-3 mm that were joined
+    double widest_gap{};            // mm, of those
     std::optional<Vec2d> crossing;  // where two loops cross: their nesting means little
 };
 
-// Ends within 1e-3 mm meet, as in read_loop(). Lengths and areas are integrals over the curves,
-// good to 1e-9 of them for arcs up to a quarter turn a piece.
+// Ends within 1e-3 mm meet. What is open then is joined where its ends are at most `join` mm apart,
+// the nearest first. Lengths and areas are integrals over the curves, good to 1e-9 of them for arcs
+// up to a quarter turn a piece.
 //
 // Where more than two ends meet, a chain continues along any of them.
-LoopNesting nest_loops(const std::vector<nurbs::Curve>& curves);
+LoopNesting nest_loops(const std::vector<nurbs::Curve>& curves, double join = kJoinTolerance);
 
-}  // namespace cusp::part_info
+}  // namespace cusp::import

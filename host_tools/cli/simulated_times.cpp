@@ -1,0 +1,53 @@
+// Counts the servo ticks of each operation by the line that the machine executes.
+#include "host_tools/cli/simulated_times.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "firmware/base/pulse_frame.hpp"
+#include "host_tools/program_run/program_run.hpp"
+
+namespace cusp::cli {
+
+using dialect::LineSource;
+using program_run::ProgramRun;
+using program_run::RunOptions;
+using program_run::SetPoint;
+
+std::optional<std::vector<double>> simulated_times(const std::string& program,
+                                                   const std::vector<std::size_t>& begins)
+{
+    std::vector<std::uint32_t> first_lines;  // of all operations but the first
+    for (std::size_t k = 1; k < begins.size(); ++k) {
+        const auto from = program.begin() + static_cast<std::ptrdiff_t>(begins[k]);
+        first_lines.push_back(
+            static_cast<std::uint32_t>(1 + std::count(program.begin(), from, '\n')));
+    }
+    std::vector<std::uint64_t> ticks(begins.size(), 0);
+    std::size_t operation = 0;
+    RunOptions options;
+    options.measures_deviation = false;
+    options.set_point = [&](const SetPoint& point) {
+        // between moves the machine executes no line: the last one counts
+        if (point.line != 0) {
+            operation = static_cast<std::size_t>(
+                std::upper_bound(first_lines.begin(), first_lines.end(), point.line) -
+                first_lines.begin());
+        }
+        ++ticks[operation];
+    };
+    LineSource source = LineSource::of_text("the program", program);
+    ProgramRun run{source, options};
+    while (run.advance()) {
+    }
+    if (!run.result().good()) {
+        return std::nullopt;
+    }
+    std::vector<double> seconds;
+    for (const std::uint64_t count : ticks) {
+        seconds.push_back(static_cast<double>(count) / kServoTicksPerSecond);
+    }
+    return seconds;
+}
+
+}  // namespace cusp::cli

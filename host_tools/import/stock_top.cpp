@@ -1,0 +1,62 @@
+// Each floor is measured once, whatever the number of operations on it.
+#include "host_tools/import/stock_top.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "host_tools/import/part_extent.hpp"
+
+namespace cusp::import {
+
+using job::Job;
+using job::Operation;
+
+namespace {
+
+bool is_pocket(const Operation& operation) { return operation.boundary.has_value(); }
+
+double highest_of(const Operation& operation)
+{
+    return operation.mesh.empty() ? highest_of_surfaces(operation.floor)
+                                  : extent_of_triangles(operation.mesh).high.z;
+}
+
+// None where `counts` is false for all operations.
+template <class Counts>
+std::optional<double> highest_floor(const Job& job, const Counts& counts)
+{
+    using Files = std::vector<std::string>;
+    std::set<std::pair<Files, Files>> measured;
+    std::optional<double> highest;
+    for (const Operation& operation : job.operations) {
+        if (counts(operation) &&
+            measured.emplace(operation.floor_files, operation.intersect_files).second) {
+            const double top = highest_of(operation);
+            highest = std::max(highest.value_or(top), top);
+        }
+    }
+    return highest;
+}
+
+}  // namespace
+
+std::optional<double> part_top(const Job& job)
+{
+    return highest_floor(job, [](const Operation& operation) { return !is_pocket(operation); });
+}
+
+double default_stock_top(const Job& job)
+{
+    constexpr double kSteps = 1e4;         // of one mm
+    constexpr double kOverRounding = 0.5;  // of a step: how much too high a measure may be
+    const double highest = *highest_floor(job, [](const Operation&) { return true; });
+    const bool pockets = std::any_of(job.operations.begin(), job.operations.end(), is_pocket);
+    const double top = std::ceil(highest * kSteps - kOverRounding) / kSteps + 0.0;
+    return pockets ? std::max(top, 0.0) : top;
+}
+
+}  // namespace cusp::import

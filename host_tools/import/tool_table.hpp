@@ -1,0 +1,25 @@
+// A table [tool] of a job.
+#pragma once
+
+#include <string>
+
+#include "host_tools/import/job_table.hpp"
+#include "host_tools/import/number_ranges.hpp"
+#include "host_tools/job/job.hpp"
+
+namespace cusp::import {
+
+// Tool numbers as controllers take them.
+inline constexpr Range kToolNumber{1, 255};
+
+// file         of the job, for messages
+// index        the tool's place among the tables, from 1: its number where it has none
+// millimetres  of one unit of the job
+//
+// Errors: InputError with line and key.
+toolpath::Tool read_tool(const toml::table& table,
+                         const std::string& file,
+                         std::size_t index,
+                         double millimetres);
+
+}  // namespace cusp::import
