@@ -68,14 +68,14 @@ struct MotionPanel {
     std::string axes(const std::string& title, double step) const
     {
         constexpr const char* kGrid = "stroke=\"#d0d0d0\" stroke-width=\"1\"";
-        constexpr double kSlack = 1e-9;
+        constexpr double kRounding = 1e-9;
         std::string out = text_at(kLeft, bottom() - kPanelHeight - 6, "start", title);
-        for (double value = 0; value <= most * (1 + kSlack); value += step) {
+        for (double value = 0; value <= most * (1 + kRounding); value += step) {
             out += line_between(kLeft, y(value), kLeft + kPlotWidth, y(value), kGrid);
             out += text_at(kLeft - 6, y(value) + 4, "end", fmt::format("{:g}", value));
         }
         const double time_step = round_below(seconds / 5);
-        for (int k = 0; k * time_step <= seconds * (1 + kSlack); ++k) {
+        for (int k = 0; k * time_step <= seconds * (1 + kRounding); ++k) {
             const double time = k * time_step;
             out += line_between(x(time), bottom(), x(time), bottom() - kPanelHeight, kGrid);
             out += text_at(x(time), bottom() + 15, "middle", fmt::format("{:g} s", time));
