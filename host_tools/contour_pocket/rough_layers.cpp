@@ -219,15 +219,15 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     if (cleared.passes.empty()) {
         return result;
     }
-    const double bottom = lowest_tip(cleared, floor) + operation.allowance;
-    if (operation.layers.empty() && bottom >= job.stock_top) {
-        return result;
-    }
     CutSettings settings =
         rough_settings(operation, rough.tool, tolerances, clearing.wall_clearance);
     for (ClearingPass& pass : cleared.passes) {
         pass.path = flattened(pass.path, settings.path_settings.plan_tolerance,
                               settings.path_settings.spacing, settings.path_settings.arcs);
+    }
+    const double bottom = lowest_tip(cleared, floor) + operation.allowance;
+    if (operation.layers.empty() && bottom >= job.stock_top) {
+        return result;
     }
     settings.repeated.assign(cleared.passes.size(), true);
     ClPathWriter moves{job.stock_top + job.clearance};
