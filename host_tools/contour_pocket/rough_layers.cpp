@@ -243,9 +243,8 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     cutter.end();
     warn_of_thin_layers(job, operation, result);
     fill_operation(job, operation, cleared, moves, result);
-    OperationStats& stats = result.operation.stats;
-    stats.gouge_bound_mm = std::max(0.0, -cutter.least_clearance());
-    stats.planning_s =
+    result.operation.stats.gouge_bound_mm = std::max(0.0, -cutter.least_clearance());
+    result.operation.stats.planning_s =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return result;
 }

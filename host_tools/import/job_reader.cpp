@@ -15,7 +15,7 @@
 #include "host_tools/import/part_files.hpp"
 #include "host_tools/import/path_ending.hpp"
 #include "host_tools/import/stock_top.hpp"
-#include "host_tools/import/tool_table.hpp"
+#include "host_tools/import/tool_reader.hpp"
 #include "host_tools/import/trim_loops.hpp"
 #include "host_tools/job/job.hpp"
 #include "host_tools/part_model/model_intersection.hpp"

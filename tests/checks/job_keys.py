@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-READERS = ("host_tools/import/job_reader.cpp", "host_tools/import/tool_table.cpp")
+READERS = ("host_tools/import/job_reader.cpp", "host_tools/import/tool_reader.cpp")
 DOCUMENT = "docs/job_file.md"
 # table.number("key", ...), length(table, "key", ...), read_interval(stock, "key")
 READ = re.compile(r'(?:\b(?:number|numbers|required_number|whole_number|one_of|text|texts|flag)\(|\b(?:length|read_interval)\(\w+, )"(\w+)"')

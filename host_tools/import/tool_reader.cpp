@@ -1,5 +1,5 @@
 // Shape first: which lengths a tool has depends on it.
-#include "host_tools/import/tool_table.hpp"
+#include "host_tools/import/tool_reader.hpp"
 
 #include <optional>
 
