@@ -142,12 +142,17 @@ Status plan_drilling(LineContext& line, MotionPlan& plan) noexcept
     }
     DrillWords words{};
     words.height_axis = normal_axis(command.modal.plane);
-    for (const auto read : {read_dwell, read_peck, read_heights}) {
-        if (const Status status = read(line, words); !status) {
-            return status;
-        }
+    Status status = read_dwell(line, words);
+    if (status) {
+        status = read_peck(line, words);
     }
-    if (const Status status = read_repeats(line.command, words); !status) {
+    if (status) {
+        status = read_heights(line, words);
+    }
+    if (status) {
+        status = read_repeats(line.command, words);
+    }
+    if (!status) {
         return status;
     }
     read_holes(line, words);
