@@ -14,6 +14,7 @@ void SampleBlocks::add(Position at)
     const Position acceleration = velocity - last_[1];
     const Position jerk = acceleration - last_[2];
     last_ = {at, velocity, acceleration};
+    const PerAxis<std::uint64_t> third{zigzag(jerk[0]), zigzag(jerk[1]), zigzag(jerk[2])};
     if (ticks_ % kBlock == 0) {
         if (ticks_ > 0) {
             end_block();
@@ -21,15 +22,47 @@ void SampleBlocks::add(Position at)
         first_ = last_;
     } else {
         for (unsigned axis = 0; axis < kAxisCount; ++axis) {
-            third_[axis].push_back(zigzag(jerk[axis]));
+            third_[axis].push_back(third[axis]);
         }
     }
+    repeated_.add(third);
     ++ticks_;
+}
+
+// Takes the repetitions out of third_ and names them.
+void SampleBlocks::leave_out_repetitions(Bytes& out)
+{
+    const std::size_t begin = ticks_ - third_[0].size();
+    const std::vector<Repetition> repetitions = repeated_.find(begin, ticks_);
+    out.put_varint(repetitions.size());
+    std::size_t last = begin;
+    for (const Repetition& repetition : repetitions) {
+        out.put_varint(repetition.first - last);
+        out.put_varint(repetition.count);
+        out.put_varint(repetition.distance);
+        last = repetition.first + repetition.count;
+    }
+    for (std::vector<std::uint64_t>& values : third_) {
+        std::size_t kept = 0;
+        std::size_t from = begin;
+        const auto keep = [&](std::size_t to) {
+            for (; from < to; ++from) {
+                values[kept++] = values[from - begin];
+            }
+        };
+        for (const Repetition& repetition : repetitions) {
+            keep(repetition.first);
+            from += repetition.count;
+        }
+        keep(ticks_);
+        values.resize(kept);
+    }
 }
 
 void SampleBlocks::end_block()
 {
     Bytes planes;
+    leave_out_repetitions(planes);
     for (unsigned axis = 0; axis < kAxisCount; ++axis) {
         std::uint64_t all = 0;
         for (const std::uint64_t value : third_[axis]) {

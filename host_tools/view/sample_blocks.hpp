@@ -1,8 +1,8 @@
 // SampleBlocks: the set points of a run in 1 to 2 bytes a tick, exact.
 //
-// Third differences of whole nanometres are small: the jerk and the rounding. Each block of ticks
-// begins with position, velocity and acceleration, then has the third differences axis by axis, byte plane by byte plane,
-// deflated.
+// Third differences of whole nanometres are small: the jerk and the rounding. Each block of ticks begins with
+// position, velocity and acceleration, then has the third differences axis by axis, byte plane by byte plane, deflated.
+// Stretches that repeat earlier ones, as layers of roughing do, are left out and named.
 #pragma once
 
 #include <array>
@@ -12,6 +12,7 @@
 #include "firmware/base/axis.hpp"
 #include "firmware/base/vec.hpp"
 #include "host_tools/view/byte_text.hpp"
+#include "host_tools/view/repeated_stretches.hpp"
 
 namespace cusp::view {
 
@@ -25,17 +26,22 @@ public:
     std::uint64_t ticks() const { return ticks_; }
 
     // Ends the last block. The bytes: u32 ticks, u32 ticks of a block; then blocks: for each axis f64
-    // position, first and second difference of the first tick and u8 number of planes; u32 size and
-    // the deflated planes of the ticks after the first.
+    // position, first and second difference of the first tick and u8 number of planes; then u32 size and,
+    // deflated, what the ticks after the first need: varint number of repetitions, for each one varints
+    // ticks since the one before (or the block's first), its ticks, and how many ticks before it they were; then
+    // the planes of the ticks that repeat nothing. Third differences of earlier blocks are those of the
+    // positions; before the first tick nothing moves.
     Bytes finish();
 
 private:
+    void leave_out_repetitions(Bytes& out);
     void end_block();
 
     std::uint64_t ticks_{0};
-    std::array<Position, 3> last_{};   // position and its differences, newest
-    std::array<Position, 3> first_{};  // of the block
-    PerAxis<std::vector<std::uint64_t>> third_;
+    std::array<Position, 3> last_{};             // position and its differences, newest
+    std::array<Position, 3> first_{};            // of the block
+    PerAxis<std::vector<std::uint64_t>> third_;  // of the block's ticks after the first
+    RepeatedStretches repeated_;
     Bytes blocks_;
 };
 

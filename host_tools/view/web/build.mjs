@@ -1,4 +1,4 @@
-// Bundles the pages: one HTML file each, script and style inside, and a policy that forbids every request.
+// Bundles the pages: one HTML file each, script (deflated) and style inside, and a policy that forbids every request.
 //
 //   node build.mjs --out FOLDER [--core CORE.wasm] [--cpp FILE.cpp]
 //
@@ -9,6 +9,7 @@ import { createHash } from "node:crypto";
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
+import { deflateRawSync } from "node:zlib";
 import { build } from "esbuild";
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -45,7 +46,7 @@ const inlined = {
 
 // The licences of what is bundled.
 function licences() {
-  return ["three", "uplot"].map((name) => {
+  return ["fflate", "three", "uplot"].map((name) => {
     const folder = join(here, "node_modules", name);
     const { version } = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
     return `${name} ${version}\n\n${readFileSync(join(folder, "LICENSE"), "utf8").trim()}\n`;
@@ -54,16 +55,18 @@ function licences() {
 
 const hash = (text) => `'sha256-${createHash("sha256").update(text).digest("base64")}'`;
 
-function page(name, script, style) {
+// `start` unpacks `script` and puts it into the page; the policy names both.
+function page(name, start, script, style) {
   for (const closing of ["</script", "<!--"]) {
-    if (script.toLowerCase().includes(closing)) throw new Error(`${name}: the script holds ${closing}`);
+    if (start.toLowerCase().includes(closing)) throw new Error(`${name}: the script holds ${closing}`);
   }
-  const policy = `default-src 'none'; script-src ${hash(script)} 'wasm-unsafe-eval' blob:; style-src ${hash(style)}; ` +
+  const policy = `default-src 'none'; script-src ${hash(start)} ${hash(script)} 'wasm-unsafe-eval' blob:; style-src ${hash(style)}; ` +
     "worker-src blob:; img-src data: blob:; base-uri 'none'; form-action 'none'";
   return readFileSync(join(here, name + ".html"), "utf8")
     .replace("@POLICY@", () => policy)
     .replace("@STYLE@", () => style)
-    .replace("@SCRIPT@", () => script);
+    .replace("@PACKED_SCRIPT@", () => deflateRawSync(script, { level: 9 }).toString("base64"))
+    .replace("@START@", () => start);
 }
 
 // A string literal of C++ in short pieces.
@@ -77,6 +80,7 @@ function literal(text) {
 }
 
 mkdirSync(out, { recursive: true });
+const start = (await bundled(join(here, "src", "start.ts"))).trim();
 const pages = {};
 for (const name of ["view", "playground"]) {
   const entry = join(here, "src", name + "_page.ts");
@@ -84,7 +88,7 @@ for (const name of ["view", "playground"]) {
   if (existsSync(entry)) {
     const style = ["node_modules/uplot/dist/uPlot.min.css", "page.css", name + ".css"].filter((file) => existsSync(join(here, file)))
       .map((file) => readFileSync(join(here, file), "utf8").trim()).join("\n");
-    pages[name] = page(name, (await bundled(entry)).trim(), style);
+    pages[name] = page(name, start, (await bundled(entry)).trim(), style);
     writeFileSync(join(out, name + ".html"), pages[name]);
     console.log(`${name}.html ${(pages[name].length / 1024).toFixed(0)} KiB`);
   }

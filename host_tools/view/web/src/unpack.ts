@@ -48,6 +48,11 @@ const zigzag = (value: number) => value % 2 ? -(value + 1) / 2 : value / 2;
 
 export interface Samples { ticks: number; origin: Triple; axes: [Axis, Axis, Axis] }
 
+// Stretches of a block that repeat earlier ticks: [ticks before it that do not, its ticks, how long ago].
+function readRepetitions(reader: Reader): Triple[] {
+  return Array.from({ length: reader.varint() }, () => [reader.varint(), reader.varint(), reader.varint()]);
+}
+
 export async function unpackSamples(bytes: Uint8Array, farthest: number): Promise<Samples> {
   const reader = new Reader(bytes);
   const ticks = reader.u32(), block = reader.u32();
@@ -55,23 +60,42 @@ export async function unpackSamples(bytes: Uint8Array, farthest: number): Promis
   const axes: [Axis, Axis, Axis] = [make(), make(), make()];
   const origin: Triple = [0, 0, 0];
   for (let begin = 0; begin < ticks; begin += block) {
-    const end = Math.min(ticks, begin + block), count = end - begin - 1;
+    const end = Math.min(ticks, begin + block);
     const seeds = [0, 1, 2].map(() => [reader.f64(), reader.f64(), reader.f64(), reader.u8()]);
-    const planes = await inflate(reader.take(reader.u32()));
+    const packed = new Reader(await inflate(reader.take(reader.u32())));
+    const repetitions = readRepetitions(packed), planes = packed.rest();
+    const count = repetitions.reduce((left, [, repeated]) => left - repeated, end - begin - 1);
     let at = 0;
     for (let axis = 0; axis < 3; ++axis) {
       if (begin === 0) origin[axis] = seeds[axis][0];
       let place = seeds[axis][0] - origin[axis], velocity = seeds[axis][1], acceleration = seeds[axis][2];
       const depth = seeds[axis][3], out = axes[axis];
-      out[begin] = place;
-      for (let k = 0; k < count; ++k) {
-        let value = 0;
-        for (let plane = depth - 1; plane >= 0; --plane) value = value * 256 + planes[at + plane * count + k];
-        acceleration += depth === 1 ? value >> 1 ^ -(value & 1) : zigzag(value);
+      // Before the first tick nothing moved.
+      const placeAt = (tick: number) => out[tick < 0 ? 0 : tick];
+      let tick = begin, k = 0;
+      out[tick++] = place;
+      const step = (third: number) => {
+        acceleration += third;
         velocity += acceleration;
         place += velocity;
-        out[begin + 1 + k] = place;
+        out[tick++] = place;
+      };
+      const read = (to: number) => {
+        while (tick < to) {
+          let value = 0;
+          for (let plane = depth - 1; plane >= 0; --plane) value = value * 256 + planes[at + plane * count + k];
+          ++k;
+          step(depth === 1 ? value >> 1 ^ -(value & 1) : zigzag(value));
+        }
+      };
+      for (const [before, repeated, ago] of repetitions) {
+        read(tick + before);
+        for (const to = tick + repeated; tick < to;) {
+          const from = tick - ago;
+          step(placeAt(from) - placeAt(from - 3) + 3 * (placeAt(from - 2) - placeAt(from - 1)));
+        }
       }
+      read(end);
       at += depth * count;
     }
   }

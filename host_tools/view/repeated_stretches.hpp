@@ -1,0 +1,55 @@
+// RepeatedStretches: finds where a run repeats itself, however long ago: layers of roughing, passes of equal shape.
+// Deflate looks back 32 kB, some seconds.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "firmware/base/axis.hpp"
+
+namespace cusp::view {
+
+// Ticks [first, first + count) have the differences of the ticks `distance` before them.
+struct Repetition {
+    std::size_t first;
+    std::size_t count;
+    std::size_t distance;
+};
+
+class RepeatedStretches {
+public:
+    // Shorter ones are not found.
+    static constexpr std::size_t kShortest = 64;
+
+    // What is compared, of the next tick; counted from 0.
+    void add(const PerAxis<std::uint64_t>& differences);
+
+    // Repetitions within ticks [begin, end), in order, without overlap, of ticks that are in [begin, end) or in the
+    // range of an earlier call. One may go on into what it repeats.
+    // Precondition: end ticks were added.
+    std::vector<Repetition> find(std::size_t begin, std::size_t end);
+
+private:
+    using Differences = PerAxis<std::uint32_t>;
+    // Differences that are no less are not compared.
+    static constexpr std::uint32_t kHuge = std::numeric_limits<std::uint32_t>::max();
+    // Of all starts, those that are remembered.
+    static constexpr std::size_t kStep = 16;
+    static constexpr unsigned kTableBits = 20;
+    static constexpr std::uint32_t kNowhere = std::numeric_limits<std::uint32_t>::max();
+
+    bool equal(std::size_t a, std::size_t b) const;
+    std::uint32_t& place_of(std::uint64_t hash)
+    {
+        return table_[hash * 0x9E3779B97F4A7C15U >> (64 - kTableBits)];
+    }
+    // Of kShortest ticks from each of [begin, end - kShortest].
+    std::vector<std::uint64_t> hashes(std::size_t begin, std::size_t end) const;
+
+    std::vector<Differences> ticks_;
+    std::vector<std::uint32_t> table_ = std::vector<std::uint32_t>(1U << kTableBits, kNowhere);
+};
+
+}  // namespace cusp::view
