@@ -54,9 +54,7 @@ double default_stock_top(const Job& job)
     constexpr double kSteps = 1e4;         // of one mm
     constexpr double kOverRounding = 0.5;  // of a step: how much too high a measure may be
     const double highest = *highest_floor(job, [](const Operation&) { return true; });
-    const bool pockets = std::any_of(job.operations.begin(), job.operations.end(), is_pocket);
-    const double top = std::ceil(highest * kSteps - kOverRounding) / kSteps + 0.0;
-    return pockets ? std::max(top, 0.0) : top;
+    return std::max(0.0, std::ceil(highest * kSteps - kOverRounding) / kSteps);
 }
 
 }  // namespace cusp::import

@@ -12,7 +12,7 @@ namespace cusp::import {
 std::optional<double> part_top(const job::Job& job);
 
 // z that the stock's top has where the job gives none, mm, rounded up to 1e-4: the highest place
-// of all floors, and of pockets at least 0.
+// of all floors, at least 0.
 double default_stock_top(const job::Job& job);
 
 }  // namespace cusp::import

@@ -81,9 +81,6 @@ TEST(SurfaceOperation, RefusesKeysOfRoughingWithoutIt)
     operation.max_depth = 1e-4;
     refused(job, "max_depth is 0.0001 mm");
     operation.max_depth = 2.0;
-    operation.allowance = 500;
-    refused(job, "nothing is to be roughed");
-    operation.allowance = 0;
     operation.layers = {4.0, 4.5};
     refused(job, "deep, more than max_depth, 2 mm");
     operation.max_depth = 20.0;

@@ -273,6 +273,12 @@ TEST(JobReader, TakesThePartsTopForAStockWithoutOne)
     DOUBLES_EQUAL(7.5, over.stock_top, 1e-12);
     DOUBLES_EQUAL(7.5, *over.part_top, 1e-12);
     DOUBLES_EQUAL(0, read(kHead + finish).stock_top, 0);
+    folder.with("low.stl",
+                "solid p\nfacet normal 0 0 1\nouter loop\nvertex 0 0 -3\nvertex 10 0 -2\n"
+                "vertex 0 10 -3\nendloop\nendfacet\nendsolid p\n");
+    std::string low = finish;
+    low.replace(low.find("ramp.stl"), 8, "low.stl");
+    DOUBLES_EQUAL(0, read(head + low).stock_top, 0);
     STRCMP_CONTAINS("stock: bottom: is 8 mm, not below the top at 7.5 mm, the part's",
                     refused(head + "bottom = 8\n" + finish).c_str());
     const Job in_pocket = read(head + pocket());  // its floor lies below 0
