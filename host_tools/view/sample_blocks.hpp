@@ -12,7 +12,7 @@
 #include "firmware/base/axis.hpp"
 #include "firmware/base/vec.hpp"
 #include "host_tools/view/byte_text.hpp"
-#include "host_tools/view/repeated_stretches.hpp"
+#include "host_tools/view/repetition_search.hpp"
 
 namespace cusp::view {
 
@@ -41,7 +41,7 @@ private:
     std::array<Position, 3> last_{};             // position and its differences, newest
     std::array<Position, 3> first_{};            // of the block
     PerAxis<std::vector<std::uint64_t>> third_;  // of the block's ticks after the first
-    RepeatedStretches repeated_;
+    RepetitionSearch repeated_;
     Bytes blocks_;
 };
 

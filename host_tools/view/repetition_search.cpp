@@ -1,11 +1,11 @@
 // A rolling hash of stretches, and the last place where each was.
-#include "host_tools/view/repeated_stretches.hpp"
+#include "host_tools/view/repetition_search.hpp"
 
 #include <algorithm>
 
 namespace cusp::view {
 
-void RepeatedStretches::add(const PerAxis<std::uint64_t>& differences)
+void RepetitionSearch::add(const PerAxis<std::uint64_t>& differences)
 {
     Differences kept{};
     for (unsigned axis = 0; axis < kAxisCount; ++axis) {
@@ -14,13 +14,13 @@ void RepeatedStretches::add(const PerAxis<std::uint64_t>& differences)
     ticks_.push_back(kept);
 }
 
-bool RepeatedStretches::equal(std::size_t a, std::size_t b) const
+bool RepetitionSearch::equal(std::size_t a, std::size_t b) const
 {
     const Differences& at = ticks_[a];
     return at == ticks_[b] && std::find(at.begin(), at.end(), kHuge) == at.end();
 }
 
-std::vector<std::uint64_t> RepeatedStretches::hashes(std::size_t begin, std::size_t end) const
+std::vector<std::uint64_t> RepetitionSearch::hashes(std::size_t begin, std::size_t end) const
 {
     constexpr std::uint64_t kBase = 0xD6E8FEB86659FD93U;
     const auto mixed = [this](std::size_t tick) {
@@ -48,7 +48,7 @@ std::vector<std::uint64_t> RepeatedStretches::hashes(std::size_t begin, std::siz
     return out;
 }
 
-std::vector<Repetition> RepeatedStretches::find(std::size_t begin, std::size_t end)
+std::vector<Repetition> RepetitionSearch::find(std::size_t begin, std::size_t end)
 {
     const std::vector<std::uint64_t> hash_at = hashes(begin, end);
     std::vector<Repetition> found;

@@ -1,4 +1,4 @@
-// RepeatedStretches: finds where a run repeats itself, however long ago: layers of roughing, passes of equal shape.
+// RepetitionSearch: finds where a run repeats itself, however long ago: layers of roughing, passes of equal shape.
 // Deflate looks back 32 kB, some seconds.
 #pragma once
 
@@ -18,7 +18,7 @@ struct Repetition {
     std::size_t distance;
 };
 
-class RepeatedStretches {
+class RepetitionSearch {
 public:
     // Shorter ones are not found.
     static constexpr std::size_t kShortest = 64;
