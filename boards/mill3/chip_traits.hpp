@@ -22,6 +22,7 @@
 #include "hal/stm32f4/dma_link.hpp"
 #include "hal/stm32f4/dma_pulse_player.hpp"
 #include "hal/stm32f4/flash_settings.hpp"
+#include "hal/stm32f4/peripheral_clocks.hpp"
 #include "hal/stm32f4/pins.hpp"
 #include "hal/stm32f4/reset_reason.hpp"
 #include "hal/stm32f4/watchdog.hpp"

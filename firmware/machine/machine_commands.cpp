@@ -64,6 +64,7 @@ std::optional<Error> Machine::refusal(SystemCommandKind kind) const noexcept
     return allowed ? std::nullopt : std::optional<Error>{Error::kIdleError};
 }
 
+// Over 60 lines: one switch over all commands.
 void Machine::perform(const SystemCommand& command) noexcept
 {
     switch (command.kind) {

@@ -24,6 +24,7 @@ void Machine::receive(std::uint8_t byte) noexcept
     }
 }
 
+// Over 60 lines: one switch over all realtime bytes.
 void Machine::act(RealtimeCommand command) noexcept
 {
     switch (command) {

@@ -113,15 +113,34 @@ void set_regulator(std::uint32_t scale) noexcept
     set_bits(Chip::power().cr, scale << 14U);
 }
 
+inline constexpr std::uint32_t kCrystalOn = 1U << 16U;
+inline constexpr std::uint32_t kCrystalReady = 1U << 17U;
+
+// A clock from outside in place of a crystal, or not. It can be changed only while the oscillator is
+// off, and a boot loader may have used it.
+template <class Chip>
+bool set_bypass(bool external) noexcept
+{
+    constexpr std::uint32_t kCrystalBypass = 1U << 18U;
+    auto& rcc = Chip::rcc();
+    clear_bits(rcc.cr, kCrystalOn);
+    const bool off = wait_for(rcc.cr, kCrystalReady, 0);
+    if (external) {
+        set_bits(rcc.cr, kCrystalBypass);
+    } else {
+        clear_bits(rcc.cr, kCrystalBypass);
+    }
+    return off;
+}
+
 }  // namespace detail
 
 // Sets the clocks up as planned, whatever they were. RM0090 section 7.3.
 template <class Chip>
 ClockSource start_clocks(const ClockPlan& plan) noexcept
 {
-    constexpr std::uint32_t kCrystalOn = 1U << 16U;
-    constexpr std::uint32_t kCrystalReady = 1U << 17U;
-    constexpr std::uint32_t kCrystalBypass = 1U << 18U;
+    using detail::kCrystalOn;
+    using detail::kCrystalReady;
     constexpr std::uint32_t kSecurityOn = 1U << 19U;
     constexpr std::uint32_t kMultiplierOn = 1U << 24U;
     constexpr std::uint32_t kMultiplierReady = 1U << 25U;
@@ -136,15 +155,8 @@ ClockSource start_clocks(const ClockPlan& plan) noexcept
         return ClockSource::kNone;
     }
     detail::set_regulator<Chip>(plan.regulator_scale);
-    // The bypass can be changed only while the oscillator is off: a boot loader may have used it.
-    clear_bits(rcc.cr, kCrystalOn);
-    if (!detail::wait_for(rcc.cr, kCrystalReady, 0)) {
+    if (!detail::set_bypass<Chip>(plan.external)) {
         return ClockSource::kNone;
-    }
-    if (plan.external) {
-        set_bits(rcc.cr, kCrystalBypass);
-    } else {
-        clear_bits(rcc.cr, kCrystalBypass);
     }
     set_bits(rcc.cr, kCrystalOn);
     const bool starts = detail::wait_for(rcc.cr, kCrystalReady, kCrystalReady);

@@ -5,8 +5,8 @@
 
 #include "hal/stm32f4/chip.hpp"
 #include "hal/stm32f4/dma_streams.hpp"
+#include "hal/stm32f4/peripheral_clocks.hpp"
 #include "hal/stm32f4/pins.hpp"
-#include "hal/stm32f4/watchdog.hpp"
 
 namespace cusp::hal::stm32f4 {
 

@@ -17,19 +17,11 @@ CrossSection cross_section_at_pole(const SurfacePoint& p)
     return {square > 0 ? -dot(upward_normal(p), p.dvv) / square : 0, std::sqrt(square)};
 }
 
-// Whether du is zero but for rounding, and so along a side of the surface: two rows of control
-// points coincide there. Near such a side du is duu times the distance from it.
-bool vanishes_along_side(const SurfacePoint& p)
-{
-    constexpr double kVanishing = 1e-6;
-    return dot(p.du, p.du) <= kVanishing * kVanishing * dot(p.duu, p.duu);
-}
-
 }  // namespace
 
 CrossSection cross_section_at(const SurfacePoint& p)
 {
-    if (at_pole(p.du, p) || vanishes_along_side(p)) {
+    if (at_pole(p.du, p)) {
         return cross_section_at_pole(p);
     }
     // All curves meet here: there is no direction across.

@@ -99,7 +99,9 @@ void put_simulated_times(const std::string& program,
     if (measured > kLongest) {
         return;
     }
-    if (const auto seconds = simulated_times(program, begins)) {
+    constexpr double kQuiet = 2.0;  // s
+    const ShareProgress timing{"timing", kQuiet};
+    if (const auto seconds = simulated_times(program, begins, timing)) {
         for (std::size_t i = 0; i < plan.measures.size(); ++i) {
             plan.measures[i].estimated_s = (*seconds)[i];
         }

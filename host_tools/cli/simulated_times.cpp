@@ -15,9 +15,11 @@ using program_run::RunOptions;
 using program_run::SetPoint;
 
 std::optional<std::vector<double>> simulated_times(const std::string& program,
-                                                   const std::vector<std::size_t>& begins)
+                                                   const std::vector<std::size_t>& begins,
+                                                   const std::function<void(double)>& progress)
 {
-    std::vector<std::uint32_t> first_lines;  // of all operations but the first
+    constexpr std::uint64_t kBetween = 1 << 16;  // ticks
+    std::vector<std::uint32_t> first_lines;      // of all operations but the first
     for (std::size_t k = 1; k < begins.size(); ++k) {
         const auto from = program.begin() + static_cast<std::ptrdiff_t>(begins[k]);
         first_lines.push_back(
@@ -38,8 +40,12 @@ std::optional<std::vector<double>> simulated_times(const std::string& program,
     };
     LineSource source = LineSource::of_text("the program", program);
     ProgramRun run{source, options};
-    while (run.advance()) {
+    for (std::uint64_t tick = 1; run.advance(); ++tick) {
+        if (tick % kBetween == 0) {
+            progress(run.fraction());
+        }
     }
+    progress(1.0);
     if (!run.result().good()) {
         return std::nullopt;
     }

@@ -1,8 +1,9 @@
 // Parsing of answers, and the words for codes.
 #include "host_tools/dialect/answer.hpp"
 
-#include <array>
+#include <algorithm>
 #include <charconv>
+#include <iterator>
 
 #include "host_tools/dialect/leading_number.hpp"
 
@@ -92,82 +93,72 @@ std::optional<int> code_after(std::string_view line, std::string_view word)
     return starts_with(line, word) ? whole_number(line.substr(word.size())) : std::nullopt;
 }
 
-constexpr std::array<std::string_view, 47> kErrors{
-    "",
-    "a word has no letter",
-    "a number is missing or malformed",
-    "this $ command is not known",
-    "a value is negative",
-    "homing is switched off",
-    "the step pulse is too short",
-    "the stored settings could not be read",
-    "the controller is not idle",
-    "G-code is locked out in alarm, jog or sleep",
-    "soft limits need homing",
-    "the line is too long",
-    "the setting asks for too high a step rate",
-    "the safety door is open",
-    "the startup line or build info is too long",
-    "the jog goes beyond the travel",
-    "the jog command is malformed",
-    "laser mode needs a PWM spindle",
-    "unknown",
-    "unknown",
-    "a G or M word is not supported",
-    "two words of one modal group",
-    "no feed rate is set",
-    "a G or M number must be whole",
-    "two commands both want the axis words",
-    "a word is repeated",
-    "axis words are missing",
-    "the line number is out of range",
-    "a value word is missing",
-    "the work coordinate system is not supported",
-    "G53 needs G0 or G1",
-    "axis words that nothing uses",
-    "an arc has no axis word in its plane",
-    "the target or geometry is impossible",
-    "no arc of this radius reaches the target",
-    "an arc has no centre offset in its plane",
-    "value words that nothing uses",
-    "a tool length offset on an axis other than Z",
-    "a number is too large",
-    "unknown",
-    "unknown",
-    "unknown",
-    "unknown",
-    "unknown",
-    "unknown",
-    "unknown",
-    "the tool change needs a homed machine",
+struct CodeText {
+    int code;
+    std::string_view text;
 };
 
-constexpr std::array<std::string_view, 18> kAlarms{
-    "",
-    "a hard limit was hit; the position may be lost",
-    "the target is beyond the soft limits",
-    "reset in motion; the position may be lost",
-    "the probe was not in its initial state",
-    "the probe did not touch",
-    "homing was reset",
-    "the door was opened while homing",
-    "homing could not clear the switch",
-    "homing did not find the switch",
-    "the emergency stop is pressed",
-    "unknown",
-    "unknown",
-    "unknown",
-    "unknown",
-    "unknown",
-    "unknown",
-    "a motor driver reports a fault",
+constexpr CodeText kErrors[]{
+    {1, "a word has no letter"},
+    {2, "a number is missing or malformed"},
+    {3, "this $ command is not known"},
+    {4, "a value is negative"},
+    {5, "homing is switched off"},
+    {6, "the step pulse is too short"},
+    {7, "the stored settings could not be read"},
+    {8, "the controller is not idle"},
+    {9, "G-code is locked out in alarm, jog or sleep"},
+    {10, "soft limits need homing"},
+    {11, "the line is too long"},
+    {12, "the setting asks for too high a step rate"},
+    {13, "the safety door is open"},
+    {14, "the startup line or build info is too long"},
+    {15, "the jog goes beyond the travel"},
+    {16, "the jog command is malformed"},
+    {17, "laser mode needs a PWM spindle"},
+    {20, "a G or M word is not supported"},
+    {21, "two words of one modal group"},
+    {22, "no feed rate is set"},
+    {23, "a G or M number must be whole"},
+    {24, "two commands both want the axis words"},
+    {25, "a word is repeated"},
+    {26, "axis words are missing"},
+    {27, "the line number is out of range"},
+    {28, "a value word is missing"},
+    {29, "the work coordinate system is not supported"},
+    {30, "G53 needs G0 or G1"},
+    {31, "axis words that nothing uses"},
+    {32, "an arc has no axis word in its plane"},
+    {33, "the target or geometry is impossible"},
+    {34, "no arc of this radius reaches the target"},
+    {35, "an arc has no centre offset in its plane"},
+    {36, "value words that nothing uses"},
+    {37, "a tool length offset on an axis other than Z"},
+    {38, "a number is too large"},
+    {46, "the tool change needs a homed machine"},
+};
+
+constexpr CodeText kAlarms[]{
+    {1, "a hard limit was hit; the position may be lost"},
+    {2, "the target is beyond the soft limits"},
+    {3, "reset in motion; the position may be lost"},
+    {4, "the probe was not in its initial state"},
+    {5, "the probe did not touch"},
+    {6, "homing was reset"},
+    {7, "the door was opened while homing"},
+    {8, "homing could not clear the switch"},
+    {9, "homing did not find the switch"},
+    {10, "the emergency stop is pressed"},
+    {17, "a motor driver reports a fault"},
 };
 
 template <std::size_t N>
-std::string_view text_at(const std::array<std::string_view, N>& texts, int code)
+std::string_view text_of(const CodeText (&texts)[N], int code)
 {
-    return code > 0 && static_cast<std::size_t>(code) < N ? texts[static_cast<std::size_t>(code)]
-                                                          : "unknown";
+    const auto* const found =
+        std::find_if(std::begin(texts), std::end(texts),
+                     [code](const CodeText& entry) { return entry.code == code; });
+    return found == std::end(texts) ? "unknown" : found->text;
 }
 
 }  // namespace
@@ -196,7 +187,7 @@ Answer parse_answer(std::string_view line)
     return answer;
 }
 
-std::string_view error_text(int code) { return text_at(kErrors, code); }
-std::string_view alarm_text(int code) { return text_at(kAlarms, code); }
+std::string_view error_text(int code) { return text_of(kErrors, code); }
+std::string_view alarm_text(int code) { return text_of(kAlarms, code); }
 
 }  // namespace cusp::dialect

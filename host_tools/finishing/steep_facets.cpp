@@ -1,4 +1,4 @@
-// Facets steeper than 87 degrees: what stands over them, and level passes along them.
+// Facets steeper than 87 degrees: the stock left over them, and level passes along them.
 #include <algorithm>
 #include <cmath>
 
@@ -98,7 +98,7 @@ MeshScallopCheck::Verdict MeshScallopCheck::judge_steep(const Cell& cell, double
     return clear ? Verdict::kUncovered : Verdict::kBlocked;
 }
 
-// The lowest tip over a point that the tool cannot touch, if metal is left over what it reaches.
+// The lowest tip over a point that the tool cannot touch, if stock is left over what it reaches.
 std::optional<Vec3d> MeshScallopCheck::lower_tip_beside(const Place& at) const
 {
     const double now = places_.swept().lowest(at.point.x, at.point.y).height;

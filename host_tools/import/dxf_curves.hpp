@@ -15,8 +15,8 @@ namespace cusp::import {
 // layer        its name; "": all layers that are neither off nor frozen
 //
 // Returns the curves of the ENTITIES section, in the order of the file. Arcs become rational
-// quadratics, exactly; a spline whose inner knots take it apart becomes its pieces. Objects of a block on layer "0" are on the layer of its
-// INSERT.
+// quadratics, exactly; a spline whose inner knots take it apart becomes its pieces. Objects of a
+// block on layer "0" are on the layer of its INSERT.
 // Errors: InputError with the line of the file: no DXF, an unknown block, blocks more than 16 deep,
 // broken numbers, an entity of another kind (hatches, text and dimensions are skipped), a mesh, a
 // spline without control points.

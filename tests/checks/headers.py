@@ -42,7 +42,7 @@ def twice(top):
             places[file.name].append(file.relative_to(top).as_posix())
     for name, found in sorted(places.items()):
         # Each board has its own main; all other names are unique.
-        if len(found) > 1 and name not in ("main.cpp", "board_traits.hpp"):
+        if len(found) > 1 and name != "main.cpp":
             yield f"{name}: {' and '.join(sorted(found))} share their name"
 
 

@@ -71,6 +71,7 @@ public:
     void set_tick_listener(std::function<void()> listener) { tick_listener_ = std::move(listener); }
 
 private:
+    static constexpr std::uint32_t kBlock = 0x400;  // bytes of addresses that a block has
     struct Block {
         Model* model;
         std::string name;

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::uint32_t kFlashStart = 0x08000000;
 constexpr std::uint32_t kNowhere = 0xFFFFFF00;
+constexpr std::uint32_t kPage = 1024;  // of the engine
 constexpr unsigned kNmi = 2;
 constexpr unsigned kPendSv = 14;
 constexpr unsigned kFirstInterrupt = 16;
@@ -156,6 +157,9 @@ void CoreModel::begin_block(std::uint32_t address, std::uint32_t size)
         uc_emu_stop(engine_);
         return;
     }
+    // The engine ends a block where a page of 1 KB ends: the next one is its rest.
+    const bool goes_on = address % kPage == 0 && block_ + block_size_ == address;
+    unbroken_from_ = goes_on ? unbroken_from_ : address;
     block_ = address;
     block_size_ = size;
     const unsigned count = count_instructions(address, size);
@@ -307,8 +311,8 @@ void CoreModel::enter(unsigned exception)
 void CoreModel::check_barrier(unsigned exception)
 {
     bool found = false;
-    for (std::uint32_t at = block_ - kFlashStart; at + 4 <= block_ - kFlashStart + block_size_;
-         at += 2) {
+    for (std::uint32_t at = unbroken_from_ - kFlashStart;
+         at + 4 <= block_ - kFlashStart + block_size_; at += 2) {
         constexpr std::array<std::uint8_t, 4> kBarrier{0xBF, 0xF3, 0x4F, 0x8F};
         found = found || std::equal(kBarrier.begin(), kBarrier.end(), flash_.begin() + at);
     }

@@ -70,6 +70,7 @@ private:
     Picoseconds instruction_time_{7738};
     std::uint64_t instructions_{0};
     std::uint32_t block_{0}, block_size_{0};
+    std::uint32_t unbroken_from_{0};  // start of the block, or of that which it is the rest of
     bool stopped_{false}, sleeping_{false}, reset_wanted_{false}, locked_up_{false};
     std::uint32_t lowest_stack_{0xFFFFFFFF};
 
