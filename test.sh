@@ -88,9 +88,9 @@ else
         -DCUSP_TARGET_TESTS=OFF
     quietly build/build-fuzz.log cmake --build --preset fuzz -j "$jobs"
     run_tests fuzz
-    echo "building without Eigen and Open CASCADE, with clang and make"
+    echo "building without Eigen, Open CASCADE and lib3mf, with clang and make"
     quietly build/configure-least.log cmake -S . -B build/least -G "Unix Makefiles" -DCMAKE_CXX_COMPILER=clang++ \
-        -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 -DBUILD_TESTING=OFF -DCUSP_EIGEN=OFF -DCUSP_OCCT=OFF \
+        -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 -DBUILD_TESTING=OFF -DCUSP_EIGEN=OFF -DCUSP_OCCT=OFF -DCUSP_3MF=OFF \
         -DCUSP_VIEW=OFF \
         -DCUSP_UNITY=ON
     quietly build/build-least.log cmake --build build/least -j "$jobs" --target cusp

@@ -3,8 +3,8 @@
 # Builds the product.
 host_packages="g++ cmake ninja-build libcli11-dev libeigen3-dev libfmt-dev libserialport-dev libtomlplusplus-dev
     nlohmann-json3-dev zlib1g-dev"
-# Also reads STEP and IGES.
-cad_packages="libocct-data-exchange-dev"
+# Also reads STEP, IGES, BREP and 3MF.
+cad_packages="libocct-data-exchange-dev lib3mf-dev"
 # Builds the images of the boards.
 image_packages="gcc-arm-none-eabi libnewlib-dev libstdc++-arm-none-eabi-dev"
 # Makes the Debian packages of it all, and checks them.

@@ -101,7 +101,7 @@ void add_info_command(CLI::App& app, Work& work)
         "  cusp info bracket.step\n"
         "  cusp info plate.dxf#outline --picture plate.svg\n"
         "\n"
-        "Reads .json, .step, .stp, .iges, .igs, .stl and .dxf. It lists the loops and open\n"
+        "Reads .json, .step, .iges, .brep, .stl, .obj, .3mf and .dxf. It lists the loops and open\n"
         "ends of each layer of a drawing, and the holes of a mesh. \"Largest ball\" is the\n"
         "largest ball end that comes within --tolerance of every place visible from above,\n"
         "shank included. It is found at up to 60 000 places, sharp edges first, to 5 %; a\n"

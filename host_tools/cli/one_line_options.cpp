@@ -6,6 +6,7 @@
 
 #include "host_tools/import/one_line_check.hpp"
 #include "host_tools/import/path_ending.hpp"
+#include "host_tools/import/placing.hpp"
 #include "host_tools/input_error/input_error.hpp"
 
 #include "CLI/CLI.hpp"
@@ -66,7 +67,7 @@ void add_one_line_options(CLI::App& command, PlanCall& call)
         ->type_name("SHAPE:DIAMETER ...");
     add("--scallop", request.scallop, "height of the ridges that may stay, tolerance included");
     add("--units", call.units,
-        "of the options, of the G-code, and of .json and .stl files, which name none")
+        "of the options, of the G-code, and of .json, .stl and .obj files, which name none")
         ->check(CLI::IsMember({"mm", "inch"}))
         ->capture_default_str();
     add("--boundary", request.boundary, "loop round a pocket (.json, .dxf, plate.dxf#layer)");
@@ -82,6 +83,25 @@ void add_one_line_options(CLI::App& command, PlanCall& call)
     add("--tolerance", request.tolerance, "default: half the scallop, at most 0.01 mm");
     add("--stock-top", request.stock_top, "z; default: the part's top");
     add("--clearance", request.clearance, "of rapid moves over the stock; default 5 mm");
+    add("--scale", request.scale, "of the parts, such as 25.4");
+    add("--up", request.up,
+        "the file's axis that points up: +x, +y, +z; --up=-y for one that points down")
+        ->check(CLI::IsMember(import::kUpAxes))
+        ->type_name("AXIS");
+    add("--rotate", request.rotate, "degrees about z, or about x,y,z; after --up")
+        ->delimiter(',')
+        ->expected(1, 3)
+        ->allow_extra_args(false)
+        ->type_name("DEGREES");
+    add("--origin", request.origin,
+        "corner, centre, top: what lies at 0; the top is z = 0 with each")
+        ->check(CLI::IsMember(import::kOrigins))
+        ->type_name("PLACE");
+    add("--move", request.move, "by x,y,z, after --origin")
+        ->delimiter(',')
+        ->expected(3)
+        ->allow_extra_args(false)
+        ->type_name("X,Y,Z");
     add("--strategy", request.strategy,
         "adaptive_isocurve, parallel_planes, or contour_pocket (with --boundary)")
         ->check(CLI::IsMember({"adaptive_isocurve", "parallel_planes", "contour_pocket"}))

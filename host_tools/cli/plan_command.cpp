@@ -89,7 +89,7 @@ void add_plan_command(CLI::App& app, Work& work)
         "  top = 0.0\n"
         "  [[operation]]\n"
         "  strategy = \"adaptive_isocurve\"\n"
-        "  floor = [\"part.step\"]           # .json, .step, .igs, .stl\n"
+        "  floor = [\"part.step\"]           # .json, .step, .igs, .brep, .stl, .obj, .3mf\n"
         "  scallop = 0.02                  # tolerance included\n"
         "  floor_tolerance = 0.01\n"
         "  output = \"arcs\"                 # \"lines\", \"nurbs\"\n"
@@ -97,7 +97,7 @@ void add_plan_command(CLI::App& app, Work& work)
         "max_depth makes layers.");
     auto options = std::make_shared<PlanOptions>();
     command->add_option("JOB", options->call.files,
-                        "job file (.toml), or parts: .json, .step, .iges, .stl");
+                        "job file (.toml), or parts: .json, .step, .iges, .brep, .stl, .obj, .3mf");
     command->add_option("-o,--output", options->output.program, "G-code to write");
     command->add_option("--stats", options->output.stats, "statistics to write (JSON)");
     command

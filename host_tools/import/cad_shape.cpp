@@ -12,6 +12,8 @@
 #include "host_tools/input_error/input_error.hpp"
 
 #include "fmt/format.h"
+#include "opencascade/BRepTools.hxx"
+#include "opencascade/BRep_Builder.hxx"
 #include "opencascade/IGESControl_Reader.hxx"
 #include "opencascade/IGESData_GlobalSection.hxx"
 #include "opencascade/IGESData_IGESModel.hxx"
@@ -61,15 +63,20 @@ public:
     }
 };
 
-// Whether the shape can be made without a crash: a child process tries it.
-bool survives_transfer(XSControl_Reader& reader)
+// Whether the reading ends, and without a crash: a child process tries it.
+//
+// seconds  of CPU time at most
+template <class Reading>
+bool survives(rlim_t seconds, const Reading& read)
 {
     const pid_t child = fork();
     if (child == 0) {
         const rlimit no_core{0, 0};
         setrlimit(RLIMIT_CORE, &no_core);
+        const rlimit time{seconds, seconds};
+        setrlimit(RLIMIT_CPU, &time);
         try {
-            reader.TransferRoots();
+            read();
         } catch (...) {
         }
         _exit(0);
@@ -84,7 +91,7 @@ void check_faults(const std::string& file, XSControl_Reader& reader)
 {
     Interface_CheckIterator faults = reader.WS()->ModelCheckList(true).Extract(Interface_CheckFail);
     faults.Start();
-    if (faults.More() && !survives_transfer(reader)) {
+    if (faults.More() && !survives(RLIM_INFINITY, [&] { reader.TransferRoots(); })) {
         throw InputError(
             fmt::format("{}: Open CASCADE can't make a shape of it; the first fault: "
                         "entity {}: {}",
@@ -108,6 +115,28 @@ std::string unit_of(XSControl_Reader& reader, bool step)
     return name.IsNull() ? "" : name->ToCString();
 }
 
+// Open CASCADE's own format; nothing is repaired.
+TopoDS_Shape brep_shape(const std::string& file)
+{
+    constexpr rlim_t kSeconds = 5;
+    constexpr rlim_t kBytesPerSecond = 1000000;  // a tenth of what it reads
+    const std::string text = files::text_of_file(file);
+    // The last line is the sense, number and place of the whole shape: "+1 0".
+    const std::size_t end = text.find_last_not_of(" \r\n");
+    const std::size_t last = end == std::string::npos ? end : text.rfind('\n', end);
+    if (last == std::string::npos || (text[last + 1] != '+' && text[last + 1] != '-')) {
+        throw InputError(file + ": this is no BREP file, or it is cut short");
+    }
+    TopoDS_Shape shape;
+    const auto read = [&] {
+        return BRepTools::Read(shape, file.c_str(), BRep_Builder{});
+    };
+    if (!survives(kSeconds + text.size() / kBytesPerSecond, read) || !read() || shape.IsNull()) {
+        throw InputError(file + ": this is no BREP file");
+    }
+    return shape;
+}
+
 }  // namespace
 
 ReadShape read_shape(const std::string& file, Repairs repairs)
@@ -115,6 +144,9 @@ ReadShape read_shape(const std::string& file, Repairs repairs)
     Message::DefaultMessenger()->ChangePrinters().Clear();
     files::text_of_file(file);  // says why a file can't be read
     const std::string ending = path_ending(file);
+    if (ending == ".brep" || ending == ".brp") {
+        return {brep_shape(file), ""};
+    }
     const bool step = ending == ".step" || ending == ".stp";
     std::unique_ptr<XSControl_Reader> reader;
     if (step) {

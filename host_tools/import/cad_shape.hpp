@@ -16,7 +16,7 @@ struct ReadShape {
     std::string unit;  // of length, as the file names it
 };
 
-// Errors: InputError with the file: it can't be read, is no STEP or IGES, holds no shape, or has
+// Errors: InputError with the file: it can't be read, is no STEP, IGES or BREP, holds no shape, or has
 // faults that crash Open CASCADE.
 ReadShape read_shape(const std::string& file, Repairs repairs);
 

@@ -1,4 +1,4 @@
-// Loads libcusp_cad.so when a STEP or IGES file is read.
+// Loads libcusp_cad.so when the first CAD file is read.
 #include "host_tools/import/cad_surfaces.hpp"
 
 #include <dlfcn.h>
@@ -33,18 +33,18 @@ void* load_module()
     return dlopen(kModule, RTLD_NOW | RTLD_LOCAL);
 }
 
-CadModel read_model(const std::string& file, bool all_faces)
+CadModel read_model(const std::string& file, const Similarity& placed, bool all_faces)
 {
     void* const module = load_module();
     void* const door = module == nullptr ? nullptr : dlsym(module, "cusp_read_cad_model");
     if (door == nullptr) {
         throw InputError(
-            fmt::format("{}: STEP and IGES can't be read: {}; it is built where Open CASCADE "
+            fmt::format("{}: STEP, IGES and BREP can't be read: {}; it is built where Open CASCADE "
                         "(libocct-data-exchange-dev) is installed",
                         file, dlerror()));
     }
     CadModel model;
-    reinterpret_cast<decltype(&cusp_read_cad_model)>(door)(file, all_faces, model);
+    reinterpret_cast<decltype(&cusp_read_cad_model)>(door)(file, placed, all_faces, model);
     for (Surface& surface : model.faces) {
         surface = with_turning_knots(surface);
     }
@@ -53,11 +53,11 @@ CadModel read_model(const std::string& file, bool all_faces)
 
 }  // namespace
 
-std::vector<Surface> read_cad_surfaces(const std::string& file)
+std::vector<Surface> read_cad_surfaces(const std::string& file, const Similarity& placed)
 {
-    return read_model(file, false).faces;
+    return read_model(file, placed, false).faces;
 }
 
-CadModel read_cad_model(const std::string& file) { return read_model(file, true); }
+CadModel read_cad_model(const std::string& file) { return read_model(file, {}, true); }
 
 }  // namespace cusp::import

@@ -1,4 +1,4 @@
-// Faces of STEP and IGES models as trimmed NURBS surfaces, by Open CASCADE.
+// Faces of STEP, IGES and BREP models as trimmed NURBS surfaces, by Open CASCADE.
 //
 // Open CASCADE is loaded when the first such file is read: linking it would add 25 ms to the start
 // of every command. Only the module libcusp_cad.so uses it; it is built where Open CASCADE is
@@ -9,22 +9,25 @@
 #include <string>
 #include <vector>
 
+#include "host_tools/import/similarity.hpp"
 #include "host_tools/nurbs/nurbs.hpp"
 
 namespace cusp::import {
 
-// The unit is the file's own; the result is in mm. Analytic faces become rational B-splines,
+// The unit is the file's own; BREP has none and is in mm. The result is in mm, turned and moved by
+// `placed` before anything is left out. Analytic faces become rational B-splines,
 // exactly; their edges' curves in (u, v) are Open CASCADE's. Faces of solids that face up nowhere
 // are left out: no tool from above reaches them, and the faces above them are in the model. Loose
 // faces that close a volume count as a solid.
 //
-// Errors: InputError with the file and the reason: no such file, no STEP or IGES, no face that
+// Errors: InputError with the file and the reason: no such file, no STEP, IGES or BREP, no face that
 // faces up, trims that contradict each other, no libcusp_cad.so.
-std::vector<nurbs::Surface> read_cad_surfaces(const std::string& file);
+std::vector<nurbs::Surface> read_cad_surfaces(const std::string& file,
+                                              const Similarity& placed = {});
 
 // The faces of a model, and facts about the file.
 struct CadModel {
-    std::string unit;      // of length, as named in the file
+    std::string unit;      // of length, as named in the file; "": it names none
     std::size_t solids{};  // volumes that faces close
     std::size_t unread{};  // faces of solids that face up nowhere and have broken edges
     std::vector<nurbs::Surface> faces;  // all others, in mm
@@ -41,5 +44,6 @@ CadModel read_cad_model(const std::string& file);
 //
 // all_faces  also those of solids that face up nowhere
 extern "C" void cusp_read_cad_model(const std::string& file,
+                                    const cusp::import::Similarity& placed,
                                     bool all_faces,
                                     cusp::import::CadModel& model);

@@ -15,6 +15,7 @@
 #include "fmt/format.h"
 #include "opencascade/BRepBuilderAPI_NurbsConvert.hxx"
 #include "opencascade/BRepBuilderAPI_Sewing.hxx"
+#include "opencascade/BRepBuilderAPI_Transform.hxx"
 #include "opencascade/BRepGProp.hxx"
 #include "opencascade/BRepLib.hxx"
 #include "opencascade/BRepTools.hxx"
@@ -33,6 +34,7 @@
 #include "opencascade/TopoDS_Edge.hxx"
 #include "opencascade/TopoDS_Face.hxx"
 #include "opencascade/TopoDS_Solid.hxx"
+#include "opencascade/gp_Trsf.hxx"
 
 namespace cusp::import {
 
@@ -340,9 +342,25 @@ void add_face(const SolidFace& found, bool all_faces, const std::string& place, 
     }
 }
 
-CadModel model_of(const std::string& file, Repairs repairs, bool all_faces)
+TopoDS_Shape placed_shape(const TopoDS_Shape& shape, const Similarity& placed)
 {
-    const ReadShape read = read_shape(file, repairs);
+    if (placed.is_identity()) {
+        return shape;
+    }
+    const auto& [x, y, z] = placed.axes;
+    const Vec3d by = placed.shift;
+    gp_Trsf move;
+    move.SetValues(x.x, y.x, z.x, by.x, x.y, y.y, z.y, by.y, x.z, y.z, z.z, by.z);
+    return BRepBuilderAPI_Transform{shape, move, true}.Shape();
+}
+
+CadModel model_of(const std::string& file,
+                  Repairs repairs,
+                  const Similarity& placed,
+                  bool all_faces)
+{
+    ReadShape read = read_shape(file, repairs);
+    read.shape = placed_shape(read.shape, placed);
     CadModel model;
     model.unit = read.unit;
     std::vector<SolidFace> faces;
@@ -358,17 +376,19 @@ CadModel model_of(const std::string& file, Repairs repairs, bool all_faces)
         add_face(faces[i], all_faces, fmt::format("{}: face {}", file, i + 1), model);
     }
     if (model.faces.empty()) {
-        throw InputError(file + ": no face looks up: is z the tool's axis?");
+        throw InputError(file + ": no face looks up: is z the tool's axis? (placing: up)");
     }
     return model;
 }
 
 // A file whose wires do need reversing is read again with all repairs, unless those lose a part.
-CadModel model_with_fewest_repairs(const std::string& file, bool all_faces)
+CadModel model_with_fewest_repairs(const std::string& file,
+                                   const Similarity& placed,
+                                   bool all_faces)
 {
     constexpr double kSamePart = 1e-3;
     try {
-        return model_of(file, Repairs::kGentle, all_faces);
+        return model_of(file, Repairs::kGentle, placed, all_faces);
     } catch (const InputError&) {
         const double gentle = area_of(read_shape(file, Repairs::kGentle).shape);
         const double repaired = area_of(read_shape(file, Repairs::kAll).shape);
@@ -376,18 +396,19 @@ CadModel model_with_fewest_repairs(const std::string& file, bool all_faces)
             throw;
         }
     }
-    return model_of(file, Repairs::kAll, all_faces);
+    return model_of(file, Repairs::kAll, placed, all_faces);
 }
 
 }  // namespace
 }  // namespace cusp::import
 
 extern "C" void cusp_read_cad_model(const std::string& file,
+                                    const cusp::import::Similarity& placed,
                                     bool all_faces,
                                     cusp::import::CadModel& model)
 {
     try {
-        model = cusp::import::model_with_fewest_repairs(file, all_faces);
+        model = cusp::import::model_with_fewest_repairs(file, placed, all_faces);
     } catch (const Standard_Failure& failure) {
         throw cusp::InputError(
             fmt::format("{}: Open CASCADE gave up: {}", file, failure.GetMessageString()));

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "host_tools/import/similarity.hpp"
 #include "host_tools/job/job.hpp"
 #include "host_tools/nurbs/nurbs.hpp"
 
@@ -31,17 +32,20 @@ job::Job read_job(const JobText& job, PartFiles& parts);
 
 // Geometry without a job, with clamped ends. Throws InputError.
 //
-// millimetres     of one unit of the file: 1 or 25.4; STEP and IGES name their own
-// mesh_tolerance  mm: how closely a mesh (STL) is followed, never below it (height_field.hpp)
+// millimetres     of one unit of the file: 1 or 25.4; STEP, IGES, BREP and 3MF have their own
+// mesh_tolerance  mm: how closely a mesh is followed, never below it (height_field.hpp)
 // notes           gets sentences on what was left out or changed; may be null
+// placed          where the file's part lies
 std::vector<nurbs::Surface> read_surfaces(const std::string& file,
                                           double millimetres = 1.0,
                                           double mesh_tolerance = 0.01,
-                                          std::vector<std::string>* notes = nullptr);
-// The triangles of an STL file, in mm. `notes` gets sentences on facets left out and overhangs.
+                                          std::vector<std::string>* notes = nullptr,
+                                          const Similarity& placed = {});
+// The triangles of a mesh file (STL, OBJ, 3MF), in mm. `notes` gets sentences on facets left out and overhangs.
 std::vector<std::array<Vec3d, 3>> read_mesh(const std::string& file,
                                             double millimetres,
-                                            std::vector<std::string>* notes = nullptr);
+                                            std::vector<std::string>* notes = nullptr,
+                                            const Similarity& placed = {});
 // The one loop of a file: closed to 1e-3 mm, simple, counter-clockwise. `name` of a drawing may end
 // in #layer. file_loops.hpp reads several.
 job::Loop read_loop(const std::string& name, double millimetres = 1.0);

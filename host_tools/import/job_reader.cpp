@@ -11,10 +11,11 @@
 #include "host_tools/import/job_table.hpp"
 #include "host_tools/import/job_text.hpp"
 #include "host_tools/import/known_keys.hpp"
+#include "host_tools/import/mesh_file.hpp"
 #include "host_tools/import/operation_check.hpp"
 #include "host_tools/import/part_files.hpp"
-#include "host_tools/import/path_ending.hpp"
-#include "host_tools/import/stock_top.hpp"
+#include "host_tools/import/placing_reader.hpp"
+#include "host_tools/import/stock_table.hpp"
 #include "host_tools/import/tool_reader.hpp"
 #include "host_tools/import/trim_loops.hpp"
 #include "host_tools/job/job.hpp"
@@ -40,7 +41,6 @@ namespace {
 
 constexpr double kMillimetresPerInch = 25.4;
 constexpr double kDefaultTolerance = 0.02;  // mm
-constexpr double kDefaultClearance = 5.0;   // mm
 constexpr double kDefaultLargestArcRadius = 1000.0;
 
 const std::vector<std::string> kStrategies{"contour_pocket",     "adaptive_isocurve",
@@ -62,9 +62,6 @@ private:
     void read_units(JobTable& top);
     void read_tools(JobTable& top);
     void read_cutting(JobTable& top);
-    void read_stock(JobTable& top);
-    void settle_stock(const toml::table& document);
-    std::optional<std::array<double, 2>> read_interval(JobTable& stock, const char* key);
     void read_operation(const toml::table& table, std::size_t index);
     std::vector<Operation> read_pockets(JobTable& table, Operation operation);
     void read_common(JobTable& table, Operation& operation);
@@ -77,7 +74,8 @@ private:
     void intersect(JobTable& table, const std::vector<std::string>& bodies, Operation& operation);
     void read_parts(JobTable& table, Operation& operation);
     const Tool& tool_numbered(const JobTable& table, const char* key, int number) const;
-    std::string path_of(const std::string& name) const;
+    void place_files(JobTable& top, const std::vector<const toml::table*>& operations);
+    std::string path_of(const std::string& name) const { return path_in(folder_, name); }
 
     double length(JobTable& table, const char* key, Range range, double otherwise_mm) const
     {
@@ -95,17 +93,10 @@ private:
     PartFiles& parts_;
     double unit_{1.0};  // mm
     Job job_;
-    std::optional<double> stock_top_;  // where the job gives it
     // By the files of the floor, those it was intersected with, and the tolerance.
     using Names = std::vector<std::string>;
     std::map<std::tuple<Names, Names, double>, std::vector<Surface>> intersections_;
 };
-
-std::string JobReader::path_of(const std::string& name) const
-{
-    const std::filesystem::path path{name};
-    return path.is_absolute() ? name : (folder_ / path).string();
-}
 
 void JobReader::read_units(JobTable& top)
 {
@@ -142,44 +133,6 @@ void JobReader::read_cutting(JobTable& top)
     job_.plunge_feed = length(keys, "plunge_feed", kFeed, job_.feed / 4);
     job_.spindle = keys.number("spindle", kNotNegative).value_or(0);
     keys.check_all_read();
-}
-
-std::optional<std::array<double, 2>> JobReader::read_interval(JobTable& stock, const char* key)
-{
-    const auto values = stock.numbers(key, kAnyNumber);
-    if (!values) {
-        return std::nullopt;
-    }
-    if (values->size() != 2 || !((*values)[0] < (*values)[1])) {
-        stock.refuse(key, "two numbers [min, max] are needed, min below max");
-    }
-    return std::array{(*values)[0] * unit_, (*values)[1] * unit_};
-}
-
-void JobReader::read_stock(JobTable& top)
-{
-    static const toml::table kNothing;
-    const toml::table* table = top.table("stock");
-    JobTable keys{table == nullptr ? kNothing : *table, file_, "stock", stock_keys()};
-    stock_top_ = length(keys, "top", kAnyNumber);
-    job_.clearance = length(keys, "clearance", kPositive, kDefaultClearance);
-    job_.stock_bottom = length(keys, "bottom", kAnyNumber);
-    job_.stock_x = read_interval(keys, "x");
-    job_.stock_y = read_interval(keys, "y");
-    keys.check_all_read();
-}
-
-// When all parts are read.
-void JobReader::settle_stock(const toml::table& document)
-{
-    job_.part_top = part_top(job_);
-    job_.stock_top = stock_top_ ? *stock_top_ : default_stock_top(job_);
-    if (job_.stock_bottom && !(*job_.stock_bottom < job_.stock_top)) {
-        const JobTable keys{*document["stock"].as_table(), file_, "stock", stock_keys()};
-        keys.refuse("bottom",
-                    fmt::format("is {:g} mm, not below the top at {:g} mm{}", *job_.stock_bottom,
-                                job_.stock_top, stock_top_ ? "" : ", the part's"));
-    }
 }
 
 const Tool& JobReader::tool_numbered(const JobTable& table, const char* key, int number) const
@@ -316,8 +269,7 @@ void JobReader::read_strategy_keys(JobTable& table, Operation& operation)
 bool JobReader::takes_mesh(const Operation& operation, const std::vector<std::string>& floor) const
 {
     return (operation.strategy == "adaptive_isocurve" || operation.strategy == "parallel_planes") &&
-           std::all_of(floor.begin(), floor.end(),
-                       [](const std::string& name) { return path_ending(name) == ".stl"; });
+           std::all_of(floor.begin(), floor.end(), is_mesh_file);
 }
 
 const std::vector<Surface>& JobReader::surfaces_of(const std::string& path, double floor_tolerance)
@@ -410,6 +362,20 @@ std::vector<Operation> JobReader::read_pockets(JobTable& table, Operation operat
     return {std::move(operation)};
 }
 
+// Once: parts that were read before the job was lie where it puts them.
+void JobReader::place_files(JobTable& top, const std::vector<const toml::table*>& operations)
+{
+    const auto placings = read_placings(top.tables("placing"), file_, folder_, unit_);
+    if (parts_.is_placed()) {
+        return;
+    }
+    try {
+        place_parts(placings, files_of_operations(operations, folder_), unit_, parts_);
+    } catch (const PlacingError& error) {
+        top.refuse("placing", error.what());
+    }
+}
+
 void JobReader::read_operation(const toml::table& entry, std::size_t index)
 {
     JobTable table{entry, file_, fmt::format("operation {}", index), operation_keys()};
@@ -447,8 +413,9 @@ Job JobReader::read(const std::string& text)
     read_units(top);
     read_tools(top);
     read_cutting(top);
-    read_stock(top);
+    const StockTable stock{top.table("stock"), file_, unit_, job_};
     const auto operations = top.tables("operation");
+    place_files(top, operations);
     top.check_all_read();
     if (operations.empty()) {
         top.refuse("operation", "is missing: at least one [[operation]]");
@@ -456,7 +423,7 @@ Job JobReader::read(const std::string& text)
     for (std::size_t i = 0; i < operations.size(); ++i) {
         read_operation(*operations[i], i + 1);
     }
-    settle_stock(document);
+    stock.settle(job_);
     job_.notes = parts_.notes();
     return std::move(job_);  // meshes are large
 }

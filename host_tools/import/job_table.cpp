@@ -131,6 +131,15 @@ std::optional<std::string> JobTable::one_of(const char* key,
     return value;
 }
 
+std::optional<std::vector<double>> JobTable::one_or_more(const char* key, Range range)
+{
+    const toml::node* node = find(key);
+    if (node != nullptr && node->is_number()) {
+        return std::vector<double>{checked(*node, key, range)};
+    }
+    return numbers(key, range);
+}
+
 std::optional<std::vector<double>> JobTable::numbers(const char* key, Range range)
 {
     const toml::node* node = find(key);

@@ -35,6 +35,8 @@ public:
     std::optional<std::string> text(const char* key);
     std::optional<std::string> one_of(const char* key, const std::vector<std::string>& allowed);
     std::optional<std::vector<double>> numbers(const char* key, Range range);
+    // A single number counts as a list of one.
+    std::optional<std::vector<double>> one_or_more(const char* key, Range range);
     // A single text counts as a list of one.
     std::optional<std::vector<std::string>> texts(const char* key);
     const toml::table* table(const char* key);

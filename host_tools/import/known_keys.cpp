@@ -49,13 +49,24 @@ constexpr OperationKey kOperationKeys[]{
 
 }  // namespace
 
-std::vector<std::string> job_keys() { return {"units", "tool", "cutting", "stock", "operation"}; }
+std::vector<std::string> job_keys()
+{
+    return {"units", "tool", "cutting", "stock", "placing", "operation"};
+}
 
 std::vector<std::string> tool_keys() { return {"number", "shape", "diameter", "corner_radius"}; }
 
 std::vector<std::string> cutting_keys() { return {"feed", "plunge_feed", "spindle"}; }
 
-std::vector<std::string> stock_keys() { return {"top", "clearance", "bottom", "x", "y"}; }
+std::vector<std::string> stock_keys()
+{
+    return {"top", "clearance", "bottom", "x", "y", "margin", "margin_top", "margin_bottom"};
+}
+
+std::vector<std::string> placing_keys()
+{
+    return {"file", "scale", "up", "rotate", "origin", "move"};
+}
 
 std::vector<std::string> operation_keys()
 {

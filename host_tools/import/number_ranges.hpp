@@ -16,6 +16,7 @@ inline constexpr Range kNotNegative{0, kLargest};
 inline constexpr Range kAnyNumber{-kLargest, kLargest};
 // Programs are written to a ten-thousandth of a millimetre, feeds to a thousandth a minute.
 inline constexpr Range kTolerance{1e-5, kLargest};  // mm
+inline constexpr Range kScale{1e-6, kLargest};      // of a part
 inline constexpr Range kFeed{0.01, kLargest};       // mm/min
 
 }  // namespace cusp::import

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "host_tools/import/mesh_file.hpp"
 #include "host_tools/import/number_ranges.hpp"
 #include "host_tools/import/path_ending.hpp"
 #include "host_tools/input_error/input_error.hpp"
@@ -33,10 +34,8 @@ void check_parts(const OneLineRequest& request)
                 part, part));
         }
         if (!is_part_file(part)) {
-            throw InputError(fmt::format(
-                "{}: parts end in .json, .step, .stp, .iges, .igs or .stl, jobs in .toml, not in "
-                "\"{}\"",
-                part, path_ending(part)));
+            throw InputError(fmt::format("{}: parts end in {}, jobs in .toml, not in \"{}\"", part,
+                                         kPartEndings, path_ending(part)));
         }
     }
     if (!request.islands.empty() && !request.boundary) {
@@ -67,6 +66,31 @@ void check_numbers(const OneLineRequest& request)
     }
 }
 
+void check_placing(const OneLineRequest& request)
+{
+    constexpr double kTurn = 360;  // degrees
+    check_range("--scale", request.scale, kScale.low, false);
+    const auto check_count = [](const char* option, const char* needed,
+                                const std::vector<double>& values, bool also_one) {
+        if (!values.empty() && values.size() != 3 && !(also_one && values.size() == 1)) {
+            throw InputError(fmt::format("{}: has {} numbers, {}", option, values.size(), needed));
+        }
+    };
+    check_count("--rotate", "degrees about z are needed, or about x, y and z", request.rotate,
+                true);
+    check_count("--move", "x, y and z are needed", request.move, false);
+    const auto check_size = [](const char* option, const std::vector<double>& values, double most) {
+        for (const double value : values) {
+            if (!(std::abs(value) <= most)) {
+                throw InputError(
+                    fmt::format("{}: is {:g}, the limit is {:g}", option, value, most));
+            }
+        }
+    };
+    check_size("--rotate", request.rotate, kTurn);
+    check_size("--move", request.move, kLargest);
+}
+
 void check_strategy(const OneLineRequest& request)
 {
     const bool pocket = request.strategy.empty() ? request.boundary.has_value()
@@ -89,8 +113,7 @@ void check_strategy(const OneLineRequest& request)
 
 bool is_part_file(const std::string& file)
 {
-    static constexpr std::array kEndings{".json", ".step", ".stp", ".iges", ".igs", ".stl"};
-    return std::find(kEndings.begin(), kEndings.end(), path_ending(file)) != kEndings.end();
+    return is_cad_file(file) || is_mesh_file(file) || path_ending(file) == ".json";
 }
 
 void check_request(const OneLineRequest& request)
@@ -107,6 +130,7 @@ void check_request(const OneLineRequest& request)
             "0.02 (mm)");
     }
     check_numbers(request);
+    check_placing(request);
     check_strategy(request);
 }
 

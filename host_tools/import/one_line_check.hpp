@@ -14,7 +14,7 @@ void check_request(const OneLineRequest& request);
 // Whether the last of the tools can finish as asked. Errors: InputError.
 void check_tools(const OneLineRequest& request, const std::vector<NamedTool>& tools);
 
-// Whether files of this ending hold parts: .json, .step, .stp, .iges, .igs, .stl.
+// Whether files of this ending hold parts (kPartEndings).
 bool is_part_file(const std::string& file);
 
 }  // namespace cusp::import

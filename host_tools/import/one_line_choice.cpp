@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/import/mesh_file.hpp"
 #include "host_tools/import/one_line_check.hpp"
-#include "host_tools/import/path_ending.hpp"
+#include "host_tools/import/placing.hpp"
 #include "host_tools/input_error/input_error.hpp"
 
 #include "fmt/format.h"
@@ -54,6 +55,7 @@ public:
         }
         check_tools(request, choice_.tools);
         choose_numbers();
+        place();
         measure();
         check_sizes();
         choose_roughing();
@@ -63,6 +65,7 @@ public:
 
 private:
     void choose_numbers();
+    void place();
     void measure();
     void check_sizes() const;
     void choose_roughing();
@@ -93,14 +96,40 @@ void OneLineChooser::choose_numbers()
     choice_.clearance = request_.clearance.value_or(defaults_.clearance);
 }
 
+// Where an option asks for it.
+void OneLineChooser::place()
+{
+    if (!request_.scale && request_.up.empty() && request_.rotate.empty() &&
+        request_.origin.empty() && request_.move.empty()) {
+        return;
+    }
+    Placing placing;
+    placing.scale = request_.scale.value_or(placing.scale);
+    placing.up = request_.up.empty() ? placing.up : request_.up;
+    placing.origin = request_.origin;
+    const std::vector<double>& turn = request_.rotate;
+    if (turn.size() == 1) {
+        placing.rotate = {0, 0, turn[0]};
+    } else if (turn.size() == 3) {
+        placing.rotate = {turn[0], turn[1], turn[2]};
+    }
+    if (request_.move.size() == 3) {
+        placing.move =
+            defaults_.millimetres * Vec3d{request_.move[0], request_.move[1], request_.move[2]};
+    }
+    PlacedFiles files{request_.parts, request_.islands};
+    if (is_pocket()) {
+        files.drawings.push_back(*request_.boundary);
+    }
+    place_parts({placing}, files, defaults_.millimetres, parts_);
+}
+
 // Reads the parts in the form that the strategy takes, so that nothing is read twice.
 void OneLineChooser::measure()
 {
     const double unit = defaults_.millimetres;
-    const bool meshes = !is_pocket() && std::all_of(request_.parts.begin(), request_.parts.end(),
-                                                    [](const std::string& part) {
-                                                        return path_ending(part) == ".stl";
-                                                    });
+    const bool meshes =
+        !is_pocket() && std::all_of(request_.parts.begin(), request_.parts.end(), is_mesh_file);
     bool is_first = true;
     for (const std::string& part : request_.parts) {
         const PartExtent box =

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "host_tools/import/mesh_file.hpp"
 #include "host_tools/import/one_line_choice.hpp"
-#include "host_tools/import/path_ending.hpp"
 
 #include "fmt/format.h"
 #include "fmt/ranges.h"
@@ -45,6 +45,7 @@ public:
     std::vector<std::string> said() const;
 
 private:
+    std::string placing_toml() const;
     std::string operation_toml() const;
     std::string said_feeds() const;
     std::string said_roughing() const;
@@ -82,6 +83,28 @@ std::string OneLineWriter::operation_toml() const
     return out;
 }
 
+// "" where no option places the parts.
+std::string OneLineWriter::placing_toml() const
+{
+    std::string keys;
+    if (request_.scale) {
+        keys += fmt::format("scale = {}\n", *request_.scale);
+    }
+    if (!request_.up.empty()) {
+        keys += fmt::format("up = \"{}\"\n", request_.up);
+    }
+    if (!request_.rotate.empty()) {
+        keys += fmt::format("rotate = [{}]\n", fmt::join(request_.rotate, ", "));
+    }
+    if (!request_.origin.empty()) {
+        keys += fmt::format("origin = \"{}\"\n", request_.origin);
+    }
+    if (!request_.move.empty()) {
+        keys += fmt::format("move = [{}]\n", fmt::join(request_.move, ", "));
+    }
+    return keys.empty() ? "" : "\n[placing]\n" + keys;
+}
+
 std::string OneLineWriter::toml() const
 {
     std::string out = fmt::format(
@@ -102,7 +125,8 @@ std::string OneLineWriter::toml() const
     if (!is_pocket() && choice_.bottom < choice_.top) {
         out += fmt::format("bottom = {}\n", choice_.bottom);
     }
-    return out + fmt::format("clearance = {}\n", choice_.clearance) + operation_toml();
+    return out + fmt::format("clearance = {}\n", choice_.clearance) + placing_toml() +
+           operation_toml();
 }
 
 std::string OneLineWriter::said_feeds() const
@@ -144,10 +168,7 @@ std::string OneLineWriter::said_roughing() const
 std::vector<std::string> OneLineWriter::said() const
 {
     const Vec3d size = choice_.part.size();
-    const bool names_unit =
-        std::none_of(request_.parts.begin(), request_.parts.end(), [](const std::string& part) {
-            return path_ending(part) == ".json" || path_ending(part) == ".stl";
-        });
+    const bool names_unit = std::none_of(request_.parts.begin(), request_.parts.end(), lacks_unit);
     const std::string what = is_pocket() ? "floor" : "part";
     return {
         fmt::format("{}: {} x {} {} from above, {} deep; {}", what, choice_.words(size.x),

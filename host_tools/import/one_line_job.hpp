@@ -25,6 +25,12 @@ struct OneLineRequest {
     std::optional<double> spindle;  // rpm
     std::optional<double> stock_top;
     std::optional<double> clearance;
+    // As the keys of [placing]; all parts and loops together.
+    std::optional<double> scale;
+    std::string up;
+    std::vector<double> rotate;  // degrees: about z, or about x, y, z
+    std::string origin;
+    std::vector<double> move;  // x, y, z
     bool roughing{true};
     std::string strategy;         // "": adaptive_isocurve, with a boundary contour_pocket
     std::string output{"lines"};  // "lines", "arcs", "nurbs"

@@ -1,21 +1,46 @@
 // A map for each kind of geometry; a mesh is read once for all tolerances as triangles only.
 #include "host_tools/import/part_files.hpp"
 
-#include "host_tools/import/path_ending.hpp"
+#include "host_tools/import/mesh_file.hpp"
 
 namespace cusp::import {
 
+using nurbs::Curve;
 using nurbs::Surface;
+
+namespace {
+
+// Seen from above: loops lie in x and y.
+void move_loops(const Similarity& placed, std::vector<FileLoop>& loops)
+{
+    for (FileLoop& found : loops) {
+        for (Curve& curve : found.loop) {
+            for (Vec3d& point : curve.points) {
+                point = placed.of(point);
+            }
+        }
+    }
+}
+
+std::string without_layer(const std::string& name) { return name.substr(0, name.rfind('#')); }
+
+}  // namespace
+
+Similarity PartFiles::placed(const std::string& file) const
+{
+    const auto found = placed_.find(file);
+    return found == placed_.end() ? Similarity{} : found->second;
+}
 
 const std::vector<Surface>& PartFiles::surfaces(const std::string& file,
                                                 double millimetres,
                                                 double mesh_tolerance)
 {
     // Only a mesh depends on the tolerance.
-    const double tolerance = path_ending(file) == ".stl" ? mesh_tolerance : 0;
+    const double tolerance = is_mesh_file(file) ? mesh_tolerance : 0;
     const auto [found, is_new] = surfaces_.try_emplace({file, tolerance});
     if (is_new) {
-        found->second = read_surfaces(file, millimetres, tolerance, &notes_);
+        found->second = read_surfaces(file, millimetres, tolerance, &notes_, placed(file));
     }
     return found->second;
 }
@@ -24,7 +49,7 @@ const Triangles& PartFiles::mesh(const std::string& file, double millimetres)
 {
     const auto [found, is_new] = meshes_.try_emplace(file);
     if (is_new) {
-        found->second = read_mesh(file, millimetres, &notes_);
+        found->second = read_mesh(file, millimetres, &notes_, placed(file));
     }
     return found->second;
 }
@@ -36,8 +61,38 @@ const std::vector<FileLoop>& PartFiles::loops(const std::string& file,
     const auto [found, is_new] = loops_.try_emplace({file, join});
     if (is_new) {
         found->second = read_loops(file, millimetres, join, notes_);
+        const auto layer = placed_.find(without_layer(file));
+        move_loops(layer == placed_.end() ? placed(file) : layer->second, found->second);
     }
     return found->second;
+}
+
+void PartFiles::place(const std::string& file, const Similarity& placed) { placed_[file] = placed; }
+
+void PartFiles::shift(const std::string& file, Vec3d by)
+{
+    placed_[file].shift = placed_[file].shift + by;
+    for (auto& [key, surfaces] : surfaces_) {
+        for (Surface& surface : surfaces) {
+            for (Vec3d& point : surface.points) {
+                point = key.first == file ? point + by : point;
+            }
+        }
+    }
+    if (const auto found = meshes_.find(file); found != meshes_.end()) {
+        for (auto& triangle : found->second) {
+            for (Vec3d& corner : triangle) {
+                corner = corner + by;
+            }
+        }
+    }
+    for (auto& [key, loops] : loops_) {
+        if (key.first == file || without_layer(key.first) == file) {
+            Similarity move;
+            move.shift = by;
+            move_loops(move, loops);
+        }
+    }
 }
 
 }  // namespace cusp::import

@@ -9,17 +9,20 @@
 
 #include "host_tools/import/file_loops.hpp"
 #include "host_tools/import/import.hpp"
+#include "host_tools/import/similarity.hpp"
 
 namespace cusp::import {
 
 using Triangles = std::vector<std::array<Vec3d, 3>>;
 
+// Files lie as they are, or as `place` and `shift` say (placing.hpp).
+//
 // Errors, here and below: InputError, as `read_surfaces`, `read_mesh` and `read_loops` throw it.
 //
 // millimetres  of one unit of a file that names no unit: 1 or 25.4; equal in all calls
 class PartFiles {
 public:
-    // mesh_tolerance  mm: how closely surfaces over an STL mesh follow it
+    // mesh_tolerance  mm: how closely surfaces over a mesh follow it
     const std::vector<nurbs::Surface>& surfaces(const std::string& file,
                                                 double millimetres,
                                                 double mesh_tolerance);
@@ -27,14 +30,26 @@ public:
     // join  mm: as in `read_loops`
     const std::vector<FileLoop>& loops(const std::string& file, double millimetres, double join);
 
+    // Of a file that was not read yet; "#layer" left out.
+    void place(const std::string& file, const Similarity& placed);
+    // Moves what was read of the file, and what will be. mm
+    void shift(const std::string& file, Vec3d by);
+    // After the last of both: a job that finds its files placed leaves them there.
+    void finish_placing() { is_placed_ = true; }
+    bool is_placed() const { return is_placed_; }
+
     // Sentences on what the readers left out or changed so far.
     const std::vector<std::string>& notes() const { return notes_; }
 
 private:
+    Similarity placed(const std::string& file) const;
+
     // by file and tolerance
     std::map<std::pair<std::string, double>, std::vector<nurbs::Surface>> surfaces_;
     std::map<std::string, Triangles> meshes_;
     std::map<std::pair<std::string, double>, std::vector<FileLoop>> loops_;  // by file and join
+    std::map<std::string, Similarity> placed_;  // by file; others lie as they are
+    bool is_placed_{false};
     std::vector<std::string> notes_;
 };
 

@@ -8,4 +8,11 @@ namespace cusp::import {
 // With its dot, in small letters: ".step"; "" where there is none.
 std::string path_ending(const std::string& file);
 
+// Files that hold parts, for messages.
+inline constexpr const char* kPartEndings =
+    ".json, .step, .stp, .iges, .igs, .brep, .brp, .stl, .obj and .3mf";
+
+// Whether Open CASCADE reads it: .step, .stp, .iges, .igs, .brep, .brp.
+bool is_cad_file(const std::string& file);
+
 }  // namespace cusp::import

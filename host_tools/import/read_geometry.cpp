@@ -1,5 +1,6 @@
 // Selects the reader by the ending of the file, and describes meshes in words.
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <filesystem>
 #include <optional>
@@ -11,10 +12,10 @@
 #include "host_tools/import/height_field.hpp"
 #include "host_tools/import/import.hpp"
 #include "host_tools/import/loop_nesting.hpp"
+#include "host_tools/import/mesh_file.hpp"
 #include "host_tools/import/mesh_patches.hpp"
 #include "host_tools/import/nurbs_validity.hpp"
 #include "host_tools/import/path_ending.hpp"
-#include "host_tools/import/stl_facets.hpp"
 #include "host_tools/job/job.hpp"
 
 #include "fmt/format.h"
@@ -111,36 +112,49 @@ std::vector<Surface> mesh_surfaces(const std::string& file,
 
 }  // namespace
 
+bool is_cad_file(const std::string& file)
+{
+    static constexpr std::array kEndings{".step", ".stp", ".iges", ".igs", ".brep", ".brp"};
+    return std::find(kEndings.begin(), kEndings.end(), path_ending(file)) != kEndings.end();
+}
+
 std::vector<Surface> read_surfaces(const std::string& file,
                                    double millimetres,
                                    double mesh_tolerance,
-                                   std::vector<std::string>* notes)
+                                   std::vector<std::string>* notes,
+                                   const Similarity& placed)
 {
-    const std::string ending = path_ending(file);
-    if (ending == ".json") {
-        return read_json_surfaces(file, millimetres);
+    if (is_cad_file(file)) {
+        return read_cad_surfaces(file, placed);
     }
-    if (ending == ".stl") {
-        std::vector<std::string> unread;
-        std::vector<Surface> surfaces = mesh_surfaces(
-            file, read_stl(file, millimetres), mesh_tolerance, notes != nullptr ? *notes : unread);
-        for (const Surface& surface : surfaces) {
-            check_surface(surface, file);
+    std::vector<Surface> surfaces;
+    if (path_ending(file) == ".json") {
+        surfaces = read_json_surfaces(file, millimetres);
+        for (Surface& surface : surfaces) {
+            for (Vec3d& point : surface.points) {
+                point = placed.of(point);
+            }
         }
-        return surfaces;
+    } else if (is_mesh_file(file)) {
+        std::vector<std::string> unread;
+        surfaces = mesh_surfaces(file, read_facets(file, millimetres, placed), mesh_tolerance,
+                                 notes != nullptr ? *notes : unread);
+    } else {
+        throw InputError(fmt::format("{}: surfaces are read from {}, not from \"{}\"", file,
+                                     kPartEndings, path_ending(file)));
     }
-    if (ending == ".step" || ending == ".stp" || ending == ".iges" || ending == ".igs") {
-        return read_cad_surfaces(file);
+    for (const Surface& surface : surfaces) {
+        check_surface(surface, file);
     }
-    throw InputError(fmt::format(
-        "{}: surfaces are read from .json, .stl, .step and .iges, not from \"{}\"", file, ending));
+    return surfaces;
 }
 
 std::vector<std::array<Vec3d, 3>> read_mesh(const std::string& file,
                                             double millimetres,
-                                            std::vector<std::string>* notes)
+                                            std::vector<std::string>* notes,
+                                            const Similarity& placed)
 {
-    Facets facets = read_stl(file, millimetres);
+    Facets facets = read_facets(file, millimetres, placed);
     if (notes != nullptr) {
         describe(file, facets, overhang_area(facets), *notes);
     }

@@ -2,15 +2,14 @@
 #include "host_tools/import/stl_facets.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <string_view>
 
 #include "host_tools/files/files.hpp"
-#include "host_tools/import/nurbs_validity.hpp"
 #include "host_tools/input_error/input_error.hpp"
 
 #include "fmt/format.h"
@@ -21,7 +20,6 @@ namespace {
 constexpr std::size_t kHead = 84;
 constexpr std::size_t kFacet = 50;
 constexpr std::size_t kNormal = 12;
-constexpr const char* kAxes = "xyz";
 
 // Bytes in the order of the file, least first.
 std::uint32_t word_at(const std::string& bytes, std::size_t at)
@@ -41,29 +39,6 @@ double float_at(const std::string& bytes, std::size_t at)
     return static_cast<double>(value);
 }
 
-// place()  the place of the value, in words
-template <class Place>
-void check_coordinate(double value, std::size_t axis, const Place& place)
-{
-    if (!(std::abs(value) <= kLargestCoordinate)) {  // also refuses NaN
-        throw InputError(fmt::format("{}: a corner has {} = {} mm, the limit is {:g}", place(),
-                                     kAxes[axis], value, kLargestCoordinate));
-    }
-}
-
-void add(const std::array<Vec3d, 3>& corners, Facets& facets)
-{
-    constexpr double kLeastHeight = 1e-9;  // mm
-    const double area2 = norm(cross(corners[1] - corners[0], corners[2] - corners[0]));
-    const double longest = std::max({norm(corners[1] - corners[0]), norm(corners[2] - corners[1]),
-                                     norm(corners[0] - corners[2])});
-    if (area2 > kLeastHeight * longest) {
-        facets.triangles.push_back(corners);
-    } else {
-        ++facets.degenerate;
-    }
-}
-
 Facets read_binary(const std::string& bytes, double unit, const std::string& file)
 {
     const std::size_t count = word_at(bytes, kHead - 4);
@@ -77,16 +52,12 @@ Facets read_binary(const std::string& bytes, double unit, const std::string& fil
     for (std::size_t k = 0; k < count; ++k) {
         std::array<Vec3d, 3> corners;
         for (std::size_t c = 0; c < 3; ++c) {
-            std::array<double, 3> xyz{};
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                xyz[axis] =
-                    unit * float_at(bytes, kHead + k * kFacet + kNormal + 12 * c + 4 * axis);
-                check_coordinate(xyz[axis], axis,
-                                 [&] { return fmt::format("{}: facet {}", file, k + 1); });
-            }
-            corners[c] = {xyz[0], xyz[1], xyz[2]};
+            const std::size_t at = kHead + k * kFacet + kNormal + 12 * c;
+            corners[c] =
+                unit * Vec3d{float_at(bytes, at), float_at(bytes, at + 4), float_at(bytes, at + 8)};
+            check_corner(corners[c], [&] { return fmt::format("{}: facet {}", file, k + 1); });
         }
-        add(corners, facets);
+        add_facet(corners, facets);
     }
     return facets;
 }
@@ -155,12 +126,10 @@ std::array<Vec3d, 3> read_facet(Words& words, double unit)
     std::array<Vec3d, 3> corners;
     for (Vec3d& corner : corners) {
         words.expect("vertex");
-        std::array<double, 3> xyz{};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            xyz[axis] = unit * words.number();
-            check_coordinate(xyz[axis], axis, [&] { return words.place(); });
+        for (unsigned axis = 0; axis < 3; ++axis) {
+            corner[axis] = unit * words.number();
         }
-        corner = {xyz[0], xyz[1], xyz[2]};
+        check_corner(corner, [&] { return words.place(); });
     }
     words.expect("endloop");
     words.expect("endfacet");
@@ -176,7 +145,7 @@ Facets read_ascii(const std::string& text, double unit, const std::string& file)
     bool open = true;
     for (std::string word = words.next();; word = words.next()) {
         if (word == "facet" && open) {
-            add(read_facet(words, unit), facets);
+            add_facet(read_facet(words, unit), facets);
         } else if (word == "endsolid" && open) {
             words.skip_line();
             open = false;
@@ -203,19 +172,6 @@ bool is_ascii(const std::string& bytes)
            bytes.find('\0') == std::string::npos;
 }
 
-double width_along(double Vec3d::*axis, const Facets& facets)
-{
-    double low = facets.triangles.front()[0].*axis;
-    double high = low;
-    for (const auto& t : facets.triangles) {
-        for (const Vec3d& p : t) {
-            low = std::min(low, p.*axis);
-            high = std::max(high, p.*axis);
-        }
-    }
-    return high - low;
-}
-
 }  // namespace
 
 Facets read_stl(const std::string& file, double millimetres)
@@ -227,20 +183,7 @@ Facets read_stl(const std::string& file, double millimetres)
             "{}: no STL: neither \"solid\" nor the {} bytes that a binary one has at least", file,
             kHead));
     }
-    Facets facets =
-        ascii ? read_ascii(bytes, millimetres, file) : read_binary(bytes, millimetres, file);
-    if (facets.triangles.empty()) {
-        throw InputError(
-            fmt::format("{}: holds no facet with an area ({} without)", file, facets.degenerate));
-    }
-    const double in_x = width_along(&Vec3d::x, facets);
-    const double in_y = width_along(&Vec3d::y, facets);
-    if (!(in_x > 0 && in_y > 0)) {
-        throw InputError(
-            fmt::format("{}: is {:g} mm wide in x and {:g} mm in y: a floor must be wider than 0",
-                        file, in_x, in_y));
-    }
-    return facets;
+    return ascii ? read_ascii(bytes, millimetres, file) : read_binary(bytes, millimetres, file);
 }
 
 }  // namespace cusp::import

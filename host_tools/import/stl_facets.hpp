@@ -1,24 +1,16 @@
 // Triangles from STL files, binary and ASCII.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <string>
-#include <vector>
 
-#include "firmware/base/vec.hpp"
+#include "host_tools/import/facets.hpp"
 
 namespace cusp::import {
-
-struct Facets {
-    std::vector<std::array<Vec3d, 3>> triangles;  // mm, corners in the file's order
-    std::size_t degenerate{};                     // left out: two corners alike, or all in a line
-};
 
 // millimetres  of one unit of the file: STL does not name its unit
 //
 // Errors: InputError with file, line (ASCII) or facet (binary), value and limit: a file cut short,
-// a coordinate that is no finite number or beyond kLargestCoordinate, no facet with an area.
+// a coordinate that is no finite number or beyond kLargestCoordinate. `check_facets` is the caller's.
 Facets read_stl(const std::string& file, double millimetres);
 
 }  // namespace cusp::import

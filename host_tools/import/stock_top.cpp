@@ -8,11 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "host_tools/import/part_extent.hpp"
+#include "host_tools/job/loop_shape.hpp"
 
 namespace cusp::import {
 
 using job::Job;
+using job::loop_polyline;
 using job::Operation;
 
 namespace {
@@ -55,6 +56,26 @@ double default_stock_top(const Job& job)
     constexpr double kOverRounding = 0.5;  // of a step: how much too high a measure may be
     const double highest = *highest_floor(job, [](const Operation&) { return true; });
     return std::max(0.0, std::ceil(highest * kSteps - kOverRounding) / kSteps);
+}
+
+PartExtent extent_of_job(const Job& job)
+{
+    constexpr double kChord = 1e-3;  // mm
+    std::optional<PartExtent> box;
+    for (const Operation& operation : job.operations) {
+        PartExtent more = operation.mesh.empty() ? extent_of_surfaces(operation.floor)
+                                                 : extent_of_triangles(operation.mesh);
+        if (operation.boundary) {
+            const auto outline = loop_polyline(*operation.boundary, kChord);
+            const auto [west, east] = std::minmax_element(
+                outline.begin(), outline.end(), [](Vec2d a, Vec2d b) { return a.x < b.x; });
+            const auto [south, north] = std::minmax_element(
+                outline.begin(), outline.end(), [](Vec2d a, Vec2d b) { return a.y < b.y; });
+            more = {{west->x, south->y, more.low.z}, {east->x, north->y, more.high.z}};
+        }
+        box = box ? joined(*box, more) : more;
+    }
+    return box.value_or(PartExtent{});
 }
 
 }  // namespace cusp::import

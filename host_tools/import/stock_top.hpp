@@ -1,8 +1,9 @@
-// The top of the stock, where a job does not give it: the highest place of its parts.
+// What the stock takes from the parts where a job does not give it: their highest place, their box.
 #pragma once
 
 #include <optional>
 
+#include "host_tools/import/part_extent.hpp"
 #include "host_tools/job/job.hpp"
 
 namespace cusp::import {
@@ -14,5 +15,8 @@ std::optional<double> part_top(const job::Job& job);
 // z that the stock's top has where the job gives none, mm, rounded up to 1e-4: the highest place
 // of all floors, at least 0.
 double default_stock_top(const job::Job& job);
+
+// The box round all floors, mm; of a pocket no more in x and y than its boundary.
+PartExtent extent_of_job(const job::Job& job);
 
 }  // namespace cusp::import

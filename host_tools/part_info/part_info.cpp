@@ -9,9 +9,9 @@
 #include "host_tools/import/cad_surfaces.hpp"
 #include "host_tools/import/dxf_curves.hpp"
 #include "host_tools/import/geometry_json.hpp"
+#include "host_tools/import/mesh_file.hpp"
 #include "host_tools/import/part_extent.hpp"
 #include "host_tools/import/path_ending.hpp"
-#include "host_tools/import/stl_facets.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/part_info/mesh_places.hpp"
 #include "host_tools/part_info/surface_facets.hpp"
@@ -26,12 +26,14 @@ using import::DxfLayers;
 using import::extent_of_surfaces;
 using import::extent_of_triangles;
 using import::Facets;
+using import::is_cad_file;
+using import::is_mesh_file;
 using import::nest_loops;
 using import::path_ending;
 using import::read_cad_model;
 using import::read_dxf_layers;
+using import::read_facets;
 using import::read_json_shapes;
-using import::read_stl;
 using nurbs::Curve;
 using nurbs::Surface;
 using part_model::PartModel;
@@ -224,19 +226,23 @@ void read_json(PartInfo& info, const std::string& file, const InspectSettings& s
 
 void read_mesh_file(PartInfo& info, const std::string& file, const InspectSettings& settings)
 {
-    Facets facets = read_stl(file, settings.millimetres);
-    info.format = "STL";
-    info.unit = unit_of(settings.millimetres, true);
+    Facets facets = read_facets(file, settings.millimetres);
+    info.format = path_ending(file) == ".stl" ? "STL" : path_ending(file) == ".obj" ? "OBJ" : "3MF";
+    info.unit =
+        facets.unit.empty() ? unit_of(settings.millimetres, true) : PartUnit{facets.unit, 0, false};
     info.triangles = std::move(facets.triangles);
     info.degenerate = facets.degenerate;
     inspect_mesh(info, settings.tolerance);
 }
 
-void read_cad(PartInfo& info, const std::string& file, bool step, double tolerance)
+void read_cad(PartInfo& info, const std::string& file, double tolerance)
 {
+    const std::string ending = path_ending(file);
     CadModel model = read_cad_model(file);
-    info.format = step ? "STEP" : "IGES";
-    info.unit = {model.unit, 0, false};
+    info.format = ending == ".step" || ending == ".stp"   ? "STEP"
+                  : ending == ".iges" || ending == ".igs" ? "IGES"
+                                                          : "BREP";
+    info.unit = model.unit.empty() ? unit_of(1, true) : PartUnit{model.unit, 0, false};
     info.solids = model.solids;
     info.unread_faces = model.unread;
     info.surfaces = std::move(model.faces);
@@ -255,17 +261,15 @@ PartInfo inspect_part(const std::string& name, const InspectSettings& settings)
     info.file = name;
     if (ending == ".json") {
         read_json(info, file, settings);
-    } else if (ending == ".stl") {
+    } else if (is_mesh_file(file)) {
         read_mesh_file(info, file, settings);
     } else if (ending == ".dxf") {
         read_drawing(info, file, layered ? name.substr(mark + 1) : "", settings.millimetres);
-    } else if (ending == ".step" || ending == ".stp" || ending == ".iges" || ending == ".igs") {
-        read_cad(info, file, ending == ".step" || ending == ".stp", settings.tolerance);
+    } else if (is_cad_file(file)) {
+        read_cad(info, file, settings.tolerance);
     } else {
-        throw InputError(fmt::format(
-            "{}: parts are read from .json, .step, .stp, .iges, .igs, .stl and .dxf, not from "
-            "\"{}\"",
-            file, ending));
+        throw InputError(fmt::format("{}: parts are read from .dxf, {}, not from \"{}\"", file,
+                                     import::kPartEndings, ending));
     }
     return info;
 }

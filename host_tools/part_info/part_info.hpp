@@ -40,8 +40,9 @@ struct LayerInfo {
 };
 
 struct PartInfo {
-    std::string file;    // as it was named, "#layer" included
-    std::string format;  // "STL", "STEP", "IGES", "JSON surfaces", "JSON curves", "DXF"
+    std::string file;  // as it was named, "#layer" included
+    std::string
+        format;  // "STL", "OBJ", "3MF", "STEP", "IGES", "BREP", "JSON surfaces", "JSON curves", "DXF"
     PartUnit unit;
     Vec3d box_low, box_high;  // mm
 

@@ -77,19 +77,18 @@ class ChecksOfTheTree(unittest.TestCase):
         self.assertEqual(self.run_check("includes.py")[0], 2)
 
     def test_job_keys_refuses_a_key_that_is_told_or_known_alone(self):
-        self.write("host_tools/import/job_reader.cpp", 'table.number("feed"); length(t, "top", kAny);\n')
-        self.write("host_tools/import/tool_reader.cpp", "")
-        self.write("docs/job_file.md", "| `feed` | needed | |\n| `top` | 0 | |\n")
+        self.write("host_tools/import/known_keys.cpp",
+                   'OperationKey kKeys[]{{"feed", ""}, {"grid", kGrids}};\nreturn {"top", "operation"};\n')
+        self.write("docs/job_file.md", "| `feed`, `grid` | needed | |\n| `top` | 0 | |\n")
         self.assertEqual(self.run_check("job_keys.py")[0], 0)
-        self.write("docs/job_file.md", "| `feed`, `tops` | needed | |\n")
+        self.write("docs/job_file.md", "| `feed`, `grid`, `tops` | needed | |\n")
         status, text = self.run_check("job_keys.py")
         self.assertEqual(status, 1)
         self.assertIn("the key top ", text)
         self.assertIn("a key tops ", text)
 
     def test_job_keys_needs_keys(self):
-        self.write("host_tools/import/tool_reader.cpp", "")
-        self.write("host_tools/import/job_reader.cpp", "")
+        self.write("host_tools/import/known_keys.cpp", "")
         self.write("docs/job_file.md", "")
         self.assertEqual(self.run_check("job_keys.py")[0], 2)
 

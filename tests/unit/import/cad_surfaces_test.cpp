@@ -8,10 +8,12 @@
 #include "opencascade/BRepAlgoAPI_Cut.hxx"
 #include "opencascade/BRepAlgoAPI_Fuse.hxx"
 #include "opencascade/BRepBuilderAPI_MakeFace.hxx"
+#include "opencascade/BRepBuilderAPI_Transform.hxx"
 #include "opencascade/BRepGProp.hxx"
 #include "opencascade/BRepPrimAPI_MakeBox.hxx"
 #include "opencascade/BRepPrimAPI_MakeCylinder.hxx"
 #include "opencascade/BRepPrimAPI_MakeSphere.hxx"
+#include "opencascade/BRepTools.hxx"
 #include "opencascade/BRep_Builder.hxx"
 #include "opencascade/GProp_GProps.hxx"
 #include "opencascade/GeomAPI_PointsToBSplineSurface.hxx"
@@ -24,7 +26,9 @@
 #include "opencascade/TColgp_Array2OfPnt.hxx"
 #include "opencascade/TopExp_Explorer.hxx"
 #include "opencascade/TopoDS_Compound.hxx"
+#include "opencascade/gp_Ax1.hxx"
 #include "opencascade/gp_Ax2.hxx"
+#include "opencascade/gp_Trsf.hxx"
 // CppUTest's macros come last
 #include "CppUTest/TestHarness.h"
 // it needs the harness before it
@@ -149,6 +153,37 @@ TEST_GROUP(CadSurfaces)
         DOUBLES_EQUAL(0, seen.high, 1e-9);
     }
 };
+
+TEST(CadSurfaces, OfASolidInBrepAreThoseThatLookUp)
+{
+    const std::string file = folder.file("part.brep");
+    CHECK(BRepTools::Write(block(), file.c_str()));
+    check_block(file);
+    LONGS_EQUAL(0, read_cad_model(file).unit.size());
+    const std::string text = cusp::files::text_of_file(file);
+    for (const std::size_t share : {1U, 2U, 3U, 5U, 7U}) {
+        const std::string cut = folder.with("cut.brep", text.substr(0, share * text.size() / 8));
+        const std::string words = cusp::test::refusal([&] { read_surfaces(cut); });
+        STRCMP_CONTAINS("cut.brep: ", words.c_str());
+    }
+}
+
+// The block lies on its side in the file: what points along y there points up here.
+TEST(CadSurfaces, ArePlacedBeforeFacesThatLookDownAreLeftOut)
+{
+    gp_Trsf lie;
+    lie.SetRotation(gp_Ax1(gp_Pnt(0, 0, 0), gp_Dir(1, 0, 0)), -1.5707963267948966);
+    const std::string file = step(BRepBuilderAPI_Transform(block(), lie).Shape());
+    Similarity up;
+    up.axes = {Vec3d{2, 0, 0}, Vec3d{0, 0, 2}, Vec3d{0, -2, 0}};
+    up.shift = {0, 0, 7};
+    const auto surfaces = read_surfaces(file, 1.0, 0.01, nullptr, up);
+    LONGS_EQUAL(2, surfaces.size());
+    const Seen seen = seen_from_above(surfaces);
+    DOUBLES_EQUAL(4 * (60 * 40 - kHole), seen.area, 8.0);
+    DOUBLES_EQUAL(-16 + 7, seen.low, 2e-2);
+    DOUBLES_EQUAL(7, seen.high, 1e-9);
+}
 
 TEST(CadSurfaces, OfASolidInStepAreThoseThatLookUp) { check_block(step(block())); }
 

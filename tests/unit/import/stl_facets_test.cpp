@@ -11,6 +11,7 @@
 #include "host_tools/import/facet_groups.hpp"
 #include "host_tools/import/height_field.hpp"
 #include "host_tools/import/import.hpp"
+#include "host_tools/import/mesh_file.hpp"
 #include "host_tools/import/mesh_patches.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -100,7 +101,7 @@ TEST_GROUP(StlFacets)
     std::string refused(const std::string& text)
     {
         const std::string file = folder.with("m.stl", text);
-        return cusp::test::refusal([&] { read_stl(file, 1.0); });
+        return cusp::test::refusal([&] { read_facets(file, 1.0); });
     }
 };
 

@@ -1,0 +1,46 @@
+// The table [stock] of a job.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "host_tools/import/job_table.hpp"
+#include "host_tools/job/job.hpp"
+
+namespace cusp::import {
+
+class StockTable {
+public:
+    // Takes what needs no part.
+    //
+    // table        [stock]; null: the job has none
+    // file         of the job, for messages
+    // millimetres  of one unit of the job
+    //
+    // Errors, here and below: InputError with line, key, value and limit.
+    StockTable(const toml::table* table,
+               const std::string& file,
+               double millimetres,
+               job::Job& job);
+
+    // Takes what follows from the parts: their top, margins round them.
+    //
+    // job  with all its operations
+    void settle(job::Job& job) const;
+
+private:
+    std::optional<double> length(const char* key, Range range);
+    std::optional<std::array<double, 2>> interval(const char* key);
+    void read_margin();
+    void settle_box(job::Job& job) const;
+
+    JobTable keys_;
+    double unit_;  // mm
+    std::optional<double> top_;
+    std::optional<std::array<double, 2>> margin_;  // mm, in x and in y
+    std::optional<double> margin_top_;
+    std::optional<double> margin_bottom_;
+};
+
+}  // namespace cusp::import
