@@ -1,5 +1,4 @@
-// Reads STEP and IGES with no more repairs than a file needs, and refuses files that crash Open
-// CASCADE.
+// Reads STEP and IGES with the fewest repairs, and rejects files that crash Open CASCADE.
 #include "host_tools/import/cad_shape.hpp"
 
 #include <memory>
@@ -61,7 +60,7 @@ public:
     }
 };
 
-// Whether the shape can be made without a crash: a child process tries it.
+// Whether the transfer succeeds without a crash, tested in a child process.
 bool survives_transfer(XSControl_Reader& reader)
 {
     const pid_t child = fork();
@@ -78,8 +77,8 @@ bool survives_transfer(XSControl_Reader& reader)
     return child < 0 || (waitpid(child, &status, 0) == child && status == 0);
 }
 
-// Open CASCADE follows references to entities that it could not read. Many files with faults are
-// read well, so only those that crash it are refused.
+// Open CASCADE dereferences entities that it failed to read. Most files with faults are read
+// correctly, so only those that crash it are rejected.
 void check_faults(const std::string& file, XSControl_Reader& reader)
 {
     Interface_CheckIterator faults = reader.WS()->ModelCheckList(true).Extract(Interface_CheckFail);
@@ -113,7 +112,7 @@ std::string unit_of(XSControl_Reader& reader, bool step)
 ReadShape read_shape(const std::string& file, Repairs repairs)
 {
     Message::DefaultMessenger()->ChangePrinters().Clear();
-    files::text_of_file(file);  // says why a file can't be read
+    files::text_of_file(file);  // throws with the reason where the file can't be read
     const std::string ending = path_ending(file);
     const bool step = ending == ".step" || ending == ".stp";
     std::unique_ptr<XSControl_Reader> reader;

@@ -12,13 +12,13 @@ namespace cusp::import {
 
 struct Facets {
     std::vector<std::array<Vec3d, 3>> triangles;  // mm, corners in the file's order
-    std::size_t degenerate{};                     // left out: two corners alike, or all in a line
+    std::size_t degenerate{};                     // left out: coincident or collinear corners
 };
 
 // millimetres  of one unit of the file: STL does not name its unit
 //
-// Errors: InputError with file, line (ASCII) or facet (binary), value and limit: a file cut short,
-// a coordinate that is no finite number or beyond kLargestCoordinate, no facet with an area.
+// Errors: InputError with file, line (ASCII) or facet (binary), value and limit: a truncated file,
+// a coordinate that is not finite or beyond kLargestCoordinate, no facet with an area.
 Facets read_stl(const std::string& file, double millimetres);
 
 }  // namespace cusp::import
