@@ -99,8 +99,8 @@ Surface plane_patch(const FacetGroup& group, Frame frame, double lift)
 {
     frame.origin = frame.origin + frame.normal * lift;
     std::vector<std::vector<Vec2d>> loops;
-    Vec2d low{1e300, 1e300};
-    Vec2d high{-1e300, -1e300};
+    Vec2d low{kUnbounded, kUnbounded};
+    Vec2d high{-kUnbounded, -kUnbounded};
     const bool level = frame.normal.z >= kSteep;
     for (const auto& loop : group.loops) {
         loops.emplace_back();
