@@ -67,7 +67,7 @@ private:
     std::unique_ptr<finishing::GougeFreePathFitter> path_fitter_;
     std::vector<finishing::SurfacePass> passes_;
     bool moved_off_edges_{};
-    int upright_{};  // number of upright surfaces
+    int upright_{};  // number of vertical surfaces
 };
 
 // Adds warnings of points that may keep more than the scallop.

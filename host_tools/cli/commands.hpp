@@ -1,4 +1,4 @@
-// The commands of `cusp`: each adds itself to the command line and returns its work.
+// The commands of `cusp`. Each adds a subcommand whose callback sets the work to do.
 //
 //     CLI::App app{"cusp"};
 //     Work work;
@@ -16,11 +16,11 @@ namespace cusp::cli {
 // Exit statuses, the same for every command.
 enum ExitStatus : int {
     kDone = 0,
-    kFoundWrong = 1,  // the work found something wrong: a limit broken, an alarm, a gouge
-    kCannotUse = 2,   // the input or the call can't be used
+    kFoundWrong = 1,  // the result is bad: a limit exceeded, an alarm, a gouge
+    kCannotUse = 2,   // the input or the command line is invalid
 };
 
-// The work of the command that was called; returns the exit status, throws InputError (status 2).
+// Runs the selected command. Returns the exit status; throws InputError (status 2).
 using Work = std::function<int()>;
 
 // Adds one subcommand to `app`; its callback sets `work`. A new command is one file

@@ -1,4 +1,4 @@
-// cusp demo: the packaged pocket, planned, cut in memory, run and drawn.
+// cusp demo: plans, verifies, simulates and draws the packaged pocket.
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -53,7 +53,7 @@ struct DemoOptions {
     bool traces{};
 };
 
-// Checked before anything is computed: a folder that can't be written is refused at once.
+// Called before any computation, so that a folder that can't be written is refused immediately.
 void make_folder(const fs::path& folder)
 {
     std::error_code failed;
@@ -69,10 +69,10 @@ void make_folder(const fs::path& folder)
 
 struct DemoRun {
     SimulationResult result;
-    std::string page;  // what to say of it
+    std::string page;  // a sentence on the page
 };
 
-// The run, and its page where this build has one.
+// Runs the program and writes its page, if this build includes one.
 DemoRun run_with_page(const fs::path& folder,
                       const fs::path& program,
                       const Job& job,
@@ -142,14 +142,15 @@ int run_demo(const DemoOptions& options)
 void add_demo_command(CLI::App& app, Work& work)
 {
     CLI::App* command =
-        app.add_subcommand("demo", "plan, cut, run and draw a pocket that comes with cusp");
+        app.add_subcommand("demo", "plan, verify, simulate and draw a pocket that comes with cusp");
     command->footer(
         "A flat end mill roughs the pocket in layers, a ball finishes it: one program, two tools.\n"
         "Exit status 1 where a bound of the job does not hold, or the run ends early.");
     auto options = std::make_shared<DemoOptions>();
-    command->add_option("--out", options->out, "folder for what is written")->capture_default_str();
+    command->add_option("--out", options->out, "folder of the files to write")
+        ->capture_default_str();
     command->add_option("--examples", options->examples,
-                        "folder of the examples (default: those that came with this program)");
+                        "folder of the examples (default: those of this program)");
     command->add_flag("--traces", options->traces,
                       "also write every pulse (pocket.vcd) and set point (samples.csv): 470 MB");
     command->callback([&work, options] {

@@ -94,7 +94,7 @@ std::string demo_summary(const Plan& plan, const SimulationResult& run, const Ve
     text += line("over the scallop",
                  fmt::format("{:.2f} % of the floor (allowed {:g} %)", kPercent * f.uncovered_share,
                              kPercent * bounds.uncovered_share));
-    text += line("rapids through metal", allowed(f.rapid_cut_max, 4, bounds.rapid_cut));
+    text += line("rapids through stock", allowed(f.rapid_cut_max, 4, bounds.rapid_cut));
     text +=
         line("steps", fmt::format("X {}, Y {}, Z {}", run.steps[0], run.steps[1], run.steps[2]));
     return text + line("planned in", fmt::format("{:.2f} s", planning(plan)));

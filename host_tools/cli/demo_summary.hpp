@@ -9,7 +9,7 @@
 
 namespace cusp::cli {
 
-// Times, lengths and depths of each tool and in all, then every figure beside what is allowed.
+// Times, lengths and depths of each tool and in total, then every figure with its limit.
 std::string demo_summary(const Plan& plan,
                          const simulate::SimulationResult& run,
                          const verify::Verification& cut);

@@ -6,10 +6,11 @@
 
 namespace cusp::cli {
 
-// The folder that holds `needed`: `given`, or where that is empty share/cusp/examples or examples
-// in a folder above the executable, the nearest first: those of an installation, of a source tree.
+// The folder of examples that contains `needed`. If `given` is empty, searches share/cusp/examples
+// (an installation) and examples (a source tree) in the folders above the executable, the nearest
+// first.
 //
-// needed  a file of the examples, "demo/pocket.toml"
+// needed  relative path of an example, "demo/pocket.toml"
 //
 // Throws InputError where there is no such folder.
 std::filesystem::path examples_folder(const std::string& given, const std::string& needed);

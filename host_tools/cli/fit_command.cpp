@@ -1,4 +1,4 @@
-// cusp fit: a program of short lines to arcs and lines, checked, with its statistics.
+// cusp fit: replaces short lines by arcs and lines, checks the result, writes statistics.
 #include <chrono>
 #include <fstream>
 #include <memory>
@@ -86,8 +86,8 @@ void add_fit_command(CLI::App& app, Work& work)
 {
     auto* command = app.add_subcommand("fit", "replace runs of short lines by arcs and lines");
     command->footer(
-        "Vertices stay within the tolerance, the middles of lines within a tenth more; the result\n"
-        "is read again and measured before it is written. All words but those of merged lines "
+        "Vertices are within the tolerance, midpoints of lines within 1.1 times of it. The result\n"
+        "is parsed and measured before it is written. All words but those of merged lines "
         "stay.\n"
         "Statistics are in mm and s, whatever the program's units; moves are feed moves.");
     auto options = std::make_shared<FitOptions>();

@@ -28,7 +28,7 @@ struct InfoOptions {
     double tolerance{0.01};
 };
 
-// A file that could not be written whole is removed; a device stays.
+// Removes a file that could not be written completely; a device is not removed.
 void write_or_remove(const std::string& file, const std::string& text)
 {
     try {
@@ -66,10 +66,10 @@ int run_info(const InfoOptions& options)
     constexpr double kInch = 25.4;
     if (!options.picture.empty() && options.files.size() > 1) {
         throw InputError(
-            fmt::format("--picture: {} files; a picture shows one: call cusp info once for each",
+            fmt::format("--picture: {} files; a picture is of one: call cusp info once for each",
                         options.files.size()));
     }
-    if (!std::isfinite(options.tolerance)) {  // CLI11 lets it through
+    if (!std::isfinite(options.tolerance)) {  // CLI11 accepts nan
         throw InputError(fmt::format("--tolerance is {} mm, a number from 0.0001 to 10 is needed",
                                      options.tolerance));
     }
@@ -81,7 +81,7 @@ int run_info(const InfoOptions& options)
     for (const std::string& file : options.files) {
         parts.push_back(inspect_part(file, settings));
         text += (text.empty() ? "" : "\n") + text_of(parts.back());
-        if (options.picture.empty()) {  // only the picture asks for them again
+        if (options.picture.empty()) {  // only the picture needs them later
             parts.back().surfaces = {};
             parts.back().triangles = {};
         }
@@ -101,13 +101,14 @@ void add_info_command(CLI::App& app, Work& work)
         "  cusp info bracket.step\n"
         "  cusp info plate.dxf#outline --picture plate.svg\n"
         "\n"
-        "Reads .json, .step, .iges, .brep, .stl, .obj, .3mf and .dxf. It lists the loops and open\n"
-        "ends of each layer of a drawing, and the holes of a mesh. \"Largest ball\" is the\n"
-        "largest ball end that comes within --tolerance of every place visible from above,\n"
-        "shank included. It is found at up to 60 000 places, sharp edges first, to 5 %; a\n"
-        "tighter spot between them may be missed. For STL, --tolerance is to be at least the\n"
-        "deviation of its facets.\n"
-        "\"Undercuts\" is the area that no tool from above can touch.\n"
+        "Reads .json, .step, .iges, .brep, .stl, .obj, .3mf and .dxf. Lists the loops and open\n"
+        "ends of each layer of a drawing, and the holes of a mesh. \"Largest ball\" is the largest "
+        "ball\n"
+        "end that reaches every point visible from above within --tolerance, shank included.\n"
+        "It is computed at up to 60 000 points, sharp edges first, to 5 %; a tighter spot\n"
+        "between them may be missed. For STL, --tolerance should be at least the deviation of\n"
+        "the facets.\n"
+        "\"Undercuts\" is the area that no tool from above can reach.\n"
         "Exit status 2 where a file can't be read; then nothing is written.");
     auto options = std::make_shared<InfoOptions>();
     command->add_option("FILE", options->files, "parts; of a drawing FILE#LAYER")->required();

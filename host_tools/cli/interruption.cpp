@@ -1,4 +1,4 @@
-// The one signal handler.
+// The only signal handler of the program.
 #include "host_tools/cli/interruption.hpp"
 
 #include <csignal>

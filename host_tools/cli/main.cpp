@@ -16,16 +16,16 @@ namespace {
 using namespace cusp::cli;
 
 constexpr const char* kDescription =
-    "From a sculptured surface to stepper pulses: plan tool paths over NURBS parts, run them\n"
-    "through the controller's own motion core, look at every pulse, and cut the part in memory.\n"
+    "From a sculptured surface to stepper pulses: plan tool paths on NURBS parts, verify the cut,\n"
+    "simulate the controller's motion core down to every pulse, and send programs.\n"
     "\n"
-    "  cusp info PART.step                   what a part is: size, loops, the largest ball\n"
-    "  cusp demo                             all of it, on a pocket that comes with cusp\n"
+    "  cusp info PART.step                   describe a part: size, loops, the largest ball\n"
+    "  cusp demo                             all steps, on a pocket that comes with cusp\n"
     "  cusp info part.step                   what a part is, and the largest ball for it\n"
     "  cusp plan part.step --tool flat:8 ball:6 --scallop 0.02 -o part.ngc\n"
     "                                        tool paths for it, without a job file\n"
     "  cusp plan JOB.toml -o part.ngc        plan the operations of a job\n"
-    "  cusp verify JOB.toml part.ngc         cut it in memory: gouge, scallop, what is left\n"
+    "  cusp verify JOB.toml part.ngc         simulate the cut: gouge, scallop, remaining stock\n"
     "  cusp sim part.ngc --stats run.json    run it: time, limits, pulses\n"
     "  cusp view part.ngc -o run.html        see it: path, speeds, limits, in any browser\n"
     "  cusp fit part.ngc -o arcs.ngc --tolerance 0.01\n"
@@ -34,8 +34,8 @@ constexpr const char* kDescription =
 
 constexpr const char* kFooter =
     "'cusp COMMAND --help' explains a command.\n"
-    "Exit status: 0 done; 1 the work found something wrong (a limit broken, an alarm, a gouge);\n"
-    "2 the input or the call can't be used.";
+    "Exit status: 0 done; 1 the result is bad (a limit exceeded, an alarm, a gouge);\n"
+    "2 the input or the command line is invalid.";
 
 // In the order of --help.
 const std::vector<AddCommand>& commands()
@@ -77,7 +77,7 @@ int main(int argc, char** argv)
     try {
         return run(argc, argv);
     } catch (const std::exception& error) {
-        // One line, whatever characters a file name contains.
+        // One line, even if a file name contains control characters.
         std::string text = error.what();
         std::replace_if(
             text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');

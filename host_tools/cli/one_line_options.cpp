@@ -1,4 +1,4 @@
-// Declares the options. Values are checked where the job is built, since units are known there.
+// Declares the options. Values are checked when the job is built: the unit is known then.
 #include "host_tools/cli/one_line_options.hpp"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ constexpr const char* kGroup = "Without a job file";
 
 bool is_job_file(const std::string& file) { return path_ending(file) == ".toml"; }
 
-// Files may follow the tools: `--tool ball:6 part.step`.
+// CLI11 takes files after `--tool ball:6` for tools.
 void take_files_from_tools(PlanCall& call)
 {
     std::vector<std::string>& tools = call.request.tools;
@@ -65,13 +65,13 @@ void add_one_line_options(CLI::App& command, PlanCall& call)
     add("--tool", request.tools,
         "ball:6, flat:8, bull:10:1.5: diameter, corner radius; the first rough, the last finishes")
         ->type_name("SHAPE:DIAMETER ...");
-    add("--scallop", request.scallop, "height of the ridges that may stay, tolerance included");
+    add("--scallop", request.scallop, "height of the scallops that may remain, tolerance included");
     add("--units", call.units,
-        "of the options, of the G-code, and of .json, .stl and .obj files, which name none")
+        "of the options, the G-code, and .json, .stl and .obj files, which name none")
         ->check(CLI::IsMember({"mm", "inch"}))
         ->capture_default_str();
     add("--boundary", request.boundary, "loop round a pocket (.json, .dxf, plate.dxf#layer)");
-    add("--island", request.islands, "loop that stays in the pocket; may be repeated")
+    add("--island", request.islands, "loop of an island in the pocket; may be repeated")
         ->allow_extra_args(false);
     add("--feed", request.feed, "a minute; default 200 diameters, at most 1200 mm")
         ->type_name("FEED");
@@ -79,10 +79,10 @@ void add_one_line_options(CLI::App& command, PlanCall& call)
     add("--spindle", request.spindle, "default 12000")->type_name("RPM");
     add("--max-depth", request.max_depth, "of a roughing layer; default: half the diameter");
     add("--allowance", request.allowance,
-        "what roughing leaves; default: 0.05 diameters, at most 0.3 mm");
+        "stock that roughing leaves; default: 0.05 diameters, at most 0.3 mm");
     add("--tolerance", request.tolerance, "default: half the scallop, at most 0.01 mm");
     add("--stock-top", request.stock_top, "z; default: the part's top");
-    add("--clearance", request.clearance, "of rapid moves over the stock; default 5 mm");
+    add("--clearance", request.clearance, "height of rapid moves above the stock; default 5 mm");
     add("--scale", request.scale, "of the parts, such as 25.4");
     add("--up", request.up,
         "the file's axis that points up: +x, +y, +z; --up=-y for one that points down")
@@ -110,7 +110,9 @@ void add_one_line_options(CLI::App& command, PlanCall& call)
         ->check(CLI::IsMember({"lines", "arcs", "nurbs"}))
         ->type_name("NAME");
     command.add_flag("--no-roughing", call.no_roughing, "only finish")->group(kGroup);
-    command.add_flag("--print-job", call.print_job, "print the job file that the call amounts to")
+    command
+        .add_flag("--print-job", call.print_job,
+                  "print the job file that is equivalent to the call")
         ->group(kGroup);
 }
 

@@ -1,4 +1,4 @@
-// The options of `cusp plan` that stand in for a job file.
+// The options of `cusp plan` that replace a job file.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace cusp::cli {
 
-// What the command line of `cusp plan` names: a job file, or parts and how to cut them.
+// The arguments of `cusp plan`: a job file, or parts and options.
 struct PlanCall {
     std::vector<std::string> files;  // a job file or parts
     bool print_job{false};
@@ -19,15 +19,15 @@ struct PlanCall {
     import::OneLineRequest request;
 
     bool is_one_line() const { return !request.parts.empty(); }
-    // Of parts: "one-line job of part.step". Of a job: its file.
+    // "one-line job of part.step", or the job file.
     std::string job_name() const;
 };
 
 void add_one_line_options(CLI::App& command, PlanCall& call);
 
-// Distinguishes parts from a job and fills in the request. Call it once, after parsing.
+// Distinguishes parts from a job and completes the request. Call it once, after parsing.
 //
-// Errors: InputError where both are named, or an option for parts comes with a job.
+// Errors: InputError where both are given, or a job with an option for parts.
 void sort_call(const CLI::App& command, PlanCall& call);
 
 }  // namespace cusp::cli

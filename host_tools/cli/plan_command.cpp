@@ -50,7 +50,7 @@ int run_plan(PlanOptions& options)
     if (options.output.program.empty() && !call.print_job) {
         throw InputError("plan: -o is required: the G-code to write, such as -o part.ngc");
     }
-    // where a job is printed, the standard output holds nothing else
+    // the standard output of --print-job is the job alone
     options.output.said = call.print_job ? stderr : stdout;
     Job job = call.is_one_line() ? one_line_job_of(options) : read_job(call.files.front());
     if (options.output.program.empty()) {
@@ -73,12 +73,13 @@ void add_plan_command(CLI::App& app, Work& work)
         "  cusp plan part.stl --tool flat:8 ball:6 --scallop 0.05 --feed 800 -o part.ngc\n"
         "  cusp plan floor.json --boundary plate.dxf#outline --island boss.json --tool ball:12 \\\n"
         "            --scallop 0.4 -o pocket.ngc\n"
-        "It prints what it chose. --print-job instead of -o prints the job file, to change and to\n"
+        "It prints the values it chose. --print-job instead of -o prints the job file, to edit "
+        "and\n"
         "plan: ... --print-job > part.toml\n\n"
         "Strategies: contour_pocket, adaptive_isocurve, grid_pocket, hull_rough; for comparison\n"
         "complete_isocurves and parallel_planes. Statistics are in mm and s, whatever the job's\n"
         "units.\n\n"
-        "A job (docs/job_file.md explains all keys, docs/strategies.md which strategy to take):\n"
+        "A job (keys: docs/job_file.md, choice of a strategy: docs/strategies.md):\n"
         "  units = \"mm\"\n"
         "  [tool]\n"
         "  shape = \"ball\"                  # \"flat\", \"bull\"\n"

@@ -1,4 +1,4 @@
-// Plans operation by operation; writes files when all are planned.
+// Plans all operations, then writes the files.
 #include "host_tools/cli/plan_program.hpp"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ double seconds_since(std::chrono::steady_clock::time_point begin)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-// A pocket among several of one drawing that the tool does not fit into is left out.
+// Leaves out pockets that the tool does not fit into, where a drawing has several.
 std::vector<PlannedOperation> planned(const Job& job, const Operation& operation, Plan& plan)
 {
     const auto is_of_same_table = [&](const Operation& other) {
@@ -57,7 +57,7 @@ Plan plan_job(Job& job, const MachineRates& rates, std::FILE* said)
 {
     constexpr double kQuiet = 0.5;  // s
     Plan plan;
-    // the position of the tool is unknown before the first rapid move
+    // the position of the tool before the first rapid move is unknown: the clearance height
     Vec3d at{0, 0, job.stock_top + job.clearance};
     for (std::size_t i = 0; i < job.operations.size(); ++i) {
         const Operation& operation = job.operations[i];
@@ -86,7 +86,8 @@ Plan plan_job(Job& job, const MachineRates& rates, std::FILE* said)
     return plan;
 }
 
-// Programs of days keep the times of `measure`: a day of the machine takes a minute.
+// Replaces the estimates of `measure` by simulated times, except in very long programs: a day of
+// machine time takes a minute to simulate.
 void put_simulated_times(const std::string& program,
                          const std::vector<std::size_t>& begins,
                          Plan& plan)
@@ -108,7 +109,7 @@ void put_simulated_times(const std::string& program,
     }
 }
 
-// The G-code; puts the times into the plan that it takes on the controller.
+// The G-code. Sets the times in the plan to those on the controller.
 std::string program_of(const Job& job, const std::string& title, double blend, Plan& plan)
 {
     constexpr double kInch = 25.4;
@@ -148,7 +149,7 @@ Plan plan_program(Job& job, const std::string& title, const PlanOutput& output)
     rates.exact_stop = !(output.blend > 0);
     Plan plan = plan_job(job, rates, output.said);
     if (plan.operations.empty()) {
-        throw InputError(fmt::format("{}: no operation leaves anything to cut: {}", job.file,
+        throw InputError(fmt::format("{}: there is nothing to cut: {}", job.file,
                                      fmt::join(plan.warnings, "; ")));
     }
     if (const auto warning = stock_warning(job, plan)) {

@@ -13,15 +13,15 @@ struct PlanOutput {
     std::string program;      // G-code to write
     std::string stats;        // JSON to write; empty: none
     double blend{};           // in the job's units: G64 P; 0: the exact path
-    std::FILE* said{stdout};  // gets a line an operation
+    std::FILE* said{stdout};  // receives one line for each operation
 };
 
-// Changes nothing in the job but `progress`; it is no copy, since meshes may be large.
+// Sets only `progress` of the job, which is not copied since meshes may be large.
 //
 // title  the origin of the program, for its first comment
 //
-// Throws InputError where an operation can't be planned, none leaves anything to cut, or a file
-// can't be written.
+// Throws InputError where an operation can't be planned, there is nothing to cut, or a file can't
+// be written.
 Plan plan_program(job::Job& job, const std::string& title, const PlanOutput& output);
 
 }  // namespace cusp::cli

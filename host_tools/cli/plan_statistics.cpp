@@ -53,7 +53,7 @@ Json operation_stats(const PlannedOperation& operation, const PathMeasure& measu
     return out;
 }
 
-// Totals of the program, with the names of an operation's figures.
+// Totals of the program, under the keys of an operation's figures.
 Json totals(const Plan& plan)
 {
     MoveCounts moves;

@@ -14,11 +14,11 @@ namespace cusp::cli {
 
 struct Plan {
     std::vector<toolpath::PlannedOperation> operations;  // not empty
-    std::vector<toolpath::PathMeasure> measures;         // of each
-    std::vector<std::string> warnings;                   // of no single operation that is planned
+    std::vector<toolpath::PathMeasure> measures;         // of each operation
+    std::vector<std::string> warnings;                   // not of a single planned operation
 };
 
-// Lengths and times on `said`, warnings and notes on the standard error stream.
+// Prints lengths and times on `said`, warnings and notes on the standard error stream.
 //
 // notes   of the readers of parts
 // output  the file that was written
@@ -27,7 +27,7 @@ void print_summary(const Plan& plan,
                    const std::string& output,
                    std::FILE* said);
 
-// The keys of the whole program, then those of `about`, then "operations", in mm and s.
+// In mm and s: the keys of the whole program, then those of `about`, then "operations".
 nlohmann::ordered_json plan_statistics(const Plan& plan, const nlohmann::ordered_json& about);
 
 }  // namespace cusp::cli

@@ -1,4 +1,4 @@
-// A broken assertion of the core ends the host program with a message.
+// Ends the program with a message when an assertion of the firmware core fails.
 #include <cstdio>
 #include <cstdlib>
 
@@ -6,7 +6,6 @@
 
 void cusp::fault(const char* expression, const char* file, int line) noexcept
 {
-    std::fprintf(stderr, "cusp: a fault in the program itself: %s:%d: %s\n", file, line,
-                 expression);
+    std::fprintf(stderr, "cusp: internal error: %s:%d: %s\n", file, line, expression);
     std::abort();
 }

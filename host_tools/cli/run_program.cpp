@@ -1,4 +1,4 @@
-// The run, between its options and its result.
+// Runs with progress and writes the statistics.
 #include "host_tools/cli/run_program.hpp"
 
 #include "host_tools/cli/interruption.hpp"

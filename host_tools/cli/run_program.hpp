@@ -7,7 +7,7 @@
 
 namespace cusp::cli {
 
-// From here on SIGINT and SIGTERM end the run, not the process.
+// Installs handlers by which SIGINT and SIGTERM end the run and not the process.
 //
 // stats  JSON to write; empty: none
 //
@@ -16,7 +16,7 @@ simulate::SimulationResult run_program(const std::string& program,
                                        simulate::SimulationOptions options,
                                        const std::string& stats);
 
-// Prints what ended the run early on the standard error stream.
+// Prints, on the standard error stream, why the run ended early.
 void print_faults(const std::string& program, const simulate::SimulationResult& result);
 
 }  // namespace cusp::cli

@@ -13,7 +13,7 @@ void add_settings_command(CLI::App& app, Work& work)
 {
     CLI::App* command = app.add_subcommand("settings", "print the default settings");
     command->footer(
-        "Lines as `$$` prints them; redirect them to a file, change it, and pass it to\n"
+        "In the format of `$$`. Redirect the lines to a file, edit it, and pass it to\n"
         "`cusp sim --settings FILE`.");
     command->callback([&work] {
         work = [] {

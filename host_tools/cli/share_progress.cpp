@@ -1,4 +1,4 @@
-// Written to the standard error stream, so that results can be piped.
+// Prints on the standard error stream, so that results can be piped.
 #include "host_tools/cli/share_progress.hpp"
 
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// Progress of a computation: a bar on a terminal, four plain lines elsewhere.
+// Progress of a computation: a bar on a terminal, otherwise four plain lines.
 #pragma once
 
 #include <chrono>
@@ -8,11 +8,11 @@ namespace cusp::cli {
 
 class ShareProgress {
 public:
-    // what     names the computation, one word
+    // what     name of the computation, one word
     // quiet_s  s: shorter computations print nothing
     explicit ShareProgress(std::string what, double quiet_s = 0.0);
 
-    void operator()(double share);  // of the work that is done, 0 to 1
+    void operator()(double share);  // fraction of the work that is done, 0 to 1
 
 private:
     std::string what_;

@@ -70,8 +70,8 @@ void show_progress(const SimulationProgress& progress)
     std::fflush(stderr);
 }
 
-// Greatest values of a derivative of the set points beside the limits of the settings. Set points
-// are whole nanometres: `rounding` (nm a tick to the power of the order) is what that may add.
+// Prints the greatest values of a derivative of the set points with the limits of the settings. Set
+// points are whole nanometres; `rounding`, nm a tick to the power of the order, bounds the effect.
 void print_limited(const char* name, int order, double rounding, Vec3d value, Vec3f limit)
 {
     const double added = rounding / kNanometresPerMillimetre *
@@ -109,7 +109,7 @@ void print_result(const SimulationResult& result, const MachineLimits& limits)
                    result.tool_changes == 1 ? "" : "s");
     }
     for (const std::uint64_t line : result.pause_lines) {
-        fmt::print("pause      line {}: went on at once\n", line);
+        fmt::print("pause      line {}: resumed at once\n", line);
     }
 }
 
@@ -226,7 +226,7 @@ void add_serve_options(CLI::App& command, SimArguments& arguments)
     const char* group = "Virtual controller";
     command
         .add_flag("--serve", arguments.serve,
-                  "Serve as a controller in real time for any Grbl sender")
+                  "Run as a controller in real time for any Grbl sender")
         ->group(group);
     command.add_option("--pty", arguments.pty_link, "Link to make to a new pseudo-terminal")
         ->group(group);
@@ -267,19 +267,20 @@ void add_sim_command(CLI::App& app, Work& work)
     command->add_option("--vcd", arguments->vcd_file, "Write every step and direction edge");
     command->add_option("--samples", arguments->samples_file,
                         "Write the set point and the line of every ms");
-    command->add_option("--script", arguments->script_file,
-                        "Lines 'tick byte': realtime bytes and the servo ticks (ms) they come at");
+    command->add_option(
+        "--script", arguments->script_file,
+        "Lines 'tick byte': realtime bytes and the servo ticks (ms) of their arrival");
     command->add_option("--stats", arguments->stats_file, "Write the figures as JSON");
     command->add_option("--picture", arguments->picture_file,
-                        "Draw speed over time, and v, a, j of each axis against its limits (SVG)");
+                        "Plot speed over time, and v, a, j of each axis with its limits (SVG)");
     command->add_option("--probe-z", arguments->probe_z,
-                        "Height of a probe plate, mm from where the machine starts");
+                        "Height of a probe plate, mm from the start position");
     command->add_option("--baud", arguments->bits_per_second,
-                        "Send the lines at this rate instead of in no time");
+                        "Send the lines at this rate (default: without delay)");
     add_serve_options(*command, *arguments);
     command->footer(
         "The first error or alarm ends the run: files are written up to there, exit status 1.\n"
-        "M0, M1 and tool changes go on at once and are listed; G4 takes its time.\n"
+        "M0, M1 and tool changes are resumed at once and listed; G4 takes its time.\n"
         "With --serve the settings file is read and kept up to date.");
     command->callback([arguments, &work] {
         work = [arguments] {

@@ -30,7 +30,7 @@ std::optional<std::vector<double>> simulated_times(const std::string& program,
     RunOptions options;
     options.measures_deviation = false;
     options.set_point = [&](const SetPoint& point) {
-        // between moves the machine executes no line: the last one counts
+        // between moves no line is executed: the previous one counts
         if (point.line != 0) {
             operation = static_cast<std::size_t>(
                 std::upper_bound(first_lines.begin(), first_lines.end(), point.line) -

@@ -1,4 +1,4 @@
-// How long the operations of a program take: the controller's own core runs it.
+// Times of a program's operations, by running it on the firmware core.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,12 @@
 
 namespace cusp::cli {
 
-// s of each operation, on a machine with the default settings, as `cusp sim` counts them. None
-// where the controller refuses the program.
+// s of each operation, on a machine with the default settings, equal to those of `cusp sim`. No
+// value where the controller refuses the program.
 //
 // program   G-code
-// begins    where the operations begin in it, bytes; what is before the first counts as the first's
-// progress  gets the share that has run, 0 to 1
+// begins    byte offsets of the operations; what precedes the first counts for the first
+// progress  receives the fraction that has run, 0 to 1
 std::optional<std::vector<double>> simulated_times(const std::string& program,
                                                    const std::vector<std::size_t>& begins,
                                                    const std::function<void(double)>& progress);

@@ -1,4 +1,4 @@
-// Feed moves over stock or part, by their length.
+// Sums the length of feed moves above the stock or the part.
 #include "host_tools/cli/stock_warning.hpp"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ struct AirShare {
     }
 };
 
-// Passes over the part's top are above it by their tolerance.
+// Passes on the part's top are above it by their tolerance.
 double pass_height(const Job& job)
 {
     constexpr double kOverTolerance = 2;
@@ -70,15 +70,15 @@ std::optional<std::string> stock_warning(const Job& job, const Plan& plan)
     };
     if (over < -kSameHeight) {
         return fmt::format(
-            "{}: {} are over the stock, in air; [stock] without top takes the part's",
+            "{}: {} are above the stock, in air; without top in [stock] it is the part's",
             tops("below"), share_above(job, plan, job.stock_top).text());
     }
     if (const double passes = pass_height(job); over > passes) {
         const AirShare air = share_above(job, plan, *job.part_top + passes);
         if (air.share() >= kWorthTelling) {
             return fmt::format(
-                "{}: {} are over the part, in air where the stock is lower; [stock] without top "
-                "takes the part's",
+                "{}: {} are above the part, in air where the stock is lower; without top in "
+                "[stock] it is the part's",
                 tops("above"), air.text());
         }
     }

@@ -1,4 +1,4 @@
-// Warns where the stock's top is not the part's: how much of the path is in air.
+// Warns where the stock's top differs from the part's, with the length of the path in air.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace cusp::cli {
 
-// A sentence where the stock's top is below the part's, and where it is above the part's and a
-// third of the feed moves or more are over the part.
+// The warning, in one sentence. No value where the tops are equal, and where the stock is higher
+// but less than a third of the feed moves is above the part.
 std::optional<std::string> stock_warning(const job::Job& job, const Plan& plan);
 
 }  // namespace cusp::cli

@@ -1,4 +1,4 @@
-// The table of strategies: a new one is one line.
+// The table of strategies; a new one is one line.
 #include "host_tools/cli/strategies.hpp"
 
 #include <array>

@@ -1,4 +1,4 @@
-// The strategies by the names that job files use.
+// Dispatches operations to strategies by name.
 #pragma once
 
 #include <vector>

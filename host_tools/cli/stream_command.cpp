@@ -60,12 +60,12 @@ struct StreamArguments {
     bool resumes() const { return resume || resume_line != 0; }
 };
 
-// The person at the terminal.
+// Reports on the terminal and asks the user.
 class TerminalWatcher : public StreamWatcher {
 public:
     explicit TerminalWatcher(const StreamArguments& arguments) : arguments_{arguments} {}
 
-    // The times need the controller's own settings: its planner is that of the estimate.
+    // The estimate of the time left needs the controller's own settings.
     void ready(const ControllerFacts& facts) override
     {
         if (!arguments_.no_estimate) {
@@ -111,13 +111,13 @@ int status_of(StreamOutcome outcome)
     return outcome == StreamOutcome::kDone ? kDone : kFoundWrong;
 }
 
-// The record of the interrupted transfer, or one made from a line number.
+// The record of the interrupted transfer, or one for the given line number.
 TransferRecord record_to_resume(const StreamArguments& arguments)
 {
     const auto kept = read_record(arguments.program);
     if (!kept && arguments.resume_line == 0) {
         throw InputError{fmt::format(
-            "{}: no interrupted transfer is recorded in {}; --resume-line N says where to go on",
+            "{}: no interrupted transfer is recorded in {}; name the line: --resume-line N",
             arguments.program, record_file(arguments.program))};
     }
     TransferRecord record = kept.value_or(TransferRecord{});
@@ -130,7 +130,7 @@ TransferRecord record_to_resume(const StreamArguments& arguments)
 
 bool says_yes()
 {
-    fmt::print("go on? [y/N] ");
+    fmt::print("resume? [y/N] ");
     std::fflush(stdout);
     std::string answer;
     std::getline(std::cin, answer);
@@ -167,7 +167,7 @@ private:
     bool confirm(const ControllerFacts& facts, Position machine, bool homes, bool lost) const
     {
         const Approach way = approach(facts, machine);
-        fmt::print("{}:{} was executing; going on at line {}\n", arguments_.program,
+        fmt::print("{}:{} was executing; resuming at line {}\n", arguments_.program,
                    record_.executed_line, point_.line);
         if (homes) {
             fmt::print("  homes the machine ($H)\n");
@@ -186,11 +186,12 @@ private:
         fmt::print("\n");
         if (lost) {
             fmt::print(
-                "  the controller stands at 0,0,0: it seems to have started anew, and does "
-                "not know where the tool is\n");
+                "  the controller reports 0,0,0: it was probably restarted and has lost the "
+                "position "
+                "of the tool\n");
         }
         if (arguments_.yes && lost) {
-            fmt::print("  that needs a person's eyes: --yes does not answer it\n");
+            fmt::print("  check the machine: --yes does not confirm this\n");
             return false;
         }
         return arguments_.yes || says_yes();
@@ -209,7 +210,7 @@ void tell_ending(const StreamArguments& arguments, const StreamReport& report)
     }
     fmt::print(stderr,
                "the last line answered is {}:{}; the tool had reached line {}\n"
-               "to go on from there: cusp stream {} {} --resume\n",
+               "to resume there: cusp stream {} {} --resume\n",
                arguments.program, report.progress.line, report.record->executed_line,
                arguments.port, arguments.program);
 }
@@ -267,24 +268,23 @@ void add_stream_command(CLI::App& app, Work& work)
     command->add_option("--window", arguments->window,
                         "Bytes of the controller's buffer; 0: ask it");
     command->add_flag("--checked", arguments->checked,
-                      "Number and check every line: nothing damaged is cut, nothing is lost");
+                      "Number and check every line: damaged or lost lines are sent again");
     command->add_option("--settings", arguments->settings_file,
                         "Settings for the time left (default: the controller's own)");
     command->add_flag("--resume", arguments->resume,
-                      "Go on with a transfer that was interrupted, after asking");
+                      "Resume an interrupted transfer, after confirmation");
     command->add_option("--resume-line", arguments->resume_line,
-                        "The same, the tool having reached this line of the file");
+                        "Resume at this line of the file, which the tool had reached");
     command->add_option("--safe-z", arguments->safe_z,
-                        "Height to travel at on the way back, mm in the program's coordinates\n"
-                        "(default: the highest that the program was at)");
-    command->add_flag("--yes", arguments->yes, "Resume without asking");
+                        "Height of the approach move, mm in the program's coordinates\n"
+                        "(default: the highest that the program had reached)");
+    command->add_flag("--yes", arguments->yes, "Resume without confirmation");
     command->add_flag("--no-numbers", arguments->no_numbers,
-                      "Send the lines without N words (resuming then goes further back)");
+                      "Send the lines without N words (resuming then starts further back)");
     command->add_flag("--no-estimate", arguments->no_estimate, "Do not compute the time left");
-    command->footer(
-        std::string{Keyboard::legend()} +
-        "\nCtrl-C holds, then resets; twice resets at once.\n"
-        "Exit status: 0 done; 1 stopped, refused, alarm or link lost; 2 unusable call.");
+    command->footer(std::string{Keyboard::legend()} +
+                    "\nCtrl-C holds, then resets; twice resets immediately.\n"
+                    "Exit status: 0 done; 1 stopped, refused, alarm or link lost; 2 invalid call.");
     command->callback([arguments, &work] {
         work = [arguments] {
             return run_stream(*arguments);

@@ -1,4 +1,4 @@
-// cusp verify: cuts a program in memory and compares what is left with the part.
+// cusp verify: simulates the cut and compares the remaining stock with the part.
 #include <memory>
 
 #include "host_tools/cli/commands.hpp"
@@ -45,20 +45,19 @@ int run_verify(const VerifyOptions& options)
 void add_verify_command(CLI::App& app, Work& work)
 {
     auto* command = app.add_subcommand(
-        "verify", "cut a program's stock in memory; report gouge, scallop and what is left");
+        "verify", "simulate the cut; report gouge, scallop and the remaining stock");
     command->footer(
         "Gouge and scallop are measured square to the surface, in mm, whatever the job's units.\n"
         "Exit status 1 where a bound of the job does not hold: floor_tolerance (gouge),\n"
-        "plan_tolerance (walls), scallop (on 99 % of what the tools reach; what stands on the "
-        "rest\n"
-        "may be no thicker than scallop and floor_tolerance), or where a rapid move cuts metal.");
+        "plan_tolerance (walls), scallop (on 99 % of what the tools reach; stock on the rest may\n"
+        "be no thicker than scallop and floor_tolerance), or where a rapid move cuts stock.");
     auto options = std::make_shared<VerifyOptions>();
     command->add_option("JOB", options->job, "job file (TOML)")->required();
     command->add_option("PROGRAM", options->program, "G-code")->required();
     command->add_option("--stats", options->output.stats, "figures to write (JSON)");
     command
         ->add_option("--grid", options->pitch,
-                     "mm between the heights looked at (default 0.173 or finer)")
+                     "mm between compared heights (default 0.173 or finer)")
         ->check(CLI::PositiveNumber);
     command
         ->add_option("--step", options->spacing, "mm between tool positions (default 0.1 or finer)")
@@ -66,7 +65,7 @@ void add_verify_command(CLI::App& app, Work& work)
     command->add_option("--path-picture", options->output.path_picture,
                         "picture to write (SVG): the path from above, coloured by height");
     command->add_option("--left-picture", options->output.left_picture,
-                        "picture to write (SVG): what is left over the floor");
+                        "picture to write (SVG): the material left above the floor");
     command->callback([&work, options] {
         work = [options] {
             return run_verify(*options);

@@ -1,4 +1,4 @@
-// Figures as JSON, one key each.
+// Writes the figures as JSON, one key for each.
 #include "host_tools/cli/verify_program.hpp"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Cuts a program in memory and writes figures and pictures, for `cusp verify`.
+// Simulates the cut of a program and writes figures and pictures, for `cusp verify`.
 #pragma once
 
 #include <string>
@@ -15,14 +15,14 @@ struct VerifyOutput {
     std::string left_picture;  // SVG
 };
 
-// Shows its progress. Throws InputError where the program can't be read, names a tool that the job
+// Prints progress. Throws InputError where the program can't be read or uses a tool that the job
 // lacks, or a file can't be written.
 verify::Verification verify_program(const job::Job& job,
                                     const std::string& program_file,
                                     const verify::VerifySettings& settings,
                                     const VerifyOutput& output);
 
-// One figure a line, then the bounds that do not hold.
+// One line for each figure, then the bounds that do not hold.
 std::string verification_text(const verify::Verification& result);
 
 }  // namespace cusp::cli

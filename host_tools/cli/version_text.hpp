@@ -1,4 +1,4 @@
-// The program's version, the commit that it was built from, and how it was built.
+// Version, commit and build configuration of the program.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Parsing of answers, and the words for codes.
+// Parses answers; texts of codes.
 #include "host_tools/dialect/answer.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ std::optional<int> whole_number(std::string_view text)
     return number;
 }
 
-// Up to `separator`; the rest stays in `text`.
+// Returns the part before `separator`; the remainder stays in `text`.
 std::string_view split_off(std::string_view& text, char separator)
 {
     const std::size_t at = text.find(separator);
@@ -110,7 +110,7 @@ constexpr CodeText kErrors[]{
     {9, "G-code is locked out in alarm, jog or sleep"},
     {10, "soft limits need homing"},
     {11, "the line is too long"},
-    {12, "the setting asks for too high a step rate"},
+    {12, "the setting requires too high a step rate"},
     {13, "the safety door is open"},
     {14, "the startup line or build info is too long"},
     {15, "the jog goes beyond the travel"},
@@ -120,19 +120,19 @@ constexpr CodeText kErrors[]{
     {21, "two words of one modal group"},
     {22, "no feed rate is set"},
     {23, "a G or M number must be whole"},
-    {24, "two commands both want the axis words"},
+    {24, "two commands use the axis words"},
     {25, "a word is repeated"},
     {26, "axis words are missing"},
     {27, "the line number is out of range"},
     {28, "a value word is missing"},
     {29, "the work coordinate system is not supported"},
     {30, "G53 needs G0 or G1"},
-    {31, "axis words that nothing uses"},
+    {31, "unused axis words"},
     {32, "an arc has no axis word in its plane"},
     {33, "the target or geometry is impossible"},
     {34, "no arc of this radius reaches the target"},
     {35, "an arc has no centre offset in its plane"},
-    {36, "value words that nothing uses"},
+    {36, "unused value words"},
     {37, "a tool length offset on an axis other than Z"},
     {38, "a number is too large"},
     {46, "the tool change needs a homed machine"},

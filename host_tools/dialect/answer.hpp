@@ -1,5 +1,5 @@
-// The Grbl dialect from the sender's side: what a controller answers (this file), which lines of a
-// program are sent (program_lines.hpp), how many fit into its buffer (flow_window.hpp).
+// The Grbl dialect from the sender's side: answers of a controller (this file), lines to send
+// (program_lines.hpp), flow control (flow_window.hpp).
 //
 //     ProgramLines program{"part.ngc"};
 //     FlowWindow window;
@@ -25,7 +25,7 @@
 
 namespace cusp::dialect {
 
-// A status report `<State[:sub]|MPos:...|...>`. Fields that it lacks have no value.
+// A status report `<State[:sub]|MPos:...|...>`. Missing fields have no value.
 struct ControllerStatus {
     std::string state;  // "Idle", "Run", "Hold", "Jog", "Alarm", "Door", "Check", "Home", "Sleep"
     int substate{-1};
@@ -43,7 +43,7 @@ enum class AnswerKind : std::uint8_t {
     kError,    // code
     kAlarm,    // code
     kStatus,   // status
-    kBanner,   // the controller has just started
+    kBanner,   // the controller has started
     kMessage,  // text between [ and ]
     kOther,
 };
@@ -59,7 +59,7 @@ struct Answer {
 //   line  without its end
 Answer parse_answer(std::string_view line);
 
-// The text of an error or alarm code in Grbl's documents; "unknown" where there is none.
+// The text of an error or alarm code; "unknown" for other codes.
 std::string_view error_text(int code);
 std::string_view alarm_text(int code);
 

@@ -1,4 +1,4 @@
-// FlowWindow: how much of the controller's receive buffer is taken by lines not yet answered.
+// FlowWindow: the part of the controller's receive buffer that unanswered lines occupy.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +7,11 @@
 
 namespace cusp::dialect {
 
-// Grbl answers each line once, in order, when it takes the line out of its buffer: counting the
-// characters of the unanswered lines keeps the buffer full and never overfull.
+// Grbl answers each line once, in order, when it removes the line from its buffer. Counting the
+// characters of unanswered lines keeps the buffer full without overflow.
 class FlowWindow {
 public:
-    // Bytes that a stock Grbl holds.
+    // Bytes of the receive buffer of a stock Grbl.
     static constexpr std::size_t kGrblBuffer = 128;
 
     explicit FlowWindow(std::size_t capacity = kGrblBuffer) : capacity_{capacity} {}
@@ -19,18 +19,18 @@ public:
     void set_capacity(std::size_t capacity) { capacity_ = capacity; }
     std::size_t capacity() const { return capacity_; }
 
-    // Whether a line of `size` bytes, line end counted, may be sent. A line longer than the buffer
+    // Whether a line of `size` bytes, line end included, may be sent. A line longer than the buffer
     // may be sent alone.
     bool fits(std::size_t size) const { return lines_.empty() || used_ + size <= capacity_; }
 
-    //   number  of the line in the program, 0 for a command of the sender's own
+    //   number  of the line in the program; 0: a command of the sender
     void sent(std::uint64_t number, std::size_t size)
     {
         lines_.push_back({number, size});
         used_ += size;
     }
 
-    // The number of the line that an answer is for; no value where none was due.
+    // Takes an answer. Returns the number of its line; no value where no answer was due.
     std::optional<std::uint64_t> answered()
     {
         if (lines_.empty()) {

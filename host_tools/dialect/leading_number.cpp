@@ -1,4 +1,4 @@
-// std::from_chars of double is not in every standard library that compiles this: strtod is.
+// Uses strtod, since not every supported standard library has std::from_chars of double.
 #include "host_tools/dialect/leading_number.hpp"
 
 #include <cerrno>
@@ -9,7 +9,7 @@ namespace cusp::dialect {
 
 std::optional<LeadingNumber> leading_number(std::string_view text)
 {
-    // What strtod takes besides (blanks, a plus, hexadecimal digits, "inf", "nan") is no number here.
+    // Excludes what only strtod accepts: blanks, a plus, hexadecimal digits, "inf", "nan".
     const std::string digits{text.substr(0, text.find_first_not_of("0123456789.eE+-"))};
     if (digits.empty() || digits.front() == '+') {
         return std::nullopt;

@@ -1,4 +1,4 @@
-// The number that a text begins with, read alike on every machine that the core runs on.
+// Parses the number at the start of a text, with the same result on all platforms.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +9,11 @@ namespace cusp::dialect {
 
 struct LeadingNumber {
     double value;
-    std::size_t size;  // characters that it takes
+    std::size_t size;  // length in characters
 };
 
-// "-1.5e3": a minus at most, digits with at most one point, an exponent at most; the nearest double.
-// None where the text begins with no number, or with one beyond the range of double.
+// Syntax as in "-1.5e3": optional minus, digits with an optional point, optional exponent. Rounds
+// to the nearest double. No value where there is no number, or one beyond the range of double.
 std::optional<LeadingNumber> leading_number(std::string_view text);
 
 }  // namespace cusp::dialect

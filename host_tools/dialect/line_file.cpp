@@ -1,4 +1,4 @@
-// Files as a source of lines.
+// Reads lines from files.
 #include <cerrno>
 #include <cstring>
 #include <filesystem>

@@ -1,4 +1,4 @@
-// Splits a text into lines.
+// Splits text into lines.
 #include "host_tools/dialect/line_source.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// LineSource: a text line by line, from a file that is never held as a whole, or from memory.
+// LineSource: a text line by line, from a file that is read in blocks, or from memory.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace cusp::dialect {
 
-// Puts the next bytes of a text into `place` and returns how many, at most `room`; 0 at its end.
+// Writes the next bytes of a text to `place` and returns their number, at most `room`; 0: the end.
 using ByteReader = std::function<std::size_t(char* place, std::size_t room)>;
 
 class LineSource {
@@ -18,20 +18,20 @@ public:
     // Throws InputError where the file can't be read, here or at a later next().
     explicit LineSource(const std::string& file);
 
-    //   size  of the whole text, bytes; 0 where that is not known
+    //   size  of the whole text, bytes; 0: unknown
     LineSource(std::string name, ByteReader reader, std::uint64_t size);
 
-    // A text in memory, which outlives the source.
+    // A text in memory, which must outlive the source.
     static LineSource of_text(std::string name, std::string_view text);
 
-    // The next line without its end; \n, \r\n and \r end lines. None after the last. A line longer
-    // than 64 kB is cut there; readers refuse it.
+    // The next line without its end; \n, \r\n and \r end lines. No value after the last. A line
+    // longer than 64 kB is truncated; readers refuse it.
     std::optional<std::string> next();
 
-    // Number of the line that next() returned last, from 1.
+    // Number of the last line that next() returned, from 1.
     std::uint64_t line_number() const { return line_number_; }
 
-    // Share of the text that is read, 0 to 1; meaningless where its size is not known.
+    // Fraction of the text that is read, 0 to 1; undefined where its size is unknown.
     double progress() const;
 
     const std::string& name() const { return name_; }

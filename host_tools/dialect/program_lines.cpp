@@ -4,9 +4,9 @@
 namespace cusp::dialect {
 namespace {
 
-constexpr std::size_t kMostDigits = 7;  // of a line number, as Grbl has it
+constexpr std::size_t kMostDigits = 7;  // of a line number in Grbl
 constexpr std::uint64_t kMostNumber = 9'999'999;
-constexpr std::size_t kLongestSent = 255;  // that the controller takes
+constexpr std::size_t kLongestSent = 255;  // that the controller accepts
 
 bool is_digit(char character) { return character >= '0' && character <= '9'; }
 

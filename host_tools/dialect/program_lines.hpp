@@ -1,4 +1,4 @@
-// ProgramLines: the lines of a program as they are sent: without comments and blanks.
+// ProgramLines: the lines of a program as sent, without comments and blanks.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +10,16 @@
 
 namespace cusp::dialect {
 
-// The line without comments, blanks and the % of tapes; $ commands are unchanged.
+// The line without comments, blanks and tape markers (%); $ commands are unchanged.
 std::string bare_line(std::string_view line);
 
-// The same line with `number` as its only line number, so that the controller's reports name the
-// line of the file. $ commands and lines whose own number is malformed are unchanged.
+// bare_line() with `number` as its only N word, so that the controller's reports name the line of
+// the file. $ commands and lines with a malformed N word are unchanged.
 std::string numbered_line(std::string_view line, std::uint64_t number);
 
 struct ProgramLine {
     std::uint64_t number;  // in the file, from 1
-    std::string text;      // bare, without line end
+    std::string text;      // as bare_line(), without line end
 };
 
 class ProgramLines {

@@ -1,4 +1,4 @@
-// Finds the refused word by reading the line's beginnings with the controller's own reader.
+// Finds the refused word by interpreting prefixes of the line with the controller's interpreter.
 #include "host_tools/dialect/refusal.hpp"
 
 #include <algorithm>
@@ -22,7 +22,8 @@ constexpr int kUnsupported = 20;
 constexpr int kInvalidTarget = 33;
 constexpr int kUnusedWords = 36;
 
-// Where the words of a line begin, and its end: a letter outside comments, or what is no word.
+// Offsets of the words of a line, and its end. A word starts with a letter outside comments;
+// characters that belong to no word count as words.
 std::vector<std::size_t> word_places(std::string_view line)
 {
     std::vector<std::size_t> places;
@@ -45,7 +46,7 @@ std::vector<std::size_t> word_places(std::string_view line)
     return places;
 }
 
-// As a message shows it: no longer than a message may be, without control characters.
+// The text for a message: shortened, without control characters.
 std::string shown(std::string_view text)
 {
     constexpr std::size_t kMostShown = 100;
@@ -77,7 +78,7 @@ WordPlace word_at(std::string_view line, const std::vector<std::size_t>& places,
     return {begin, begin + trimmed(line.substr(begin, places[word + 1] - begin)).size()};
 }
 
-// The error of a line in a controller that has a feed, 0 for none.
+// The error of a line in a controller that has a feed; 0: none.
 int error_of(std::string_view line)
 {
     Interpreter interpreter;
@@ -87,13 +88,13 @@ int error_of(std::string_view line)
     return status ? 0 : static_cast<int>(status.error());
 }
 
-// The letters whose word alone can be refused for its value: G10 has no other L than 1, 2, 10, 11, 20, and no R.
+// Whether a word with this letter can itself be unused: G10 accepts L1, 2, 10, 11 and 20, and no R.
 bool may_be_unused(int code, char letter)
 {
     return code == kUnsupported ? letter == 'L' || letter == 'R' : letter != 'G' && letter != 'M';
 }
 
-// The word without which the line has another error, or none.
+// The word without which the error changes; empty where there is none.
 WordPlace word_to_blame(int code, std::string_view line, const std::vector<std::size_t>& places)
 {
     if (error_of(line) != code) {
@@ -114,7 +115,7 @@ struct Meaning {
     std::string_view text;
 };
 
-// Words of other controllers that users' programs bring; a word stands before its letter alone.
+// Words of other dialects that occur in programs. A word precedes its letter alone.
 constexpr std::array kMeanings{
     Meaning{"G7", "diameters are a lathe's"},
     Meaning{"G8", "radii are a lathe's"},
@@ -142,7 +143,7 @@ constexpr std::array kMeanings{
     Meaning{"G88", "of the drilling cycles there are G81, G82 and G83"},
     Meaning{"G89", "of the drilling cycles there are G81, G82 and G83"},
     Meaning{"G90.1", "arc centres are always from the start of the arc (G91.1)"},
-    Meaning{"G92.3", "a shift that G92.2 has taken away is forgotten; write G92 again"},
+    Meaning{"G92.3", "an offset that G92.2 has removed is not stored; write G92 again"},
     Meaning{"G95", "feed per revolution needs a spindle with an encoder; G94 is feed per minute"},
     Meaning{"G96", "constant surface speed is a lathe's; G97 is revolutions per minute"},
     Meaning{"M19", "orienting needs a spindle with an encoder"},
@@ -170,7 +171,7 @@ constexpr std::array kMeanings{
     Meaning{"[", "expressions are LinuxCNC's and Fanuc's: let the CAM system write the numbers"},
 };
 
-// `g041` as `G41`: without zeros in front and with a capital.
+// Normal form: `g041` becomes `G41`.
 std::string plain_word(std::string_view word)
 {
     std::string plain;
@@ -196,7 +197,7 @@ std::string meaning_of(std::string_view word)
     return "";
 }
 
-// An order of G5.2 or G6.2 that is out of range: the reader has no error of its own for it.
+// A message for an order of G5.2 or G6.2 out of range, for which there is no error code.
 std::string order_of_nurbs(std::string_view line)
 {
     constexpr double kLeastOrder = 2;
@@ -227,7 +228,7 @@ WordPlace refused_word(int code, std::string_view line)
         const Status status =
             gcode::read_command(line.substr(0, places[word + 1]), ModalState{}, command);
         if (!status) {
-            // A program number is no more than that where another word follows it.
+            // An O word followed by another word is not a program number.
             const std::size_t wrong = std::min(program_number, word);
             return static_cast<int>(status.error()) == code ? word_at(line, places, wrong)
                                                             : WordPlace{};

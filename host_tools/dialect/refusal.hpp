@@ -1,4 +1,4 @@
-// Refusal: which word of a line the controller refuses, and what that word is elsewhere.
+// Refusal: the word of a line that the controller refuses, and its meaning in other dialects.
 //
 //   refusal(20, "G1 X20 E1.5").text
 //     a G or M word is not supported: E1.5 in "G1 X20 E1.5": E drives the extruder of a 3-D printer
@@ -11,17 +11,15 @@
 namespace cusp::dialect {
 
 struct Refusal {
-    // The word that makes the line wrong: bytes [begin, end) of the line, none where no single word
-    // does.
+    // The wrong word: bytes [begin, end) of the line; empty where no single word is wrong.
     std::size_t begin;
     std::size_t end;
-    // What Grbl's documents say of the code, the word, the line, and what the word means in the
-    // dialects that know it.
+    // Grbl's text of the code, the word, the line, and the meaning of the word in other dialects.
     std::string text;
 };
 
-//   code  Grbl's number of the error, of a line that a controller of this dialect has refused
-//   line  as the program has it; empty where it is not known
+//   code  Grbl's error number, from a controller of this dialect
+//   line  the refused line as in the program; empty where it is unknown
 Refusal refusal(int code, std::string_view line);
 
 }  // namespace cusp::dialect

@@ -76,7 +76,7 @@ double DropCutter::State::beside_line(const Piece& piece, const Vec3d& a, const 
 }
 
 // Whether the space below a piece counts as solid. A tool could otherwise pass below the border of
-// a surface. Small pieces of upright walls need no such space.
+// a surface. Small pieces of vertical walls need no such space.
 bool DropCutter::State::overhangs(const Piece& piece) const
 {
     constexpr double kSmall = 0.1;  // of the radius
@@ -85,7 +85,7 @@ bool DropCutter::State::overhangs(const Piece& piece) const
 }
 
 // Lower bound of the clearance of a ball whose centre moves from a to b: the largest of its
-// distances from the piece's upright box and from the boxes and the plate turned with the piece,
+// distances from the piece's axis-aligned box and from the boxes and the plate turned with the piece,
 // less its radius. 0 where that is not negative.
 double DropCutter::State::ball_clearance(const Piece& piece,
                                          const Vec3d& a,

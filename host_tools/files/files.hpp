@@ -1,4 +1,4 @@
-// Whole files, read and written so that no failure is silent.
+// Reads and writes whole files; every failure is an InputError.
 //
 //     const std::string program = files::text_of_file("part.ngc");
 //     files::write_text("copy.ngc", program);
@@ -11,7 +11,7 @@
 
 namespace cusp::files {
 
-// A file's whole text. Throws InputError with the file's name and the system's reason.
+// The content of a file. Throws InputError with the file's name and the system's reason.
 std::string text_of_file(const std::string& file);
 
 // An output file written through one large buffer. Throws InputError where the file can't be made
@@ -24,7 +24,7 @@ public:
     void write(char character) { write(std::string_view{&character, 1}); }
     void write_number(std::int64_t number);
 
-    // Writes what is buffered; nothing may be written afterwards.
+    // Flushes the buffer and closes; nothing may be written afterwards.
     void close();
 
 private:

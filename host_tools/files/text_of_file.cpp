@@ -18,7 +18,7 @@ std::string text_of_file(const std::string& file)
     }
     errno = 0;
     std::ifstream in(file, std::ios::binary);
-    // A file without a known size (a pipe) is read all the same.
+    // The size of a pipe is unknown: it is read to its end.
     std::string text;
     std::error_code unknown;
     const std::uintmax_t size = std::filesystem::file_size(file, unknown);

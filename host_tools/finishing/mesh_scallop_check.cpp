@@ -57,15 +57,15 @@ MeshScallopCheck::Verdict MeshScallopCheck::judge(const Cell& cell) const
         return judge_steep(cell, longest);
     }
     const Vec3d middle = cell.middle();
-    const bool upright = cell.normal.z >= kSteepNormal;
-    places_.swept().near(centre_under(raised(middle, cell.normal, scallop_, upright), cell.normal,
+    const bool along_z = cell.normal.z >= kSteepNormal;
+    places_.swept().near(centre_under(raised(middle, cell.normal, scallop_, along_z), cell.normal,
                                       scallop_, path_fitter_.tool().radius),
                          near_);
     bool touched = false;
     for (const std::uint32_t move : near_) {
         const auto count =
             std::count_if(cell.corners.begin(), cell.corners.end(), [&](Vec3d corner) {
-                return places_.swept().removes(move, raised(corner, cell.normal, scallop_, upright),
+                return places_.swept().removes(move, raised(corner, cell.normal, scallop_, along_z),
                                                path_off_);
             });
         if (count == 3) {

@@ -14,7 +14,7 @@ namespace cusp::finishing {
 // The counterpart of `ScallopCheck` for facets. The volume that one straight move removes is
 // convex. So a move that removes all three corners of a triangle, raised by the scallop, removes
 // the whole raised triangle. Triangles that no single move covers are halved. Facets hidden under
-// others are not checked, nor are upright ones.
+// others are not checked, nor are vertical ones.
 //
 // Over a steep facet the stock may be high and still thin: it counts as thick as it is vertically,
 // multiplied by the cosine of the slope, or as it is along the normal, whichever is less.

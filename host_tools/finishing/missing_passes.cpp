@@ -41,7 +41,7 @@ std::optional<Vec3d> ScallopCheck::missing_tip(int surface,
 
 std::optional<Vec3d> ScallopCheck::lower_tip(const Corner& at) const
 {
-    // On upright walls heights are meaningless.
+    // On vertical walls heights are meaningless.
     if (at.normal.z < kUprightNormal || is_hidden(at)) {
         return std::nullopt;
     }

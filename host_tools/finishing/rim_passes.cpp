@@ -1,4 +1,4 @@
-// Passes over open rims of upright walls. The tolerance leaves a sliver on such a wall, up to the
+// Passes over open rims of vertical walls. The tolerance leaves a sliver on such a wall, up to the
 // top of the stock. A pass along the rim removes it.
 #include <algorithm>
 #include <cmath>

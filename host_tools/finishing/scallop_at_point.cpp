@@ -24,9 +24,9 @@ constexpr double kShortest = 1e-3;   // mm
 
 }  // namespace
 
-Vec3d raised(Vec3d point, Vec3d normal, double scallop, bool upright)
+Vec3d raised(Vec3d point, Vec3d normal, double scallop, bool along_z)
 {
-    return upright ? point + Vec3d{0, 0, scallop / normal.z} : point + normal * scallop;
+    return along_z ? point + Vec3d{0, 0, scallop / normal.z} : point + normal * scallop;
 }
 
 Vec3d centre_under(Vec3d top, Vec3d normal, double scallop, double radius)

@@ -13,9 +13,9 @@
 namespace cusp::finishing {
 
 // The highest point that stock may reach over a point of the surface. The scallop is measured along
-// the normal on steep ground. Elsewhere (`upright`) it is measured vertically and multiplied by the
+// the normal on steep ground. Elsewhere (`along_z`) it is measured vertically and multiplied by the
 // cosine of the slope, which over sharp ridges is stricter.
-Vec3d raised(Vec3d point, Vec3d normal, double scallop, bool upright);
+Vec3d raised(Vec3d point, Vec3d normal, double scallop, bool along_z);
 
 // The centre of a ball that touches the surface under raised(). On a steep wall that is above the
 // point itself.

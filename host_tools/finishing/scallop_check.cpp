@@ -145,16 +145,16 @@ ScallopCheck::Verdict ScallopCheck::judge(const Cell& cell, const std::array<Cor
         (size > kLargest * places_.step() || shape.turn > 0.5)) {
         return longer;
     }
-    const bool upright = shape.least_z >= kSteepNormal;
-    const double bend = upright ? shape.turn / shape.least_z : shape.turn;
+    const bool along_z = shape.least_z >= kSteepNormal;
+    const double bend = along_z ? shape.turn / shape.least_z : shape.turn;
     const double shrink = path_off_ + shape.bow + 0.5 * scallop_ * bend * bend;
     const Corner middle = middle_of(cell);
     const Vec3d middle_top = raised(middle.point.point, middle.normal, scallop_,
-                                    upright && middle.normal.z >= kSteepNormal);
+                                    along_z && middle.normal.z >= kSteepNormal);
     places_.swept().near(centre_under(middle_top, middle.normal, scallop_, radius_), near_);
     std::array<Vec3d, 4> tops{};
     for (std::size_t k = 0; k < 4; ++k) {
-        tops[k] = raised(at[k].point.point, at[k].normal, scallop_, upright);
+        tops[k] = raised(at[k].point.point, at[k].normal, scallop_, along_z);
     }
     // together[bits]: some move covers exactly these corners.
     std::array<bool, 16> together{};

@@ -53,7 +53,7 @@ public:
     void add_missing_passes(const std::function<void(const Points&)>& cut,
                             const std::function<void(double)>& progress);
 
-    // Adds passes along the borders of one surface that are the open rim of an upright wall. The
+    // Adds passes along the borders of one surface that are the open rim of a vertical wall. The
     // tolerance leaves a sliver on such a wall that no pass beside it removes. Trims get none.
     void add_rim_passes(int surface, const std::function<void(const Points&)>& cut);
 

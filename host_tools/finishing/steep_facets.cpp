@@ -18,7 +18,7 @@ Vec3d level_along(Vec3d normal)
 
 }  // namespace
 
-// Whether the facet is so upright that nothing thicker than the scallop fits between it and a
+// Whether the facet is so steep that nothing thicker than the scallop fits between it and a
 // vertical line from its foot, up to the top of the model.
 bool MeshScallopCheck::is_upright(const std::array<Vec3d, 3>& corners, Vec3d normal) const
 {

@@ -79,8 +79,8 @@ public:
         return inside == 4 ? between_cells(cells) : beside_wall(c, cells);
     }
 
-    // The scallop of the square with exact heights; `asked` grows by their number.
-    double exact(Cell c, int& asked)
+    // The scallop of the square with exact heights; `evaluations` grows by their number.
+    double exact(Cell c, int& evaluations)
     {
         const double reach = std::max(tool_.corner_radius, tool_.radius / 4);
         const auto places = [&](double size) {
@@ -88,20 +88,20 @@ public:
         };
         nx_ = places(grid_.gx());
         ny_ = places(grid_.gy());
-        read_lattice(c, asked);
+        read_lattice(c, evaluations);
         collect_tracks(c);
         double most = 0;
         Vec2d top{};
         for (int j = 0; j <= ny_; ++j) {
             for (int i = 0; i <= nx_; ++i) {
                 if (known(i, j)) {
-                    const double left = left_at(place(c, i, j), slopes(i, j), asked);
+                    const double left = left_at(place(c, i, j), slopes(i, j), evaluations);
                     top = left > most ? in_plan(place(c, i, j)) : top;
                     most = std::max(most, left);
                 }
             }
         }
-        return most > 0 ? climb(top, most, asked) : 0;
+        return most > 0 ? climb(top, most, evaluations) : 0;
     }
 
 private:
@@ -269,7 +269,7 @@ private:
         return {at.x, at.y, lattice_[index(i, j)]};
     }
 
-    void read_lattice(Cell c, int& asked)
+    void read_lattice(Cell c, int& evaluations)
     {
         lattice_.assign(static_cast<std::size_t>((nx_ + 1) * (ny_ + 1)), std::nan(""));
         for (int j = 0; j <= ny_; ++j) {
@@ -277,7 +277,7 @@ private:
                 const Vec2d at = spot(c, i, j);
                 if (surface_.to_wall_pass(at) > -1e-6) {
                     lattice_[index(i, j)] = surface_.height(at).value_or(std::nan(""));
-                    ++asked;
+                    ++evaluations;
                 }
             }
         }
@@ -343,7 +343,7 @@ private:
     }
 
     template <class Slopes>
-    double left_at(Vec3d here, const Slopes& slopes, int& asked)
+    double left_at(Vec3d here, const Slopes& slopes, int& evaluations)
     {
         const std::size_t cells = tips_.size();
         const double wall = surface_.to_wall_pass(in_plan(here));
@@ -356,7 +356,7 @@ private:
                 if (const auto z = surface_.height(on)) {
                     tips_.push_back({on.x, on.y, *z});
                 }
-                ++asked;
+                ++evaluations;
             }
         }
         double most = 0;
@@ -396,28 +396,28 @@ private:
     }
 
     // Pattern search from the highest lattice place to the top of the ridge.
-    double climb(Vec2d top, double most, int& asked)
+    double climb(Vec2d top, double height, int& evaluations)
     {
         Vec2d step{grid_.gx() / nx_ / 2, grid_.gy() / ny_ / 2};
         for (int round = 0; round < 3; ++round, step = step * 0.5) {
             const Vec2d around = top;
             for (const Vec2d way : {Vec2d{1, 0}, Vec2d{-1, 0}, Vec2d{0, 1}, Vec2d{0, -1}}) {
                 const Vec2d at = around + Vec2d{way.x * step.x, way.y * step.y};
-                const double left = left_exactly(at, asked);
-                top = left > most ? at : top;
-                most = std::max(most, left);
+                const double left = left_exactly(at, evaluations);
+                top = left > height ? at : top;
+                height = std::max(height, left);
             }
         }
-        return most;
+        return height;
     }
 
-    double left_exactly(Vec2d at, int& asked)
+    double left_exactly(Vec2d at, int& evaluations)
     {
         if (surface_.to_wall_pass(at) < 0) {
             return 0;
         }
         const double e = tool_.radius * 1e-3;
-        asked += 3;
+        evaluations += 3;
         const auto z = surface_.height(at);
         const auto x = surface_.height(at + Vec2d{e, 0});
         const auto y = surface_.height(at + Vec2d{0, e});
@@ -425,7 +425,7 @@ private:
             return 0;
         }
         const Vec2d slope{(*x - *z) / e, (*y - *z) / e};
-        return left_at({at.x, at.y, *z}, std::array<Vec2d, 1>{slope}, asked);
+        return left_at({at.x, at.y, *z}, std::array<Vec2d, 1>{slope}, evaluations);
     }
 };
 
@@ -462,15 +462,15 @@ double grid_roughness(const CellGrid& grid,
     const double between = tool.corner_radius < tool.radius ? kBetweenSteps : kBetween;
     double most = 0;
     double ratio = 1;
-    int asked = 0;
+    int evaluations = 0;
     for (const Ranked& square : squares) {
         if (square.rank * kRankDoubt < most) {
             break;
         }
-        if (asked > kMostHeights) {
+        if (evaluations > kMostHeights) {
             return between * std::max(most, square.rank * std::min(ratio, kRankDoubt));
         }
-        const double exact = roughness.exact(square.cell, asked);
+        const double exact = roughness.exact(square.cell, evaluations);
         ratio = std::max(ratio, exact / square.rank);
         most = std::max(most, exact);
     }

@@ -93,16 +93,16 @@ private:
 };
 
 // Splits from the top down; layers still too thick after all quarterings are divided equally.
-std::vector<double> split_thick(Slices& slices, double top, double bottom, double most)
+std::vector<double> split_thick(Slices& slices, double top, double bottom, double max_thickness)
 {
     std::vector<double> planes{top};
     while (planes.back() > bottom + kSamePlane) {
         const double above = planes.back();
         double below = slices.next_below(above);
-        while (above - below > most + kSamePlane && slices.quarter_at(above)) {
+        while (above - below > max_thickness + kSamePlane && slices.quarter_at(above)) {
             below = slices.next_below(above);
         }
-        const double count = std::ceil((above - below - kSamePlane) / most);
+        const double count = std::ceil((above - below - kSamePlane) / max_thickness);
         for (int i = 1; i < static_cast<int>(count); ++i) {
             planes.push_back(above + (below - above) * i / count);
         }
@@ -117,8 +117,8 @@ void merge_thin(std::vector<double>& planes, DepthLimits limits)
     while (merged) {
         merged = false;
         for (std::size_t i = planes.size() - 2; i > 0 && !merged; --i) {
-            const bool thin = planes[i] - planes[i + 1] < limits.least - kSamePlane;
-            if (thin && planes[i - 1] - planes[i + 1] <= limits.most + kSamePlane) {
+            const bool thin = planes[i] - planes[i + 1] < limits.min_thickness - kSamePlane;
+            if (thin && planes[i - 1] - planes[i + 1] <= limits.max_thickness + kSamePlane) {
                 planes.erase(planes.begin() + static_cast<std::ptrdiff_t>(i));
                 merged = true;
             }
@@ -196,7 +196,7 @@ std::vector<double> candidates(const LayerPlan& plan, DepthLimits limits)
             out.push_back(patch.top);
         }
     }
-    const double step = std::max(limits.least, limits.most / 4) / 8;
+    const double step = std::max(limits.min_thickness, limits.max_thickness / 4) / 8;
     const int count = static_cast<int>((top - bottom) / step);
     for (int i = 1; i < count; ++i) {
         out.push_back(top - i * step);
@@ -222,7 +222,7 @@ LayerPlan depth_layers(std::vector<HullPatch> patches,
     Slices slices{std::move(patches), top, bottom};
     LayerPlan plan;
     plan.raw_layers = static_cast<int>(slices.planes().size()) - 1;
-    plan.planes = split_thick(slices, top, bottom, limits.most);
+    plan.planes = split_thick(slices, top, bottom, limits.max_thickness);
     plan.split_layers = static_cast<int>(plan.planes.size()) - 1;
     merge_thin(plan.planes, limits);
     plan.patches = slices.take_patches();
@@ -245,10 +245,10 @@ std::vector<double> least_leftover_planes(const LayerPlan& plan, DepthLimits lim
     cost[0][0] = 0;
     for (std::size_t k = 1; k <= layers; ++k) {
         for (std::size_t j = 1; j < z.size(); ++j) {
-            for (std::size_t i = j; i-- > 0 && z[i] - z[j] <= limits.most + kSamePlane;) {
+            for (std::size_t i = j; i-- > 0 && z[i] - z[j] <= limits.max_thickness + kSamePlane;) {
                 const double thickness = z[i] - z[j];
                 const double sum = cost[k - 1][i] + thickness * covered[j];
-                if (thickness >= limits.least - kSamePlane && sum < cost[k][j]) {
+                if (thickness >= limits.min_thickness - kSamePlane && sum < cost[k][j]) {
                     cost[k][j] = sum;
                     from[k][j] = i;
                 }

@@ -8,9 +8,9 @@
 namespace cusp::hull_rough {
 
 struct DepthLimits {
-    double most{};  // mm, > 0: greatest thickness of a layer
-    // mm, 0 <= least <= most: thinner layers are merged as far as `most` allows
-    double least{};
+    double max_thickness{};  // mm, > 0, of a layer
+    // mm, 0 <= min_thickness <= max_thickness: thinner layers are merged as far as the maximum allows
+    double min_thickness{};
 };
 
 struct LayerPlan {

@@ -129,8 +129,8 @@ LayerPlan planned_layers(const Job& job,
                          const StockBox& stock,
                          DepthLimits limits)
 {
-    if ((stock.top - stock.bottom) / limits.most > 1e4) {
-        refuse(job, "max_depth " + plain_number(limits.most) +
+    if ((stock.top - stock.bottom) / limits.max_thickness > 1e4) {
+        refuse(job, "max_depth " + plain_number(limits.max_thickness) +
                         " mm makes more than 10000 layers of a stock " +
                         plain_number(stock.top - stock.bottom) + " mm high");
     }
@@ -254,9 +254,10 @@ std::vector<PlannedOperation> plan_hull_rough(const Job& job, const Operation& o
                                plain_number(stock.top - stock.bottom) + " mm high");
     }
     LayerPlan plan = planned_layers(job, operation, std::move(patches), stock, limits);
-    round_up(plan, limits.most, job.inch);
-    Roughing work{job, operation, std::move(tools), stock, std::move(plan), limits.most, {}, {},
-                  0,   0};
+    round_up(plan, limits.max_thickness, job.inch);
+    Roughing work{
+        job, operation, std::move(tools), stock, std::move(plan), limits.max_thickness, {}, {},
+        0,   0};
     if (!clear_layers(work)) {
         return nothing_roughed(
             "no cutter reaches into the stock in any layer; the smallest has radius " +

@@ -1,5 +1,4 @@
-// Reads STEP and IGES with no more repairs than a file needs, and refuses files that crash Open
-// CASCADE.
+// Reads STEP and IGES with the fewest repairs, and rejects files that crash Open CASCADE.
 #include "host_tools/import/cad_shape.hpp"
 
 #include <memory>
@@ -85,8 +84,8 @@ bool survives(rlim_t seconds, const Reading& read)
     return child < 0 || (waitpid(child, &status, 0) == child && status == 0);
 }
 
-// Open CASCADE follows references to entities that it could not read. Many files with faults are
-// read well, so only those that crash it are refused.
+// Open CASCADE dereferences entities that it failed to read. Most files with faults are read
+// correctly, so only those that crash it are rejected.
 void check_faults(const std::string& file, XSControl_Reader& reader)
 {
     Interface_CheckIterator faults = reader.WS()->ModelCheckList(true).Extract(Interface_CheckFail);
@@ -142,7 +141,7 @@ TopoDS_Shape brep_shape(const std::string& file)
 ReadShape read_shape(const std::string& file, Repairs repairs)
 {
     Message::DefaultMessenger()->ChangePrinters().Clear();
-    files::text_of_file(file);  // says why a file can't be read
+    files::text_of_file(file);  // throws with the reason where the file can't be read
     const std::string ending = path_ending(file);
     if (ending == ".brep" || ending == ".brp") {
         return {brep_shape(file), ""};

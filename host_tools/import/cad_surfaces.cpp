@@ -17,9 +17,8 @@ namespace {
 
 constexpr const char* kModule = "libcusp_cad.so";
 
-// The module beside the program: where it is built, where it is installed, and (tests) where
-// RUNPATH says. Null: not there; dlerror() says why. It stays loaded: Open CASCADE keeps state that
-// outlives a call.
+// Searches the build folder, the installation folder and (tests) RUNPATH. Null: not found, with the
+// reason in dlerror(). The module is never unloaded, since Open CASCADE keeps state between calls.
 void* load_module()
 {
     std::error_code error;

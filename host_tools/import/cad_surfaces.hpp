@@ -14,14 +14,14 @@
 
 namespace cusp::import {
 
-// The unit is the file's own; BREP has none and is in mm. The result is in mm, turned and moved by
-// `placed` before anything is left out. Analytic faces become rational B-splines,
-// exactly; their edges' curves in (u, v) are Open CASCADE's. Faces of solids that face up nowhere
-// are left out: no tool from above reaches them, and the faces above them are in the model. Loose
-// faces that close a volume count as a solid.
+// The file names its unit, but BREP, which is in mm; the result is in mm, turned and moved by `placed`
+// before any face is left out. Analytic faces become rational B-splines, exactly; the trimming
+// curves in (u, v) are those of Open CASCADE. Faces of solids without an upward normal are left out:
+// a tool from above cannot reach them, and the faces above them are in the model. Loose faces that
+// close a volume count as a solid.
 //
-// Errors: InputError with the file and the reason: no such file, no STEP, IGES or BREP, no face that
-// faces up, trims that contradict each other, no libcusp_cad.so.
+// Errors: InputError with the file and the reason: no such file, not STEP, IGES or BREP, no upward
+// face, contradicting trims, no libcusp_cad.so.
 std::vector<nurbs::Surface> read_cad_surfaces(const std::string& file,
                                               const Similarity& placed = {});
 
@@ -29,20 +29,20 @@ std::vector<nurbs::Surface> read_cad_surfaces(const std::string& file,
 struct CadModel {
     std::string unit;      // of length, as named in the file; "": it names none
     std::size_t solids{};  // volumes that faces close
-    std::size_t unread{};  // faces of solids that face up nowhere and have broken edges
+    std::size_t unread{};  // faces of solids without an upward normal and with broken edges
     std::vector<nurbs::Surface> faces;  // all others, in mm
-    std::vector<double> outwards;       // a face each: +1 where du x dv points out of its solid, -1
-                                        // where in; 0: it belongs to no solid
+    std::vector<double> outwards;       // of each face: +1 if du x dv points out of its solid, -1
+                                        // if into it; 0: the face belongs to no solid
 };
 
-// As read_cad_surfaces(), but faces of solids that face up nowhere are kept.
+// As read_cad_surfaces(), but faces of solids without an upward normal are kept.
 CadModel read_cad_model(const std::string& file);
 
 }  // namespace cusp::import
 
-// The entry point of libcusp_cad.so. The program that loads it provides all that it calls.
+// The entry point of libcusp_cad.so. Its undefined symbols are resolved by the program.
 //
-// all_faces  also those of solids that face up nowhere
+// all_faces  also those of solids without an upward normal
 extern "C" void cusp_read_cad_model(const std::string& file,
                                     const cusp::import::Similarity& placed,
                                     bool all_faces,

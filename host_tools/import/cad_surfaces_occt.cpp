@@ -46,7 +46,7 @@ using nurbs::SurfacePoint;
 
 namespace {
 
-// A face whose normals rise less than this is upright.
+// Least z of a unit normal that counts as upward; a face with less everywhere is vertical.
 constexpr double kLeastRise = 1e-6;
 constexpr double kSewing = 1e-3;  // mm
 
@@ -70,8 +70,8 @@ void add_faces(const TopoDS_Shape& shape, bool solid, std::vector<SolidFace>& fa
     }
 }
 
-// Faces outside solids, sewn: a shell that closes becomes a solid with its faces turned outwards.
-// Returns how many do.
+// Sews the faces outside solids. A closed shell becomes a solid whose faces are oriented outwards.
+// Returns the number of closed shells.
 std::size_t add_loose_faces(const TopoDS_Shape& shape, std::vector<SolidFace>& faces)
 {
     BRepBuilderAPI_Sewing sewing{kSewing};
@@ -101,7 +101,7 @@ std::size_t add_loose_faces(const TopoDS_Shape& shape, std::vector<SolidFace>& f
     return closed_shells;
 }
 
-// The least u and v of the ends of the face's edges.
+// The least u and v of all ends of edges.
 gp_Pnt2d least_corner(const TopoDS_Face& face)
 {
     gp_Pnt2d least{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
@@ -136,8 +136,8 @@ Surface surface_of(const TopoDS_Face& face)
     double low_v = 0;
     double high_v = 0;
     spline->Bounds(low_u, high_u, low_v, high_v);
-    // The bounds of a face exceed a whole turn by some tolerance: then its edges say where it
-    // begins.
+    // The bounds of a periodic face may exceed the period by a tolerance. Then the least parameter
+    // of its edges is the start.
     const gp_Pnt2d first = least_corner(face);
     const auto keep_within = [](bool periodic, double low, double high, double least, double& from,
                                 double& to) {
@@ -190,7 +190,7 @@ Curve trim_of(const TopoDS_Edge& edge, const TopoDS_Face& face, const std::strin
     return edge.Orientation() == TopAbs_REVERSED ? reversed(curve) : curve;
 }
 
-// On a surface that closes on itself the trims may lie whole periods away from the piece.
+// On a periodic surface the trims may be offset from the domain by whole periods.
 void shift_into_domain(std::vector<Curve>& curves, const TopoDS_Face& face, const Surface& s)
 {
     const Handle(Geom_Surface) whole = BRep_Tool::Surface(face);
@@ -218,8 +218,8 @@ void shift_into_domain(std::vector<Curve>& curves, const TopoDS_Face& face, cons
     }
 }
 
-// The edges of a wire that have a length, in order. Open CASCADE's walk ends early where a seam
-// meets a pole: there each curve is followed by the one that starts nearest to its end in (u, v).
+// The edges of a wire that have a length, in order. BRepTools_WireExplorer stops early where a seam
+// meets a pole. Then each curve is followed by the one that starts nearest to its end in (u, v).
 std::vector<Curve> loop_of(const TopoDS_Wire& wire,
                            const TopoDS_Face& face,
                            const std::string& place)
@@ -278,11 +278,11 @@ void add_trims(const TopoDS_Face& face, const std::string& place, Surface& surfa
     if (surface.trims.size() == 1 &&
         std::abs(signed_area(loop_polyline(surface.trims[0], 1e-3 * std::sqrt(whole))) - whole) <=
             kWhole * whole) {
-        surface.trims.clear();  // the edge of the domain trims nothing
+        surface.trims.clear();  // the boundary of the domain trims nothing
     }
 }
 
-// Whether a face of a solid faces up somewhere; `outwards` is +1 where du x dv points out.
+// Whether any sampled normal of a solid's face points up. `outwards` is +1 if du x dv points out.
 bool looks_up(const Surface& s, double outwards)
 {
     constexpr int kLooks = 16;
@@ -317,11 +317,11 @@ Surface trimmed_surface(const TopoDS_Face& face, Surface surface, const std::str
 
 void add_face(const SolidFace& found, bool all_faces, const std::string& place, CadModel& model)
 {
-    // with the face turned forward its wires keep the material on their left in (u, v)
+    // the wires of a forward-oriented face have its interior on their left in (u, v)
     const TopoDS_Shape converted =
         BRepBuilderAPI_NurbsConvert{found.face.Oriented(TopAbs_FORWARD), true}.Shape();
     const TopoDS_Face face = TopoDS::Face(converted.Oriented(TopAbs_FORWARD));
-    // Sewing has reversed such a face, too: it would seem to face down.
+    // Sewing has also reversed such a face, so its normal can't be trusted.
     if (area_of(face) < 0) {
         throw InputError(place + ": its edges run round it the wrong way");
     }
@@ -376,12 +376,12 @@ CadModel model_of(const std::string& file,
         add_face(faces[i], all_faces, fmt::format("{}: face {}", file, i + 1), model);
     }
     if (model.faces.empty()) {
-        throw InputError(file + ": no face looks up: is z the tool's axis? (placing: up)");
+        throw InputError(file + ": no face faces up: is z the tool's axis? (placing: up)");
     }
     return model;
 }
 
-// A file whose wires do need reversing is read again with all repairs, unless those lose a part.
+// A file whose wires have to be reversed is read again with all repairs, unless these lose area.
 CadModel model_with_fewest_repairs(const std::string& file,
                                    const Similarity& placed,
                                    bool all_faces)
@@ -411,6 +411,6 @@ extern "C" void cusp_read_cad_model(const std::string& file,
         model = cusp::import::model_with_fewest_repairs(file, placed, all_faces);
     } catch (const Standard_Failure& failure) {
         throw cusp::InputError(
-            fmt::format("{}: Open CASCADE gave up: {}", file, failure.GetMessageString()));
+            fmt::format("{}: Open CASCADE failed: {}", file, failure.GetMessageString()));
     }
 }

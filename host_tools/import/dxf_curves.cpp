@@ -1,4 +1,4 @@
-// Objects of a drawing to curves; blocks are drawn where they are inserted.
+// Converts the entities of a drawing to curves and expands blocks where they are inserted.
 #include "host_tools/import/dxf_curves.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kLeastLength = 1e-9;
 constexpr int kDeepestNesting = 16;
-// Blocks in blocks in arrays grow fast.
+// Bounds the expansion of nested blocks in arrays.
 constexpr std::size_t kMostCurves = 100000;
 
 struct Vertex {
@@ -51,7 +51,7 @@ private:
     void add_arc(const DxfEntity& entity);
     void add_ellipse(const DxfEntity& entity);
     void add_light_polyline(const DxfEntity& entity);
-    // Takes the vertices that follow; returns the number of the last of them.
+    // Consumes the VERTEX entities that follow; returns the index of the last one.
     std::size_t add_old_polyline(const std::vector<DxfEntity>& all,
                                  std::size_t first,
                                  std::string_view within);
@@ -74,7 +74,7 @@ std::string_view layer_of(const DxfEntity& entity, std::string_view within)
 bool CurveMaker::shown(const DxfEntity& entity, std::string_view within) const
 {
     const std::string_view layer = layer_of(entity, within);
-    // A block's objects may be on the wanted layer, whatever the layer of its reference.
+    // Entities of a block may be on the requested layer, whatever the layer of the INSERT.
     const bool chosen =
         layer_.empty() ? !drawing_.hidden(layer) : layer == layer_ || entity.type == "INSERT";
     constexpr int kPaperSpace = 67;
@@ -222,8 +222,8 @@ void CurveMaker::add_vertices(const DxfEntity& entity, const std::vector<Vertex>
     }
 }
 
-// The curve in pieces, where inner knots as often as the degree and once more take it apart: chains
-// of Bezier curves are written so. Numbers of knots or weights that are wrong are left to the check.
+// Splits the curve at inner knots of multiplicity degree + 1, with which some programs write chains
+// of Bezier curves. Wrong counts of knots or weights are left to check_curve().
 std::vector<Curve> parted(const Curve& curve)
 {
     const std::size_t order = static_cast<std::size_t>(curve.degree) + 1;
@@ -302,7 +302,8 @@ void CurveMaker::add(const DxfEntity& entity)
     }
 }
 
-// Block coordinates, less its base point, scaled, turned, moved; as often as the array asks for.
+// Draws the block once for each cell of the array: relative to its base point, scaled, rotated and
+// translated.
 void CurveMaker::add_insert(const DxfEntity& entity, std::string_view within, int depth)
 {
     const std::string_view name = DxfDrawing::text(entity, 2, "");

@@ -1,6 +1,6 @@
 // Curves from DXF drawings: LINE, ARC, CIRCLE, ELLIPSE, LWPOLYLINE and POLYLINE with bulges,
-// SPLINE, and blocks of them where INSERT draws them: moved, turned, scaled, mirrored, in arrays,
-// in each other.
+// SPLINE, and blocks of them at each INSERT: translated, rotated, scaled, mirrored, in arrays,
+// nested.
 #pragma once
 
 #include <string>
@@ -15,16 +15,16 @@ namespace cusp::import {
 // layer        its name; "": all layers that are neither off nor frozen
 //
 // Returns the curves of the ENTITIES section, in the order of the file. Arcs become rational
-// quadratics, exactly; a spline whose inner knots take it apart becomes its pieces. Objects of a
+// quadratics, exactly; a spline is split at inner knots of multiplicity degree + 1. Objects of a
 // block on layer "0" are on the layer of its INSERT.
-// Errors: InputError with the line of the file: no DXF, an unknown block, blocks more than 16 deep,
-// broken numbers, an entity of another kind (hatches, text and dimensions are skipped), a mesh, a
-// spline without control points.
+// Errors: InputError with the line of the file: not DXF, an unknown block, blocks nested more than
+// 16 deep, malformed numbers, an unsupported entity (hatches, text and dimensions are skipped), a
+// mesh, a spline without control points.
 std::vector<nurbs::Curve> read_dxf_curves(const std::string& file,
                                           double millimetres,
                                           const std::string& layer = "");
 
-// One layer of a drawing, by itself.
+// One layer of a drawing.
 struct DxfLayer {
     std::string name;
     bool hidden{};                     // switched off or frozen
@@ -39,10 +39,11 @@ struct DxfLayers {
 };
 
 // Every layer that draws something, by name; curves as read_dxf_curves() makes them.
-// Errors: InputError where the file is no drawing or draws nothing.
+// Errors: InputError where the file is not DXF or holds no curve.
 DxfLayers read_dxf_layers(const std::string& file, double millimetres);
 
-// The arc about `centre` from an angle on, counter-clockwise for a positive sweep, radians.
+// The arc about `centre` that starts at the angle `start`; a positive sweep is counter-clockwise.
+// Angles in radians.
 // Precondition: radius > 0, 0 < |sweep| <= 2 pi.
 nurbs::Curve arc_curve(Vec2d centre, double radius, double start, double sweep);
 

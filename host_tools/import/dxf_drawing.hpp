@@ -54,7 +54,7 @@ public:
     double value(const DxfEntity& entity, int code, double otherwise) const;
     double required(const DxfEntity& entity, int code) const;
     std::vector<double> values(const DxfEntity& entity, int code) const;
-    // A whole number from 0 to 65535, where others would be cut off.
+    // A bit field, clamped to 0 ... 65535: the conversion of other values is undefined.
     unsigned flags(const DxfEntity& entity, int code, unsigned otherwise = 0) const
     {
         constexpr double kMost = 65535;

@@ -1,4 +1,4 @@
-// Corners are joined by place, facets by their common sides.
+// Welds corners by position and joins facets along common edges.
 #include "host_tools/import/facet_groups.hpp"
 
 #include <algorithm>
@@ -21,8 +21,8 @@ namespace {
 using Triangle = std::array<Vec3d, 3>;
 
 constexpr double kSamePlace = 1e-5;  // mm
-constexpr double kUpright = 1e-4;    // cosine to the level: 0.01 mm over a wall of 100 mm
-constexpr double kThin = 5e-4;       // mm, seen from above: what is thinner is upright, too
+constexpr double kUpright = 1e-4;    // z of a unit normal: 0.01 mm over a wall of 100 mm
+constexpr double kThin = 5e-4;       // mm, width in plan: narrower facets count as vertical
 constexpr double kCrease = 0.82;     // cosine of 35 degrees
 constexpr std::size_t kMostGroups = 200;
 
@@ -30,7 +30,7 @@ struct Corners {
     std::array<std::uint32_t, 3> of;
 };
 
-// Facets by the numbers of their corners; those that welding leaves without area are gone.
+// Facets as indices of welded corners; facets that welding makes degenerate are dropped.
 class Mesh {
 public:
     explicit Mesh(const Facets& facets)
@@ -70,7 +70,7 @@ public:
         if (up < kUpright) {
             return false;
         }
-        // The least width of the facet seen from above.
+        // The least width of the facet in plan.
         const Triangle t = triangle(facet);
         double longest = 0;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -173,7 +173,8 @@ private:
     std::vector<std::size_t> parent_;
 };
 
-// Groups in the order of their first facets; none where two facets run the same way along a side.
+// Groups in the order of their first facets. No value where two facets traverse an edge in the same
+// direction.
 std::optional<std::vector<std::vector<std::size_t>>> joined(const Mesh& mesh,
                                                             const std::vector<std::size_t>& up,
                                                             double crease)
@@ -212,8 +213,8 @@ double turn_left(Vec3d in, Vec3d out)
     return std::atan2(in.x * out.y - in.y * out.x, in.x * out.x + in.y * out.y);
 }
 
-// Closed loops along the sides that only one facet of the group has. Where several continue from a
-// corner the leftmost is taken: loops may touch, but do not cross.
+// Closed loops of the group's boundary edges. Where several edges continue from a corner the
+// leftmost one is taken, so that loops may touch but do not cross.
 std::vector<std::vector<Vec3d>> outline(const Mesh& mesh, const std::vector<std::size_t>& group)
 {
     const std::vector<Side> sides = sides_of(mesh, group);
@@ -251,7 +252,7 @@ std::vector<std::vector<Vec3d>> outline(const Mesh& mesh, const std::vector<std:
     return out;
 }
 
-// Without corners on straight stretches; the last point is the first.
+// Removes collinear corners; the last point equals the first.
 std::vector<Vec3d> straightened(const std::vector<Vec3d>& loop)
 {
     const std::size_t n = loop.size() - 1;
@@ -289,7 +290,7 @@ bool simple(const std::vector<std::vector<Vec3d>>& loops)
     return !loops.empty() && !crossing_of(plan);
 }
 
-// Too thin to be distinguished from an upright wall.
+// False where the group is too narrow in plan to be distinguished from a vertical wall.
 bool has_width(const std::vector<std::vector<Vec3d>>& loops)
 {
     double area = 0;

@@ -15,12 +15,12 @@ struct FacetGroup {
     std::vector<std::vector<Vec3d>> loops;
 };
 
-// Facets that face down, and walls that are upright within micrometres, are in no group: from above
-// only the edge over them is visible. Groups end at edges where the slope jumps by more than 35
-// degrees, so that a smooth surface can follow each.
+// Downward facets and walls that are vertical within micrometres are in no group: from above only
+// their upper edge is visible. Groups end at edges where the normal turns by more than 35 degrees,
+// so that a smooth surface can follow each.
 //
-// No value where facets can't be grouped: sides that run against each other, groups that overlap
-// themselves, more than 200 groups.
+// No value where facets can't be grouped: inconsistent orientation, groups that overlap themselves
+// in plan, more than 200 groups.
 std::optional<std::vector<FacetGroup>> facet_groups(const Facets& facets);
 
 }  // namespace cusp::import

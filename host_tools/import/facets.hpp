@@ -17,7 +17,7 @@ namespace cusp::import {
 
 struct Facets {
     std::vector<std::array<Vec3d, 3>> triangles;  // mm, corners in the file's order
-    std::size_t degenerate{};                     // left out: two corners alike, or all in a line
+    std::size_t degenerate{};                     // left out: coincident or collinear corners
     std::string unit{};  // of length, as the file names it; "": it does not
 };
 

@@ -1,4 +1,4 @@
-// Loops of drawings by their nesting; a JSON file has one.
+// Loops of a drawing with their nesting; a JSON file holds one loop.
 #include "host_tools/import/file_loops.hpp"
 
 #include <algorithm>
@@ -28,8 +28,8 @@ namespace {
     const auto others = nesting.open.size() - 1;
     throw InputError(fmt::format(
         "{}: the loop is open: {} curve{} from x {:.6g} y {:.6g} to x {:.6g} y {:.6g} mm; the gap "
-        "from x {:.6g} y {:.6g} to the nearest end, x {:.6g} y {:.6g}, is {:.6g} mm, at most {:g} "
-        "are joined (plan_tolerance){}",
+        "from x {:.6g} y {:.6g} to the nearest end, x {:.6g} y {:.6g}, is {:.6g} mm, the limit is "
+        "{:g} (plan_tolerance){}",
         name, chain.curves, chain.curves == 1 ? "" : "s", chain.begin.x, chain.begin.y, chain.end.x,
         chain.end.y, chain.gap_from.x, chain.gap_from.y, chain.gap_to.x, chain.gap_to.y, chain.gap,
         join,
@@ -49,8 +49,8 @@ void describe_loops(const std::string& name,
     }
     if (nesting.bridged > 0) {
         notes.push_back(
-            fmt::format("{}: {} gaps of up to {:.3g} mm are joined; at most {:g} mm "
-                        "are (plan_tolerance)",
+            fmt::format("{}: {} gaps of up to {:.3g} mm are joined; the limit is "
+                        "{:g} mm (plan_tolerance)",
                         name, nesting.bridged, nesting.widest_gap, join));
     }
 }
@@ -84,7 +84,7 @@ std::vector<FileLoop> drawn_loops(const std::string& name,
     return out;
 }
 
-// Whether a drawing's layer may follow the file.
+// Whether the name is that of a drawing, in which "#layer" may follow the file.
 bool names_drawing(const std::string& name)
 {
     return path_ending(name.substr(0, name.rfind('#'))) == ".dxf";
@@ -135,7 +135,7 @@ std::vector<Operation> pockets_of(const Operation& operation,
     }
     for (const FileLoop& island : more_islands) {
         const auto outline = loop_polyline(island.loop, kChord);
-        // the smallest come last; with one pocket only, check_operation() judges the island
+        // smallest pocket first; of a single pocket check_operation() checks the islands
         const auto around = std::find_if(pockets.rbegin(), pockets.rend(), [&](const Operation& o) {
             return pockets.size() == 1 ||
                    !lies_outside(outline, loop_polyline(*o.boundary, kChord));

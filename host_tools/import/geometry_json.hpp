@@ -16,7 +16,7 @@ namespace cusp::import {
 std::vector<nurbs::Surface> read_json_surfaces(const std::string& file, double millimetres);
 std::vector<nurbs::Curve> read_json_curves(const std::string& file, double millimetres);
 
-// Whichever the file holds.
+// Surfaces or curves, as the file declares.
 std::variant<std::vector<nurbs::Surface>, std::vector<nurbs::Curve>> read_json_shapes(
     const std::string& file, double millimetres);
 

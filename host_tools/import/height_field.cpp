@@ -1,4 +1,4 @@
-// Samples the mesh's upper envelope, fits, and lifts until all facets lie below.
+// Samples the mesh's upper envelope, fits a surface, and raises it until all facets lie below.
 #include "host_tools/import/height_field.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using Triangle = std::array<Vec3d, 3>;
 
 constexpr int kFirstCells = 24;  // along the longer side
 constexpr int kMostCells = 192;
-// Each cell is judged in this many parts along each side.
+// Subdivision of a cell, along each side, for the proof.
 constexpr int kParts = 4;
 constexpr double kNone = -std::numeric_limits<double>::infinity();
 
@@ -42,7 +42,7 @@ struct Span {
     int begin, end;
 };
 
-// Numbers from `begin` to before `end` of a row of `count` that lies between low and high.
+// Indices [begin, end) of the cells, of `count`, that the interval [low, high] overlaps.
 Span span_of(double low, double high, int count)
 {
     return {std::clamp(static_cast<int>(std::floor(low)), 0, count - 1),
@@ -79,7 +79,8 @@ void clip(std::vector<Vec3d>& polygon, double Vec3d::*axis, double at, double si
 
 class Field {
 public:
-    // goes_on: where no facet lies the heights around go on; else the mesh's lowest stands there
+    // goes_on  whether cells without facets extrapolate their neighbours; else they have the mesh's
+    //          lowest height
     Field(const Facets& facets, const Box& box, int cells, bool goes_on)
         : facets_{facets},
           box_{box},
@@ -115,7 +116,7 @@ private:
     void fill_open();
     double gone_on(int i, int j) const;
     void fit();
-    // Control points -1 ... n + 1 along each side stand straight over the knots.
+    // Control points -1 ... n + 1 along each side, at the knots in plan.
     double& control(int i, int j) { return controls_[place(i, j)]; }
     double control(int i, int j) const { return controls_[place(i, j)]; }
     std::size_t place(int i, int j) const
@@ -174,7 +175,7 @@ void Field::sample()
     open_share_ = static_cast<double>(open) / static_cast<double>(samples_.size());
 }
 
-// Continues the known heights beside a knot: linearly where two in a row are known.
+// Extrapolates known neighbouring heights: linearly where two in a row are known.
 double Field::gone_on(int i, int j) const
 {
     const auto known = [&](int a, int b) {
@@ -202,7 +203,7 @@ double Field::gone_on(int i, int j) const
     return straights > 0 ? straight / straights : besides > 0 ? beside / besides : kNone;
 }
 
-// Extends the samples over as many knots as act on cells with facets.
+// Extrapolates samples to all knots that influence cells with facets.
 void Field::go_on()
 {
     constexpr int kRings = 4;
@@ -220,13 +221,13 @@ void Field::go_on()
 
 void Field::fill_open() { std::replace(samples_.begin(), samples_.end(), kNone, box_.z0); }
 
-// Quasi-interpolation: exact for cubics, and no equations to solve.
+// Quasi-interpolation: exact for cubics, without a system of equations.
 void Field::fit()
 {
     const auto sample_at = [&](int i, int j) {
         return samples_[static_cast<std::size_t>(i * (ny_ + 1) + j)];
     };
-    // beyond the box the samples continue linearly
+    // linear extrapolation beyond the box
     const auto along_y = [&](int i, int j) {
         return j < 0 ? sample_at(i, 0) + j * (sample_at(i, 1) - sample_at(i, 0))
                : j > ny_
@@ -274,7 +275,7 @@ std::array<double, 16> Field::bezier_of_cell(int i, int j) const
     return out;
 }
 
-// The Bezier points of the share [a, b] of a cubic.
+// The Bezier points of a cubic on the interval [a, b] of its parameter.
 std::array<double, 4> cut(const std::array<double, 4>& p, double a, double b)
 {
     const auto blossom = [&](double r, double s, double t) {
@@ -309,7 +310,7 @@ LowPlane plane_below(const std::array<double, 16>& cell, int p, int q, double sx
     for (auto& row : net) {
         row = cut(row, b, b + kShare);
     }
-    // slopes a part, from its corners
+    // mean slopes of the part, from its corners
     const double rise_x = (net[3][0] - net[0][0] + net[3][3] - net[0][3]) / 2;
     const double rise_y = (net[0][3] - net[0][0] + net[3][3] - net[3][0]) / 2;
     double level = std::numeric_limits<double>::infinity();
@@ -322,7 +323,7 @@ LowPlane plane_below(const std::array<double, 16>& cell, int p, int q, double sx
     return {level, rise_x * kParts / sx, rise_y * kParts / sy};
 }
 
-// The most that facets of each cell rise over the planes below the surface.
+// Per cell, the greatest height of facets above the planes that bound the surface from below.
 Field::Missing Field::missing() const
 {
     const double px = sx_ / kParts;
@@ -420,7 +421,8 @@ Surface Field::surface() const
     return clamped(s);
 }
 
-// Facets that face down and do not lie on the base; none where the whole mesh is inside out.
+// Plan area of downward facets above the base; 0 where the mesh has no upward facet: it is inside
+// out.
 double overhang(const Facets& facets, double base)
 {
     constexpr double kOnBase = 1e-3;  // mm
@@ -437,7 +439,7 @@ double overhang(const Facets& facets, double base)
     return any_up ? area : 0;
 }
 
-// Over sharp edges between facets the error shrinks with the cells, elsewhere faster.
+// At creases the error is proportional to the cell size; elsewhere it is of higher order.
 int next_cells(int cells, double too_much)
 {
     constexpr double kSpare = 1.1;
@@ -456,7 +458,7 @@ HeightField finest(const Facets& facets, double tolerance, bool goes_on)
         field.lift(tolerance);
         out = {field.surface(),          field.step(),      field.most_lift(), field.loose_share(),
                overhang(facets, box.z0), field.open_share()};
-        // finer cells do not follow a step any closer: they would only take planning time
+        // at a step finer cells do not reduce the error, but they slow down planning
         constexpr double kNoBetter = 0.75;
         if (out.loose_share == 0 || (cells >= kMostCells / 2 && out.lift > kNoBetter * before)) {
             break;

@@ -8,31 +8,32 @@ namespace cusp::import {
 
 struct HeightField {
     // Bicubic over the mesh's box in x and y; u runs along x, v along y, both in mm. Nowhere below
-    // the mesh, so what clears it clears the mesh.
+    // the mesh: a tool that does not gouge the surface does not gouge the mesh.
     nurbs::Surface surface;
     double cell{};           // mm between knots
     double lift{};           // mm: bound of what was added to the smooth fit, anywhere
-    double loose_share{};    // of the cells, where more than the tolerance was added: steps, edges
-    double overhang_area{};  // mm^2, seen from below: facets that look down over the mesh's base
-    double open_share{};     // of the box, where no facet lies: taken as the mesh's lowest height
+    double loose_share{};    // fraction of cells raised by more than the tolerance: steps, creases
+    double overhang_area{};  // mm^2, in plan, of downward facets above the mesh's base
+    double open_share{};     // fraction of the box without facets: has the mesh's lowest height
 };
 
-// One smooth surface lets passes run across it without a break, is bounded by its control points,
-// and suits every strategy. Cells are halved until nothing is added beyond `tolerance`, down to a
-// 192nd of the box (a 96th where finer cells do not follow steps in the mesh any closer).
+// Passes cross one smooth surface without interruption, its control points bound it, and every
+// strategy accepts it. Cells are halved until the surface is raised by at most `tolerance`, down to
+// 1/192 of the box (1/96 where finer cells do not reduce the error at steps of the mesh).
 //
 // tolerance  mm, > 0: how far the surface may lie above the mesh where the mesh is smooth
 //
-// Proof (HeightField tests): each part of a cell lies above a plane less the spread of its Bezier
-// points; facets are clipped to the part and compared with that plane at their corners; what is
-// missing is added to every control point that acts there, and B-splines add up to 1.
+// Proof (HeightField tests): a plane through the Bezier points of each part of a cell, lowered by
+// their spread, is below the surface. Facets are clipped to the part and compared with the plane at
+// their corners. The deficit is added to every control point that influences the part; B-splines
+// sum to 1, so the surface rises by at least that.
 HeightField height_field(const Facets& facets, double tolerance);
 
-// As height_field(), for facets that do not fill their box: beyond them the surface continues
-// smoothly, to be trimmed away; `lift` and `loose_share` count along the facets' normals.
+// As height_field(), for facets that do not fill their box: beyond them the surface is extrapolated
+// smoothly, to be trimmed. `lift` and `loose_share` are measured along the facets' normals.
 HeightField height_patch(const Facets& facets, double tolerance);
 
-// mm^2, seen from below: facets that look down over the mesh's base.
+// mm^2, in plan, of downward facets above the mesh's base.
 double overhang_area(const Facets& facets);
 
 }  // namespace cusp::import

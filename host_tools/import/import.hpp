@@ -20,34 +20,35 @@ namespace cusp::import {
 // Reads a TOML job and the parts it names. Throws InputError.
 job::Job read_job(const std::string& file);
 
-// A job that is in no file.
+// A job given as text.
 struct JobText {
     std::string text;    // TOML
-    std::string name;    // of the job in messages
-    std::string folder;  // that paths in it are relative to; "": the current one
+    std::string name;    // of the job, for messages
+    std::string folder;  // base of its relative paths; "": the current folder
 };
 class PartFiles;
-// As above, from text; `parts` may have been read already.
+// As above, from text. Files that `parts` already holds are not read again.
 job::Job read_job(const JobText& job, PartFiles& parts);
 
 // Geometry without a job, with clamped ends. Throws InputError.
 //
 // millimetres     of one unit of the file: 1 or 25.4; STEP, IGES, BREP and 3MF have their own
-// mesh_tolerance  mm: how closely a mesh is followed, never below it (height_field.hpp)
-// notes           gets sentences on what was left out or changed; may be null
-// placed          where the file's part lies
+// mesh_tolerance  mm: how far the surface may be above a mesh; never below (height_field.hpp)
+// notes           receives sentences on what was left out or changed; may be null
+// placed          applied to the file's geometry
 std::vector<nurbs::Surface> read_surfaces(const std::string& file,
                                           double millimetres = 1.0,
                                           double mesh_tolerance = 0.01,
                                           std::vector<std::string>* notes = nullptr,
                                           const Similarity& placed = {});
-// The triangles of a mesh file (STL, OBJ, 3MF), in mm. `notes` gets sentences on facets left out and overhangs.
+// The triangles of a mesh file (STL, OBJ, 3MF), in mm. `notes` receives sentences on facets left out
+// and overhangs.
 std::vector<std::array<Vec3d, 3>> read_mesh(const std::string& file,
                                             double millimetres,
                                             std::vector<std::string>* notes = nullptr,
                                             const Similarity& placed = {});
-// The one loop of a file: closed to 1e-3 mm, simple, counter-clockwise. `name` of a drawing may end
-// in #layer. file_loops.hpp reads several.
+// The one loop of a file: closed to 1e-3 mm, simple, counter-clockwise. `name` may be
+// FILE.dxf#LAYER. file_loops.hpp reads several.
 job::Loop read_loop(const std::string& name, double millimetres = 1.0);
 
 }  // namespace cusp::import

@@ -49,7 +49,7 @@ const std::vector<std::string> kStrategies{"contour_pocket",     "adaptive_isocu
 
 class JobReader {
 public:
-    // folder  that paths are relative to
+    // folder  base of relative paths
     JobReader(const std::string& file, const std::filesystem::path& folder, PartFiles& parts)
         : file_{file}, folder_{folder}, parts_{parts}
     {
@@ -93,7 +93,7 @@ private:
     PartFiles& parts_;
     double unit_{1.0};  // mm
     Job job_;
-    // By the files of the floor, those it was intersected with, and the tolerance.
+    // Keys: files of the floor, files it was intersected with, tolerance.
     using Names = std::vector<std::string>;
     std::map<std::tuple<Names, Names, double>, std::vector<Surface>> intersections_;
 };
@@ -190,7 +190,7 @@ void JobReader::read_common(JobTable& table, Operation& operation)
         *operation.scallop <= operation.floor_tolerance) {
         table.refuse("scallop",
                      fmt::format("is {:g} mm, not above the floor_tolerance of {:g} mm that it "
-                                 "includes; raise it or say tolerance_side = \"both\"",
+                                 "includes; raise it or set tolerance_side = \"both\"",
                                  *operation.scallop, operation.floor_tolerance));
     }
     operation.direction_of_cut =
@@ -265,7 +265,7 @@ void JobReader::read_strategy_keys(JobTable& table, Operation& operation)
     operation.step_over = length(table, "step_over", kPositive);
 }
 
-// Whether the strategy runs over the triangles themselves, without a height field.
+// Whether the strategy plans on the triangles themselves, without a height field.
 bool JobReader::takes_mesh(const Operation& operation, const std::vector<std::string>& floor) const
 {
     return (operation.strategy == "adaptive_isocurve" || operation.strategy == "parallel_planes") &&
@@ -274,7 +274,7 @@ bool JobReader::takes_mesh(const Operation& operation, const std::vector<std::st
 
 const std::vector<Surface>& JobReader::surfaces_of(const std::string& path, double floor_tolerance)
 {
-    // half of the floor tolerance goes to a mesh's height field
+    // half of the floor tolerance is the budget of a mesh's height field
     return parts_.surfaces(path, unit_, floor_tolerance / 2);
 }
 
@@ -304,9 +304,7 @@ void JobReader::intersect(JobTable& table,
         }
     }
     if (floor.empty()) {
-        table.refuse("intersect",
-                     "leaves nothing of the floor: seen from above they lie beside "
-                     "each other");
+        table.refuse("intersect", "leaves nothing of the floor: in plan they do not overlap");
     }
     operation.floor = floor;
 }
@@ -337,7 +335,7 @@ void JobReader::read_parts(JobTable& table, Operation& operation)
     }
 }
 
-// The operation for each of its pockets; itself where it has no boundary.
+// One operation for each pocket; the operation itself where it has no boundary.
 std::vector<Operation> JobReader::read_pockets(JobTable& table, Operation operation)
 {
     const auto loops_of = [&](const std::string& name) {

@@ -13,7 +13,7 @@
 namespace cusp::import {
 namespace {
 
-// Letters to insert, remove or replace to make one word of the other.
+// Levenshtein distance.
 std::size_t letters_apart(const std::string& a, const std::string& b)
 {
     std::vector<std::size_t> row(b.size() + 1);

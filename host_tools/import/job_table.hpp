@@ -17,18 +17,18 @@ namespace cusp::import {
 
 class JobTable {
 public:
-    // place  how messages name the table, such as "operation 2"; "" for the file itself
+    // place  name of the table in messages, such as "operation 2"; "" for the file itself
     // known  every key that the table may have
     //
-    // Throws InputError where the table has another key, and names the nearest known one: a typo
-    // is named before the key that it makes missing.
+    // Throws InputError where the table has another key, with the nearest known one. So a typo is
+    // reported before the key that is missing because of it.
     JobTable(const toml::table& table,
              std::string file,
              std::string place,
              std::vector<std::string> known);
 
-    // Each returns nothing where the key is absent and throws InputError where its value is of
-    // another kind or outside its range.
+    // Each returns no value where the key is absent and throws InputError where its value has the
+    // wrong type or is out of range.
     std::optional<double> number(const char* key, Range range);
     std::optional<int> whole_number(const char* key, Range range);
     std::optional<bool> flag(const char* key);

@@ -1,4 +1,4 @@
-// Follows strings and comments; the rest has to be ASCII.
+// Skips strings and comments; everything else has to be ASCII.
 #include "host_tools/import/job_text.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kByteOrderMark{"\xEF\xBB\xBF"};
 
-// The first place after the string that starts at `from`; the end of its line where it is open.
+// Index after the string that starts at `from`; the end of its line where it is not closed.
 std::size_t after_string(std::string_view text, std::size_t from)
 {
     const char quote = text[from];
@@ -23,7 +23,7 @@ std::size_t after_string(std::string_view text, std::size_t from)
         if (text[k] == '\\' && quote == '"') {
             ++k;
         } else if (lines && text.substr(k, 3) == three) {
-            // Up to two quotes more may end the string itself.
+            // The string itself may end in up to two quotes.
             k += 3;
             return std::min(text.size(), std::min(k + 2, text.find_first_not_of(quote, k)));
         } else if (!lines && (text[k] == quote || text[k] == '\n')) {

@@ -5,8 +5,8 @@
 
 namespace cusp::import {
 
-// Letters beyond ASCII may occur in strings and comments only: no TOML key or value has others, and
-// toml++ 3.3 aborts where one follows a value.
+// Characters beyond ASCII may occur in strings and comments only: unquoted TOML keys and
+// values have none, and toml++ 3.3 aborts where one follows a value.
 //
 // Throws InputError with the line. A byte order mark at the start is allowed.
 void check_plain_text(const std::string& text, const std::string& file);

@@ -1,4 +1,4 @@
-// One list a table: a new key gets a line here.
+// One list for each table; a new key is one line here.
 #include "host_tools/import/known_keys.hpp"
 
 #include <string_view>
@@ -10,7 +10,7 @@ namespace {
 
 struct OperationKey {
     const char* key;
-    std::string_view strategies;  // that know it; empty: all
+    std::string_view strategies;  // that accept it; empty: all
 };
 constexpr std::string_view kIsocurves{"adaptive_isocurve, complete_isocurves, parallel_planes"};
 constexpr OperationKey kOperationKeys[]{
@@ -82,7 +82,7 @@ void refuse_keys_of_others(const toml::table& entry,
                            const std::string& strategy)
 {
     for (const OperationKey& known : kOperationKeys) {
-        // no strategy's name is a part of another's
+        // no strategy's name is a substring of another's
         if (entry.contains(known.key) && !known.strategies.empty() &&
             known.strategies.find(strategy) == std::string_view::npos) {
             table.refuse(known.key,

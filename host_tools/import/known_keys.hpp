@@ -15,7 +15,7 @@ std::vector<std::string> stock_keys();
 std::vector<std::string> placing_keys();
 std::vector<std::string> operation_keys();
 
-// Throws InputError where the operation has a key that its strategy does not know.
+// Throws InputError where the operation has a key that its strategy does not accept.
 void refuse_keys_of_others(const toml::table& entry,
                            const JobTable& table,
                            const std::string& strategy);

@@ -1,5 +1,5 @@
-// Ends are found in a grid of squares; chains are walked from their open ends first. What stays open
-// is joined once more, at gaps up to the tolerance.
+// A grid of squares finds neighbouring ends. Chains are followed from open ends first, then closed
+// loops. Open chains are joined in a second step, across gaps up to the tolerance.
 #include "host_tools/import/loop_nesting.hpp"
 
 #include <algorithm>
@@ -24,10 +24,10 @@ using nurbs::CurvePoint;
 namespace {
 
 constexpr double kOutline = 1e-3;           // mm, of chords
-constexpr double kRepeated = 1e-4;          // mm: curves nearer than that are one
-constexpr std::size_t kMostSides = 200000;  // of outlines that are searched for crossings
+constexpr double kRepeated = 1e-4;          // mm: distance below which curves are duplicates
+constexpr std::size_t kMostSides = 200000;  // limit of the search for crossings
 
-// Curves in order, each from the end of the one before.
+// Curves in order; each starts at the end of the previous one.
 using Chain = std::vector<Curve>;
 
 struct End {
@@ -36,13 +36,13 @@ struct End {
     Vec2d at;
 };
 
-// Ends of curves by the squares they lie in.
+// Spatial hash of curve ends.
 class EndGrid {
 public:
     explicit EndGrid(double side) : side_{side} {}
     void add(std::size_t number, Vec2d at) { squares_[key(at, 0, 0)].push_back(number); }
 
-    // Calls visit(number) for all in the squares around a place.
+    // Calls visit(number) for all ends in the 3 x 3 squares around a point.
     template <class Visit>
     void near(Vec2d at, const Visit& visit) const
     {
@@ -73,7 +73,7 @@ struct Measures {
     double area{};  // signed, of the sector from the origin
 };
 
-// Gauss's rule with eight places on each piece between knots.
+// Gauss-Legendre quadrature with eight points on each span.
 Measures measures_of(const Curve& curve, Vec2d origin)
 {
     constexpr std::array<double, 4> kPlaces{0.1834346424956498, 0.5255324099163290,
@@ -95,7 +95,7 @@ Measures measures_of(const Curve& curve, Vec2d origin)
     return sum;
 }
 
-// The curves without those that are drawn again over another.
+// Removes duplicates and counts them.
 std::vector<Curve> without_repeats(const std::vector<Curve>& curves, std::size_t& repeated)
 {
     using Key = std::array<std::int64_t, 6>;
@@ -134,7 +134,7 @@ Chain reversed_chain(const Chain& chain)
 // Joins chains whose ends meet.
 class Joining {
 public:
-    // meets  mm: ends no farther apart meet
+    // meets  mm: largest distance of ends that meet
     Joining(const std::vector<Chain>& chains, double meets)
         : chains_{chains}, meets_{meets}, grid_{meets}, used_(chains.size(), false)
     {
@@ -148,10 +148,10 @@ public:
         }
     }
 
-    // Returns the chains that stay open.
+    // Returns the chains that remain open.
     std::vector<Chain> sort_into(LoopNesting& nesting)
     {
-        // Open chains first, from their ends; the remaining ones form loops.
+        // Open chains first, from their ends; what remains is closed.
         for (const bool from_open_ends : {true, false}) {
             for (std::size_t e = 0; e < ends_.size(); ++e) {
                 if (!used_[ends_[e].chain] && (!from_open_ends || is_open(e))) {
@@ -163,7 +163,7 @@ public:
     }
 
 private:
-    // An unused chain's end that meets this one; the number of ends where there is none.
+    // The nearest end of an unused chain that meets this one; ends_.size(): there is none.
     std::size_t next_to(std::size_t end) const
     {
         std::size_t nearest = ends_.size();
@@ -246,7 +246,7 @@ OpenChain open_chain(const Chain& chain)
     }
     const Vec2d begin = in_plan(chain.front().points.front());
     const Vec2d end = in_plan(chain.back().points.back());
-    // loop_polyline() closes what it is given
+    // loop_polyline() closes the chain
     std::vector<Vec2d> outline = loop_polyline(chain, kOutline);
     outline.back() = end;
     return {outline, chain.size(), length, begin, end, 0, begin, end};
@@ -259,7 +259,7 @@ void measure_gaps(std::vector<OpenChain>& open)
         ends.push_back(chain.begin);
         ends.push_back(chain.end);
     }
-    // Sorted by x, so that only ends within the least gap so far are looked at.
+    // Sorted by x, so that only ends within the least gap so far are examined.
     std::vector<std::size_t> order(ends.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -304,7 +304,7 @@ PlanBox box_of(const std::vector<Vec2d>& outline)
     return box;
 }
 
-// Tests three of its points, since loops may touch.
+// A majority of three points decides, since loops may touch.
 bool lies_in(const std::vector<Vec2d>& inner, const std::vector<Vec2d>& outer)
 {
     const std::size_t n = inner.size() - 1;
@@ -315,7 +315,7 @@ bool lies_in(const std::vector<Vec2d>& inner, const std::vector<Vec2d>& outer)
     return inside >= 2;
 }
 
-// Precondition: the largest first.
+// Precondition: loops are sorted by area, the largest first.
 void nest(std::vector<ClosedLoop>& loops)
 {
     std::vector<PlanBox> boxes;

@@ -9,19 +9,19 @@
 
 namespace cusp::import {
 
-// mm: ends no farther apart meet.
+// mm: largest distance of ends that meet.
 inline constexpr double kEndsMeet = 1e-3;
-// mm: ends of open chains no farther apart are joined, where no job gives its plan_tolerance.
+// mm: default of the largest gap that is joined; a job's plan_tolerance replaces it.
 inline constexpr double kJoinTolerance = 0.02;
 
-// Seen from above, mm.
+// In plan, mm.
 struct ClosedLoop {
     std::vector<nurbs::Curve> curves;  // in order
     std::vector<Vec2d> outline;        // chords within 1e-3 mm; the last point is the first again
     double length{};
     double area{};                  // above 0, or 0
     bool counter_clockwise{};       // as drawn
-    int parent{-1};                 // number of the smallest loop around it; -1: none
+    int parent{-1};                 // index of the smallest loop around it; -1: none
     int depth{};                    // loops around it: even encloses material, odd is a hole
     std::optional<Vec2d> crossing;  // where it crosses itself
 };
@@ -43,14 +43,14 @@ struct LoopNesting {
     std::vector<OpenChain> open;
     std::size_t bridged{};          // gaps over 1e-3 mm that were joined
     double widest_gap{};            // mm, of those
-    std::optional<Vec2d> crossing;  // where two loops cross: their nesting means little
+    std::optional<Vec2d> crossing;  // where two loops cross: their nesting is undefined
 };
 
-// Ends within 1e-3 mm meet. What is open then is joined where its ends are at most `join` mm apart,
-// the nearest first. Lengths and areas are integrals over the curves, good to 1e-9 of them for arcs
-// up to a quarter turn a piece.
+// Ends within 1e-3 mm meet. Remaining open chains are joined where their ends are at most `join` mm
+// apart, the nearest first. Lengths and areas are integrals over the curves, with a relative error
+// of 1e-9 for arcs of up to a quarter turn for each span.
 //
-// Where more than two ends meet, a chain continues along any of them.
+// Where more than two ends meet, it is unspecified along which one a chain continues.
 LoopNesting nest_loops(const std::vector<nurbs::Curve>& curves, double join = kJoinTolerance);
 
 }  // namespace cusp::import

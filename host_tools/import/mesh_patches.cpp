@@ -1,4 +1,4 @@
-// Fits planes in their own frame, so that steep ones are as accurate as level ones.
+// Fits planes in their own frame, so that steep planes are as accurate as horizontal ones.
 #include "host_tools/import/mesh_patches.hpp"
 
 #include <algorithm>
@@ -20,8 +20,8 @@ using nurbs::Surface;
 
 namespace {
 
-constexpr double kPlane = 1e-3;  // mm off a plane, at most, and a tenth of the tolerance
-constexpr double kSteep = 0.7;   // cosine to the level: steeper planes are not laid along x and y
+constexpr double kPlane = 1e-3;  // mm: flatness of a plane; also at most a tenth of the tolerance
+constexpr double kSteep = 0.7;   // z of a unit normal: steeper planes are not parametrised in x, y
 
 struct Frame {
     Vec3d origin;
@@ -43,14 +43,14 @@ Frame frame_of(const FacetGroup& group)
         frame.u = level / norm(level);
         frame.v = cross(frame.normal, frame.u);
     } else {
-        // Along x and y seen from above; (u, v) are x and y then.
+        // In plan u and v run along x and y, so that (u, v) equals (x, y).
         frame.u = {1, 0, -frame.normal.x / frame.normal.z};
         frame.v = {0, 1, -frame.normal.y / frame.normal.z};
     }
     return frame;
 }
 
-// Least and greatest of corners over the plane.
+// Least and greatest signed distance of corners from the plane.
 std::pair<double, double> off_plane(const FacetGroup& group, const Frame& frame)
 {
     double low = std::numeric_limits<double>::infinity();
@@ -65,7 +65,7 @@ std::pair<double, double> off_plane(const FacetGroup& group, const Frame& frame)
     return {low, high};
 }
 
-// Loops in the domain as the surface's trims; none where they are its edge.
+// Sets the loops as trims, unless they are the boundary of the domain.
 void trim(Surface& surface, const std::vector<std::vector<Vec2d>>& loops)
 {
     constexpr double kWhole = 1e-9;
@@ -99,8 +99,8 @@ Surface plane_patch(const FacetGroup& group, Frame frame, double lift)
 {
     frame.origin = frame.origin + frame.normal * lift;
     std::vector<std::vector<Vec2d>> loops;
-    Vec2d low{1e300, 1e300};
-    Vec2d high{-1e300, -1e300};
+    Vec2d low{kUnbounded, kUnbounded};
+    Vec2d high{-kUnbounded, -kUnbounded};
     const bool level = frame.normal.z >= kSteep;
     for (const auto& loop : group.loops) {
         loops.emplace_back();

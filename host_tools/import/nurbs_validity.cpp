@@ -1,4 +1,4 @@
-// The checks of degree, counts, knots, weights and coordinates.
+// Checks of degree, counts, knots, weights and coordinates.
 #include "host_tools/import/nurbs_validity.hpp"
 
 #include <algorithm>

@@ -8,11 +8,11 @@
 
 namespace cusp::import {
 
-// Coordinates beyond this, in mm, are refused: no machine is that large, and doubles keep
-// nanometres up to there.
+// Largest coordinate, mm: larger than any machine, and doubles resolve nanometres up to it.
 inline constexpr double kLargestCoordinate = 1e6;
 
-// Largest weight over the smallest. A larger ratio makes a corner, for which there are knots.
+// Limit of the ratio of the largest weight to the smallest. A larger ratio approximates a corner,
+// which is to be modelled by a multiple knot.
 inline constexpr double kLargestWeightRatio = 1000;
 
 // Greatest length of a domain; its reciprocal is the least.

@@ -1,4 +1,4 @@
-// Files, then numbers, then tools.
+// Checks files, then numbers, then tools.
 #include "host_tools/import/one_line_check.hpp"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ void check_parts(const OneLineRequest& request)
     for (const std::string& part : request.parts) {
         if (path_ending(part.substr(0, part.rfind('#'))) == ".dxf") {
             throw InputError(fmt::format(
-                "{}: a drawing bounds a pocket, it is no part: cusp plan FLOOR.json --boundary {} "
+                "{}: a drawing is a boundary, not a part: cusp plan FLOOR.json --boundary {} "
                 "... with the surfaces of the floor",
                 part, part));
         }
@@ -126,7 +126,7 @@ void check_request(const OneLineRequest& request)
     }
     if (!request.scallop) {
         throw InputError(
-            "--scallop: is missing: the height of the ridges that may stay, such as --scallop "
+            "--scallop: is missing: the height of the scallops that may remain, such as --scallop "
             "0.02 (mm)");
     }
     check_numbers(request);

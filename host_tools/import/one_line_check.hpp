@@ -1,4 +1,4 @@
-// Checks what the command line asks of a one-line job.
+// Checks the request of a one-line job.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace cusp::import {
 // Errors: InputError that names the option or the file, its value, its limit and what to do.
 void check_request(const OneLineRequest& request);
 
-// Whether the last of the tools can finish as asked. Errors: InputError.
+// Throws InputError where the last tool can't finish the part as requested.
 void check_tools(const OneLineRequest& request, const std::vector<NamedTool>& tools);
 
 // Whether files of this ending hold parts (kPartEndings).

@@ -1,4 +1,4 @@
-// Chooses numbers first, measures the part, then decides on roughing.
+// Chooses numbers, measures the part, then decides on roughing.
 #include "host_tools/import/one_line_choice.hpp"
 
 #include <algorithm>
@@ -22,8 +22,8 @@ struct Defaults {
     double allowance;         // at most
     double clearance;         // over the stock
     double feed;              // a minute, at most
-    double steps;             // of one unit: the stock's box is rounded outwards to them
-    double least_rough;       // over the allowance: less is not roughed
+    double steps;             // per unit: the stock's box is rounded outwards to these steps
+    double least_rough;       // stock above the allowance below which roughing is left out
     double feed_of_diameter;  // a minute and unit of the diameter
 };
 constexpr Defaults kMetric{"mm", 1.0, 0.01, 0.3, 5.0, 1200.0, 1e3, 0.01, 200.0};
@@ -31,7 +31,7 @@ constexpr Defaults kInch{"inch", 25.4, 4e-4, 0.012, 0.2, 47.0, 1e4, 4e-4, 200.0}
 
 constexpr double kSpindle = 12000;  // rpm
 constexpr double kAllowanceOfDiameter = 0.05;
-constexpr double kOverRounding = 0.15;  // of the step: how much too large the measured box may be
+constexpr double kOverRounding = 0.15;  // of a step: excess of the measured box that is ignored
 
 double three_digits(double value) { return std::stod(fmt::format("{:.3g}", value)); }
 
@@ -124,7 +124,7 @@ void OneLineChooser::place()
     place_parts({placing}, files, defaults_.millimetres, parts_);
 }
 
-// Reads the parts in the form that the strategy takes, so that nothing is read twice.
+// Reads the parts in the form that the strategy needs, so that no file is read twice.
 void OneLineChooser::measure()
 {
     const double unit = defaults_.millimetres;

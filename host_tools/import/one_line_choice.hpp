@@ -1,4 +1,4 @@
-// Chooses what a one-line job leaves open, by the part and its tools.
+// Chooses the values that a one-line job does not give, from the part and its tools.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ namespace cusp::import {
 // Lengths in `unit`, feeds in it a minute.
 struct OneLineChoice {
     const char* unit;  // "mm" or "inch"
-    double steps{};    // of one unit: the stock is rounded outwards to them
+    double steps{};    // per unit: the stock is rounded outwards to these steps
     std::vector<NamedTool> tools;
     std::string strategy;
     double tolerance{};
@@ -30,7 +30,7 @@ struct OneLineChoice {
 
     // Rounded to the step of the stock.
     std::string words(double length) const;
-    // All tools but the last; the only one where there is one.
+    // All tools but the last; a single tool also roughs.
     std::vector<NamedTool> roughing_tools() const;
 };
 

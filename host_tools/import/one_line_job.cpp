@@ -1,4 +1,4 @@
-// Writes the job file, and sentences that say what was chosen.
+// Writes the job file, and sentences on what was chosen.
 #include "host_tools/import/one_line_job.hpp"
 
 #include <algorithm>
@@ -108,7 +108,7 @@ std::string OneLineWriter::placing_toml() const
 std::string OneLineWriter::toml() const
 {
     std::string out = fmt::format(
-        "# What a call of cusp plan without a job file amounts to. Paths are relative to this "
+        "# The job of a call of cusp plan without a job file. Paths are relative to this "
         "file:\n"
         "# save it in the folder where the call was made.\nunits = \"{}\"\n",
         choice_.unit);
@@ -143,7 +143,7 @@ std::string OneLineWriter::said_feeds() const
     std::string out = fmt::format("feed {:.6g} {}/min, plunge feed {:.6g}, spindle {:.6g} rpm",
                                   choice_.feed, choice_.unit, choice_.plunge_feed, choice_.spindle);
     if (!chosen.empty()) {
-        out += fmt::format(": defaults, {} set what suits your material", fmt::join(chosen, " "));
+        out += fmt::format(": defaults; set them for your material by {}", fmt::join(chosen, " "));
     }
     return out;
 }
@@ -151,7 +151,7 @@ std::string OneLineWriter::said_feeds() const
 std::string OneLineWriter::said_roughing() const
 {
     if (!choice_.roughs) {
-        return !request_.roughing         ? "roughing: none, as asked for"
+        return !request_.roughing         ? "roughing: none, as requested"
                : choice_.tools.size() > 1 ? "roughing: none, there is nothing above the allowance"
                                           : "roughing: none, the part is no deeper than one cut";
     }
@@ -170,25 +170,24 @@ std::vector<std::string> OneLineWriter::said() const
     const Vec3d size = choice_.part.size();
     const bool names_unit = std::none_of(request_.parts.begin(), request_.parts.end(), lacks_unit);
     const std::string what = is_pocket() ? "floor" : "part";
-    return {
-        fmt::format("{}: {} x {} {} from above, {} deep; {}", what, choice_.words(size.x),
-                    choice_.words(size.y), choice_.unit, choice_.words(size.z),
-                    names_unit ? "the unit is the file's own"
-                               : fmt::format("the file names no unit, it is taken as {} (--units)",
-                                             choice_.unit)),
-        fmt::format("stock: x {} to {}, y {} to {}, top z = {}{}; cut down to z = {}",
-                    choice_.words(choice_.part.low.x), choice_.words(choice_.part.high.x),
-                    choice_.words(choice_.part.low.y), choice_.words(choice_.part.high.y),
-                    choice_.words(choice_.top),
-                    request_.stock_top ? ""
-                    : is_pocket()      ? " (0 or the floor's top; --stock-top)"
-                                       : " (the part's; --stock-top)",
-                    choice_.words(choice_.part.low.z)),
-        said_feeds(), said_roughing(),
-        fmt::format("finish: {}, {}, scallop {:.6g} {}, tolerance {:.6g}{}, {}", choice_.strategy,
-                    words_of(choice_.tools.back(), request_.inch), *request_.scallop, choice_.unit,
-                    choice_.tolerance, request_.tolerance ? "" : " (--tolerance)",
-                    request_.output)};
+    return {fmt::format("{}: {} x {} {} from above, {} deep; {}", what, choice_.words(size.x),
+                        choice_.words(size.y), choice_.unit, choice_.words(size.z),
+                        names_unit ? "the unit is the file's own"
+                                   : fmt::format("the file names no unit, {} is assumed (--units)",
+                                                 choice_.unit)),
+            fmt::format("stock: x {} to {}, y {} to {}, top z = {}{}; cut down to z = {}",
+                        choice_.words(choice_.part.low.x), choice_.words(choice_.part.high.x),
+                        choice_.words(choice_.part.low.y), choice_.words(choice_.part.high.y),
+                        choice_.words(choice_.top),
+                        request_.stock_top ? ""
+                        : is_pocket()      ? " (0 or the floor's top; --stock-top)"
+                                           : " (the part's; --stock-top)",
+                        choice_.words(choice_.part.low.z)),
+            said_feeds(), said_roughing(),
+            fmt::format("finish: {}, {}, scallop {:.6g} {}, tolerance {:.6g}{}, {}",
+                        choice_.strategy, words_of(choice_.tools.back(), request_.inch),
+                        *request_.scallop, choice_.unit, choice_.tolerance,
+                        request_.tolerance ? "" : " (--tolerance)", request_.output)};
 }
 
 }  // namespace

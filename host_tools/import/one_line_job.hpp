@@ -1,4 +1,5 @@
-// Builds a job from one command line: parts, tools and a scallop. The rest is chosen and reported.
+// Builds a job from a command line with parts, tools and a scallop height. Other values are chosen
+// and reported.
 #pragma once
 
 #include <optional>
@@ -9,7 +10,7 @@
 
 namespace cusp::import {
 
-// The request. Lengths in inches or mm, feeds in them a minute; no value: it is chosen.
+// Lengths in inches or mm, feeds in that unit per minute. A value that is absent is chosen.
 struct OneLineRequest {
     std::vector<std::string> parts;  // files of surfaces
     std::vector<std::string> tools;  // as `tool_of_text` reads them; the last finishes
@@ -41,11 +42,11 @@ struct OneLineJob {
     std::vector<std::string> said;  // lines in words: the part, and what was chosen
 };
 
-// Stock: its top is the part's highest place (of a pocket: z = 0 where the floor lies below), its
-// bottom the lowest. Where the part is deeper than half the diameter of the tools that rough, or
+// The stock reaches from the part's lowest point to its highest (for a pocket: to z = 0 where the
+// floor is below). Where the part is deeper than half the diameter of the roughing tools, or
 // several tools are given, all but the last rough in layers of at most that depth.
 //
-// parts  keeps the files read here for `read_job`
+// parts  caches the files read here for `read_job`
 //
 // Errors: InputError that names the option or the file.
 OneLineJob one_line_job(const OneLineRequest& request, PartFiles& parts);

@@ -32,7 +32,7 @@ void check_islands(const Operation& operation)
     }
 }
 
-// For strategies that always finish: without layers there is only one depth of cut.
+// For strategies that always finish: min_depth has no effect without layers.
 void check_least_depth(const JobTable& table, const Operation& operation)
 {
     if (!operation.min_depth) {
@@ -59,8 +59,9 @@ void check_roughing(const JobTable& table, const Operation& operation)
 {
     const std::vector<Tool>& tools = operation.tools;
     if (tools.size() > 2 || (tools.size() == 2 && tools[1].number != operation.tool.number)) {
-        table.refuse("tools", fmt::format("the first may rough, tool {} finishes: no other is used",
-                                          operation.tool.number));
+        table.refuse("tools",
+                     fmt::format("the first may rough, tool {} finishes; others are not used",
+                                 operation.tool.number));
     }
     if (operation.max_depth || !operation.layers.empty()) {
         return;
@@ -84,7 +85,8 @@ void check_strategy(const JobTable& table, const Operation& operation)
     };
     if (strategy == "contour_pocket") {
         need(operation.boundary.has_value(), "boundary", "the loop that bounds the pocket");
-        need(operation.scallop.has_value(), "scallop", "the height of the ridges that may stay");
+        need(operation.scallop.has_value(), "scallop",
+             "the height of the scallops that may remain");
         check_least_depth(table, operation);
         check_roughing(table, operation);
     } else if (strategy == "grid_pocket") {

@@ -1,4 +1,4 @@
-// Checks the values of an operation against each other, beyond the range of each.
+// Checks that the values of an operation are consistent with each other.
 #pragma once
 
 #include "host_tools/import/job_table.hpp"
@@ -9,7 +9,7 @@ namespace cusp::import {
 // Throws InputError where the strategy lacks a value, where values contradict each other or would
 // have no effect, and where an island lies outside the boundary.
 //
-// table  that the operation was read from: errors name its place
+// table  the operation's table, for line and name in messages
 void check_operation(const JobTable& table, const job::Operation& operation);
 
 }  // namespace cusp::import

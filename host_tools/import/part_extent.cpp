@@ -1,4 +1,4 @@
-// Climbs towards each side of the box on the Bezier patches that may reach farthest.
+// Local search, for each side of the box, on the Bezier patches that may contain the extreme point.
 #include "host_tools/import/part_extent.hpp"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ Vec3d greatest(Vec3d a, Vec3d b)
     return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
 }
 
-// An axis to one side.
+// A side of the box: axis and direction.
 struct Side {
     unsigned axis;
     double sign;
@@ -51,7 +51,7 @@ public:
         }
     }
 
-    // The coordinate of the farthest place. No patch reaches beyond its control points.
+    // The coordinate of the extreme point. A patch is inside the hull of its control points.
     double farthest(Side side)
     {
         std::vector<std::pair<double, const Patch*>> bounds;
@@ -96,7 +96,7 @@ private:
         return *made;
     }
 
-    // From the farthest place of a lattice; minus infinity where trims leave none of it.
+    // Starts at the farthest point of a lattice. Minus infinity where all of them are trimmed off.
     double climbed(const Patch& patch, Side side)
     {
         constexpr int kCells = 8;

@@ -1,4 +1,4 @@
-// How far a part reaches along x, y and z; what trims cut off not counted.
+// Bounding boxes of parts; trimmed-off regions of surfaces are not counted.
 #pragma once
 
 #include <vector>
@@ -15,17 +15,17 @@ struct PartExtent {
     Vec3d size() const { return high - low; }
 };
 
-// Of valid surfaces, one at least. Accuracy: 1e-6 mm, beside curved trims 1e-4 mm too far
-// (`PartExtent` tests). A search from 81 places of each patch that may reach farthest.
+// Precondition: at least one surface, all valid. Error: at most 1e-6 mm; at curved trims up to
+// 1e-4 mm too large (`PartExtent` tests). Searches from 81 points of each candidate patch.
 PartExtent extent_of_surfaces(const std::vector<nurbs::Surface>& surfaces);
 
-// The upper side of that box alone, z in mm.
+// The upper side of that box, z in mm.
 double highest_of_surfaces(const std::vector<nurbs::Surface>& surfaces);
 
-// Of the corners of triangles, one at least.
+// Precondition: at least one triangle.
 PartExtent extent_of_triangles(const Triangles& triangles);
 
-// The box round both.
+// The bounding box of both.
 PartExtent joined(const PartExtent& a, const PartExtent& b);
 
 }  // namespace cusp::import

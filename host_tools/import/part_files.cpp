@@ -1,4 +1,4 @@
-// A map for each kind of geometry; a mesh is read once for all tolerances as triangles only.
+// One cache for each kind of geometry.
 #include "host_tools/import/part_files.hpp"
 
 #include "host_tools/import/mesh_file.hpp"

@@ -1,4 +1,4 @@
-// PartFiles: the parts of a job by their files; each file is read once.
+// PartFiles: a cache of the parts of a job; each file is read once.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ using Triangles = std::vector<std::array<Vec3d, 3>>;
 // millimetres  of one unit of a file that names no unit: 1 or 25.4; equal in all calls
 class PartFiles {
 public:
-    // mesh_tolerance  mm: how closely surfaces over a mesh follow it
+    // mesh_tolerance  mm: as in `read_surfaces`
     const std::vector<nurbs::Surface>& surfaces(const std::string& file,
                                                 double millimetres,
                                                 double mesh_tolerance);
@@ -44,10 +44,10 @@ public:
 private:
     Similarity placed(const std::string& file) const;
 
-    // by file and tolerance
+    // keys: file, tolerance
     std::map<std::pair<std::string, double>, std::vector<nurbs::Surface>> surfaces_;
     std::map<std::string, Triangles> meshes_;
-    std::map<std::pair<std::string, double>, std::vector<FileLoop>> loops_;  // by file and join
+    std::map<std::pair<std::string, double>, std::vector<FileLoop>> loops_;  // keys: file, join
     std::map<std::string, Similarity> placed_;  // by file; others lie as they are
     bool is_placed_{false};
     std::vector<std::string> notes_;

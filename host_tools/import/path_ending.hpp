@@ -5,7 +5,7 @@
 
 namespace cusp::import {
 
-// With its dot, in small letters: ".step"; "" where there is none.
+// With its dot, in lower case: ".step"; "" where there is none.
 std::string path_ending(const std::string& file);
 
 // Files that hold parts, for messages.

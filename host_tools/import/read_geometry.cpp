@@ -1,4 +1,4 @@
-// Selects the reader by the ending of the file, and describes meshes in words.
+// Selects the reader by the ending of the file, and describes how meshes are converted.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -35,7 +35,7 @@ std::string path_ending(const std::string& file)
 
 namespace {
 
-// Sentences on how a mesh is taken, where it is more than smooth facets.
+// Adds notes on degenerate facets and overhangs.
 void describe(const std::string& file,
               const Facets& facets,
               double overhangs,
@@ -48,8 +48,8 @@ void describe(const std::string& file,
     }
     if (overhangs > kShown) {
         notes.push_back(fmt::format(
-            "{}: overhangs: {:.4g} mm2 of facets look down over the base; what is below them is "
-            "out of reach from above and stays",
+            "{}: overhangs: {:.4g} mm2 of facets face down above the base; material below them "
+            "can't be reached from above and remains",
             file, overhangs));
     }
 }
@@ -60,13 +60,13 @@ void describe_patches(const std::string& file,
                       std::vector<std::string>& notes)
 {
     notes.push_back(fmt::format(
-        "{}: its facets are covered by {} surfaces, nowhere below them and at most {:.3g} mm over "
+        "{}: its facets are covered by {} surfaces, nowhere below them and at most {:.3g} mm above "
         "them",
         file, patches.surfaces.size(), patches.lift));
     if (patches.loose_share > 0) {
         notes.push_back(fmt::format(
-            "{}: on {:.1f} % of its curved parts the path keeps up to {:.3g} mm off the mesh "
-            "instead of {:.3g} mm: cells of {:.3g} mm follow no closer",
+            "{}: on {:.1f} % of its curved parts the path is up to {:.3g} mm off the mesh instead "
+            "of {:.3g} mm: cells of {:.3g} mm are not more accurate",
             file, 100 * patches.loose_share, patches.lift, tolerance, patches.cell));
     }
 }
@@ -78,18 +78,18 @@ void describe_field(const std::string& file,
 {
     constexpr double kShown = 1e-3;
     notes.push_back(fmt::format(
-        "{}: its facets make no surfaces with clean edges (sides that run against each other, "
-        "facets over each other, too many sharp edges): it is taken as one height field",
+        "{}: its facets can't be grouped into surfaces (inconsistent orientation, facets above "
+        "each other, or too many sharp edges): it is taken as one height field",
         file));
     if (field.open_share > kShown) {
         notes.push_back(fmt::format(
-            "{}: no facet over {:.1f} % of its box; there the height is the mesh's lowest", file,
+            "{}: no facets on {:.1f} % of its box; there the height is the mesh's lowest", file,
             100 * field.open_share));
     }
     if (field.loose_share > 0) {
         notes.push_back(fmt::format(
-            "{}: on {:.1f} % of the mesh (steps, sharp edges) the path keeps up to {:.3g} mm above "
-            "it instead of {:.3g} mm: a height field of {:.3g} mm cells follows no closer",
+            "{}: on {:.1f} % of the mesh (steps, sharp edges) the path is up to {:.3g} mm above it "
+            "instead of {:.3g} mm: a height field of {:.3g} mm cells is not more accurate",
             file, 100 * field.loose_share, field.lift, tolerance, field.cell));
     }
 }

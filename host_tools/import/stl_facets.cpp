@@ -1,4 +1,4 @@
-// Binary STL: 80 bytes of title, a count, 50 bytes a facet. ASCII STL: words.
+// Binary STL: a header of 80 bytes, a count, 50 bytes for each facet. ASCII STL: words.
 #include "host_tools/import/stl_facets.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ constexpr std::size_t kHead = 84;
 constexpr std::size_t kFacet = 50;
 constexpr std::size_t kNormal = 12;
 
-// Bytes in the order of the file, least first.
+// Little endian.
 std::uint32_t word_at(const std::string& bytes, std::size_t at)
 {
     std::uint32_t word = 0;
@@ -43,9 +43,8 @@ Facets read_binary(const std::string& bytes, double unit, const std::string& fil
 {
     const std::size_t count = word_at(bytes, kHead - 4);
     if (bytes.size() < kHead + count * kFacet) {
-        throw InputError(
-            fmt::format("{}: cut short: {} facets are announced, that is {} bytes; the file has {}",
-                        file, count, kHead + count * kFacet, bytes.size()));
+        throw InputError(fmt::format("{}: truncated: {} facets need {} bytes; the file has {}",
+                                     file, count, kHead + count * kFacet, bytes.size()));
     }
     Facets facets;
     facets.triangles.reserve(count);
@@ -62,12 +61,12 @@ Facets read_binary(const std::string& bytes, double unit, const std::string& fil
     return facets;
 }
 
-// The words of an ASCII file with the lines they stand on.
+// The words of an ASCII file with their line numbers.
 class Words {
 public:
     Words(const std::string& text, std::string file) : rest_{text}, file_{std::move(file)} {}
 
-    // The next word in small letters; "" at the end.
+    // The next word in lower case; "" at the end.
     std::string next()
     {
         while (!rest_.empty() && std::isspace(static_cast<unsigned char>(rest_.front())) != 0) {
@@ -103,7 +102,7 @@ public:
     }
     [[noreturn]] void refuse(const std::string& word, const std::string& needed) const
     {
-        throw InputError(word.empty() ? fmt::format("{}:{}: cut short: {}", file_, line_, needed)
+        throw InputError(word.empty() ? fmt::format("{}:{}: truncated: {}", file_, line_, needed)
                                       : fmt::format("{}:{}: \"{}\" found, {}", file_, line_,
                                                     word.substr(0, 40), needed));
     }
@@ -119,7 +118,7 @@ std::array<Vec3d, 3> read_facet(Words& words, double unit)
 {
     words.expect("normal");
     for (int i = 0; i < 3; ++i) {
-        words.next();  // the normal follows from the corners; some write "nan" here
+        words.next();  // the corners define the normal; some programs write "nan" here
     }
     words.expect("outer");
     words.expect("loop");
@@ -141,7 +140,7 @@ Facets read_ascii(const std::string& text, double unit, const std::string& file)
     Words words{text, file};
     Facets facets;
     words.expect("solid");
-    words.skip_line();  // its name may be anything
+    words.skip_line();  // the name of the solid is free text
     bool open = true;
     for (std::string word = words.next();; word = words.next()) {
         if (word == "facet" && open) {
@@ -161,7 +160,7 @@ Facets read_ascii(const std::string& text, double unit, const std::string& file)
     }
 }
 
-// A binary title may start with "solid", too, so the size decides first.
+// A binary header may also start with "solid", so the size is tested first.
 bool is_ascii(const std::string& bytes)
 {
     if (bytes.size() >= kHead && bytes.size() == kHead + word_at(bytes, kHead - 4) * kFacet) {

@@ -9,8 +9,8 @@ namespace cusp::import {
 
 // millimetres  of one unit of the file: STL does not name its unit
 //
-// Errors: InputError with file, line (ASCII) or facet (binary), value and limit: a file cut short,
-// a coordinate that is no finite number or beyond kLargestCoordinate. `check_facets` is the caller's.
+// Errors: InputError with file, line (ASCII) or facet (binary), value and limit: a truncated file,
+// a coordinate that is not finite or beyond kLargestCoordinate. `check_facets` is the caller's.
 Facets read_stl(const std::string& file, double millimetres);
 
 }  // namespace cusp::import

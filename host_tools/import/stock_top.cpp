@@ -1,4 +1,4 @@
-// Each floor is measured once, whatever the number of operations on it.
+// Each floor is measured once, however many operations cut it.
 #include "host_tools/import/stock_top.hpp"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ double highest_of(const Operation& operation)
                                   : extent_of_triangles(operation.mesh).high.z;
 }
 
-// None where `counts` is false for all operations.
+// z of the highest point of the floors for which counts(operation); no value: there are none.
 template <class Counts>
 std::optional<double> highest_floor(const Job& job, const Counts& counts)
 {
@@ -52,8 +52,8 @@ std::optional<double> part_top(const Job& job)
 
 double default_stock_top(const Job& job)
 {
-    constexpr double kSteps = 1e4;         // of one mm
-    constexpr double kOverRounding = 0.5;  // of a step: how much too high a measure may be
+    constexpr double kSteps = 1e4;         // per mm
+    constexpr double kOverRounding = 0.5;  // of a step: excess of the measured height, ignored
     const double highest = *highest_floor(job, [](const Operation&) { return true; });
     return std::max(0.0, std::ceil(highest * kSteps - kOverRounding) / kSteps);
 }

@@ -1,4 +1,4 @@
-// What the stock takes from the parts where a job does not give it: their highest place, their box.
+// Defaults of the stock from the job's parts: their highest point, their box.
 #pragma once
 
 #include <optional>
@@ -8,12 +8,12 @@
 
 namespace cusp::import {
 
-// z of the highest place of the surfaces that operations without a boundary cut, mm. None where
-// all have a boundary: a pocket's walls rise over its floor.
+// z of the highest point of the surfaces that operations without a boundary cut, mm. No value where
+// all have a boundary: a pocket's walls are higher than its floor.
 std::optional<double> part_top(const job::Job& job);
 
-// z that the stock's top has where the job gives none, mm, rounded up to 1e-4: the highest place
-// of all floors, at least 0.
+// z of the stock's top in a job without stock.top, mm: the highest point of all floors, at least 0,
+// rounded up to 1e-4.
 double default_stock_top(const job::Job& job);
 
 // The box round all floors, mm; of a pocket no more in x and y than its boundary.

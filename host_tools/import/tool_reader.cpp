@@ -1,4 +1,4 @@
-// Shape first: which lengths a tool has depends on it.
+// Reads the shape first: it determines which lengths a tool has.
 #include "host_tools/import/tool_reader.hpp"
 
 #include <optional>

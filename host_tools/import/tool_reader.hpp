@@ -9,11 +9,11 @@
 
 namespace cusp::import {
 
-// Tool numbers as controllers take them.
+// Tool numbers that controllers accept.
 inline constexpr Range kToolNumber{1, 255};
 
 // file         of the job, for messages
-// index        the tool's place among the tables, from 1: its number where it has none
+// index        of the tool's table, from 1: the default of its number
 // millimetres  of one unit of the job
 //
 // Errors: InputError with line and key.

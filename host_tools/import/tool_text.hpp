@@ -1,4 +1,4 @@
-// A tool in one word, as the command line takes it: "ball:6", "flat:8", "bull:10:1.5".
+// Tools as options of the command line: "ball:6", "flat:8", "bull:10:1.5".
 #pragma once
 
 #include <string>
@@ -13,9 +13,9 @@ struct NamedTool {
 };
 
 // text  SHAPE:DIAMETER or bull:DIAMETER:CORNER_RADIUS; each length may end in "mm" or "in"
-// inch  whether lengths without an ending are inches, and those of the result
+// inch  whether the result, and lengths without an ending, are in inches
 //
-// Errors: InputError with the text, its fault and the right form.
+// Errors: InputError with the text, its fault and the expected form.
 NamedTool tool_of_text(const std::string& text, bool inch);
 
 // "ball 6 mm", "bull 10 mm with corners of 1.5 mm".

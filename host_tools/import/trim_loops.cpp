@@ -22,7 +22,7 @@ using nurbs::Surface;
 
 namespace {
 
-// Gaps and excursions up to this share of the domain's larger side are rounding of the file.
+// Gaps and excursions up to this fraction of the domain's longer side are rounding of the file.
 constexpr double kParameterShare = 1e-5;
 
 struct Domain {
@@ -37,7 +37,7 @@ Curve parameter_line(Vec2d a, Vec2d b)
     return {1, {0, 0, 1, 1}, {{a.x, a.y, 0}, {b.x, b.y, 0}}, {1, 1}};
 }
 
-// A loop whose mean width is below rounding encloses nothing.
+// Refuses a loop whose mean width is below rounding.
 void check_area(const std::vector<Vec2d>& closed,
                 std::size_t number,
                 double allowed,
@@ -92,13 +92,13 @@ std::vector<Loop> grouped(const std::vector<Curve>& curves,
         }
     }
     if (!open.empty()) {
-        chained(open, allowed, place);  // names the gap
+        chained(open, allowed, place);  // throws with the gap
         throw InputError(place + ": the last trim is not closed");
     }
     return loops;
 }
 
-// Point by point, in either direction.
+// Compares point by point, in both directions.
 bool same_loop(const std::vector<Vec2d>& a, const std::vector<Vec2d>& b)
 {
     const auto same = [](Vec2d p, Vec2d q) {

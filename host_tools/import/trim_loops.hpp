@@ -1,4 +1,4 @@
-// Trimming loops of a surface, in its parameters: chained, nested and oriented.
+// Trimming loops of a surface, in (u, v): chained, nested and oriented.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace cusp::import {
 
-// curves  in order, as the file lists them; each closed alone or with those after it. Outer
+// curves  in the order of the file; each is closed by itself or together with those after it. Outer
 //         loops run counter-clockwise, holes clockwise.
 //
-// Returns the loops, an outer one first; where the file gives holes only, the edge of the domain is
-// the outer loop.
+// Returns the loops, an outer one first. Where there are only holes, the boundary of the domain is
+// added as the outer loop.
 // Errors: an open loop, one that leaves the domain, loops that cross, loops whose directions
 // contradict their nesting.
 std::vector<std::vector<nurbs::Curve>> trim_loops(const std::vector<nurbs::Curve>& curves,

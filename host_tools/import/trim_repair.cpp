@@ -1,4 +1,4 @@
-// Merges ends that nearly meet; near poles curves become chords.
+// Merges ends that nearly meet; replaces curves near poles by chords.
 #include "host_tools/import/trim_repair.hpp"
 
 #include <algorithm>
@@ -12,11 +12,11 @@ using nurbs::SurfacePoint;
 
 namespace {
 
-// Ends of neighbouring edges this near in (u, v), as a share of the domain, are the same vertex:
-// model files keep vertices to 1e-3 mm at best.
+// Largest distance in (u, v), as a fraction of the domain, of edge ends that are the same vertex:
+// the tolerance of vertices in CAD files is 1e-3 mm at best.
 constexpr double kSameVertex = 2e-3;
 constexpr double kSamePole = 1e-3;  // mm
-// Converted curves along a seam stray by a tenth of a millimetre; the seam is the edge itself.
+// Converted curves along a seam deviate by up to a tenth of a millimetre from the seam.
 constexpr double kNearPole = 0.1;  // mm
 
 bool lies_inside(Vec3d p, const Surface& s)
@@ -24,7 +24,8 @@ bool lies_inside(Vec3d p, const Surface& s)
     return p.x >= s.u_begin() && p.x <= s.u_end() && p.y >= s.v_begin() && p.y <= s.v_end();
 }
 
-// Points just outside the domain, and those near a pole, where a parameter hardly moves the point.
+// Clamps points just outside the domain, and points near a pole, where a change of the parameter
+// hardly moves the point.
 Vec3d pulled_inside(Vec3d p, const Surface& s)
 {
     const Vec3d inside{std::clamp(p.x, s.u_begin(), s.u_end()),
@@ -37,7 +38,7 @@ Vec3d pulled_inside(Vec3d p, const Surface& s)
     return near || off_u * norm(at.du) + off_v * norm(at.dv) <= kNearPole ? inside : p;
 }
 
-// Distance of the place from the domain, as a share of it.
+// Distance of the point from the domain, as a fraction of the domain's size.
 double outside(Vec3d p, const Surface& s)
 {
     const double off_u = std::max({0.0, s.u_begin() - p.x, p.x - s.u_end()});
@@ -45,9 +46,9 @@ double outside(Vec3d p, const Surface& s)
     return std::max(off_u / (s.u_end() - s.u_begin()), off_v / (s.v_end() - s.v_begin()));
 }
 
-// Control points of a curve inside may lie outside: only points as far out as the curve itself are
-// moved. Towards a pole the control points of a converted curve lie far outside, the curve hardly:
-// there it becomes chords.
+// Control points of a curve inside the domain may be outside: only points as far out as the curve
+// itself are moved. Near a pole the control points of a converted curve are far outside while the
+// curve is not: there chords replace it.
 void pull_inside(Curve& curve, const Surface& s)
 {
     constexpr int kChords = 256;

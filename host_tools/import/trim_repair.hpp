@@ -7,11 +7,11 @@
 
 namespace cusp::import {
 
-// Points just outside the domain are moved into it, ends that nearly meet together.
+// Moves points just outside the domain into it, and joins ends that nearly meet.
 void tidy(std::vector<nurbs::Curve>& loop, const nurbs::Surface& surface);
 
-// Where a pole closes the loop, the edge there has no length, and its converted parameters are
-// wrong: a line along the pole's side of the domain replaces it.
+// Where a pole closes the loop, the edge has no length and its converted parameters are wrong.
+// Replaces it by a line along the pole's side of the domain.
 void bridge_poles(std::vector<nurbs::Curve>& loop, const nurbs::Surface& surface);
 
 }  // namespace cusp::import

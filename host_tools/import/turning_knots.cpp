@@ -19,7 +19,7 @@ constexpr int kMostParts = 32;
 constexpr int kLines = 9;
 constexpr int kLooks = 9;
 
-// Turn of the normal between two places of the domain, radians, summed over places between.
+// Angle by which the normal turns between two parameters, radians, summed over samples.
 template <class Place>
 double turn_between(const Surface& s, double from, double to, Place place)
 {

@@ -34,7 +34,7 @@ enum class CutDirection : std::uint8_t { kClimb, kConventional };
 using toolpath::EntryKind;
 enum class Traversal : std::uint8_t { kZigzag, kOneWay };
 
-// A pocket that the tool fits nowhere into. Where a drawing bounds several, the others are cut.
+// The tool fits nowhere into a pocket. Other pockets of the same drawing are still cut.
 class PocketRefusal : public InputError {
 public:
     using InputError::InputError;
@@ -48,7 +48,7 @@ struct Operation {
     std::string strategy;
     std::vector<nurbs::Surface> floor;
     std::vector<std::string> floor_files;
-    // Bodies that the floor was intersected with; `floor` is the result.
+    // Files of the bodies that the floor was intersected with; `floor` is the result.
     std::vector<std::string> intersect_files;
     // The triangles, where all of the floor is STL and the strategy is adaptive_isocurve or
     // parallel_planes; `floor` is empty then.
@@ -58,7 +58,7 @@ struct Operation {
     std::vector<Loop> islands;
     std::vector<std::string> island_files;
     toolpath::Tool tool;
-    // Those that rough, or that hull_rough may choose from; else `tool` alone.
+    // Tools that rough, or from which hull_rough chooses; otherwise `tool` alone.
     std::vector<toolpath::Tool> tools;
     OutputForm output{OutputForm::kLines};
     double plan_tolerance{};
@@ -92,7 +92,7 @@ struct Operation {
     std::optional<double> step_over;
 };
 
-// Share of an operation's progress at which roughing ends, where a finish follows.
+// Fraction of an operation's progress at which roughing ends, where a finish follows.
 inline constexpr double kRoughingDone = 0.5;
 
 struct Job {
@@ -103,7 +103,7 @@ struct Job {
     double plunge_feed{};  // mm/min
     double spindle{};      // rpm
     double stock_top{};
-    // z of the highest place of what operations without a boundary cut; none: all have one.
+    // z of the highest point that operations without a boundary cut; no value: all have a boundary.
     std::optional<double> part_top;
     double clearance{};  // above stock_top
     std::optional<double> stock_bottom;
@@ -111,11 +111,11 @@ struct Job {
     std::optional<std::array<double, 2>> stock_y;
     std::vector<Operation> operations;
     std::vector<std::string> notes;  // sentences on what the readers left out or changed
-    // Planners call it now and then with the approximate share of an operation that is done, 0 to
+    // Planners call it repeatedly with the approximate fraction of an operation that is done, 0 to
     // 1; may be empty.
     std::function<void(double)> progress;
 
-    // begun  share of the operation that was done before this part began
+    // begun  fraction of the operation that was done before this part began
     void report_progress(double share, double begun = 0.0) const
     {
         if (progress) {

@@ -1,4 +1,4 @@
-// Chains curves into loops; tests on their polylines.
+// Chains curves into loops, and tests their polylines.
 #include "host_tools/job/loop_shape.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kAllowedGap = 1e-3;  // mm
 constexpr double kLeastLength = 1e-6;
-// Chord tolerance for tests of inside and crossings.
+// Chord tolerance for the tests of containment and crossings, mm.
 constexpr double kChordTolerance = 1e-4;
 
 double gap(Vec3d a, Vec3d b) { return norm(in_plan(a) - in_plan(b)); }
@@ -30,7 +30,7 @@ double polygon_length(const Curve& curve)
     return length;
 }
 
-// A point seen from above, times its weight.
+// A point in plan in homogeneous coordinates.
 struct Weighted {
     double x, y, weight;
 
@@ -50,8 +50,8 @@ double distance_to_chord(Vec2d p, Vec2d a, Vec2d b)
     return norm(p - (a + foot * along));
 }
 
-// Chords of a Bezier piece, which is halved until its control points prove it flat. The depth
-// bounds the work.
+// Chords of a Bezier piece, bisected until its control points prove it flat. kDepth bounds the
+// recursion.
 class PieceChords {
 public:
     PieceChords(const Curve& piece, double tolerance, std::vector<Vec2d>& out)
@@ -72,7 +72,7 @@ public:
 private:
     static constexpr std::size_t kDepth = 18;
 
-    // The curve is a mean of its control points, of which the ends have a share.
+    // A point of the curve is a weighted mean of control points; the ends have a least weight.
     bool is_flat(const Weighted* polygon) const
     {
         const Vec2d a = polygon[0].place();
@@ -89,7 +89,7 @@ private:
         return farthest * inner <= tolerance_ * (inner + ends);
     }
 
-    // The room behind `polygon` is for its halves.
+    // The halves are stored behind `polygon`.
     void add(Weighted* polygon, std::size_t depth)
     {
         if (depth == kDepth || is_flat(polygon)) {
@@ -108,7 +108,7 @@ private:
     }
 
     std::size_t count_;
-    double share_of_ends_;  // at least, where weights are equal
+    double share_of_ends_;  // least sum of the ends' Bernstein polynomials
     double tolerance_;
     std::vector<Vec2d>& out_;
     std::vector<Weighted> polygons_;

@@ -1,5 +1,4 @@
-// Loops of curves: polylines of them, and how a file's loop becomes closed, simple and
-// counter-clockwise.
+// Loops of curves: their polylines, and the normal form: closed, simple, counter-clockwise.
 #pragma once
 
 #include <optional>
@@ -11,11 +10,11 @@
 
 namespace cusp::job {
 
-// Chords of the curves of a loop, seen from above, each within `tolerance` mm of its curve. The
-// last point is the first one again.
+// Chords of the curves of a loop in plan, each within `tolerance` mm of its curve. The last point
+// equals the first.
 std::vector<Vec2d> loop_polyline(const Loop& loop, double tolerance);
 
-// Areas covered twice count twice; positive where the polyline runs counter-clockwise.
+// mm^2; positive where the polyline runs counter-clockwise. Areas enclosed twice count twice.
 double signed_area(const std::vector<Vec2d>& closed);
 
 // A crossing of closed polylines with themselves or each other; no value where they only touch.
@@ -24,8 +23,8 @@ std::optional<Vec2d> crossing_of(const std::vector<std::vector<Vec2d>>& closed);
 // Even-odd test against a closed polyline.
 bool encloses(const std::vector<Vec2d>& closed, Vec2d point);
 
-// The loop in order, each curve starting where the one before ends, and its end where it starts.
-// Curves that run against the others are reversed; gaps up to `allowed_gap` are closed.
+// The loop with each curve starting at the end of the previous one, and closed. Reverses curves of
+// the opposite direction and closes gaps up to `allowed_gap`.
 //
 // Errors: a curve of no length, a gap. `place` starts the message.
 Loop chained(Loop loop, double allowed_gap, const std::string& place);

@@ -1,5 +1,5 @@
-// Tests at each place whether the best ball so far reaches it; where not, the ball shrinks until it
-// does. In a random order that happens some ten times, whatever the number of places.
+// Tests at each point whether the smallest ball so far reaches it; where it does not, bisects the
+// radius. In random order that happens some ten times, whatever the number of points.
 #include "host_tools/part_info/ball_reach.hpp"
 
 #include <algorithm>
@@ -21,22 +21,22 @@ using toolpath::ToolShape;
 namespace {
 
 constexpr double kPrecision = 5e-4;  // of the radius
-// Places are tested with a ball smaller by this: one that fits a hollow exactly is near all of it,
-// and the test takes ten times as long. Places around the tightest one are then tested again.
+// Points are tested with a ball smaller by this factor: a ball that fits a fillet exactly is near
+// all of it, and the test takes ten times as long. Points around the tightest are tested again.
 constexpr double kAskedFor = 0.95;
 constexpr double kAskedAgain = 0.995;
 constexpr std::size_t kAgain = 100;
-// Places that are tested in any case, and facets that may be examined for all others.
+// Points that are always tested, and the number of facets that may be examined for the others.
 constexpr std::size_t kFirst = 300;
 constexpr double kWork = 1e8;
 constexpr double kLeastWork = 1000;  // each
-// Of the touching direction along the normal: a ball beside the part's border touches an edge, but
-// not from above.
+// Least cosine between the direction of contact and the normal: beside the part's border a ball
+// touches an edge, but not from above.
 constexpr double kLeastFacing = 0.1;
-// As a share of the tolerance: touching is no cut.
+// As a fraction of the tolerance: contact is no gouge.
 constexpr double kTouching = 0.02;
 
-// How much a ball of one radius leaves at one place.
+// The material that a ball of one radius leaves at one point.
 class Leaving {
 public:
     Leaving(const PartModel& model,
@@ -67,8 +67,8 @@ public:
     }
 
 private:
-    // Starts with the ball that touches the place. Pushed out of what it cuts, again and again, it
-    // mostly ends beside the place.
+    // Starts with the ball that touches the point and repeatedly moves it out of its deepest gouge;
+    // usually the result touches next to the point.
     bool settles(double allowed) const
     {
         constexpr int kPushes = 12;
@@ -80,7 +80,7 @@ private:
             }
             const ToolDistance cut = model_.distance(ball_, tip, 0);
             Vec3d way = centre - cut.nearest.point;
-            way.z = std::max(0.0, way.z);  // the shank is cut from the side
+            way.z = std::max(0.0, way.z);  // the shank gouges sideways
             const double length = norm(way);
             if (!(length > 0) || !(cut.distance < 0)) {
                 return false;
@@ -90,7 +90,7 @@ private:
         return false;
     }
 
-    // Starts at the best place so far; ends early where it leaves little enough.
+    // Starts at the best position so far; ends as soon as no more than `allowed` is left.
     bool searched(double allowed)
     {
         constexpr double kFirstStep = 0.25;
@@ -102,7 +102,7 @@ private:
         return least_ <= allowed;
     }
 
-    // Rings of places: the search has several valleys beside walls.
+    // Samples rings of positions: beside walls there are several local minima.
     void look_around(Vec2d middle, double allowed)
     {
         constexpr int kWays = 16;
@@ -128,7 +128,7 @@ private:
         return true;
     }
 
-    // By the ball dropped there: from the place to the ball or to its shank.
+    // After dropping the ball at `at`: the distance from the point to the ball or its shank.
     double left_by(Vec2d at) const
     {
         const double reach = norm(at - in_plan(point_));
@@ -139,7 +139,7 @@ private:
         return left_at({at.x, at.y, tip ? *tip + ball_.radius : -kInfinite});
     }
 
-    // By a ball with its centre there.
+    // By a ball with this centre.
     double left_at(Vec3d centre) const
     {
         const Vec3d way{centre.x - point_.x, centre.y - point_.y,
@@ -160,7 +160,7 @@ private:
     Vec2d best_;
 };
 
-// What balls are tried on, and how near they are to come.
+// Model, facets and tolerance of a trial.
 struct Trial {
     const PartModel& model;
     double leaves;
@@ -174,10 +174,10 @@ struct Trial {
         return from(place.normal) || (place.two_sided && from(place.normal * -1.0));
     }
 
-    // The largest ball that reaches it, between one that does and one that does not.
+    // Bisects for the largest radius that reaches the point.
     double largest_at(const GroundPlace& place, double reaching, double failing) const
     {
-        // Small balls first: large ones that do not reach take long.
+        // Small balls first: a large ball that does not reach the point takes long.
         while (failing > 2 * reaching && reaches(place, 2 * reaching)) {
             reaching *= 2;
         }
@@ -190,7 +190,7 @@ struct Trial {
     }
 };
 
-// The first, likeliest places in their order; the others shuffled with a fixed seed.
+// The first points in their order, the others shuffled with a fixed seed.
 std::vector<std::size_t> order_of(std::size_t count)
 {
     std::vector<std::size_t> order(count);
@@ -203,8 +203,8 @@ std::vector<std::size_t> order_of(std::size_t count)
     return order;
 }
 
-// Of the places, those that a ball that touches the place nearly touches, too: a search for what it
-// cuts goes through the facets there.
+// The fraction of points near the ball that touches `place`: an estimate of the facets that a
+// search for its gouges has to examine.
 double share_near(const std::vector<GroundPlace>& places, const GroundPlace& place, double radius)
 {
     constexpr double kNear = 0.1;  // of the radius
@@ -222,13 +222,13 @@ BallReach largest_ball(const PartModel& model,
                        double tolerance,
                        double facets_off,
                        std::size_t facets,
-                       double most)
+                       double max_radius)
 {
     const Trial trial{model, tolerance, facets_off + kTouching * tolerance};
     BallReach found;
     found.leaves = tolerance;
     const double smallest = tolerance / 4;
-    double radius = most;
+    double radius = max_radius;
     const GroundPlace* tightest = nullptr;
     const auto ask = [&](const std::vector<std::size_t>& order, std::size_t begin, std::size_t end,
                          double share) {

@@ -1,4 +1,4 @@
-// Sums over the places of a part.
+// Sums over the sampled points of a part.
 #include "host_tools/part_info/ground.hpp"
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 namespace cusp::part_info {
 namespace {
 
-constexpr double kFront = 0.01;  // mm: how far in front of a place it is looked from above
-constexpr double kBase = 1e-3;   // mm: the underside is this near the lowest place
+constexpr double kFront = 0.01;  // mm: distance in front of a point at which visibility is tested
+constexpr double kBase = 1e-3;   // mm: height of the underside above the lowest point
 
 }  // namespace
 
@@ -61,8 +61,8 @@ Ground ground_of(const std::vector<GroundPlace>& places,
             ground.steepest = degrees;
             ground.steepest_at = place.point;
         }
-        if (degrees > kUprightDegrees) {
-            ground.upright_area += place.area;
+        if (degrees > kVerticalDegrees) {
+            ground.vertical_area += place.area;
         } else if (degrees > ground.steepest_slope.value_or(-1)) {
             ground.steepest_slope = degrees;
             ground.steepest_slope_at = place.point;

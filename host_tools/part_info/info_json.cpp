@@ -106,7 +106,7 @@ void add_ground(const Ground& ground, Json& out)
         out["steepest_slope_degrees"] = rounded(*ground.steepest_slope);
         out["steepest_slope_at_mm"] = point(ground.steepest_slope_at);
     }
-    out["upright_share"] = share(ground.upright_area, ground.area);
+    out["upright_share"] = share(ground.vertical_area, ground.area);
     out["level_share"] = share(ground.level_area, ground.area);
     if (ground.level_at) {
         out["level_at_mm"] = point(*ground.level_at);
@@ -169,7 +169,7 @@ std::string json_of(const std::vector<PartInfo>& parts)
     for (const PartInfo& info : parts) {
         out["files"].push_back(part_json(info));
     }
-    // names of files and layers may contain any characters
+    // names of files and layers may be invalid UTF-8
     return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

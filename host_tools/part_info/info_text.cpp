@@ -58,7 +58,7 @@ std::string unit_text(const PartUnit& unit)
         return unit.name + fmt::format(", assumed: the file names none (--units {} for the other)",
                                        unit.millimetres == 1 ? "inch" : "mm");
     }
-    const std::string name = unit.name.empty() ? "not told" : unit.name;
+    const std::string name = unit.name.empty() ? "unknown" : unit.name;
     return name + (unit.millimetres == 0 ? ", as the file says; read in mm" : ", as the file says");
 }
 
@@ -164,7 +164,7 @@ void add_mesh(const PartInfo& info, Lines& lines)
     }
     if (mesh.inverted_facets > 0) {
         lines.add("faults", count(mesh.inverted_facets, "facet", "facets") +
-                                " the wrong way round against their neighbours");
+                                " oriented against their neighbours");
     }
     if (mesh.inside_out_shells > 0) {
         lines.add("faults", count(mesh.inside_out_shells, "closed shell", "closed shells") +
@@ -186,10 +186,10 @@ void add_ground(const PartInfo& info, Lines& lines)
                                ? " hidden from above, by overhangs or other surfaces, as "
                                : " hidden from above, as ";
     lines.add("area", number(ground.area, 2) + " mm2");
-    lines.add("steepest", fmt::format("{} degrees from level, {}", number(ground.steepest, 2),
+    lines.add("steepest", fmt::format("{} degrees from horizontal, {}", number(ground.steepest, 2),
                                       place(ground.steepest_at)));
-    if (ground.upright_area > 0) {
-        lines.add("", "upright walls: " + area_and_share(ground.upright_area, ground.area));
+    if (ground.vertical_area > 0) {
+        lines.add("", "vertical walls: " + area_and_share(ground.vertical_area, ground.area));
         if (ground.steepest_slope) {
             lines.add("", fmt::format("apart from walls {} degrees, {}",
                                       number(*ground.steepest_slope, 2),
@@ -202,7 +202,7 @@ void add_ground(const PartInfo& info, Lines& lines)
     lines.add("undercuts",
               ground.hidden_at && ground.hidden_area > 0
                   ? area_and_share(ground.hidden_area, ground.area) + by + place(*ground.hidden_at)
-                  : "none: all is seen from above");
+                  : "none: everything is visible from above");
 }
 
 void add_ball(const PartInfo& info, Lines& lines)
@@ -211,11 +211,11 @@ void add_ball(const PartInfo& info, Lines& lines)
         lines.add("hollow radius", info.hollow ? fmt::format("{} mm, the smallest of the faces, {}",
                                                              number(info.hollow->radius),
                                                              place(info.hollow->place.point))
-                                               : "none: no face is hollow");
+                                               : "none: no face is concave");
     }
     const BallReach& ball = *info.ball;
     if (!ball.radius) {
-        lines.add("largest ball", "any ball reaches everything");
+        lines.add("largest ball", "every ball reaches everything");
         return;
     }
     const std::string diameter = number(2 * *ball.radius, 3) + " mm diameter";
@@ -248,7 +248,7 @@ std::string text_of(const PartInfo& info)
             faces += ", of " + count(info.solids, "solid", "solids");
         }
         if (info.unread_faces > 0) {
-            faces += fmt::format("; {} more look down and have broken edges", info.unread_faces);
+            faces += fmt::format("; {} more face down and have broken edges", info.unread_faces);
         }
         lines.add("faces", faces);
     }

@@ -1,4 +1,4 @@
-// Corners by a hash table, edges by sorting, shells by union and find with the side of each facet.
+// Corners by hashing, edges by sorting, shells by union-find with the orientation of each facet.
 #include "host_tools/part_info/mesh_health.hpp"
 
 #include <algorithm>
@@ -122,11 +122,11 @@ std::vector<Side> sides_of(const WeldedMesh& mesh)
     return sides;
 }
 
-// What is known of a shell, at the number of its root.
+// Properties of a shell, indexed by its root.
 struct Shell {
     std::size_t facets{};
     std::size_t against{};
-    double volume{};  // of the facets turned as the root is
+    double volume{};  // signed, with all facets oriented like the root
     bool open{};
 };
 

@@ -1,4 +1,4 @@
-// Normals of edges and corners are means of their facets'.
+// The normal of an edge or corner is the mean of the normals of its facets.
 #include "host_tools/part_info/mesh_places.hpp"
 
 #include <algorithm>
@@ -9,16 +9,16 @@ namespace cusp::part_info {
 namespace {
 
 constexpr double kPlacesInAll = 100000;
-constexpr double kUpright = 1e-9;  // z of a unit normal
+constexpr double kVertical = 1e-9;  // z of a unit normal
 
-// Twice the facet's area, along the normal as the corners run.
+// Twice the facet's area times its normal, by the order of its corners.
 Vec3d across_of(const WeldedMesh& mesh, std::size_t facet)
 {
     const auto& c = mesh.facets[facet];
     return cross(mesh.corners[c[1]] - mesh.corners[c[0]], mesh.corners[c[2]] - mesh.corners[c[0]]);
 }
 
-// As above, but out of its solid; upwards where the facet bounds none.
+// As above, but oriented out of the solid; upwards where there is none.
 Vec3d facing(const WeldedMesh& mesh, std::size_t facet)
 {
     const Vec3d across = across_of(mesh, facet);
@@ -30,8 +30,8 @@ Vec3d facing(const WeldedMesh& mesh, std::size_t facet)
 GroundPlace place_at(Vec3d point, Vec3d direction, double area, bool of_solid)
 {
     const Vec3d normal = direction / norm(direction);
-    return {point, normal, area, !of_solid && std::abs(normal.z) < kUpright,
-            of_solid && normal.z < -kUpright};
+    return {point, normal, area, !of_solid && std::abs(normal.z) < kVertical,
+            of_solid && normal.z < -kVertical};
 }
 
 void add_facet(const WeldedMesh& mesh,
@@ -61,7 +61,7 @@ void add_facet(const WeldedMesh& mesh,
 }
 
 struct Crease {
-    double width_over_turn;  // mm: the radius of a fillet that this edge would be part of
+    double width_over_turn;  // mm: the radius of the fillet that this edge may approximate
     std::size_t edge;
 };
 
@@ -128,7 +128,7 @@ std::vector<GroundPlace> crease_places(const WeldedMesh& mesh, std::size_t most)
         const Vec3d n1 = facing(mesh, edge.facets[1]);
         const Vec3d direction = n0 / norm(n0) + n1 / norm(n1);
         const Vec3d middle = (mesh.corners[edge.corners[0]] + mesh.corners[edge.corners[1]]) / 2.0;
-        if (norm(direction) > kUpright) {
+        if (norm(direction) > kVertical) {
             places.push_back(place_at(middle, direction, 0, mesh.outwards[edge.facets[0]] != 0));
         }
     }
@@ -143,7 +143,7 @@ std::vector<GroundPlace> crease_places(const WeldedMesh& mesh, std::size_t most)
     }
     const std::size_t step = std::max<std::size_t>(1, mesh.corners.size() / most);
     for (std::size_t k = 0; k < mesh.corners.size(); k += step) {
-        if (norm(sums[k]) > kUpright) {
+        if (norm(sums[k]) > kVertical) {
             places.push_back(place_at(mesh.corners[k], sums[k], 0, of_solid[k] != 0));
         }
     }

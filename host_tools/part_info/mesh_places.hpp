@@ -1,4 +1,4 @@
-// Samples a mesh: on facets by area, at corners and concave edges.
+// Samples a mesh on facets, by area, at corners and at concave edges.
 #pragma once
 
 #include <vector>
@@ -8,11 +8,11 @@
 
 namespace cusp::part_info {
 
-// Some 100 000 places: large facets have several; of very many small ones only some have one.
+// Some 100 000 points: several on large facets; where facets are very many, on some of them only.
 std::vector<GroundPlace> facet_places(const WeldedMesh& mesh);
 
-// Places where a ball may not reach: concave edges, the sharpest over their width first, then
-// corners. At most `most` of each; of more corners an even selection.
+// Points that a ball may not reach: concave edges, the sharpest relative to their width first, then
+// corners. At most `most` of each; corners are selected evenly.
 std::vector<GroundPlace> crease_places(const WeldedMesh& mesh, std::size_t most);
 
 }  // namespace cusp::part_info

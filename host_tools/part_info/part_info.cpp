@@ -40,10 +40,10 @@ using part_model::PartModel;
 
 namespace {
 
-// Balls are searched up to so many times the part's diagonal.
+// Largest ball that is tried, in diagonals of the part.
 constexpr double kLargestBall = 5;
 constexpr std::size_t kBallPlaces = 20000;
-// Share of the tolerance between faces and the facets that balls are tried on.
+// Fraction of the tolerance that the facets for trial balls may deviate from the faces.
 constexpr double kFacetShare = 0.25;
 
 PartUnit unit_of(double millimetres, bool assumed)
@@ -65,7 +65,7 @@ void widen_box(PartInfo& info, Vec3d p)
                      std::max(info.box_high.z, p.z)};
 }
 
-// Hidden layers count where nothing else is drawn.
+// Hidden layers count only if there is no other.
 void take_box_of_layers(PartInfo& info)
 {
     const auto widen = [&info](const auto& chains) {
@@ -144,7 +144,7 @@ std::vector<char> hidden_points(const TopOfPart& top, const std::vector<GroundPl
     return hidden;
 }
 
-// An even selection of the places that are not hidden, about `most` of them.
+// An even selection of about `most` points that are not hidden.
 void add_seen(const std::vector<GroundPlace>& places,
               const std::vector<char>& hidden,
               std::size_t most,

@@ -1,4 +1,4 @@
-// What a part file holds: unit, size, faces, loops, steepness, hollows, faults. The front door of
+// Describes a part file: unit, size, faces, loops, slopes, concave radii, faults. The front door of
 // `part_info`; docs/part_info.md explains each line.
 //
 //     const PartInfo info = inspect_part("part.step", {});
@@ -23,7 +23,7 @@ namespace cusp::part_info {
 
 struct InspectSettings {
     double millimetres{1};   // of one unit of files that name none: 1 or 25.4
-    double tolerance{0.01};  // mm: what a ball may leave
+    double tolerance{0.01};  // mm: material that a ball may leave
 };
 
 struct PartUnit {
@@ -34,15 +34,14 @@ struct PartUnit {
 
 struct LayerInfo {
     std::string name;  // "" where the file has no layers
-    bool hidden{};     // switched off or frozen: left out where no layer is asked for
+    bool hidden{};     // switched off or frozen: left out unless it is requested
     std::string problem;
     import::LoopNesting loops;
 };
 
 struct PartInfo {
-    std::string file;  // as it was named, "#layer" included
-    std::string
-        format;  // "STL", "OBJ", "3MF", "STEP", "IGES", "BREP", "JSON surfaces", "JSON curves", "DXF"
+    std::string file;    // as given, "#layer" included
+    std::string format;  // as "STEP", "JSON surfaces"
     PartUnit unit;
     Vec3d box_low, box_high;  // mm
 
@@ -52,13 +51,13 @@ struct PartInfo {
     // Surfaces and meshes. One of the first two is empty.
     std::vector<nurbs::Surface> surfaces;
     std::vector<std::array<Vec3d, 3>> triangles;
-    std::size_t pieces{};        // how many surfaces or triangles: their lists may be dropped
+    std::size_t pieces{};        // number of surfaces or triangles, whose lists may be dropped
     std::size_t solids{};        // STEP and IGES
     std::size_t unread_faces{};  // that face down and have broken edges
     std::size_t degenerate{};    // facets without area
     std::optional<MeshHealth> mesh;
     std::optional<Ground> ground;
-    std::optional<Hollow> hollow;  // of faces; none: nothing is hollow, or a mesh
+    std::optional<Hollow> hollow;  // of faces; no value: nothing is concave, or a mesh
     std::optional<BallReach> ball;
 
     bool is_drawing() const { return !layers.empty(); }

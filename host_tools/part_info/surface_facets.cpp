@@ -1,5 +1,5 @@
-// Each Bezier patch as even cells, by its second derivatives; cells that trims cut are quartered
-// until the convex hull of what is left of them is all face.
+// Divides each Bezier patch into equal cells, by its second derivatives. Trimmed cells are
+// quartered until the convex hull of their remaining part is inside the face.
 #include "host_tools/part_info/surface_facets.hpp"
 
 #include <algorithm>
@@ -18,14 +18,14 @@ namespace {
 
 constexpr double kMostFacets = 2e6;
 constexpr int kMostAlong = 4000;       // cells of a patch
-constexpr double kSmallestCut = 0.05;  // mm, of a cell along a trimmed edge
-constexpr double kEdgeShare = 5;       // of the tolerance, along trimmed edges
+constexpr double kSmallestCut = 0.05;  // mm: size of the smallest trimmed cell
+constexpr double kEdgeShare = 5;       // times the tolerance, along trimmed edges
 
 struct Cells {
     int u, v;
 };
 
-// By the second-order terms of the way between a cell and the surface.
+// From the second-order terms of the deviation between a cell and the surface.
 Cells cells_of(const Surface& s, double tolerance)
 {
     constexpr int kLooks = 6;
@@ -116,7 +116,7 @@ private:
         if (points.size() < 3) {
             return;
         }
-        // in shares of the cell, so that both directions have equal weight
+        // relative to the cell, so that both directions have equal weight
         for (Vec2d& p : points) {
             p = {(p.x - low.x) / size.x, (p.y - low.y) / size.y};
         }
@@ -141,7 +141,7 @@ private:
         }
     }
 
-    // Whether the hull is untrimmed at the middles of its sides.
+    // Whether the hull is inside the face at the midpoints of its sides.
     bool is_face(const std::vector<Vec2d>& hull, const TrimRegion& region, double width) const
     {
         Vec2d middle;

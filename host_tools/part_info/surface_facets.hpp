@@ -1,4 +1,4 @@
-// NURBS faces as triangles, within the tolerance of trial balls.
+// Tessellates NURBS faces within the tolerance of trial balls.
 #pragma once
 
 #include <array>
@@ -9,16 +9,16 @@
 namespace cusp::part_info {
 
 struct SurfaceFacets {
-    std::vector<std::array<Vec3d, 3>> triangles;  // none without area; neighbours may not meet in
-                                                  // corners, but within the tolerance
-    double tolerance{};                           // mm, that was kept
+    std::vector<std::array<Vec3d, 3>> triangles;  // none without area; neighbours meet within the
+                                                  // tolerance, not always at corners
+    double tolerance{};                           // mm, as achieved
 };
 
-// tolerance  mm, > 0: between triangles and surfaces; doubled until fewer than two million suffice.
-//            Trimmed edges keep to five times that, inner corners of trims to 0.05 mm.
+// tolerance  mm, > 0: between triangles and surfaces; doubled until two million triangles suffice.
+//            Trimmed edges are within five times that, concave corners of trims within 0.05 mm.
 //
-// PartModel's exact distances are too slow here: a ball that nearly fits a hollow is equally far
-// from all of it, so an exact search visits every cell. Facets are looked up.
+// PartModel's exact distances are too slow here: a ball that nearly fits a fillet is equally far
+// from all of it, so that an exact search visits every cell. Facets are found in a grid.
 SurfaceFacets surface_facets(const std::vector<nurbs::Surface>& surfaces, double tolerance);
 
 }  // namespace cusp::part_info

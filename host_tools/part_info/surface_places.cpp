@@ -1,4 +1,4 @@
-// Cells of Bezier patches, cut ones by the share of them that trims leave.
+// Cells of Bezier patches; a trimmed cell counts with the fraction of it that remains.
 #include "host_tools/part_info/surface_places.hpp"
 
 #include <algorithm>
@@ -19,16 +19,16 @@ namespace {
 
 constexpr double kEdgeError = 1e-3;  // mm, of trims
 constexpr double kPlacesInAll = 30000;
-constexpr double kUpright = 1e-9;  // z of a normal
+constexpr double kVertical = 1e-9;  // z of a normal
 constexpr double kParallel = 1e-12;
 
-// Whether the place is inside the trims.
+// Whether the point is inside the trims.
 bool kept(const TrimRegion& region, double u, double v)
 {
     return !region.trimmed() || region.inside(u, v);
 }
 
-// The length of the longest of three lines across the patch, each way.
+// The greatest length of three isolines of the patch, in each direction.
 std::array<double, 2> lengths_of(const Surface& s)
 {
     constexpr int kSteps = 8;
@@ -52,7 +52,7 @@ std::array<double, 2> lengths_of(const Surface& s)
     return longest;
 }
 
-// Derivatives on a Bezier patch with parameters of its own.
+// A Bezier patch with its own parameters.
 struct Patch {
     int surface;
     Surface bezier;
@@ -103,9 +103,9 @@ private:
         if (outward != 0 && dot(normal, across) * outward < 0) {
             normal = normal * -1.0;
         }
-        const bool upright = std::abs(normal.z) < kUpright;
-        out_.places.push_back(
-            {p.point, normal, area, outward == 0 && upright, outward != 0 && normal.z < -kUpright});
+        const bool vertical = std::abs(normal.z) < kVertical;
+        out_.places.push_back({p.point, normal, area, outward == 0 && vertical,
+                               outward != 0 && normal.z < -kVertical});
         out_.at.push_back({surface, u, v});
     }
 
@@ -129,7 +129,7 @@ private:
         }
     }
 
-    // Where a trim crosses the cell, its sample is a place inside the trim.
+    // Where a trim crosses the cell, the sample is a point inside the trim.
     void add_cell(const Patch& patch, const TrimRegion& region, Vec2d low, Vec2d size)
     {
         constexpr int kParts = 5;
@@ -180,7 +180,7 @@ private:
 
     void add_edges(int surface)
     {
-        constexpr std::size_t kMost = 200;  // a loop
+        constexpr std::size_t kMost = 200;  // for each loop
         for (const auto& loop : regions_[static_cast<std::size_t>(surface)].loops()) {
             const std::size_t step = std::max<std::size_t>(1, loop.size() / kMost);
             for (std::size_t k = 0; k < loop.size(); k += step) {
@@ -196,7 +196,7 @@ private:
     SurfacePlaces out_;
 };
 
-// So near a pole that derivatives are mostly rounding: a ten-thousandth of the surface.
+// Within 1e-4 of the surface's size from a pole: derivatives are dominated by rounding there.
 bool beside_pole(const Surface& s, const SurfacePoint& p)
 {
     constexpr double kShare = 1e-4;

@@ -1,4 +1,4 @@
-// Samples NURBS faces, and finds their smallest hollow radius.
+// Samples NURBS faces, and finds their smallest concave radius.
 #pragma once
 
 #include <array>
@@ -17,19 +17,19 @@ struct SurfaceAt {
 
 struct SurfacePlaces {
     std::vector<GroundPlace> places;
-    std::vector<SurfaceAt> at;  // of each
+    std::vector<SurfaceAt> at;  // parameters of each
 };
 
-// Middles of cells, some 30 000 in all but at least nine for each Bezier patch, with their areas;
-// corners of patches and places along trimmed edges, without.
+// Centres of cells with their areas, some 30 000 in total and at least nine in each Bezier patch;
+// and corners of patches and points on trimmed edges, without areas.
 //
-// outwards  of each surface: +1 where du x dv points out of a solid, -1 where in, 0 where it bounds
+// outwards  of each surface: +1 if du x dv points out of a solid, -1 if into it, 0 if it bounds
 //           none; empty: all 0
 SurfacePlaces surface_places(const std::vector<nurbs::Surface>& surfaces,
                              const std::vector<double>& outwards);
 
-// mm, of the ball that follows the surface across its sharpest hollow there, on the side that the
-// normal points to: one over the greater principal curvature; none where it is not hollow.
+// mm: the radius of the greatest concave principal curvature on the side of the normal; no value
+// where the surface is not concave.
 std::optional<double> hollow_radius(const nurbs::SurfacePoint& p, Vec3d normal);
 
 struct Hollow {
@@ -37,9 +37,9 @@ struct Hollow {
     GroundPlace place;
 };
 
-// The smallest hollow radius of the faces as seen from above: the best place, improved by a local
-// search. No value: nothing is hollow.
-// Accuracy: 1e-6 of the radius at the place; a smaller hollow between places may be missed.
+// The smallest concave radius of the faces from above: the best sample, improved by a local search.
+// No value: nothing is concave.
+// Accuracy: 1e-6 of the radius at the point; a smaller radius between samples may be missed.
 std::optional<Hollow> smallest_hollow(const std::vector<nurbs::Surface>& surfaces,
                                       const SurfacePlaces& places,
                                       const std::vector<char>& hidden);

@@ -139,7 +139,7 @@ void EdgeGougeCheck::add_edge(
     }
     const int parts = std::clamp(static_cast<int>(length / (kPiece * radius_)) + 1, 1, kMostPieces);
     Vec3d at = point_at(surface, from.x, from.y);
-    double upright = 0;
+    double normal_z = 0;
     for (int k = 0; k <= parts; ++k) {
         const Vec2d place = from + (to - from) * (static_cast<double>(k) / parts);
         const Vec3d next = point_at(surface, place.x, place.y);
@@ -148,9 +148,9 @@ void EdgeGougeCheck::add_edge(
         const Vec2d middle = place + (from - to) * (0.5 / parts) + aside;
         const bool is_inside = norm(aside) == 0 || trims.inside(middle.x, middle.y);
         if (k > 0 && is_inside && norm(next - at) > 0) {
-            add({at, next, std::max(upright, up)});
+            add({at, next, std::max(normal_z, up)});
         }
-        upright = up;
+        normal_z = up;
         at = next;
     }
 }
@@ -210,7 +210,7 @@ std::optional<EdgeGougeCheck::EdgeViolation> EdgeGougeCheck::violation_at(const 
     if (distance >= limit || distance <= 0) {
         return std::nullopt;
     }
-    const double faster = max_gouge_ / std::max(kLeastUp, piece.upright);
+    const double faster = max_gouge_ / std::max(kLeastUp, piece.normal_z);
     const double depth = faster * std::max(kLeastUp, way.z / distance);
     return EdgeViolation{limit - depth - distance, way, distance, faster};
 }
@@ -275,7 +275,7 @@ EdgeGougeCheck::RaisedTip EdgeGougeCheck::raised_clear(Vec3d tip, double band) c
     Vec3d out = vector_to_core(centre, last->from, last->to);
     const double distance = norm(out);
     const double share = out.z / distance;
-    const double faster = max_gouge_ / std::max(kLeastUp, last->upright);
+    const double faster = max_gouge_ / std::max(kLeastUp, last->normal_z);
     out = out / distance;
     if (share > kLeastUp) {
         out = out * (1 - faster * share / distance) + up * (faster / distance);
@@ -350,7 +350,7 @@ double EdgeGougeCheck::cut(Vec3d from, Vec3d to, double margin) const
             for (const Vec3d p : {piece.from, piece.to}) {
                 const Vec3d up{0, 0, radius_};
                 most =
-                    std::max(most, piece.upright * (p.z - lowest_over(a + up, b + up, round, p)));
+                    std::max(most, piece.normal_z * (p.z - lowest_over(a + up, b + up, round, p)));
             }
         });
     }

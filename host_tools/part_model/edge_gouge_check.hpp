@@ -14,7 +14,7 @@ namespace cusp::part_model {
 
 // A ball that cuts into a face along its normal removes as much as its depth. If it cuts as deep
 // into the edge of the face from the side, it removes more, measured square to the face: the depth
-// times the ratio of the normals' z, without limit at an upright edge.
+// times the ratio of the normals' z, without limit at a vertical edge.
 //
 // Edges are the borders of the surfaces' domains, knot lines where the tangent plane may jump, and
 // the edges of trims. They are polylines with sides of a 50th of the radius.
@@ -32,7 +32,7 @@ public:
     struct RaisedTip {
         Vec3d tip;
         // If raised: the centre of a ball of the tool's radius that the tool's centre touches now
-        // and may not enter. Exact but for edges of nearly upright faces.
+        // and may not enter. Exact but for edges of nearly vertical faces.
         std::optional<Vec3d> barrier;
     };
     RaisedTip raised_clear(Vec3d tip, double band) const;
@@ -48,7 +48,7 @@ private:
     struct Piece {
         Vec3d from;
         Vec3d to;
-        double upright;  // z of the face's normal, the larger of its ends
+        double normal_z;  // z of the face's normal, the larger of its ends
     };
     // How much farther from a piece the ball has to be.
     struct EdgeViolation {

@@ -36,7 +36,7 @@ struct FacetContact {
 std::optional<FacetContact> drop_ball_on_facet(
     const Facet& facet, double x, double y, double radius, double least);
 
-// Height of the facet at (x, y); none beside it, or where it is upright.
+// Height of the facet at (x, y); none beside it, or where it is vertical.
 std::optional<double> height_at(const Facet& facet, double x, double y);
 
 }  // namespace cusp::part_model

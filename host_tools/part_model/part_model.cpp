@@ -355,7 +355,7 @@ std::optional<PartModel::DroppedCutter> PartModel::drop_cutter(const Tool& tool,
             return std::nullopt;
         }
         const bool cut_a_little = tool.corner_radius > 0 && c.distance > -0.5 * tool.corner_radius;
-        // Beside an upright rim each step is as short as the distance from the rim: then the next
+        // Beside a vertical rim each step is as short as the distance from the rim: then the next
         // trial is half way down. A tool that is clear there can be lifted out, since its shank
         // covers everything above.
         const double bottom = std::max(low, floor - tool.radius);

@@ -160,7 +160,7 @@ public:
     };
     std::optional<DroppedBall> drop_ball(double x, double y, double radius) const;
 
-    // The highest point of a mesh at (x, y). None beside the mesh; upright facets have no height.
+    // The highest point of a mesh at (x, y). None beside the mesh; vertical facets have no height.
     struct TopPoint {
         Vec3d point;
         Vec3d normal;

@@ -1,5 +1,5 @@
-// CRC-32, ten bytes at a time: a run has some 10^5 edges a second of its time, and firmware/protocol's, which saves
-// flash, would take as long over them as the whole controller.
+// CRC-32, ten bytes at a time: a run has some 10^5 edges for each second of machine time. The CRC of
+// firmware/protocol, which saves flash, would take as long as the whole controller.
 #include "host_tools/program_run/edge_checksum.hpp"
 
 #include <array>
@@ -9,7 +9,7 @@
 namespace cusp::program_run {
 namespace {
 
-// tables[k][b]: what byte b does to the remainder, k bytes later.
+// tables[k][b]: the remainder of byte b followed by k bytes.
 using SlicedTables = std::array<std::array<std::uint32_t, 256>, 10>;
 
 constexpr SlicedTables make_tables()
@@ -34,7 +34,7 @@ constexpr SlicedTables make_tables()
 
 constexpr SlicedTables kTables = make_tables();
 
-// What the last two bytes of an edge, its wire and its level, do to the remainder: 2 wire + level.
+// The remainder of the last two bytes of an edge, wire and level; index: 2 wire + level.
 constexpr std::array<std::uint32_t, 4 * kAxisCount> make_ends()
 {
     std::array<std::uint32_t, 4 * kAxisCount> ends{};

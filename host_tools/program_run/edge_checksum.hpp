@@ -1,4 +1,4 @@
-// EdgeChecksum: one number for all edges of a run, by which two machines compare their pulses.
+// EdgeChecksum: one number for all edges of a run, to compare the pulses of two machines.
 #pragma once
 
 #include "host_tools/program_run/edge_listener.hpp"
@@ -17,7 +17,7 @@ public:
 
 private:
     std::uint32_t remainder_{0xFFFFFFFFU};
-    // What the upper half of the tick does to the remainder; it changes every 71 minutes.
+    // The remainder of the upper half of the tick, which changes every 71 minutes.
     std::uint32_t high_{0};
     std::uint32_t after_high_{0};
 };

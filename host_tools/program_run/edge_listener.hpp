@@ -1,4 +1,4 @@
-// EdgeListener: every edge of the step and direction lines, one by one, in the order of the pulse trace.
+// EdgeListener: receives every edge of the step and direction lines in the order of the pulse trace.
 #pragma once
 
 #include <array>
@@ -9,16 +9,16 @@
 
 namespace cusp::program_run {
 
-// Wires are step_x, dir_x, step_y, dir_y, step_z, dir_z, counted from 0. Edges of one pulse tick come by
-// axes, the direction of each before its step.
+// Wires are step_x, dir_x, step_y, dir_y, step_z, dir_z, counted from 0. Edges of one pulse tick are ordered by axis,
+// the direction of each before its step.
 //
-// `Own` is the class that inherits this. It has edge(tick, wire, level), called for each edge, and may have a
-// frame_begins(tick) of its own. No virtual call for an edge: a second of a run has some 10^5 of them.
+// `Own` is the derived class (CRTP). It has edge(tick, wire, level), called for each edge, and may have
+// frame_begins(tick). No virtual call: a second of machine time has some 10^5 edges.
 template <class Own>
 class EdgeListener : public hal::FrameListener {
 public:
-    //   start   pulse tick of virtual time that is 0 from here on; frames before it are passed over
-    //   levels  of the lines then
+    //   start   pulse tick of virtual time that counts as 0; earlier frames are ignored
+    //   levels  of the lines at that time
     EdgeListener(std::uint64_t start, PulseLines levels) : start_{start}, levels_{levels} {}
 
     void frame_played(std::uint64_t start_tick, const PulseFrame& frame) final;
@@ -26,7 +26,7 @@ public:
     void frame_begins(std::uint64_t /*tick*/) {}
 
 protected:
-    // When the last frame is over.
+    // Pulse tick at the end of the last frame.
     std::uint64_t end() const { return end_; }
 
 private:
@@ -35,8 +35,8 @@ private:
     std::uint64_t end_{0};
 };
 
-// Lines in the order in which their edges come: dir_x in bit 0, step_x in bit 1, dir_y in bit 2 and so on. The bit of
-// a line is its wire, but for the lowest bit.
+// Lines in the order of their edges: dir_x in bit 0, step_x in bit 1, dir_y in bit 2 and so on. The bit number of a
+// line is its wire with the lowest bit inverted.
 inline constexpr std::array<std::uint8_t, 64> kLinesInTraceOrder = [] {
     std::array<std::uint8_t, 64> order{};
     for (unsigned lines = 0; lines < order.size(); ++lines) {
@@ -53,7 +53,7 @@ inline constexpr std::array<std::uint8_t, 64> kLinesInTraceOrder = [] {
 template <class Own>
 void EdgeListener<Own>::frame_played(std::uint64_t start_tick, const PulseFrame& frame)
 {
-    // A frame that was in flight before the trace began is not of it.
+    // A frame in flight at the start does not belong to the trace.
     if (start_tick < start_) {
         return;
     }

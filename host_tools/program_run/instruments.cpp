@@ -1,4 +1,4 @@
-// Measures of a run.
+// Collects the measures of a run.
 #include "host_tools/program_run/instruments.hpp"
 
 #include "firmware/pulse/pulse_maker.hpp"
@@ -82,8 +82,8 @@ double Instruments::seconds() const
     return static_cast<double>(statistics_.ticks()) * kSecondsPerTick;
 }
 
-// When the last set point is reached, on the clock of the trace: the frame just handed over ends one tick of the
-// pulse maker's delay before it.
+// Time of the last set point on the clock of the trace: the frame just handed over ends one tick, the delay of the
+// pulse maker, before it.
 std::uint64_t Instruments::time_of_set_point() const
 {
     return player_.next_frame_start() - start_tick_ + kPulseTicksPerFrame + delay_us_;

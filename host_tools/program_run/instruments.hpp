@@ -1,4 +1,4 @@
-// Instruments: everything that looks at the controller while it runs a program.
+// Instruments: everything that measures the controller while it runs a program.
 #pragma once
 
 #include <optional>
@@ -13,15 +13,15 @@ namespace cusp::program_run {
 
 class Instruments {
 public:
-    // Both outlive the instruments, and the instruments the last tick of the controller.
+    // Both arguments must outlive the instruments, and the instruments the last tick of the controller.
     Instruments(board_sim::SimulatedController& controller, const RunOptions& options);
     Instruments(const Instruments&) = delete;
     Instruments& operator=(const Instruments&) = delete;
 
-    // One servo tick of everything.
+    // One servo tick of all measures.
     void tick();
 
-    // Plays what is in flight and fills in what was measured.
+    // Plays the frames in flight and fills in the measures.
     void finish(RunResult& result);
 
     // The next line of the program, before it is sent.

@@ -1,4 +1,4 @@
-// Stretches are doubled in length whenever they become too many.
+// Doubles the length of stretches whenever there are too many.
 #include "host_tools/program_run/motion_profile.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// MotionProfile: how fast and how hard a run moved, over its time, in a few thousand stretches however long it was.
+// MotionProfile: speed, acceleration and jerk of a run over time, in at most a few thousand stretches.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,8 @@ struct ProfileStretch {
 
 class MotionProfile {
 public:
-    // All stretches but the last are equally long: a power of two of servo ticks, so that no more than this many
-    // hold the run.
+    // All stretches but the last are equally long: the least power of two of servo ticks for which this number
+    // suffices.
     static constexpr std::size_t kMostStretches = 2048;
 
     // The set point of the next servo tick; the first is the start.

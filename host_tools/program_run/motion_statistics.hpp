@@ -1,4 +1,4 @@
-// MotionStatistics: how fast, how hard and how long the set points of a run moved.
+// MotionStatistics: greatest velocity, acceleration and jerk, length and time of a run.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 namespace cusp::program_run {
 
-// Takes one set point a servo tick, whole nanometres, so that the figures are those of the samples
-// file and not of any float along the way.
+// Takes one set point for each servo tick, in whole nanometres, so that the figures are those of the samples file,
+// without rounding to float.
 class MotionStatistics {
 public:
     explicit MotionStatistics(Position start) : window_{start} {}
 
     void add(Position set_point);
 
-    // Stands still for as long as the differences reach back. Call before reading the figures.
+    // Adds ticks of rest until all differences are complete. Call before reading the figures.
     void finish();
 
     // Greatest of each axis: mm/s, mm/s^2, mm/s^3.
@@ -25,11 +25,11 @@ public:
     Vec3d max_acceleration() const;
     Vec3d max_jerk() const;
 
-    // From the first to the last tick that moved, both counted.
+    // From the first to the last tick with motion, both included.
     std::uint64_t moving_ticks() const;
     std::uint64_t ticks() const { return ticks_; }
     Position end() const { return window_.latest(); }
-    // Way along the set points, mm.
+    // Length of the path of set points, mm.
     double length() const { return length_; }
 
 private:

@@ -44,7 +44,7 @@ PathPlace nearest_on_arc_from(const path::Arc& arc, Vec3d point, double t)
         const Vec3d away = at.position - point;
         const double slope = dot(away, at.first);
         const double curvature = dot(at.first, at.first) + dot(away, at.second);
-        // Far from the arc Newton's step would run away: steepest descent is enough there.
+        // Far from the arc Newton's method diverges: a step of steepest descent replaces it.
         const double step = slope / (curvature > 0 ? curvature : dot(at.first, at.first));
         const double next = std::clamp(t - step, 0.0, 1.0);
         if (std::fabs(next - t) < 1e-13) {
@@ -136,7 +136,7 @@ PathPlace nearest_on_bezier(const path::BezierPiece& piece, Vec3d point)
     return {nearest, static_cast<double>(best) / kSamples};
 }
 
-// Ties between two stretches go to the later one.
+// Of two equally near moves the later one counts.
 constexpr double kTie = 1e-7;
 
 }  // namespace
@@ -170,8 +170,8 @@ void PathDeviation::restart()
     place_ = end_;
 }
 
-// How far along the path the place may have moved since the last set point: what was travelled, and
-// what blending cuts off at a corner.
+// Bound of the movement along the path since the last set point: the distance travelled, and what
+// blending cuts off at a corner.
 double PathDeviation::reach(Position set_point) const
 {
     constexpr double kSlack = 0.5;

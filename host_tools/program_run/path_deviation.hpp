@@ -1,7 +1,7 @@
-// PathDeviation: how far the set points leave the programmed path.
+// PathDeviation: distance of the set points from the programmed path.
 //
-// Computed in double from the moves as parsed, apart from everything that plans and interpolates
-// them: true distances to lines, helices and rational Bezier curves.
+// Computed in double from the parsed moves, independently of planner and interpolator: true
+// distances to lines, helices and rational Bezier curves.
 #pragma once
 
 #include <cstdint>
@@ -11,30 +11,30 @@
 
 namespace cusp::program_run {
 
-// The place on a move that is nearest to a point.
+// The point of a move that is nearest to a given point.
 struct PathPlace {
     double distance;  // mm, within 1e-7
-    double part;      // of the move's parameter, 0 to 1
+    double part;      // the move's parameter there, 0 to 1
 };
 
-// The nearest point of an arc is sought where the angle says, for a helix in the turn that the
-// height says and its neighbours.
+// For an arc the search starts at the angle of the point; for a helix, in the turn at the point's
+// height and its neighbours.
 PathPlace nearest_place(const path::Move& move, Position point);
 
-// Follows the set points along the path. Where the path comes near itself, only the stretch around
-// the place of the last set point counts.
+// Follows the set points along the path. Where the path approaches itself, only the stretch around
+// the position of the last set point counts.
 class PathDeviation {
 public:
     // Moves in the order of the program. A move of no length is dropped.
     void add_move(const path::Move& move);
 
-    // The set point of the next servo tick. Returns its distance, mm; 0 where it stands still.
+    // The set point of the next servo tick. Returns its distance, mm; 0 without motion.
     double add_set_point(Position set_point);
 
-    // The machine has moved on its own: the path goes on with the next move.
+    // The machine has moved by itself (homing, a probe): the path continues with the next move.
     void restart();
 
-    // Greatest distance so far, mm, and the line of the move that was nearest there.
+    // Greatest distance so far, mm, and the line of the nearest move there.
     double greatest() const { return greatest_; }
     std::uint32_t line() const { return line_; }
 

@@ -20,10 +20,10 @@ namespace {
 
 using machine::State;
 
-// A controller at rest that answers nothing for a day of its time will not answer any more.
+// A controller at rest that has not answered for a day of machine time is stuck.
 constexpr std::uint64_t kPatience = 24ULL * 3600 * kServoTicksPerSecond;
 
-// The sender: one line at a time, the next as soon as the answer is there.
+// The sender: one line at a time, each after the answer to the one before.
 class Sender {
 public:
     Sender(SimulatedController& controller, RunResult& result)
@@ -41,7 +41,7 @@ public:
         waiting_ = true;
     }
 
-    // Reads what the controller has said.
+    // Processes the controller's output.
     void listen()
     {
         for (const char byte : controller_.board().byte_link.take_answers()) {
@@ -54,7 +54,7 @@ public:
         }
     }
 
-    // From here on a banner means that the program is gone.
+    // From now on a banner means that the controller was reset and the program lost.
     void begin() { begun_ = true; }
     bool waiting() const { return waiting_; }
     bool failed() const { return !result_.errors.empty() || result_.alarm != 0; }
@@ -101,7 +101,7 @@ public:
           controller_{mill_geometry(options.settings, options.probe_z, kNearHome)},
           sender_{controller_, result_}
     {
-        // A store in memory takes them: no power cut is set.
+        // A store in memory accepts them: no power cut is set.
         store_settings(options.settings, controller_.board().settings_store);
         controller_.power_on();
         // The length of the pulse on the probe, the limits: all is as it was stored.
@@ -160,7 +160,7 @@ private:
         phase_ = Phase::kRunning;
     }
 
-    // Sends all that can be sent now, then lets one servo tick pass.
+    // Sends what can be sent now, then advances one servo tick.
     void step()
     {
         if (sender_.failed()) {
@@ -258,18 +258,18 @@ private:
     void count_waiting()
     {
         const bool rests = machine().motion().finished();
-        // Bytes that the line still carries, and nothing to do meanwhile.
+        // Only bytes in transit on the line are left.
         if (rests && controller_.board().byte_link.unread() > 0) {
             ++result_.starved_ticks;
         }
         resting_ticks_ = rests ? resting_ticks_ + 1 : 0;
         if (resting_ticks_ > kPatience) {
-            result_.errors.push_back(
-                {source_.line_number(), 0, "the controller rests and answers no more", "", ""});
+            result_.errors.push_back({source_.line_number(), 0,
+                                      "the controller is at rest and does not answer", "", ""});
         }
     }
 
-    // After an error what was taken already is still done, as on a real machine.
+    // After an error, accepted lines are still executed, as on a real machine.
     void come_to_rest()
     {
         const bool held = machine().state() == State::kHold && machine().motion().at_rest();
@@ -297,7 +297,7 @@ private:
     LineEffects effects_;
     Phase phase_{Phase::kHoming};
     bool no_more_lines_{false};
-    bool measured_tool_{false};  // by the line that was sent last
+    bool measured_tool_{false};  // the line sent last may measure the tool
     std::uint64_t ticks_{0};
     std::size_t next_byte_{0};  // of the script
     std::uint64_t resting_ticks_{0};

@@ -7,8 +7,8 @@
 //     }
 //     const RunResult result = run.result();
 //
-// The run is the sender too: a line goes out as soon as the one before is answered, in no time. The
-// first error or alarm ends the run.
+// The run also acts as the sender: a line is sent as soon as the one before is answered, without
+// delay. The first error or alarm ends the run.
 #pragma once
 
 #include <cstdint>
@@ -42,28 +42,28 @@ struct SetPoint {
 
 struct RunOptions {
     machine::Settings settings;
-    // While it has bytes left a hold lasts until the script's cycle start; without, it is over at
+    // While bytes are left, a hold lasts until the script's cycle start; afterwards a hold ends at
     // once.
     std::vector<ScriptedByte> script;
-    // Height of the probe plate over the start, mm.
+    // Height of the probe plate above the start, mm.
     std::optional<double> probe_z;
     // Bits per second of the serial line; 0: lines take no time.
     std::uint32_t bits_per_second{0};
     // Whether the deviation from the programmed path is measured.
     bool measures_deviation{true};
-    // Called once, when the machine has homed and stands where the program starts.
+    // Called once, when the machine has homed and is where the program starts.
     std::function<void(hal::SimulatedBoard&)> started;
     // Called for the start and for every servo tick.
     std::function<void(const SetPoint&)> set_point;
 };
 
-// An answer that ended the run, or a line that the sender could not send.
+// An error answer or alarm that ended the run, or a line that could not be sent.
 struct RunError {
     std::uint64_t line;  // of the program
     int code;            // Grbl's; 0 where the fault is not the firmware's
     std::string text;
-    std::string block;  // the line as the program has it; empty where the fault is not a line's
-    std::string word;   // of the block, the one that is refused; empty where no single word is
+    std::string block;  // the line as in the program; empty where the fault is not of a line
+    std::string word;   // the refused word of the block; empty where no single word is wrong
 };
 
 struct RunResult {
@@ -82,7 +82,7 @@ struct RunResult {
     std::uint64_t starved_ticks{0};
     int alarm{0};  // Grbl's code; 0: none
     std::vector<RunError> errors;
-    // M0, M1 and tool changes, which went on at once.
+    // M0, M1 and tool changes, which are resumed at once.
     std::vector<std::uint64_t> pause_lines;
     std::uint64_t pauses{0};
     std::vector<ToolTime> tools;  // in the order of their first use
@@ -98,19 +98,19 @@ std::string fault_text(const RunResult& result, const RunError& error);
 
 class ProgramRun {
 public:
-    // The lines of the program, and the options, outlive the run.
+    // Both arguments must outlive the run.
     ProgramRun(dialect::LineSource& source, const RunOptions& options);
     ~ProgramRun();
     ProgramRun(const ProgramRun&) = delete;
     ProgramRun& operator=(const ProgramRun&) = delete;
 
-    // At most one servo tick. Returns whether the run goes on.
+    // Advances at most one servo tick. Returns false at the end of the run.
     bool advance();
 
-    // Sends no more: the run goes on until the machine rests.
+    // Stops sending; the run ends when the machine is at rest.
     void stop();
 
-    // Of the program's bytes, 0 to 1; its line that was sent last; the time of the machine so far.
+    // Fraction of the program's bytes that are sent, line sent last, and machine time so far.
     double fraction() const;
     std::uint64_t line() const;
     double seconds() const;

@@ -1,4 +1,4 @@
-// Reading along with the controller.
+// Interprets lines in parallel to the controller.
 #include "host_tools/program_run/program_shadow.hpp"
 
 namespace cusp::program_run {
@@ -51,7 +51,7 @@ void ProgramShadow::take(const gcode::Action& action, LineEffects& effects)
 void ProgramShadow::count(const path::Move& move)
 {
     if (std::holds_alternative<path::BezierPiece>(move.path)) {
-        return;  // curves are counted where they begin
+        return;  // a curve is counted at its first piece
     }
     if (std::holds_alternative<path::Arc>(move.path)) {
         ++moves_.arc;

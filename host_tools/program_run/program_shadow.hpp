@@ -1,5 +1,5 @@
-// ProgramShadow: what the program asks for, read by an interpreter of our own beside the
-// controller's: counts moves, sees the end and the pauses, and knows the path.
+// ProgramShadow: interprets the program in parallel to the controller, with an interpreter of its own: counts moves,
+// detects pauses and the end, and provides the programmed path.
 #pragma once
 
 #include <cstdint>
@@ -17,32 +17,32 @@ struct ProgramMoveCounts {
     std::uint64_t nurbs{0};  // curves
 };
 
-// What a line asks for beyond moves.
+// Effects of a line other than moves.
 struct LineEffects {
     bool ends_program{false};
     bool pauses{false};        // M0, M1, M6
     bool changes_tool{false};  // M6
-    // The position is known once the controller has answered: a probe, a $ command.
+    // The end position is known only after the controller's answer: a probe, a $ command.
     bool moves_by_itself{false};
 };
 
 class ProgramShadow {
 public:
-    // The program starts here, machine coordinates.
+    // start: position at the start of the program, machine coordinates.
     explicit ProgramShadow(Position start) { set_position(start); }
 
-    // The next line, numbered, before it is sent. A line that the interpreter refuses has no
-    // effects: the controller will say so.
+    // The next line, numbered, before it is sent. A line that the interpreter refuses has no effects: the controller
+    // will refuse it.
     LineEffects read(std::string_view line, std::uint64_t number);
 
-    // Where the controller stands after a line that moves by itself.
+    // The controller's position after a line that moves by itself.
     void set_position(Position at)
     {
         interpreter_.set_position(at);
         deviation_.restart();
     }
 
-    // After a tool change that may have measured the tool: where the controller stands, and its offsets.
+    // After a tool change that may have measured the tool: the controller's position and offsets.
     void tool_changed(Position at, const gcode::Parameters& parameters)
     {
         interpreter_.set_parameters(parameters);
@@ -52,7 +52,7 @@ public:
     // The T word in force; 0 where none was.
     int tool() const { return interpreter_.modal().tool; }
 
-    // A NURBS is begun and not ended.
+    // Inside a NURBS block.
     bool in_nurbs() const;
 
     const ProgramMoveCounts& moves() const { return moves_; }

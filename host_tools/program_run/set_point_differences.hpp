@@ -13,7 +13,7 @@ struct SetPointDifferences {
     Position jerk;          // nm a tick^3
 };
 
-// The last set points of a run that stood still before it.
+// The last set points of a run; before its start the machine was at rest.
 class SetPointWindow {
 public:
     explicit SetPointWindow(Position start) : last_{start, start, start} {}

@@ -1,4 +1,4 @@
-// Reading of settings.
+// Parses settings.
 #include "host_tools/program_run/settings_lines.hpp"
 
 #include <algorithm>
@@ -45,7 +45,7 @@ std::string text_of(const char* format, Values... values)
     return text.data();
 }
 
-// The setting's number of `$N`; none where it is malformed.
+// N of `$N`; no value where it is malformed.
 std::optional<std::uint32_t> setting_number(std::string_view name)
 {
     if (name.empty() || name.front() != '$') {
@@ -122,7 +122,7 @@ std::string fault_text(const machine::SettingFault& fault)
                    unsigned{fault.first}, unsigned{fault.second}, 1000.0 * amount, 1000.0 * limit);
 }
 
-// What the settings can't be used together for, at the last line that has to do with it.
+// A contradiction between settings, attributed to the last line that takes part in it.
 std::optional<SettingsRefusal> refusal_together(const Settings& settings,
                                                 const std::vector<Assignment>& assignments)
 {
@@ -136,7 +136,7 @@ std::optional<SettingsRefusal> refusal_together(const Settings& settings,
         line = std::max(line, assignment.line);
     }
     std::uint64_t line = 0;
-    // $0 says how close steps may come.
+    // $0 is the least time between steps.
     for (const std::uint16_t number : {fault->first, fault->second, std::uint16_t{0}}) {
         line = std::max(line, last_line[number]);
     }

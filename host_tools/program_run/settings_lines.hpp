@@ -1,4 +1,4 @@
-// Settings as text: Grbl's own lines, `$100=800.000`, one a line.
+// Settings as text in Grbl's format, `$100=800.000`, one on each line.
 #pragma once
 
 #include <cstdint>
@@ -13,13 +13,12 @@ namespace cusp::program_run {
 // Why settings are refused.
 struct SettingsRefusal {
     std::uint64_t line;  // from 1; 0: no line of the text
-    std::string text;    // names setting, value and limit
+    std::string text;    // with setting, value and limit
 };
 
-// Puts what the lines say into `settings`. Blank lines, and text after the value in parentheses or after
-// ';' or '#', are passed over.
+// Changes `settings` by the lines. Ignores blank lines, and text after the value in parentheses or after ';' or '#'.
 //
-// Refused: a line that is no setting, a value out of range, settings that can't be used together.
+// Returns a refusal for a line that is no setting, a value out of range, or settings that contradict each other.
 std::optional<SettingsRefusal> read_settings(dialect::LineSource& source,
                                              machine::Settings& settings);
 

@@ -1,4 +1,4 @@
-// Starts are kept by line: the tick says which line is executed.
+// Stores the first line of each tool; each tick names the line that is executed.
 #include "host_tools/program_run/tool_times.hpp"
 
 #include <algorithm>

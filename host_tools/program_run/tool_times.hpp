@@ -1,4 +1,4 @@
-// ToolTimes: how long each tool of a program is at work.
+// ToolTimes: the time that each tool of a program is in use.
 #pragma once
 
 #include <cstddef>
@@ -11,24 +11,24 @@ namespace cusp::program_run {
 
 struct ToolTime {
     int number;           // its T word; 0: the program names none
-    std::uint64_t ticks;  // of the servo: cuts, rapid moves and dwells
+    std::uint64_t ticks;  // servo ticks of cuts, rapid moves and dwells
 
     double seconds() const { return static_cast<double>(ticks) / kServoTicksPerSecond; }
 };
 
-// Lines are sent long before they are executed: a tool's time begins with the first move after its
-// T word. What is done before the first T word counts for the first tool.
+// Lines are sent long before they are executed, so a tool's time starts with the first move after
+// its T word. Ticks before the first T word count for the first tool.
 class ToolTimes {
 public:
-    // A line, in the order of the program, leaves this tool in the spindle.
+    // The tool in the spindle after a line; in the order of the program.
     void read_line(std::uint64_t line, int tool);
 
-    // One servo tick of the line.
+    // One servo tick, in which the line was executed.
     void add_tick(std::uint32_t executing_line);
 
     // In the order of their first use.
     const std::vector<ToolTime>& times() const { return times_; }
-    // From one tool to another.
+    // Number of changes from one tool to another.
     std::uint64_t changes() const { return changes_; }
 
 private:

@@ -1,4 +1,4 @@
-// Maps of squares as few strokes: runs of one colour along columns are drawn as one.
+// Maps of squares with few strokes: a run of one colour along a column is one stroke.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace cusp::report {
 
-// Squares are added column by column, upwards. All runs of a colour are one path, in whole numbers
-// of squares: a tenth of the text of single rectangles.
+// Squares are added column by column, upwards. All runs of a colour are one path with integer
+// coordinates, a tenth of the size of single rectangles.
 class ColourRuns {
 public:
     static constexpr int kNothing = -1;
@@ -35,7 +35,7 @@ public:
     std::string text(double x, double y, double side, const Attributes& attributes)
     {
         finish();
-        constexpr double kOverlap = 1.05;  // no gaps between neighbours
+        constexpr double kOverlap = 1.05;  // avoids gaps between neighbours
         std::string out = fmt::format(
             "<g transform=\"translate({:.4f} {:.4f}) scale({:.6f} {:.6f})\" fill=\"none\" "
             "stroke-width=\"{}\">\n",

@@ -1,4 +1,4 @@
-// A scale of evenly growing brightness, so that it is readable in grey, too.
+// A scale of monotonic brightness, so that it is readable in grey as well.
 #include "host_tools/report/colour_scale.hpp"
 
 #include <algorithm>
@@ -23,13 +23,13 @@ constexpr double kSlack = 1e-6;  // of a step between the numbers of a scale
 
 }  // namespace
 
-double round_below(double most)
+double round_below(double limit)
 {
-    if (!(most > 0)) {
+    if (!(limit > 0)) {
         return 1;
     }
-    const double power = std::pow(10.0, std::floor(std::log10(most)));
-    const double share = most / power;
+    const double power = std::pow(10.0, std::floor(std::log10(limit)));
+    const double share = limit / power;
     return power * (share >= 5 ? 5 : share >= 2 ? 2 : 1);
 }
 
@@ -55,14 +55,9 @@ int step_of(double value, double low, double high)
     return std::clamp(static_cast<int>(share * kColourSteps), 0, kColourSteps - 1);
 }
 
-std::string scale_bar(double x,
-                      double y,
-                      double height,
-                      double text,
-                      double low,
-                      double high,
-                      const std::string& title)
+std::string scale_bar(const ScaleLayout& layout, double low, double high, const std::string& title)
 {
+    const auto [x, y, height, text] = layout;
     const double width = 1.4 * text;
     const double step_height = height / kColourSteps;
     std::string out = fmt::format(
@@ -78,7 +73,7 @@ std::string scale_bar(double x,
     for (double number = std::ceil(low / step - kSlack) * step; number <= high + kSlack * step;
          number += step) {
         const double share = high > low ? (number - low) / (high - low) : 0;
-        // what is nearly zero is zero
+        // rounding must not print as "-1e-17"
         const double shown = std::abs(number) < kSlack * step ? 0 : number;
         out += fmt::format(
             "<text x=\"{:.3f}\" y=\"{:.3f}\" font-size=\"{:.3f}\" "

@@ -1,11 +1,11 @@
-// Colours for numbers, and the scale that explains them, for SVG pictures.
+// Colours for numbers, and their scale, for SVG pictures.
 #pragma once
 
 #include <string>
 
 namespace cusp::report {
 
-// Steps of the scale: few enough that neighbours merge in the picture.
+// Steps of the scale: few enough that neighbouring points of one colour can be merged.
 inline constexpr int kColourSteps = 32;
 
 // "#rrggbb" of a step, 0 to kColourSteps - 1: dark violet, blue, green, yellow.
@@ -14,19 +14,17 @@ std::string colour_of_step(int step);
 // The step of a value between low and high; clamped.
 int step_of(double value, double low, double high);
 
-// 1, 2 or 5 times a power of ten, at most `most`; 1 where that is not above 0.
-double round_below(double most);
+// 1, 2 or 5 times a power of ten, at most `limit`; 1 where that is not above 0.
+double round_below(double limit);
 
-// The scale as a vertical bar with round numbers.
-//
-// x, y          of its upper left corner
-// height, text  height of the bar and size of its text, in the picture's units
-std::string scale_bar(double x,
-                      double y,
-                      double height,
-                      double text,
-                      double low,
-                      double high,
-                      const std::string& title);
+// Position and size of a scale, in the picture's units.
+struct ScaleLayout {
+    double x, y;    // of the upper left corner
+    double height;  // of the bar
+    double text;    // size of the text
+};
+
+// The scale from `low` to `high` as a vertical bar with round numbers.
+std::string scale_bar(const ScaleLayout& layout, double low, double high, const std::string& title);
 
 }  // namespace cusp::report

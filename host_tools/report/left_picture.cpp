@@ -1,5 +1,6 @@
-// Cells of the map, merged along columns where their colours agree.
+// Merges cells of one colour along columns.
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "host_tools/report/colour_runs.hpp"
@@ -17,7 +18,7 @@ using verify::Verification;
 
 namespace {
 
-// Colours besides the scale: not cut at all, or left higher than the bound.
+// Colours beside the scale: not cut, or higher than the bound.
 constexpr int kUncut = kColourSteps;
 constexpr int kOver = kColourSteps + 1;
 constexpr const char* kOverColour = "#d7191c";
@@ -27,21 +28,19 @@ constexpr std::size_t kMostCells = 400;  // along the longer side of the picture
 int step_of_square(
     const Verification& result, std::size_t i0, std::size_t j0, std::size_t size, double highest)
 {
-    double most = -1e300;
-    bool any = false;
+    std::optional<double> most;
     for (std::size_t i = i0; i < std::min(result.grid.nx, i0 + size); ++i) {
         for (std::size_t j = j0; j < std::min(result.grid.ny, j0 + size); ++j) {
             const double left = result.left[result.grid.index(i, j)];
             if (!std::isnan(left)) {
-                any = true;
-                most = std::max(most, left);
+                most = std::max(most.value_or(left), left);
             }
         }
     }
-    if (!any) {
+    if (!most) {
         return ColourRuns::kNothing;
     }
-    return std::isinf(most) ? kUncut : most > highest ? kOver : step_of(most, 0, highest);
+    return std::isinf(*most) ? kUncut : *most > highest ? kOver : step_of(*most, 0, highest);
 }
 
 }  // namespace

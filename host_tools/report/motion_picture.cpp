@@ -28,20 +28,20 @@ constexpr double kTextSize = 12;
 constexpr double kNoteHeight = 12;
 constexpr double kPercent = 100;
 
-// Of Okabe and Ito: distinct for the colour-blind, and in grey.
+// Palette of Okabe and Ito: distinct for the colour-blind, and in grey.
 constexpr const char* kSpeedColour = "#000000";
 constexpr const char* kJerkColour = "#56b4e9";
 constexpr const char* kAccelerationColour = "#e69f00";
 constexpr const char* kVelocityColour = "#0072b2";
 
-// Third differences of places rounded by half a nanometre, at 1 kHz.
+// Third differences of positions rounded by half a nanometre, at 1 kHz.
 constexpr const char* kRoundingNote =
     "Set points are whole nanometres: up to 4000 mm/s³ of jerk is rounding.";
 
 struct Curve {
     std::string name;
     const char* colour;
-    std::vector<double> values;  // a stretch each
+    std::vector<double> values;  // one for each stretch
 };
 
 std::string text_at(double x, double y, const char* anchor, const std::string& text)
@@ -55,7 +55,7 @@ std::string line_between(double x1, double y1, double x2, double y2, const char*
     return fmt::format("<path d=\"M{:.1f} {:.1f}L{:.1f} {:.1f}\" {}/>\n", x1, y1, x2, y2, style);
 }
 
-// One panel: its place, and what its axes mean.
+// Position and axes of one panel.
 struct MotionPanel {
     int row;
     double seconds;  // at the right end

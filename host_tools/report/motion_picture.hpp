@@ -1,4 +1,4 @@
-// Speed of a run and its shares of the limits over time, as SVG.
+// Speed of a run, and velocity, acceleration and jerk relative to their limits, over time, as SVG.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace cusp::report {
 
-// Four panels, one above the other, with one time axis: the speed along the path in mm/s, and for
-// each axis its velocity, acceleration and jerk in per cent of their limits. The value drawn at a
-// time is the largest of that stretch.
+// Four panels above each other with a common time axis: the speed along the path in mm/s, and for
+// each axis its velocity, acceleration and jerk in per cent of their limits. Each value is the
+// largest of its stretch of time.
 std::string motion_picture(const program_run::MotionProfile& profile, const MachineLimits& limits);
 
 }  // namespace cusp::report

@@ -51,7 +51,7 @@ std::string mark(const PictureFrame& frame, Vec3d at, const std::string& text)
            ring(frame, place, 8 * frame.line(), "black") + label(frame, place, text, "black");
 }
 
-// How much darker than level ground, 0 to kShades.
+// Shade relative to a horizontal surface, 0 to kShades.
 int shade_of(double lean_x, double lean_y, double cosine)
 {
     // light from the upper left, 45 degrees high
@@ -133,7 +133,7 @@ std::string layer_picture(const LayerInfo& layer, const PictureFrame& frame)
     constexpr std::array<const char*, 2> kFills{"#bcd4ee", "#ffffff"};
     std::string lines;
     std::string labels;
-    // The largest loops come first, so that loops inside are drawn over them.
+    // Larger loops first, so that inner loops are drawn over them.
     for (std::size_t k = 0; k < layer.loops.loops.size(); ++k) {
         const ClosedLoop& loop = layer.loops.loops[k];
         const bool hole = loop.depth % 2 == 1;

@@ -7,11 +7,11 @@
 
 namespace cusp::report {
 
-// Surfaces and meshes: heights by colour, lit from the upper left, with a scale; marked are the
-// steepest place apart from walls, the place that bounds the ball, and an undercut. Drawings: loops
-// filled by their depth and numbered layer by layer, open chains in red with their ends.
+// Surfaces and meshes: heights by colour, lit from the upper left, with a scale; marks at the
+// steepest point apart from walls, the point that limits the ball, and an undercut. Drawings: loops
+// filled by depth and numbered in each layer, open chains in red with their ends.
 //
-// info  still holding its surfaces or triangles
+// info  with its surfaces or triangles
 std::string part_picture(const part_info::PartInfo& info);
 
 }  // namespace cusp::report

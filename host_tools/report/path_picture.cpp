@@ -1,4 +1,4 @@
-// A panel for each tool. Polylines of one colour each: a path of many moves stays a small file.
+// A panel for each tool. Polylines of one colour each, so that the file of a long path is small.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -120,7 +120,7 @@ private:
     int step_{0};
 };
 
-// The tools that cut, in the order of their first cut; T words, 0 where the program has none.
+// T words of the tools that cut, in the order of their first cut; 0 where the program has none.
 std::vector<int> cutting_tools(const Program& program)
 {
     std::vector<int> tools;

@@ -1,4 +1,4 @@
-// One viewBox in mm, so that every picture is to scale.
+// The viewBox is in mm, so that every picture is to scale.
 #include "host_tools/report/picture_frame.hpp"
 
 #include "host_tools/job/loop_shape.hpp"
@@ -17,7 +17,7 @@ using toolpath::Tool;
 namespace {
 
 constexpr int kPixels = 900;      // of a picture with one panel
-constexpr double kScaleRoom = 9;  // beside the panels, in heights of text
+constexpr double kScaleRoom = 9;  // width beside the panels, in heights of text
 
 std::string text_at(double x, double y, double size, const std::string& text)
 {
@@ -65,9 +65,9 @@ std::string PictureFrame::ruler() const
 
 std::string PictureFrame::scale(double low, double high, const std::string& title) const
 {
-    // ten numbers fit one above the other
+    // room for ten numbers
     const double size = std::min(0.8 * text(), height() / 14);
-    return scale_bar(scale_x(), y_low, 0.75 * height(), size, low, high, title);
+    return scale_bar({scale_x(), y_low, 0.75 * height(), size}, low, high, title);
 }
 
 std::string PictureFrame::legend(int row, const std::string& stroke, const std::string& title) const

@@ -1,4 +1,4 @@
-// The frame of all pictures: panels around the part, y upwards, the walls, and a ruler.
+// The frame of all pictures: panels, y upwards, the walls, and a ruler.
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace cusp::report {
 
-// The part in plan, once or several times side by side, at one scale. Lengths in the picture are
-// mm.
+// The part in plan, in one or several panels side by side, at one scale. Lengths in the picture are
+// in mm.
 struct PictureFrame {
     double x_low, x_high, y_low, y_high;  // mm
     int panels{1};
@@ -18,17 +18,16 @@ struct PictureFrame {
     double height() const { return y_high - y_low; }
     double margin() const { return 0.04 * std::max(width(), height()); }
     double text() const { return 0.8 * margin(); }
-    // In the picture y grows downwards.
+    // y in the picture, which is positive downwards.
     double flipped(double y) const { return y_high - (y - y_low); }
     double line() const;
-    // From one panel to the next.
+    // Distance between panels.
     double stride() const { return width() + margin(); }
-    // Right of the last panel.
+    // x to the right of the last panel.
     double scale_x() const { return x_high + (panels - 1) * stride() + margin(); }
 
     std::string head() const;
-    // Opens a panel with its title: everything up to the next "</g>" belongs to it. Panels count
-    // from 0.
+    // Opens a panel with its title, which "</g>" closes. number: from 0.
     std::string panel(int number, const std::string& title) const;
     // A bar of a round length, below the first panel.
     std::string ruler() const;

@@ -15,10 +15,10 @@
 
 namespace cusp::report {
 
-// The path over the walls of the part: cuts coloured by height, rapid moves dashed.
+// The path with the walls of the part: cuts coloured by height, rapid moves dashed.
 std::string path_picture(const job::Job& job, const verify::Program& program);
 
-// The stock left over the floor: a map of colours with its scale; black where nothing was cut.
+// The stock left above the floor: a colour map with its scale; black where nothing was cut.
 std::string left_picture(const job::Job& job, const verify::Verification& result);
 
 }  // namespace cusp::report

@@ -1,4 +1,4 @@
-// A rotating cutter: its end as a profile, an upright shank above it.
+// A rotating cutter: its end as a profile, a cylindrical shank above it.
 #pragma once
 
 #include <cstdint>

@@ -233,7 +233,7 @@ void find_thickest(const FloorQuestion& q,
         }
     }
     std::sort(all.begin(), all.end(), [](const High& a, const High& b) { return a.over > b.over; });
-    const ResidualThickness metal{q.runs, q.top};
+    const ResidualThickness residual{q.runs, q.top};
     double most = q.most_left;
     for (const High& high : all) {
         if (high.over <= most) {
@@ -241,7 +241,7 @@ void find_thickest(const FloorQuestion& q,
         }
         const Vec3d place{q.grid.x(high.k / q.grid.ny, high.k % q.grid.ny),
                           q.grid.y(high.k / q.grid.ny, high.k % q.grid.ny), ideal.height[high.k]};
-        const double thick = metal.at(place, high.over, most);
+        const double thick = residual.at(place, high.over, most);
         if (thick > most) {
             most = thick;
             figures.thickest_left = ThickestLeft{thick, place};

@@ -186,11 +186,11 @@ void fill(const Quad& quad,
 // Fills the grid over one triangle.
 void fill(const std::array<Vec3d, 3>& t, const HeightGrid& grid, PartHeights& heights)
 {
-    constexpr double kUpright = 1e-9;  // z of the normal
-    constexpr double kOnSide = 1e-12;  // of the triangle
+    constexpr double kVertical = 1e-9;  // z of the normal
+    constexpr double kOnSide = 1e-12;   // of the triangle
     const Vec3d across = cross(t[1] - t[0], t[2] - t[0]);
     const double cosine = std::abs(across.z) / norm(across);
-    if (!(cosine > kUpright)) {
+    if (!(cosine > kVertical)) {
         return;
     }
     const std::array<float, 2> lean = lean_of(across * ((across.z < 0 ? -1 : 1) / norm(across)));

@@ -1,4 +1,4 @@
-// zlib does the work.
+// Compresses with zlib.
 #include "host_tools/view/byte_text.hpp"
 
 #include <stdexcept>

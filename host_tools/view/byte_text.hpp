@@ -1,4 +1,4 @@
-// Bytes of a page: numbers in little-endian order, deflated, and written as text that HTML takes as it is.
+// Binary data in a page: little-endian numbers, deflated, and encoded as text that is valid in HTML.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ public:
         std::memcpy(&bits, &value, sizeof bits);
         put_low(bits, sizeof bits);
     }
-    // Seven bits a byte, the lowest first; the highest bit says that more follow.
+    // Seven bits in each byte, the lowest first; the highest bit is set if more bytes follow.
     void put_varint(std::uint64_t value)
     {
         constexpr std::uint64_t kMore = 0x80;
@@ -45,20 +45,20 @@ private:
     std::string text_;
 };
 
-// Small negative numbers as small numbers: 0, -1, 1, -2 ... as 0, 1, 2, 3 ...
+// Maps numbers of small magnitude to small numbers: 0, -1, 1, -2 ... to 0, 1, 2, 3 ...
 constexpr std::uint64_t zigzag(std::int64_t value)
 {
     const auto bits = static_cast<std::uint64_t>(value);
     return value < 0 ? ~(bits << 1U) : bits << 1U;
 }
 
-// Raw deflate (RFC 1951), as the browser's DecompressionStream takes it. Throws std::runtime_error
-// where zlib has no memory.
+// Raw deflate (RFC 1951), for the browser's DecompressionStream. Throws std::runtime_error if zlib
+// runs out of memory.
 std::string deflated(std::string_view bytes);
 
-// Seven bits a character of UTF-8, the highest first; 17 % longer than the bytes, where base64 is 33 %
-// longer. The three values that HTML changes or could take for markup (NUL, CR, <) are the
-// characters 128 above them: a reader takes the low seven bits of each character.
+// Seven bits in each UTF-8 character, the highest first; 17 % longer than the bytes (base64: 33 %).
+// The three values that HTML changes or may parse as markup (NUL, CR, <) are encoded as the
+// characters 128 above them: a reader uses the low seven bits of each character.
 std::string seven_bit_text(std::string_view bytes);
 
 }  // namespace cusp::view

@@ -1,4 +1,4 @@
-// Squares of the fine grid stand for themselves by their worst point.
+// Each square of the coarse grid has the value of its worst point.
 #include "host_tools/view/left_map.hpp"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 constexpr double kUnit = 1e4;  // of 0.1 um in a millimetre
 constexpr std::int32_t kUncut = 32767;
 constexpr std::int32_t kNoFloor = -32768;
-// mm: gouges below it are the map's own error.
+// mm: error of the map; smaller gouges are ignored.
 constexpr double kJudgement = 5e-4;
 
 void put_planes(const std::vector<std::uint16_t>& values, Bytes& out)
@@ -27,7 +27,7 @@ void put_planes(const std::vector<std::uint16_t>& values, Bytes& out)
     }
 }
 
-// Below 0 where the part is cut into; else what is left over what tools reach; NaN: no floor.
+// Negative: depth of a gouge. Otherwise the stock left above the reachable height. NaN: no floor.
 double over_part(const Verification& v, std::size_t k)
 {
     return v.gouge[k] > kJudgement ? -v.gouge[k]

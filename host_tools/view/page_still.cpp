@@ -1,4 +1,4 @@
-// Speaks to the browser through a pair of pipes: JSON messages, each ended by a zero byte (Chrome
+// Controls the browser through a pair of pipes: JSON messages, each followed by a zero byte (Chrome
 // DevTools Protocol).
 #include "host_tools/view/page_still.hpp"
 
@@ -53,7 +53,7 @@ std::string browser_program()
     throw InputError{"cusp view --still: no Chromium is installed (Debian: chromium)"};
 }
 
-// A folder of its own for the browser's state, removed at the end.
+// A temporary folder for the browser's state, removed at the end.
 class ScratchFolder {
 public:
     ScratchFolder()
@@ -87,7 +87,7 @@ public:
         if (::pipe2(commands.data(), O_CLOEXEC) != 0 || ::pipe2(answers.data(), O_CLOEXEC) != 0) {
             throw InputError{"cusp view --still: no pipe to the browser"};
         }
-        // A browser that ends early is an error of write(), not a signal.
+        // If the browser ends early, write() is to fail and not to raise a signal.
         std::signal(SIGPIPE, SIG_IGN);
         child_ = ::fork();
         if (child_ == 0) {
@@ -100,7 +100,7 @@ public:
     }
     ~Browser()
     {
-        ::close(out_);  // the browser ends where its pipe does
+        ::close(out_);  // the browser exits when its pipe is closed
         ::close(in_);
         ::kill(child_, SIGTERM);
         ::waitpid(child_, nullptr, 0);
@@ -108,7 +108,7 @@ public:
     Browser(const Browser&) = delete;
     Browser& operator=(const Browser&) = delete;
 
-    // The answer's "result"; an "error" is given as it is.
+    // The answer's "result"; an answer with "error" is returned whole.
     BrowserMessage ask(const char* method, const BrowserMessage& parameters)
     {
         BrowserMessage message{{"id", ++number_}, {"method", method}, {"params", parameters}};
@@ -126,13 +126,14 @@ public:
     void attach(const std::string& session) { session_ = session; }
 
 private:
-    // In the child, which does not return.
+    // Runs in the child process and does not return.
     [[noreturn]] static void become(const std::string& program,
                                     const std::string& folder,
                                     int commands,
                                     int answers)
     {
-        // The browser reads from 3 and writes to 4: moved away first, for they may be each other's.
+        // The browser reads from descriptor 3 and writes to 4. Both ends are first moved to other
+        // numbers, since either may occupy 3 or 4.
         constexpr int kApart = 10;
         const int in = ::fcntl(commands, F_DUPFD, kApart);
         const int out = ::fcntl(answers, F_DUPFD, kApart);
@@ -230,7 +231,7 @@ std::string from_base64(const std::string& text)
     return out;
 }
 
-// As part of an address.
+// A file: URL.
 std::string file_address(const std::string& file)
 {
     std::string out = "file://";
@@ -256,7 +257,7 @@ std::string page_still(const std::string& page)
     browser.ask(
         "Emulation.setDeviceMetricsOverride",
         {{"width", kWidth}, {"height", kHeight}, {"deviceScaleFactor", 1}, {"mobile", false}});
-    // Until the script is there, window.cusp is not; a navigation under way takes the answer away.
+    // window.cusp exists only once the script has run; a navigation in progress discards the answer.
     constexpr const char* kReady =
         "new Promise((done, fail) => { const look = () => window.cusp ? cusp.ready.then(() => "
         "cusp.seek(1e9)).then(() => done(\"drawn\"), fail) : setTimeout(look, 50); look(); })";

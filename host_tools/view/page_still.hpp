@@ -1,11 +1,11 @@
-// A picture of a page, taken by a browser that is installed.
+// A screenshot of a page by an installed browser.
 #pragma once
 
 #include <string>
 
 namespace cusp::view {
 
-// The scene of a page of run_page() as PNG, 1600 x 1000 pixels, by Chromium without a window.
+// The scene of a page of run_page() as PNG, 1600 x 1000 pixels, by headless Chromium.
 //
 // page  HTML file
 //

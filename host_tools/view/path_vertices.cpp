@@ -1,8 +1,9 @@
-// The splitting, without recursion.
+// Douglas-Peucker splitting without recursion.
 #include "host_tools/view/path_vertices.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "firmware/base/pulse_frame.hpp"
 
@@ -67,7 +68,7 @@ void PathVertices::end_stretch()
         levels_.front() = kLevels - 1;
     }
     levels_.back() = kLevels - 1;
-    split({0, last, 1e300});
+    split({0, last, std::numeric_limits<double>::infinity()});
     for (std::size_t k = 0; k <= last; ++k) {
         if (levels_[k] != kNoVertex) {
             put(k, levels_[k]);
@@ -101,7 +102,7 @@ void PathVertices::split(Stretch whole)
                 at = k;
             }
         }
-        const double missed = std::min(stretch.most, std::sqrt(worst));
+        const double missed = std::min(stretch.max_deviation, std::sqrt(worst));
         if (missed > kFinest) {
             levels_[at] = level_of(missed);
             open_.push_back({stretch.begin, at, missed});

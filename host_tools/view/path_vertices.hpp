@@ -1,8 +1,8 @@
-// PathVertices: the ticks at which a drawn path has its corners, each with the coarsest drawing that
-// still needs it.
+// PathVertices: the vertices of the drawn path, as ticks, each with the coarsest level of detail that
+// contains it.
 //
-// Douglas and Peucker's splitting over position and speed, a stretch at a time: what a chord misses by
-// is the significance of the tick that it is split at.
+// Douglas-Peucker splitting of position and speed, one stretch at a time. The deviation of a chord is
+// the significance of the tick at which it is split.
 #pragma once
 
 #include <array>
@@ -16,28 +16,28 @@ namespace cusp::view {
 
 class PathVertices {
 public:
-    // Chords of level 0 miss the path by this, mm; those of each further level by four times more.
+    // Deviation of chords from the path at level 0, mm; four times more at each further level.
     static constexpr double kFinest = 0.001;
     static constexpr unsigned kLevels = 10;
 
     // The set point of the next tick.
     //
     //   deviation  mm from the programmed path
-    //   corner     of all levels: here a rapid move begins or ends, or another tool
+    //   corner     a vertex of all levels: start or end of a rapid move, or a tool change
     void add(Position at, double deviation, bool corner);
 
-    // The bytes: u32 vertices; then for each its distance in ticks from the one before (varint);
-    // levels, u8; the greatest deviation since the vertex before in 10 nm, u16.
+    // Format: u32 vertices; then for each its distance in ticks from the previous one (varint);
+    // levels, u8; the greatest deviation since the previous vertex in 10 nm, u16.
     Bytes finish();
 
 private:
     struct Point {
-        std::array<double, 4> at;  // mm; speed so that 1 mm/s counts as kFinest
+        std::array<double, 4> at;  // mm; the speed is scaled so that 1 mm/s equals kFinest
     };
     struct Stretch {
         std::size_t begin;
         std::size_t end;
-        double most;
+        double max_deviation;
     };
     void end_stretch();
     void split(Stretch whole);

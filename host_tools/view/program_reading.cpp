@@ -1,4 +1,4 @@
-// Reads along with gcode::Interpreter.
+// Interprets each line with gcode::Interpreter.
 #include "host_tools/view/program_reading.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t kMostSections = 255;
 
-// The text of the first comment, without its marks.
+// The text of the first comment, without its delimiters.
 std::string comment_of(const std::string& line)
 {
     const std::size_t open = line.find_first_of("(;");

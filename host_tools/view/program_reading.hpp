@@ -1,5 +1,5 @@
-// What a program says line by line, as the controller's own interpreter reads it: rapid lines, tools,
-// sections, and the lines that it refuses with the word that is wrong.
+// The lines of a program as the controller's interpreter reads them: rapid lines, tools, sections,
+// and refused lines with the wrong word.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ struct RefusedLine {
     std::string text;
 };
 
-// From this line on: another tool, or another operation by the program's own comments.
+// Starts at a line with a tool change, or at a comment that starts an operation.
 struct ProgramSection {
     std::uint64_t line;
     int tool;
@@ -25,10 +25,10 @@ struct ProgramSection {
 };
 
 struct ProgramReading {
-    std::string text;  // lines ended by \n, as they are counted
+    std::string text;  // the program with \n as line ends
     std::uint64_t lines{0};
     std::vector<std::uint8_t> rapid;    // of line k at k; 1: its moves are rapid
-    std::vector<std::uint8_t> section;  // of line k at k: its place in `sections`, 255 at most
+    std::vector<std::uint8_t> section;  // of line k at k: its index in `sections`, at most 255
     std::vector<ProgramSection> sections;
     std::vector<RefusedLine> refused;  // the first kMostRefused of them
     std::uint64_t refused_count{0};
@@ -37,8 +37,7 @@ struct ProgramReading {
     static constexpr std::size_t kMostRefused = 1000;
 };
 
-// A refused line is passed over, and what follows is read as if it were not there.
-// Throws InputError where the file can't be read.
+// A refused line is skipped. Throws InputError where the file can't be read.
 ProgramReading read_program_lines(const std::string& file);
 
 }  // namespace cusp::view

@@ -1,4 +1,4 @@
-// A rolling hash of stretches, and the last place where each was.
+// A rolling hash of stretches, and the last tick at which each occurred.
 #include "host_tools/view/repetition_search.hpp"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ std::vector<Repetition> RepetitionSearch::find(std::size_t begin, std::size_t en
 {
     const std::vector<std::uint64_t> hash_at = hashes(begin, end);
     std::vector<Repetition> found;
-    std::size_t free_from = begin;  // behind the last repetition
+    std::size_t free_from = begin;  // end of the last repetition
     std::size_t tick = begin;
     const auto remember = [&](std::size_t from, std::size_t to) {
         for (std::size_t k = from; k < to && k - begin < hash_at.size(); ++k) {

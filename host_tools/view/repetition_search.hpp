@@ -1,5 +1,5 @@
-// RepetitionSearch: finds where a run repeats itself, however long ago: layers of roughing, passes of equal shape.
-// Deflate looks back 32 kB, some seconds.
+// RepetitionSearch: finds repetitions in a run at any distance: layers of roughing, passes of equal shape. The window
+// of deflate is 32 kB, some seconds.
 #pragma once
 
 #include <cstddef>
@@ -20,22 +20,22 @@ struct Repetition {
 
 class RepetitionSearch {
 public:
-    // Shorter ones are not found.
+    // Shorter repetitions are not found.
     static constexpr std::size_t kShortest = 64;
 
-    // What is compared, of the next tick; counted from 0.
+    // The compared values of the next tick; ticks count from 0.
     void add(const PerAxis<std::uint64_t>& differences);
 
     // Repetitions within ticks [begin, end), in order, without overlap, of ticks that are in [begin, end) or in the
-    // range of an earlier call. One may go on into what it repeats.
+    // range of an earlier call. A repetition may overlap its original.
     // Precondition: end ticks were added.
     std::vector<Repetition> find(std::size_t begin, std::size_t end);
 
 private:
     using Differences = PerAxis<std::uint32_t>;
-    // Differences that are no less are not compared.
+    // Larger differences are not compared.
     static constexpr std::uint32_t kHuge = std::numeric_limits<std::uint32_t>::max();
-    // Of all starts, those that are remembered.
+    // Every kStep-th start is stored.
     static constexpr std::size_t kStep = 16;
     static constexpr unsigned kTableBits = 20;
     static constexpr std::uint32_t kNowhere = std::numeric_limits<std::uint32_t>::max();
@@ -45,7 +45,7 @@ private:
     {
         return table_[hash * 0x9E3779B97F4A7C15U >> (64 - kTableBits)];
     }
-    // Of kShortest ticks from each of [begin, end - kShortest].
+    // Hashes of the kShortest ticks from each tick in [begin, end - kShortest].
     std::vector<std::uint64_t> hashes(std::size_t begin, std::size_t end) const;
 
     std::vector<Differences> ticks_;

@@ -1,4 +1,4 @@
-// The names of keys are those of `cusp sim --stats` and `cusp verify --stats` where they mean that.
+// Keys are those of `cusp sim --stats` and `cusp verify --stats` where the meaning is equal.
 #include "host_tools/view/run_facts.hpp"
 
 #include <cmath>
@@ -164,7 +164,7 @@ std::string facts_json(const RunFacts& facts)
         json["verification"] = verification_of(facts);
     }
     const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
-    // In JSON < stands in strings only.
+    // In JSON < occurs in strings only.
     std::string out;
     for (const char c : text) {
         if (c == '<') {

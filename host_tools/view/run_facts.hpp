@@ -21,14 +21,14 @@ struct RunFacts {
     const MachineLimits& limits;
     std::uint64_t ticks;
     std::uint64_t start_us;
-    std::int64_t farthest_nm;  // of any axis from where the run starts
+    std::int64_t farthest_nm;  // greatest distance of an axis from the start of the run
     const job::Job* job;
-    const verify::Verification* verification;  // none: not verified
-    std::string not_verified;                  // why
+    const verify::Verification* verification;  // null: not verified
+    std::string not_verified;                  // the reason
     std::vector<WorstPlace> worst;
 };
 
-// Text that may stand in a <script> of HTML, whatever bytes the names and comments have.
+// JSON that is safe inside a <script> of HTML, for any bytes in names and comments.
 std::string facts_json(const RunFacts& facts);
 
 }  // namespace cusp::view

@@ -1,4 +1,4 @@
-// Reads, verifies, runs, and puts the pieces into the page.
+// Reads, verifies and runs the program, and inserts the results into the page.
 #include "host_tools/view/run_page.hpp"
 
 #include <filesystem>
@@ -24,9 +24,9 @@ using verify::Verification;
 
 namespace {
 
-// Without a stock: mm.
+// mm: spacing without a stock.
 constexpr double kAnySpacing = 1e9;
-// Of the stock's grid, between places of the tool.
+// Distance of tool positions in pitches of the stock's grid.
 constexpr double kSpacingShare = 0.4;
 
 std::string block(const char* id, const char* type, std::string_view text)
@@ -53,7 +53,7 @@ SimulationResult run(const std::string& program, const RunPageOptions& options, 
     return simulate::simulate(program, simulation);
 }
 
-// None where a line is refused; then `why` says so.
+// No value where a line is refused; `why` is the reason.
 std::optional<Verification> cut(const std::string& program,
                                 const RunPageOptions& options,
                                 std::string& why)
@@ -79,7 +79,7 @@ std::string verdict_of(const SimulationResult& run, const Verification* verifica
     return text;
 }
 
-// The page with text in place of a line of its template.
+// Replaces a line of the page's template by text.
 void fill(std::string& page, std::string_view place, const std::string& text)
 {
     const std::size_t at = page.find(place);

@@ -1,5 +1,5 @@
-// The page of one run, what `cusp view` writes: one HTML file that shows a program as the controller
-// runs it. The front door of `view`; web/ holds the page's own code.
+// The page of one run, written by `cusp view`: one HTML file that shows a program as the controller
+// runs it. The front door of `view`; web/ is the code of the page.
 //
 //     RunPageOptions options;
 //     options.simulation.settings = read_settings_file("mill.settings");
@@ -18,11 +18,11 @@
 namespace cusp::view {
 
 struct RunPageOptions {
-    simulate::SimulationOptions simulation;  // set_point is the page's
-    const job::Job* job{nullptr};            // none: path and tool alone
-    // Of the job and this program; none: run_page() verifies.
+    simulate::SimulationOptions simulation;  // set_point is overwritten
+    const job::Job* job{nullptr};            // null: only path and tool
+    // Of the job and this program; null: run_page() verifies.
     const verify::Verification* verification{nullptr};
-    // Called with the share of the verification that is done.
+    // Called with the fraction of the verification that is done.
     std::function<void(double share)> verifying;
 };
 
@@ -35,11 +35,11 @@ struct RunPage {
     std::string verdict;       // one line
 };
 
-// Runs the program through the firmware's core, verifies it where there is a job, and makes one HTML
-// file of it that asks for nothing from outside.
+// Runs the program through the firmware's core, verifies it if there is a job, and makes one HTML
+// file without external references.
 //
-// Lines that the controller refuses are shown in the page; a program that can't be verified for them
-// is shown without its stock.
+// The page lists the lines that the controller refuses. If they prevent verification, the page has
+// no stock.
 //
 // Throws InputError where the program can't be read, and where this build has no page.
 RunPage run_page(const std::string& program, const RunPageOptions& options);

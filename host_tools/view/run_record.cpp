@@ -1,4 +1,4 @@
-// Hands each tick to those who pack it.
+// Passes each tick to all encoders.
 #include "host_tools/view/run_record.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// RunRecord: what a page keeps of the set points of a run, taken tick by tick.
+// RunRecord: encodes the set points of a run for a page, tick by tick.
 #pragma once
 
 #include <cstdint>
@@ -14,24 +14,24 @@ namespace cusp::view {
 class RunRecord {
 public:
     // reading  must outlive this
-    // spacing  mm between the places that cut the stock
+    // spacing  mm between the positions that cut the stock
     RunRecord(const ProgramReading& reading, double spacing) : reading_{reading}, path_{spacing} {}
 
     void add(const program_run::SetPoint& point);
 
     std::uint64_t ticks() const { return samples_.ticks(); }
-    // Of the first set point on the clock of the pulse trace, microseconds.
+    // Time of the first set point on the clock of the pulse trace, microseconds.
     std::uint64_t start() const { return start_; }
 
-    // Greatest distance of an axis from there, nm.
+    // Greatest distance of an axis from the first set point, nm.
     std::int64_t farthest() const { return farthest_; }
 
     SampleBlocks& samples() { return samples_; }
     PathVertices& vertices() { return vertices_; }
     const CuttingPath& path() const { return path_; }
 
-    // The bytes: u32 runs of one line; for each its length in ticks (varint) and its line less that
-    // of the run before (zigzag varint).
+    // Format: u32 runs of one line; for each its length in ticks (varint) and the difference of its
+    // line to that of the previous run (zigzag varint).
     Bytes line_runs();
 
 private:

@@ -1,4 +1,4 @@
-// Differences on the way in; planes and deflate at the end of a block.
+// Computes differences for each tick, planes and deflate at the end of a block.
 #include "host_tools/view/sample_blocks.hpp"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ void SampleBlocks::add(Position at)
     ++ticks_;
 }
 
-// Takes the repetitions out of third_ and names them.
+// Removes repetitions from third_ and writes references to them.
 void SampleBlocks::leave_out_repetitions(Bytes& out)
 {
     const std::size_t begin = ticks_ - third_[0].size();

@@ -1,8 +1,8 @@
 // SampleBlocks: the set points of a run in 1 to 2 bytes a tick, exact.
 //
-// Third differences of whole nanometres are small: the jerk and the rounding. Each block of ticks begins with
-// position, velocity and acceleration, then has the third differences axis by axis, byte plane by byte plane, deflated.
-// Stretches that repeat earlier ones, as layers of roughing do, are left out and named.
+// Third differences of whole nanometres are small: jerk and rounding. Each block of ticks starts with position,
+// velocity and acceleration, followed by the third differences by axes and byte planes, deflated. Stretches that repeat
+// earlier ones, such as layers of roughing, are replaced by references.
 #pragma once
 
 #include <array>
@@ -25,11 +25,11 @@ public:
 
     std::uint64_t ticks() const { return ticks_; }
 
-    // Ends the last block. The bytes: u32 ticks, u32 ticks of a block; then blocks: for each axis f64
+    // Ends the last block. Format: u32 ticks, u32 ticks of a block; then blocks: for each axis f64
     // position, first and second difference of the first tick and u8 number of planes; then u32 size and,
-    // deflated, what the ticks after the first need: varint number of repetitions, for each one varints
-    // ticks since the one before (or the block's first), its ticks, and how many ticks before it they were; then
-    // the planes of the ticks that repeat nothing. Third differences of earlier blocks are those of the
+    // deflated, the ticks after the first: varint number of repetitions, for each one varints
+    // ticks since the previous one (or the block's first), its ticks, and the distance in ticks to the original; then
+    // the planes of the ticks that are no repetition. Third differences of earlier blocks are those of the
     // positions; before the first tick nothing moves.
     Bytes finish();
 

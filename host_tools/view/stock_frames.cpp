@@ -1,4 +1,4 @@
-// Cuts the stock run by run, and keeps its heights after equal amounts of path.
+// Cuts the stock run by run, and stores its heights after equal lengths of path.
 #include "host_tools/view/stock_frames.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ const Tool& tool_of(const Job& job, int number)
     return job.tools.front();
 }
 
-// The heights in whole steps.
+// The heights quantised to whole steps.
 std::vector<std::uint16_t> steps_of(const std::vector<double>& heights, double low, double high)
 {
     std::vector<std::uint16_t> out(heights.size());
@@ -133,7 +133,7 @@ Bytes stock_frames(const CuttingPath& path, const Job& job, const HeightGrid& gr
     for (const CuttingPath::Run& run : path.runs()) {
         for (std::size_t begin = 0; begin < run.tips.size();) {
             const std::size_t end = std::min(run.tips.size(), begin + left);
-            // One place of overlap: a foot is swept from it.
+            // Overlaps by one position: the flat of a cutter is swept from it.
             const auto from = static_cast<std::ptrdiff_t>(begin > 0 ? begin - 1 : 0);
             const auto to = static_cast<std::ptrdiff_t>(end);
             ToolPositions piece{tool_of(job, run.tool),

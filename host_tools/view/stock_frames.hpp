@@ -1,4 +1,4 @@
-// StockFrames: the stock as a map of heights at some sixty times of a run.
+// StockFrames: the stock as a height map at some sixty times of a run.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +11,13 @@
 
 namespace cusp::view {
 
-// The places of one tool after another, thinned: what cuts the stock.
+// Tool positions that cut the stock, thinned, for each tool in turn.
 class CuttingPath {
 public:
-    // spacing  mm between places
+    // spacing  mm between positions
     explicit CuttingPath(double spacing) : spacing_{spacing} {}
 
-    // The place of a tick. `tool` by its T word.
+    // The position at a tick. tool: its T word.
     void add(Vec3d tip, std::uint64_t tick, int tool, bool rapid);
 
     struct Run {
@@ -33,13 +33,13 @@ private:
     std::vector<Run> runs_;
 };
 
-// The grid of the page: at most some 90 000 points, without shifts, over the same area.
+// The grid of the page: at most some 90 000 points, without shifts, of the same area.
 verify::HeightGrid coarse_grid(const verify::HeightGrid& fine);
 
-// The bytes: u32 columns, rows, frames; f64 x0, y0, pitch, low, high; f64 tick of each frame but the
-// first; then for each frame but the first, which is the uncut stock (high), what is taken from the
-// one before in steps of (high - low) / 65535: all low bytes, then all high bytes, rows of y within a
-// column. Deflated but for the numbers before.
+// Format: u32 columns, rows, frames; f64 x0, y0, pitch, low, high; f64 tick of each frame but the
+// first; then for each frame but the first, which is the uncut stock (high), the height removed since
+// the previous frame in steps of (high - low) / 65535: all low bytes, then all high bytes, rows of y
+// within a column. Deflated except the numbers before.
 Bytes stock_frames(const CuttingPath& path, const job::Job& job, const verify::HeightGrid& grid);
 
 }  // namespace cusp::view

@@ -42,7 +42,7 @@ struct SetPointRow {
     double line;
 };
 
-// Figures of a run, in the order that the page knows.
+// Figures of a run, in the order that core.ts expects.
 constexpr std::size_t kFigures = 26;
 
 struct Run {
@@ -127,7 +127,7 @@ CUSP_EXPORT(cusp_take_settings) void cusp_take_settings()
 }
 
 // The text is the program; the run begins. with_set_points: whether they are kept for cusp_set_points().
-// Returns 0 where the settings are refused: cusp_errors() says why.
+// Returns 0 where the settings are refused; cusp_errors() gives the reason.
 CUSP_EXPORT(cusp_run_begin) int cusp_run_begin(int with_set_points)
 {
     Run& run = the_run();
@@ -156,7 +156,7 @@ CUSP_EXPORT(cusp_run_begin) int cusp_run_begin(int with_set_points)
     return 1;
 }
 
-// At most so many servo ticks. Returns whether the run goes on. The set points of the call before are forgotten.
+// Advances at most so many servo ticks. Returns 0 at the end of the run. Discards the set points of the previous call.
 CUSP_EXPORT(cusp_run_advance) int cusp_run_advance(std::uint32_t ticks)
 {
     Run& run = the_run();

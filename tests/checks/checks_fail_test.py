@@ -98,7 +98,9 @@ class ChecksOfTheTree(unittest.TestCase):
         for place, text in (("docs/life.md", "`TipFloor::drop()`\n"), ("host_tools/clearing/tip_floor_test.cpp", "\n"),
                             ("host_tools/clearing/loops.hpp", "// See StandingMetal.\n"),
                             ("firmware/base/vec.hpp", "struct Joint;\n"),
-                            ("host_tools/clearing/ball.hpp", "// A ball is let down.\n")):
+                            ("host_tools/clearing/ball.hpp", "// A ball is let down.\n"),
+                            ("host_tools/view/web/src/scene.ts", "/** Where metal stands. */\n"),
+                            ("tests/support/box.hpp", "int a;  // upright\n")):
             self.write(place, text)
             status, said = self.run_check("retired_words.py")
             self.assertEqual(status, 1, place)

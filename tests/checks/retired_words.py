@@ -3,7 +3,7 @@
 
 usage: retired_words.py TOP
 WORDS are looked for everywhere: in code, comments, documents and names of files. IDENTIFIERS are common words too, so
-they are looked for in C++ without comments and strings; PHRASES in the comments of host_tools. CHANGELOG.md, docs/decisions and docs/evidence tell the past and are left out.
+they are looked for in C++ without comments and strings; PHRASES in the comments of host_tools and tests/support. CHANGELOG.md, docs/decisions and docs/evidence tell the past and are left out.
 Exit status: 0 none is found, 1 some are, 2 there are no sources.
 """
 import pathlib
@@ -11,7 +11,7 @@ import re
 import sys
 
 FOLDERS = ("firmware", "hal", "boards", "host_tools", "tests", "docs", "cmake")
-ENDINGS = (".hpp", ".cpp", ".md", ".py", ".txt", ".cmake", ".sh")
+ENDINGS = (".hpp", ".cpp", ".md", ".py", ".txt", ".cmake", ".sh", ".ts", ".mjs")
 # Old name: what to say instead.
 WORDS = {
     "TipFloor": "DropCutter", "tip_floor": "drop_cutter", "SurfaceModel": "PartModel", "surface_model": "part_model",
@@ -59,11 +59,16 @@ IDENTIFIERS = {
     "rolls_freely": "is_move_between_contacts_clear", "worth": "resolution", "told": "lookup_spacing", "bare": "uncovered",
     "cushion": "clearance_reserve",
 }
-# In comments of host_tools.
+# In comments of COMMENTED.
+COMMENTED = ("host_tools/", "tests/support/")
 PHRASES = {
     "told apart": "inexact", "let down": "dropped", "askew": "at an angle", "felt": "tracked", "feel": "track", "feels": "tracks",
+    "upright": "vertical", "metal": "stock", "stands": "is", "standing": "uncut", "stood": "was", "told": "given", "tells": "returns",
+    "bare": "uncovered", "speak": "send", "speaks": "sends", "hopeful": "approximate", "for ever": "endlessly",
+    "goes on": "continues", "gone on": "resumed", "looks up": "faces up", "looks down": "faces down", "look down": "face down",
+    "look out": "look ahead", "looks out": "looks ahead", "way within": "path inside", "under its eyes": "while it reads",
 }
-COMMENT = re.compile(r"//[^\n]*")
+COMMENT = re.compile(r"//.*|/\*.*|^ *\* .*")  # of one line
 COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
 
 
@@ -87,7 +92,7 @@ def complaints(file, place):
         yield f"{place}: {word} is now {WORDS[word]}"
     text = file.read_text()
     code = COMMENT_OR_STRING.sub(lambda m: re.sub(r"[^\n]", " ", m.group()), text) if file.suffix in (".hpp", ".cpp") else ""
-    comments = "\n".join("".join(COMMENT.findall(line)) for line in text.split("\n")) if place.startswith("host_tools/") else ""
+    comments = "\n".join("".join(COMMENT.findall(line)) for line in text.split("\n")) if place.startswith(COMMENTED) else ""
     for names, searched, found in ((WORDS, text, WORD), (IDENTIFIERS, code, IDENTIFIER), (PHRASES, comments, PHRASE)):
         for match in found.finditer(searched):
             line = searched.count("\n", 0, match.start()) + 1

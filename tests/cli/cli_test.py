@@ -81,7 +81,7 @@ class Cli(unittest.TestCase):
         self.assertIn(why, stats["warnings"][0])
         self.assertEqual(["contour_pocket"], [o["strategy"] for o in stats["operations"]])
         (self.folder / "p.ngc").unlink()
-        self.refused_plan("no operation leaves anything to cut: " + why, head + rough)
+        self.refused_plan("there is nothing to cut: " + why, head + rough)
 
     def finish_job(self, top):
         head, finish = JOB.replace("top = 0", f"top = {top}").split("[[operation]]")
@@ -94,7 +94,7 @@ class Cli(unittest.TestCase):
         self.expect(0, "stock: its top, z = 30 mm, is 34 mm above the part's, z = -4 mm", "plan",
                     "job.toml", "-o", "p.ngc", "--stats", "p.json")
         self.assertRegex(json.loads((self.folder / "p.json").read_text())["warnings"][0],
-                         r"m of feed moves \(9\d %\) are over the part, in air where")
+                         r"m of feed moves \(9\d %\) are above the part, in air where")
         self.write("job.toml", self.finish_job(-6))
         self.expect(0, "z = -6 mm, is 2 mm below the part's, z = -4 mm", "plan", "job.toml", "-o",
                     "p.ngc")
@@ -263,7 +263,7 @@ class Cli(unittest.TestCase):
         self.expect(0, "all bounds hold", "verify", "job.toml", "p.ngc")
         (self.folder / "p.ngc").unlink()
         self.write("floor.stl", text)
-        self.refused_plan("floor.stl:23: cut short", job)
+        self.refused_plan("floor.stl:23: truncated", job)
         self.write("floor.stl", text.replace("55 -5 -4", "nan -5 -4"))
         self.refused_plan("floor.stl:5: a corner has x = nan mm", job)
 

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Shows that two builds of `cusp` give the same bytes: what a refactoring is judged by.
 
-usage: compare_bytes.py OLD NEW [--first SEED] [--count N] [--no-examples] [--jobs N] [--limit S] [--keep FOLDER]
+usage: compare_bytes.py OLD NEW [--first SEED] [--count N] [--no-examples] [--no-messages] [--jobs N] [--limit S] [--keep FOLDER]
 
 Both programs plan every job of examples/ and N random jobs (tests/refactor/random_job.py). Compared are the exit status,
 the messages, the G-code and the statistics of `cusp plan`; the figures of `cusp verify`; and, of programs short enough,
 the pulse trace (VCD) and the statistics of `cusp sim`. Times, memory, reports of progress and the version in the G-code's
-comment are left out. A random job that OLD does not plan within the limit is passed over and replaced by the next seed.
+comment are left out; with --no-messages, what is printed too. A random job that OLD does not plan within the limit is passed over and replaced by the next seed.
 Exit status: 0 all equal, 1 a difference, which is named, 2 nothing could be compared.
 """
 import argparse
@@ -60,7 +60,7 @@ def call(program, words, folder, limit):
     return run.returncode, TIME_WORDS.sub(rb"\1", PROGRESS.sub(b"", said))
 
 
-def outputs(program, job, folder, out, plan_limit, with_simulation):
+def outputs(program, job, folder, out, plan_limit, options):
     """Everything that is compared, by name."""
     out.mkdir()
     name = lambda file: os.path.relpath(out / file, folder)
@@ -71,10 +71,11 @@ def outputs(program, job, folder, out, plan_limit, with_simulation):
     if status == 0:
         add_verdict(found, program, job, folder, out)
         motion = json.loads((out / "plan.json").read_text())["estimated_s"]
-        if with_simulation and motion < SIMULATED:
+        if options.simulation and motion < SIMULATED:
             add_trace(found, program, folder, out)
     # both programs are told other names of files
-    return {key: value.replace(out.name.encode(), b"OUT") for key, value in found.items()}
+    return {key: value.replace(out.name.encode(), b"OUT") for key, value in found.items()
+            if options.messages or not key.startswith("messages")}
 
 
 def add_verdict(found, program, job, folder, out):
@@ -108,27 +109,43 @@ def keys_that_differ(a, b):
     return f"keys added: {sorted(now.keys() - was.keys())}, gone: {sorted(was.keys() - now.keys())}"
 
 
+def first_line_that_differs(key, a, b):
+    """The first line in which two outputs differ, in words. A key more or less is a difference, and named."""
+    keys = keys_that_differ(a, b)
+    if keys:
+        return f"{key}: {keys}"
+    lines = zip(a.split(b"\n") + [b"(the end)"], b.split(b"\n") + [b"(the end)"])
+    number, (was, now) = next((i, pair) for i, pair in enumerate(lines, 1) if pair[0] != pair[1])
+    return f"{key}, line {number}: {was[:200].decode(errors='replace')!r} is now {now[:200].decode(errors='replace')!r}"
+
+
 def difference(old, new):
-    """The first thing that differs, with its line, or nothing. A key more or less is a difference, and named."""
-    for key in old.keys() | new.keys() if old.keys() != new.keys() else old:
+    """The first difference with its line, and the names of the other outputs that differ; None where all are equal."""
+    found = []
+    for key in [*old, *(key for key in new if key not in old)]:
         a, b = old.get(key), new.get(key)
         if a is None or b is None:
-            return f"{key}: only one of the programs has it"
-        if a != b:
-            keys = keys_that_differ(a, b)
-            if keys:
-                return f"{key}: {keys}"
-            lines = zip(a.split(b"\n") + [b"(the end)"], b.split(b"\n") + [b"(the end)"])
-            number, (was, now) = next((i, pair) for i, pair in enumerate(lines, 1) if pair[0] != pair[1])
-            return f"{key}, line {number}: {was[:200].decode(errors='replace')!r} is now {now[:200].decode(errors='replace')!r}"
-    return None
+            found.append((f"{key}: only one of the programs has it", key))
+        elif a != b:
+            found.append((first_line_that_differs(key, a, b), key))
+    if not found:
+        return None
+    others = ", ".join(key for _, key in found[1:])
+    return found[0][0] + (f"; also: {others}" if others else "")
 
 
-def compare(programs, job, folder, scratch, limit, with_simulation):
+class Outputs:
+    """Which outputs are compared."""
+
+    def __init__(self, simulation, messages):
+        self.simulation, self.messages = simulation, messages
+
+
+def compare(programs, job, folder, scratch, limit, options):
     """What the job's outputs differ in, or nothing; and what was compared."""
-    old = outputs(programs[0], job, folder, scratch / "out-old", limit, with_simulation)
+    old = outputs(programs[0], job, folder, scratch / "out-old", limit, options)
     try:
-        new = outputs(programs[1], job, folder, scratch / "out-new", WHOLE, with_simulation)
+        new = outputs(programs[1], job, folder, scratch / "out-new", WHOLE, options)
     except TooSlow as slow:
         return f"{slow}: not done in {WHOLE} s", old
     return difference(old, new), old
@@ -141,15 +158,15 @@ def compare_random(programs, seed, options):
         job = random_job.RandomJob(seed)
         name = job.write(folder)
         try:
-            fault, old = compare(programs, name, folder, folder, options.limit, True)
+            fault, old = compare(programs, name, folder, folder, options.limit, Outputs(True, options.messages))
         except TooSlow:
             return f"seed {seed} {job.strategy}", None, None
         return f"seed {seed} {job.strategy}", fault, old
 
 
-def compare_example(programs, example):
+def compare_example(programs, example, options):
     with tempfile.TemporaryDirectory() as scratch:
-        fault, old = compare(programs, str(example), TOP, pathlib.Path(scratch), WHOLE, False)
+        fault, old = compare(programs, str(example), TOP, pathlib.Path(scratch), WHOLE, Outputs(False, options.messages))
         return str(example), fault, old
 
 
@@ -182,7 +199,7 @@ def compare_all(programs, options):
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         if options.examples:
             examples = sorted(p.relative_to(TOP) for p in (TOP / "examples").rglob("*.toml"))
-            for answer in pool.map(lambda e: compare_example(programs, e), examples):
+            for answer in pool.map(lambda e: compare_example(programs, e, options), examples):
                 tally.add("examples", *answer)
         seed = options.first
         while tally.compared["random jobs"] < options.count:
@@ -200,6 +217,8 @@ def main():
     p.add_argument("--first", type=int, default=1)
     p.add_argument("--count", type=int, default=200)
     p.add_argument("--examples", action=argparse.BooleanOptionalAction, default=True)
+    p.add_argument("--messages", action=argparse.BooleanOptionalAction, default=True,
+                   help="compare what is printed: off for a change of wording")
     p.add_argument("--jobs", type=int, default=2)
     p.add_argument("--limit", type=float, default=20.0, help="seconds OLD may plan a random job")
     p.add_argument("--keep", help="folder to keep the random jobs and their outputs in")

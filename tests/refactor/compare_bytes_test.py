@@ -30,8 +30,8 @@ SHORT = "18"  # contour_pocket: 14 s of motion, so it is traced too
 
 
 class CompareBytes(unittest.TestCase):
-    def compare(self, new, seed):
-        run = subprocess.run([sys.executable, COMPARE, CUSP, new, "--no-examples", "--first", seed, "--count", "1"],
+    def compare(self, new, seed, *options):
+        run = subprocess.run([sys.executable, COMPARE, CUSP, new, "--no-examples", "--first", seed, "--count", "1", *options],
                              capture_output=True, text=True)
         return run.returncode, run.stdout + run.stderr
 
@@ -63,6 +63,24 @@ class CompareBytes(unittest.TestCase):
 
     def test_a_message_more_is_found(self):
         self.assert_found("plan", "", "", "", "messages of plan, line")
+
+    def test_every_output_that_differs_is_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program = pathlib.Path(folder, "cusp")
+            program.write_text(ALTERED.format(cusp=str(CUSP), command="plan", option="-o", old="G1 X", new="G1 X1"))
+            program.chmod(0o755)
+            status, text = self.compare(program, SHORT)
+        self.assertEqual(status, 1, text)
+        self.assertIn("G-code, line", text)
+        self.assertRegex(text, "; also: .*pulse trace")
+
+    def test_a_message_more_is_passed_over_on_request(self):
+        with tempfile.TemporaryDirectory() as folder:
+            program = pathlib.Path(folder, "cusp")
+            program.write_text(ALTERED.format(cusp=str(CUSP), command="plan", option="", old="", new=""))
+            program.chmod(0o755)
+            status, text = self.compare(program, SEED, "--no-messages")
+        self.assertEqual(status, 0, text)
 
     def test_figures_of_verify_that_differ_are_found(self):
         self.assert_found("verify", "--stats", '"cells": ', '"cells": 1', "figures of verify, line")

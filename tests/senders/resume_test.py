@@ -193,7 +193,7 @@ class Interrupted(ResumeTest):
         self.assertIn("--resume", text)
         self.mill.command("plug")
         text = self.finish(self.start("--resume", "--yes"), 0)
-        self.assertIn("was executing; going on at line", text)
+        self.assertIn("was executing; resuming at line", text)
         self.judge()
 
     def test_power_lost_and_homed_again(self):
@@ -238,7 +238,7 @@ class Interrupted(ResumeTest):
         self.finish(self.interrupt(2.5, lambda process: process.send_signal(signal.SIGINT)), 1, 20)
         place = self.iron_at_rest()
         text = self.finish(self.start("--resume"), 1)
-        self.assertIn("go on? [y/N]", text)
+        self.assertIn("resume? [y/N]", text)
         self.assertEqual(self.mill.where(), place)
         changed = self.program.read_text().replace("S8000", "S9000")
         self.program.write_text(changed)

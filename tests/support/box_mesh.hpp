@@ -14,14 +14,14 @@ namespace cusp::test {
 
 using Triangles = std::vector<std::array<Vec3d, 3>>;
 
-// Two triangles, counter-clockwise as the corners run.
+// Two triangles, oriented by the order of the corners.
 inline void add_quad(Triangles& out, Vec3d a, Vec3d b, Vec3d c, Vec3d d)
 {
     out.push_back({a, b, c});
     out.push_back({a, c, d});
 }
 
-// Twelve facets, looking outwards.
+// Twelve facets that face outwards.
 inline Triangles box_mesh(Vec3d low, Vec3d high)
 {
     const auto at = [&](int x, int y, int z) {

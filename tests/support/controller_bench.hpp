@@ -17,7 +17,7 @@ public:
     {
     }
 
-    // Main loop until it has nothing to do, then one servo tick; so many times.
+    // Runs the main loop until it is idle, then one servo tick; `ticks` times.
     void run(unsigned ticks)
     {
         poll();
@@ -28,7 +28,7 @@ public:
         }
     }
 
-    // Sends and lets the time pass that a person needs to read; returns what the controller said.
+    // Sends bytes, runs `ticks` ticks, and returns the controller's output.
     std::string exchange(std::string_view bytes, unsigned ticks = 20)
     {
         board.byte_link.send(bytes);
@@ -36,7 +36,7 @@ public:
         return board.byte_link.take_answers();
     }
 
-    // Runs until nothing moves and no line waits, at most so many ticks; returns what was said.
+    // Runs until nothing moves and no line waits, at most `most_ticks`; returns the output.
     std::string finish(unsigned most_ticks = 200000)
     {
         unsigned ticks = 0;
@@ -56,7 +56,7 @@ public:
 private:
     void poll()
     {
-        // The bound turns a slice that never ends into a failure instead of a hang.
+        // The bound turns an endless slice into a failure instead of a hang.
         constexpr unsigned kMostSlices = 1000000;
         for (unsigned i = 0; i < kMostSlices; ++i) {
             if (!app.poll()) {

@@ -1,4 +1,4 @@
-// CRC-32 bit by bit, and the bytes of an edge, to judge the checksum of edges by.
+// Reference CRC-32, bit by bit, and the bytes of an edge: the oracle of EdgeChecksum.
 #pragma once
 
 #include <cstdint>

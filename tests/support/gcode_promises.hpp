@@ -1,5 +1,5 @@
-// What the interpreter promises of any text, checked line by line; used by property test and
-// fuzzer.
+// Postconditions of the interpreter for any text, checked line by line; used by a property test and
+// a fuzz target.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace cusp {
 
-// Returns the text of the broken promise, or nullptr.
+// Returns the text of the violated postcondition, or nullptr.
 class GcodePromises {
 public:
     const char* run(std::string_view line)
@@ -70,17 +70,18 @@ private:
         const bool was_in_curve =
             modal.motion == gcode::Motion::kUniformNurbs || modal.motion == gcode::Motion::kNurbs;
         if (acted) {
-            return "a refused line acted";
+            return "a refused line had an effect";
         }
         if (was_in_curve) {
-            return at_ == interpreter_.position() ? nullptr : "a curve given up ends elsewhere";
+            return at_ == interpreter_.position() ? nullptr : "a cancelled curve ends elsewhere";
         }
         const gcode::ModalState& now = interpreter_.modal();
         const bool same = now.motion == modal.motion && now.feed == modal.feed &&
                           now.inches == modal.inches && now.incremental == modal.incremental &&
                           now.coordinate_system == modal.coordinate_system &&
                           now.spindle == modal.spindle && now.tool == modal.tool;
-        return same && before == interpreter_.position() ? nullptr : "a refused line left a trace";
+        return same && before == interpreter_.position() ? nullptr
+                                                         : "a refused line changed the state";
     }
 
     gcode::Interpreter interpreter_;

@@ -1,4 +1,4 @@
-// A bumpy surface with a round hole, over a low plate: a cliff round about.
+// A bumpy surface with a round hole above a lower plate: a cliff around the hole.
 #pragma once
 
 #include <cmath>
@@ -9,9 +9,9 @@
 
 namespace cusp::test {
 
-// Over [0, 30] x [0, 30] mm, from 2 to 7 mm high; the hole about its middle, in (u, v).
+// On [0, 30] x [0, 30] mm, 2 to 7 mm high; the hole is at the centre.
 //
-//   radius  in (u, v): a share of the size
+//   radius  in (u, v): a fraction of the size
 inline nurbs::Surface holed_sheet(double radius)
 {
     nurbs::Surface s;
@@ -40,7 +40,7 @@ inline nurbs::Surface holed_sheet(double radius)
     return s;
 }
 
-// With the plate under it.
+// The sheet and the plate below it.
 inline std::vector<nurbs::Surface> holed_floor(double radius)
 {
     return {plate(-5, -5, 35, 35, 0), holed_sheet(radius)};

@@ -1,5 +1,4 @@
-// For tests of what works on several threads: CppUTest's list of what is allocated is for one,
-// unless it is told.
+// For tests with several threads: CppUTest's leak detection is not thread-safe by default.
 #pragma once
 
 #include "CppUTest/MemoryLeakWarningPlugin.h"

@@ -1,4 +1,4 @@
-// What the property tests of motion share: how many programs, and that limits and end are kept.
+// Shared by the property tests of motion: number of programs, and checks of limits and end.
 #pragma once
 
 #include <cstdlib>

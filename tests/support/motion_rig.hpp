@@ -1,4 +1,4 @@
-// MotionRig: planner and interpolator alone, fed with moves as fast as they take them.
+// MotionRig: planner and interpolator alone, fed with moves as fast as they accept them.
 #pragma once
 
 #include <algorithm>
@@ -25,8 +25,8 @@ struct MotionRig {
         interpolator->reset(at);
     }
 
-    // Plays the moves to their end; one set point a tick. Gives up after a million seconds of ticks
-    // without end, returning what was played.
+    // Plays the moves; one set point for each tick. Stops after a million seconds of ticks and
+    // returns the set points so far.
     std::vector<Position> run(const std::vector<path::Move>& moves)
     {
         std::vector<Position> samples;
@@ -50,7 +50,7 @@ struct MotionRig {
         return samples;
     }
 
-    // The same with holds, resumes, overrides and starvation at random ticks.
+    // As run(), with holds, resumes, overrides and starvation at random ticks.
     std::vector<Position> run_disturbed(const std::vector<path::Move>& moves, std::uint64_t seed)
     {
         std::mt19937_64 random{seed};
@@ -77,11 +77,11 @@ struct MotionRig {
         return samples;
     }
 
-    // What may happen to a program at one tick.
+    // A disturbance at one tick.
     enum class Event { kHold, kSlower, kFaster, kStarve };
 
-    // The event at one tick; a hold is resumed once the tool stands, a starved planner is fed
-    // again.
+    // As run(), with one event; a hold is resumed once the tool is at rest, a starved planner is
+    // fed again.
     std::vector<Position> run_struck(const std::vector<path::Move>& moves,
                                      std::size_t tick,
                                      Event event)
@@ -94,7 +94,7 @@ struct MotionRig {
                 strike(event);
             }
             const bool starved = event == Event::kStarve && samples.size() < tick;
-            // Until it starves it knows only a few moves, so that it does run dry.
+            // Until then the planner gets only a few moves, so that it does starve.
             const std::size_t known =
                 starved ? std::min<std::size_t>(moves.size(), 5) : moves.size();
             while (next < known && planner->make_room()) {
@@ -155,12 +155,12 @@ struct MotionRig {
     std::unique_ptr<interpolator::Interpolator> interpolator;
 };
 
-// Largest |difference| of set points per axis as a part of the limit, rounding allowed for.
+// Largest |difference| of set points of each axis relative to the limit, corrected for rounding.
 struct LimitUse {
     Vec3d velocity, acceleration, jerk;
 };
 
-// Rounding of whole nanometres makes differences of 1, 2 and 4 nm in the first three orders.
+// Rounding to whole nanometres adds up to 1, 2 and 4 nm to the first three differences.
 inline LimitUse limit_use(const std::vector<Position>& samples,
                           Position start,
                           const MachineLimits& limits)

@@ -1,4 +1,4 @@
-// Level rectangles as surfaces.
+// Horizontal rectangles as surfaces.
 #pragma once
 
 #include "host_tools/nurbs/nurbs.hpp"
@@ -6,7 +6,7 @@
 
 namespace cusp::test {
 
-// Of this length along the unit vector `along`, and this width across it, mm.
+// length is along the unit vector `along`, width across it, mm.
 inline nurbs::Surface turned_plate(Vec2d centre, Vec2d along, double length, double width, double z)
 {
     nurbs::Surface s;

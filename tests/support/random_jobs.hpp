@@ -1,4 +1,4 @@
-// What random jobs of all strategies are made of: floors, tools, feeds.
+// Random floors, tools and feeds for jobs of all strategies.
 #pragma once
 
 #include <algorithm>
@@ -34,8 +34,8 @@ inline std::vector<double> even_knots(int points, int degree)
     return knots;
 }
 
-// A B-spline graph over the box whose control points wander by `rough` mm about `middle`, rational
-// now and then.
+// A B-spline graph on the box whose control points vary by `rough` mm around `middle`; sometimes
+// rational.
 inline nurbs::Surface random_floor(Random& random,
                                    const offset::Box2d& box,
                                    double middle,
@@ -84,7 +84,7 @@ inline toolpath::Tool random_tool(Random& random)
     }
 }
 
-// A job of one operation, at feeds and a clearance that suit all.
+// A job of one operation, with feeds and a clearance for any test.
 inline job::Job job_of(const job::Operation& operation)
 {
     job::Job job = plain_job();

@@ -62,7 +62,7 @@ private:
         at_ = move.end;
     }
 
-    // Chords of a curve whose bend drifts, with ends of whole micrometres or of none.
+    // Chords of a curve with drifting curvature; ends are rounded to micrometres or not at all.
     void add_dense_run()
     {
         const auto chords = 5 + number() % 60;
@@ -90,7 +90,7 @@ private:
         }
     }
 
-    // Anywhere, nearly straight on, or exactly straight on.
+    // In any direction, nearly tangential, or exactly tangential.
     bool make_line(path::Move& move, double length, std::uint64_t kind)
     {
         if (kind == 0) {
@@ -108,7 +108,7 @@ private:
         return true;
     }
 
-    // An arc or helix that leaves in the direction of the move before.
+    // An arc or helix that starts tangentially to the previous move.
     bool make_arc(path::Move& move, double radius)
     {
         const Vec3d any{between(-1, 1), between(-1, 1), between(-1, 1)};
@@ -149,8 +149,8 @@ private:
     float tolerance_{0};
 };
 
-// Limits of any machine: 10 to 500 mm/s, 50 to 8000 mm/s^2, reached in 3 to 200 ms. Even seeds: the
-// default settings.
+// Random limits: 10 to 500 mm/s, 50 to 8000 mm/s^2, reached in 3 to 200 ms. Even seeds: the default
+// settings.
 inline MachineLimits random_limits(std::uint64_t seed)
 {
     MachineLimits limits{};

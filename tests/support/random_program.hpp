@@ -1,4 +1,4 @@
-// Random G-code as CAM systems write it: rounded decimals, inches, arcs of all planes, splines.
+// Random G-code in the style of CAM systems: rounded decimals, inches, arcs in all planes, splines.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace cusp::test {
 
-// A program of absolute coordinates within about a metre of zero; without an end of program.
+// A program in absolute coordinates within about a metre of zero, without M2 or M30.
 class RandomProgram {
 public:
     explicit RandomProgram(std::uint64_t seed) : random_{seed}
@@ -64,7 +64,7 @@ private:
         }
     }
 
-    // Not so slow that the program takes an hour.
+    // Bounded from below, so that no program takes an hour.
     void choose_feed()
     {
         const double feed = std::max(std::pow(10, between(1, 3.9)), 5 * scale_);
@@ -114,7 +114,7 @@ private:
         const double sweep = between(0.1, 6.1);
         const bool clockwise = number() % 2 == 0;
         const double to_angle = clockwise ? from - sweep : from + sweep;
-        // Offsets of four decimals at least, so that both radii agree as far as the dialect asks.
+        // At least four decimals, so that both radii agree within the limit of the dialect.
         const int digits = decimals_;
         decimals_ = std::max(decimals_, 4);
         Vec3d end = at_;
@@ -147,7 +147,7 @@ private:
         const auto order = 2 + number() % 4;
         const auto points = order + number() % 8;
         const bool even = number() % 2 == 0;
-        to(at_, "G1");  // the first point is the place itself, in the program's decimals
+        to(at_, "G1");  // the first point is the current position, in the program's decimals
         double knot = 0;
         std::uint64_t repeated = 1;
         for (std::uint64_t i = 0; i < points; ++i) {
@@ -169,7 +169,7 @@ private:
         }
     }
 
-    // To the place as far as the program's decimals say it.
+    // To `end`, rounded to the program's decimals.
     void to(Vec3d end, const std::string& words, const std::string& more = "")
     {
         std::string text = words;

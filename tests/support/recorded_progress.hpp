@@ -1,4 +1,4 @@
-// What a planner tells of its progress.
+// Records the progress reports of a planner.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace cusp::test {
 
-// Keeps the shares told while it lives; the job is not to be moved meanwhile.
+// Records reports during its lifetime, in which the job must not be moved.
 class RecordedProgress {
 public:
     explicit RecordedProgress(job::Job& job)
@@ -19,7 +19,7 @@ public:
     RecordedProgress(const RecordedProgress&) = delete;
     RecordedProgress& operator=(const RecordedProgress&) = delete;
 
-    // Whether shares of 0 to 1 were told that never fell, with no step of more than `widest`.
+    // Whether the reports are in 0 to 1, never decrease, and differ by at most `widest`.
     bool rises(double widest) const
     {
         double last = 0.0;

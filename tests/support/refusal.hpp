@@ -1,4 +1,4 @@
-// How bad input is refused.
+// The error message for bad input.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace cusp::test {
 
-// The text of the InputError that `act` throws; "" where it throws none.
+// The text of the InputError that `act` throws; "" if it throws none.
 template <class Act>
 std::string refusal(Act act)
 {

@@ -18,7 +18,7 @@ inline std::vector<double> clamped_uniform_knots(int points, int degree)
     return knots;
 }
 
-// A bicubic surface over clamped uniform knots from its net, v fastest.
+// A bicubic surface on clamped uniform knots from its control net, v fastest.
 inline nurbs::Surface bicubic(int size_u, int size_v, std::vector<Vec3d> net)
 {
     nurbs::Surface surface;

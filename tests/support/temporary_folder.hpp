@@ -28,7 +28,7 @@ public:
 
     std::string file(const std::string& name) const { return (path_ / name).string(); }
 
-    // Writes a file and returns its place.
+    // Writes a file and returns its path.
     std::string with(const std::string& name, std::string_view text) const
     {
         std::ofstream{file(name), std::ios::binary} << text;

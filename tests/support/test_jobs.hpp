@@ -1,4 +1,4 @@
-// What tests of planners ask for again and again: a job, hills, a count of a planned operation.
+// Fixtures of planner tests: a job, hills, a count of a planned operation.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@
 
 namespace cusp::test {
 
-// Without tools and operations, at feeds and a clearance that suit all.
+// A job without tools and operations, with feeds and a clearance for any test.
 inline job::Job plain_job()
 {
     job::Job job;
@@ -24,7 +24,7 @@ inline job::Job plain_job()
     return job;
 }
 
-// Hills of one size over a square of about `patches` patches of 10 x 10 mm.
+// Equal hills on a square of about `patches` patches of 10 x 10 mm.
 inline nurbs::Surface hills(double patches)
 {
     const int side = static_cast<int>(std::lround(std::sqrt(patches))) + 3;
@@ -37,7 +37,7 @@ inline nurbs::Surface hills(double patches)
     return bicubic(side, side, std::move(net));
 }
 
-// Not a number, which fails any comparison, where there is none of that name.
+// NaN, which fails any comparison, where there is no count of that name.
 inline double count_of(const toolpath::PlannedOperation& planned, const std::string& name)
 {
     for (const auto& [key, value] : planned.stats.counts) {

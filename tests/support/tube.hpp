@@ -9,8 +9,8 @@
 
 namespace cusp::test {
 
-// About the x axis or, `along_y`, the y axis, from 0 on: u along it, v once round from the level
-// side.
+// Around the x axis or, with `along_y`, the y axis, starting at 0. u runs along the axis, v once
+// around it from the horizontal side.
 //
 // radius, length  mm
 inline nurbs::Surface tube(double radius, double length, bool along_y)

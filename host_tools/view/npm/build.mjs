@@ -1,4 +1,4 @@
-// Makes dist/ of the package: script, types, module and licence. `npm pack` calls it.
+// Builds dist/ of the package: script, types, module and licence. `npm pack` calls it.
 //
 //   node build.mjs [--out FOLDER] [--core CORE.wasm] [--modules FOLDER/node_modules]
 //
@@ -40,7 +40,7 @@ copyFileSync(core, join(dist, "cusp_core.wasm"));
 copyFileSync(join(here, "../../../LICENSE"), join(out, "LICENSE"));
 if (out !== here) for (const file of ["package.json", "README.md"]) copyFileSync(join(here, file), join(out, file));
 
-// index.d.ts, and core.d.ts that it names.
+// index.d.ts, and core.d.ts to which it refers.
 function writeTypes() {
   const program = typescript.createProgram([join(here, "index.ts")], {
     target: typescript.ScriptTarget.ES2022, lib: ["lib.es2022.d.ts", "lib.dom.d.ts"], strict: true, declaration: true,

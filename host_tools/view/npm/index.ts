@@ -37,23 +37,23 @@ export async function settingTable(): Promise<SettingEntry[]> {
 }
 
 /**
- * Runs a program through the firmware as fast as it goes and measures it, as `cusp sim` does.
+ * Runs a program through the firmware, faster than real time, and measures it, as `cusp sim` does.
  *
- * Refused settings and lines are in `errors` of the result. The event loop goes on meanwhile.
+ * Refused settings and lines are in `errors` of the result. The event loop is not blocked.
  */
 export async function simulate(text: string, settings: Settings = "", options: SimulateOptions = {}): Promise<RunResult> {
   const core = await newCore();
   options.signal?.throwIfAborted();
-  let told = performance.now();
+  let reportedAt = performance.now();
   let goesOn = core.begin(text, settings, options.setPoints !== undefined);
   while (goesOn) {
     goesOn = core.advance(SLICE);
     options.setPoints?.(core.setPoints());
-    if (performance.now() - told > BETWEEN_REPORTS_MS) {
+    if (performance.now() - reportedAt > BETWEEN_REPORTS_MS) {
       options.progress?.(core.progress());
       await new Promise((resolve) => { setTimeout(resolve, 0); });
       options.signal?.throwIfAborted();
-      told = performance.now();
+      reportedAt = performance.now();
     }
   }
   return core.result();

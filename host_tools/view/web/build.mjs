@@ -30,7 +30,7 @@ async function bundled(entry) {
   return result.outputFiles[0].text;
 }
 
-// What is bundled as text into the script that asks for it.
+// Imports that are bundled as text.
 const inlined = {
   name: "inlined",
   setup(build) {
@@ -44,7 +44,7 @@ const inlined = {
   },
 };
 
-// The licences of what is bundled.
+// The licences of bundled packages.
 function licences() {
   return ["fflate", "three", "uplot"].map((name) => {
     const folder = join(here, "node_modules", name);
@@ -55,7 +55,7 @@ function licences() {
 
 const hash = (text) => `'sha256-${createHash("sha256").update(text).digest("base64")}'`;
 
-// `start` unpacks `script` and puts it into the page; the policy names both.
+// `start` unpacks `script` and runs it; the content security policy permits these two.
 function page(name, start, script, style) {
   for (const closing of ["</script", "<!--"]) {
     if (start.toLowerCase().includes(closing)) throw new Error(`${name}: the script holds ${closing}`);

@@ -132,10 +132,10 @@ TEST(StlFacets, CountThoseWithoutArea)
 
 TEST(StlFacets, AreRefusedWhereTheFileIsCutShort)
 {
-    STRCMP_CONTAINS("9 facets are announced, that is 534 bytes; the file has 484",
+    STRCMP_CONTAINS("9 facets need 534 bytes; the file has 484",
                     refused(binary(sheet(2, wave), 9)).c_str());
     const std::string text = kOneFacet;
-    STRCMP_CONTAINS("m.stl:6: cut short",
+    STRCMP_CONTAINS("m.stl:6: truncated",
                     refused(text.substr(0, text.find("   vertex 0 10"))).c_str());
     STRCMP_CONTAINS("no STL", refused("solder").c_str());
     STRCMP_CONTAINS("no facet with an area", refused("solid x\nendsolid x\n").c_str());

@@ -27,15 +27,15 @@ TEST(ColourScale, RoundsDownToOneTwoOrFive)
 
 TEST(ColourScale, HasRoundNumbersBetweenItsEnds)
 {
-    const std::string depth = scale_bar(0, 0, 100, 5, -25.7, 0, "z");
+    const std::string depth = scale_bar({0, 0, 100, 5}, -25.7, 0, "z");
     CHECK(shows(depth, "-25") && shows(depth, "-5") && shows(depth, "0"));
     CHECK_FALSE(shows(depth, "-30"));
-    const std::string left = scale_bar(0, 0, 100, 5, 0, 0.05, "left");
+    const std::string left = scale_bar({0, 0, 100, 5}, 0, 0.05, "left");
     CHECK(shows(left, "0") && shows(left, "0.01") && shows(left, "0.05"));
 }
 
 TEST(ColourScale, OfOneValueHasOneNumber)
 {
-    const std::string flat = scale_bar(0, 0, 100, 5, -3, -3, "z");
+    const std::string flat = scale_bar({0, 0, 100, 5}, -3, -3, "z");
     CHECK(shows(flat, "-3"));
 }

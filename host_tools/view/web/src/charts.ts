@@ -1,4 +1,4 @@
-// Charts over time: each axis' velocity, acceleration and jerk as shares of their limits, and the speed along the path.
+// Charts over time: each axis' velocity, acceleration and jerk relative to their limits, and the speed along the path.
 import uPlot from "uplot";
 import { axisColours } from "./colours";
 import { element } from "./elements";
@@ -128,13 +128,13 @@ export class Charts {
     this.to = this.timeline.timeOf(this.timeline.run.ticks - 1);
     this.fill();
   }
-  // About the cursor.
+  // Zooms around the cursor.
   zoom(factor: number): void {
     const at = this.timeline.timeOf(this.timeline.tick), half = (this.to - this.from) / factor / 2;
     this.show(at - half, at + half);
   }
 
-  // The greatest values of the buckets in sight, about one a pixel.
+  // Fills the charts with the greatest values of visible buckets, about one for each pixel.
   private fill(): void {
     if (this.plots.length === 0) return;
     const { run } = this.timeline;

@@ -1,4 +1,4 @@
-// The six colourings of the page: what each shows, on which scale, with which legend.
+// The six colourings of the page: values, scale and legend of each.
 import { cssOf, gradientOf, scaleTable } from "./colours";
 import type { Look, ScaleName } from "./colours";
 import { element, figure } from "./elements";
@@ -13,7 +13,7 @@ export const colouringNames: Record<Colouring, string> = {
 
 interface Scale { name: ScaleName; title: string; unit: string; low: number; high: number; value: (vertex: number) => number }
 
-// Of the vertices that cut.
+// Least and greatest height of the vertices that cut.
 function heights(timeline: Timeline): [number, number] {
   const { run } = timeline;
   let low = Infinity, high = -Infinity;
@@ -65,7 +65,7 @@ export function applyColouring(colouring: Colouring, timeline: Timeline, scene: 
   scene.path.colour(scale.value);
   const bounds = scene.leftBounds();
   if (left) {
-    if (!bounds) return [element("div", { class: "legend-title" }, "What is left is known with a job only")];
+    if (!bounds) return [element("div", { class: "legend-title" }, "The stock left is known only with a job")];
     const { gouge, scallop } = bounds;
     return bar(scaleTable("left", look), "Gouged and left, mm",
       [`−${figure(3 * gouge, 2)}`, `−${figure(gouge, 2)}`, "0", figure(scallop, 2), figure(3 * scallop, 2)]);

@@ -1,4 +1,4 @@
-// What a person works the page with: play and scrubber, keys, and the choices of what is shown.
+// Controls of the page: play and scrubber, keys, and the visibility of objects.
 import { button, duration, element, figure } from "./elements";
 import { colouringNames, colourings } from "./colouring";
 import type { Colouring } from "./colouring";
@@ -34,7 +34,7 @@ export function transport(timeline: Timeline): HTMLElement[] {
   return [play, rate, scrubber, time];
 }
 
-// Place, line, speed and tool at the cursor.
+// Position, line, speed and tool at the cursor.
 export function readout(timeline: Timeline): HTMLElement {
   const out = element("div", { class: "readout" });
   const names = ["X", "Y", "Z", "Feed", "Line", "Tool"];
@@ -57,7 +57,7 @@ export function readout(timeline: Timeline): HTMLElement {
 
 export interface Choices { colouring: Colouring; safe: boolean }
 
-// Colouring, views, and what is in sight.
+// Colouring, views, and visible objects.
 export function sceneTools(scene: Scene, timeline: Timeline, choices: Choices, changed: () => void): { bar: HTMLElement; sync: () => void } {
   const colour = element("select", { "aria-label": "Colours show" },
     ...colourings.map((name) => element("option", { value: name }, colouringNames[name])));
@@ -97,7 +97,7 @@ export function sceneTools(scene: Scene, timeline: Timeline, choices: Choices, c
   return { bar: element("div", { class: "scene-tools" }, colour, view, ...boxes.map((b) => b.label), safeLabel), sync };
 }
 
-// Keys of the whole page; those that a focused control uses itself stay with it.
+// Keys of the whole page, except those that a focused control handles.
 export function listenToKeys(timeline: Timeline, scene: Scene | null, charts: Charts, nextColouring: () => void, help: () => void): void {
   const toLine = (step: 1 | -1) => {
     const line = timeline.neighbourLine(timeline.lineOf(timeline.tick), step), ticks = line === null ? null : timeline.ticksOfLine(line);

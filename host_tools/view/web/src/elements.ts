@@ -1,4 +1,4 @@
-// Making elements; all text by textContent, so that names and comments never are markup.
+// Creates elements; all text is set by textContent, so that names and comments are never parsed as markup.
 
 export type Content = Node | string;
 
@@ -16,7 +16,7 @@ export function button(label: string, title: string, click: () => void): HTMLBut
   return out;
 }
 
-// 4 significant digits at most below 1000, no exponent.
+// At most 4 significant digits below 1000, no exponent.
 export function figure(value: number, digits = 4): string {
   if (!Number.isFinite(value)) return "–";
   const size = value === 0 ? 0 : Math.floor(Math.log10(Math.abs(value)));

@@ -1,4 +1,4 @@
-// The figures of a run: time, maxima against limits, bounds, the worst places, tools, warnings.
+// The figures of a run: time, maxima and limits, bounds, the worst points, tools, warnings.
 import { button, duration, element, figure, metres } from "./elements";
 import type { Content } from "./elements";
 import type { PageFacts, Triple, WorstPlace } from "./run_data";
@@ -20,7 +20,7 @@ function table(head: string[], rows: Content[][]): HTMLElement {
     element("tbody", {}, ...rows.map((row) => element("tr", {}, ...row.map(cell)))));
 }
 
-// A value over its share of a limit, as a bar.
+// A value above a bar of its ratio to the limit.
 function share(value: number, limit: number): HTMLElement {
   const part = value / limit, out = element("div", { class: "share" }, figure(value, 4));
   const bar = element("div", { class: "bar" }), full = element("div");
@@ -54,7 +54,7 @@ function boundRows(facts: PageFacts): Content[][] {
   add("Gouge, floor", v.gouge_max_mm, v.floor_tolerance, "mm", judged);
   add("Gouge, ball", v.ball_gouge_max_mm, v.floor_tolerance, "mm", judged);
   add("Gouge, walls", v.wall_gouge_max_mm, v.plan_tolerance, "mm", judged);
-  add("Rapid in metal", v.rapid_cut_max_mm, v.rapid_cut_bound_mm);
+  add("Rapid in stock", v.rapid_cut_max_mm, v.rapid_cut_bound_mm);
   if (v.scallop_bound_mm !== null) {
     add("Scallop (99 %)", v.scallop_p99_mm, v.scallop_bound_mm);
     add("Over scallop", v.uncovered_share, v.uncovered_bound, "%");
@@ -70,8 +70,8 @@ function warnings(facts: PageFacts, actions: FactsActions): Content[] {
     out.push(item);
   };
   for (const error of run.errors) say(`${error.code > 0 ? `error ${error.code}: ` : ""}${error.text}: the run ends here`, error.line);
-  const told = new Set(run.errors.map((error) => error.line));
-  for (const line of reading.refused.slice(0, 50)) if (!told.has(line.line)) say(`refused, error ${line.code}: ${line.text}`, line.line);
+  const reportedLines = new Set(run.errors.map((error) => error.line));
+  for (const line of reading.refused.slice(0, 50)) if (!reportedLines.has(line.line)) say(`refused, error ${line.code}: ${line.text}`, line.line);
   if (reading.refused_count > 50) say(`${reading.refused_count} lines are refused in all`);
   if (facts.not_verified) say(`The part is not verified: ${facts.not_verified}`);
   for (const broken of facts.verification?.broken ?? []) say(broken);
@@ -92,8 +92,8 @@ export function factsPanel(facts: PageFacts, actions: FactsActions): HTMLElement
     ["Moves", `${f.moves}`],
     ["Rapid, line, arc, NURBS", `${run.rapids}, ${run.lines_moved}, ${run.arcs}, ${run.nurbs}`],
     ["Set points, 1 ms", `${f.ticks}`],
-    ["Pauses, gone on at once", `${run.pauses}`],
-    ["Off the path, most", farthest],
+    ["Pauses, resumed at once", `${run.pauses}`],
+    ["Greatest deviation", farthest],
   ])));
   const limits = section("Greatest, against limits", table(["Axis", "X", "Y", "Z"], limitRows(facts)));
   limits.append(element("p", { class: "note" }, "Set points are whole nanometres: up to 4000 mm/s³ of jerk is rounding."));
@@ -120,7 +120,7 @@ export function factsPanel(facts: PageFacts, actions: FactsActions): HTMLElement
     ]))));
   }
   if (facts.reading.header.length > 0) {
-    out.push(section("Says of itself", element("pre", { class: "header-comments", tabindex: "0" }, facts.reading.header.join("\n"))));
+    out.push(section("Comments at the start", element("pre", { class: "header-comments", tabindex: "0" }, facts.reading.header.join("\n"))));
   }
   return out;
 }

@@ -1,4 +1,4 @@
-// A block of metal by its map of heights: the stock or the part, coloured plainly or by what is left.
+// A solid from its height map: the stock or the part, in one colour or coloured by the stock left.
 import * as THREE from "three";
 import type { Stock, Triple } from "./run_data";
 
@@ -23,14 +23,14 @@ void main() {
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position.xy, foot > 0.5 ? low : z - dz, 1.0);
 }`;
 const fragmentShader = `
-uniform vec3 metal; uniform sampler2D table; uniform float useLeft; uniform float gouge; uniform float scallop;
+uniform vec3 plain; uniform sampler2D table; uniform float useLeft; uniform float gouge; uniform float scallop;
 in vec3 outward; in float shownLeft; in float hole; in float known; in float uncut;
 out vec4 colour;
 void main() {
   if (hole > 0.01) discard;
   vec3 n = normalize(outward);
   float light = 0.42 + 0.38 * max(dot(n, normalize(vec3(-0.45, -0.55, 0.7))), 0.0) + 0.2 * max(n.z, 0.0);
-  vec3 base = metal;
+  vec3 base = plain;
   if (useLeft > 0.5 && known > 0.99) {
     float part = shownLeft < 0.0 ? shownLeft / gouge : shownLeft / scallop;
     base = uncut > 0.5 ? vec3(0.05) : texture(table, vec2(clamp(0.5 + part / 6.0, 0.002, 0.998), 0.5)).rgb;
@@ -49,7 +49,7 @@ function floatTexture(values: Float32Array, width: number, height: number): THRE
 
 export class HeightField {
   readonly mesh: THREE.Mesh;
-  readonly heights: Float32Array;  // z less the centre's
+  readonly heights: Float32Array;  // z relative to the centre
   private readonly texture: THREE.DataTexture;
   private readonly material: THREE.ShaderMaterial;
 
@@ -65,7 +65,7 @@ export class HeightField {
       uniforms: {
         heights: { value: this.texture }, left: { value: floatTexture(leftValues, ny, nx) }, table: { value: table },
         nx: { value: nx }, ny: { value: ny }, pitch: { value: pitch }, low: { value: foot - centre[2] }, dz: { value: 0 },
-        metal: { value: new THREE.Color(0.6, 0.62, 0.66) }, useLeft: { value: 0 }, gouge: { value: 1 }, scallop: { value: 1 },
+        plain: { value: new THREE.Color(0.6, 0.62, 0.66) }, useLeft: { value: 0 }, gouge: { value: 1 }, scallop: { value: 1 },
       },
     });
     const cells: number[] = [], feet: number[] = [], sides: number[] = [], index: number[] = [];
@@ -103,7 +103,7 @@ export class HeightField {
     this.mesh.frustumCulled = false;
   }
 
-  // z of each point; NaN: none.
+  // Sets z of each point; NaN: none.
   set(z: (k: number) => number): void {
     for (let k = 0; k < this.heights.length; ++k) {
       const value = z(k);
@@ -113,12 +113,12 @@ export class HeightField {
   }
   changed(): void { this.texture.needsUpdate = true; }
 
-  // How much a gouge and metal left may be, mm; null: plain metal.
+  // Limits of gouge and stock left, mm; null: one colour.
   showLeft(bounds: { gouge: number; scallop: number } | null): void {
     const { uniforms } = this.material;
     uniforms.useLeft.value = bounds ? 1 : 0;
     if (bounds) [uniforms.gouge.value, uniforms.scallop.value] = [bounds.gouge, bounds.scallop];
   }
-  set metal(colour: THREE.Color) { (this.material.uniforms.metal.value as THREE.Color).copy(colour); }
+  set plain(colour: THREE.Color) { (this.material.uniforms.plain.value as THREE.Color).copy(colour); }
   get size(): [number, number] { return [this.grid.nx, this.grid.ny]; }
 }

@@ -1,4 +1,4 @@
-// What build.mjs makes of imports that are no TypeScript.
+// Types of the imports that build.mjs resolves.
 declare module "worker:*" {
   const script: string;
   export default script;

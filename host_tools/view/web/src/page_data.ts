@@ -1,14 +1,14 @@
-// Takes facts and data out of the page, and has a worker unpack the data.
+// Extracts facts and data from the page, and unpacks the data in a worker.
 import workerText from "worker:./unpack_worker.ts";
 import type { PageFacts, Run } from "./run_data";
 import type { UnpackAnswer, UnpackRequest } from "./unpack_worker";
 
-// They stand before the script.
+// Facts precede the script.
 export function pageFacts(): PageFacts {
   return JSON.parse(document.getElementById("facts")!.textContent) as PageFacts;
 }
 
-// A block of data; it leaves the page, so that its text is held no longer than needed.
+// Removes a block of data from the page, so that its text can be freed, and returns it.
 function takeBlock(name: string): string {
   const block = document.getElementById("data-" + name);
   const text = block?.textContent ?? "";
@@ -16,7 +16,7 @@ function takeBlock(name: string): string {
   return text;
 }
 
-// Resolves when the document is all there.
+// Resolves when the document is complete.
 function documentRead(): Promise<void> {
   return new Promise((done) => {
     if (document.readyState === "loading") document.addEventListener("DOMContentLoaded", () => done());

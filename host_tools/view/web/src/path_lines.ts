@@ -1,4 +1,4 @@
-// The path as lines: levels of detail, coloured by a value of each vertex; and what is drawn at a pixel.
+// The path as lines: levels of detail, coloured by a value of each vertex; and picking.
 import * as THREE from "three";
 import type { Timeline } from "./timeline";
 import type { Triple } from "./run_data";
@@ -23,7 +23,7 @@ void main() {
 }`;
 
 const kLevels = 10;
-const kFinest = 0.001;  // mm: what level 0 leaves out; each further level four times more
+const kFinest = 0.001;  // mm: deviation of level 0; four times more at each further level
 const kMostWhileMoving = 150000, kMostAtRest = 1200000;
 
 export class PathLines {
@@ -47,7 +47,7 @@ export class PathLines {
       ++this.counts[run.vertexLevel[k]];
     }
     for (let level = kLevels - 2; level >= 0; --level) this.counts[level] += this.counts[level + 1];
-    for (let k = 0, r = 0; k < count; ++k) {  // both ascend: one walk
+    for (let k = 0, r = 0; k < count; ++k) {  // both ascend: one pass
       while (run.runStart[r + 1] < run.vertexTick[k]) ++r;
       this.rapidVertex[k] = run.rapid[run.runLine[r]] ?? 0;
     }
@@ -72,7 +72,7 @@ export class PathLines {
 
   set cursor(tick: number) { for (const material of this.materials) material.uniforms.cursor.value = tick; }
   set rapids(on: boolean) { this.group.children[1].visible = on; }
-  // How much of the path the colours of the surface leave.
+  // Dims the path while surfaces are coloured.
   set faint(on: boolean) {
     this.materials[0].uniforms.strength.value = on ? 0.12 : 1;
     this.materials[0].uniforms.strengthAhead.value = on ? 0.06 : 0.35;
@@ -80,14 +80,14 @@ export class PathLines {
   }
   set plain(colour: THREE.Color) { (this.materials[1].uniforms.plain.value as THREE.Color).copy(colour); }
 
-  // Shares 0 to 1 of the scale, a vertex each.
+  // value: fraction of the scale, 0 to 1, of each vertex.
   colour(value: (vertex: number) => number): void {
     const array = this.values.array as Uint8Array;
     for (let k = 0; k < array.length; ++k) array[k] = Math.min(Math.max(value(k), 0), 1) * 255;
     this.values.needsUpdate = true;
   }
 
-  // Takes the coarsest lines that are right to half a pixel, or those that can be drawn in time.
+  // Selects the coarsest lines that are exact to half a pixel, or those that can be drawn in time.
   refine(millimetresPerPixel: number, moving: boolean): void {
     let level = 0;
     while (level < kLevels - 1 && kFinest * 4 ** (level + 1) < millimetresPerPixel / 2) ++level;
@@ -113,8 +113,8 @@ export class PathLines {
     return out.map((array, kind) => new THREE.BufferAttribute(array.slice(0, used[kind]), 1));
   }
 
-  // The tick whose place is drawn within `reach` pixels of a pixel, the nearest; of those about as near the one at
-  // the cursor, then the one before the others. `toPixels` gives x, y and depth.
+  // The tick whose point is drawn nearest to a pixel, within `reach` pixels. Of about equally near ones, the one at the
+  // cursor, then the one in front. `toPixels` returns x, y and depth.
   tickAt(px: number, py: number, reach: number, toPixels: (place: Triple) => Triple): number | null {
     const { run } = this.timeline, { vertexTick } = run;
     const hits: { begin: number; end: number }[] = [];

@@ -1,4 +1,4 @@
-// The playground: a program and settings, run by the firmware's own core; offers `window.cusp.run`.
+// The playground: runs a program with settings on the firmware's core; provides `window.cusp.run`.
 import licences from "licences";
 import type { Settings } from "./core/core";
 import { drawProgram, hasCore, runProgram, settingTable } from "./core/run_program";

@@ -1,9 +1,9 @@
-// The program beside the scene: only the lines in sight are in the page; the line at the cursor is marked.
+// The program beside the scene: only visible lines are in the document; the line at the cursor is marked.
 import type { RefusedLine } from "./run_data";
 import type { Timeline } from "./timeline";
 
 const kRow = 18;            // px, as page.css has it
-const kTallest = 8_000_000;  // px that browsers are sure to scroll
+const kTallest = 8_000_000;  // px that all browsers can scroll
 
 export class ProgramList {
   private readonly lines: number;
@@ -38,16 +38,16 @@ export class ProgramList {
   }
 
   private get height(): number { return Math.min(this.lines * kRow, kTallest); }
-  // Lines that fit.
+  // Number of lines that fit.
   private get seen(): number { return Math.max(Math.floor(this.host.clientHeight / kRow), 1); }
 
-  // The first line in sight, from 0; a fraction of a row is scrolled off.
+  // The first visible line, from 0, with the fraction of its row that is scrolled off.
   private get top(): number {
     const most = Math.max(this.height - this.host.clientHeight, 1);
     return this.host.scrollTop / most * Math.max(this.lines - this.host.clientHeight / kRow, 0);
   }
 
-  // Keeps the line at the cursor in sight.
+  // Keeps the line at the cursor visible.
   private follow(): void {
     const line = this.timeline.lineOf(this.timeline.tick);
     if (line === this.marked) return;

@@ -1,4 +1,4 @@
-// What a page holds of a run: the figures that `cusp view` wrote, and the arrays that the worker unpacks.
+// The data of a run in a page: the figures written by `cusp view`, and the arrays that the worker unpacks.
 
 export type Triple = [number, number, number];
 
@@ -46,7 +46,7 @@ export interface PageFacts {
 
 export type Axis = Int32Array | Float64Array;
 
-// Greatest absolute values of buckets of ticks: level 0 has kBucket ticks a bucket, each further kBucketStep times more.
+// Greatest absolute values in buckets of ticks: kBucket ticks at level 0, kBucketStep times more at each further level.
 export const kBucket = 16;
 export const kBucketStep = 8;
 // Channels: velocity X Y Z, acceleration X Y Z, jerk X Y Z, speed along the path; mm and s.
@@ -67,13 +67,13 @@ export interface LeftMap {
 export interface Run {
   ticks: number;
   origin: Triple;             // nm
-  axes: [Axis, Axis, Axis];   // nm from the origin, a value a tick
-  runStart: Uint32Array;      // ticks at which another line begins, and the number of ticks
+  axes: [Axis, Axis, Axis];   // nm from the origin, one value for each tick
+  runStart: Uint32Array;      // ticks at which the line changes, and the number of ticks
   runLine: Uint32Array;
   vertexTick: Uint32Array;
   vertexLevel: Uint8Array;
   vertexSpeed: Float32Array;  // mm/s
-  vertexShare: Float32Array;  // of the axes' limits, the greatest since the vertex before
+  vertexShare: Float32Array;  // greatest fraction of the axes' limits since the previous vertex
   vertexDeviation: Float32Array;  // mm, likewise
   program: Uint8Array;
   lineStart: Uint32Array;     // byte of line k at k - 1, and the number of bytes
@@ -83,7 +83,7 @@ export interface Run {
   left: LeftMap | null;
 }
 
-// The first place in ascending `values` with values[place] > x.
+// The first index in ascending `values` with values[index] > x.
 export function upperBound(values: ArrayLike<number>, x: number): number {
   let low = 0, high = values.length;
   while (low < high) {

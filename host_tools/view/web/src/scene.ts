@@ -1,4 +1,4 @@
-// The scene: path, stock, part and tool, seen by a parallel projection; drawn when something has changed.
+// The scene: path, stock, part and tool in parallel projection; drawn after each change.
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { HeightField } from "./height_field";
@@ -10,10 +10,10 @@ import type { Triple } from "./run_data";
 import type { ScaleName } from "./colours";
 import { scaleTable } from "./colours";
 
-// Colours are those of the screen, as the tables of colours have them.
+// The colour tables are in the colour space of the screen.
 THREE.ColorManagement.enabled = false;
 
-// From where the views 1 to 7 look, and what is up in them.
+// Direction and up vector of the views 1 to 7.
 const views: [Triple, Triple][] = [
   [[-0.55, -0.75, 0.62], [0, 0, 1]], [[0, 0, 1], [0, 1, 0]], [[0, -1, 0], [0, 0, 1]], [[0, 1, 0], [0, 0, 1]],
   [[-1, 0, 0], [0, 0, 1]], [[1, 0, 0], [0, 0, 1]], [[0, 0, -1], [0, 1, 0]],
@@ -79,7 +79,7 @@ export class Scene {
     this.view(0);
   }
 
-  // Of the path, and of the stock where there is one.
+  // Bounding box of the path, and of the stock if there is one.
   private box(): THREE.Box3 {
     const { run } = this.timeline, box = new THREE.Box3();
     for (const tick of run.vertexTick) box.expandByPoint(new THREE.Vector3(...this.timeline.place(tick)));
@@ -96,7 +96,7 @@ export class Scene {
     this.part?.showLeft({ gouge: gouge > 0 ? gouge : bounds.scallop, scallop: bounds.scallop });
   }
 
-  // mm: what a gouge and metal left may be.
+  // mm: limits of gouge and stock left.
   leftBounds(): { gouge: number; scallop: number } | null {
     const v = this.timeline.facts.verification;
     if (!v || !this.timeline.run.left) return null;
@@ -104,7 +104,7 @@ export class Scene {
     return { gouge: v.floor_tolerance > 0 ? v.floor_tolerance : scallop, scallop };
   }
 
-  // Colours of path and surfaces.
+  // Sets the colours of path and surfaces.
   dress(scale: ScaleName, look: { dark: boolean; safe: boolean }, left: boolean): void {
     this.pathTable.image.data!.set(scaleTable(scale, look));
     this.leftTable.image.data!.set(scaleTable("left", look));
@@ -112,8 +112,8 @@ export class Scene {
     this.world.background = new THREE.Color(look.dark ? 0x15181d : 0xeef1f4);
     this.path.plain = new THREE.Color(look.dark ? 0x9aa3ad : 0x77808a);
     if (this.stock && this.part) {
-      this.stock.metal = new THREE.Color(look.dark ? 0x7d8794 : 0xc9d0d8);
-      this.part.metal = new THREE.Color(look.dark ? 0x6f8398 : 0xb9cadb);
+      this.stock.plain = new THREE.Color(look.dark ? 0x7d8794 : 0xc9d0d8);
+      this.part.plain = new THREE.Color(look.dark ? 0x6f8398 : 0xb9cadb);
       this.stock.showLeft(left ? this.leftBounds() : null);
     }
     (this.tool.material).color.set(look.dark ? 0xd8b25a : 0xc8952c);
@@ -153,7 +153,7 @@ export class Scene {
     this.moved();
   }
 
-  // Around the target, radians.
+  // Turns the view around the target, radians.
   turn(aside: number, up: number): void {
     const offset = this.camera.position.clone().sub(this.controls.target), z = new THREE.Vector3(0, 0, 1);
     offset.applyAxisAngle(z, aside);
@@ -169,7 +169,7 @@ export class Scene {
     this.moved();
   }
 
-  // Turns to a place and marks it.
+  // Moves the view to a point and marks it.
   flyTo(at: Triple): void {
     const target = new THREE.Vector3(...at).sub(new THREE.Vector3(...this.centre));
     const from = this.controls.target.clone(), zoom = this.camera.zoom;
@@ -209,7 +209,7 @@ export class Scene {
   private moved(): void {
     this.movedAt = performance.now();
     this.ask();
-    setTimeout(() => this.ask(), 300);  // finer once it rests
+    setTimeout(() => this.ask(), 300);  // at full detail once the view is at rest
   }
 
   ask(): void {
@@ -221,7 +221,7 @@ export class Scene {
     });
   }
 
-  // Resolves when what is asked for now is drawn.
+  // Resolves when the present state is drawn.
   whenDrawn(): Promise<void> {
     return new Promise((done) => {
       this.drawn.push(done);
@@ -259,7 +259,7 @@ export class Scene {
     this.tool.visible = this.shown.tool;
   }
 
-  // Page pixels and depth of places in mm: one matrix for many places.
+  // Returns the projection of points in mm to page pixels and depth; one matrix serves many points.
   toPixels(): (at: Triple) => Triple {
     this.camera.updateMatrixWorld();
     const m = new THREE.Matrix4().multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse).elements;

@@ -1,4 +1,4 @@
-// Unpacks the page's script and runs it at once: what comes after it in the page finds window.cusp.
+// Unpacks the page's script and runs it at once, so that window.cusp exists for everything after it.
 import { inflateSync, strFromU8 } from "fflate";
 
 const packed = document.getElementById("packed-script")!;

@@ -1,4 +1,4 @@
-// The stock as cut at a tick: the last keyframe before it, and what the tool takes from there on.
+// The stock at a tick: the last keyframe before it, cut by the tool from there on.
 import type { HeightField } from "./height_field";
 import { upperBound } from "./run_data";
 import type { Stock } from "./run_data";
@@ -11,7 +11,7 @@ export class StockAtCursor {
 
   constructor(private readonly timeline: Timeline, private readonly stock: Stock, private readonly field: HeightField, private readonly centreZ: number) {}
 
-  // Brings the field to the cursor.
+  // Updates the field to the cursor.
   update(): void {
     const tick = this.timeline.tick, frame = upperBound(this.stock.frameTicks, tick);
     if (tick === this.shown) return;

@@ -1,4 +1,4 @@
-// Where the cursor is, and who is told: the one piece of state that all parts of the page share.
+// Position of the cursor and its listeners: the only state that all parts of the page share.
 import { upperBound } from "./run_data";
 import type { PageFacts, Run, Section, Triple } from "./run_data";
 
@@ -49,7 +49,7 @@ export class Timeline {
 
   private frame(now: number): void {
     if (!this.playing) return;
-    // A frame that came late goes on where it was.
+    // A delayed frame continues from the last position.
     this.exact += Math.min(now - this.lastFrame, 250) * this.rate;
     this.lastFrame = now;
     const tick = Math.min(Math.floor(this.exact), this.run.ticks - 1), moved = tick !== this.tick;
@@ -86,7 +86,7 @@ export class Timeline {
     };
   }
 
-  // Ticks of the longest stretch that runs a program line.
+  // First and last tick of the longest stretch that executes a program line.
   ticksOfLine(line: number): [number, number] | null {
     if (!this.intervals) {
       this.intervals = new Map();
@@ -101,7 +101,7 @@ export class Timeline {
     return line > 0 ? this.intervals.get(line) ?? null : null;
   }
 
-  // The next line that takes time, from `line` on in a direction.
+  // The next line with a duration, from `line` in a direction.
   neighbourLine(line: number, step: 1 | -1): number | null {
     const last = this.run.lineStart.length - 1;
     for (let next = line + step; next >= 1 && next <= last; next += step) if (this.ticksOfLine(next)) return next;

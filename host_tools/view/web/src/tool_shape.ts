@@ -1,4 +1,4 @@
-// The tool in its true shape; a thin pointer where no job says what it is.
+// The tool in its true shape; a thin pointer where its shape is unknown.
 import * as THREE from "three";
 import type { Timeline } from "./timeline";
 import type { ToolFacts } from "./run_data";
@@ -14,13 +14,13 @@ export function toolAt(timeline: Timeline, tick: number): Cutter | null {
   return isCutter(tool) ? tool : null;
 }
 
-// Height of the lower side over the tip, `away` from the axis.
+// Height of the lower side above the tip, at the distance `away` from the axis.
 export function profileOf(tool: Cutter, away: number): number {
   const corner = tool.corner_radius, beyond = Math.max(0, away - (tool.radius - corner));
   return corner - Math.sqrt(Math.max(0, corner * corner - beyond * beyond));
 }
 
-// Around z, the tip at 0.
+// Axis z, the tip at 0.
 export function toolGeometry(tool: Cutter | null, size: number): THREE.BufferGeometry {
   const points: THREE.Vector2[] = [];
   if (tool) {

@@ -1,8 +1,8 @@
-// Bytes of the page to arrays: the other end of host_tools/view/byte_text.hpp, sample_blocks.hpp and path_vertices.hpp.
+// Decodes the page's data to arrays: the counterpart of host_tools/view/byte_text.hpp, sample_blocks.hpp and path_vertices.hpp.
 import { kBucket, kBucketStep, kChannels, kSpeedChannel } from "./run_data";
 import type { Axis, LeftMap, Run, Stock, Triple } from "./run_data";
 
-// Seven bits a character, the highest first.
+// Seven bits in each character, the highest first.
 export function bytesOfText(text: string): Uint8Array {
   const out = new Uint8Array(Math.floor(text.length * 7 / 8));
   let held = 0, bits = 0, at = 0;
@@ -48,7 +48,7 @@ const zigzag = (value: number) => value % 2 ? -(value + 1) / 2 : value / 2;
 
 export interface Samples { ticks: number; origin: Triple; axes: [Axis, Axis, Axis] }
 
-// Stretches of a block that repeat earlier ticks: [ticks before it that do not, its ticks, how long ago].
+// Stretches of a block that repeat earlier ticks: [ticks before it without repetition, its ticks, distance in ticks].
 function readRepetitions(reader: Reader): Triple[] {
   return Array.from({ length: reader.varint() }, () => [reader.varint(), reader.varint(), reader.varint()]);
 }
@@ -70,7 +70,7 @@ export async function unpackSamples(bytes: Uint8Array, farthest: number): Promis
       if (begin === 0) origin[axis] = seeds[axis][0];
       let place = seeds[axis][0] - origin[axis], velocity = seeds[axis][1], acceleration = seeds[axis][2];
       const depth = seeds[axis][3], out = axes[axis];
-      // Before the first tick nothing moved.
+      // Before the first tick nothing moves.
       const placeAt = (tick: number) => out[tick < 0 ? 0 : tick];
       let tick = begin, k = 0;
       out[tick++] = place;
@@ -123,7 +123,7 @@ export function unpackPath(bytes: Uint8Array): Pick<Run, "vertexTick" | "vertexL
   return { vertexTick, vertexLevel, vertexDeviation };
 }
 
-// Lines end with \n; the last byte is one.
+// Lines end with \n, the last one too.
 export function lineStarts(program: Uint8Array): Uint32Array {
   let count = 0;
   for (const byte of program) count += byte === 10 ? 1 : 0;
@@ -132,7 +132,7 @@ export function lineStarts(program: Uint8Array): Uint32Array {
   return out;
 }
 
-// Peaks of all channels, and what the vertices of the path are coloured by.
+// Peaks of all channels, and the values that colour the vertices of the path.
 export function measure(samples: Samples, vertexTick: Uint32Array, limits: Triple[]) {
   const { ticks, axes } = samples;
   const peaks: Float32Array[][] = [];
@@ -142,7 +142,7 @@ export function measure(samples: Samples, vertexTick: Uint32Array, limits: Tripl
   const vertexSpeed = new Float32Array(vertexTick.length), vertexShare = new Float32Array(vertexTick.length);
   for (let axis = 0; axis < 3; ++axis) {
     const places = axes[axis], velocities = level[axis], accelerations = level[3 + axis], jerks = level[6 + axis];
-    // shares of a nanometre a tick, a tick^2, a tick^3
+    // fractions of the limits for a nanometre per tick, tick^2, tick^3
     const ofV = 1e-3 / limits[0][axis], ofA = 1 / limits[1][axis], ofJ = 1e3 / limits[2][axis];
     let place = places[0], velocity = 0, acceleration = 0, vertex = 0, share = 0;
     for (let k = 0; k < ticks; ++k) {

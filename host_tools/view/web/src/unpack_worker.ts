@@ -1,4 +1,4 @@
-// The worker that unpacks a run: text of the page in, arrays out.
+// The worker that unpacks a run from the page's text to arrays.
 import type { Run, Triple } from "./run_data";
 import { bytesOfText, inflate, lineStarts, measure, unpackLeft, unpackLineRuns, unpackPath, unpackSamples, unpackStock } from "./unpack";
 
@@ -23,7 +23,7 @@ async function unpack(request: UnpackRequest): Promise<Run> {
   };
 }
 
-// All buffers, so that none is copied on the way out.
+// All buffers of a value, to transfer instead of copy them.
 function buffersOf(value: unknown, found = new Set<ArrayBuffer>()): Set<ArrayBuffer> {
   if (ArrayBuffer.isView(value)) found.add(value.buffer as ArrayBuffer);
   else if (value !== null && typeof value === "object") for (const part of Object.values(value)) buffersOf(part, found);

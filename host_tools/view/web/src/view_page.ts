@@ -1,4 +1,4 @@
-// The page of one run: puts the parts together, and offers `window.cusp`.
+// The page of one run: creates its parts, and provides `window.cusp`.
 import licences from "licences";
 import { applyColouring, colourings } from "./colouring";
 import type { Colouring } from "./colouring";
@@ -78,7 +78,7 @@ function fail(reason: unknown): never {
   throw reason;
 }
 
-// The scene, or null with the reason in the page where there is no WebGL.
+// The scene; null without WebGL, with the reason shown in the page.
 function sceneOf(canvas: HTMLCanvasElement, timeline: Timeline): Scene | null {
   try {
     return new Scene(canvas, timeline);
@@ -164,7 +164,7 @@ async function open(help: () => void): Promise<void> {
   if (location.hash === "#still") document.documentElement.classList.add("still");
 }
 
-// A click on the path puts the cursor there; a drag turns the scene.
+// A click on the path moves the cursor there; a drag turns the scene.
 function pickOn(canvas: HTMLCanvasElement, timeline: Timeline, tickAt: (px: number, py: number) => number | null): void {
   let down: [number, number] = [0, 0];
   canvas.addEventListener("pointerdown", (event) => { down = [event.clientX, event.clientY]; });

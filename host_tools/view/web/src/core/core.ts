@@ -1,18 +1,18 @@
-// The firmware's core: the WebAssembly module behind types. Knows neither page nor worker; runs under node, too.
+// The firmware's core: a typed interface to the WebAssembly module, independent of page and worker; also for node.
 
 /** An answer that ended a run, or settings that are refused. */
 export interface RunError {
-  /** What the line is of. */
+  /** The text to which the line belongs. */
   in: "program" | "settings";
-  /** From 1; 0: no line of it. */
+  /** From 1; 0: no line. */
   line: number;
-  /** Grbl's; 0 where the fault is not the firmware's. */
+  /** Grbl's error code; 0: not an error of the firmware. */
   code: number;
-  /** As `cusp sim` prints it behind file and line. */
+  /** As `cusp sim` prints it after file and line. */
   text: string;
 }
 
-/** What a run measured: names and units of `cusp sim --stats`. */
+/** The figures of a run: names and units of `cusp sim --stats`. */
 export interface RunResult {
   duration_s: number;
   total_s: number;
@@ -25,29 +25,29 @@ export interface RunResult {
   max_acceleration: [number, number, number];
   max_jerk: [number, number, number];
   pauses: number;
-  /** Grbl's code; null: none. */
+  /** Grbl's alarm code; null: none. */
   alarm: number | null;
-  /** CRC-32 over all edges of the step and direction lines, eight hex digits. */
+  /** CRC-32 of all edges of the step and direction lines, eight hex digits. */
   edges_crc32: string;
   errors: RunError[];
 }
 
-/** `$N=v`, one a line, as a settings file has them; or the numbers by name: {"$110": 3000}. */
+/** Lines `$N=v`, as in a settings file; or numbers by name: {"$110": 3000}. */
 export type Settings = string | Record<string, number>;
 
-/** How far a run is. */
+/** Progress of a run. */
 export interface Progress {
-  /** Of the program's text, 0 to 1. */
+  /** Fraction of the program's text, 0 to 1. */
   fraction: number;
-  /** Of the program, sent last. */
+  /** The line sent last. */
   line: number;
   simulated_s: number;
 }
 
-/** Greatest magnitudes over time: PROFILE_FIELDS numbers a stretch. */
+/** Greatest magnitudes over time: PROFILE_FIELDS numbers for each stretch. */
 export type Profile = Float64Array;
 export const PROFILE_FIELDS = 12;
-/** Numbers a set point: x, y, z in mm, line of the program. */
+/** Numbers of a set point: x, y, z in mm, line of the program. */
 export const POINT_FIELDS = 4;
 
 /** A setting of the firmware. */
@@ -88,19 +88,19 @@ export function settingsText(settings: Settings): string {
   return Object.entries(settings).map(([name, value]) => `${name}=${value}\n`).join("");
 }
 
-/** One instance of the module: one run at a time. After a trap it is of no more use. */
+/** One instance of the module: one run at a time. Unusable after a trap. */
 export class Core {
   private readonly exports: Exports;
 
   constructor(module: WebAssembly.Module) {
-    // The C library could write messages to files. There are none: every call is refused.
+    // File functions that the C library imports: every call is refused.
     const refuse = () => NOT_SUPPORTED;
     const imports = Object.fromEntries(WebAssembly.Module.imports(module).map((i) => [i.name, refuse]));
     this.exports = new WebAssembly.Instance(module, { wasi_snapshot_preview1: imports }).exports as unknown as Exports;
     this.exports._initialize();
   }
 
-  /** Begins a run. False: the settings are refused, see result(). */
+  /** Starts a run. False: the settings are refused, see result(). */
   begin(text: string, settings: Settings, withSetPoints: boolean): boolean {
     this.put(settingsText(settings));
     this.exports.cusp_take_settings();
@@ -108,7 +108,7 @@ export class Core {
     return this.exports.cusp_run_begin(withSetPoints ? 1 : 0) !== 0;
   }
 
-  /** At most so many servo ticks, a millisecond each. Returns whether the run goes on. */
+  /** Advances at most so many servo ticks of a millisecond. Returns false at the end of the run. */
   advance(ticks: number): boolean {
     return this.exports.cusp_run_advance(ticks) !== 0;
   }

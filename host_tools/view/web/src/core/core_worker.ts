@@ -1,9 +1,9 @@
-// The worker: runs one program on the core and tells of it. A trap of the module is told, too, and ends it.
+// The worker: runs one program on the core and posts progress and result. A trap of the module is posted and ends it.
 import { Core } from "./core";
 import { PathSketch } from "./path_sketch";
 import type { FromWorker, ToWorker } from "./messages";
 
-// Servo ticks between two looks at the clock: some milliseconds of work.
+// Servo ticks of one call of advance(): some milliseconds of work.
 const SLICE = 500;
 const BETWEEN_REPORTS_MS = 100;
 
@@ -15,14 +15,14 @@ const scope = self as unknown as {
 function run({ module, text, settings, withPath }: ToWorker) {
   const core = new Core(module);
   const sketch = new PathSketch();
-  let told = performance.now();
+  let reportedAt = performance.now();
   let goesOn = core.begin(text, settings, withPath);
   if (withPath) sketch.add(core.setPoints());
   while (goesOn) {
     goesOn = core.advance(SLICE);
     if (withPath) sketch.add(core.setPoints());
-    if (performance.now() - told > BETWEEN_REPORTS_MS) {
-      told = performance.now();
+    if (performance.now() - reportedAt > BETWEEN_REPORTS_MS) {
+      reportedAt = performance.now();
       scope.postMessage({ kind: "progress", progress: core.progress() });
     }
   }

@@ -1,11 +1,11 @@
-// What page and worker say to each other.
+// Messages between page and worker.
 import type { Profile, Progress, RunResult, Settings } from "./core";
 
 export interface ToWorker {
   module: WebAssembly.Module;
   text: string;
   settings: Settings;
-  /** Whether path and profile are wanted. */
+  /** Whether path and profile are requested. */
   withPath: boolean;
 }
 

@@ -1,19 +1,19 @@
-// The path of a run with few points: a set point is kept where the path leaves the ray from the last one kept.
+// The path of a run with few points: a set point is stored where the path leaves the ray from the last stored one.
 import { POINT_FIELDS } from "./core";
 
-/** Numbers a point of a sketch: x, y, z in mm, line of the program, seconds from the start. */
+/** Numbers of a point: x, y, z in mm, line of the program, seconds from the start. */
 export const SKETCH_FIELDS = 5;
 
 const SECONDS_PER_TICK = 0.001;
 
-/** Reumann and Witkam's sweep, one set point at a time. Where points become too many, every other one goes. */
+/** Reumann-Witkam simplification, one set point at a time. If there are too many points, every other one is removed. */
 export class PathSketch {
   private kept: number[] = [];
   private last: number[] = [];
   private ray: [number, number, number] | null = null;
   private ticks = 0;
 
-  /** The path is kept within about `tolerance` mm. */
+  /** The result is within about `tolerance` mm of the path. */
   constructor(private tolerance = 0.01, private readonly mostPoints = 400_000) {}
 
   add(points: Float64Array) {
@@ -24,7 +24,7 @@ export class PathSketch {
     }
   }
 
-  /** All points, the last set point with them. */
+  /** All points, including the last set point. */
   points(): Float64Array {
     const all = new Float64Array(this.kept.length + this.last.length);
     all.set(this.kept);

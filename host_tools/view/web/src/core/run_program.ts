@@ -1,4 +1,4 @@
-// Runs programs on the core in a worker: with progress, a way to stop, and an end whatever happens in the module.
+// Runs programs on the core in a worker, with progress and cancellation; ends even if the module traps.
 import base64 from "core-wasm";
 import script from "worker:./core_worker.ts";
 import { Core, type Profile, type Progress, type RunResult, type SettingEntry, type Settings } from "./core";
@@ -10,7 +10,7 @@ export interface RunOptions {
   signal?: AbortSignal;
 }
 
-/** A run with what a page draws of it. */
+/** A run with the data that a page draws. */
 export interface DrawnRun {
   result: RunResult;
   path: Float64Array;
@@ -67,12 +67,12 @@ async function inWorker(text: string, settings: Settings, withPath: boolean, opt
   }
 }
 
-/** The figures of a run: what `window.cusp.run` gives. */
+/** The figures of a run, as `window.cusp.run` returns them. */
 export async function runProgram(text: string, settings: Settings = "", options: RunOptions = {}): Promise<RunResult> {
   return (await inWorker(text, settings, false, options)).result;
 }
 
-/** The same with path and profile. */
+/** The figures with path and profile. */
 export async function drawProgram(text: string, settings: Settings, options: RunOptions = {}): Promise<DrawnRun> {
   const { result, path, profile } = await inWorker(text, settings, true, options);
   return { result, path: path ?? new Float64Array(), profile: profile ?? new Float64Array() };

@@ -14,7 +14,7 @@ export class PathView {
   private centre = [0, 0, 0];
   private size = 1;
   private turn = 0;  // radians about Z
-  private tilt = Math.PI / 2;  // from level to from above
+  private tilt = Math.PI / 2;  // from horizontal to top view
   private zoom = 1;
   private shift = [0, 0];
   private pending = false;

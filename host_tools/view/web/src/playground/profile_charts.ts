@@ -1,4 +1,4 @@
-// Speed over time, and each axis' velocity, acceleration and jerk as shares of their limits.
+// Speed over time, and each axis' velocity, acceleration and jerk relative to their limits.
 import uPlot from "uplot";
 import { axisColours } from "../colours";
 import { PROFILE_FIELDS, type Profile } from "../core/core";

@@ -1,4 +1,4 @@
-// The program's text: edited up to a size, beyond it shown in part, since a text box of a million lines would stall the page.
+// The program's text: editable up to a size, otherwise shown in part, since a text box of a million lines stalls the page.
 import type { RunError } from "../core/core";
 import { button, element } from "../elements";
 

@@ -1,4 +1,4 @@
-// The figures of a run, maxima against their limits.
+// The figures of a run, and maxima with their limits.
 import type { RunResult } from "../core/core";
 import { duration, element, figure, metres } from "../elements";
 import type { Limits } from "./profile_charts";
@@ -8,7 +8,7 @@ const AXES = ["X", "Y", "Z"];
 function facts(result: RunResult): HTMLElement {
   const { moves } = result;
   const rows: [string, string][] = [
-    ["Time in motion", duration(result.duration_s)], ["Time in all", duration(result.total_s)], ["Way", metres(result.length_mm)],
+    ["Time in motion", duration(result.duration_s)], ["Time in all", duration(result.total_s)], ["Length", metres(result.length_mm)],
     ["Lines", String(result.lines)], ["Moves", `${moves.rapid} rapid, ${moves.line} line, ${moves.arc} arc, ${moves.nurbs} NURBS`],
     ["End", `X ${figure(result.end_mpos_mm[0], 6)}  Y ${figure(result.end_mpos_mm[1], 6)}  Z ${figure(result.end_mpos_mm[2], 6)} mm`],
     ["Steps", result.steps.join(", ")], ["Checksum of edges", result.edges_crc32],

@@ -1,4 +1,4 @@
-// What the settings of the firmware are called, and their units: Grbl's list, and cusp's own.
+// Names and units of the firmware's settings: those of Grbl, and of cusp.
 
 const axes = ["X", "Y", "Z"];
 const perAxis = (first: number, name: string): [number, string][] => axes.map((axis, k) => [first + k, `${axis} ${name}`]);

@@ -1,4 +1,4 @@
-// The settings as a form: limits first, the rest folded away. What differs from the default is marked.
+// The settings as a form: limits first, the others collapsed. Values other than the default are marked.
 import type { SettingEntry } from "../core/core";
 import { element } from "../elements";
 import { firstSettings, settingName } from "./setting_names";
@@ -17,7 +17,7 @@ export class SettingsPanel {
     this.host.append(first, element("details", {}, element("summary", {}, "All other settings"), rest));
   }
 
-  /** The settings that differ from the defaults, one $N=v a line. */
+  /** The settings that differ from the defaults, as lines $N=v. */
   text(): string {
     return [...this.inputs].filter(([number, input]) => Number(input.value) !== this.entries.get(number)!.standard || input.value === "")
       .map(([number, input]) => `$${number}=${input.value}\n`).join("");
@@ -27,7 +27,7 @@ export class SettingsPanel {
     return Number(this.inputs.get(number)!.value);
   }
 
-  /** Takes lines $N=v; those that are no setting are left out. Returns how many were taken. */
+  /** Applies lines $N=v; ignores those that are no setting. Returns the number of settings applied. */
   take(text: string): number {
     let taken = 0;
     for (const [, number, value] of text.matchAll(/^\s*\$\s*(\d+)\s*=\s*([-\d.eE]+)/gm)) {
