@@ -71,7 +71,7 @@ def outputs(program, job, folder, out, plan_limit, options):
     if status == 0:
         add_verdict(found, program, job, folder, out)
         motion = json.loads((out / "plan.json").read_text())["estimated_s"]
-        if options.simulation and motion < SIMULATED:
+        if options.simulation(motion):
             add_trace(found, program, folder, out)
     # both programs are told other names of files
     return {key: value.replace(out.name.encode(), b"OUT") for key, value in found.items()
@@ -135,10 +135,15 @@ def difference(old, new):
 
 
 class Outputs:
-    """Which outputs are compared."""
+    """Which outputs are compared. Both programs are simulated or neither: the first one's estimate of the time decides."""
 
-    def __init__(self, simulation, messages):
-        self.simulation, self.messages = simulation, messages
+    def __init__(self, simulated_s, messages):
+        self.simulated_s, self.messages, self.decided = simulated_s, messages, None
+
+    def simulation(self, motion):
+        if self.decided is None:
+            self.decided = motion < self.simulated_s
+        return self.decided
 
 
 def compare(programs, job, folder, scratch, limit, options):
@@ -158,7 +163,7 @@ def compare_random(programs, seed, options):
         job = random_job.RandomJob(seed)
         name = job.write(folder)
         try:
-            fault, old = compare(programs, name, folder, folder, options.limit, Outputs(True, options.messages))
+            fault, old = compare(programs, name, folder, folder, options.limit, Outputs(SIMULATED, options.messages))
         except TooSlow:
             return f"seed {seed} {job.strategy}", None, None
         return f"seed {seed} {job.strategy}", fault, old
@@ -166,7 +171,7 @@ def compare_random(programs, seed, options):
 
 def compare_example(programs, example, options):
     with tempfile.TemporaryDirectory() as scratch:
-        fault, old = compare(programs, str(example), TOP, pathlib.Path(scratch), WHOLE, Outputs(False, options.messages))
+        fault, old = compare(programs, str(example), TOP, pathlib.Path(scratch), WHOLE, Outputs(0, options.messages))
         return str(example), fault, old
 
 
