@@ -17,7 +17,7 @@ function(cusp_image)
   target_sources(${ARG_NAME} PRIVATE $<TARGET_OBJECTS:cusp_hal_freestanding>)
   target_link_options(${ARG_NAME} PRIVATE
     -nostartfiles -nostdlib -T ${script} -L ${PROJECT_SOURCE_DIR}
-    -Wl,--gc-sections -Wl,-Map=${out}/${ARG_NAME}.map -Wl,--print-memory-usage)
+    -Wl,--gc-sections -Wl,--emit-relocs -Wl,-Map=${out}/${ARG_NAME}.map -Wl,--print-memory-usage)
   add_custom_command(TARGET ${ARG_NAME} POST_BUILD
     COMMAND ${CMAKE_OBJCOPY} -O binary --gap-fill 0xff $<TARGET_FILE:${ARG_NAME}> ${out}/${ARG_NAME}.bin
     COMMAND ${CMAKE_OBJCOPY} -O ihex $<TARGET_FILE:${ARG_NAME}> ${out}/${ARG_NAME}.hex)

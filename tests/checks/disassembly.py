@@ -124,27 +124,72 @@ def add_compiler_sizes(functions, folder):
                 function.dynamic = function.dynamic or size.group(2) != "static"
 
 
+RELOCATION = re.compile(r"^([0-9a-f]{8})\s+[0-9a-f]+\s+(R_ARM_\w+)\s+([0-9a-f]{8})\s+(\S+)")
+# What puts an address into a word (R_ARM_TARGET1: of a table of constructors), or into two instructions.
+WORDS = {"R_ARM_ABS32", "R_ARM_TARGET1"}
+HALVES = {"R_ARM_THM_MOVW_ABS_NC", "R_ARM_THM_MOVT_ABS", "R_ARM_MOVW_ABS_NC", "R_ARM_MOVT_ABS"}
+# Sections that are not in the chip's memory.
+NOT_LOADED = (".debug", ".comment", ".ARM.attributes")
+
+
+def read_words(image):
+    """The loaded sections' bytes, as address -> word at each multiple of 4."""
+    words = {}
+    loaded = True
+    for line in run("arm-none-eabi-objdump", "-s", image).splitlines():
+        if line.startswith("Contents of section "):
+            loaded = not line[20:].startswith(NOT_LOADED)
+        match = loaded and re.match(r"^ ([0-9a-f]+) ((?:[0-9a-f]{2,8} ){1,4})", line)
+        for place, word in enumerate(match.group(2).split() if match else ()):
+            if len(word) == 8:
+                words[int(match.group(1), 16) + 4 * place] = int.from_bytes(bytes.fromhex(word), "little")
+    return words
+
+
+def kept_functions(image, functions):
+    """Names of the functions whose address is kept: those of the table of constructors, and all others.
+
+    The linker's relocations say which words are addresses (-Wl,--emit-relocs): a number that happens to
+    equal one is none.
+    """
+    by_address = {function.address | 1: function.name for function in functions.values()}
+    words = read_words(image)
+    table = {parts[2]: int(parts[0], 16) for parts in map(str.split, run("arm-none-eabi-nm", image).splitlines())
+             if len(parts) == 3}
+    constructor_table = range(table["cusp_constructors_begin"], table["cusp_constructors_end"])
+    constructors, others, section = set(), set(), None
+    for line in run("arm-none-eabi-readelf", "-rW", image).splitlines():
+        head = re.match(r"Relocation section '\.rel(\S+)'", line)
+        if head:
+            section = head.group(1)
+        match = RELOCATION.match(line)
+        if not match or section.startswith(NOT_LOADED):
+            continue
+        place, kind, value, symbol = match.groups()
+        name = None
+        if kind in WORDS:
+            name = by_address.get(words.get(int(place, 16)))
+        elif kind in HALVES:
+            # The addend of a section's symbol is spread over the instruction.
+            if symbol.startswith("."):
+                raise Unreadable(f"{image}: {line}: an address in halves, of a section")
+            name = by_address.get(int(value, 16) | 1)
+        if name:
+            (constructors if int(place, 16) in constructor_table else others).add(name)
+    if section is None:
+        raise Unreadable(f"{image}: no relocations: link with -Wl,--emit-relocs")
+    return constructors, others
+
+
 def add_calls_by_pointer(image, functions):
     """Lets each function that calls by pointer call every function whose address is kept somewhere.
 
-    An address is kept as a word of its own: in a table, or among the constants behind a function.
-    Debug sections are not in the chip's memory, and theirs are no addresses that the code could use.
-    The table of constructors is read by cusp_reset alone.
+    The one call by pointer of cusp_reset is that of the constructors; no other function reads their table.
     """
-    by_address = {function.address | 1: function.name for function in functions.values()}
-    kept, loaded = set(), True
-    for line in run("arm-none-eabi-objdump", "-s", image).splitlines():
-        if line.startswith("Contents of section "):
-            loaded = not line[20:].startswith((".debug", ".comment", ".ARM.attributes"))
-        match = loaded and re.match(r"^ [0-9a-f]+ ((?:[0-9a-f]{2,8} ?)+)", line)
-        for word in match.group(1).split() if match else ():
-            if len(word) == 8:
-                value = int.from_bytes(bytes.fromhex(word), "little")
-                if value in by_address:
-                    kept.add(by_address[value])
-    constructors = {name for name in kept if name.startswith("_GLOBAL__sub_I_")}
+    constructors, others = kept_functions(image, functions)
+    others -= {"cusp_reset", "cusp_servo_tick", "cusp_serial_interrupt", "cusp_player_interrupt", "cusp_exception"}
     for function in functions.values():
-        if function.indirect:
-            mine = kept if function.name == "cusp_reset" else kept - constructors
-            function.calls |= mine - {"cusp_reset", "cusp_servo_tick", "cusp_serial_interrupt",
-                                      "cusp_player_interrupt", "cusp_exception"}
+        if function.name == "cusp_reset" and len(function.indirect) == 1:
+            function.calls |= constructors
+        elif function.indirect:
+            function.calls |= others

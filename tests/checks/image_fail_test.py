@@ -10,7 +10,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 TOP = HERE.parent.parent
 FLAGS = ("-std=c++17 -O2 -mcpu=cortex-m4 -mthumb -mfpu=fpv4-sp-d16 -mfloat-abi=hard -ffreestanding "
          "-fno-exceptions -fno-rtti -fno-math-errno -fcallgraph-info=su,da -ffunction-sections "
-         "-nostartfiles -nostdlib").split()
+         "-nostartfiles -nostdlib -Wl,--emit-relocs").split()
 LAYOUT = """MEMORY { VECTORS (r) : ORIGIN = 0x08000000, LENGTH = 16K
 FLASH (rx) : ORIGIN = 0x0800C000, LENGTH = 512K  RAM (rw) : ORIGIN = 0x20000000, LENGTH = 128K }
 REGION_ALIAS("STACK", RAM)
@@ -114,6 +114,45 @@ class ProofsOfTheImage(unittest.TestCase):
 
     def test_a_stack_that_is_too_deep_is_refused(self):
         self.refuse("bytes are needed", reset="volatile char a[9000]; a[sink] = 1;")
+
+    KEPT = ("extern volatile int sink;\n"
+            "__attribute__((noinline, used)) void deep() { volatile char a[5000]; a[sink] = 1; }\n"
+            "__attribute__((noinline)) void plain() { sink = 2; }\n")
+
+    def test_a_function_whose_address_is_kept_counts_where_a_pointer_is_called(self):
+        self.refuse("bytes are needed", reset="pointer(); sink = 2; other();",
+                    extra=self.KEPT + "void (*volatile pointer)() = deep; void (*volatile other)() = plain;")
+
+    def test_a_number_that_equals_an_address_is_no_call(self):
+        # The address of deep(), as the image without it has it, as a plain number.
+        keep = "void (*volatile pointer)() = plain; volatile unsigned number_ = {};"
+        reset = "pointer(); sink = 2; pointer();"
+        self.build(extra=self.KEPT + keep.format("1"), reset=reset)
+        names = subprocess.run(["arm-none-eabi-nm", "bad.elf"], cwd=self.place, capture_output=True, text=True,
+                               check=True).stdout
+        deep = next(line.split()[0] for line in names.splitlines() if "deep" in line)
+        status, text = self.prove(extra=self.KEPT + keep.format(f"0x{deep}u + 1u"), reset=reset)
+        self.assertEqual(status, 0, text)
+
+    def test_a_constructor_counts_at_the_start_alone(self):
+        made = ("extern volatile int sink; struct Made {{ __attribute__((noinline)) Made() {{ volatile char a[{}]; a[sink] = 1; }} }};\n"
+                "Made made; void (*volatile pointer)() = nullptr;")
+        loop = ("extern \"C\" {{ extern void (*cusp_constructors_begin[])(); "
+                "extern void (*cusp_constructors_end[])(); }}")
+        start = "for (auto c = cusp_constructors_begin; c != cusp_constructors_end; ++c) (*c)();"
+        self.refuse("bytes are needed", reset=start, extra=made.format(5000) + loop.format())
+        status, text = self.prove(reset=start + "elsewhere();", extra=made.format(3000) + loop.format()
+                                  + "__attribute__((noinline)) void elsewhere() "
+                                    "{ volatile char b[2000]; b[sink] = 1; pointer(); sink = 2; }")
+        self.assertEqual(status, 0, text)
+
+    def test_an_image_without_relocations_is_no_success(self):
+        self.build()
+        subprocess.run(["arm-none-eabi-objcopy", "--remove-relocations=.*", "bad.elf"], cwd=self.place, check=True)
+        run = subprocess.run([sys.executable, str(HERE / "image.py"), str(self.place / "bad.elf"), str(self.place)],
+                             capture_output=True, text=True)
+        self.assertEqual(run.returncode, 2)
+        self.assertIn("no relocations", run.stderr)
 
     def test_a_stack_that_leaves_less_than_a_kilobyte_is_refused(self):
         self.refuse("to spare", reset="volatile char a[5000]; a[sink] = 1;")
