@@ -1,7 +1,7 @@
 // ChipTraits: a mill controller with a chip of the STM32F4 family, made of the table of its board.
 //
 // A board's table, such as boards/skr2_f407/skr2_table.hpp, says:
-//   kLines              pins of the six lines, on up to three ports
+//   kLines              pins of the step and direction lines, on up to three ports
 //   kPanelPins          pins of inputs, spindle, coolant and drives
 //   Pace                hal/stm32f4/pace.hpp: which timer asks for the pulses
 //   SerialPort          hal/stm32f4/serial_ports.hpp: which USART is the line
@@ -45,6 +45,7 @@ struct ChipTraits {
     static constexpr std::uint32_t kSpindleTimerHz = Table::kClocks.slow_timer_hz();
 
     static constexpr std::uint32_t kMostStepsPerSecond = Table::kMostStepsPerSecond;
+    static constexpr bool kSecondMotor = hal::stm32f4::has_second_motor(Table::kLines);
 
     // Whether the end of a frame calls for the servo tick.
     static constexpr bool live() noexcept { return true; }

@@ -15,6 +15,7 @@ struct MillBoard {
     MillBoard& operator=(const MillBoard&) = delete;
 
     static constexpr std::uint32_t kMostStepsPerSecond = Traits::kMostStepsPerSecond;
+    static constexpr bool kSecondMotor = Traits::kSecondMotor;
 
     typename Traits::PulsePlayer pulse_player;
     typename Traits::ByteLink byte_link;

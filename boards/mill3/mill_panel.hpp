@@ -25,21 +25,23 @@ struct PanelPins {
     std::array<Pin, 4> switches;    // limits X Y Z, probe
     std::array<Pin, 4> buttons;     // door, hold, start, reset
     std::array<Pin, 2> protectors;  // emergency stop, motor fault
-    // High: the drives are without current. One line for all of them, or one a drive.
-    std::array<Pin, 3> drives_off;
+    // High: the drives are without current. One line for all of them, or one a drive; the last is the
+    // second motor's.
+    std::array<Pin, 4> drives_off;
     Pin flood;
     Pin mist;
     Pin spindle_on;
     Pin spindle_reverse;
     SpindlePin spindle_pulses;
     Pin power{};  // high from the first output on: feeds drives and outputs, where a board has that
+    Pin second_limit{};  // the switch of the second motor, where there is one
 };
 
 constexpr std::uint32_t clock_bits(const PanelPins& pins) noexcept
 {
     std::uint32_t bits = clock_bit(pins.flood) | clock_bit(pins.mist) | clock_bit(pins.spindle_on) |
                          clock_bit(pins.spindle_reverse) | clock_bit(pins.spindle_pulses.pin) |
-                         clock_bit(pins.power);
+                         clock_bit(pins.power) | clock_bit(pins.second_limit);
     for (const Pin pin : pins.switches) {
         bits |= clock_bit(pin);
     }
@@ -76,6 +78,10 @@ public:
         for (const Pin pin : kPins.protectors) {
             set_pin(port(pin), pin.number, PinMode::kInput, Pull::kUp);
         }
+        if constexpr (is_there(kPins.second_limit)) {
+            set_pin(port(kPins.second_limit), kPins.second_limit.number, PinMode::kInput,
+                    Pull::kUp);
+        }
     }
     // Levels of rest, as the last set() inverts them. Context: any.
     static void switch_everything_off() noexcept
@@ -99,6 +105,9 @@ public:
         }
         for (unsigned i = 0; i < 2; ++i) {
             bits |= level(kPins.protectors[i]) << (i + 8);
+        }
+        if constexpr (is_there(kPins.second_limit)) {
+            bits |= level(kPins.second_limit) << 10U;
         }
         return static_cast<std::uint16_t>(bits);
     }
@@ -150,12 +159,17 @@ private:
     {
         using namespace hal::stm32f4;
         constexpr const PanelPins& kPins = Rules::kPanelPins;
-        for (const Pin pin :
-             {kPins.drives_off[0], kPins.drives_off[1], kPins.drives_off[2], kPins.flood,
-              kPins.mist, kPins.spindle_on, kPins.spindle_reverse, kPins.power}) {
+        const auto make_output = [](Pin pin) {
             if (is_there(pin)) {
                 set_pin(port(pin), pin.number, PinMode::kOutput);
             }
+        };
+        for (const Pin pin : kPins.drives_off) {
+            make_output(pin);
+        }
+        for (const Pin pin :
+             {kPins.flood, kPins.mist, kPins.spindle_on, kPins.spindle_reverse, kPins.power}) {
+            make_output(pin);
         }
         if constexpr (Rules::kSpindleTimer) {
             start_spindle_timer();
@@ -197,6 +211,6 @@ private:
 // The order of PanelPins is that of the contract's bits.
 static_assert(kLimitX == 1 && kLimitY == 2 && kLimitZ == 4 && kProbe == 8 && kDoor == 16 &&
               kHoldButton == 32 && kStartButton == 64 && kResetButton == 128 &&
-              kEmergencyStop == 256 && kMotorFault == 512);
+              kEmergencyStop == 256 && kMotorFault == 512 && kSecondLimit == 1024);
 
 }  // namespace cusp::boards

@@ -34,6 +34,7 @@ struct QemuTraits {
     static constexpr const PanelPins& kPanelPins = MillTable::kPanelPins;
 
     static constexpr std::uint32_t kMostStepsPerSecond = MillTable::kMostStepsPerSecond;
+    static constexpr bool kSecondMotor = false;
 
     // Clocks and peripheral clocks are not modelled: nothing to switch on, nothing to wait for.
     template <class Board>

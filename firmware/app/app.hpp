@@ -24,7 +24,9 @@ public:
     //
     //   factory  the settings where the store holds none, and after `$RST=$`.
     explicit App(Board& board, const machine::Settings& factory = {}) noexcept
-        : board_{board}, log_{board.settings_store}, machine_{factory, Board::kMostStepsPerSecond}
+        : board_{board},
+          log_{board.settings_store},
+          machine_{factory, {Board::kMostStepsPerSecond, Board::kSecondMotor}}
     {
         machine_.start(log_.load(machine_.stored().bytes()));
         set_outputs(machine_.outputs());

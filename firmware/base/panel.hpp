@@ -19,10 +19,12 @@ enum InputBit : std::uint16_t {
     kResetButton = 1U << 7U,
     kEmergencyStop = 1U << 8U,
     kMotorFault = 1U << 9U,
+    kSecondLimit =
+        1U << 10U,  // the switch of the second motor; read where settings 793 and 794 say so
 };
 
-inline constexpr unsigned kInputCount = 10;
-inline constexpr std::uint16_t kLimitInputs = kLimitX | kLimitY | kLimitZ;
+inline constexpr unsigned kInputCount = 11;
+inline constexpr std::uint16_t kLimitInputs = kLimitX | kLimitY | kLimitZ | kSecondLimit;
 
 // Outputs that settings 15 and 16 may invert.
 enum OutputBit : std::uint8_t {
@@ -41,7 +43,7 @@ struct OutputLevels {
     bool flood{false};
     bool mist{false};
     bool drives_enabled{false};
-    // Settings 2, 3, 4, 15 and 16: what the board inverts at the pin; frames and levels stay
+    // Settings 2, 3, 4, 8, 15 and 16: what the board inverts at the pin; frames and levels stay
     // logical.
     PulseLines inverted_lines{0};
     bool drives_enabled_inverted{false};

@@ -11,7 +11,8 @@ namespace cusp {
 inline constexpr std::uint32_t kPulseTicksPerFrame = 1000;
 inline constexpr std::uint32_t kServoTicksPerSecond = 1000;
 
-// The six lines of a frame, one bit each: steps of X Y Z in bits 0 to 2, directions in bits 3 to 5.
+// The lines of a frame, one bit each: steps of X Y Z in bits 0 to 2, directions in bits 3 to 5; step and
+// direction of the second motor of an axis (setting 793) in bits 6 and 7.
 // Logical levels: a step is a rising edge, direction 1 moves towards plus. Boards invert at the
 // pin.
 using PulseLines = std::uint8_t;
@@ -25,7 +26,10 @@ constexpr PulseLines direction_line(unsigned axis) noexcept
     return static_cast<PulseLines>(8U << axis);
 }
 
-inline constexpr PulseLines kStepLines = 7;
+inline constexpr PulseLines kSecondStepLine = 1U << 6U;
+inline constexpr PulseLines kSecondDirectionLine = 1U << 7U;
+
+inline constexpr PulseLines kStepLines = 7U | kSecondStepLine;
 
 // All changes of one pulse tick. No line is in both.
 struct PulseEdge {

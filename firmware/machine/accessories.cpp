@@ -65,6 +65,12 @@ OutputLevels output_levels(const Accessories& accessories,
     const unsigned steps = settings.whole(Setting::kStepInvert) & kAxes;
     const unsigned directions = settings.whole(Setting::kDirectionInvert) & kAxes;
     levels.inverted_lines = static_cast<PulseLines>(steps | directions << kAxisCount);
+    if (const std::optional<unsigned> axis = settings.second_motor_axis()) {
+        const unsigned turned = settings.whole(Setting::kSecondInvert) ^ directions;
+        levels.inverted_lines |=
+            static_cast<PulseLines>((steps >> *axis & 1U) * kSecondStepLine |
+                                    (turned >> *axis & 1U) * kSecondDirectionLine);
+    }
     levels.drives_enabled_inverted = settings.on(Setting::kEnableInvert);
     const unsigned coolant = settings.whole(Setting::kCoolantInvert) & (kFloodOutput | kMistOutput);
     constexpr unsigned kSpindleOutputs = 7;

@@ -1,6 +1,8 @@
 // The phases of homing.
 #include "firmware/machine/homing.hpp"
 
+#include <algorithm>
+
 namespace cusp::machine {
 namespace {
 
@@ -11,6 +13,16 @@ constexpr float kLocateOverPullOff = 5.0F;
 constexpr float kSecondsPerMinute = 60.0F;
 
 std::int64_t nanometres(float mm) noexcept { return to_nanometres(static_cast<double>(mm)); }
+
+// By how much one switch of a squared axis may close later than the other, mm. As in grblHAL.
+float most_skew(const Settings& settings, unsigned axis) noexcept
+{
+    constexpr float kPercent = 0.01F;
+    const float part =
+        kPercent * settings.value(Setting::kSquarePercent) * settings.value(Setting::kTravel, axis);
+    return std::max(std::min(part, settings.value(Setting::kSquareMost)),
+                    settings.value(Setting::kSquareLeast));
+}
 
 }  // namespace
 
@@ -56,15 +68,14 @@ auto Homing::step(Motion& motion, const Settings& settings) noexcept -> Progress
         if (!motion.settled() || !motion.make_room()) {
             return Progress::kWaiting;
         }
-        start_phase(motion, settings);
-        return Progress::kStepped;
+        return start_phase(motion, settings);
     }
     const bool stopped = motion.contact() ? motion.at_rest() : motion.settled();
     if (!stopped) {
         return Progress::kWaiting;
     }
     if (motion.contact()) {
-        contact_ = (*motion.contact())[axis_];
+        note_contact(motion);
     }
     motion.abandon();
     moving_ = false;
@@ -74,24 +85,90 @@ auto Homing::step(Motion& motion, const Settings& settings) noexcept -> Progress
     return Progress::kStepped;
 }
 
-void Homing::start_phase(Motion& motion, const Settings& settings) noexcept
+// The switches of the axis, or that of the motor that is squared.
+std::uint16_t Homing::switches(const Settings& settings) const noexcept
 {
-    const float pull_off = settings.value(Setting::kHomingPullOff);
-    const std::int64_t sign = homes_to_minus(settings) ? -1 : 1;
-    const bool searches = phase_ == Phase::kSeek || phase_ == Phase::kLocate;
-    if (searches) {
-        const float distance = phase_ == Phase::kSeek
-                                   ? kSeekOverTravel * settings.value(Setting::kTravel, axis_)
-                                   : kLocateOverPullOff * pull_off;
-        motion.watch({static_cast<std::uint16_t>(unsigned{kLimitX} << axis_), false, true});
-        go(motion, sign * nanometres(distance),
-           settings.value(phase_ == Phase::kSeek ? Setting::kHomingSeek : Setting::kHomingFeed));
-    } else {
-        motion.watch({});
-        const std::int64_t target = contact_ - sign * nanometres(pull_off);
-        go(motion, target - motion.tail()[axis_], settings.value(Setting::kHomingSeek));
+    const unsigned first = unsigned{kLimitX} << axis_;
+    if (phase_ == Phase::kSquare) {
+        return static_cast<std::uint16_t>(lagging_ == Motors::kFirst ? first
+                                                                     : unsigned{kSecondLimit});
+    }
+    return static_cast<std::uint16_t>(settings.squares(axis_) ? first | kSecondLimit : first);
+}
+
+void Homing::note_contact(const Motion& motion) noexcept
+{
+    if (phase_ == Phase::kSquare) {
+        later_contact_ = (*motion.contact())[axis_];
+        return;
+    }
+    contact_ = (*motion.contact())[axis_];
+    const bool first = (motion.contact_inputs() >> axis_ & 1U) != 0;
+    lagging_ = first ? Motors::kSecond : Motors::kFirst;
+    later_contact_.reset();
+    const bool both = first && (motion.contact_inputs() & kSecondLimit) != 0;
+    if (both) {
+        later_contact_ = contact_;
+    } else if (const std::optional<Position> later = motion.later_contact()) {
+        later_contact_ = (*later)[axis_];
+    }
+    stands_at_ = motion.position()[axis_];
+}
+
+auto Homing::start_phase(Motion& motion, const Settings& settings) noexcept -> Progress
+{
+    const std::int64_t at = motion.tail()[axis_];
+    motion.drive(phase_ == Phase::kSquare || phase_ == Phase::kAlign ? lagging_ : Motors::kBoth);
+    motion.watch({});
+    switch (phase_) {
+        case Phase::kSeek:
+        case Phase::kLocate:
+        case Phase::kSquare:
+            if (!start_search(motion, settings)) {
+                return fail(Alarm::kSquaringApproach);
+            }
+            break;
+        case Phase::kAlign:
+            go(motion, alignment(motion, settings), settings.value(Setting::kHomingFeed));
+            break;
+        case Phase::kFirstPullOff:
+        case Phase::kSecondPullOff: {
+            const std::int64_t sign = homes_to_minus(settings) ? -1 : 1;
+            const float pull_off = settings.value(Setting::kHomingPullOff);
+            go(motion, contact_ - sign * nanometres(pull_off) - at,
+               settings.value(Setting::kHomingSeek));
+            break;
+        }
     }
     moving_ = true;
+    return Progress::kStepped;
+}
+
+// False where the motor that lags is too far behind already.
+bool Homing::start_search(Motion& motion, const Settings& settings) noexcept
+{
+    const std::int64_t sign = homes_to_minus(settings) ? -1 : 1;
+    std::int64_t distance = nanometres(kSeekOverTravel * settings.value(Setting::kTravel, axis_));
+    if (phase_ == Phase::kLocate) {
+        distance = nanometres(kLocateOverPullOff * settings.value(Setting::kHomingPullOff));
+    } else if (phase_ == Phase::kSquare) {
+        distance = nanometres(most_skew(settings, axis_)) - sign * (stands_at_ - contact_);
+    }
+    if (distance <= 0) {
+        return false;
+    }
+    motion.watch({switches(settings), false, true});
+    go(motion, sign * distance,
+       settings.value(phase_ == Phase::kSeek ? Setting::kHomingSeek : Setting::kHomingFeed));
+    return true;
+}
+
+// The way of the motor that lags to where it is as far beyond its switch as the other one.
+std::int64_t Homing::alignment(const Motion& motion, const Settings& settings) const noexcept
+{
+    const std::int64_t offset = nanometres(settings.value(Setting::kSquareOffset, axis_));
+    return later_contact_.value_or(stands_at_) + stands_at_ - contact_ +
+           (lagging_ == Motors::kSecond ? offset : -offset) - motion.tail()[axis_];
 }
 
 void Homing::go(Motion& motion, std::int64_t distance, float mm_per_minute) const noexcept
@@ -106,28 +183,49 @@ void Homing::go(Motion& motion, std::int64_t distance, float mm_per_minute) cons
     motion.close();
 }
 
+auto Homing::finish_search(const Motion& motion, const Settings& settings) noexcept -> Progress
+{
+    if (!motion.contact()) {
+        return fail(phase_ == Phase::kSquare ? Alarm::kSquaringApproach : Alarm::kHomingApproach);
+    }
+    if (phase_ == Phase::kSeek) {
+        phase_ = Phase::kFirstPullOff;
+    } else if (!settings.squares(axis_)) {
+        phase_ = Phase::kSecondPullOff;
+    } else {
+        // A switch that closes while the axis stops may be seen after the watch has ended.
+        const unsigned later =
+            lagging_ == Motors::kFirst ? unsigned{kLimitX} << axis_ : unsigned{kSecondLimit};
+        const bool known = later_contact_.has_value() || closed(motion, later);
+        phase_ = known ? Phase::kAlign : Phase::kSquare;
+    }
+    return Progress::kStepped;
+}
+
 auto Homing::finish_phase(Motion& motion, const Settings& settings) noexcept -> Progress
 {
-    const bool closed = (unsigned{motion.inputs().steady()} >> axis_ & 1U) != 0;
-    const bool found = motion.contact().has_value();
     switch (phase_) {
         case Phase::kSeek:
         case Phase::kLocate:
-            if (!found) {
-                return fail(Alarm::kHomingApproach);
-            }
-            phase_ = phase_ == Phase::kSeek ? Phase::kFirstPullOff : Phase::kSecondPullOff;
+        case Phase::kSquare:
+            return finish_search(motion, settings);
+        case Phase::kAlign: {
+            Position at = motion.position();
+            at[axis_] = stands_at_;
+            motion.relocate(at);
+            phase_ = Phase::kSecondPullOff;
             return Progress::kStepped;
+        }
         case Phase::kFirstPullOff:
         case Phase::kSecondPullOff:
-            if (closed) {
-                return fail(Alarm::kHomingPullOff);
-            }
-            if (phase_ == Phase::kFirstPullOff) {
-                phase_ = Phase::kLocate;
-                return Progress::kStepped;
-            }
             break;
+    }
+    if (closed(motion, switches(settings))) {
+        return fail(Alarm::kHomingPullOff);
+    }
+    if (phase_ == Phase::kFirstPullOff) {
+        phase_ = Phase::kLocate;
+        return Progress::kStepped;
     }
     return finish_axis(motion, settings);
 }

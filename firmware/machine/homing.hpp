@@ -2,9 +2,15 @@
 //
 // Each axis in turn, Z first: seek the switch fast, pull off, find it again slowly, pull off. The
 // machine then stands $27 inside its travel.
+//
+// An axis with two motors and two switches is squared on the way: both motors go until the first
+// switch closes slowly; the other motor goes on alone to its own, and then to where it is as far
+// beyond its switch as the first ($170 to $172 more or less). Both pull off together, so the axis
+// stays square. The skew that may be found so is bounded by $347 to $349.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "firmware/machine/machine_state.hpp"
 #include "firmware/machine/motion.hpp"
@@ -26,12 +32,28 @@ public:
     Alarm alarm() const noexcept { return alarm_; }
 
 private:
-    enum class Phase : std::uint8_t { kSeek, kFirstPullOff, kLocate, kSecondPullOff };
+    enum class Phase : std::uint8_t {
+        kSeek,
+        kFirstPullOff,
+        kLocate,
+        kSquare,  // the motor that lags, to its switch
+        kAlign,   // and to where it is level with the other
+        kSecondPullOff,
+    };
 
+    std::uint16_t switches(const Settings& settings) const noexcept;
+    bool closed(const Motion& motion, unsigned inputs) const noexcept
+    {
+        return (unsigned{motion.inputs().steady()} & inputs) != 0;
+    }
+    void note_contact(const Motion& motion) noexcept;
+    bool start_search(Motion& motion, const Settings& settings) noexcept;
+    std::int64_t alignment(const Motion& motion, const Settings& settings) const noexcept;
     bool homes_to_minus(const Settings& settings) const noexcept;
     bool next_axis() noexcept;
-    void start_phase(Motion& motion, const Settings& settings) noexcept;
+    Progress start_phase(Motion& motion, const Settings& settings) noexcept;
     void go(Motion& motion, std::int64_t distance, float mm_per_minute) const noexcept;
+    Progress finish_search(const Motion& motion, const Settings& settings) noexcept;
     Progress finish_phase(Motion& motion, const Settings& settings) noexcept;
     Progress finish_axis(Motion& motion, const Settings& settings) noexcept;
     Progress fail(Alarm alarm) noexcept;
@@ -43,6 +65,11 @@ private:
     bool resting_{false};
     std::uint32_t rest_until_{0};
     std::int64_t contact_{0};
+    // Of squaring: the motor whose switch closes later, where it does so if that is known, and where
+    // the other one stands.
+    Motors lagging_{Motors::kBoth};
+    std::optional<std::int64_t> later_contact_;
+    std::int64_t stands_at_{0};
     Alarm alarm_{Alarm::kNone};
 };
 

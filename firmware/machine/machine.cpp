@@ -9,8 +9,8 @@ constexpr std::uint32_t kReplyRoom = 256;
 
 }  // namespace
 
-Machine::Machine(const Settings& factory, std::uint32_t most_steps_per_second) noexcept
-    : factory_{factory}, most_steps_per_second_{most_steps_per_second}, motion_{factory}
+Machine::Machine(const Settings& factory, const BoardLimits& board) noexcept
+    : factory_{factory}, board_{board}, motion_{factory}
 {
     stored_.settings = factory;
     planner_blocks_ = motion_.free_blocks();
@@ -18,7 +18,7 @@ Machine::Machine(const Settings& factory, std::uint32_t most_steps_per_second) n
 
 void Machine::start(LogState loaded) noexcept
 {
-    if (!stored_.settings.sound(most_steps_per_second_)) {
+    if (!stored_.settings.sound(board_)) {
         stored_.settings = factory_;
         loaded = LogState::kLost;
     }
@@ -183,6 +183,7 @@ void Machine::follow_door() noexcept
 void Machine::drop_all() noexcept
 {
     motion_.abandon();
+    motion_.drive(Motors::kBoth);
     motion_.guard_limits(false);
     interpreter_.discard();
     task_ = Task::kNone;
@@ -328,6 +329,10 @@ void Machine::report_status() noexcept
     status.feed = motion_.speed() * kSecondsPerMinute;
     status.spindle = spindle_speed(accessories_, overrides_.spindle, stored_.settings);
     status.inputs = motion_.inputs().steady();
+    if (input_on(kSecondLimit)) {  // by the letter of its axis
+        const unsigned axis = stored_.settings.second_motor_axis().value_or(0);
+        status.inputs = static_cast<std::uint16_t>(status.inputs | unsigned{kLimitX} << axis);
+    }
     status.overrides = overrides_;
     status.accessories = accessories_;
     reporter_.write(status, stored_.settings, replies_);

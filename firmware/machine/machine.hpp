@@ -35,11 +35,9 @@ namespace cusp::machine {
 // Context: main loop, but for tick().
 class Machine {
 public:
-    //   factory                the settings where the store holds none, and after `$RST=$`
-    //   most_steps_per_second  that the board plays on each axis: settings that ask for more are
-    //                          refused
-    explicit Machine(const Settings& factory,
-                     std::uint32_t most_steps_per_second = kAnyStepRate) noexcept;
+    //   factory  the settings where the store holds none, and after `$RST=$`
+    //   board    what it can do: settings that ask for more are refused
+    explicit Machine(const Settings& factory, const BoardLimits& board = {}) noexcept;
     Machine(const Machine&) = delete;
     Machine& operator=(const Machine&) = delete;
 
@@ -197,7 +195,7 @@ private:
 
     StoredState stored_;
     const Settings factory_;
-    const std::uint32_t most_steps_per_second_;
+    const BoardLimits board_;
     Motion motion_;
     gcode::Interpreter interpreter_;
     Homing homing_;

@@ -146,7 +146,7 @@ void Machine::set_setting(std::uint32_t number, float value) noexcept
         finish_line(error);
         return;
     }
-    if (const std::optional<SettingFault> fault = changed.find_fault(most_steps_per_second_)) {
+    if (const std::optional<SettingFault> fault = changed.find_fault(board_)) {
         tell_fault(*fault);
         finish_line(fault->error);
         return;
@@ -160,6 +160,11 @@ void Machine::set_setting(std::uint32_t number, float value) noexcept
 void Machine::tell_fault(const SettingFault& fault) noexcept
 {
     if (fault.first == 0) {
+        return;
+    }
+    if (fault.second == 0) {
+        (void)replies_.text("[MSG:$").number(fault.first);
+        (void)replies_.text(": this board has no second motor]").end_line();
         return;
     }
     if (fault.of_board) {

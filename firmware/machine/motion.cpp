@@ -38,6 +38,7 @@ Motion::Motion(const Settings& settings) noexcept
 void Motion::configure(const Settings& settings) noexcept
 {
     gate_shut_.store(true, std::memory_order_release);
+    stand_still(true);
     const MachineLimits limits = settings.limits();
     const Position at = interpolator_.position();
     planner_.set_limits(limits);
@@ -55,8 +56,13 @@ void Motion::configure(const Settings& settings) noexcept
     const unsigned probe_bit = settings.on(Setting::kProbeInvert) ? unsigned{kProbe} : 0U;
     const unsigned control_bits = control_inputs(settings.whole(Setting::kControlInvert));
     inverted_inputs_ = static_cast<std::uint16_t>(limit_bits | probe_bit | control_bits);
+    second_motor_axis_ = settings.second_motor_axis();
+    const bool squares = second_motor_axis_ && settings.squares(*second_motor_axis_);
+    used_inputs_ =
+        static_cast<std::uint16_t>(squares ? 0xFFFFU : 0xFFFFU & ~unsigned{kSecondLimit});
     filter_ticks_ = static_cast<std::uint8_t>(settings.whole(Setting::kLimitFilter));
     inputs_.set_ticks(filter_ticks_);
+    stand_still(false);
     gate_shut_.store(false, std::memory_order_release);
 }
 
@@ -136,19 +142,36 @@ void Motion::abandon() noexcept
 void Motion::relocate(Position at) noexcept
 {
     gate_shut_.store(true, std::memory_order_release);
+    stand_still(true);
     planner_.reset(at);
     interpolator_.reset(at);
     pulses_.reset(at);
     set_point_ = at;
     recent_.fill(at);
+    stand_still(false);
     gate_shut_.store(false, std::memory_order_release);
+}
+
+void Motion::drive(Motors motors) noexcept
+{
+    if (!second_motor_axis_) {
+        return;
+    }
+    const PulseLines first = step_line(*second_motor_axis_);
+    const PulseLines lines = motors == Motors::kFirst ? first
+                             : motors == Motors::kSecond
+                                 ? kSecondStepLine
+                                 : static_cast<PulseLines>(first | kSecondStepLine);
+    pulses_.set_step_lines(*second_motor_axis_, lines);
 }
 
 void Motion::watch(Watch watch) noexcept
 {
     unwatch();
     contacted_.store(false, std::memory_order_relaxed);
-    contact_ticks_ = 0;
+    contacted_later_.store(false, std::memory_order_relaxed);
+    contact_.ticks = 0;
+    later_contact_.ticks = 0;
     watch_off_ = watch.off;
     watch_filtered_ = watch.filtered;
     watched_.store(watch.inputs, std::memory_order_release);
@@ -159,7 +182,15 @@ std::optional<Position> Motion::contact() const noexcept
     if (!contacted_.load(std::memory_order_acquire)) {
         return std::nullopt;
     }
-    return contact_;
+    return contact_.at;
+}
+
+std::optional<Position> Motion::later_contact() const noexcept
+{
+    if (!contacted_later_.load(std::memory_order_acquire)) {
+        return std::nullopt;
+    }
+    return later_contact_.at;
 }
 
 void Motion::tick(std::uint16_t raw_inputs, PulseFrame& frame) noexcept
@@ -174,39 +205,60 @@ void Motion::tick(std::uint16_t raw_inputs, PulseFrame& frame) noexcept
         recent_[i] = recent_[i - 1];
     }
     recent_[0] = set_point_;
-    pulses_.make_frame(set_point_, frame);
+    if (stands_still_.load(std::memory_order_acquire)) {
+        frame.edges.clear();
+    } else {
+        pulses_.make_frame(set_point_, frame);
+    }
     ticks_.store(ticks_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
 }
 
 void Motion::sample(std::uint16_t raw_inputs) noexcept
 {
-    inputs_.sample(static_cast<std::uint16_t>(raw_inputs ^ inverted_inputs_));
+    inputs_.sample(static_cast<std::uint16_t>((raw_inputs ^ inverted_inputs_) & used_inputs_));
     if (guarding_.load(std::memory_order_relaxed) && (inputs_.steady() & kLimitInputs) != 0) {
         limit_hit_.store(true, std::memory_order_release);
     }
-    if (watched_.load(std::memory_order_acquire) != 0 &&
-        !contacted_.load(std::memory_order_relaxed)) {
+    if (watched_.load(std::memory_order_acquire) != 0) {
         check_watch();
     }
 }
 
 void Motion::check_watch() noexcept
 {
-    const unsigned on = unsigned{inputs_.raw()} & watched_.load(std::memory_order_relaxed);
-    const bool answers = watch_off_ ? on == 0 : on != 0;
-    if (!answers) {
-        contact_ticks_ = 0;
-        return;
+    const unsigned watched = watched_.load(std::memory_order_relaxed);
+    if (!contacted_.load(std::memory_order_relaxed)) {
+        const bool long_enough = answered(contact_, watched);
+        if (contact_.ticks == 0) {
+            later_contact_.ticks = 0;
+            return;
+        }
+        if (contact_.ticks == 1) {
+            contact_inputs_ = static_cast<std::uint16_t>(inputs_.raw() & watched);
+        }
+        if (long_enough) {
+            interpolator_.hold();
+            contacted_.store(true, std::memory_order_release);
+        }
     }
-    if (contact_ticks_ == 0) {
-        first_contact_ = recent_[kPlayedBehind];
+    if (!contacted_later_.load(std::memory_order_relaxed) &&
+        answered(later_contact_, watched & ~unsigned{contact_inputs_})) {
+        contacted_later_.store(true, std::memory_order_release);
     }
-    ++contact_ticks_;
-    if (!watch_filtered_ || contact_ticks_ > filter_ticks_) {
-        contact_ = first_contact_;
-        interpolator_.hold();
-        contacted_.store(true, std::memory_order_release);
+}
+
+bool Motion::answered(Answer& answer, unsigned inputs) noexcept
+{
+    const unsigned on = unsigned{inputs_.raw()} & inputs;
+    if (inputs == 0 || (watch_off_ ? on != 0 : on == 0)) {
+        answer.ticks = 0;
+        return false;
     }
+    if (answer.ticks == 0) {
+        answer.at = recent_[kPlayedBehind];
+    }
+    ++answer.ticks;
+    return !watch_filtered_ || answer.ticks > filter_ticks_;
 }
 
 }  // namespace cusp::machine

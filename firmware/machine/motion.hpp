@@ -25,6 +25,9 @@ struct Watch {
     bool filtered{false};     // through the filter of $790, for switches; probes answer at once
 };
 
+// Which motors of an axis with two of them step.
+enum class Motors : std::uint8_t { kBoth, kFirst, kSecond };
+
 class Motion {
 public:
     explicit Motion(const Settings& settings) noexcept;
@@ -68,11 +71,19 @@ public:
     // Precondition: settled().
     void configure(const Settings& settings) noexcept;
 
+    // Lets both motors of the axis that has two step, or one alone, as long as homing squares it.
+    // Precondition: settled(), or the position is lost.
+    void drive(Motors motors) noexcept;
+
     // Stops softly once the watch answers; clears the contact before.
     void watch(Watch watch) noexcept;
     void unwatch() noexcept { watched_.store(0, std::memory_order_release); }
     // Where the machine was when the watch answered.
     std::optional<Position> contact() const noexcept;
+    // Which of the watched inputs answered then.
+    std::uint16_t contact_inputs() const noexcept { return contact_inputs_; }
+    // Where the machine was when another of them answered, until it stood.
+    std::optional<Position> later_contact() const noexcept;
 
     // While on, any limit switch stops everything within the tick.
     void guard_limits(bool on) noexcept { guarding_.store(on, std::memory_order_relaxed); }
@@ -89,7 +100,15 @@ public:
 
 private:
     void sample(std::uint16_t raw_inputs) noexcept;
+    // Where the machine was when an input began to answer, and for how long it has.
+    struct Answer {
+        Position at{};
+        std::uint8_t ticks{0};
+    };
+    // Whether one of these inputs has answered long enough.
+    bool answered(Answer& answer, unsigned inputs) noexcept;
     void check_watch() noexcept;
+    void stand_still(bool on) noexcept { stands_still_.store(on, std::memory_order_release); }
 
     planner::Planner planner_;
     interpolator::Interpolator interpolator_{planner_};
@@ -101,24 +120,28 @@ private:
     static constexpr std::size_t kPlayedBehind = 2;
     std::array<Position, kPlayedBehind + 1> recent_{};  // the latest first
     Position set_point_{};
-    Position contact_{};
-    Position first_contact_{};
+    Answer contact_{};
+    Answer later_contact_{};
+    std::uint16_t contact_inputs_{0};
     std::uint16_t inverted_inputs_{0};
+    std::uint16_t used_inputs_{0};
     std::uint8_t filter_ticks_{0};
-    std::uint8_t contact_ticks_{0};
     bool watch_off_{false};
     bool watch_filtered_{false};
     std::atomic<std::uint16_t> watched_{0};
     std::atomic<bool> contacted_{false};
+    std::atomic<bool> contacted_later_{false};
     std::atomic<bool> guarding_{false};
     std::atomic<bool> limit_hit_{false};
     std::atomic<bool> gate_shut_{false};
+    std::atomic<bool> stands_still_{false};  // no pulses either: where they stand is being changed
     std::atomic<std::uint32_t> ticks_{0};
 
     float least_acceleration_{1};
     float path_filter_s_{0};
     std::uint32_t last_push_tick_{0};
     bool open_{false};
+    std::optional<unsigned> second_motor_axis_;
 };
 
 }  // namespace cusp::machine

@@ -47,17 +47,26 @@ constexpr std::array<SettingEntry, kSettingCount> kTable{{
     {130, 3, 300, kLeastPositive, 100000},
     {131, 3, 200, kLeastPositive, 100000},
     {132, 3, 80, kLeastPositive, 100000},
+    {8, 0, 0, 0, 7},
     {14, 0, 0, 0, 511},
     {15, 0, 0, 0, 3},
     {16, 0, 0, 0, 7},
     {29, 0, 5, 1, 100},
+    {170, 3, 0, -10, 10},
+    {171, 3, 0, -10, 10},
+    {172, 3, 0, -10, 10},
     {341, 0, 0, 0, 4},
     {342, 3, 30, kLeastPositive, 1000},
     {343, 3, 25, kLeastPositive, kMostAny},
     {344, 3, 200, kLeastPositive, kMostAny},
+    {347, 3, 5, 0, 100},
+    {348, 3, 2.5F, kLeastPositive, 1000},
+    {349, 3, 25, kLeastPositive, 1000},
     {790, 0, 3, 0, 100},
     {791, 0, 0, 0, 600000},
     {792, 0, 0, 0, 1},
+    {793, 0, 0, 0, 3},
+    {794, 0, 0, 0, 1},
     {800, 3, 50000, kLeastPositive, kMostJerk},
     {801, 3, 50000, kLeastPositive, kMostJerk},
     {802, 3, 25000, kLeastPositive, kMostJerk},
@@ -91,7 +100,7 @@ std::optional<Error> Settings::put(std::uint32_t number, float value) noexcept
         return Error::kInvalidStatement;
     }
     const SettingEntry& entry = kTable[*index];
-    if (value < 0) {
+    if (value < 0 && entry.least >= 0) {
         return Error::kNegativeValue;
     }
     const bool is_switch = entry.least == 0 && entry.most == 1;
@@ -112,9 +121,13 @@ std::optional<Error> Settings::put(std::uint32_t number, float value) noexcept
     return std::nullopt;
 }
 
-std::optional<SettingFault> Settings::find_fault(std::uint32_t most_steps_per_second) const noexcept
+std::optional<SettingFault> Settings::find_fault(const BoardLimits& board) const noexcept
 {
-    const auto most_rate = static_cast<float>(most_steps_per_second);
+    if (on(Setting::kSecondMotor) && !board.second_motor) {
+        return SettingFault{Error::kSettingDisabled,
+                            kTable[index_of(Setting::kSecondMotor)].number};
+    }
+    const auto most_rate = static_cast<float>(board.most_steps_per_second);
     constexpr float kMicrosecondsPerSecond = 1e6F;
     const float least_spacing = 2.0F * value(Setting::kStepPulse);
     for (unsigned axis = 0; axis < kAxisCount; ++axis) {
@@ -148,7 +161,7 @@ std::optional<SettingFault> Settings::find_fault(std::uint32_t most_steps_per_se
     return std::nullopt;
 }
 
-bool Settings::sound(std::uint32_t most_steps_per_second) const noexcept
+bool Settings::sound(const BoardLimits& board) const noexcept
 {
     for (std::size_t i = 0; i < kSettingCount; ++i) {
         // So written that it refuses a NaN.
@@ -156,7 +169,7 @@ bool Settings::sound(std::uint32_t most_steps_per_second) const noexcept
             return false;
         }
     }
-    return !find_fault(most_steps_per_second);
+    return !find_fault(board);
 }
 
 MachineLimits Settings::limits() const noexcept
@@ -177,6 +190,10 @@ pulse::StepSettings Settings::steps() const noexcept
         constexpr float kThousand = 1000.0F;
         steps.millisteps_per_mm[axis] = static_cast<std::uint32_t>(
             value(Setting::kStepsPerMillimetre, axis) * kThousand + 0.5F);
+    }
+    if (const std::optional<unsigned> axis = second_motor_axis()) {
+        steps.step_lines[*axis] |= kSecondStepLine;
+        steps.direction_lines[*axis] |= kSecondDirectionLine;
     }
     steps.pulse_us = static_cast<std::uint16_t>(value(Setting::kStepPulse));
     steps.direction_setup_us = static_cast<std::uint16_t>(value(Setting::kDirectionSetup));

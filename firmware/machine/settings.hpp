@@ -1,7 +1,7 @@
 // Settings: what a person sets once for a machine, by Grbl's numbers.
 //
 // A value is a float and a number in a table; `$$` lists them in the table's order. Numbers that
-// are not Grbl's ($14 to $16, $29 and $341 to $344 as in grblHAL, $790 and up) stand after Grbl's own.
+// are not Grbl's ($8, $14 to $16, $29, $170 to $172 and $341 to $349 as in grblHAL, $790 and up) stand after Grbl's own.
 #pragma once
 
 #include <array>
@@ -44,19 +44,26 @@ enum class Setting : std::uint8_t {
     kMaxRate = kStepsPerMillimetre + 3,  // $110 mm/min
     kAcceleration = kMaxRate + 3,        // $120 mm/s^2
     kTravel = kAcceleration + 3,         // $130 mm
-    kControlInvert = kTravel + 3,        // $14 mask: 1 reset, 2 hold, 4 start, 8 door,
-                                         // 64 emergency stop, 256 motor fault
-    kCoolantInvert,                      // $15 mask: 1 flood, 2 mist
-    kSpindleInvert,                      // $16 mask: 1 on, 2 reverse, 4 pulses
-    kDirectionSetup,                     // $29 us
-    kToolChangeMode,                     // $341; see ToolChangeMode
-    kToolSearch,                         // $342 mm: the longest way down to the tool setter
-    kToolFeed,                           // $343 mm/min: the slow touch
-    kToolSeek,                           // $344 mm/min: the fast touch
-    kLimitFilter,                        // $790 ms
-    kLinkWatchdog,                       // $791 ms; 0: off
-    kStopOnError,                        // $792
-    kJerk,                               // $800 mm/s^3
+    kSecondInvert = kTravel + 3,  // $8 mask: the second motor turns the other way than $3 says
+    kControlInvert,               // $14 mask: 1 reset, 2 hold, 4 start, 8 door,
+                                  // 64 emergency stop, 256 motor fault
+    kCoolantInvert,               // $15 mask: 1 flood, 2 mist
+    kSpindleInvert,               // $16 mask: 1 on, 2 reverse, 4 pulses
+    kDirectionSetup,              // $29 us
+    kSquareOffset,                // $170 mm: how far the second motor shall stand towards plus
+    kToolChangeMode = kSquareOffset + 3,  // $341; see ToolChangeMode
+    kToolSearch,                          // $342 mm: the longest way down to the tool setter
+    kToolFeed,                            // $343 mm/min: the slow touch
+    kToolSeek,                            // $344 mm/min: the fast touch
+    kSquarePercent,  // $347 %: of the travel that one switch may close later, but
+    kSquareLeast,    // $348 mm: no less
+    kSquareMost,     // $349 mm: no more
+    kLimitFilter,    // $790 ms
+    kLinkWatchdog,   // $791 ms; 0: off
+    kStopOnError,    // $792
+    kSecondMotor,    // $793: axis with a second motor, 1 to 3; 0: none
+    kSquaring,       // $794: the second motor has a switch of its own
+    kJerk,           // $800 mm/s^3
     kCount = kJerk + 3,
 };
 
@@ -87,8 +94,12 @@ struct SettingFault {
     bool of_board{false};     // the bound is the board's: both are steps/s
 };
 
-// A board that plays a step each microsecond; nothing asks for more.
-inline constexpr std::uint32_t kAnyStepRate = 1000000;
+// What the board can do; settings that ask for more are refused.
+struct BoardLimits {
+    // On each axis while all three move. By default a step each microsecond: nothing asks for more.
+    std::uint32_t most_steps_per_second{1000000};
+    bool second_motor{true};  // it has pins for one
+};
 
 class Settings {
 public:
@@ -122,14 +133,24 @@ public:
     //                          the board plays
     //   kGcodeMaxValueExceeded $120 / $800 asks for a filter over 250 ms
     //   kSoftLimitError        soft limits without homing
-    //
-    //   most_steps_per_second  that the board plays on each axis
-    std::optional<SettingFault> find_fault(
-        std::uint32_t most_steps_per_second = kAnyStepRate) const noexcept;
+    //   kSettingDisabled       a second motor on a board without pins for it
+    std::optional<SettingFault> find_fault(const BoardLimits& board = {}) const noexcept;
 
     // Every value is in its range and all go together: what put() and find_fault() let through.
     // Stored bytes of another firmware may not be.
-    bool sound(std::uint32_t most_steps_per_second = kAnyStepRate) const noexcept;
+    bool sound(const BoardLimits& board = {}) const noexcept;
+
+    // The axis with the second motor.
+    std::optional<unsigned> second_motor_axis() const noexcept
+    {
+        const std::uint32_t axis = whole(Setting::kSecondMotor);
+        return axis > 0 ? std::optional<unsigned>{axis - 1} : std::nullopt;
+    }
+    // Whether homing squares this axis on two switches.
+    bool squares(unsigned axis) const noexcept
+    {
+        return on(Setting::kSquaring) && second_motor_axis() == axis;
+    }
 
     MachineLimits limits() const noexcept;
     pulse::StepSettings steps() const noexcept;

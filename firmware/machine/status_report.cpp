@@ -55,16 +55,16 @@ void write_pins(std::uint16_t inputs, ReplyQueue& out) noexcept
         InputBit bit;
         char letter;
     };
-    constexpr std::array<Pin, kInputCount> kPins{{{kProbe, 'P'},
-                                                  {kLimitX, 'X'},
-                                                  {kLimitY, 'Y'},
-                                                  {kLimitZ, 'Z'},
-                                                  {kDoor, 'D'},
-                                                  {kHoldButton, 'H'},
-                                                  {kResetButton, 'R'},
-                                                  {kStartButton, 'S'},
-                                                  {kEmergencyStop, 'E'},
-                                                  {kMotorFault, 'M'}}};
+    constexpr std::array<Pin, 10> kPins{{{kProbe, 'P'},
+                                         {kLimitX, 'X'},
+                                         {kLimitY, 'Y'},
+                                         {kLimitZ, 'Z'},
+                                         {kDoor, 'D'},
+                                         {kHoldButton, 'H'},
+                                         {kResetButton, 'R'},
+                                         {kStartButton, 'S'},
+                                         {kEmergencyStop, 'E'},
+                                         {kMotorFault, 'M'}}};
     if (inputs == 0) {
         return;
     }

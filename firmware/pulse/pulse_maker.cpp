@@ -95,6 +95,12 @@ void PulseMaker::configure(const StepSettings& settings) noexcept
 {
     CUSP_ASSERT(settings.pulse_us >= 1 && settings.pulse_us <= 100);
     CUSP_ASSERT(settings.direction_setup_us >= 1 && settings.direction_setup_us <= 100);
+    // The direction of a line that is new to the axis is not known.
+    for (unsigned i = 0; i < kAxisCount; ++i) {
+        if (settings.direction_lines[i] != settings_.direction_lines[i]) {
+            axes_[i].direction_known = false;
+        }
+    }
     settings_ = settings;
 }
 
@@ -170,7 +176,7 @@ void PulseMaker::add_steps(unsigned index, StepTimes times, std::int32_t steps) 
     const std::int32_t count = forward ? steps : -steps;
     const std::int32_t first = to_pulse_tick(times.next());
     turn(index, first, forward);
-    StepWriter writer{edges_, settings_, step_line(index), axis.last_rise};
+    StepWriter writer{edges_, settings_, settings_.step_lines[index], axis.last_rise};
     writer.add(first);
     std::int32_t done = 1;
     if (times.steady()) {
@@ -196,7 +202,7 @@ void PulseMaker::turn(unsigned index, std::int32_t rise, bool forward) noexcept
     // The step comes a set-up time after its crossing in any case: that is when the line turns,
     // but not before the pulse that goes the other way has ended, and the step after it waits.
     const std::int32_t change = std::max(rise, axis.last_rise + pulse);
-    const auto line = static_cast<std::uint16_t>(direction_line(index));
+    const auto line = static_cast<std::uint16_t>(settings_.direction_lines[index]);
     CUSP_ASSERT(static_cast<std::size_t>(change) < edges_.size());
     edges_[static_cast<std::size_t>(change)] |=
         static_cast<std::uint16_t>(forward ? line : line << 8U);

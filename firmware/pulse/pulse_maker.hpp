@@ -22,6 +22,9 @@ struct StepSettings {
     PerAxis<std::uint32_t> millisteps_per_mm{800000, 800000, 800000};
     std::uint16_t pulse_us{2};            // $0: high time, and least low time
     std::uint16_t direction_setup_us{5};  // $29: from a change of direction to the step after it
+    // Lines that step with an axis and that say its direction: two each where it has a second motor.
+    PerAxis<PulseLines> step_lines{step_line(0), step_line(1), step_line(2)};
+    PerAxis<PulseLines> direction_lines{direction_line(0), direction_line(1), direction_line(2)};
 };
 
 // Context: servo tick. Exact: after any number of frames the steps counted are the set point in
@@ -33,6 +36,12 @@ public:
 
     // Precondition: idle().
     void configure(const StepSettings& settings) noexcept;
+
+    // Which of the axis's step lines step from now on. Precondition: idle().
+    void set_step_lines(unsigned axis, PulseLines lines) noexcept
+    {
+        settings_.step_lines[axis] = lines;
+    }
 
     // Stands at `at`; makes no edge. Precondition: idle().
     void reset(Position at) noexcept;

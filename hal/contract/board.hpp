@@ -60,6 +60,7 @@ using cusp::kLimitZ;
 using cusp::kMotorFault;
 using cusp::kProbe;
 using cusp::kResetButton;
+using cusp::kSecondLimit;
 using cusp::kStartButton;
 using cusp::OutputLevels;
 
@@ -99,11 +100,13 @@ constexpr bool is_settings_store()
 }
 
 // A Board bundles the four: an object of each, named pulse_player, byte_link, panel,
-// settings_store; and kMostStepsPerSecond, the steps that it plays on each axis while all three move.
+// settings_store; kMostStepsPerSecond, the steps that it plays on each axis while all three move; and
+// kSecondMotor, whether it has pins for the second motor of an axis.
 template <class Board>
 constexpr bool is_board()
 {
     static_assert(std::is_same_v<decltype(Board::kMostStepsPerSecond), const std::uint32_t>);
+    static_assert(std::is_same_v<decltype(Board::kSecondMotor), const bool>);
     return is_pulse_player<decltype(Board::pulse_player)>() &&
            is_byte_link<decltype(Board::byte_link)>() && is_panel<decltype(Board::panel)>() &&
            is_settings_store<decltype(Board::settings_store)>();

@@ -48,7 +48,7 @@ public:
     // The interrupt. True where the servo tick is due.
     bool on_interrupt() noexcept;
 
-    static void stop() noexcept { write_lines(0, kStepLines); }
+    static void stop() noexcept { write_lines(0, kStepLines & Ports::kAllLines); }
 
 private:
     // QEMU's timers 2 to 5 count nanoseconds.

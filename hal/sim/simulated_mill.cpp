@@ -12,6 +12,12 @@ std::uint16_t SimulatedMill::inputs() const noexcept
             bits |= unsigned{kLimitX} << axis;
         }
     }
+    if (geometry_.second_motor && geometry_.second_switch) {
+        const double second = second_place() - *geometry_.second_switch;
+        const double travel = geometry_.travel[*geometry_.second_motor];
+        const double beyond = geometry_.switch_distance;
+        bits |= second >= beyond || second <= -travel - beyond ? unsigned{kSecondLimit} : 0U;
+    }
     if (geometry_.plate_above_start &&
         at.z - geometry_.start.z <= *geometry_.plate_above_start + 1e-9) {
         bits |= kProbe;
@@ -33,8 +39,13 @@ void SimulatedMill::frame_played(std::uint64_t /*start_tick*/, const PulseFrame&
     for (const PulseEdge& edge : frame.edges) {
         const auto risen = static_cast<PulseLines>(edge.raise & ~unsigned{levels_});
         levels_ = static_cast<PulseLines>((levels_ | edge.raise) & ~unsigned{edge.lower});
-        for (unsigned steps = risen & kStepLines; steps != 0; steps &= steps - 1) {
-            take_step(static_cast<unsigned>(__builtin_ctz(steps)));
+        for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+            if ((risen & step_line(axis)) != 0) {
+                take_step(axis);
+            }
+        }
+        if ((risen & kSecondStepLine) != 0) {
+            take_second_step();
         }
     }
 }
@@ -48,6 +59,18 @@ Vec3d SimulatedMill::place() const noexcept
         at[axis] += static_cast<double>(steps_[axis]) / geometry_.steps_per_mm[axis];
     }
     return at;
+}
+
+double SimulatedMill::second_place() const noexcept
+{
+    const unsigned axis = geometry_.second_motor.value_or(0);
+    return geometry_.start[axis] + geometry_.second_ahead +
+           static_cast<double>(second_steps_) / geometry_.steps_per_mm[axis];
+}
+
+void SimulatedMill::take_second_step() noexcept
+{
+    second_steps_ += (levels_ & kSecondDirectionLine) != 0 ? 1 : -1;
 }
 
 void SimulatedMill::take_step(unsigned axis) noexcept

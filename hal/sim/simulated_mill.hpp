@@ -27,6 +27,11 @@ struct MillGeometry {
     // Directions whose direction line the drives invert, one bit an axis (setting 3 is applied by
     // the firmware, so it stays 0 unless a wiring fault is wanted).
     std::uint8_t inverted_directions{0};
+    // The axis with a second motor; its switch is read as kSecondLimit.
+    std::optional<unsigned> second_motor;
+    double second_ahead{0.0};  // how far it stands further towards plus at the start, mm
+    // How far its switches lie further towards plus than those of the first, mm; none: it has none.
+    std::optional<double> second_switch{0.0};
 };
 
 // The contract's Panel; what follows it belongs to the simulation.
@@ -43,6 +48,8 @@ public:
 
     // Where the tool is, mm from the upper ends of the travel.
     Vec3d place() const noexcept;
+    // Where the second motor has the slide, on the first one's scale.
+    double second_place() const noexcept;
     // Steps taken since the start, both ways, and their balance.
     const PerAxis<std::uint64_t>& steps_taken() const noexcept { return steps_taken_; }
     const PerAxis<std::int64_t>& steps() const noexcept { return steps_; }
@@ -57,10 +64,12 @@ public:
 
 private:
     void take_step(unsigned axis) noexcept;
+    void take_second_step() noexcept;
 
     MillGeometry geometry_;
     PerAxis<std::int64_t> steps_{};
     PerAxis<std::uint64_t> steps_taken_{};
+    std::int64_t second_steps_{0};
     PulseLines levels_{0};
     OutputLevels outputs_{};
     std::uint32_t output_changes_{0};

@@ -199,7 +199,9 @@ void DmaPulsePlayer<Chip, Table, Pace>::start(std::uint32_t timer_hz,
     timer.dier.write(requests);
     apply_inversion();
     for (const Pin pin : Table::kLines) {
-        set_pin(Chip::port(pin.port), pin.number, PinMode::kOutput);
+        if (is_there(pin)) {
+            set_pin(Chip::port(pin.port), pin.number, PinMode::kOutput);
+        }
     }
     underrun_.store(moved, std::memory_order_relaxed);
     start_stream();
@@ -209,9 +211,10 @@ void DmaPulsePlayer<Chip, Table, Pace>::start(std::uint32_t timer_hz,
 template <class Chip, class Table, class Pace>
 void DmaPulsePlayer<Chip, Table, Pace>::apply_inversion() noexcept
 {
-    const auto levels = static_cast<PulseLines>((high_lines(EachPort{}) ^ inverted_) & kAllLines);
+    const auto levels =
+        static_cast<PulseLines>((high_lines(EachPort{}) ^ inverted_) & Ports::kAllLines);
     inverted_ = wanted_inversion_.load(std::memory_order_relaxed);
-    const auto low = static_cast<PulseLines>(~unsigned{levels} & kAllLines);
+    const auto low = static_cast<PulseLines>(~unsigned{levels} & Ports::kAllLines);
     set_lines(pin_levels(levels, low, inverted_), EachPort{});
 }
 
@@ -261,7 +264,7 @@ void DmaPulsePlayer<Chip, Table, Pace>::stop() noexcept
              ++round) {
         }
     }
-    set_lines(pin_levels(0, kStepLines, inverted_), EachPort{});
+    set_lines(pin_levels(0, kStepLines & Ports::kAllLines, inverted_), EachPort{});
 }
 
 // Whether the streams of further ports stand where the first one's does. One that has met an error

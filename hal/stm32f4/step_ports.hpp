@@ -1,4 +1,4 @@
-// StepPorts: on which ports the six step and direction lines lie, worked out while compiling.
+// StepPorts: on which ports the step and direction lines lie, worked out while compiling.
 //
 //   struct Table { static constexpr LinePins kLines{{{'E', 2}, {'D', 5}, ...}}; };
 //   using Ports = StepPorts<Table>;                // Ports::kCount == 2: ports E and D
@@ -15,19 +15,23 @@
 
 namespace cusp::hal::stm32f4 {
 
-// Steps of X Y Z, directions of X Y Z: the order of the bits of PulseLines.
-using LinePins = std::array<Pin, 6>;
-inline constexpr PulseLines kAllLines = 0x3F;
+// Steps of X Y Z, directions of X Y Z, step and direction of the second motor, which a board may lack:
+// the order of the bits of PulseLines.
+using LinePins = std::array<Pin, 8>;
 
 constexpr unsigned count_ports(const LinePins& lines) noexcept
 {
     std::uint32_t ports = 0;
     unsigned count = 0;
     for (const Pin pin : lines) {
-        count += (ports & clock_bit(pin)) == 0 ? 1U : 0U;
+        count += is_there(pin) && (ports & clock_bit(pin)) == 0 ? 1U : 0U;
         ports |= clock_bit(pin);
     }
     return count;
+}
+constexpr bool has_second_motor(const LinePins& lines) noexcept
+{
+    return is_there(lines[6]) && is_there(lines[7]);
 }
 
 template <class Table>
@@ -36,12 +40,14 @@ class StepPorts {
 
 public:
     static constexpr unsigned kCount = count_ports(kLines);
+    // The lines that there are.
+    static constexpr PulseLines kAllLines = has_second_motor(kLines) ? 0xFF : 0x3F;
 
     static constexpr std::array<char, kCount> kLetters = [] {
         std::array<char, kCount> letters{};
         unsigned count = 0;
         for (const Pin pin : kLines) {
-            bool known = false;
+            bool known = !is_there(pin);
             for (unsigned i = 0; i < count; ++i) {
                 known = known || letters[i] == pin.port;
             }
@@ -83,18 +89,19 @@ public:
     }
 
 private:
-    // Six lines on pins 0 to 5 of one port need no table.
+    // Lines on pins 0 and up of one port, in order, need no table.
     static constexpr bool in_place() noexcept
     {
         for (unsigned line = 0; line < kLines.size(); ++line) {
-            if (kLines[line].number != line) {
+            if (is_there(kLines[line]) && kLines[line].number != line) {
                 return false;
             }
         }
         return kCount == 1;
     }
-    static constexpr std::array<std::array<std::uint16_t, kAllLines + 1>, kCount> kPins = [] {
-        std::array<std::array<std::uint16_t, kAllLines + 1>, kCount> table{};
+    using PinsOfLines = std::array<std::uint16_t, unsigned{kAllLines} + 1>;
+    static constexpr std::array<PinsOfLines, kCount> kPins = [] {
+        std::array<PinsOfLines, kCount> table{};
         for (unsigned port = 0; port < kCount; ++port) {
             for (unsigned lines = 0; lines <= kAllLines; ++lines) {
                 std::uint32_t pins = 0;

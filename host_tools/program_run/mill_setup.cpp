@@ -25,6 +25,7 @@ hal::MillGeometry mill_geometry(const machine::Settings& settings,
             homes_to_minus ? travel * (part_from_home - 1.0) : -travel * part_from_home;
     }
     geometry.plate_above_start = probe_z;
+    geometry.second_motor = settings.second_motor_axis();
     return geometry;
 }
 

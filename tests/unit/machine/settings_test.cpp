@@ -26,7 +26,8 @@ TEST(MachineSettings, AreListedWithGrblsOwnFirst)
     unsigned last = 0;
     for (std::size_t i = 0; i < kSettingCount; ++i) {
         const unsigned number = setting_entry(i).number;
-        const bool is_foreign = (number >= 14 && number <= 16) || number == 29 || number > 132;
+        const bool is_foreign =
+            number == 8 || (number >= 14 && number <= 16) || number == 29 || number > 132;
         CHECK(is_foreign || !foreign);
         CHECK(is_foreign || i == 0 || number > last);
         foreign = is_foreign;
@@ -50,8 +51,8 @@ TEST(MachineSettings, RefuseStepsTooCloseForThePulse)
 TEST(MachineSettings, RefuseMoreStepsThanTheBoardPlays)
 {
     // 6000 mm/min at 800 steps/mm are 80 000 steps/s.
-    CHECK_FALSE(settings.find_fault(80000).has_value());
-    const auto fault = settings.find_fault(79999);
+    CHECK_FALSE(settings.find_fault({80000}).has_value());
+    const auto fault = settings.find_fault({79999});
     CHECK(fault.has_value());
     CHECK(fault->error == Error::kMaxStepRateExceeded);
     CHECK(fault->of_board);
@@ -59,7 +60,7 @@ TEST(MachineSettings, RefuseMoreStepsThanTheBoardPlays)
     UNSIGNED_LONGS_EQUAL(100, fault->second);
     DOUBLES_EQUAL(80000, fault->amount, 0);
     DOUBLES_EQUAL(79999, fault->limit, 0);
-    CHECK_FALSE(settings.sound(79999));
+    CHECK_FALSE(settings.sound({79999}));
 }
 
 TEST(MachineSettings, RefuseAFilterOverAQuarterSecond)

@@ -83,7 +83,7 @@ TEST(Store, KeepsTheTableOfTools)
 TEST(Store, TellsOfSettingsOfAnEarlierVersion)
 {
     (void)bench.exchange("$110=5000\n", 50);
-    constexpr std::uint32_t kMark = 0x43555302;
+    constexpr std::uint32_t kMark = 0x43555303;
     std::array<std::uint8_t, 4> mark{};
     auto& store = bench.board.settings_store;
     for (std::uint32_t at = 0; at + 4 <= store.sector_size(); at += 4) {
