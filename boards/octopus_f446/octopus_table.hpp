@@ -14,7 +14,7 @@ namespace cusp::boards {
 
 struct OctopusTable {
     static constexpr hal::stm32f4::LinePins kLines{
-        {{'F', 13}, {'G', 0}, {'F', 11}, {'F', 12}, {'G', 1}, {'G', 3}}};
+        {{'F', 13}, {'G', 0}, {'F', 11}, {'F', 12}, {'G', 1}, {'G', 3}, {'F', 9}, {'F', 10}}};
     static constexpr PanelPins kPanelPins{
         {{{'G', 6}, {'G', 9}, {'G', 10}, {'B', 7}}},
         {{{'G', 14}, {'E', 8}, {'E', 7}, {'G', 15}}},

@@ -14,7 +14,7 @@ namespace cusp::boards {
 
 struct Skr2Table {
     static constexpr hal::stm32f4::LinePins kLines{
-        {{'E', 2}, {'D', 5}, {'A', 15}, {'E', 1}, {'D', 4}, {'A', 8}}};
+        {{'E', 2}, {'D', 5}, {'A', 15}, {'E', 1}, {'D', 4}, {'A', 8}, {'D', 15}, {'D', 14}}};
     static constexpr PanelPins kPanelPins{
         {{{'C', 1}, {'C', 3}, {'C', 0}, {'E', 4}}},
         {{{'A', 7}, {'A', 5}, {'A', 6}, {'A', 4}}},
