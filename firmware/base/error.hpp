@@ -44,6 +44,8 @@ enum class Error : std::uint8_t {
     kGcodeG43DynamicAxisError = 37,  // a tool length offset on an axis other than Z
     kGcodeMaxValueExceeded = 38,     // a number is larger than the machine can take
     kHomingRequired = 46,            // grblHAL's number: a tool change goes to machine positions
+    kNoToolChangePlace =
+        47,  // grblHAL's "tool error": G59.3, where the tool is changed, is not set
 };
 
 }  // namespace cusp

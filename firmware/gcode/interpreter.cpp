@@ -271,6 +271,9 @@ Status Interpreter::check_tool_change(const LineContext& line) const noexcept
     if (tool_change_rule_ == ToolChangeRule::kNotHomed) {
         return Error::kHomingRequired;
     }
+    if (tool_change_rule_ == ToolChangeRule::kNoPlace) {
+        return Error::kNoToolChangePlace;
+    }
     if (!ToolTable::holds(command.modal.tool)) {
         return Error::kGcodeMaxValueExceeded;
     }

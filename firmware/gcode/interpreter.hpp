@@ -29,6 +29,7 @@ enum class ToolChangeRule : std::uint8_t {
     kFree,      // anything
     kTouchOff,  // T 1 to 16, and nothing in the line that depends on the length of the new tool
     kNotHomed,  // refused: axes that it needs are not homed
+    kNoPlace,   // refused: the place of the change was never set
 };
 
 class Interpreter {
@@ -38,7 +39,7 @@ public:
     //
     //   number  for reports, where the line has no N word.
     //
-    // Errors: 1, 2, 4, 20 to 38 and 46 of error.hpp; docs/gcode.md says which for what.
+    // Errors: 1, 2, 4, 20 to 38, 46 and 47 of error.hpp; docs/gcode.md says which for what.
     // Precondition: the actions of the line before have all been fetched, or discard() was called.
     Status execute(std::string_view text, std::uint32_t number) noexcept;
 

@@ -2,6 +2,15 @@
 #include "firmware/machine/machine.hpp"
 
 namespace cusp::machine {
+namespace {
+
+constexpr std::size_t kPlace = gcode::kCoordinateSystems - 1;  // G59.3
+
+// The zero of machine positions is at the limit switches, where no one changes a tool: a system that
+// lies there was not set.
+bool is_set(Position place) noexcept { return !(place == Position{}); }
+
+}  // namespace
 
 gcode::ToolChangeRule Machine::tool_change_rule() const noexcept
 {
@@ -9,6 +18,11 @@ gcode::ToolChangeRule Machine::tool_change_rule() const noexcept
     const unsigned needed = axes_to_home(mode).bits;
     if (state_ != State::kCheck && (homed_.bits & needed) != needed) {
         return gcode::ToolChangeRule::kNotHomed;
+    }
+    const bool travels = mode == ToolChangeMode::kAtPlace || mode == ToolChangeMode::kTouchOff;
+    if (travels && state_ != State::kCheck &&
+        !is_set(interpreter_.parameters().work_offsets[kPlace])) {
+        return gcode::ToolChangeRule::kNoPlace;
     }
     return mode == ToolChangeMode::kTouchOff ? gcode::ToolChangeRule::kTouchOff
                                              : gcode::ToolChangeRule::kFree;
@@ -40,7 +54,6 @@ void Machine::ask_for_tool(unsigned tool) noexcept
 
 void Machine::start_tool_change(const gcode::ToolChange& change, ToolChangeMode mode) noexcept
 {
-    constexpr std::size_t kPlace = gcode::kCoordinateSystems - 1;  // G59.3
     const gcode::Parameters& parameters = interpreter_.parameters();
     const std::int64_t offset = parameters.tool_length_offset_nm;
     const bool known = gcode::ToolTable::holds(change.tool) && parameters.tools.has(change.tool);

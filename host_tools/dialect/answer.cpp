@@ -136,6 +136,7 @@ constexpr CodeText kErrors[]{
     {37, "a tool length offset on an axis other than Z"},
     {38, "a number is too large"},
     {46, "the tool change needs a homed machine"},
+    {47, "the place of the tool change, G59.3, is not set"},
 };
 
 constexpr CodeText kAlarms[]{

@@ -192,6 +192,29 @@ TEST(ToolChange, IsRefusedWholeBeforeHoming)
     }
 }
 
+// At its default G59.3 is machine zero: travelled to, and a touch-off would go down there.
+TEST(ToolChange, IsRefusedWholeWhereItsPlaceIsNotSet)
+{
+    for (unsigned mode = 1; mode <= 3; ++mode) {
+        Mill mill{mode};
+        mill.say("G10L2P9X0Y0Z0\n");
+        if (mode == 1) {  // over the part
+            CHECK(has(mill.until_held("T2M6\n"), "Tool change T2"));
+            continue;
+        }
+        CHECK(has(mill.say("T2M6M3S1000G0X-50\n"), "error:47"));
+        mill.stands_at(-10, -20, -30);
+        CHECK(!mill.outputs().spindle_on);
+        CHECK(has(mill.say("$G\n"), " M5 M9 T0 "));
+        CHECK(has(mill.say("$RST=#\n$H\nT2M6\n"), "error:47"));
+        CHECK(has(mill.say("$C\nT2M6\n$C\n$X\n"), "ok"));
+        // One axis that is set is a choice.
+        CHECK(has(mill.say("G10L2P9Z-20\n"), "ok"));
+        CHECK(has(mill.until_held("T2M6\n"), "Tool change T2"));
+        mill.stands_at(0, 0, mode == 2 ? -20 : -1);
+    }
+}
+
 TEST(ToolChange, NeedsHomingAgainOnceThePositionMayBeLost)
 {
     Mill mill{1};
