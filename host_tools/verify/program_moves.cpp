@@ -119,7 +119,7 @@ public:
         gcode::Action action;
         while (interpreter_.next(action)) {
             if (const auto* move = std::get_if<path::Move>(&action)) {
-                program_.moves.push_back({*move, interpreter_.modal().tool});
+                program_.moves.push_back({of_the_tip(*move), interpreter_.modal().tool});
                 count(*move, program_.counts);
             } else if (std::holds_alternative<gcode::ProgramEnd>(action)) {
                 return false;
@@ -142,6 +142,15 @@ public:
     }
 
 private:
+    // The interpreter's moves are the spindle's: with a tool length in force the tip is that much lower.
+    path::Move of_the_tip(path::Move move) const
+    {
+        const std::int64_t length = interpreter_.parameters().tool_length_offset_nm;
+        move.start.z -= length;
+        move.end.z -= length;
+        return move;
+    }
+
     std::string file_;
     gcode::Interpreter interpreter_;
     Program program_;

@@ -71,3 +71,18 @@ TEST(ProgramMoves, RefuseAnEmptyProgram)
     STRCMP_CONTAINS("No such file",
                     cusp::test::refusal([&] { read_program(folder.file("none.ngc"), 0); }).c_str());
 }
+
+TEST(ProgramMoves, AreThoseOfTheTipWhateverTheLengthOfTheTool)
+{
+    const std::string end = "T2 M6\nG43 H2\nG0 X5 Z3\nG2 X0 Y0 I-2.5\nG49\nG0 Z9\n";
+    const Program with =
+        read("G10 L1 P1 Z50\nG10 L1 P2 Z43.8\nT1 G43 H1 G0 Z5\nG1 X10 Z-2 F300\nZ1\n" + end);
+    // With an empty table every length is 0, as in a controller where none was entered.
+    const Program without = read("T1 G43 H1 G0 Z5\nG1 X10 Z-2 F300\nZ1\n" + end);
+    LONGS_EQUAL(without.moves.size(), with.moves.size());
+    for (std::size_t i = 0; i < with.moves.size(); ++i) {
+        CHECK(without.moves[i].move.end == with.moves[i].move.end);
+    }
+    // The tip of the tool that is fitted goes from where the move before left the spindle.
+    LONGS_EQUAL(50000000 - 43800000 + 1000000, with.moves[3].move.start.z);
+}
