@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Plants faults in drivers and traits, one at a time, and shows that the co-simulation finds each.
 
-usage: mutations.py --cosim COSIM --cusp CUSP --board mill3_f405|skr2_f407 --image IMAGE.bin
+usage: mutations.py --cosim COSIM --cusp CUSP --board mill3_f405|black_pill_f411|skr2_f407 --image IMAGE.bin
 
 The board's main.cpp, which has all drivers in it, is compiled again with one line of one header changed
 and linked with the libraries of the build that IMAGE is from; then a short program and one jog run on it.
@@ -26,6 +26,7 @@ CLOCKS = "hal/stm32f4/clock_tree.hpp"
 PACE = "hal/stm32f4/pace.hpp"
 PORTS = "hal/stm32f4/step_ports.hpp"
 TABLE = "boards/mill3_f405/mill_table.hpp"
+PILL = "boards/black_pill_f411/pill_table.hpp"
 SKR2 = "boards/skr2_f407/skr2_table.hpp"
 # What a driver may get wrong: file, what stands there, what is put there.
 FAULTS = {
@@ -54,6 +55,17 @@ FAULTS = {
                         "port.brr.write(bus_hz / 16 / baud);"),
     "limit pins swapped": (TABLE, "{'B', 12}, {'B', 13}", "{'B', 13}, {'B', 12}"),
     "no barrier": ("boards/mill3/mill_image.hpp", '__asm volatile("dsb" ::: "memory");', ""),
+}
+
+# The same on the pill, whose pace, clocks and pins are others.
+FAULTS_OF_PILL = {
+    **FAULTS,
+    "wrong channel": (PACE, "{5, 6, detail", "{5, 7, detail"),
+    "wrong stream": (PACE, "{5, 6, detail", "{4, 6, detail"),
+    "port without its clock": ("boards/mill3/chip_traits.hpp", "return ports;", "return ports & ~2U;"),
+    "too few wait states": (PILL, "100000000, 3, 1, 2, 3}", "100000000, 2, 1, 2, 3}"),
+    "slow bus too fast": (PILL, "100000000, 3, 1, 2, 3}", "100000000, 3, 1, 1, 3}"),
+    "limit pins swapped": (PILL, "{'B', 5}, {'B', 6}", "{'B', 6}, {'B', 5}"),
 }
 
 # What may go wrong where the lines lie on several ports: planted in the SKR 2, whose three it has.
@@ -166,7 +178,7 @@ def main():
             said = find(options, builder.make(PACE, "kClockBit = 1;", "kClockBit = 1 ;"))
             print(f"no fault: {said}")
             missed += ["no fault"] if said else []
-            faults = FAULTS_OF_PORTS if options.board == "skr2_f407" else FAULTS
+            faults = {"skr2_f407": FAULTS_OF_PORTS, "black_pill_f411": FAULTS_OF_PILL}.get(options.board, FAULTS)
             for fault, (file, old, new) in faults.items():
                 said = find(options, builder.make(file, old, new))
                 print(f"{fault}: {said or 'NOT FOUND'}", flush=True)
