@@ -191,8 +191,11 @@ void ChipUnderTest::listen_for_ticks()
 
 void ChipUnderTest::advance(Picoseconds to)
 {
+    circuit_.next_event = 0;
     while (circuit_.now < to) {
-        find_next();
+        if (circuit_.next_event == 0) {
+            find_next();
+        }
         circuit_.now = std::max(circuit_.now, std::min(to, circuit_.next_event));
         happen_until_now();
         if (circuit_.interrupts_changed || watchdog_->bitten()) {

@@ -32,40 +32,13 @@ struct Request {
     unsigned stream;
     unsigned channel;
 };
+// Those of the update and of the compare channels 1 to 4.
+using Requests = std::array<std::vector<Request>, 5>;
 
-std::vector<Request> requests_of_timer8(TimerModel::Event event)
-{
-    switch (event) {
-        case TimerModel::Event::kUpdate:
-            return {{1, 7}};
-        case TimerModel::Event::kCompare1:
-            return {{2, 7}, {2, 0}};
-        case TimerModel::Event::kCompare2:
-            return {{3, 7}, {2, 0}};
-        case TimerModel::Event::kCompare3:
-            return {{4, 7}, {2, 0}};
-        case TimerModel::Event::kCompare4:
-            return {{7, 7}};
-    }
-    return {};
-}
-
-std::vector<Request> requests_of_timer1(TimerModel::Event event)
-{
-    switch (event) {
-        case TimerModel::Event::kUpdate:
-            return {{5, 6}};
-        case TimerModel::Event::kCompare1:
-            return {{1, 6}, {3, 6}, {6, 0}};
-        case TimerModel::Event::kCompare2:
-            return {{2, 6}, {6, 0}};
-        case TimerModel::Event::kCompare3:
-            return {{6, 6}, {6, 0}};
-        case TimerModel::Event::kCompare4:
-            return {{4, 6}};
-    }
-    return {};
-}
+const Requests kRequestsOfTimer8{
+    {{{1, 7}}, {{2, 7}, {2, 0}}, {{3, 7}, {2, 0}}, {{4, 7}, {2, 0}}, {{7, 7}}}};
+const Requests kRequestsOfTimer1{
+    {{{5, 6}}, {{1, 6}, {3, 6}, {6, 0}}, {{2, 6}, {6, 0}}, {{6, 6}, {6, 0}}, {{4, 6}}}};
 
 }  // namespace
 
@@ -166,9 +139,9 @@ void ChipUnderTest::make_timers()
             return clocks_->apb2_on(bit);
         };
     };
-    const auto ask = [this](auto requests_of) {
-        return [this, requests_of](TimerModel::Event event) {
-            for (const Request& request : requests_of(event)) {
+    const auto ask = [this](const Requests& requests) {
+        return [this, &requests](TimerModel::Event event) {
+            for (const Request& request : requests[static_cast<std::size_t>(event)]) {
                 static_cast<void>(dma2_->request(request.stream, request.channel));
             }
         };
@@ -182,12 +155,12 @@ void ChipUnderTest::make_timers()
               on_fast(18));
     // RM0090 table 93: what ITR0 to ITR3 of a timer are.
     TimerModel* const gate = timers_["TIM2"].get();
-    add_timer("TIM1", 0x40010000, {fast, ask(requests_of_timer1), {}, {nullptr, gate}, -1, false},
+    add_timer("TIM1", 0x40010000, {fast, ask(kRequestsOfTimer1), {}, {nullptr, gate}, -1, false},
               on_fast(0));
     gate->set_listener(timers_["TIM1"].get());
     if (kind_.has_timer8) {
         add_timer("TIM8", 0x40010400,
-                  {fast, ask(requests_of_timer8), {}, {nullptr, gate}, -1, false}, on_fast(1));
+                  {fast, ask(kRequestsOfTimer8), {}, {nullptr, gate}, -1, false}, on_fast(1));
         gate->set_listener(timers_["TIM8"].get());
     }
 }

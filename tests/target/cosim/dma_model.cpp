@@ -38,6 +38,7 @@ void DmaModel::reset()
 {
     streams_ = {};
     flags_ = {};
+    due_ = kNever;
     for (unsigned i = 0; i < 8; ++i) {
         update_line(i);
     }
@@ -124,6 +125,7 @@ void DmaModel::write_settings(unsigned index, std::uint32_t value)
     }
     if (on && (value & kEnable) == 0) {
         stream.stops_at = circuit_.now + kStopTime;
+        due_ = std::min(due_, stream.stops_at);
         circuit_.next_event = 0;
         stream.cr = value | kEnable;
     } else {
@@ -232,17 +234,9 @@ void DmaModel::count_item(unsigned index)
     }
 }
 
-Picoseconds DmaModel::due() const
-{
-    Picoseconds first = kNever;
-    for (const Stream& stream : streams_) {
-        first = stream.stops_at < first ? stream.stops_at : first;
-    }
-    return first;
-}
-
 void DmaModel::happen()
 {
+    due_ = kNever;
     for (unsigned i = 0; i < 8; ++i) {
         Stream& stream = streams_[i];
         if (stream.stops_at <= circuit_.now) {
@@ -252,6 +246,7 @@ void DmaModel::happen()
             // Section 10.3.17: the end is told as if it were complete.
             raise(i, kComplete);
         }
+        due_ = std::min(due_, stream.stops_at);
     }
 }
 

@@ -20,7 +20,6 @@ public:
     std::uint32_t read(std::uint32_t offset) override;
     void write(std::uint32_t offset, std::uint32_t value) override;
     void reset() override;
-    Picoseconds due() const override;
     void happen() override;
 
     // A peripheral asks this stream for one item, by this channel. False where nobody serves it.

@@ -12,7 +12,7 @@ constexpr Picoseconds kNoTime = 1;  // an instruction, in picoseconds
 constexpr std::uint64_t kMostTicks = 3'600'000;
 // A core that goes round in circles. The most that was seen between two ticks, while a NURBS is read
 // ahead, is over 20 million.
-constexpr std::uint64_t kMostInstructions = 200'000'000;
+constexpr std::uint64_t kMostInstructions = 80'000'000;
 // Ticks without an edge after a refusal: slow moves step a few times a second.
 constexpr std::uint64_t kSilence = 2000;
 

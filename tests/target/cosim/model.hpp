@@ -71,8 +71,9 @@ public:
     virtual std::uint32_t read(std::uint32_t offset) = 0;
     virtual void write(std::uint32_t offset, std::uint32_t value) = 0;
 
-    // When something happens next by itself, and that it happens: circuit_.now is that time.
-    virtual Picoseconds due() const { return kNever; }
+    // When something happens next by itself, and that it happens: circuit_.now is that time. A model that
+    // sets due_ sets circuit_.next_event to 0, too.
+    Picoseconds due() const { return due_; }
     virtual void happen() {}
 
     // As after power-up.
@@ -80,6 +81,7 @@ public:
 
 protected:
     Circuit& circuit_;
+    Picoseconds due_{kNever};
 };
 
 // "0x40020818"

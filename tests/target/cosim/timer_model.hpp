@@ -23,7 +23,6 @@ public:
     std::uint32_t read(std::uint32_t offset) override;
     void write(std::uint32_t offset, std::uint32_t value) override;
     void reset() override;
-    Picoseconds due() const override { return due_; }
     void happen() override;
 
     // The rates of the clock tree, or another timer's gate, may have changed.
@@ -84,7 +83,6 @@ private:
     bool frozen_{false};
     Picoseconds since_{0};  // when the counter was `count_`
     std::uint64_t count_{0};
-    Picoseconds due_{kNever};
     std::uint64_t due_count_{0};
     Picoseconds capture_due_{kNever};
 };

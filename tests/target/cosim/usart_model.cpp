@@ -31,6 +31,7 @@ void UsartModel::reset()
     holds_ = false;
     flags_read_ = false;
     shift_due_ = kNever;
+    plan();
     update_line();
 }
 
@@ -72,10 +73,14 @@ void UsartModel::plan_receive()
         receive_due_ =
             circuit_.now + (instant_ ? 0 : kSecond * kBitsPerByte / std::max(1U, sender_baud_));
     }
-    circuit_.next_event = 0;
+    plan();
 }
 
-Picoseconds UsartModel::due() const { return std::min(shift_due_, receive_due_); }
+void UsartModel::plan()
+{
+    due_ = std::min(shift_due_, receive_due_);
+    circuit_.next_event = 0;
+}
 
 void UsartModel::happen()
 {
@@ -96,6 +101,7 @@ void UsartModel::happen()
             sr_ |= kComplete;
         }
     }
+    plan();
     update_line();
 }
 
@@ -129,7 +135,7 @@ void UsartModel::take_to_shift(std::uint8_t byte)
     shifted_ = byte;
     sr_ = (sr_ | kEmpty) & ~kComplete;
     shift_due_ = circuit_.now + byte_time();
-    circuit_.next_event = 0;
+    plan();
     ask_for_transmit();
 }
 

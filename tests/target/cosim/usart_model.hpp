@@ -22,7 +22,6 @@ public:
     std::uint32_t read(std::uint32_t offset) override;
     void write(std::uint32_t offset, std::uint32_t value) override;
     void reset() override;
-    Picoseconds due() const override;
     void happen() override;
 
     // A stream was switched on.
@@ -56,6 +55,7 @@ private:
     bool holds_{false};
     std::uint8_t held_{0};
     std::uint8_t shifted_{0};
+    void plan();
     Picoseconds shift_due_{kNever}, receive_due_{kNever};
     std::deque<std::uint8_t> incoming_;
     std::uint32_t sender_baud_{115200};

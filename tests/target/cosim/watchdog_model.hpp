@@ -35,7 +35,6 @@ public:
         reload_ = 0xFFF;
         due_ = kNever;
     }
-    Picoseconds due() const override { return due_; }
     void happen() override
     {
         due_ = kNever;
@@ -59,7 +58,6 @@ private:
     }
 
     std::uint32_t divisor_{0}, reload_{0xFFF};
-    Picoseconds due_{kNever};
     bool open_{false}, running_{false}, bitten_{false}, frozen_{false};
 };
 
