@@ -146,14 +146,14 @@ void Console::power(std::istream& words)
     }
 }
 
-// golden PROGRAM SCRIPT|- TRACE INVERTED PIN...
+// golden PROGRAM SCRIPT|- TRACE INVERTED MOST_TICKS PIN...
 void Console::golden(std::istream& words)
 {
     GoldenJob job;
     std::string program;
     std::string script;
     std::string trace;
-    words >> program >> script >> trace >> job.inverted;
+    words >> program >> script >> trace >> job.inverted >> job.most_ticks;
     for (std::string name; words >> name;) {
         job.pins.push_back(pin_name(name));
     }

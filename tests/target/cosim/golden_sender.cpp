@@ -9,7 +9,6 @@ namespace cusp::cosim {
 namespace {
 
 constexpr Picoseconds kNoTime = 1;  // an instruction, in picoseconds
-constexpr std::uint64_t kMostTicks = 3'600'000;
 // A core that goes round in circles. The most that was seen between two ticks, while a NURBS is read
 // ahead, is over 20 million.
 constexpr std::uint64_t kMostInstructions = 80'000'000;
@@ -78,7 +77,8 @@ int GoldenSender::run()
         const std::uint64_t before = tick_;
         chip_.run(100 * kMillisecond, [this] { return on_settled(); });
         const bool stands_still = chip_.exhausted() || (!done_ && tick_ == before);
-        if (stands_still || tick_ > kMostTicks || !chip_.powered() || chip_.core().locked_up()) {
+        if (stands_still || tick_ > job_.most_ticks || !chip_.powered() ||
+            chip_.core().locked_up()) {
             throw std::runtime_error{"the program does not come to its end: line " +
                                      std::to_string(next_line_) + ", heard: " + heard_};
         }

@@ -25,6 +25,7 @@ struct GoldenJob {
     std::deque<std::pair<std::uint64_t, char>> script;  // tick, byte
     std::vector<PinName> pins;                          // steps X Y Z, directions X Y Z
     unsigned inverted{0};                               // of the six
+    std::uint64_t most_ticks{3600000};                  // a program that lasts longer has no end
 };
 
 class GoldenSender {

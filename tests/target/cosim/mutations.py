@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Plants faults in drivers and traits, one at a time, and shows that the co-simulation finds each.
 
-usage: mutations.py --cosim COSIM --cusp CUSP --board mill3_f405|black_pill_f411|skr2_f407 --image IMAGE.bin
+usage: mutations.py --cosim COSIM --cusp CUSP --board mill3_f405|black_pill_f411|skr2_f407 --image IMAGE.bin [-k PATTERN]
 
 The board's main.cpp, which has all drivers in it, is compiled again with one line of one header changed
 and linked with the libraries of the build that IMAGE is from; then a short program and one jog run on it.
@@ -164,6 +164,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     for name in ("cosim", "cusp", "board", "image"):
         parser.add_argument(f"--{name}", required=True)
+    parser.add_argument("-k", default="", help="the faults whose name has this")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -172,6 +173,7 @@ def main():
         options.program, options.settings, options.script = program, None, None
         options.as_it_is = options.may_stand_still = False
         options.chip_seconds = options.seconds = 0.0
+        options.most_ticks = 20000  # ten times what it takes
         missed = []
         try:
             builder = Builder(options.image, folder)
@@ -179,6 +181,7 @@ def main():
             print(f"no fault: {said}")
             missed += ["no fault"] if said else []
             faults = {"skr2_f407": FAULTS_OF_PORTS, "black_pill_f411": FAULTS_OF_PILL}.get(options.board, FAULTS)
+            faults = {name: fault for name, fault in faults.items() if re.search(options.k, name)}
             for fault, (file, old, new) in faults.items():
                 said = find(options, builder.make(file, old, new))
                 print(f"{fault}: {said or 'NOT FOUND'}", flush=True)

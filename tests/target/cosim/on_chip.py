@@ -52,7 +52,7 @@ def play(options, folder):
         chip.run(20)
         start = chip.state()["now"]
         script = pathlib.Path(options.script).resolve() if options.script else "-"
-        answer = chip.command(f"golden {program} {script} {trace} {inversion(settings)} "
+        answer = chip.command(f"golden {program} {script} {trace} {inversion(settings)} {options.most_ticks} "
                               + " ".join(chip.lines))
         state = chip.state()
     passed = (state["now"] - start) / 1e6
@@ -115,6 +115,7 @@ def main():
     parser.add_argument("--programs", type=int, default=6)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--keep")
+    parser.add_argument("--most-ticks", type=int, default=3600000, help="a program that lasts longer has no end")
     parser.add_argument("--least-speed", type=float, default=0.0,
                         help="chip seconds a second that must be reached")
     options = parser.parse_args()
