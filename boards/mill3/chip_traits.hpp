@@ -39,6 +39,10 @@ struct ChipTraits {
     using Panel = MillPanel<Chip, ChipTraits>;
     using SettingsStore = hal::stm32f4::FlashSettings<Chip>;
 
+    // start_clocks() sets no others.
+    static_assert(Table::kClocks.fast_bus_divisor == 1 || Table::kClocks.fast_bus_divisor == 2);
+    static_assert(Table::kClocks.slow_bus_divisor == 2 || Table::kClocks.slow_bus_divisor == 4);
+
     // What MillPanel asks.
     static constexpr bool kSpindleTimer = true;
     static constexpr const PanelPins& kPanelPins = Table::kPanelPins;

@@ -38,6 +38,7 @@ FAULTS = {
                           "    const std::uint32_t raised = flags().read();\n"),
     "halves swapped": (PLAYER, "finish_half(first_over ? 1 : 0)", "finish_half(first_over ? 0 : 1)"),
     "gate shorter than a frame": (PLAYER, "kGateMargin = 20;", "kGateMargin = -200;"),
+    "gate two frames long": (PLAYER, "kGateMargin = 20;", "kGateMargin = 1000;"),
     "pace off by one": (PLAYER, "kServoTicksPerSecond) - 1);", "kServoTicksPerSecond));"),
     "port without its clock": ("boards/mill3/chip_traits.hpp", "return ports;", "return ports & ~4U;"),
     "two lines swapped": (PORTS, "return {static_cast<PulseLines>((raise & ~inverted) | (lower & inverted)),",
@@ -64,7 +65,7 @@ FAULTS_OF_PILL = {
     "wrong stream": (PACE, "{5, 6, detail", "{4, 6, detail"),
     "port without its clock": ("boards/mill3/chip_traits.hpp", "return ports;", "return ports & ~2U;"),
     "too few wait states": (PILL, "100000000, 3, 1, 2, 3}", "100000000, 2, 1, 2, 3}"),
-    "slow bus too fast": (PILL, "100000000, 3, 1, 2, 3}", "100000000, 3, 1, 1, 3}"),
+    "slow bus too fast": (PILL, "25000000, 100000000, 3", "25000000, 108000000, 3"),
     "limit pins swapped": (PILL, "{'B', 5}, {'B', 6}", "{'B', 6}, {'B', 5}"),
 }
 
@@ -155,6 +156,14 @@ def find(options, image):
             steps = machine.steps_after_an_underrun()[1]
             if steps != [800, 800, 800]:
                 return f"after an underrun 1 mm is {steps} steps"
+            machine.ask("$J=G91 X30 F3000")
+            machine.run(200)
+            machine.changes()
+            machine.command("core stop")
+            machine.run(50)
+            steps = machine.steps(machine.changes())
+            if steps > 44:  # 40 a frame
+                return f"{steps} steps after the core stood still"
     except (AssertionError, CosimFailed, on_chip.RunFailed) as error:
         return str(error).strip().splitlines()[-1]
     return None
