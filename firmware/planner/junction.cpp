@@ -32,15 +32,12 @@ Shares shares_at(const Junction& junction,
     Shares shares{0, 0};
     for (unsigned i = 0; i < 3; ++i) {
         const float jump = v * junction.direction[i];
+        // No stretch is passed faster than its own cap, which leaves a share of either limit.
         const float acceleration_left =
-            limits.acceleration[i] - junction.second[i] * fastest_square;
-        const float jerk_left = limits.jerk[i] - junction.third[i] * fastest_cube;
-        if (acceleration_left <= 0 || jerk_left <= 0) {
-            if (jump > 0 || junction.curvature[i] > 0) {
-                return {1, 1};
-            }
-            continue;
-        }
+            std::max(limits.acceleration[i] - junction.second[i] * fastest_square,
+                     (1.0F - kCentripetalShare) * limits.acceleration[i]);
+        const float jerk_left = std::max(limits.jerk[i] - junction.third[i] * fastest_cube,
+                                         (1.0F - kCurvatureJerkShare) * limits.jerk[i]);
         const float acceleration = jump / first;
         const float jerk =
             acceleration / second +

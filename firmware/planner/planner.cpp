@@ -176,6 +176,7 @@ bool Planner::empty() const noexcept
 void Planner::start(const path::Move& move) noexcept
 {
     move_ = move;
+    within_move_ = false;
     choice_ = filter_for(move.tolerance);
     const AxisFilter filter = choice_.filter;
     maker_.start(move, filter);
@@ -242,7 +243,7 @@ bool Planner::next_move() noexcept
 
 void Planner::work() noexcept
 {
-    constexpr std::uint32_t kIntervalsOfABlock = 16 * IntervalBuilder::kMostPerAppend;
+    constexpr std::uint32_t kIntervalsOfABlock = 25 * IntervalBuilder::kMostPerAppend;
     bool changed = false;
     Block block;
     while (queue_.free_blocks() > 0 && queue_.free_curves() > 0 &&
@@ -272,9 +273,12 @@ void Planner::add_block(const Block& block) noexcept
 {
     const Stretch first = stretch(block, 0);
     const Allowance of_first = allowance_of(block, first);
-    if (end_) {
+    // Only rounding makes a jump where one line or arc was cut into blocks.
+    const bool goes_on = within_move_ && block.shape != BlockShape::kCurve;
+    if (end_ && !goes_on) {
         join(start_geometry(block), block, first, of_first);
     }
+    within_move_ = true;
     queue_.append_block(block);
     add_stretches(block, first, of_first);
     end_ = end_geometry(block);

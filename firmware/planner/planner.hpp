@@ -128,6 +128,7 @@ private:
     std::optional<path::Move> waiting_;  // until the run of lines before it is done
     bool close_requested_{false};
     bool flushing_{false};
+    bool within_move_{false};  // a block of move_ is on the path
     // The end of the path so far, where it does not stop there.
     std::optional<EndGeometry> end_;
     AxisFilter end_filter_{};

@@ -93,3 +93,15 @@ TEST(Junctions, ACornerWithinTheDeviationOnly)
     const double off = 0.5 * static_cast<double>(share.speed) * 0.008 * (0.0025 + 0.002 / 12);
     CHECK(off <= 1.001e-5);
 }
+
+// A stretch nearby whose own cap is far below 100 mm/s is not passed at 100 mm/s: it leaves what its
+// cap leaves.
+TEST(Junctions, ARoundedJointBesideATightBendIsPassedAtFullSpeed)
+{
+    const Vec3f second{2.0F, 2.0F, 0};
+    const Vec3f third{8.0F, 8.0F, 0};
+    const Junction junction{{1e-6F, 1e-6F, 0}, {1e-5F, 1e-5F, 0}, second, third, 1.4e-6F};
+    const JunctionShare share = junction_share(junction, {}, {10, 2}, 0.98F, 100.0F, 0.0045F);
+    DOUBLES_EQUAL(100.0, static_cast<double>(share.speed), 0);
+    CHECK(share.jerk < 1e-2F);
+}
