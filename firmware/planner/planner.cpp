@@ -18,6 +18,8 @@ constexpr float kLeastJunctionSpeed = 1.5F;  // mm/s
 // it. Near a junction that stands alone speed hardly changes; in dense runs it must.
 constexpr float kLoneJunctionShare = 0.98F;
 constexpr float kDenseJunctionShare = 0.8F;
+// A stretch that is passed in less time, s, gains nothing by limits of its own.
+constexpr float kShortestStretch = 0.5F * kServoTick;
 // Keeps rounding of set points and speeds below the limits; and, of one tick's braking, what
 // PathServo may brake harder near a stop where the slopes of neighbouring intervals differ.
 constexpr float kRoundingMargin = 0.0004F;
@@ -441,7 +443,9 @@ void Planner::add_stretch() noexcept
     while (++next_stretch_ != stretches_) {
         const Stretch part = stretch(block, next_stretch_);
         const Allowance of_part = allowance_of(block, part);
-        if (!are_alike(of_first, of_part)) {
+        const float length = static_cast<float>(whole.end - begin) / kPathUnitsPerMillimetre;
+        const bool is_short = length < kShortestStretch * greatest_speed(allowed, block.rapid);
+        if (!is_short && !are_alike(of_first, of_part)) {
             break;
         }
         whole.end = part.end;
