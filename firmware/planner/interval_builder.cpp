@@ -12,10 +12,10 @@ namespace {
 
 constexpr float kTimeUnitsPerSecond = 1e7F;
 constexpr float kLongestTime = 100.0F;  // s; longer counts as this
-// A split leaves no piece shorter than this, mm, nor than a sixth of what a tick travels: the servo
+// A split leaves no piece shorter than this, mm, nor than a third of what a tick travels: the servo
 // looks at no more than 16 intervals a tick.
 constexpr float kShortestPiece = 1e-4F;
-constexpr float kShortestTime = kServoTick / 6.0F;
+constexpr float kShortestTime = kServoTick / 3.0F;
 
 float shortest_piece(float greatest_speed) noexcept
 {

@@ -19,7 +19,7 @@ constexpr float kLeastJunctionSpeed = 1.5F;  // mm/s
 constexpr float kLoneJunctionShare = 0.98F;
 constexpr float kDenseJunctionShare = 0.8F;
 // A stretch that is passed in less time, s, gains nothing by limits of its own.
-constexpr float kShortestStretch = 0.5F * kServoTick;
+constexpr float kShortestStretch = kServoTick;
 // Keeps rounding of set points and speeds below the limits; and, of one tick's braking, what
 // PathServo may brake harder near a stop where the slopes of neighbouring intervals differ.
 constexpr float kRoundingMargin = 0.0004F;
