@@ -57,7 +57,11 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t kMaxAxisFilter = 12;
+    static constexpr std::uint32_t kMaxAxisFilter =
+        22;  // of the first; the second is one or two ticks long
+    static constexpr std::uint32_t kMaxSecondFilter = 2;
+    // Both sum up steps of at most 2000 mm/s.
+    static_assert(kMaxAxisFilter * kMaxSecondFilter * 2000.0F * kPathUnitsPerTick < 2147483648.0F);
 
     // A stretch of path from stop to stop on its way through the path filter. Two overlap at a
     // corner that may be cut.
@@ -86,7 +90,7 @@ private:
     bool drained_before_{false};  // and before the last one
     bool trail_drained_{true};    // that of the trailing track, before the last tick
     RunningSum<PathOffset, kMaxAxisFilter> first_;
-    RunningSum<PathOffset, kMaxAxisFilter> second_;
+    RunningSum<PathOffset, kMaxSecondFilter> second_;
     PerAxis<ExactDivision> axis_division_{};
     planner::AxisFilter axis_filter_{};
     Position position_{};

@@ -10,7 +10,8 @@
 namespace cusp::planner {
 namespace {
 
-constexpr unsigned kStretchesPerQuadrant = 6;
+constexpr unsigned kStretchesPerQuadrant = 24;
+constexpr unsigned kStretchesPerTableInterval = 4;
 
 float length_mm(const Block& block) noexcept
 {
@@ -120,32 +121,51 @@ PathOffset curve_position(CurveBlock& curve, std::uint32_t offset) noexcept
             rounded(place.z * kPathUnitsPerMillimetre)};
 }
 
-// Bounds over one interval of the table, `length` mm long: five places of it, and what may lie
-// between them.
+// Bounds over [from, to] of the parameter, `length` mm long, from both ends and the middle.
 PathDerivatives curve_derivatives(const CurveBlock& curve,
                                   float from,
                                   float to,
                                   float length) noexcept
 {
-    constexpr unsigned kParts = 4;
-    // The third derivative may change fast within an interval: a quarter on top of the largest.
-    constexpr float kBetween = 1.25F;
-    PathDerivatives bound{};
-    for (unsigned k = 0; k <= kParts; ++k) {
-        const float part = static_cast<float>(k) / static_cast<float>(kParts);
-        const float u = from + (to - from) * part;
-        const nurbs::CurveState state = nurbs::state_at(curve.piece, u);
-        for (unsigned i = 0; i < 3; ++i) {
-            bound.first[i] = std::max(bound.first[i], std::fabs(state.tangent[i]));
-            bound.second[i] = std::max(bound.second[i], std::fabs(state.curvature[i]));
-            bound.third[i] = std::max(bound.third[i], kBetween * std::fabs(state.change[i]));
-        }
-    }
+    const nurbs::CurveState a = nurbs::state_at(curve.piece, from);
+    const nurbs::CurveState m = nurbs::state_at(curve.piece, 0.5F * (from + to));
+    const nurbs::CurveState b = nurbs::state_at(curve.piece, to);
+    // A parabola through three places exceeds the greatest of them by at most an eighth of their
+    // second difference. Twice that is for what is not a parabola:
+    // tests/unit/planner/stretch_test.cpp.
+    const auto bound = [](const Vec3f& at_a, const Vec3f& at_m, const Vec3f& at_b) {
+        const Vec3f bend = magnitude(at_a - at_m * 2.0F + at_b);
+        return larger(larger(magnitude(at_a), magnitude(at_m)), magnitude(at_b)) + bend * 0.25F;
+    };
+    PathDerivatives bounds{};
+    bounds.second = bound(a.curvature, m.curvature, b.curvature);
+    bounds.third = bound(a.change, m.change, b.change);
     // Between places h apart a function exceeds their larger by at most h^2/8 of its second
     // derivative.
-    const float step = length / static_cast<float>(kParts);
-    bound.first = bound.first + bound.third * (0.125F * step * step);
-    return bound;
+    bounds.first =
+        larger(larger(magnitude(a.tangent), magnitude(m.tangent)), magnitude(b.tangent)) +
+        bounds.third * (0.03125F * length * length);
+    return bounds;
+}
+
+// Where the stretch `index` of a curve begins.
+struct CurvePlace {
+    float s;
+    float u;
+};
+
+CurvePlace place_at(const CurveBlock& curve, unsigned index) noexcept
+{
+    unsigned interval = index / kStretchesPerTableInterval;
+    const nurbs::ArcLengthNode& node = curve.table.nodes[interval];
+    const unsigned part = index % kStretchesPerTableInterval;
+    if (part == 0) {
+        return {node.s, node.u};
+    }
+    const float length = curve.table.nodes[interval + 1].s - node.s;
+    const float s = node.s + length * (static_cast<float>(part) /
+                                       static_cast<float>(kStretchesPerTableInterval));
+    return {s, nurbs::parameter_at(curve.table, s, interval)};
 }
 
 EndGeometry curve_geometry(const CurveBlock& curve, float u) noexcept
@@ -232,7 +252,7 @@ EndGeometry end_geometry(const Block& block) noexcept
 unsigned stretch_count(const Block& block) noexcept
 {
     if (block.shape == BlockShape::kCurve) {
-        return block.curve->table.size - 1U;
+        return (block.curve->table.size - 1U) * kStretchesPerTableInterval;
     }
     if (block.shape == BlockShape::kLine) {
         return 1;
@@ -250,8 +270,8 @@ Stretch stretch(const Block& block, unsigned index) noexcept
     const bool last = index + 1 == count;
     if (block.shape == BlockShape::kCurve) {
         const CurveBlock& curve = *block.curve;
-        const nurbs::ArcLengthNode& from = curve.table.nodes[index];
-        const nurbs::ArcLengthNode& to = curve.table.nodes[index + 1];
+        const CurvePlace from = place_at(curve, index);
+        const CurvePlace to = place_at(curve, index + 1);
         const std::uint32_t end = last ? block.length : units_at(to.s / curve.table.length());
         return {end, curve_derivatives(curve, from.u, to.u, to.s - from.s)};
     }

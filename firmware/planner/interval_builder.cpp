@@ -12,8 +12,15 @@ namespace {
 
 constexpr float kTimeUnitsPerSecond = 1e7F;
 constexpr float kLongestTime = 100.0F;  // s; longer counts as this
-// A split leaves no piece shorter than this.
-constexpr float kShortestPiece = 1e-4F;  // mm
+// A split leaves no piece shorter than this, mm, nor than a third of what a tick travels: the servo
+// looks at no more than 16 intervals a tick.
+constexpr float kShortestPiece = 1e-4F;
+constexpr float kShortestTime = kServoTick / 3.0F;
+
+float shortest_piece(float greatest_speed) noexcept
+{
+    return std::max(kShortestPiece, greatest_speed * kShortestTime);
+}
 
 float millimetres(std::uint32_t path_units) noexcept
 {
@@ -88,15 +95,16 @@ void IntervalBuilder::append(std::uint32_t length, const Allowance& allowance, b
 
     // Cut where a limit carried over from earlier stretches ends.
     std::uint32_t left = length;
+    const float shortest = shortest_piece(greatest_speed(allowance, rapid));
     while (left > 0) {
         std::uint32_t piece = left;
         Allowance all = allowance;
         for (const Carry& carried : carries_) {
             all = stricter(all, carried.allowance);
-            const std::uint32_t reach = path_units(std::max(carried.distance, kShortestPiece));
+            const std::uint32_t reach = path_units(std::max(carried.distance, shortest));
             piece = std::min(piece, carried.distance < 60.0F ? reach : piece);
         }
-        if (millimetres(left - piece) < kShortestPiece) {
+        if (millimetres(left - piece) < shortest) {
             piece = left;
         }
         append_piece(piece, all, rapid);
@@ -125,12 +133,14 @@ void IntervalBuilder::spread_back(float distance, const Allowance& allowance) no
         Interval& interval = queue_.interval(at - 1);
         const float length = millimetres(interval.length);
         const bool lowers = binds(allowance, interval.allowance);
+        const float shortest = shortest_piece(greatest_speed(interval.allowance, interval.rapid));
+        const float reached = std::max(left, shortest);
         const bool split =
-            lowers && length - left > kShortestPiece && queue_.free_intervals() > kMostPerAppend;
+            lowers && length - reached > shortest && queue_.free_intervals() > kMostPerAppend;
         if (split) {
             // Only the end of this interval is in reach.
             Interval front = interval;
-            const std::uint32_t back = std::max(path_units(left), std::uint32_t{1});
+            const std::uint32_t back = std::max(path_units(reached), std::uint32_t{1});
             front.length = interval.length - back;
             front.least_time = 0;
             interval.length = back;

@@ -16,9 +16,27 @@ struct Shares {
 
 float greater(const Shares& shares) noexcept { return std::max(shares.acceleration, shares.jerk); }
 
+Vec3f smaller(Vec3f a, Vec3f b) noexcept
+{
+    return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+}
+
+// What jumps of curvature count together at the speed v, 1/mm: the largest net change, and where the
+// speed has a minimum between them, as jerk along the path allows, what it is lower there.
+Vec3f counted_curvature(const JunctionRun& run,
+                        const MachineLimits& limits,
+                        AxisFilter filter,
+                        float v) noexcept
+{
+    const float window = static_cast<float>(filter.first + filter.second) * kServoTick;
+    const float dip = norm(limits.jerk) * window * window / (4.0F * std::max(v, 1e-6F));
+    return smaller(run.total, run.greatest * (1.0F + std::min(dip, 1.0F)));
+}
+
 // Shares of the axes' acceleration and jerk left over by the curves that the junction takes at v,
 // where the limits left are those at `fastest`.
 Shares shares_at(const Junction& junction,
+                 Vec3f curvature,
                  const MachineLimits& limits,
                  AxisFilter filter,
                  float v,
@@ -32,38 +50,34 @@ Shares shares_at(const Junction& junction,
     Shares shares{0, 0};
     for (unsigned i = 0; i < 3; ++i) {
         const float jump = v * junction.direction[i];
+        // No stretch is passed faster than its own cap, which leaves a share of either limit.
         const float acceleration_left =
-            limits.acceleration[i] - junction.second[i] * fastest_square;
-        const float jerk_left = limits.jerk[i] - junction.third[i] * fastest_cube;
-        if (acceleration_left <= 0 || jerk_left <= 0) {
-            if (jump > 0 || junction.curvature[i] > 0) {
-                return {1, 1};
-            }
-            continue;
-        }
+            std::max(limits.acceleration[i] - junction.second[i] * fastest_square,
+                     (1.0F - kCentripetalShare) * limits.acceleration[i]);
+        const float jerk_left = std::max(limits.jerk[i] - junction.third[i] * fastest_cube,
+                                         (1.0F - kCurvatureJerkShare) * limits.jerk[i]);
         const float acceleration = jump / first;
         const float jerk =
             acceleration / second +
-            (junction.curvature[i] * square + junction.direction[i] * limits.acceleration[i]) /
-                first;
+            (curvature[i] * square + junction.direction[i] * limits.acceleration[i]) / first;
         shares.acceleration = std::max(shares.acceleration, acceleration / acceleration_left);
         shares.jerk = std::max(shares.jerk, jerk / jerk_left);
     }
     return shares;
 }
 
-// The jerk that jumps of direction make grows with the speed: as a line over the squared speed
-// half of it counts at rest, and all of what does not depend on the speed.
-JunctionShare junction_share_at(const Junction& junction,
+// The jerk that jumps of direction make grows with the speed, and so does that of a dip of the speed
+// between jumps of curvature: as a line over the squared speed half of it counts at rest, and all of what does not depend on the speed.
+JunctionShare junction_share_at(const JunctionRun& run,
                                 const MachineLimits& limits,
                                 AxisFilter filter,
                                 float v) noexcept
 {
-    const Shares shares = shares_at(junction, limits, filter, v, v);
-    Junction corner = junction;
-    corner.curvature = {};
-    const float moving = shares_at(corner, limits, filter, v, v).jerk;
-    const float standing = shares_at(corner, limits, filter, 0.0F, v).jerk;
+    const Vec3f curvature = counted_curvature(run, limits, filter, v);
+    const Shares shares = shares_at(run.all, curvature, limits, filter, v, v);
+    const Vec3f of_dip = curvature - smaller(curvature, run.greatest);
+    const float moving = shares_at(run.all, of_dip, limits, filter, v, v).jerk;
+    const float standing = shares_at(run.all, {}, limits, filter, 0.0F, v).jerk;
     return {v, shares.acceleration, std::min(0.5F * (moving + standing), shares.jerk), shares.jerk};
 }
 
@@ -74,17 +88,22 @@ Junction make_junction(const EndGeometry& before,
                        const PathDerivatives& around) noexcept
 {
     const Vec3f direction = after.tangent - before.tangent;
-    return {magnitude(direction), magnitude(after.curvature - before.curvature), around.second,
-            around.third, norm(direction)};
+    return {magnitude(direction), after.curvature - before.curvature, around.second, around.third,
+            norm(direction)};
 }
 
-Junction combined(const Junction& a, const Junction& b) noexcept
+void JunctionRun::add(const Junction& earlier) noexcept
 {
-    return {a.direction + b.direction, a.curvature + b.curvature, larger(a.second, b.second),
-            larger(a.third, b.third), a.turn + b.turn};
+    all.direction = all.direction + earlier.direction;
+    all.second = larger(all.second, earlier.second);
+    all.third = larger(all.third, earlier.third);
+    all.turn += earlier.turn;
+    net = net + earlier.curvature;
+    greatest = larger(greatest, magnitude(net));
+    total = total + magnitude(earlier.curvature);
 }
 
-JunctionShare junction_share(const Junction& junction,
+JunctionShare junction_share(const JunctionRun& run,
                              const MachineLimits& limits,
                              AxisFilter filter,
                              float max_share,
@@ -97,19 +116,22 @@ JunctionShare junction_share(const Junction& junction,
         (static_cast<float>(filter.first) / 4.0F + static_cast<float>(filter.second) / 12.0F) *
         kServoTick;
     float fast = max_speed;
-    if (junction.turn * fast * mean_time > 2.0F * deviation) {
-        fast = 2.0F * deviation / (junction.turn * mean_time);
+    if (run.all.turn * fast * mean_time > 2.0F * deviation) {
+        fast = 2.0F * deviation / (run.all.turn * mean_time);
     }
-    if (greater(shares_at(junction, limits, filter, fast, fast)) <= max_share) {
-        return junction_share_at(junction, limits, filter, fast);
+    const auto share_at = [&](float v) {
+        const Vec3f curvature = counted_curvature(run, limits, filter, v);
+        return greater(shares_at(run.all, curvature, limits, filter, v, v));
+    };
+    if (share_at(fast) <= max_share) {
+        return junction_share_at(run, limits, filter, fast);
     }
     float slow = 0;
     for (unsigned i = 0; i < kBisections; ++i) {
         const float middle = 0.5F * (slow + fast);
-        const Shares shares = shares_at(junction, limits, filter, middle, middle);
-        (greater(shares) <= max_share ? slow : fast) = middle;
+        (share_at(middle) <= max_share ? slow : fast) = middle;
     }
-    return junction_share_at(junction, limits, filter, slow);
+    return junction_share_at(run, limits, filter, slow);
 }
 
 }  // namespace cusp::planner

@@ -8,7 +8,7 @@ namespace cusp::planner {
 // The jumps at a junction, per axis.
 struct Junction {
     Vec3f direction;  // |change of dP/ds|
-    Vec3f curvature;  // |change of d2P/ds2|, 1/mm
+    Vec3f curvature;  // change of d2P/ds2, 1/mm
     Vec3f second;     // largest |d2P/ds2| of the path around it, 1/mm
     Vec3f third;      // and |d3P/ds3|, 1/mm^2
     float turn;       // length of the change of direction: about the angle, radians
@@ -19,8 +19,23 @@ Junction make_junction(const EndGeometry& before,
                        const EndGeometry& after,
                        const PathDerivatives& around) noexcept;
 
-// A sum of junctions that one window of the axis filters may hold.
-Junction combined(const Junction& a, const Junction& b) noexcept;
+// Consecutive junctions that one window of the axis filters may hold.
+struct JunctionRun {
+    explicit JunctionRun(const Junction& last) noexcept
+        : all{last},
+          net{last.curvature},
+          greatest{magnitude(last.curvature)},
+          total{magnitude(last.curvature)}
+    {
+    }
+    // Takes in the junction before them.
+    void add(const Junction& earlier) noexcept;
+
+    Junction all;    // sums of direction and turn, the largest second and third
+    Vec3f net;       // change of d2P/ds2 over all of them, 1/mm
+    Vec3f greatest;  // largest |change| from one of them to the last, 1/mm
+    Vec3f total;     // sum of the |changes|, 1/mm
+};
 
 // What a junction takes of what the path around it leaves of the axes' limits.
 struct JunctionShare {
@@ -30,8 +45,9 @@ struct JunctionShare {
     float jerk;          // and at that speed, in [0, 1)
 };
 
-// The axis filters turn a jump of direction into acceleration of at most v jump/t1 and jerk of at
-// most v jump/(t1 t2), and a jump of acceleration into jerk of at most jump/t1.
+// What a run of junctions takes. The axis filters turn a jump of direction into acceleration of at most v jump/t1 and jerk of at
+// most v jump/(t1 t2), and a jump of acceleration into jerk of at most jump/t1. Jumps of acceleration
+// to and fro cancel, but for what the speed changes between them.
 //
 //   max_share  greatest share of acceleration and jerk that the junction may take.
 //   max_speed  mm/s, of the path around it.
@@ -39,7 +55,7 @@ struct JunctionShare {
 //
 // Returns the greatest speed, at most max_speed, and the shares taken.
 // Source: docs/numerics.md, "Junctions".
-JunctionShare junction_share(const Junction& junction,
+JunctionShare junction_share(const JunctionRun& run,
                              const MachineLimits& limits,
                              AxisFilter filter,
                              float max_share,

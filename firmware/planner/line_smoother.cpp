@@ -15,7 +15,10 @@ constexpr float kCornerTurnSquared = 0.1206F;  // (2 sin 10 degrees)^2
 // Flatter than this, in mm of height over the chord, an arc is a line.
 constexpr float kFlat = 2e-6F;
 // Neighbours at least this far away give a tangent that rounded decimals hardly turn, mm.
-constexpr float kTangentSpan = 0.15F;
+constexpr float kTangentSpan = 0.2F;
+// The jumps of curvature between arcs grow with their length. Much shorter than the travel in one
+// window of the axis filters, 1.2 mm at 100 mm/s, they gain nothing.
+constexpr float kLongestBiarc = 2.0F;  // mm
 
 // Of a short distance, below 2 m: the target converts 32 bits in one instruction.
 Vec3f millimetres(Position p) noexcept
@@ -199,7 +202,7 @@ bool LineSmoother::fit(std::size_t last, Biarc& biarc) const noexcept
     const float bend = dot(difference, difference);  // 2 (1 - t0.t1)
     const float along = dot(chord, t0 + t1);
     const float square = dot(chord, chord);
-    if (along <= 0) {
+    if (along <= 0 || (last > 2 && square > kLongestBiarc * kLongestBiarc)) {
         return false;
     }
     const float d = square / (along + std::sqrt(along * along + bend * square));

@@ -18,6 +18,8 @@ constexpr float kLeastJunctionSpeed = 1.5F;  // mm/s
 // it. Near a junction that stands alone speed hardly changes; in dense runs it must.
 constexpr float kLoneJunctionShare = 0.98F;
 constexpr float kDenseJunctionShare = 0.8F;
+// A stretch that is passed in less time, s, gains nothing by limits of its own.
+constexpr float kShortestStretch = kServoTick;
 // Keeps rounding of set points and speeds below the limits; and, of one tick's braking, what
 // PathServo may brake harder near a stop where the slopes of neighbouring intervals differ.
 constexpr float kRoundingMargin = 0.0004F;
@@ -36,7 +38,7 @@ constexpr float kCornerShareOfTolerance = 0.985F;
 // A junction that takes less of the axes' jerk is none.
 constexpr float kNegligible = 1e-3F;
 
-constexpr float kMostTicks = 12.0F;
+constexpr float kMostTicks = 22.0F;
 // Positions on arcs and curves are off by up to half a nanometre, third differences by 4 and,
 // rounded once more, 8. Divided by the filters' lengths, n and 2, this is to be 1 % of the least
 // jerk; behind 4 ticks it is a nanometre at most, which is to be an eighth of it.
@@ -69,6 +71,20 @@ bool is_covered_by(const Junction& junction, const PathDerivatives& stretch) noe
               stretch.third[i] <= kSlack * junction.third[i];
     }
     return all;
+}
+
+// Whether one interval may stand for both.
+bool are_alike(const Allowance& a, const Allowance& b) noexcept
+{
+    constexpr float kDifference = 0.03F;
+    const auto differ = [](float x, float y, float scale) {
+        return std::fabs(x - y) > kDifference * scale;
+    };
+    const auto lines_differ = [&differ](const Line& x, const Line& y) {
+        return differ(x.at_rest, y.at_rest, x.at_rest) || differ(x.at_cap, y.at_cap, x.at_rest);
+    };
+    return !differ(a.cap, b.cap, a.cap) && !lines_differ(a.by_acceleration, b.by_acceleration) &&
+           !lines_differ(a.by_jerk, b.by_jerk);
 }
 
 // What of the limits the motion before rounding may use.
@@ -131,6 +147,8 @@ void Planner::reset(Position at) noexcept
     end_.reset();
     end_length_ = 0;
     close_requested_ = false;
+    next_stretch_ = 0;
+    stretches_ = 0;
     tail_ = at;
 }
 
@@ -169,13 +187,14 @@ void Planner::flush_if_short() noexcept
 
 bool Planner::empty() const noexcept
 {
-    return maker_.done() && !waiting_ && smoother_.empty() && blender_.empty() &&
-           queue_.block_begin() == queue_.block_end();
+    return maker_.done() && next_stretch_ == stretches_ && !waiting_ && smoother_.empty() &&
+           blender_.empty() && queue_.block_begin() == queue_.block_end();
 }
 
 void Planner::start(const path::Move& move) noexcept
 {
     move_ = move;
+    within_move_ = false;
     choice_ = filter_for(move.tolerance);
     const AxisFilter filter = choice_.filter;
     maker_.start(move, filter);
@@ -242,20 +261,25 @@ bool Planner::next_move() noexcept
 
 void Planner::work() noexcept
 {
-    constexpr std::uint32_t kIntervalsOfABlock = 16 * IntervalBuilder::kMostPerAppend;
+    constexpr std::uint32_t kIntervalsOfAStretch = 2 * IntervalBuilder::kMostPerAppend;
     bool changed = false;
     Block block;
-    while (queue_.free_blocks() > 0 && queue_.free_curves() > 0 &&
-           queue_.free_intervals() > kIntervalsOfABlock) {
-        if (maker_.done() && !next_move()) {
+    while (queue_.free_intervals() > kIntervalsOfAStretch) {
+        if (next_stretch_ != stretches_) {
+            add_stretch();
+            changed = true;
+            continue;
+        }
+        if (queue_.free_blocks() == 0 || queue_.free_curves() == 0 ||
+            (maker_.done() && !next_move())) {
             break;
         }
         if (!maker_.done() && maker_.make(move_, queue_, block)) {
             add_block(block);
-            changed = true;
         }
     }
-    const bool all_done = maker_.done() && !waiting_ && smoother_.empty() && blender_.empty();
+    const bool cut = maker_.done() && next_stretch_ == stretches_;
+    const bool all_done = cut && !waiting_ && smoother_.empty() && blender_.empty();
     if (all_done && close_requested_) {
         end_in_stop({});
         close_requested_ = false;
@@ -263,20 +287,23 @@ void Planner::work() noexcept
     }
     // Without news there is nothing to publish, but where the whole queue is too short for it.
     if (changed || queue_.published() == queue_.interval_begin()) {
-        builder_.publish(!maker_.done());
+        builder_.publish(!cut);
         look_ahead(queue_);
     }
 }
 
 void Planner::add_block(const Block& block) noexcept
 {
-    const Stretch first = stretch(block, 0);
-    const Allowance of_first = allowance_of(block, first);
-    if (end_) {
-        join(start_geometry(block), block, first, of_first);
+    // Only rounding makes a jump where one line or arc was cut into blocks.
+    const bool goes_on = within_move_ && block.shape != BlockShape::kCurve;
+    if (end_ && !goes_on) {
+        const Stretch first = stretch(block, 0);
+        join(start_geometry(block), block, first, allowance_of(block, first));
     }
+    within_move_ = true;
     queue_.append_block(block);
-    add_stretches(block, first, of_first);
+    next_stretch_ = 0;
+    stretches_ = static_cast<std::uint8_t>(stretch_count(block));
     end_ = end_geometry(block);
     end_filter_ = block.filter;
     const float length = static_cast<float>(block.length) / kPathUnitsPerMillimetre;
@@ -315,15 +342,15 @@ JunctionShare Planner::share_of(const Junction& junction,
                                 float distance,
                                 float fastest) const noexcept
 {
-    JunctionShare share = junction_share(junction, limits_, end_filter_, kLoneJunctionShare,
-                                         fastest, choice_.deviation);
-    // Junctions within one window of the axis filters add up.
+    JunctionRun run{junction};
+    JunctionShare share =
+        junction_share(run, limits_, end_filter_, kLoneJunctionShare, fastest, choice_.deviation);
+    // Junctions within one window of the axis filters act together.
     const float window = filter_window(end_filter_);
-    Junction sum = junction;
     for (std::size_t i = earlier;
          i-- > 0 && junctions_[i].distance - distance < share.speed * window;) {
-        sum = combined(sum, junctions_[i].junction);
-        share = junction_share(sum, limits_, end_filter_, kDenseJunctionShare, share.speed,
+        run.add(junctions_[i].junction);
+        share = junction_share(run, limits_, end_filter_, kDenseJunctionShare, share.speed,
                                choice_.deviation);
     }
     return share;
@@ -405,24 +432,34 @@ Allowance Planner::allowance_of(const Block& block, const Stretch& part) const n
     return of_part;
 }
 
-void Planner::add_stretches(const Block& block,
-                            const Stretch& first,
-                            const Allowance& of_first) noexcept
+// Adds the next stretch of the last block, and those behind it that allow nearly the same.
+void Planner::add_stretch() noexcept
 {
-    const unsigned count = stretch_count(block);
-    std::uint32_t done = 0;
-    for (unsigned i = 0; i < count; ++i) {
-        const Stretch part = i == 0 ? first : stretch(block, i);
-        if (part.end > done) {
-            const Allowance of_part = i == 0 ? of_first : allowance_of(block, part);
-            apply_junction_limits(part.derivatives);
-            builder_.append(part.end - done, of_part, block.rapid);
-            age_bounds(part.derivatives,
-                       static_cast<float>(part.end - done) / kPathUnitsPerMillimetre);
-            end_speed_ = greatest_speed(of_part, block.rapid);
-            done = part.end;
+    const Block& block = queue_.block(queue_.block_end() - 1);
+    const std::uint32_t begin = next_stretch_ == 0 ? 0 : stretch_end_;
+    Stretch whole = stretch(block, next_stretch_);
+    const Allowance of_first = allowance_of(block, whole);
+    Allowance allowed = of_first;
+    while (++next_stretch_ != stretches_) {
+        const Stretch part = stretch(block, next_stretch_);
+        const Allowance of_part = allowance_of(block, part);
+        const float length = static_cast<float>(whole.end - begin) / kPathUnitsPerMillimetre;
+        const bool is_short = length < kShortestStretch * greatest_speed(allowed, block.rapid);
+        if (!is_short && !are_alike(of_first, of_part)) {
+            break;
         }
+        whole.end = part.end;
+        whole.derivatives = larger(whole.derivatives, part.derivatives);
+        allowed = stricter(allowed, of_part);
     }
+    stretch_end_ = whole.end;
+    if (whole.end == begin) {
+        return;
+    }
+    apply_junction_limits(whole.derivatives);
+    builder_.append(whole.end - begin, allowed, block.rapid);
+    age_bounds(whole.derivatives, static_cast<float>(whole.end - begin) / kPathUnitsPerMillimetre);
+    end_speed_ = greatest_speed(allowed, block.rapid);
 }
 
 // How much the corner at the end of the path so far may be cut in time.

@@ -86,9 +86,7 @@ private:
               const Stretch& first,
               const Allowance& of_first) noexcept;
     Allowance allowance_of(const Block& block, const Stretch& part) const noexcept;
-    void add_stretches(const Block& block,
-                       const Stretch& first,
-                       const Allowance& of_first) noexcept;
+    void add_stretch() noexcept;
     JunctionShare share_of(const Junction& junction,
                            std::size_t earlier,
                            float distance,
@@ -128,6 +126,11 @@ private:
     std::optional<path::Move> waiting_;  // until the run of lines before it is done
     bool close_requested_{false};
     bool flushing_{false};
+    // Of the last block: the next one to add, how many there are, and the end of the last, path units.
+    std::uint8_t next_stretch_{0};
+    std::uint8_t stretches_{0};
+    std::uint32_t stretch_end_{0};
+    bool within_move_{false};  // a block of move_ is on the path
     // The end of the path so far, where it does not stop there.
     std::optional<EndGeometry> end_;
     AxisFilter end_filter_{};

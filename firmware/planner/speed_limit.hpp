@@ -83,7 +83,7 @@ float greatest_speed(const Allowance& allowance, bool rapid) noexcept;
 // that some is left to change the speed.
 inline constexpr float kCentripetalShare = 0.92F;
 // And where v^3 |d3P/ds3| takes this part of its jerk.
-inline constexpr float kCurvatureJerkShare = 0.8F;
+inline constexpr float kCurvatureJerkShare = 0.5F;
 
 // What a stretch with such derivatives allows.
 //

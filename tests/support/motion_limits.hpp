@@ -18,6 +18,13 @@ inline std::uint64_t motion_program_count(std::uint64_t usual = 300)
     return text != nullptr ? std::strtoull(text, nullptr, 10) : usual;
 }
 
+// CUSP_MOTION_SEED sets the seed of the first of them.
+inline std::uint64_t first_motion_seed(std::uint64_t usual)
+{
+    const char* text = std::getenv("CUSP_MOTION_SEED");
+    return text != nullptr ? std::strtoull(text, nullptr, 10) : usual;
+}
+
 inline void check_motion(const std::vector<Position>& samples,
                          Position end,
                          const MachineLimits& limits,

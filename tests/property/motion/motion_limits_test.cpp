@@ -18,7 +18,7 @@ using cusp::test::RandomMoves;
 
 namespace {
 
-constexpr std::uint64_t kSeed = 20260;
+const std::uint64_t kSeed = test::first_motion_seed(20260);
 
 }  // namespace
 

@@ -15,7 +15,7 @@ using cusp::test::MotionRig;
 
 namespace {
 
-constexpr std::uint64_t kSeed = 8000;
+const std::uint64_t kSeed = test::first_motion_seed(8000);
 
 struct Moves {
     std::vector<path::Move> moves;

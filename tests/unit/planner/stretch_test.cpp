@@ -1,0 +1,91 @@
+// Bounds of the derivatives over the stretches of curves, against places 16 times as dense.
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "CppUTest/TestHarness.h"
+
+#include "firmware/planner/block.hpp"
+
+using namespace cusp;
+using namespace cusp::planner;
+
+namespace {
+
+// Control points that go on along x, or anywhere.
+path::BezierPiece stretch_test_piece(std::mt19937_64& random)
+{
+    std::uniform_int_distribution<int> orders{3, 5};
+    std::uniform_real_distribution<float> coordinate{-1, 1};
+    std::uniform_real_distribution<float> exponent{-1, 0};
+    std::uniform_real_distribution<float> weights{0.3F, 1};
+    path::BezierPiece piece{};
+    piece.order = static_cast<std::uint8_t>(orders(random));
+    const float scale = 2.0F * std::pow(10.0F, exponent(random));
+    const float along = random() % 2 == 0 ? 1.0F : 0.0F;
+    for (unsigned i = 0; i < piece.order; ++i) {
+        const Vec3f p{along * static_cast<float>(i) + coordinate(random), coordinate(random),
+                      coordinate(random)};
+        piece.points[i] = i == 0 ? Vec3f{} : p * scale;
+        piece.weights[i] = weights(random);
+    }
+    return piece;
+}
+
+// By how much the largest of |f| exceeds the bound, as a part of the greatest bound of an axis.
+float excess_over(const Vec3f& f, const Vec3f& bound)
+{
+    const float whole = std::max(bound.x, std::max(bound.y, bound.z));
+    float most = 0;
+    for (unsigned i = 0; i < 3; ++i) {
+        most = std::max(most, (std::fabs(f[i]) - bound[i]) / whole);
+    }
+    return most;
+}
+
+}  // namespace
+
+TEST_GROUP(Stretches){};
+
+TEST(Stretches, BoundTheDerivativesBetweenTheirPlaces)
+{
+    std::mt19937_64 random{7301};
+    PathDerivatives worst{};
+    unsigned curves = 0;
+    for (int k = 0; k < 1200; ++k) {
+        CurveBlock curve{};
+        curve.piece = stretch_test_piece(random);
+        if (!nurbs::make_arc_length_table(curve.piece, curve.table)) {
+            continue;
+        }
+        ++curves;
+        Block block{};
+        block.shape = BlockShape::kCurve;
+        block.curve = &curve;
+        set_length(block,
+                   static_cast<std::uint32_t>(curve.table.length() * kPathUnitsPerMillimetre));
+        float from = 0;
+        unsigned interval = 0;
+        for (unsigned i = 0; i < stretch_count(block); ++i) {
+            const Stretch part = stretch(block, i);
+            const float to = static_cast<float>(part.end) / kPathUnitsPerMillimetre;
+            for (int n = 0; n <= 32; ++n) {
+                const float s = from + (to - from) * static_cast<float>(n) / 32.0F;
+                const nurbs::CurveState state =
+                    nurbs::state_at(curve.piece, nurbs::parameter_at(curve.table, s, interval));
+                const PathDerivatives& bound = part.derivatives;
+                worst.first.x = std::max(worst.first.x, excess_over(state.tangent, bound.first));
+                worst.second.x =
+                    std::max(worst.second.x, excess_over(state.curvature, bound.second));
+                worst.third.x = std::max(worst.third.x, excess_over(state.change, bound.third));
+            }
+            from = to;
+        }
+    }
+    const std::string found = std::to_string(curves) + " " + std::to_string(worst.first.x) + " " +
+                              std::to_string(worst.second.x) + " " + std::to_string(worst.third.x);
+    CHECK(curves > 600);
+    CHECK_TEXT(worst.first.x < 1e-4F && worst.second.x < 1e-4F && worst.third.x < 1e-3F,
+               found.c_str());
+}
