@@ -323,7 +323,7 @@ class LinuxCnc(Scratch):
         self.follow(text)
 
     @unittest.skipUnless(EXAMPLES, "the examples take minutes: --examples")
-    def test_examples_and_golden_programs_take_the_same_way(self):
+    def test_examples_take_the_same_way(self):
         for job in sorted((TOP / "examples").glob("*/*.toml")):
             text = job.read_text()
             nurbs = 'output = "nurbs"' in text
@@ -332,6 +332,9 @@ class LinuxCnc(Scratch):
             with self.subTest(job=job.name, nurbs=nurbs):
                 self.cusp(0, "plan", "p.toml", "-o", "e.ngc", "--post", "linuxcnc")
                 print(job.name, self.follow((self.folder / "e.ngc").read_text()), "points")
+
+    @unittest.skipUnless(EXAMPLES, "the golden programs take minutes: --examples")
+    def test_golden_programs_take_the_same_way(self):
         for program in sorted((TOP / "tests/programs").glob("*.ngc")):
             with self.subTest(program=program.name):
                 print(program.name, self.follow(program.read_text()), "points")
