@@ -135,7 +135,7 @@ private:
         return {name, 0};
     }
 
-    // A command that is told from others of its number by its decimals.
+    // A command that is distinguished from others of its number by its decimals.
     static Group with_part(Group group, Word& word, const std::set<int>& parts)
     {
         if (group.error == 0 && parts.count(word.hundredths) == 0) {

@@ -9,7 +9,7 @@
 
 namespace cusp::job {
 
-// mm from a fixture grown by its margin to a tool whose tip is there: an upright cylinder of the
+// mm from a fixture grown by its margin to a tool whose tip is there: a vertical cylinder of the
 // tool's radius over the tip. Not above 0 where it touches; over a rim at most the true distance.
 double distance_to(const Fixture& fixture, double tool_radius, Vec3d tip);
 

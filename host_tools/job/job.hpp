@@ -97,15 +97,15 @@ struct Operation {
 // Fraction of an operation's progress at which roughing ends, where a finish follows.
 inline constexpr double kRoughingDone = 0.5;
 
-// What a tool's library tells beside its shape and rates.
+// What a tool's library lists beside its shape and rates.
 struct ToolFacts {
     std::string name;
-    int flutes{};                        // 0: not told
+    int flutes{};                        // 0: none given
     std::optional<double> flute_length;  // mm
     std::optional<double> length;        // mm, out of the holder
 };
 
-// What holds the stock: a box or an upright cylinder, from the table to `top`. Neither tool nor
+// What holds the stock: a box or a vertical cylinder, from the table to `top`. Neither tool nor
 // shank comes nearer than `margin`.
 struct Fixture {
     std::string name;

@@ -23,7 +23,7 @@ struct ProgramForm {
 // Positions are rounded to the post's decimals, 0.0001 mm or 0.00001 inch by default, each by
 // itself, so errors do not add up. The centre of an arc is chosen after its ends are rounded: its
 // radii differ by at most 0.0005 mm by default. Arcs and moves too small for the rounding become
-// lines or vanish. With fewer decimals, and where a radius stands for the centre, arcs that would
+// lines or vanish. With fewer decimals, and where a radius is written for the centre, arcs that would
 // leave the planned one by more than 1.5 of the last decimal are halved.
 //
 // The form of the program: header comment; modes; `G0 Z` alone; the operations, with changes of

@@ -259,7 +259,8 @@ class LinuxCnc(Scratch):
         numbered = "\n".join(line if re.match(r"\s*(\(|;|%|/|$)", line) else
                              f"N{number} " + re.sub(r"^\s*[Nn]\d+\s*", "", line)
                              for number, line in enumerate(program.splitlines(), 1)) + "\n"
-        self.write("numbered.ngc", numbered)
+        ended = re.search(r"^[^(;]*M0?(2|30)\b", program, re.MULTILINE)
+        self.write("numbered.ngc", numbered + ("" if ended else "M2\n"))
         tools = sorted({int(float(n)) for letter, n in words_of(program) if letter == "T"})
         self.write("tool.tbl", "".join(f"T{t} P{t} Z0 D1\n" for t in tools))
         said = subprocess.run(["rs274", "-g", "-t", "tool.tbl", "numbered.ngc"], cwd=self.folder, text=True,
