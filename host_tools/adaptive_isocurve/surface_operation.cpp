@@ -298,8 +298,8 @@ PlannedOperation SurfaceOperation::finish(double spacing, double scallop_bound)
             "cut where their normal points to the left of the direction of u",
             upright_, surfaces_.size()));
     }
-    planned.path = {operation_.tool,         job_.feed, job_.plunge_feed, job_.spindle,
-                    std::move(linked.moves), {}};
+    set_tool(planned.path, job_, operation_.tool);
+    planned.path.moves = std::move(linked.moves);
     planned.path.comments = {
         operation_.strategy,
         fmt::format("gouge at most {:.6f} mm, scallop at most {:.4f} mm where it reaches",

@@ -389,10 +389,7 @@ private:
         }
         const double least = least_clearance();
         Toolpath& path = result_.planned.path;
-        path.tool = tool_;
-        path.feed = work_.job.feed;
-        path.plunge_feed = work_.job.plunge_feed;
-        path.spindle = work_.job.spindle;
+        set_tool(path, work_.job, tool_);
         path.comments = {fmt::format("{}: {} roughing levels, allowance {:g} mm",
                                      work_.operation.strategy, levels_, work_.operation.allowance),
                          fmt::format("clearance from the model at least {:.4f} mm", least)};

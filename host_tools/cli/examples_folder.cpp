@@ -1,8 +1,9 @@
-// Searches the folders above the executable.
+// The folder that is given, or that of the program's data.
 #include "host_tools/cli/examples_folder.hpp"
 
 #include <system_error>
 
+#include "host_tools/files/program_data.hpp"
 #include "host_tools/input_error/input_error.hpp"
 
 #include "fmt/format.h"
@@ -20,21 +21,13 @@ fs::path examples_folder(const std::string& given, const std::string& needed)
         }
         return given;
     }
-    const fs::path bin = fs::read_symlink("/proc/self/exe", failed).parent_path();
-    for (fs::path above = bin; !above.empty(); above = above.parent_path()) {
-        for (const char* name : {"share/cusp/examples", "examples"}) {
-            if (fs::is_regular_file(above / name / needed, failed)) {
-                return above / name;
-            }
-        }
-        if (above == above.root_path()) {
-            break;
-        }
+    if (const auto found = files::program_data("examples", needed)) {
+        return *found;
     }
     throw InputError(
         fmt::format("no share/cusp/examples/{0} and no examples/{0} in {1} or above: "
                     "name the folder of the examples with --examples DIR",
-                    needed, bin.string()));
+                    needed, files::program_folder().string()));
 }
 
 }  // namespace cusp::cli

@@ -10,6 +10,7 @@
 #include "host_tools/cli/resource_options.hpp"
 #include "host_tools/import/import.hpp"
 #include "host_tools/import/part_files.hpp"
+#include "host_tools/import/post_reader.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/job/job.hpp"
 #include "host_tools/work_place/work_place.hpp"
@@ -22,6 +23,7 @@ namespace cusp::cli {
 using import::OneLineJob;
 using import::PartFiles;
 using import::read_job;
+using import::read_post;
 using job::Job;
 
 namespace {
@@ -58,6 +60,9 @@ int run_plan(PlanOptions& options)
     // the standard output of --print-job is the job alone
     options.output.said = call.print_job ? stderr : stdout;
     Job job = call.is_one_line() ? one_line_job_of(options) : read_job(call.files.front());
+    if (!options.call.request.post.empty()) {
+        job.post = read_post(options.call.request.post, "");
+    }
     if (options.output.program.empty()) {
         return kDone;
     }
@@ -106,6 +111,11 @@ void add_plan_command(CLI::App& app, Work& work)
                         "job file (.toml), or parts: .json, .step, .iges, .brep, .stl, .obj, .3mf");
     command->add_option("-o,--output", options->output.program, "G-code to write");
     command->add_option("--stats", options->output.stats, "statistics to write (JSON)");
+    command
+        ->add_option("--post", options->call.request.post,
+                     "the controller to write for: cusp, grbl, grblhal, linuxcnc, mach3, fanuc, or "
+                     "a file .toml (docs/posts.md); default: the job's")
+        ->type_name("NAME");
     command
         ->add_option("--blend", options->output.blend,
                      "let the controller round corners by this much, in the job's units (G64 P); "

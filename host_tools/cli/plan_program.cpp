@@ -5,15 +5,20 @@
 #include <chrono>
 #include <memory>
 #include <mutex>
+#include <numeric>
 #include <sstream>
 
+#include "host_tools/cli/post_fit.hpp"
 #include "host_tools/cli/share_progress.hpp"
 #include "host_tools/cli/simulated_times.hpp"
 #include "host_tools/cli/stock_warning.hpp"
 #include "host_tools/cli/strategies.hpp"
+#include "host_tools/cli/tool_reach.hpp"
 #include "host_tools/files/files.hpp"
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/job/fixture_clearance.hpp"
 #include "host_tools/toolpath/gcode_writer.hpp"
+#include "host_tools/toolpath/tool_order.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
 #include "host_tools/work_place/work_place.hpp"
 
@@ -79,12 +84,32 @@ std::vector<PlannedOperation> planned(const Job& job, const Operation& operation
     }
 }
 
+// Groups the operations by tool and measures them in that order.
+void put_in_order(const Job& job,
+                  std::vector<PlannedOperation>& operations,
+                  const MachineRates& rates,
+                  Plan& plan)
+{
+    const double clearance_z = job.stock_top + job.clearance;
+    std::vector<std::size_t> order(operations.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    if (job.group_by_tool) {
+        order = tool_order(operations, clearance_z);
+    }
+    // the position of the tool is unknown before the first rapid move
+    Vec3d at{0, 0, clearance_z};
+    for (const std::size_t place : order) {
+        plan.measures.push_back(measure(operations[place].path, at, rates));
+        at = plan.measures.back().end;
+        plan.operations.push_back(std::move(operations[place]));
+    }
+}
+
 Plan plan_job(Job& job, const MachineRates& rates, std::FILE* said)
 {
     constexpr double kQuiet = 0.5;  // s
     Plan plan;
-    // the position of the tool before the first rapid move is unknown: the clearance height
-    Vec3d at{0, 0, job.stock_top + job.clearance};
+    std::vector<PlannedOperation> operations;
     for (std::size_t i = 0; i < job.operations.size(); ++i) {
         const Operation& operation = job.operations[i];
         fmt::print(said, "operation {} of {}: {}\n", i + 1, job.operations.size(),
@@ -109,11 +134,14 @@ Plan plan_job(Job& job, const MachineRates& rates, std::FILE* said)
             if (result.stats.planning_s <= 0) {
                 result.stats.planning_s = seconds;
             }
-            plan.measures.push_back(measure(result.path, at, rates));
-            at = plan.measures.back().end;
-            plan.operations.push_back(std::move(result));
+            result.stats.retracts += keep_off_fixtures(
+                job, fmt::format("operation {}, {}", operation.number, operation.strategy),
+                result.path);
+            add_rounding(job, result);
+            operations.push_back(std::move(result));
         }
     }
+    put_in_order(job, operations, rates, plan);
     return plan;
 }
 
@@ -146,7 +174,7 @@ std::string program_of(const Job& job, const std::string& title, double blend, P
 {
     constexpr double kInch = 25.4;
     ProgramForm form{
-        "cusp " CUSP_VERSION ", " + title, job.inch, job.stock_top + job.clearance, {}};
+        "cusp " CUSP_VERSION ", " + title, job.inch, job.stock_top + job.clearance, {}, job.post};
     if (blend > 0) {
         form.blend_tolerance = blend * (job.inch ? kInch : 1.0);
     }
@@ -180,6 +208,8 @@ Plan plan_program(Job& job, const std::string& title, const PlanOutput& output)
 {
     MachineRates rates;
     rates.exact_stop = !(output.blend > 0);
+    check_post(job, output.blend);
+    leave_room_for_rounding(job);
     Plan plan = plan_job(job, rates, output.said);
     if (plan.operations.empty()) {
         throw InputError(fmt::format("{}: there is nothing to cut: {}", job.file,
@@ -188,6 +218,8 @@ Plan plan_program(Job& job, const std::string& title, const PlanOutput& output)
     if (const auto warning = stock_warning(job, plan)) {
         plan.warnings.push_back(*warning);
     }
+    const std::vector<std::string> reach = reach_warnings(job, plan);
+    plan.warnings.insert(plan.warnings.end(), reach.begin(), reach.end());
     write_plan(job, program_of(job, title, output.blend, plan), output, plan);
     return plan;
 }

@@ -16,7 +16,8 @@ struct PlanOutput {
     std::FILE* said{stdout};  // receives one line for each operation
 };
 
-// Sets only `progress` of the job, which is not copied since meshes may be large.
+// Sets only `progress` of the job and, for the rounding of its post, tolerances; the job is not copied
+// since meshes may be large.
 //
 // title  the origin of the program, for its first comment
 //

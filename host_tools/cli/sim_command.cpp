@@ -48,6 +48,7 @@ struct SimArguments {
     std::string picture_file;
     std::optional<double> probe_z;
     std::uint32_t bits_per_second{0};
+    std::string dialect{"cusp"};
     bool serve{false};
     std::string pty_link;
     std::string tcp;
@@ -126,6 +127,7 @@ int run_once(const SimArguments& arguments)
     }
     options.probe_z = arguments.probe_z;
     options.bits_per_second = arguments.bits_per_second;
+    options.stock_grbl = arguments.dialect == "grbl";
     const bool on_terminal = ::isatty(STDERR_FILENO) != 0;
     if (on_terminal) {
         options.progress = show_progress;
@@ -213,6 +215,9 @@ int run_sim(const SimArguments& arguments)
         if (!arguments.program.empty()) {
             throw InputError{"cusp sim --serve takes no program: a sender sends it"};
         }
+        if (arguments.dialect != "cusp") {
+            throw InputError{"cusp sim --serve --dialect: only a program's lines are judged by it"};
+        }
         return run_server(arguments);
     }
     if (arguments.program.empty()) {
@@ -277,6 +282,11 @@ void add_sim_command(CLI::App& app, Work& work)
                         "Height of a probe plate, mm from the start position");
     command->add_option("--baud", arguments->bits_per_second,
                         "Send the lines at this rate (default: without delay)");
+    command
+        ->add_option("--dialect", arguments->dialect,
+                     "grbl refuses what stock Grbl 1.1 refuses, with its error numbers")
+        ->check(CLI::IsMember({"cusp", "grbl"}))
+        ->capture_default_str();
     add_serve_options(*command, *arguments);
     command->footer(
         "The first error or alarm ends the run: files are written up to there, exit status 1.\n"

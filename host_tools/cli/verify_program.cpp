@@ -58,6 +58,7 @@ Json stats_of(const Verification& result)
             out[name] = rounded(*value);
         }
     };
+    optional("fixture_hit_max_mm", f.fixture_hit_max);
     optional("ball_gouge_max_mm", f.ball_gouge_max);
     optional("wall_gouge_max_mm", f.wall_gouge_max);
     optional("wall_left_max_mm", f.wall_left_max);

@@ -366,10 +366,7 @@ private:
 
     void describe(Toolpath& path, const OperationStats& stats) const
     {
-        path.tool = operation_.tool;
-        path.feed = job_.feed;
-        path.plunge_feed = job_.plunge_feed;
-        path.spindle = job_.spindle;
+        set_tool(path, job_, operation_.tool);
         path.comments = {"contour_pocket: Suh and Lee 1990, " + number_text(stats.levels) +
                              " levels, " + number_text(stats.passes) + " loops",
                          "left at most " + number_text(stats.scallop_bound_mm) +

@@ -103,16 +103,12 @@ CutSettings rough_settings(const Operation& operation,
 }
 
 // Fills path and statistics but the gouge bound and the time; takes the moves.
-void fill_operation(const Job& job,
-                    const Operation& operation,
+void fill_operation(const Operation& operation,
                     const ClearedRegion& cleared,
                     ClPathWriter& moves,
                     RoughResult& result)
 {
     const std::size_t layers = result.heights.size();
-    result.operation.path.feed = job.feed;
-    result.operation.path.plunge_feed = job.plunge_feed;
-    result.operation.path.spindle = job.spindle;
     result.operation.path.comments = {"contour_pocket: " + std::to_string(layers) +
                                       " roughing layers, allowance " +
                                       number_text(operation.allowance) + " mm"};
@@ -215,7 +211,7 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     RoughResult result;
     result.wall_clearance = clearing.wall_clearance;
     result.left = operation.allowance + step.scallop_height;
-    result.operation.path.tool = rough.tool;
+    set_tool(result.operation.path, job, rough.tool);
     if (cleared.passes.empty()) {
         return result;
     }
@@ -242,7 +238,7 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     cut_layers(job, cleared, result.heights, each, std::move(settings), cutter);
     cutter.end();
     warn_of_thin_layers(job, operation, result);
-    fill_operation(job, operation, cleared, moves, result);
+    fill_operation(operation, cleared, moves, result);
     result.operation.stats.gouge_bound_mm = std::max(0.0, -cutter.least_clearance());
     result.operation.stats.planning_s =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

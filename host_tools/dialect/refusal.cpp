@@ -243,16 +243,21 @@ WordPlace refused_word(int code, std::string_view line)
 
 }  // namespace
 
-Refusal refusal(int code, std::string_view line)
+std::string refusal_text(int code, std::string_view word, std::string_view line)
 {
     std::string text{error_text(code)};
+    text += ": " + (word.empty() ? "" : shown(word) + " in ");
+    return text + '"' + shown(trimmed(line)) + '"';
+}
+
+Refusal refusal(int code, std::string_view line)
+{
     if (line.empty()) {
-        return {0, 0, text};
+        return {0, 0, std::string{error_text(code)}};
     }
     const WordPlace place = refused_word(code, line);
     const std::string_view word = line.substr(place.begin, place.end - place.begin);
-    text += ": " + (word.empty() ? "" : shown(word) + " in ");
-    text += '"' + shown(trimmed(line)) + '"';
+    std::string text = refusal_text(code, word, line);
     text += meaning_of(word) + (code == kInvalidTarget ? order_of_nurbs(line) : "");
     return {place.begin, place.end, text};
 }

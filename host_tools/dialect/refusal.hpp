@@ -22,4 +22,8 @@ struct Refusal {
 //   line  the refused line as in the program; empty where it is unknown
 Refusal refusal(int code, std::string_view line);
 
+// The text of a refusal whose word is known: what Grbl's documents say of the code, the word, the
+// line.
+std::string refusal_text(int code, std::string_view word, std::string_view line);
+
 }  // namespace cusp::dialect

@@ -161,10 +161,7 @@ std::vector<PlannedOperation> plan_grid_pocket(const Job& job, const Operation& 
                                     sufficient_grid(pocket, walls, roughness));
     }
     PlannedOperation out;
-    out.path.tool = operation.tool;
-    out.path.feed = job.feed;
-    out.path.plunge_feed = job.plunge_feed;
-    out.path.spindle = job.spindle;
+    set_tool(out.path, job, operation.tool);
     GridPasses planner{pocket, out.path};
     LayerPlanes planes{};
     if (!operation.layers.empty() || operation.max_depth) {

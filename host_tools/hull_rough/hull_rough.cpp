@@ -194,7 +194,8 @@ bool clear_layers(Roughing& work)
             work.clearings.back().push_back(clear_layer(boxes, work.stock.plan, tool.radius,
                                                         layer_settings(work, layer, tool)));
             const LayerClearing& made = work.clearings.back().back();
-            offers.back().push_back({made.length / work.job.feed * 60, made.cleared_area});
+            offers.back().push_back(
+                {made.length / rates_of(work.job, tool).feed * 60, made.cleared_area});
             cleared += made.cleared_area;
         }
     }

@@ -32,10 +32,7 @@ public:
           tool_{tool},
           moves_{path_, work.clearings[first][tool].zone->radius(), settings(work)}
     {
-        path_.tool = work.tools[tool];
-        path_.feed = work.job.feed;
-        path_.plunge_feed = work.job.plunge_feed;
-        path_.spindle = work.job.spindle;
+        set_tool(path_, work.job, work.tools[tool]);
     }
 
     void clear(std::size_t layer) { add(work_.clearings[layer][tool_].runs, layer); }

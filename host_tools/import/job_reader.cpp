@@ -7,14 +7,16 @@
 #include <utility>
 
 #include "host_tools/files/files.hpp"
+#include "host_tools/import/fixture_reader.hpp"
 #include "host_tools/import/import.hpp"
 #include "host_tools/import/job_table.hpp"
-#include "host_tools/import/job_text.hpp"
+#include "host_tools/import/job_tools.hpp"
 #include "host_tools/import/known_keys.hpp"
 #include "host_tools/import/mesh_file.hpp"
 #include "host_tools/import/operation_check.hpp"
 #include "host_tools/import/part_files.hpp"
 #include "host_tools/import/placing_reader.hpp"
+#include "host_tools/import/post_reader.hpp"
 #include "host_tools/import/stock_table.hpp"
 #include "host_tools/import/tool_reader.hpp"
 #include "host_tools/import/trim_loops.hpp"
@@ -60,8 +62,9 @@ public:
 
 private:
     void read_units(JobTable& top);
-    void read_tools(JobTable& top);
     void read_cutting(JobTable& top);
+    void read_fixtures(JobTable& top);
+    void rise_over_fixtures();
     void read_operation(const toml::table& table, std::size_t index);
     std::vector<Operation> read_pockets(JobTable& table, Operation operation);
     void read_common(JobTable& table, Operation& operation);
@@ -73,7 +76,6 @@ private:
     const std::vector<Surface>& surfaces_of(const std::string& path, double floor_tolerance);
     void intersect(JobTable& table, const std::vector<std::string>& bodies, Operation& operation);
     void read_parts(JobTable& table, Operation& operation);
-    const Tool& tool_numbered(const JobTable& table, const char* key, int number) const;
     void place_files(JobTable& top, const std::vector<const toml::table*>& operations);
     std::string path_of(const std::string& name) const { return path_in(folder_, name); }
 
@@ -93,6 +95,7 @@ private:
     PartFiles& parts_;
     double unit_{1.0};  // mm
     Job job_;
+    std::optional<JobTools> tools_;
     // Keys: files of the floor, files it was intersected with, tolerance.
     using Names = std::vector<std::string>;
     std::map<std::tuple<Names, Names, double>, std::vector<Surface>> intersections_;
@@ -104,72 +107,56 @@ void JobReader::read_units(JobTable& top)
     unit_ = job_.inch ? kMillimetresPerInch : 1.0;
 }
 
-void JobReader::read_tools(JobTable& top)
-{
-    const auto tables = top.tables("tool");
-    if (tables.empty()) {
-        top.refuse("tool", "is missing: a table [tool] or several [[tool]]");
-    }
-    for (std::size_t i = 0; i < tables.size(); ++i) {
-        const Tool tool = read_tool(*tables[i], file_, i + 1, unit_);
-        for (const Tool& other : job_.tools) {
-            if (other.number == tool.number) {
-                top.refuse("tool", fmt::format("two tools have the number {}", tool.number));
-            }
-        }
-        job_.tools.push_back(tool);
-    }
-}
-
 void JobReader::read_cutting(JobTable& top)
 {
+    static const toml::table kNothing;
     const toml::table* table = top.table("cutting");
-    if (table == nullptr) {
+    const bool needed = !tools_->has_feeds();
+    if (table == nullptr && needed) {
         top.refuse("cutting", "is missing: a table [cutting] with at least feed");
     }
-    JobTable keys{*table, file_, "cutting", cutting_keys()};
-    job_.feed = keys.required_number("feed", kFeed) * unit_;
+    JobTable keys{table == nullptr ? kNothing : *table, file_, "cutting", cutting_keys()};
+    job_.feed =
+        (needed ? keys.required_number("feed", kFeed) : keys.number("feed", kFeed).value_or(0)) *
+        unit_;
     // cutter makers recommend a quarter of the feed for plunging where they give no figure
     job_.plunge_feed = length(keys, "plunge_feed", kFeed, job_.feed / 4);
     job_.spindle = keys.number("spindle", kNotNegative).value_or(0);
     keys.check_all_read();
 }
 
-const Tool& JobReader::tool_numbered(const JobTable& table, const char* key, int number) const
+void JobReader::read_fixtures(JobTable& top)
 {
-    for (const Tool& tool : job_.tools) {
-        if (tool.number == number) {
-            return tool;
+    const auto tables = top.tables("fixture");
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+        job_.fixtures.push_back(read_fixture(*tables[i], file_, i + 1, unit_));
+    }
+}
+
+// Rapid moves go over every fixture.
+void JobReader::rise_over_fixtures()
+{
+    for (const job::Fixture& fixture : job_.fixtures) {
+        const double over = fixture.top + fixture.margin - job_.stock_top;
+        if (over > job_.clearance) {
+            job_.notes.push_back(fmt::format(
+                "clearance: {:g} mm above the stock's top in place of {:g}, to be over {}", over,
+                job_.clearance, fixture.name));
+            job_.clearance = over;
         }
     }
-    table.refuse(key, fmt::format("is {}, no [[tool]] has that number", number));
 }
 
 void JobReader::read_tool_choice(JobTable& table, Operation& operation)
 {
-    operation.tool = job_.tools.front();
-    if (const auto number = table.whole_number("tool", kToolNumber)) {
-        operation.tool = tool_numbered(table, "tool", *number);
-    }
-    if (const auto numbers = table.numbers("tools", kToolNumber)) {
-        if (numbers->empty()) {
-            table.refuse("tools", "names no tool");
-        }
-        for (const double number : *numbers) {
-            if (number != std::floor(number)) {
-                table.refuse("tools", fmt::format("holds {:g}, whole numbers are needed", number));
-            }
-            const Tool tool = tool_numbered(table, "tools", static_cast<int>(number));
-            for (const Tool& other : operation.tools) {
-                if (other.number == tool.number) {
-                    table.refuse("tools", fmt::format("holds tool {} twice", tool.number));
-                }
-            }
-            operation.tools.push_back(tool);
-        }
-    }
+    operation.tool = tools_->tool(table);
+    operation.tools = tools_->tools(table);
     if (operation.tools.empty()) {
         operation.tools.push_back(operation.tool);
+    }
+    read_rates(table, unit_, operation.tool);
+    for (Tool& tool : operation.tools) {
+        read_rates(table, unit_, tool);
     }
 }
 
@@ -399,19 +386,15 @@ void JobReader::read_operation(const toml::table& entry, std::size_t index)
 
 Job JobReader::read(const std::string& text)
 {
-    check_plain_text(text, file_);
-    toml::table document;
-    try {
-        document = toml::parse(text, file_);
-    } catch (const toml::parse_error& error) {
-        throw InputError(fmt::format("{}:{}: not TOML: {}", file_, error.source().begin.line,
-                                     error.description()));
-    }
+    const toml::table document = parsed_toml(text, file_);
     JobTable top{document, file_, "", job_keys()};
     read_units(top);
-    read_tools(top);
+    tools_.emplace(top, file_, folder_, unit_);
     read_cutting(top);
     const StockTable stock{top.table("stock"), file_, unit_, job_};
+    read_fixtures(top);
+    job_.post = read_post(top.text("post").value_or("cusp"), folder_);
+    job_.group_by_tool = top.flag("group_by_tool").value_or(true);
     const auto operations = top.tables("operation");
     place_files(top, operations);
     top.check_all_read();
@@ -421,8 +404,10 @@ Job JobReader::read(const std::string& text)
     for (std::size_t i = 0; i < operations.size(); ++i) {
         read_operation(*operations[i], i + 1);
     }
+    tools_->store(job_);
     stock.settle(job_);
     job_.notes = parts_.notes();
+    rise_over_fixtures();
     return std::move(job_);  // meshes are large
 }
 

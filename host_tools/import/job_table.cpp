@@ -5,6 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "host_tools/import/job_text.hpp"
+#include "host_tools/import/nearest_name.hpp"
 #include "host_tools/input_error/input_error.hpp"
 
 #include "fmt/format.h"
@@ -13,25 +15,6 @@
 namespace cusp::import {
 namespace {
 
-// Levenshtein distance.
-std::size_t letters_apart(const std::string& a, const std::string& b)
-{
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) {
-        row[j] = j;
-    }
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, replaced});
-        }
-    }
-    return row[b.size()];
-}
-
 std::string range_in_words(Range range)
 {
     const char* low = range.above_low ? "above" : "at least";
@@ -39,6 +22,17 @@ std::string range_in_words(Range range)
 }
 
 }  // namespace
+
+toml::table parsed_toml(const std::string& text, const std::string& file)
+{
+    check_plain_text(text, file);
+    try {
+        return toml::parse(text, file);
+    } catch (const toml::parse_error& error) {
+        throw InputError(fmt::format("{}:{}: not TOML: {}", file, error.source().begin.line,
+                                     error.description()));
+    }
+}
 
 JobTable::JobTable(const toml::table& table,
                    std::string file,
@@ -106,6 +100,14 @@ std::optional<bool> JobTable::flag(const char* key)
         refuse(key, "true or false is needed");
     }
     return node->value<bool>();
+}
+
+bool JobTable::is_text(const char* key) const
+{
+    const toml::node* node = table_.get(key);
+    const toml::array* list = node == nullptr ? nullptr : node->as_array();
+    return list == nullptr ? node != nullptr && node->is_string()
+                           : !list->empty() && list->front().is_string();
 }
 
 std::optional<std::string> JobTable::text(const char* key)
@@ -207,6 +209,33 @@ std::vector<const toml::table*> JobTable::tables(const char* key)
     return out;
 }
 
+std::string JobTable::required_text(const char* key)
+{
+    const std::optional<std::string> value = text(key);
+    if (!value) {
+        refuse(key, "is missing");
+    }
+    return *value;
+}
+
+std::vector<std::string> JobTable::required_texts(const char* key)
+{
+    const auto value = texts(key);
+    if (!value) {
+        refuse(key, "is missing: a list of lines, [] for none");
+    }
+    return *value;
+}
+
+bool JobTable::required_flag(const char* key)
+{
+    const std::optional<bool> value = flag(key);
+    if (!value) {
+        refuse(key, "is missing: true or false");
+    }
+    return *value;
+}
+
 double JobTable::required_number(const char* key, Range range)
 {
     const std::optional<double> value = number(key, range);
@@ -223,11 +252,8 @@ void JobTable::refuse_unknown_keys() const
         if (std::find(known_.begin(), known_.end(), key) != known_.end()) {
             continue;
         }
-        const auto nearest = std::min_element(
-            known_.begin(), known_.end(), [&](const std::string& a, const std::string& b) {
-                return letters_apart(a, key) < letters_apart(b, key);
-            });
-        refuse(key.c_str(), fmt::format("unknown key; the nearest known one is {}", *nearest));
+        refuse(key.c_str(), fmt::format("unknown key; the nearest known one is {}",
+                                        nearest_names(key, known_, 1).front()));
     }
 }
 

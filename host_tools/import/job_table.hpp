@@ -15,6 +15,11 @@
 
 namespace cusp::import {
 
+// The document in a text. Throws InputError with the line where it is not TOML.
+//
+// file  its name, for messages
+toml::table parsed_toml(const std::string& text, const std::string& file);
+
 class JobTable {
 public:
     // place  name of the table in messages, such as "operation 2"; "" for the file itself
@@ -43,7 +48,14 @@ public:
     // A single table counts as a list of one.
     std::vector<const toml::table*> tables(const char* key);
 
+    // As the above, refusing where the key is absent.
     double required_number(const char* key, Range range);
+    bool required_flag(const char* key);
+    std::string required_text(const char* key);
+    std::vector<std::string> required_texts(const char* key);
+
+    // Whether the value, or the first of a list, is a text; false where the key is absent.
+    bool is_text(const char* key) const;
 
     [[noreturn]] void refuse(const char* key, const std::string& reason) const;
 

@@ -32,6 +32,10 @@ constexpr OperationKey kOperationKeys[]{
     {"max_depth", ""},
     {"min_depth", ""},
     {"layers", ""},
+    {"feed", ""},
+    {"plunge_feed", ""},
+    {"spindle", ""},
+    {"coolant", ""},
     {"iso_distance", "adaptive_isocurve, complete_isocurves"},
     {"iso_spacing", "adaptive_isocurve"},
     {"direction", kIsocurves},
@@ -51,10 +55,17 @@ constexpr OperationKey kOperationKeys[]{
 
 std::vector<std::string> job_keys()
 {
-    return {"units", "tool", "cutting", "stock", "placing", "operation"};
+    return {"units",   "tool",    "library", "cutting",   "stock",
+            "placing", "fixture", "post",    "operation", "group_by_tool"};
 }
 
-std::vector<std::string> tool_keys() { return {"number", "shape", "diameter", "corner_radius"}; }
+std::vector<std::string> library_keys() { return {"units", "tool"}; }
+
+std::vector<std::string> tool_keys()
+{
+    return {"number",       "shape",  "diameter", "corner_radius", "name",    "flutes",
+            "flute_length", "length", "feed",     "plunge_feed",   "spindle", "coolant"};
+}
 
 std::vector<std::string> cutting_keys() { return {"feed", "plunge_feed", "spindle"}; }
 
@@ -66,6 +77,11 @@ std::vector<std::string> stock_keys()
 std::vector<std::string> placing_keys()
 {
     return {"file", "scale", "up", "rotate", "origin", "move"};
+}
+
+std::vector<std::string> fixture_keys()
+{
+    return {"name", "x", "y", "centre", "diameter", "top", "margin"};
 }
 
 std::vector<std::string> operation_keys()

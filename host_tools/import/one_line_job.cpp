@@ -112,6 +112,9 @@ std::string OneLineWriter::toml() const
         "file:\n"
         "# save it in the folder where the call was made.\nunits = \"{}\"\n",
         choice_.unit);
+    if (!request_.post.empty()) {
+        out += fmt::format("post = {}\n", quoted(request_.post));
+    }
     for (std::size_t i = 0; i < choice_.tools.size(); ++i) {
         out += fmt::format("\n[[tool]]\nnumber = {}\nshape = \"{}\"\ndiameter = {}\n", i + 1,
                            choice_.tools[i].shape, choice_.tools[i].diameter);

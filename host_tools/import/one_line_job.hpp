@@ -35,6 +35,7 @@ struct OneLineRequest {
     bool roughing{true};
     std::string strategy;         // "": adaptive_isocurve, with a boundary contour_pocket
     std::string output{"lines"};  // "lines", "arcs", "nurbs"
+    std::string post;             // "": the default
 };
 
 struct OneLineJob {

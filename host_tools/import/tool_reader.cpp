@@ -9,13 +9,58 @@
 
 namespace cusp::import {
 
+using toolpath::Coolant;
 using toolpath::Tool;
 using toolpath::ToolShape;
 
-Tool read_tool(const toml::table& table,
-               const std::string& file,
-               std::size_t index,
-               double millimetres)
+namespace {
+
+// A depth of cut is judged by them when the job is planned.
+job::ToolFacts read_facts(JobTable& keys, double millimetres)
+{
+    constexpr Range kFlutes{1, 20};
+    const auto in_millimetres = [&](const std::optional<double>& value) {
+        return value ? std::optional{*value * millimetres} : std::nullopt;
+    };
+    job::ToolFacts facts;
+    facts.name = keys.text("name").value_or("");
+    facts.flutes = keys.whole_number("flutes", kFlutes).value_or(0);
+    facts.flute_length = in_millimetres(keys.number("flute_length", kPositive));
+    facts.length = in_millimetres(keys.number("length", kPositive));
+    if (facts.length && facts.flute_length && *facts.flute_length > *facts.length) {
+        keys.refuse("flute_length", fmt::format("is {:g} mm, the tool is {:g} mm long",
+                                                *facts.flute_length, *facts.length));
+    }
+    return facts;
+}
+
+}  // namespace
+
+void read_rates(JobTable& keys, double millimetres, Tool& tool)
+{
+    const auto feed = keys.number("feed", kFeed);
+    const auto plunge_feed = keys.number("plunge_feed", kFeed);
+    if (feed) {
+        tool.rates.feed = *feed * millimetres;
+        tool.rates.plunge_feed = tool.rates.feed / 4;
+    }
+    if (plunge_feed) {
+        tool.rates.plunge_feed = *plunge_feed * millimetres;
+    }
+    if (const auto spindle = keys.number("spindle", kNotNegative)) {
+        tool.rates.spindle = spindle;
+    }
+    if (const auto coolant = keys.one_of("coolant", {"off", "mist", "flood"})) {
+        tool.coolant = *coolant == "off"    ? Coolant::kOff
+                       : *coolant == "mist" ? Coolant::kMist
+                                            : Coolant::kFlood;
+    }
+}
+
+ReadTool read_tool(const toml::table& table,
+                   const std::string& file,
+                   std::size_t index,
+                   double millimetres)
 {
     JobTable keys{table, file, fmt::format("tool {}", index), tool_keys()};
     Tool tool;
@@ -41,8 +86,10 @@ Tool read_tool(const toml::table& table,
         keys.refuse("corner_radius", fmt::format("is {:g} mm, the tool's radius is only {:g} mm",
                                                  tool.corner_radius, tool.radius));
     }
+    read_rates(keys, millimetres, tool);
+    const job::ToolFacts facts = read_facts(keys, millimetres);
     keys.check_all_read();
-    return tool;
+    return {tool, facts};
 }
 
 }  // namespace cusp::import

@@ -1,4 +1,4 @@
-// A table [tool] of a job.
+// A table [tool] of a job, or of a library of tools.
 #pragma once
 
 #include <string>
@@ -12,14 +12,23 @@ namespace cusp::import {
 // Tool numbers that controllers accept.
 inline constexpr Range kToolNumber{1, 255};
 
-// file         of the job, for messages
+struct ReadTool {
+    toolpath::Tool tool;
+    job::ToolFacts facts;
+};
+
+// file         of the job or library, for messages
 // index        of the tool's table, from 1: the default of its number
-// millimetres  of one unit of the job
+// millimetres  of one unit of the file
 //
 // Errors: InputError with line and key.
-toolpath::Tool read_tool(const toml::table& table,
-                         const std::string& file,
-                         std::size_t index,
-                         double millimetres);
+ReadTool read_tool(const toml::table& table,
+                   const std::string& file,
+                   std::size_t index,
+                   double millimetres);
+
+// The keys `feed`, `plunge_feed`, `spindle` and `coolant` of a tool, or of an operation, which
+// override the tool's. A feed without a plunge feed makes that a quarter of itself.
+void read_rates(JobTable& keys, double millimetres, toolpath::Tool& tool);
 
 }  // namespace cusp::import

@@ -17,6 +17,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,7 @@
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/nurbs/nurbs.hpp"
 #include "host_tools/toolpath/entry_kind.hpp"
+#include "host_tools/toolpath/post.hpp"
 #include "host_tools/toolpath/toolpath.hpp"
 
 namespace cusp::job {
@@ -95,13 +97,34 @@ struct Operation {
 // Fraction of an operation's progress at which roughing ends, where a finish follows.
 inline constexpr double kRoughingDone = 0.5;
 
+// What a tool's library lists beside its shape and rates.
+struct ToolFacts {
+    std::string name;
+    int flutes{};                        // 0: none given
+    std::optional<double> flute_length;  // mm
+    std::optional<double> length;        // mm, out of the holder
+};
+
+// What holds the stock: a box or a vertical cylinder, from the table to `top`. Neither tool nor
+// shank comes nearer than `margin`.
+struct Fixture {
+    std::string name;
+    Vec2d low;  // corners of a box; of a cylinder both are the centre
+    Vec2d high;
+    double radius{};  // mm, of a cylinder
+    double top{};     // z
+    double margin{};  // mm
+};
+
 struct Job {
     std::string file;
     bool inch{false};  // of the G-code written; everything in this struct is mm
     std::vector<toolpath::Tool> tools;
-    double feed{};         // mm/min
-    double plunge_feed{};  // mm/min
-    double spindle{};      // rpm
+    double feed{};                        // mm/min
+    double plunge_feed{};                 // mm/min
+    double spindle{};                     // rpm
+    std::map<int, ToolFacts> tool_facts;  // by number, of tools that have any
+    toolpath::Post post;
     double stock_top{};
     // z of the highest point that operations without a boundary cut; no value: all have a boundary.
     std::optional<double> part_top;
@@ -109,6 +132,8 @@ struct Job {
     std::optional<double> stock_bottom;
     std::optional<std::array<double, 2>> stock_x;
     std::optional<std::array<double, 2>> stock_y;
+    std::vector<Fixture> fixtures;
+    bool group_by_tool{true};
     std::vector<Operation> operations;
     std::vector<std::string> notes;  // sentences on what the readers left out or changed
     // Planners call it repeatedly with the approximate fraction of an operation that is done, 0 to
@@ -123,5 +148,11 @@ struct Job {
         }
     }
 };
+
+// The rates of a tool, the job's where it has none of its own.
+toolpath::CuttingRates rates_of(const Job& job, const toolpath::Tool& tool);
+
+// Gives the path its tool, with the tool's rates and name.
+void set_tool(toolpath::Toolpath& path, const Job& job, const toolpath::Tool& tool);
 
 }  // namespace cusp::job

@@ -6,6 +6,7 @@
 #include "host_tools/dialect/answer.hpp"
 #include "host_tools/dialect/program_lines.hpp"
 #include "host_tools/dialect/refusal.hpp"
+#include "host_tools/dialect/stock_grbl.hpp"
 #include "host_tools/program_run/instruments.hpp"
 #include "host_tools/program_run/mill_setup.hpp"
 
@@ -205,6 +206,9 @@ private:
                 no_more_lines_ = true;
                 break;
             }
+            if (options_.stock_grbl && refused_by_stock_grbl(*line)) {
+                return false;
+            }
             const std::string words = dialect::bare_line(*line);
             if (words.empty()) {
                 continue;
@@ -222,6 +226,20 @@ private:
             return true;
         }
         return false;
+    }
+
+    bool refused_by_stock_grbl(const std::string& line)
+    {
+        const dialect::StockGrblRefusal found = dialect::stock_grbl_refusal(line);
+        if (found.code == 0) {
+            return false;
+        }
+        result_.errors.push_back({source_.line_number(), found.code,
+                                  dialect::refusal_text(found.code, found.word, line) +
+                                      ": stock Grbl 1.1 does not take it",
+                                  line, found.word});
+        no_more_lines_ = true;
+        return true;
     }
 
     void after_answer()

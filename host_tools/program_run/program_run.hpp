@@ -45,6 +45,8 @@ struct RunOptions {
     // While bytes are left, a hold lasts until the script's cycle start; afterwards a hold ends at
     // once.
     std::vector<ScriptedByte> script;
+    // Refuses what stock Grbl 1.1 refuses (stock_grbl.hpp).
+    bool stock_grbl{false};
     // Height of the probe plate above the start, mm.
     std::optional<double> probe_z;
     // Bits per second of the serial line; 0: lines take no time.

@@ -5,11 +5,14 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
+#include <string_view>
+#include <utility>
 
 #include "firmware/base/math.hpp"
 #include "host_tools/nurbs/knot_insertion.hpp"
 #include "host_tools/toolpath/arc_geometry.hpp"
+#include "host_tools/toolpath/gcode_text.hpp"
+#include "host_tools/toolpath/rounded_arc.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
 
 #include "fmt/format.h"
@@ -20,68 +23,30 @@ using nurbs::Curve;
 
 namespace {
 
-constexpr double kMillimetresPerInch = 25.4;
-constexpr int kDecimalsInMillimetres = 4;
-constexpr int kDecimalsInInches = 5;
 constexpr int kFeedDecimals = 3;
-constexpr int kKnotDigits = 9;
 // Arcs that leave their chord by less than this, in mm, are lines.
 constexpr double kLeastSagitta = 1e-4;
-constexpr std::size_t kCommentWidth = 72;
+// Arcs of posts with fewer decimals, or with a radius, leave the planned one by at most this, in
+// last decimals (post.hpp), and become lines below half a last decimal.
+constexpr double kMostArcDeviation = 1.5;
+constexpr double kLeastRoundedSagitta = 0.5;
+// By radius: at a quarter turn the arc's middle moves by 0.42 of the radius' rounding.
+constexpr double kMostSweepByRadius = kPi / 2 + 1e-6;
+constexpr int kMostLineNumber = 99999;
 
 using Place = std::array<std::int64_t, 3>;  // in units of the last decimal
 
-std::string trimmed(std::string text)
+std::string tool_text(const Toolpath& path, double unit, const char* name)
 {
-    if (text.find('.') != std::string::npos) {
-        text.erase(text.find_last_not_of('0') + 1);
-        if (text.back() == '.') {
-            text.pop_back();
-        }
-    }
-    return text == "-0" ? "0" : text;
-}
-
-// A knot or a weight: nine digits in all.
-std::string nine_digits(double value)
-{
-    int before_point = 1;
-    for (double limit = 10; std::abs(value) >= limit && before_point < kKnotDigits; limit *= 10) {
-        ++before_point;
-    }
-    return fixed_point(value, kKnotDigits - before_point);
-}
-
-// What controllers take out of the stream as a command, or as the end of the comment, is none here.
-char plain_character(char c)
-{
-    const bool printable = c >= ' ' && c <= '~';
-    const bool command = c == '!' || c == '?' || c == '~' || c == '%';
-    return c == '(' ? '[' : c == ')' ? ']' : printable && !command ? c : '_';
-}
-
-// As many comments as the text needs: a controller's line is short.
-std::string comment_lines(std::string text)
-{
-    std::transform(text.begin(), text.end(), text.begin(), plain_character);
-    std::string lines;
-    while (text.size() > kCommentWidth) {
-        const std::size_t blank = text.rfind(' ', kCommentWidth);
-        const bool between_words = blank != std::string::npos && blank > 0;
-        const std::size_t end = between_words ? blank : kCommentWidth;
-        lines += "(" + text.substr(0, end) + ")\n";
-        text.erase(0, between_words ? end + 1 : end);
-    }
-    return lines + "(" + text + ")\n";
-}
-
-std::string tool_text(const Tool& tool, double unit, const char* name)
-{
+    const Tool& tool = path.tool;
     std::string text = fmt::format("tool {} {} diameter {} {}", tool.number, name_of(tool.shape),
                                    fixed_point(2 * tool.radius / unit, 4), name);
     if (tool.shape == ToolShape::kBull) {
         text +=
             fmt::format(" corner radius {} {}", fixed_point(tool.corner_radius / unit, 4), name);
+    }
+    if (!path.tool_name.empty()) {
+        text += ": " + path.tool_name;
     }
     return text;
 }
@@ -91,10 +56,13 @@ public:
     ProgramWriter(std::ostream& out, const ProgramForm& form)
         : out_{out},
           form_{form},
-          unit_{form.inch ? kMillimetresPerInch : 1.0},
-          decimals_{form.inch ? kDecimalsInInches : kDecimalsInMillimetres},
+          post_{form.post},
+          unit_{form.inch ? kInch : 1.0},
+          decimals_{form.post.decimals(form.inch)},
           scale_{std::llround(std::pow(10.0, decimals_))},
-          grain_{unit_ / static_cast<double>(scale_)}
+          grain_{unit_ / static_cast<double>(scale_)},
+          measures_arcs_{added_rounding(form.post, form.inch) > 0 ||
+                         form.post.arcs == ArcForm::kRadius}
     {
     }
 
@@ -107,98 +75,142 @@ private:
     {
         return {std::llround(p.x / grain_), std::llround(p.y / grain_), std::llround(p.z / grain_)};
     }
-    // Where the tool is, mm.
-    Vec3d place() const
+    Vec3d millimetres(const Place& p) const
     {
-        const Place at = at_.value_or(Place{});
         const auto mm = [&](std::size_t axis) {
-            return static_cast<double>(at[axis]) * grain_;
+            return static_cast<double>(p[axis]) * grain_;
         };
         return {mm(0), mm(1), mm(2)};
     }
-    void add_coordinate(std::string& text, std::int64_t value) const;
+    Vec3d place() const { return millimetres(at_.value_or(Place{})); }
     std::string coordinate(std::int64_t value) const
     {
         std::string text;
-        add_coordinate(text, value);
+        add_scaled(text, value, scale_, post_.point);
         return text;
     }
+    std::string clearance() const { return coordinate(rounded({0, 0, form_.clearance_z})[2]); }
+    using Values = std::vector<std::pair<std::string, std::string>>;
+    void put(std::string_view line);
+    void put_comment(const std::string& text) { out_ << comment_lines(text, post_.comments); }
+    void put_all(const std::vector<std::string>& lines, const Values& values);
+    void retract();
+    void spindle_and_coolant(const Toolpath& path);
+    void end_coolant();
     void add_changed_axes(std::string& text, const Place& to) const;
     std::string feed_word(double feed);
     void change_tool(const Toolpath& path);
     void line(const char* word, Vec3d end, const std::string& feed);
     void arc(const ArcTo& to, const std::string& feed);
+    void halves(const ArcTo& to, const ArcShape& shape, const std::string& feed);
+    Vec2d in_plane(const ArcTo& to, const Place& p) const;
+    std::array<std::int64_t, 2> written_centre(const ArcTo& to, const Place& end) const;
+    bool leaves_arc(const ArcTo& to,
+                    const Place& end,
+                    std::array<std::int64_t, 2> centre,
+                    std::int64_t radius) const;
     void nurbs(const Curve& curve, const std::string& feed);
     void move(const Toolpath& path, const ToolMove& move);
 
     std::ostream& out_;
     const ProgramForm& form_;
+    const Post& post_;
     double unit_;  // mm
     int decimals_;
     std::int64_t scale_;  // of the last decimal in a unit
     double grain_;        // mm of the last decimal
+    bool measures_arcs_;
     std::optional<Place> at_;
+    Vec3d planned_at_{};       // mm: the same before rounding
+    bool knows_plan_place_{};  // x and y of at_
     ArcPlane plane_{ArcPlane::kXY};
     double feed_{};
+    double rpm_{};
+    Coolant coolant_{Coolant::kOff};
+    int number_{};  // of the line
     int tool_{};    // none yet
     bool wrote_{};  // a line, by the move at hand
     std::string line_;
 };
 
-void ProgramWriter::add_coordinate(std::string& text, std::int64_t value) const
+// Comments, tapes' ends and program numbers have no line number.
+void ProgramWriter::put(std::string_view line)
 {
-    const std::int64_t size = std::abs(value);
-    const fmt::format_int whole{size / scale_};
-    if (value < 0) {
-        text += '-';
+    const bool numbered = post_.line_numbers > 0 && !line.empty() &&
+                          std::string_view{"(;%O:"}.find(line[0]) == std::string_view::npos;
+    if (numbered) {
+        number_ += post_.line_numbers;
+        number_ = number_ > kMostLineNumber ? post_.line_numbers : number_;
+        const fmt::format_int digits{number_};
+        out_ << 'N';
+        out_.write(digits.data(), static_cast<std::streamsize>(digits.size())) << ' ';
     }
-    text.append(whole.data(), whole.size());
-    if (const std::int64_t below = size % scale_; below != 0) {
-        // The leading one keeps the zeros of what is below one.
-        const fmt::format_int digits{scale_ + below};
-        std::size_t count = digits.size();
-        while (digits.data()[count - 1] == '0') {
-            --count;
+    out_.write(line.data(), static_cast<std::streamsize>(line.size())) << '\n';
+}
+
+void ProgramWriter::put_all(const std::vector<std::string>& lines, const Values& values)
+{
+    for (const std::string& line : lines) {
+        std::string text = filled(line, values);
+        text.erase(text.find_last_not_of(' ') + 1);  // of a comment that there is none of
+        if (!text.empty()) {
+            put(text);
         }
-        text += '.';
-        text.append(digits.data() + 1, count - 1);
     }
 }
 
 void ProgramWriter::begin(const std::vector<PlannedOperation>& operations)
 {
-    out_ << comment_lines(form_.title);
+    put_all(post_.begin, {});
+    put_comment(form_.title);
     for (const PlannedOperation& operation : operations) {
         for (const std::string& text : operation.path.comments) {
-            out_ << comment_lines(text);
+            put_comment(text);
         }
     }
-    out_ << (form_.inch ? "G17 G20 G40 G49 G54 G80 G90 G94\n"
-                        : "G17 G21 G40 G49 G54 G80 G90 G94\n");
-    out_ << "G0 Z" << coordinate(rounded({0, 0, form_.clearance_z})[2]) << '\n';
+    put_all(post_.modes, {{"units", form_.inch ? "G20" : "G21"}, {"clearance", clearance()}});
     if (form_.blend_tolerance) {
-        out_ << "G64 P" << fixed_point(*form_.blend_tolerance / unit_, decimals_ + 1) << '\n';
+        put_all(post_.blend,
+                {{"tolerance", fixed_point(*form_.blend_tolerance / unit_, decimals_ + 1)}});
     } else {
-        out_ << "G61\n";
+        put_all(post_.exact_path, {});
+    }
+    put_all(post_.header, {});
+}
+
+void ProgramWriter::retract()
+{
+    const std::int64_t z = rounded({0, 0, form_.clearance_z})[2];
+    if (at_ && (*at_)[2] < z) {
+        put("G0 Z" + coordinate(z));
+        (*at_)[2] = z;
+    }
+}
+
+void ProgramWriter::end_coolant()
+{
+    if (coolant_ != Coolant::kOff) {
+        put_all(post_.coolant_off, {});
+        coolant_ = Coolant::kOff;
     }
 }
 
 void ProgramWriter::end()
 {
-    const std::int64_t z = rounded({0, 0, form_.clearance_z})[2];
-    if (at_ && (*at_)[2] < z) {
-        out_ << "G0 Z" << coordinate(z) << '\n';
-    }
-    out_ << "M5\nM30\n";
+    retract();
+    end_coolant();
+    put_all(post_.footer, {});
+    put_all(post_.end, {});
 }
 
 void ProgramWriter::add_changed_axes(std::string& text, const Place& to) const
 {
     for (unsigned axis = 0; axis < 3; ++axis) {
-        if (!at_ || (*at_)[axis] != to[axis]) {
+        const bool known = at_ && (axis == 2 || knows_plan_place_);
+        if (!known || (*at_)[axis] != to[axis]) {
             text += ' ';
             text += "XYZ"[axis];
-            add_coordinate(text, to[axis]);
+            add_scaled(text, to[axis], scale_, post_.point);
         }
     }
 }
@@ -209,31 +221,57 @@ std::string ProgramWriter::feed_word(double feed)
         return "";
     }
     feed_ = feed;
-    return " F" + fixed_point(feed / unit_, kFeedDecimals);
+    std::string text = " F" + fixed_point(feed / unit_, kFeedDecimals);
+    if (post_.point && text.find('.') == std::string::npos) {
+        text += '.';
+    }
+    return text;
+}
+
+void ProgramWriter::spindle_and_coolant(const Toolpath& path)
+{
+    if (path.spindle > 0 && path.spindle != rpm_) {
+        rpm_ = path.spindle;
+        put_all(post_.spindle_on, {{"rpm", fixed_point(rpm_, 1)}});
+    }
+    if (path.tool.coolant != coolant_) {
+        end_coolant();
+        coolant_ = path.tool.coolant;
+        if (coolant_ != Coolant::kOff) {
+            put_all(coolant_ == Coolant::kMist ? post_.mist : post_.flood, {});
+        }
+    }
 }
 
 void ProgramWriter::change_tool(const Toolpath& path)
 {
     if (path.tool.number == tool_) {
+        spindle_and_coolant(path);
         return;
     }
     const bool first = tool_ == 0;
     tool_ = path.tool.number;
     if (!first) {
-        const std::int64_t z = rounded({0, 0, form_.clearance_z})[2];
-        if (at_ && (*at_)[2] < z) {
-            out_ << "G0 Z" << coordinate(z) << '\n';
-            (*at_)[2] = z;
+        retract();
+        end_coolant();
+        rpm_ = 0;  // the change stops the spindle
+    }
+    const std::string text = tool_text(path, unit_, form_.inch ? "inch" : "mm");
+    const std::string& name = path.tool_name.empty() ? text : path.tool_name;
+    for (const std::string& line : first ? post_.first_tool : post_.next_tool) {
+        if (line == "{comment}") {
+            put_comment(text);
+        } else {
+            put_all({line}, {{"tool", std::to_string(tool_)},
+                             {"comment", comment_word(name, post_.comments)},
+                             {"clearance", clearance()}});
         }
-        out_ << "M5\n";
     }
-    out_ << comment_lines(tool_text(path.tool, unit_, form_.inch ? "inch" : "mm"));
-    out_ << "T" << tool_ << '\n';
-    if (!first) {
-        out_ << "M0\n";
-    }
-    if (path.spindle > 0) {
-        out_ << "M3 S" << fixed_point(path.spindle, 1) << '\n';
+    spindle_and_coolant(path);
+    if (!post_.after_tool.empty()) {
+        put_all(post_.after_tool, {{"tool", std::to_string(tool_)}, {"clearance", clearance()}});
+        at_ = rounded({0, 0, form_.clearance_z});
+        knows_plan_place_ = false;
     }
 }
 
@@ -247,39 +285,51 @@ void ProgramWriter::line(const char* word, Vec3d end, const std::string& feed)
         return;
     }
     line_ += feed;
-    line_ += '\n';
-    out_.write(line_.data(), static_cast<std::streamsize>(line_.size()));
+    put(line_);
     wrote_ = true;
     at_ = to;
+    knows_plan_place_ = true;
 }
 
-// The centre that suits the rounded ends: on their bisector, then rounded to the grain point with
-// the least difference of radii.
-std::array<std::int64_t, 2> fitted_centre(Vec2d start, Vec2d end, Vec2d wanted)
+void ProgramWriter::halves(const ArcTo& to, const ArcShape& shape, const std::string& feed)
 {
-    const Vec2d chord = end - start;
-    const double squared = dot(chord, chord);
-    if (squared > 0) {
-        wanted = wanted + (dot(0.5 * (start + end) - wanted, chord) / squared) * chord;
+    ArcTo first = to;
+    first.end = point_on(shape, 0.5);
+    arc(first, feed);
+    planned_at_ = first.end;
+    arc(to, wrote_ ? "" : feed);
+}
+
+// In the arc's plane, in last decimals.
+Vec2d ProgramWriter::in_plane(const ArcTo& to, const Place& p) const
+{
+    const auto axes = axes_of(to.plane);
+    return {static_cast<double>(p[axes[0]]), static_cast<double>(p[axes[1]])};
+}
+
+std::array<std::int64_t, 2> ProgramWriter::written_centre(const ArcTo& to, const Place& end) const
+{
+    const auto axes = axes_of(to.plane);
+    const Vec2d wanted{to.centre[axes[0]] / grain_, to.centre[axes[1]] / grain_};
+    return fitted_centre(in_plane(to, *at_), in_plane(to, end), wanted);
+}
+
+bool ProgramWriter::leaves_arc(const ArcTo& to,
+                               const Place& end,
+                               std::array<std::int64_t, 2> centre,
+                               std::int64_t radius) const
+{
+    const auto axes = axes_of(to.plane);
+    Vec2d c{static_cast<double>(centre[0]), static_cast<double>(centre[1])};
+    if (post_.arcs == ArcForm::kRadius) {
+        c = centre_of_radius(in_plane(to, *at_), in_plane(to, end), static_cast<double>(radius),
+                             to.clockwise);
     }
-    std::array<std::int64_t, 2> best{};
-    double least = kUnbounded;
-    for (std::int64_t i = -1; i <= 1; ++i) {
-        for (std::int64_t j = -1; j <= 1; ++j) {
-            const std::array<std::int64_t, 2> candidate{std::llround(wanted.x) + i,
-                                                        std::llround(wanted.y) + j};
-            const Vec2d c{static_cast<double>(candidate[0]), static_cast<double>(candidate[1])};
-            // the distance from the wanted centre breaks ties
-            constexpr double kTie = 0.01;
-            const double mismatch =
-                std::abs(norm(start - c) - norm(end - c)) + kTie * norm(c - wanted);
-            if (mismatch < least) {
-                least = mismatch;
-                best = candidate;
-            }
-        }
-    }
-    return best;
+    ArcTo written = to;
+    written.end = millimetres(end);
+    written.centre[axes[0]] = c.x * grain_;
+    written.centre[axes[1]] = c.y * grain_;
+    return arc_deviation(arc_shape(place(), written), to) > kMostArcDeviation * grain_;
 }
 
 void ProgramWriter::arc(const ArcTo& to, const std::string& feed)
@@ -287,33 +337,55 @@ void ProgramWriter::arc(const ArcTo& to, const std::string& feed)
     const Place end = rounded(to.end);
     const auto axes = axes_of(to.plane);
     const ArcShape shape = arc_shape(place(), to);
-    const bool same = (*at_)[axes[0]] == end[axes[0]] && (*at_)[axes[1]] == end[axes[1]];
-    const double sagitta =
-        shape.start_radius * (1 - std::cos(std::min(std::abs(shape.sweep), kPi) / 2));
-    if ((same && std::abs(shape.sweep) < kPi) || sagitta < kLeastSagitta) {
+    // Rounding may carry the start past the end: the planned sweep counts.
+    const ArcShape planned = arc_shape(planned_at_, to);
+    if (std::abs(planned.sweep) < kPi && std::abs(shape.sweep) > 1.5 * kPi) {
         line("G1", to.end, feed);
         return;
     }
-    const auto in_grains = [&](const Place& p) {
-        return Vec2d{static_cast<double>(p[axes[0]]), static_cast<double>(p[axes[1]])};
-    };
-    const Vec2d wanted{to.centre[axes[0]] / grain_, to.centre[axes[1]] / grain_};
-    const auto centre = fitted_centre(in_grains(*at_), in_grains(end), wanted);
+    if (std::abs(planned.sweep) > 1.5 * kPi && std::abs(shape.sweep) < kPi / 2) {
+        halves(to, planned, feed);
+        return;
+    }
+    const bool same = (*at_)[axes[0]] == end[axes[0]] && (*at_)[axes[1]] == end[axes[1]];
+    const double sagitta =
+        shape.start_radius * (1 - std::cos(std::min(std::abs(shape.sweep), kPi) / 2));
+    const double least =
+        measures_arcs_ ? std::max(kLeastSagitta, kLeastRoundedSagitta * grain_) : kLeastSagitta;
+    if ((same && std::abs(shape.sweep) < kPi) || sagitta < least) {
+        line("G1", to.end, feed);
+        return;
+    }
+    const bool by_radius = post_.arcs == ArcForm::kRadius;
+    if (by_radius && (same || std::abs(shape.sweep) > kMostSweepByRadius)) {
+        halves(to, planned, feed);
+        return;
+    }
+    const std::int64_t radius = std::llround(shape.end_radius / grain_);
+    const auto centre = written_centre(to, end);
+    if (measures_arcs_ && leaves_arc(to, end, centre, radius)) {
+        halves(to, planned, feed);
+        return;
+    }
+    line_.clear();
     if (to.plane != plane_) {
         plane_ = to.plane;
-        out_ << (plane_ == ArcPlane::kXY ? "G17 " : plane_ == ArcPlane::kZX ? "G18 " : "G19 ");
+        line_ = plane_ == ArcPlane::kXY ? "G17 " : plane_ == ArcPlane::kZX ? "G18 " : "G19 ";
     }
-    line_ = to.clockwise ? "G2" : "G3";
+    line_ += to.clockwise ? "G2" : "G3";
     add_changed_axes(line_, end);
-    for (unsigned k = 0; k < 2; ++k) {
+    if (by_radius) {
+        line_ += " R" + coordinate(radius);
+    }
+    for (unsigned k = 0; k < 2 && !by_radius; ++k) {
         const std::int64_t offset = centre[k] - (*at_)[axes[k]];
         if (offset != 0) {
             line_ += ' ';
             line_ += "IJK"[axes[k]];
-            add_coordinate(line_, offset);
+            add_scaled(line_, offset, scale_, post_.point);
         }
     }
-    out_ << line_ << feed << '\n';
+    put(line_ + feed);
     wrote_ = true;
     at_ = end;
 }
@@ -330,20 +402,17 @@ void ProgramWriter::nurbs(const Curve& given, const std::string& feed)
     };
     for (std::size_t i = 0; i < curve.points.size(); ++i) {
         const Place p = rounded(curve.points[i]);
-        if (i == 0) {
-            out_ << "G6.2 P" << curve.degree + 1;
-        }
-        const std::string words = fmt::format("{} X{} Y{} Z{}", knot(i), coordinate(p[0]),
-                                              coordinate(p[1]), coordinate(p[2]));
-        out_ << (i == 0 ? words : words.substr(1));
+        std::string words = fmt::format("{} X{} Y{} Z{}", knot(i), coordinate(p[0]),
+                                        coordinate(p[1]), coordinate(p[2]));
+        words = i == 0 ? fmt::format("G6.2 P{}", curve.degree + 1) + words : words.substr(1);
         if (const double weight = curve.weights[i] / curve.weights[0]; weight != 1.0) {
-            out_ << " R" << nine_digits(weight);
+            words += " R" + nine_digits(weight);
         }
-        out_ << (i == 0 ? feed : "") << '\n';
+        put(words + (i == 0 ? feed : ""));
         at_ = p;
     }
     for (std::size_t i = curve.points.size(); i < curve.knots.size(); ++i) {
-        out_ << knot(i).substr(1) << '\n';
+        put(knot(i).substr(1));
     }
 }
 
@@ -351,6 +420,7 @@ void ProgramWriter::move(const Toolpath& path, const ToolMove& move)
 {
     if (move.kind == MoveKind::kRapid) {
         line("G0", end_of(move), "");
+        planned_at_ = end_of(move);
         return;
     }
     // a feed is spoken for only when a line is written, which a vanishing move is not
@@ -367,6 +437,7 @@ void ProgramWriter::move(const Toolpath& path, const ToolMove& move)
     if (!wrote_) {
         feed_ = before;
     }
+    planned_at_ = end_of(move);
 }
 
 void ProgramWriter::operation(const Toolpath& path)
@@ -378,11 +449,6 @@ void ProgramWriter::operation(const Toolpath& path)
 }
 
 }  // namespace
-
-std::string fixed_point(double value, int decimals)
-{
-    return trimmed(fmt::format("{:.{}f}", value, decimals));
-}
 
 std::vector<std::size_t> write_program(std::ostream& out,
                                        const ProgramForm& form,

@@ -59,6 +59,7 @@ struct Toolpath {
     double spindle{};      // rpm
     std::vector<ToolMove> moves;
     std::vector<std::string> comments;  // header lines: strategy and bounds
+    std::string tool_name;              // may be empty
 };
 
 // What every planner reports; planners add their own counts.

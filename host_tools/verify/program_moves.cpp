@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <optional>
 #include <string_view>
 
 #include "firmware/gcode/interpreter.hpp"
@@ -98,6 +100,19 @@ void count(const path::Move& move, MoveCounts& counts)
     }
 }
 
+// Posts without T words name the tool in a comment alone: "(tool 2 flat diameter 6 mm)".
+std::optional<int> tool_in_comment(std::string_view line)
+{
+    for (const std::string_view begin : {"(tool ", "; tool "}) {
+        if (line.substr(0, begin.size()) == begin) {
+            const std::string digits{line.substr(begin.size(), 3)};
+            const int number = std::atoi(digits.c_str());
+            return number > 0 ? std::optional{number} : std::nullopt;
+        }
+    }
+    return std::nullopt;
+}
+
 class ProgramReader {
 public:
     ProgramReader(const std::string& file, double start_z) : file_{file}
@@ -109,6 +124,7 @@ public:
     bool read_line(std::string_view line)
     {
         ++number_;
+        commented_tool_ = tool_in_comment(line).value_or(commented_tool_);
         const bool was_curve = is_curve(interpreter_.modal().motion);
         const Status status = interpreter_.execute(line, number_);
         if (!status) {
@@ -119,7 +135,8 @@ public:
         gcode::Action action;
         while (interpreter_.next(action)) {
             if (const auto* move = std::get_if<path::Move>(&action)) {
-                program_.moves.push_back({of_the_tip(*move), interpreter_.modal().tool});
+                const int tool = interpreter_.modal().tool;
+                program_.moves.push_back({of_the_tip(*move), tool != 0 ? tool : commented_tool_});
                 count(*move, program_.counts);
             } else if (std::holds_alternative<gcode::ProgramEnd>(action)) {
                 return false;
@@ -155,6 +172,7 @@ private:
     gcode::Interpreter interpreter_;
     Program program_;
     std::uint32_t number_{0};
+    int commented_tool_{0};
 };
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace cusp::verify {
 
 struct ProgramMove {
     path::Move move;
-    int tool;  // the last T word before it; 0 if none
+    int tool;  // the last T word before it, else the last comment "(tool N ..."; 0 if none
 };
 
 struct Program {

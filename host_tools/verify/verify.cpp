@@ -5,6 +5,7 @@
 #include <cmath>
 #include <set>
 
+#include "host_tools/job/fixture_clearance.hpp"
 #include "host_tools/part_model/part_model.hpp"
 #include "host_tools/verify/floor_judgement.hpp"
 #include "host_tools/verify/wall_distance.hpp"
@@ -232,6 +233,26 @@ double wall_gouge(const std::vector<WallDistance>& walls,
     return worst;
 }
 
+// At the tips of all runs, which lie within `spacing`.
+void find_fixture_hits(const Job& job,
+                       const std::vector<ToolPositions>& runs,
+                       VerifyFigures& figures)
+{
+    for (const job::Fixture& fixture : job.fixtures) {
+        double& deepest = figures.fixture_hit_max.emplace(figures.fixture_hit_max.value_or(0));
+        for (const ToolPositions& run : runs) {
+            for (const Vec3d tip : run.tips) {
+                const double inside = -distance_to(fixture, run.tool.radius, tip);
+                if (inside > deepest) {
+                    deepest = inside;
+                    figures.fixture_hit_at = fmt::format("{} at x {:.3f} y {:.3f} z {:.3f}",
+                                                         fixture.name, tip.x, tip.y, tip.z);
+                }
+            }
+        }
+    }
+}
+
 void judge(const Scene& scene, Verification& result)
 {
     const VerifyFigures& f = result.figures;
@@ -245,6 +266,12 @@ void judge(const Scene& scene, Verification& result)
     bound("ball_gouge_max_mm", f.ball_gouge_max, bounds.floor_tolerance + kJudgement);
     bound("wall_gouge_max_mm", f.wall_gouge_max, bounds.plan_tolerance + kJudgement);
     bound("rapid_cut_max_mm", f.rapid_cut_max, bounds.rapid_cut);
+    // planned to the margin, so rounding and the height of rapid moves touch it
+    constexpr double kFixtureAllowed = 0.005;
+    if (f.fixture_hit_max && !(*f.fixture_hit_max <= kFixtureAllowed)) {
+        result.broken.push_back(fmt::format("fixture_hit_max_mm {:.4g}, {}, is over {:.4g}",
+                                            *f.fixture_hit_max, f.fixture_hit_at, kFixtureAllowed));
+    }
     if (scene.scallop) {
         bound("uncovered_share", f.uncovered_share, bounds.uncovered_share);
         if (f.thickest_left) {
@@ -328,6 +355,7 @@ Verification verify(const Job& job,
     if (!walls.empty()) {
         figures.wall_gouge_max = wall_gouge(walls, runs, job.stock_top);
     }
+    find_fixture_hits(job, runs, figures);
     figures.ball_gouge_max = ball_gouge(scene, runs, job.stock_top);
     FloorMaps maps = judge_floor(
         {scene.surfaces, scene.mesh, tools, walls, result.grid, stock.heights(), job.stock_top,

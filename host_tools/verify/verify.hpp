@@ -49,6 +49,9 @@ struct VerifyFigures {
     std::optional<double> wall_gouge_max;  // deepest cut through a boundary or an island
     std::optional<double> wall_left_max;   // beside walls, above the reachable height
     double rapid_cut_max{};
+    // The deepest into a fixture grown by its margin, and where; nothing where the job has none.
+    std::optional<double> fixture_hit_max;
+    std::string fixture_hit_at;  // fixture and place; empty where there is no hit
     double cut_depth_max{};
     std::vector<ToolFigures> tools;  // those that cut, in the order of their first cut
     double unreachable_share{};      // of the part, where no tool of the program fits

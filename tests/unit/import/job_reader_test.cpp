@@ -189,7 +189,8 @@ TEST(JobReader, RefusesAChoiceOfToolsThatIsEmptyBrokenOrDouble)
     STRCMP_CONTAINS("tools: holds 1.5, whole numbers are needed", choice("[1.5]").c_str());
     STRCMP_CONTAINS("tools: holds tool 3 twice", choice("[3, 3]").c_str());
     STRCMP_CONTAINS("tools: is 7, no [[tool]] has that number", choice("[3, 7]").c_str());
-    STRCMP_CONTAINS("tools: a list of numbers is needed", choice("\"1\"").c_str());
+    STRCMP_CONTAINS("tools: is \"1\", but no tool has a name", choice("\"1\"").c_str());
+    STRCMP_CONTAINS("tools: a list of numbers is needed", choice("1").c_str());
 }
 
 TEST(JobReader, RefusesALeastDepthThatNoLayerCanHave)

@@ -1,0 +1,97 @@
+// Words first, then decimals.
+#include "host_tools/cli/post_fit.hpp"
+
+#include "host_tools/input_error/input_error.hpp"
+#include "host_tools/toolpath/post.hpp"
+
+#include "fmt/format.h"
+
+namespace cusp::cli {
+
+using job::Job;
+using job::Operation;
+using job::OutputForm;
+using toolpath::added_rounding;
+using toolpath::Coolant;
+using toolpath::PlannedOperation;
+using toolpath::Post;
+using toolpath::Tool;
+
+namespace {
+
+void check_coolant(const Job& job, const Operation& operation, const Tool& tool)
+{
+    const bool mist = tool.coolant == Coolant::kMist;
+    const bool asked = tool.coolant != Coolant::kOff;
+    if (asked && (mist ? job.post.mist : job.post.flood).empty()) {
+        throw InputError(fmt::format(
+            "{}: operation {}: coolant = \"{}\" of tool {}, but the post \"{}\" has no word for it",
+            job.file, operation.number, mist ? "mist" : "flood", tool.number, job.post.name));
+    }
+}
+
+}  // namespace
+
+void check_post(const Job& job, double blend)
+{
+    const Post& post = job.post;
+    if (blend > 0 && post.blend.empty()) {
+        throw InputError(
+            fmt::format("--blend {:g}: the post \"{}\" has no word for the tolerance of corners",
+                        blend, post.name));
+    }
+    for (const Operation& operation : job.operations) {
+        if (operation.output == OutputForm::kNurbs && !post.nurbs) {
+            throw InputError(fmt::format(
+                "{}: operation {}: output = \"nurbs\", but the post \"{}\" has no G6.2: say "
+                "\"arcs\" or \"lines\"",
+                job.file, operation.number, post.name));
+        }
+        check_coolant(job, operation, operation.tool);
+        for (const Tool& tool : operation.tools) {
+            check_coolant(job, operation, tool);
+        }
+    }
+}
+
+void leave_room_for_rounding(Job& job)
+{
+    const double added = added_rounding(job.post, job.inch);
+    if (!(added > 0)) {
+        return;
+    }
+    const auto less = [&](const Operation& operation, const char* key, double& value, double by) {
+        const double least = by + added;
+        if (!(value >= least)) {
+            throw InputError(fmt::format(
+                "{}: operation {}: {} is {:g} mm, but the post \"{}\" rounds to {} decimals and "
+                "needs {:.4f} mm at least",
+                job.file, operation.number, key, value, job.post.name, job.post.decimals(job.inch),
+                least));
+        }
+        value -= by;
+    };
+    for (Operation& operation : job.operations) {
+        // twice: half of a floor tolerance has been spent on the height field of a mesh
+        less(operation, "floor_tolerance", operation.floor_tolerance, 2 * added);
+        less(operation, "plan_tolerance", operation.plan_tolerance, added);
+        if (operation.scallop) {
+            less(operation, "scallop", *operation.scallop, added);
+        }
+    }
+}
+
+void add_rounding(const Job& job, PlannedOperation& operation)
+{
+    const double added = added_rounding(job.post, job.inch);
+    if (!(added > 0)) {
+        return;
+    }
+    operation.stats.gouge_bound_mm += added;
+    operation.stats.scallop_bound_mm += added;
+    operation.path.comments.push_back(
+        fmt::format("rounded to {} decimals: both bounds are {:.4f} mm more",
+                    job.post.decimals(job.inch), added));
+}
+
+}  // namespace cusp::cli

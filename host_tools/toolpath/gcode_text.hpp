@@ -1,0 +1,21 @@
+// Numbers of G-code as text.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace cusp::toolpath {
+
+// A number in fixed point with at most `decimals`, without trailing zeros.
+std::string fixed_point(double value, int decimals);
+
+// As above with nine digits in all: a knot or a weight.
+std::string nine_digits(double value);
+
+// Appends value / scale, exact.
+//
+// scale  a power of ten
+// point  whether a whole number gets a point too
+void add_scaled(std::string& text, std::int64_t value, std::int64_t scale, bool point);
+
+}  // namespace cusp::toolpath

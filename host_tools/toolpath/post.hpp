@@ -1,0 +1,72 @@
+// A post: how a program is written for one controller. Which words it knows, how arcs and comments
+// look, what frames the program and its changes of tool.
+//
+// The default is the post "cusp"; import/post_reader.hpp reads others. docs/posts.md explains the
+// keys, which are these members.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace cusp::toolpath {
+
+inline constexpr double kInch = 25.4;  // mm
+
+enum class ArcForm : std::uint8_t { kCentre, kRadius };
+enum class CommentForm : std::uint8_t { kParentheses, kSemicolon, kNone };
+
+// Lines are templates: {name} is replaced. A line that is {comment} alone may become several.
+struct Post {
+    std::string name{"cusp"};
+    int mm_decimals{4};
+    int inch_decimals{5};
+    ArcForm arcs{ArcForm::kCentre};
+    bool nurbs{true};
+    bool point{false};  // in whole numbers too: X10. instead of X10
+    CommentForm comments{CommentForm::kParentheses};
+    int line_numbers{0};             // from one N to the next; 0: none
+    std::vector<std::string> begin;  // first of all
+    // {units}, {clearance}
+    std::vector<std::string> modes{"G17 {units} G40 G49 G54 G80 G90 G94", "G0 Z{clearance}"};
+    std::vector<std::string> exact_path{"G61"};
+    std::vector<std::string> blend{"G64 P{tolerance}"};  // empty: the controller can't
+    std::vector<std::string> header;
+    // {tool}, {name}, {comment}, {clearance}
+    std::vector<std::string> first_tool{"{comment}", "T{tool}"};
+    std::vector<std::string> next_tool{"M5", "{comment}", "T{tool}", "M0"};
+    std::vector<std::string> spindle_on{"M3 S{rpm}"};
+    std::vector<std::string> mist{"M7"};
+    std::vector<std::string> flood{"M8"};
+    std::vector<std::string> coolant_off{"M9"};
+    // With spindle and coolant on. Where there are any, x and y are unknown after them, z is
+    // {clearance}.
+    std::vector<std::string> after_tool;  // {tool}, {clearance}
+    std::vector<std::string> footer;
+    std::vector<std::string> end{"M5", "M30"};
+
+    int decimals(bool inch) const { return inch ? inch_decimals : mm_decimals; }
+};
+
+// mm: how far the rounding to the post's decimals moves any point of a path, at most. Each axis by
+// half of the last decimal; arcs besides by what the rounding of their centre or radius does, which
+// the writer measures and holds below 1.5 of the last decimal.
+double rounding_of(const Post& post, bool inch);
+
+// mm: by how much that is more than the rounding of the post "cusp", which planners know; 0 where
+// it is not.
+double added_rounding(const Post& post, bool inch);
+
+// The template with every {name} replaced by its value; a name without a value stays.
+std::string filled(std::string line,
+                   const std::vector<std::pair<std::string, std::string>>& values);
+
+// The comment as one line, or as many as a controller's short lines need, each with its end; ""
+// where the form has none. Characters that controllers take for commands are replaced.
+std::string comment_lines(std::string text, CommentForm form);
+
+// A comment to stand at the end of a line, cut where it is too long; "" where there are none.
+std::string comment_word(std::string text, CommentForm form);
+
+}  // namespace cusp::toolpath

@@ -1,0 +1,460 @@
+#!/usr/bin/env python3
+"""Plans for other controllers and judges their programs: by the words that they know, by the dialect of stock Grbl, and
+by LinuxCNC's own reader where it is installed (rs274 of the Debian package linuxcnc-uspace, 190 MB: not in CI).
+
+usage: posts_test.py CUSP [--examples]
+--examples plans every example for LinuxCNC and follows all golden programs; it takes minutes.
+"""
+import json
+import math
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import tomllib
+import unittest
+
+CUSP = str(pathlib.Path(sys.argv[1]).resolve())
+EXAMPLES = "--examples" in sys.argv
+TOP = pathlib.Path(__file__).resolve().parents[2]
+POSTS = ("cusp", "fanuc", "grbl", "grblhal", "linuxcnc", "mach3")
+# What the makers' manuals list of the words that planned programs may need.
+COMMON = {"G0", "G1", "G2", "G3", "G17", "G18", "G19", "G20", "G21", "G40", "G49", "G54", "G80", "G90", "G94",
+          "M0", "M3", "M5", "M8", "M9", "M30"}
+WORDS = {
+    "grbl": COMMON,
+    "grblhal": COMMON | {"G61", "M6", "M7", "T"},
+    "linuxcnc": COMMON | {"G43", "G61", "G64", "G91.1", "M6", "M7", "T", "H", "P"},
+    "mach3": COMMON | {"G43", "G61", "G64", "G91.1", "M6", "M7", "T", "H"},
+    "fanuc": COMMON | {"G43", "G61", "G64", "M6", "T", "H", "O"},
+}
+VALUES = {"X", "Y", "Z", "I", "J", "K", "R", "F", "S", "N"}
+NEAR = 0.003  # mm: between set points of two readers' paths
+
+FLOOR = {"shape": {"type": "surface", "count": 1, "data": [{
+    "degree_u": 1, "degree_v": 1, "size_u": 2, "size_v": 2, "knotvector_u": [0, 0, 1, 1], "knotvector_v": [0, 0, 1, 1],
+    "control_points": {"points": [[-5, -5, -3], [-5, 35, -4], [45, -5, -3], [45, 35, -4]]}}]}}
+CORNERS = [[0, 0], [40, 0], [40, 30], [0, 30], [0, 0]]
+LOOP = {"shape": {"type": "curve", "count": 1, "data": [
+    {"degree": 1, "knotvector": [0, 0, 1, 2, 3, 4, 4], "control_points": {"points": CORNERS}}]}}
+JOB = """
+units = "{units}"
+{more}
+[[tool]]
+name = "8mm flat"
+shape = "flat"
+diameter = 8
+feed = 1500
+spindle = 9000
+coolant = "flood"
+[[tool]]
+name = "6mm ball"
+shape = "ball"
+diameter = 6
+[cutting]
+feed = 1000
+spindle = 12000
+[stock]
+top = 0
+[[operation]]
+strategy = "contour_pocket"
+floor = "floor.json"
+boundary = "boundary.json"
+scallop = 0.3
+tool = "6mm ball"
+tools = ["8mm flat", "6mm ball"]
+max_depth = 2
+allowance = 0.2
+output = "{output}"
+"""
+
+
+def bare(line):
+    return re.sub(r"\(.*?\)|;.*", "", line).replace(" ", "").strip()
+
+
+def words_of(program):
+    for line in program.splitlines():
+        yield from re.findall(r"([A-Z])([-+.\d]+)", bare(line))
+
+
+class Scratch(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.scratch.name)
+        self.write("floor.json", json.dumps(FLOOR))
+        self.write("boundary.json", json.dumps(LOOP))
+
+    def tearDown(self):
+        self.scratch.cleanup()
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text)
+
+    def job(self, output="arcs", more="", units="mm"):
+        self.write("job.toml", JOB.format(output=output, more=more, units=units))
+
+    def cusp(self, status, *arguments):
+        result = subprocess.run([CUSP, *arguments], cwd=self.folder, text=True, timeout=1200,
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        self.assertEqual(status, result.returncode, f"{arguments}: {result.stdout}")
+        return result.stdout
+
+    def planned(self, *options):
+        self.cusp(0, "plan", "job.toml", "-o", "p.ngc", "--stats", "p.json", *options)
+        return (self.folder / "p.ngc").read_text()
+
+
+class Posts(Scratch):
+    def test_a_post_of_the_job_and_of_the_call_are_the_same(self):
+        self.job()
+        default = self.planned()
+        self.assertEqual(default, self.planned("--post", "cusp"))
+        by_call = self.planned("--post", "grbl")
+        self.assertNotEqual(default, by_call)
+        self.job(more='post = "grbl"')
+        self.assertEqual(by_call, self.planned())
+        self.assertEqual(default, self.planned("--post", "cusp"))
+
+    def test_the_files_that_come_with_the_program_can_be_copied(self):
+        for post in POSTS:
+            for output in ("lines", "arcs"):
+                self.job(output)
+                by_name = self.planned("--post", post)
+                self.write(f"{post}.toml", (TOP / "posts" / f"{post}.toml").read_text())
+                self.assertEqual(by_name, self.planned("--post", f"{post}.toml"), post)
+
+    def test_only_words_of_the_target_are_written(self):
+        for post, known in WORDS.items():
+            for units in ("mm", "inch"):
+                self.job(units=units)
+                for letter, number in words_of(self.planned("--post", post)):
+                    word = letter + number if letter in "GM" else letter
+                    self.assertTrue(word in known or letter in VALUES, f"{post} writes {word}")
+
+    def test_every_program_runs_and_holds_the_bounds_of_its_job(self):
+        self.job()
+        for post in POSTS:
+            self.planned("--post", post)
+            self.cusp(0, "sim", "p.ngc")
+            self.assertIn("all bounds hold", self.cusp(0, "verify", "job.toml", "p.ngc"), post)
+
+    def test_feeds_speeds_and_coolant_are_those_of_the_tool(self):
+        self.job()
+        text = self.planned()
+        flat, ball = text.index("\nT1\n"), text.index("\nT2\n")
+        self.assertLess(flat, ball)
+        self.assertTrue(text[flat:].startswith("\nT1\nM3 S9000\nM8\n"), text[flat:flat + 40])
+        self.assertTrue(text[ball:].startswith("\nT2\nM0\nM3 S12000\nG0"), text[ball:ball + 40])
+        self.assertIn(" F1500\n", text[flat:ball])
+        self.assertNotIn(" F1500\n", text[ball:])
+        self.assertIn(" F1000\n", text[ball:])
+        self.assertEqual(1, text.count("M9\n"))
+        self.assertIn("(tool 1 flat diameter 8 mm: 8mm flat)", text)
+
+    def test_grbl_programs_are_taken_by_stock_grbl(self):
+        for output in ("lines", "arcs"):
+            self.job(output)
+            self.planned("--post", "grbl")
+            self.cusp(0, "sim", "p.ngc", "--dialect", "grbl")
+        self.planned("--blend", "0.02")
+        self.assertIn('error:20: a G or M word is not supported: G64 in "G64 P0.02": stock Grbl 1.1 does not take it',
+                      self.cusp(1, "sim", "p.ngc", "--dialect", "grbl"))
+
+    def test_fanuc_rounds_and_says_so(self):
+        self.job(more='post = "fanuc"')
+        text = self.planned()
+        self.assertTrue(text.startswith("%\nO1000\n"))
+        self.assertTrue(text.endswith("M30\n%\n"))
+        for letter, number in words_of(text):
+            if letter in "XYZIJKF":
+                self.assertRegex(number, r"^-?\d+\.\d{0,3}$")
+        self.assertIn("rounded to 3 decimals", text)
+        self.assertIn("T1 M6 (8mm flat)", text)
+        rounded = json.loads((self.folder / "p.json").read_text())
+        self.planned("--post", "cusp")
+        fine = json.loads((self.folder / "p.json").read_text())
+        for a, b in zip(rounded["operations"], fine["operations"]):
+            self.assertGreaterEqual(a["gouge_bound_mm"], 0.0016)
+            self.assertGreaterEqual(a["gouge_bound_mm"], b["gouge_bound_mm"])
+
+    def test_a_tolerance_below_the_rounding_is_refused(self):
+        self.job(more='post = "fanuc"')
+        job = (self.folder / "job.toml").read_text()
+        self.write("job.toml", job + "floor_tolerance = 0.003\n")
+        self.assertIn('floor_tolerance is 0.003 mm, but the post "fanuc" rounds to 3 decimals',
+                      self.cusp(2, "plan", "job.toml", "-o", "p.ngc"))
+
+    def test_what_the_target_lacks_is_refused_by_name(self):
+        self.job("nurbs")
+        for post in WORDS:
+            said = self.cusp(2, "plan", "job.toml", "-o", "p.ngc", "--post", post)
+            self.assertIn(f'output = "nurbs", but the post "{post}" has no G6.2', said)
+        self.job(more='post = "grbl"')
+        self.assertIn('the post "grbl" has no word for the tolerance of corners',
+                      self.cusp(2, "plan", "job.toml", "-o", "p.ngc", "--blend", "0.02"))
+        self.write("job.toml", (self.folder / "job.toml").read_text().replace("flood", "mist"))
+        self.assertIn('coolant = "mist" of tool 1, but the post "grbl" has no word for it',
+                      self.cusp(2, "plan", "job.toml", "-o", "p.ngc"))
+
+    def test_wrong_posts_are_refused_with_the_nearest(self):
+        self.job(more='post = "grlb"')
+        said = self.cusp(2, "plan", "job.toml", "-o", "p.ngc")
+        self.assertIn('post "grlb": there is none of that name, the nearest is "grbl"', said)
+        self.assertIn(", ".join(POSTS), said)
+        self.job()
+        grbl = (TOP / "posts/grbl.toml").read_text()
+        for wrong, words in ((grbl.replace("nurbs = false\n", ""), "nurbs: is missing"),
+                             (grbl.replace("footer", "foter"), "foter: unknown key; the nearest known one is footer"),
+                             (grbl.replace("{rpm}", "{speed}"), "{speed} in \"M3 S{speed}\" is no field of it; known are: rpm"),
+                             (grbl.replace("mm_decimals = 4", "mm_decimals = 2"), "mm_decimals: is 2"),
+                             (grbl.replace('"IJ"', '"XY"'), 'arcs: is "XY", known are'),
+                             (grbl.replace("M30", "M30\\n"), "printable ASCII"),
+                             (grbl + "]", "not TOML")):
+            self.write("own.toml", wrong)
+            self.assertIn(words, self.cusp(2, "plan", "job.toml", "-o", "p.ngc", "--post", "own.toml"))
+        self.cusp(2, "plan", "job.toml", "-o", "p.ngc", "--post", "none.toml")
+
+
+# One motion that LinuxCNC's reader makes of a line: its points, mm.
+def canon_points(call, numbers, plane, at, scale):
+    if call != "ARC_FEED":
+        return [tuple(scale * v for v in numbers[:3])]
+    first, second, axis = {"XY": (0, 1, 2), "XZ": (2, 0, 1), "YZ": (1, 2, 0)}[plane]
+    end_1, end_2, centre_1, centre_2, turns, end_3 = numbers[:6]
+    end_1, end_2, centre_1, centre_2, end_3 = (scale * v for v in (end_1, end_2, centre_1, centre_2, end_3))
+    begin = math.atan2(at[second] - centre_2, at[first] - centre_1)
+    sweep = math.atan2(end_2 - centre_2, end_1 - centre_1) - begin
+    sweep = sweep % (2 * math.pi) if turns > 0 else -(-sweep % (2 * math.pi))
+    if abs(sweep) < 1e-9:
+        sweep = math.copysign(2 * math.pi, turns)
+    radius = math.hypot(at[first] - centre_1, at[second] - centre_2)
+    points = []
+    for k in range(1, 16):
+        point = [0.0, 0.0, 0.0]
+        point[first] = centre_1 + radius * math.cos(begin + sweep * k / 16)
+        point[second] = centre_2 + radius * math.sin(begin + sweep * k / 16)
+        point[axis] = at[axis] + (end_3 - at[axis]) * k / 16
+        points.append(tuple(point))
+    end = [0.0, 0.0, 0.0]
+    end[first], end[second], end[axis] = end_1, end_2, end_3
+    return points + [tuple(end)]
+
+
+def distance_to_line(p, a, b):
+    ab = [v - u for u, v in zip(a, b)]
+    squared = sum(v * v for v in ab)
+    t = 0 if squared == 0 else max(0.0, min(1.0, sum((q - u) * v for q, u, v in zip(p, a, ab)) / squared))
+    return math.dist(p, [u + t * v for u, v in zip(a, ab)])
+
+
+@unittest.skipUnless(shutil.which("rs274"), "no rs274 here: apt-get install linuxcnc-uspace")
+class LinuxCnc(Scratch):
+    CALL = re.compile(r"N(\S+)\s+(STRAIGHT_TRAVERSE|STRAIGHT_FEED|ARC_FEED|SELECT_PLANE|USE_LENGTH_UNITS)\((.*)\)")
+
+    # The motions of the program by its lines, as rs274 reads it.
+    def canon(self, program):
+        numbered = "\n".join(line if re.match(r"\s*(\(|;|%|/|$)", line) else
+                             f"N{number} " + re.sub(r"^\s*[Nn]\d+\s*", "", line)
+                             for number, line in enumerate(program.splitlines(), 1)) + "\n"
+        ended = re.search(r"^[^(;]*M0?(2|30)\b", program, re.MULTILINE)
+        self.write("numbered.ngc", numbered + ("" if ended else "M2\n"))
+        tools = sorted({int(float(n)) for letter, n in words_of(program) if letter == "T"})
+        self.write("tool.tbl", "".join(f"T{t} P{t} Z0 D1\n" for t in tools))
+        said = subprocess.run(["rs274", "-g", "-t", "tool.tbl", "numbered.ngc"], cwd=self.folder, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=1200)
+        self.assertEqual(0, said.returncode, said.stdout[-600:])
+        self.assertIn("PROGRAM_END", said.stdout, said.stdout[-600:])
+        at, plane, scale, motions = (0.0, 0.0, 0.0), "XY", 1.0, []
+        for line, call, arguments in self.CALL.findall(said.stdout):
+            if call == "SELECT_PLANE":
+                plane = arguments[-2:]
+            elif call == "USE_LENGTH_UNITS":
+                scale = 25.4 if "INCH" in arguments else 1.0
+            else:
+                points = canon_points(call, [float(v) for v in arguments.split(",")], plane, at, scale)
+                motions.append((int(line), points))
+                at = points[-1]
+        return motions
+
+    # The same from our controller: all set points, and the rows of each line, with some before and after: filters lag.
+    def samples(self, name):
+        self.cusp(0, "sim", name, "--samples", "s.csv", "--stats", "s.json")
+        points, rows = [], {}
+        for row in (self.folder / "s.csv").read_text().splitlines()[1:]:
+            _, x, y, z, line = row.split(",")
+            rows.setdefault(int(line), [len(points), 0])[1] = len(points)
+            points.append((int(x) / 1e6, int(y) / 1e6, int(z) / 1e6))
+        lag = 100
+        paths = {line: (max(0, first - lag), last + lag + 1) for line, (first, last) in rows.items()}
+        return points, paths, json.loads((self.folder / "s.json").read_text())["end_mpos_mm"]
+
+    def follow(self, program, near=NEAR):
+        self.write("p.ngc", program)
+        motions = self.canon(program)
+        points, paths, end = self.samples("p.ngc")
+        self.assertLess(math.dist(motions[-1][1][-1], end), 1e-3)
+        at, worst, compared = (0.0, 0.0, 0.0), (0.0, 0, ()), 0
+        for line, ends in motions:
+            if math.dist(at, ends[-1]) < 1e-4 and len(ends) == 1:
+                continue  # no motion
+            self.assertIn(line, paths, f"line {line} makes no motion here")
+            path = points[slice(*paths[line])]
+            for p in ends:
+                off = min(distance_to_line(p, a, b) for a, b in zip(path, path[1:]))
+                worst = max(worst, (off, line, p))
+                compared += 1
+            at = ends[-1]
+        self.assertGreater(compared, 3)
+        self.assertLess(worst[0], near, f"line {worst[1]}: {program.splitlines()[worst[1] - 1]}: {worst[2]}")
+        return compared
+
+    def test_planned_programs_take_the_same_way(self):
+        for output in ("lines", "arcs"):
+            self.job(output)
+            self.follow(self.planned("--post", "linuxcnc"))
+            # no G61: our controller rounds corners by $11
+            self.follow(self.planned("--post", "grbl"), NEAR + 0.01)
+        by_radius = (TOP / "posts/linuxcnc.toml").read_text().replace('arcs = "IJ"', 'arcs = "R"')
+        self.write("radius.toml", by_radius)
+        text = self.planned("--post", "radius.toml")
+        self.assertRegex(text, r"G[23] [^(]* R\d")
+        self.follow(text)
+
+    @unittest.skipUnless(EXAMPLES, "the examples take minutes: --examples")
+    def test_examples_take_the_same_way(self):
+        for job in sorted((TOP / "examples").glob("*/*.toml")):
+            text = job.read_text()
+            nurbs = 'output = "nurbs"' in text
+            self.write("p.toml", text.replace('output = "nurbs"', 'output = "arcs"').replace(
+                '"../', f'"{job.parent.parent}/'))
+            with self.subTest(job=job.name, nurbs=nurbs):
+                self.cusp(0, "plan", "p.toml", "-o", "e.ngc", "--post", "linuxcnc")
+                print(job.name, self.follow((self.folder / "e.ngc").read_text()), "points")
+
+    @unittest.skipUnless(EXAMPLES, "the golden programs take minutes: --examples")
+    def test_golden_programs_take_the_same_way(self):
+        for program in sorted((TOP / "tests/programs").glob("*.ngc")):
+            with self.subTest(program=program.name):
+                print(program.name, self.follow(program.read_text()), "points")
+
+
+class Libraries(Scratch):
+    LIBRARY = 'units = "mm"\n' + "".join(
+        f'[[tool]]\nname = "{name}"\nshape = "{shape}"\ndiameter = {size}\nfeed = {feed}\nspindle = 10000\n'
+        for name, shape, size, feed in (("6mm flat", "flat", 6, 900), ("6mm ball", "ball", 6, 700), ("3mm ball", "ball", 3, 400)))
+    JOB = """
+units = "mm"
+library = "tools.toml"
+[stock]
+top = 0
+[[operation]]
+strategy = "contour_pocket"
+floor = "floor.json"
+boundary = "boundary.json"
+scallop = 0.3
+tool = "6mm ball"
+"""
+
+    def refused(self, words, job=None, library=None):
+        self.write("tools.toml", library or self.LIBRARY)
+        self.write("job.toml", job or self.JOB)
+        self.assertIn(words, self.cusp(2, "plan", "job.toml", "-o", "p.ngc"))
+
+    def test_a_tool_by_name(self):
+        self.write("tools.toml", self.LIBRARY)
+        self.write("job.toml", self.JOB)
+        text = self.planned()
+        self.assertIn("(tool 2 ball diameter 6 mm: 6mm ball)\nT2\nM3 S10000\n", text)
+        self.assertIn(" F700\n", text)
+        self.assertIn(" F175\n", text)  # a quarter, into the stock
+        self.cusp(0, "verify", "job.toml", "p.ngc")
+        self.write("job.toml", self.JOB + "feed = 555\nspindle = 8000\n")
+        text = self.planned()
+        self.assertIn("M3 S8000\n", text)
+        self.assertIn(" F555\n", text)
+        self.assertNotIn(" F700\n", text)
+
+    def test_inches_of_the_library_are_its_own(self):
+        self.write("tools.toml", self.LIBRARY.replace('"mm"', '"inch"').replace("diameter = 6", "diameter = 0.25"))
+        self.write("job.toml", self.JOB)
+        text = self.planned()
+        self.assertIn("(tool 2 ball diameter 6.35 mm: 6mm ball)", text)
+        self.assertIn(f" F{700 * 25.4:g}\n", text)
+
+    def test_errors(self):
+        self.refused('tool: is "6mm bal", no tool has that name, in tools.toml either; the nearest are "6mm ball", ',
+                     self.JOB.replace('"6mm ball"', '"6mm bal"'))
+        self.refused("tools.toml:2: tool 1: name: is missing",
+                     library=self.LIBRARY.replace('name = "6mm flat"\n', ""))
+        self.refused("tools.toml:1: units: is missing", library=self.LIBRARY.replace('units = "mm"', ""))
+        self.refused('units: is "cm", known are "mm", "inch"', library=self.LIBRARY.replace('"mm"', '"cm"'))
+        self.refused("diameter: is missing", library=self.LIBRARY.replace("diameter = 6\n", ""))
+        self.refused("feeed: unknown key; the nearest known one is feed", library=self.LIBRARY.replace("feed", "feeed"))
+        self.refused('two tools are "6mm ball"', library=self.LIBRARY.replace("3mm ball", "6mm ball"))
+        self.refused("tool: is missing: name a tool of the library", self.JOB.replace('tool = "6mm ball"\n', ""))
+        self.refused('library "metal": none of that name comes', self.JOB.replace("tools.toml", "metal"))
+        self.refused("has the number 2, and so has a [[tool]] of the job",
+                     self.JOB.replace("[stock]", '[[tool]]\nnumber = 2\nshape = "flat"\ndiameter = 3\nfeed = 100\n[stock]'))
+        self.refused("cutting: is missing", library=self.LIBRARY.replace("feed = 400\n", ""))
+        self.refused("flute_length: is 20 mm, the tool is 10 mm long",
+                     library=self.LIBRARY + "flute_length = 20\nlength = 10\n")
+
+    def test_a_tool_that_is_too_short_is_a_warning(self):
+        for keys, words in (("flute_length = 2\n", "its flutes are 2 mm long: its shank may rub"),
+                            ("length = 2\n", "it is 2 mm long: its holder may touch")):
+            self.write("tools.toml", self.LIBRARY.replace('name = "6mm ball"\n', 'name = "6mm ball"\n' + keys))
+            self.write("job.toml", self.JOB)
+            said = self.cusp(0, "plan", "job.toml", "-o", "p.ngc")
+            self.assertIn("tool 2 (6mm ball) goes ", said)
+            self.assertIn(words, said)
+
+    def test_the_libraries_that_come_with_the_program(self):
+        for file in sorted((TOP / "tool_libraries").glob("*.toml")):
+            for tool in tomllib.loads(file.read_text())["tool"]:
+                if tool["shape"] != "ball" or tool["diameter"] < 3:
+                    continue
+                self.write("job.toml", self.JOB.replace("tools.toml", file.stem).replace("6mm ball", tool["name"]))
+                text = self.planned()
+                self.assertIn(f"F{tool['feed']:g}\n", text)
+                self.assertEqual("mist" == tool["coolant"], "\nM7\n" in text)
+
+
+class Fixtures(Scratch):
+    def test_cuts_and_links(self):
+        box = '[[fixture]]\nname = "clamp"\nx = [{}]\ny = [10, 20]\ntop = {}\n'
+        self.job(more=box.format("-30, -10", 4))
+        text = self.planned()
+        self.assertIn("\nG0 Z5\n", text)  # over it
+        self.job(more=box.format("-30, -10", 14))
+        said = self.cusp(0, "plan", "job.toml", "-o", "p.ngc")
+        self.assertIn("clearance: 15 mm above the stock's top in place of 5, to be over clamp", said)
+        self.assertIn("\nG0 Z15\n", (self.folder / "p.ngc").read_text())
+        self.cusp(0, "verify", "job.toml", "p.ngc")
+        self.job(more=box.format("-30, 1", 2))
+        self.assertRegex(self.cusp(2, "plan", "job.toml", "-o", "p.ngc"),
+                         r"operation 1, contour_pocket: .* at x \S+ y \S+ z \S+ mm would touch clamp")
+
+    def test_verify_finds_them(self):
+        self.job()
+        self.planned()
+        self.job(more='[[fixture]]\nname = "vice"\ncentre = [20, 33]\ndiameter = 4\ntop = 3\nmargin = 2\n')
+        said = self.cusp(1, "verify", "job.toml", "p.ngc")
+        self.assertIn("broken: fixture_hit_max_mm", said)
+        self.assertIn("vice at x ", said)
+
+    def test_errors(self):
+        for table, words in (("x = [0, 1]\ntop = 1\n", "fixture 1: y: is missing"),
+                             ("x = [1, 0]\ny = [0, 1]\ntop = 1\n", "fixture 1: x: two numbers [min, max]"),
+                             ("x = [0, 1]\ny = [0, 1]\n", "fixture 1: top: is missing"),
+                             ("centre = [0, 1]\ntop = 1\n", "fixture 1: diameter: is missing"),
+                             ("centre = [0, 1]\ndiameter = 2\nx = [0, 1]\ntop = 1\n", "x: is a box'"),
+                             ("center = [0, 1]\n", "center: unknown key; the nearest known one is centre")):
+            self.job(more="[[fixture]]\n" + table)
+            self.assertIn(words, self.cusp(2, "plan", "job.toml", "-o", "p.ngc"))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1] + [a for a in sys.argv[2:] if a != "--examples"], verbosity=2)
