@@ -53,6 +53,17 @@ TEST(MotionLimits, HoldThroughHoldsOverridesAndStarvation)
     }
 }
 
+// Arcs of 6 um behind a line of 30 mm: their limits once split it into more pieces than the servo
+// looks at in a tick.
+TEST(MotionLimits, HoldWhereTinyArcsReachIntoALine)
+{
+    constexpr std::uint64_t kTinyArcs = 80942;
+    const auto moves = RandomMoves{kTinyArcs}.program();
+    MotionRig rig;
+    rig.start_at({});
+    test::check_motion(rig.run(moves), moves.back().end, {}, kTinyArcs);
+}
+
 // Programs of a second each: 55 moves of all kinds within 0.01 mm, and 25 on the exact path.
 TEST(MotionLimits, HoldWhateverHappensAtAnyTickOfAProgram)
 {
