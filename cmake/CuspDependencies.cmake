@@ -4,7 +4,7 @@
 
 # A package and a header of it.
 set(product_headers libcli11-dev CLI/CLI.hpp libfmt-dev fmt/format.h libserialport-dev libserialport.h
-  libtomlplusplus-dev toml++/toml.h nlohmann-json3-dev nlohmann/json.hpp
+  libtomlplusplus-dev toml++/toml.h libtbb-dev oneapi/tbb/version.h nlohmann-json3-dev nlohmann/json.hpp
   zlib1g-dev zlib.h)
 set(test_headers cpputest CppUTest/TestHarness.h libpolyclipping-dev polyclipping/clipper.hpp)
 set(benchmark_headers libbenchmark-dev benchmark/benchmark.h)
@@ -95,6 +95,7 @@ if(CUSP_HOST_TOOLS)
   find_package(CLI11 REQUIRED)
   find_package(fmt REQUIRED)
   find_package(nlohmann_json REQUIRED)
+  find_package(TBB REQUIRED)
   find_package(Threads REQUIRED)
   if(NOT CUSP_EIGEN STREQUAL "OFF")
     find_package(Eigen3 3.3 QUIET NO_MODULE)

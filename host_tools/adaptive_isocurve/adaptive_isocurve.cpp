@@ -17,8 +17,10 @@
 #include "host_tools/adaptive_isocurve/waterline_roughing.hpp"
 #include "host_tools/finishing/scallop_check.hpp"
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/parallel/parallel.hpp"
 #include "host_tools/part_model/offset_surface.hpp"
 #include "host_tools/toolpath/stepover.hpp"
+#include "host_tools/work_place/work_place.hpp"
 
 #include "fmt/format.h"
 
@@ -54,7 +56,8 @@ constexpr double kOpenShare = 0.01;
 constexpr double kOffsetShare = 0.9;
 constexpr int kNormalSamples = 8;        // along u and v
 constexpr double kShortestPiece = 1e-3;  // mm
-constexpr double kSameEdge = 0.1;        // in steps: edges nearer than this are one
+constexpr std::size_t kCurvesAtOnce = 32;
+constexpr double kSameEdge = 0.1;  // in steps: edges nearer than this are one
 
 // Shares of the progress.
 constexpr double kPassesDone = 0.4;
@@ -185,11 +188,8 @@ private:
             return;
         }
         cells_share_ = 1;
-        for (std::size_t k = 0; k < surfaces.size(); ++k) {
-            const double share = static_cast<double>(k) / static_cast<double>(surfaces.size());
-            report(kPassesDone + (kCheckDone - kPassesDone) * share);
-            scallop_check_->check(static_cast<int>(k));
-        }
+        scallop_check_->check_all(
+            [&](double share) { report(kPassesDone + (kCheckDone - kPassesDone) * share); });
     }
 
     std::size_t add_surface(int surface, bool complete)
@@ -215,26 +215,28 @@ private:
         }
         bool trimmed = false;
         bool may_be_clear = s.trims.empty() && operation_.output == OutputForm::kLines;
-        std::size_t traced_curves = 0;
-        for (const DomainCurve& curve : curves) {
-            const double share =
-                static_cast<double>(traced_curves++) / static_cast<double>(curves.size());
+        std::vector<PassesOfCurve> fitted(curves.size());
+        for (std::size_t begin = 0; begin < curves.size(); begin += kCurvesAtOnce) {
+            const double share = static_cast<double>(begin) / static_cast<double>(curves.size());
             report(passes_done * (surface + share) / static_cast<double>(work_.surfaces().size()));
             work_.model().forget_many_cells();
-            if (may_be_clear && add_whole(curve)) {
-                continue;
-            }
-            const TracedCurve traced = tracer_.trace(curve);
-            const bool whole = traced.pieces.size() == 1 && !traced.blocked &&
-                               reaches_ends(curve, traced.pieces.front().points);
-            trimmed = trimmed || !whole;
-            may_be_clear = may_be_clear && whole;
-            unreached_ += traced.blocked ? 1 : 0;
-            for (const TracedPiece& piece : traced.pieces) {
-                const std::optional<Curve> exact =
-                    offset ? tip_isocurve(*offset, curve, piece) : std::nullopt;
-                exact_curves_ += exact ? 1 : 0;
-                add_pass(piece.points, exact, piece.cc_parameters);
+            const std::size_t end = std::min(curves.size(), begin + kCurvesAtOnce);
+            parallel::for_each(end - begin, [&](std::size_t k) {
+                const work_place::Part part = part_of(surface);
+                work_.model().forget_queries();
+                fitted[begin + k] = passes_of(curves[begin + k], may_be_clear, offset);
+            });
+            work_.model().forget_queries();
+            for (std::size_t k = begin; k < end; ++k) {
+                PassesOfCurve& passes = fitted[k];
+                trimmed = trimmed || !passes.whole;
+                may_be_clear = may_be_clear && passes.whole;
+                unreached_ += passes.blocked ? 1 : 0;
+                exact_curves_ += passes.exact;
+                for (SurfaceOperation::FittedPass& pass : passes.passes) {
+                    remember(work_.add(std::move(pass)));
+                }
+                passes.passes.clear();
             }
         }
         whole_ = whole_ && !trimmed;
@@ -249,19 +251,58 @@ private:
         return curves.size();
     }
 
+    work_place::Part part_of(int surface) const
+    {
+        const std::string where = operation_.floor_files.size() == 1
+                                      ? " of " + operation_.floor_files.front()
+                                      : std::string{" of the floor"};
+        return {"face ", surface + 1, where};
+    }
+
+    // What is cut along one curve.
+    struct PassesOfCurve {
+        std::vector<SurfaceOperation::FittedPass> passes;
+        bool whole{};    // one pass, from end to end
+        bool blocked{};  // the tool would cut something else
+        int exact{};     // passes with an exact curve
+    };
+
+    PassesOfCurve passes_of(const DomainCurve& curve,
+                            bool may_be_clear,
+                            const std::optional<OffsetSurface>& offset) const
+    {
+        PassesOfCurve out;
+        if (may_be_clear && add_whole(curve, out)) {
+            return out;
+        }
+        const TracedCurve traced = tracer_.trace(curve);
+        out.whole = traced.pieces.size() == 1 && !traced.blocked &&
+                    reaches_ends(curve, traced.pieces.front().points);
+        out.blocked = traced.blocked;
+        for (const TracedPiece& piece : traced.pieces) {
+            const std::optional<Curve> exact =
+                offset ? tip_isocurve(*offset, curve, piece) : std::nullopt;
+            out.exact += exact ? 1 : 0;
+            out.passes.push_back(work_.fitted_pass(piece.points, exact, piece.cc_parameters));
+        }
+        return out;
+    }
+
     // Quick case: the tool is clear of everything else from end to end.
-    bool add_whole(const DomainCurve& curve)
+    bool add_whole(const DomainCurve& curve, PassesOfCurve& out) const
     {
         const TracedPiece piece = tracer_.whole(curve);
-        if (length_of(piece.points) < kShortestPiece) {
-            return true;  // along a pole
+        const bool along_pole = length_of(piece.points) < kShortestPiece;
+        if (!along_pole) {
+            std::optional<SurfaceOperation::FittedPass> pass =
+                work_.fitted_clear_pass(piece.points, piece.cc_parameters);
+            if (!pass) {
+                return false;
+            }
+            out.passes.push_back(std::move(*pass));
         }
-        const std::optional<Points> points =
-            work_.add_clear_pass(piece.points, piece.cc_parameters);
-        if (points) {
-            remember(*points);
-        }
-        return points.has_value();
+        out.whole = true;
+        return true;
     }
 
     // The pass on the approximated offset, where the curve is an isocurve.
@@ -391,18 +432,24 @@ std::vector<PlannedOperation> plan(const Job& job, const Operation& operation, b
     if (!mesh) {
         planner.emplace(job, operation);
     }
-    if (operation.roughing) {
-        out = plan_waterline_roughing(job, operation);
-    }
+    PlannedOperation finish;
+    const auto rough = [&] {
+        if (operation.roughing) {
+            out = plan_waterline_roughing(job, operation);
+        }
+    };
+    parallel::both(rough, [&] {
+        const auto begin = std::chrono::steady_clock::now();
+        finish = mesh ? plan_mesh_isocurves(job, operation) : planner->plan(complete);
+        finish.stats.planning_s =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    });
     std::vector<std::string> why_not_roughed;
     if (!out.empty() && out.front().path.moves.empty()) {
         why_not_roughed = std::move(out.front().stats.warnings);
         out.clear();
     }
-    const auto begin = std::chrono::steady_clock::now();
-    out.push_back(mesh ? plan_mesh_isocurves(job, operation) : planner->plan(complete));
-    out.back().stats.planning_s =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    out.push_back(std::move(finish));
     std::vector<std::string>& warnings = out.back().stats.warnings;
     warnings.insert(warnings.end(), why_not_roughed.begin(), why_not_roughed.end());
     return out;

@@ -48,9 +48,10 @@ DensityTable::DensityTable(const Surface& surface,
       v{nodes_of(surface.knots_v, surface.v_begin(), surface.v_end())}
 {
     for (const double here_u : u) {
-        for (const double here_v : v) {
-            const SurfacePoint p = at(here_u, here_v);
-            density_.push_back(density(p) / kFullStep);
+        for (std::size_t j = 0; j < v.size(); ++j) {
+            const SurfacePoint p = at(here_u, v[j]);
+            const double apart = 0.5 * (v[std::min(j + 1, v.size() - 1)] - v[j == 0 ? 0 : j - 1]);
+            density_.push_back(density(p, apart) / kFullStep);
             metric_.push_back({dot(p.du, p.du), dot(p.du, p.dv), dot(p.dv, p.dv)});
         }
     }

@@ -11,7 +11,8 @@
 namespace cusp::adaptive_isocurve {
 
 // Steps between passes per unit of v, at a point of the surface: |S_v| over the allowed distance.
-using StepDensity = std::function<double(const nurbs::SurfacePoint&)>;
+// `apart`: the range of v that the point stands for.
+using StepDensity = std::function<double(const nurbs::SurfacePoint&, double apart)>;
 
 // Judges the strip between two neighbouring curves at a u: returns the factor by which the density
 // has to grow; 1 or less accepts the strip. A factor of at most `sufficient` may be replaced by any

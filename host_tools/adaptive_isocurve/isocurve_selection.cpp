@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "firmware/base/math.hpp"
 #include "host_tools/adaptive_isocurve/cross_section.hpp"
 #include "host_tools/adaptive_isocurve/isocurve_extraction.hpp"
 #include "host_tools/adaptive_isocurve/isocurve_spacing_bound.hpp"
@@ -56,14 +57,17 @@ double IsocurveSelection::planned_scallop() const
     return (is_smooth_ ? kPlannedShare : kCheckedShare) * (*operation_.scallop - work_.outward());
 }
 
-// Steps for which the scallop has the planned height.
+// Steps for which the scallop has the planned height. A crest turns by half a turn at most: between
+// two nodes it counts as no sharper, or a cusp would require millions of passes.
 StepDensity IsocurveSelection::density() const
 {
     const double scallop_height = planned_scallop();
     const double radius = operation_.tool.radius;
-    return [scallop_height, radius](const SurfacePoint& p) {
+    return [scallop_height, radius](const SurfacePoint& p, double apart) {
         const CrossSection section = cross_section_at(p);
-        return section.speed / stepover(radius, scallop_height, section.curvature);
+        const double sharpest = section.speed > 0 ? kPi / (section.speed * apart) : kInfinite;
+        return section.speed /
+               stepover(radius, scallop_height, std::min(sharpest, section.curvature));
     };
 }
 
@@ -137,7 +141,7 @@ std::vector<DomainCurve> IsocurveSelection::curves_within(double distance, int s
     double step = distance;
     double apart = 0;
     for (int round = 0; round < kSpacingRounds; ++round) {
-        const StepDensity steps = [step](const SurfacePoint& p) {
+        const StepDensity steps = [step](const SurfacePoint& p, double /*apart*/) {
             return norm(p.dv) / step;
         };
         const StripJudge judge = [&](double u, CurvePlace low, CurvePlace high, double) {

@@ -9,6 +9,7 @@
 #include "host_tools/adaptive_isocurve/mesh_pencil_curves.hpp"
 #include "host_tools/adaptive_isocurve/surface_operation.hpp"
 #include "host_tools/finishing/mesh_scallop_check.hpp"
+#include "host_tools/parallel/parallel.hpp"
 #include "host_tools/toolpath/stepover.hpp"
 
 #include "fmt/format.h"
@@ -137,42 +138,59 @@ private:
         const int rows = std::max(1, static_cast<int>(std::ceil(width_ / row_)));
         const int beyond = static_cast<int>(std::ceil(radius_ / row_));
         std::vector<Strip> strips;
+        std::vector<Cut> cuts;
         for (int k = -beyond; k <= rows + beyond; ++k) {
             const double t = width_ * k / rows;
-            cut(whole(), t);
+            cuts.push_back({whole(), t});
             if (k > -beyond) {
                 strips.push_back({width_ * (k - 1) / rows, t, {whole()}});
             }
-            report(kRowsDone * (k + beyond) / (rows + 2 * beyond));
         }
+        add(cuts);
+        report(kRowsDone);
         while (!strips.empty()) {
-            std::vector<Strip> next;
-            for (const Strip& strip : strips) {
-                halve(strip, next);
-            }
-            strips = std::move(next);
+            strips = halved(strips);
         }
         report(kStripsDone);
     }
 
-    void halve(const Strip& strip, std::vector<Strip>& out)
+    // The halves of strips whose middle misses passes, which are added. Every second strip is looked
+    // at at once: neighbours see each other's passes.
+    std::vector<Strip> halved(const std::vector<Strip>& strips)
     {
-        const double middle = 0.5 * (strip.low + strip.high);
-        if (strip.high - strip.low < kNarrowest * row_) {
-            return;
+        std::vector<std::vector<Range>> missing(strips.size());
+        for (std::size_t first = 0; first < 2; ++first) {
+            parallel::for_each((strips.size() + 1 - first) / 2, [&](std::size_t k) {
+                missing[2 * k + first] = missing_in(strips[2 * k + first]);
+            });
+            std::vector<Cut> cuts;
+            for (std::size_t k = first; k < strips.size(); k += 2) {
+                for (const Range& range : missing[k]) {
+                    cuts.push_back({range, 0.5 * (strips[k].low + strips[k].high)});
+                }
+            }
+            add(cuts);
         }
+        std::vector<Strip> out;
+        for (std::size_t k = 0; k < strips.size(); ++k) {
+            if (!missing[k].empty()) {
+                const double middle = 0.5 * (strips[k].low + strips[k].high);
+                out.push_back({strips[k].low, middle, missing[k]});
+                out.push_back({middle, strips[k].high, missing[k]});
+            }
+        }
+        return out;
+    }
+
+    std::vector<Range> missing_in(const Strip& strip) const
+    {
         std::vector<Range> missing;
-        for (const Range& range : strip.ranges) {
-            find_missing(range, strip, missing);
+        if (strip.high - strip.low >= kNarrowest * row_) {
+            for (const Range& range : strip.ranges) {
+                find_missing(range, strip, missing);
+            }
         }
-        if (missing.empty()) {
-            return;
-        }
-        for (const Range& range : missing) {
-            cut(range, middle);
-        }
-        out.push_back({strip.low, middle, missing});
-        out.push_back({middle, strip.high, missing});
+        return missing;
     }
 
     // The parts of a range, a sample longer, where a pass is missing in the middle of the strip.
@@ -219,9 +237,39 @@ private:
         return low && high && (far(low->centre, high->centre) || far(low->point, high->point));
     }
 
-    // Adds passes along a row where the tool is on the mesh.
-    void cut(const Range& range, double t)
+    // A part of a row.
+    struct Cut {
+        Range range;
+        double t;
+    };
+
+    // Adds passes where the tool is on the mesh.
+    void add(const std::vector<Cut>& cuts)
     {
+        std::vector<std::vector<SurfaceOperation::FittedPass>> passes(cuts.size());
+        parallel::for_each(cuts.size(), [&](std::size_t k) {
+            for (const Range& run : runs_in(cuts[k])) {
+                passes[k].push_back(work_.fitted_pass(work_.path_fitter().sample_dropped(
+                    place(run.from, cuts[k].t), place(run.to, cuts[k].t))));
+            }
+        });
+        for (std::vector<SurfaceOperation::FittedPass>& some : passes) {
+            for (SurfaceOperation::FittedPass& pass : some) {
+                scallop_check_.add(work_.add(std::move(pass)));
+                ++curves_;
+            }
+        }
+    }
+
+    std::vector<Range> runs_in(const Cut& cut) const
+    {
+        const Range& range = cut.range;
+        std::vector<Range> out;
+        const auto close = [&](Range run) {
+            if (run.to - run.from > kShortestRun) {
+                out.push_back(run);
+            }
+        };
         const int samples =
             std::max(1, static_cast<int>(std::ceil((range.to - range.from) / sample_pitch_)));
         bool was_on = false;
@@ -229,18 +277,19 @@ private:
         double last = range.from;
         for (int k = 0; k <= samples; ++k) {
             const double s = range.from + (range.to - range.from) * k / samples;
-            const bool on = drop_at(s, t).has_value();
+            const bool on = drop_at(s, cut.t).has_value();
             if (on && !was_on) {
-                begin = k > 0 ? run_end(last, s, t) : s;
+                begin = k > 0 ? run_end(last, s, cut.t) : s;
             } else if (!on && was_on) {
-                cut_run({begin, run_end(s, last, t)}, t);
+                close({begin, run_end(s, last, cut.t)});
             }
             was_on = on;
             last = s;
         }
         if (was_on) {
-            cut_run({begin, range.to}, t);
+            close({begin, range.to});
         }
+        return out;
     }
 
     double run_end(double outside, double inside, double t) const
@@ -250,14 +299,6 @@ private:
             (drop_at(middle, t) ? inside : outside) = middle;
         }
         return inside;
-    }
-
-    void cut_run(const Range& run, double t)
-    {
-        if (run.to - run.from > kShortestRun) {
-            add_pass(work_.path_fitter().sample_dropped(place(run.from, t), place(run.to, t)));
-            ++curves_;
-        }
     }
 
     void add_pencil_passes()

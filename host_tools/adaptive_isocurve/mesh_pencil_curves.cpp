@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "host_tools/parallel/parallel.hpp"
 #include "host_tools/part_model/cell_chains.hpp"
 
 namespace cusp::adaptive_isocurve {
@@ -46,9 +47,14 @@ public:
                 const double x = (static_cast<double>(i) + 0.37) / static_cast<double>(nx_);
                 const double y = (static_cast<double>(j) + 0.41) / static_cast<double>(ny_);
                 places_.push_back({low.x + (high.x - low.x) * x, low.y + (high.y - low.y) * y});
-                dropped_.push_back(drop_at(places_.back()));
             }
         }
+        dropped_.resize(places_.size());
+        parallel::for_each(nx_, [&](std::size_t i) {
+            for (std::size_t k = i * ny_; k < (i + 1) * ny_; ++k) {
+                dropped_[k] = drop_at(places_[k]);
+            }
+        });
     }
 
     std::vector<Points> curves()

@@ -177,52 +177,73 @@ Points SurfaceOperation::add_pass(const Points& wanted,
                                   const std::optional<Curve>& exact,
                                   const CcParameterList& cc_parameters)
 {
-    const Points dense = path_fitter_->moved_clear_of_edges(wanted);
-    const bool moved = dense != wanted;
-    moved_off_edges_ = moved_off_edges_ || moved;
-    SurfacePass pass;
+    return add(fitted_pass(wanted, exact, cc_parameters));
+}
+
+SurfaceOperation::FittedPass SurfaceOperation::fitted_pass(
+    const Points& wanted,
+    const std::optional<Curve>& exact,
+    const CcParameterList& cc_parameters) const
+{
+    GougeFreePathFitter fitter = *path_fitter_;
+    FittedPass out;
+    const Points dense = fitter.moved_clear_of_edges(wanted);
+    out.moved = dense != wanted;
+    SurfacePass& pass = out.pass;
     if (operation_.output == OutputForm::kNurbs) {
-        pass.curve = !moved && exact && path_fitter_->is_nurbs_clear(*exact)
-                         ? exact
-                         : path_fitter_->fit_nurbs(dense);
+        pass.curve =
+            !out.moved && exact && fitter.is_nurbs_clear(*exact) ? exact : fitter.fit_nurbs(dense);
     }
     if (operation_.output == OutputForm::kArcs) {
         pass.points = dense;
-        pass.points.front() = path_fitter_->raised_clear(dense.front());
-        pass.moves = path_fitter_->fit_arcs(pass.points);
-        if (pass.moves.empty()) {
-            return {};
+        pass.points.front() = fitter.raised_clear(dense.front());
+        pass.moves = fitter.fit_arcs(pass.points);
+        if (!pass.moves.empty()) {
+            pass.points.back() = end_of(pass.moves.back());
         }
-        pass.points.back() = end_of(pass.moves.back());
     } else if (pass.curve) {
         pass.points = dense;
         pass.points.front() = pass.curve->points.front();
         pass.points.back() = pass.curve->points.back();
     } else {
-        pass.points = path_fitter_->fit_lines(dense, moved ? CcParameterList{} : cc_parameters);
+        pass.points = fitter.fit_lines(dense, out.moved ? CcParameterList{} : cc_parameters);
     }
-    if (pass.points.size() < 2) {
-        return {};
+    const bool cuts =
+        pass.points.size() >= 2 && (operation_.output != OutputForm::kArcs || !pass.moves.empty());
+    if (cuts) {
+        out.points = path_of(pass);
     }
-    Points points = path_of(pass);
-    passes_.push_back(std::move(pass));
-    return points;
+    out.least_clearance = fitter.least_clearance();
+    return out;
 }
 
-std::optional<Points> SurfaceOperation::add_clear_pass(const Points& dense,
-                                                       const CcParameterList& cc_parameters)
+Points SurfaceOperation::add(FittedPass fitted)
+{
+    moved_off_edges_ = moved_off_edges_ || fitted.moved;
+    path_fitter_->include_moves_with(fitted.least_clearance);
+    if (!fitted.points.empty()) {
+        passes_.push_back(std::move(fitted.pass));
+    }
+    return std::move(fitted.points);
+}
+
+std::optional<SurfaceOperation::FittedPass> SurfaceOperation::fitted_clear_pass(
+    const Points& dense, const CcParameterList& cc_parameters) const
 {
     if (operation_.output != OutputForm::kLines ||
         path_fitter_->moved_clear_of_edges(dense) != dense) {
         return std::nullopt;
     }
-    std::optional<Points> points = path_fitter_->fit_clear_lines(dense, cc_parameters);
-    if (points) {
-        SurfacePass pass;
-        pass.points = *points;
-        passes_.push_back(std::move(pass));
+    GougeFreePathFitter fitter = *path_fitter_;
+    std::optional<Points> points = fitter.fit_clear_lines(dense, cc_parameters);
+    if (!points) {
+        return std::nullopt;
     }
-    return points;
+    FittedPass out;
+    out.pass.points = *points;
+    out.points = std::move(*points);
+    out.least_clearance = fitter.least_clearance();
+    return out;
 }
 
 Points SurfaceOperation::path_of(const SurfacePass& pass) const

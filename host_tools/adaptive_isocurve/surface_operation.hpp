@@ -30,6 +30,7 @@ public:
     const std::vector<nurbs::Surface>& surfaces() const { return surfaces_; }
     const part_model::PartModel& model() const { return *model_; }
     finishing::GougeFreePathFitter& path_fitter() { return *path_fitter_; }
+    const finishing::GougeFreePathFitter& path_fitter() const { return *path_fitter_; }
 
     // The maximum distance of the path off the surface, mm.
     double outward() const;
@@ -43,10 +44,20 @@ public:
     finishing::Points add_pass(const finishing::Points& wanted,
                                const std::optional<nurbs::Curve>& exact = std::nullopt,
                                const finishing::CcParameterList& cc_parameters = {});
-    // As add_pass(), for output as lines and a tool proved clear all along; otherwise none, and no
-    // pass is added.
-    std::optional<finishing::Points> add_clear_pass(
-        const finishing::Points& dense, const finishing::CcParameterList& cc_parameters);
+    // add_pass() in two steps: several threads may fit, one of them adds.
+    struct FittedPass {
+        finishing::SurfacePass pass;
+        finishing::Points points;  // of the path that will be cut; empty: no pass
+        bool moved{};              // off an edge that the tool would gouge
+        double least_clearance{};
+    };
+    FittedPass fitted_pass(const finishing::Points& wanted,
+                           const std::optional<nurbs::Curve>& exact = std::nullopt,
+                           const finishing::CcParameterList& cc_parameters = {}) const;
+    finishing::Points add(FittedPass fitted);
+    // As fitted_pass(), for output as lines and a tool proved clear all along; otherwise none.
+    std::optional<FittedPass> fitted_clear_pass(
+        const finishing::Points& dense, const finishing::CcParameterList& cc_parameters) const;
     double path_off() const;
     // Whether some pass was moved off an edge that the tool would gouge from the side.
     bool moved_off_edges() const { return moved_off_edges_; }

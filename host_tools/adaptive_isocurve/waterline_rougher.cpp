@@ -15,7 +15,9 @@
 #include "host_tools/clearing/rest_between_tools.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/offset/edge_tree.hpp"
+#include "host_tools/parallel/parallel.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/work_place/work_place.hpp"
 
 #include "fmt/format.h"
 
@@ -47,7 +49,10 @@ using toolpath::Toolpath;
 namespace {
 
 constexpr double kFirst = 2e-3;  // mm from the edge of a slice to the outermost pass
-constexpr double kFit = 1.5e-3;  // mm: tolerance of the edges of slices as lines and arcs
+constexpr std::size_t kLevelsAtOnce = 8;
+constexpr std::size_t kMovesAtOnce = 64;   // proved by one thread
+constexpr std::size_t kProofsAtOnce = 64;  // of these, before cells of the model are forgotten
+constexpr double kFit = 1.5e-3;            // mm: tolerance of the edges of slices as lines and arcs
 // mm: how much more each level keeps off walls than the one above. Without it a level would cut
 // slivers at walls, as wide as the fits of both levels differ.
 constexpr double kTaper = 1e-3;
@@ -95,11 +100,16 @@ public:
              work_.operation.entry, work_.operation.output != OutputForm::kLines, kChord}};
         double above = work_.stock.top;
         const std::vector<double>& heights = work_.depths.heights;
+        std::vector<std::optional<Level>> ahead;  // cleared at once, from `first` on
+        std::size_t first = 0;
         for (std::size_t k = 0; k < heights.size(); ++k) {
             work_.job.report_progress(work_.share_before + work_.share * static_cast<double>(k) /
                                                                static_cast<double>(heights.size()));
-            const std::optional<Level> level = cleared_level(slices, k);
-            work_.model.forget_cells();  // the next level needs cells at other heights
+            if (k == first + ahead.size()) {
+                first = k;
+                ahead = cleared_levels(slices, k);
+            }
+            const std::optional<Level>& level = ahead[k - first];
             if (!level) {
                 break;
             }
@@ -183,6 +193,21 @@ private:
                 out.contours.push_back(std::move(edges));
             }
         }
+        return out;
+    }
+
+    // The next levels.
+    std::vector<std::optional<Level>> cleared_levels(const WaterlineSlices& slices,
+                                                     std::size_t first) const
+    {
+        std::vector<std::optional<Level>> out(
+            std::min(kLevelsAtOnce, work_.depths.heights.size() - first));
+        parallel::for_each(out.size(), [&](std::size_t k) {
+            const work_place::Part part{"roughing level ", static_cast<int>(first + k + 1), ""};
+            work_.model.forget_queries();
+            out[k] = cleared_level(slices, first + k);
+        });
+        work_.model.forget_cells();  // the next levels need cells at other heights
         return out;
     }
 
@@ -319,25 +344,40 @@ private:
     // The least clearance of all moves below the clearance height.
     double least_clearance() const
     {
+        const std::size_t count = result_.planned.path.moves.size();
+        std::vector<double> least((count + kMovesAtOnce - 1) / kMovesAtOnce, kInfinite);
+        for (std::size_t begin = 0; begin < least.size(); begin += kProofsAtOnce) {
+            parallel::for_each(std::min(kProofsAtOnce, least.size() - begin), [&](std::size_t k) {
+                work_.model.forget_queries();
+                const std::size_t first = (begin + k) * kMovesAtOnce;
+                least[begin + k] = least_clearance(first, std::min(count, first + kMovesAtOnce));
+            });
+            work_.model.forget_many_cells();
+        }
+        return *std::min_element(least.begin(), least.end());
+    }
+
+    // That of the moves from number `first` on, up to `last`.
+    double least_clearance(std::size_t first, std::size_t last) const
+    {
+        const std::vector<ToolMove>& moves = result_.planned.path.moves;
         double least = kInfinite;
-        Vec3d at{};
-        bool started = false;
-        for (const ToolMove& move : result_.planned.path.moves) {
-            const Vec3d end = end_of(move);
-            const double sufficient = std::min(least, work_.operation.allowance + 1.0);
-            if (started &&
-                std::min(at.z, end.z) < work_.model.box_high().z + work_.operation.allowance) {
-                Vec3d from = at;
-                for (const Vec3d& to : points_of(move, at, kChord)) {
-                    const double bow = std::holds_alternative<LineTo>(move.shape) ? 0 : kChord;
-                    least = std::min(least, work_.model.move_clearance(
-                                                tool_, from, to, sufficient + bow, kProofStep) -
-                                                bow);
-                    from = to;
-                }
+        for (std::size_t k = std::max<std::size_t>(1, first); k < last; ++k) {
+            const ToolMove& move = moves[k];
+            const Vec3d at = end_of(moves[k - 1]);
+            if (std::min(at.z, end_of(move).z) >=
+                work_.model.box_high().z + work_.operation.allowance) {
+                continue;
             }
-            at = end;
-            started = true;
+            const double sufficient = std::min(least, work_.operation.allowance + 1.0);
+            const double bow = std::holds_alternative<LineTo>(move.shape) ? 0 : kChord;
+            Vec3d from = at;
+            for (const Vec3d& to : points_of(move, at, kChord)) {
+                least = std::min(least, work_.model.move_clearance(tool_, from, to,
+                                                                   sufficient + bow, kProofStep) -
+                                            bow);
+                from = to;
+            }
         }
         return least;
     }

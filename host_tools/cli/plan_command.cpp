@@ -7,10 +7,12 @@
 #include "host_tools/cli/one_line_options.hpp"
 #include "host_tools/cli/plan_program.hpp"
 #include "host_tools/cli/plan_statistics.hpp"
+#include "host_tools/cli/resource_options.hpp"
 #include "host_tools/import/import.hpp"
 #include "host_tools/import/part_files.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/job/job.hpp"
+#include "host_tools/work_place/work_place.hpp"
 
 #include "CLI/CLI.hpp"
 #include "fmt/format.h"
@@ -27,6 +29,7 @@ namespace {
 struct PlanOptions {
     PlanCall call;
     PlanOutput output;
+    Resources resources;
 };
 
 // Builds the job from parts and options, prints it, and reads it as if it were a file.
@@ -50,6 +53,8 @@ int run_plan(PlanOptions& options)
     if (options.output.program.empty() && !call.print_job) {
         throw InputError("plan: -o is required: the G-code to write, such as -o part.ngc");
     }
+    apply(options.resources);
+    work_place::set_work("reading " + call.job_name());
     // the standard output of --print-job is the job alone
     options.output.said = call.print_job ? stderr : stdout;
     Job job = call.is_one_line() ? one_line_job_of(options) : read_job(call.files.front());
@@ -106,6 +111,7 @@ void add_plan_command(CLI::App& app, Work& work)
                      "let the controller round corners by this much, in the job's units (G64 P); "
                      "default: the exact path (G61)")
         ->check(CLI::NonNegativeNumber);
+    add_resource_options(*command, options->resources);
     add_one_line_options(*command, options->call);
     command->callback([&work, command, options] {
         work = [command, options] {

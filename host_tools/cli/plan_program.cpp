@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
+#include <mutex>
 #include <sstream>
 
 #include "host_tools/cli/share_progress.hpp"
@@ -13,6 +15,7 @@
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/toolpath/gcode_writer.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
+#include "host_tools/work_place/work_place.hpp"
 
 #include "fmt/format.h"
 #include "fmt/ranges.h"
@@ -22,6 +25,7 @@ namespace cusp::cli {
 
 using files::write_text;
 using job::Job;
+using job::kRoughingDone;
 using job::Operation;
 using job::PocketRefusal;
 using toolpath::MachineRates;
@@ -35,6 +39,28 @@ double seconds_since(std::chrono::steady_clock::time_point begin)
 {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
+
+// Roughing and finish are planned at once, by two threads that report shares of the same operation.
+class PartsProgress {
+public:
+    PartsProgress(bool roughs, double quiet_s) : roughs_{roughs}, shown_{"planning", quiet_s} {}
+
+    void operator()(double share)
+    {
+        const std::lock_guard lock{guard_};
+        double& part = roughs_ && share <= kRoughingDone ? rough_ : finish_;
+        part = std::max(part, share);
+        const double begun = roughs_ ? kRoughingDone : 0.0;
+        shown_(share >= 1 ? 1.0 : rough_ + std::max(0.0, finish_ - begun));
+    }
+
+private:
+    std::mutex guard_;
+    bool roughs_;
+    double rough_{};
+    double finish_{};
+    ShareProgress shown_;
+};
 
 // Leaves out pockets that the tool does not fit into, where a drawing has several.
 std::vector<PlannedOperation> planned(const Job& job, const Operation& operation, Plan& plan)
@@ -65,7 +91,12 @@ Plan plan_job(Job& job, const MachineRates& rates, std::FILE* said)
                    operation.strategy);
         std::fflush(said);
         const auto begin = std::chrono::steady_clock::now();
-        job.progress = ShareProgress{"planning", kQuiet};
+        work_place::set_work(fmt::format("planning operation {} of {} ({}) of {}", i + 1,
+                                         job.operations.size(), operation.strategy, job.file));
+        const auto progress = std::make_shared<PartsProgress>(operation.roughing, kQuiet);
+        job.progress = [progress](double share) {
+            (*progress)(share);
+        };
         std::vector<PlannedOperation> results = planned(job, operation, plan);
         job.report_progress(1.0);
         const double seconds = seconds_since(begin) / static_cast<double>(results.size());
@@ -101,6 +132,7 @@ void put_simulated_times(const std::string& program,
         return;
     }
     constexpr double kQuiet = 2.0;  // s
+    work_place::set_work("timing the program");
     const ShareProgress timing{"timing", kQuiet};
     if (const auto seconds = simulated_times(program, begins, timing)) {
         for (std::size_t i = 0; i < plan.measures.size(); ++i) {
@@ -130,6 +162,7 @@ void write_plan(const Job& job,
                 const PlanOutput& output,
                 const Plan& plan)
 {
+    const work_place::FinishOutput finish;
     write_text(output.program, program);
     if (!output.stats.empty()) {
         nlohmann::ordered_json about{

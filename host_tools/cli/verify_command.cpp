@@ -2,9 +2,11 @@
 #include <memory>
 
 #include "host_tools/cli/commands.hpp"
+#include "host_tools/cli/resource_options.hpp"
 #include "host_tools/cli/verify_program.hpp"
 #include "host_tools/import/import.hpp"
 #include "host_tools/job/job.hpp"
+#include "host_tools/work_place/work_place.hpp"
 
 #include "CLI/CLI.hpp"
 #include "fmt/format.h"
@@ -23,10 +25,13 @@ struct VerifyOptions {
     VerifyOutput output;
     double pitch{};
     double spacing{};
+    Resources resources;
 };
 
 int run_verify(const VerifyOptions& options)
 {
+    apply(options.resources);
+    work_place::set_work("reading " + options.job);
     VerifySettings settings;
     if (options.pitch > 0) {
         settings.pitch = options.pitch;
@@ -66,6 +71,7 @@ void add_verify_command(CLI::App& app, Work& work)
                         "picture to write (SVG): the path from above, coloured by height");
     command->add_option("--left-picture", options->output.left_picture,
                         "picture to write (SVG): the material left above the floor");
+    add_resource_options(*command, options->resources);
     command->callback([&work, options] {
         work = [options] {
             return run_verify(*options);

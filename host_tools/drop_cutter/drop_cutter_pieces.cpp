@@ -111,7 +111,7 @@ DropCutter::State::State(const std::vector<Surface>& surfaces, const Tool& tool,
 // floor. Pieces are halved again when a later query needs them.
 void DropCutter::State::forget_many_halves()
 {
-    constexpr std::size_t kMostHalves = 100000;  // some 50 MB
+    constexpr std::size_t kMostHalves = 40000;  // some 20 MB
     if (pieces_.size() < whole_.pieces.size() + kMostHalves) {
         return;
     }

@@ -99,8 +99,13 @@ GougeFreePathFitter::GougeFreePathFitter(const PartModel& model,
 void GougeFreePathFitter::check_edge_gouges(const std::vector<Surface>& surfaces)
 {
     if (band_.max_gouge > 0) {
-        edges_.emplace(surfaces, tool_.radius, band_.max_gouge);
+        edges_ = std::make_shared<EdgeGougeCheck>(surfaces, tool_.radius, band_.max_gouge);
     }
+}
+
+void GougeFreePathFitter::include_moves_with(double least_clearance)
+{
+    least_clearance_ = std::min(least_clearance_, least_clearance);
 }
 
 Points GougeFreePathFitter::moved_clear_of_edges(const Points& dense) const

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -40,7 +41,7 @@ struct CcParameters {
 };
 using CcParameterList = std::vector<CcParameters>;  // one per dense point; empty: none is known
 
-// Not for use by two threads at once: the model caches cells found by queries.
+// Not for use by two threads at once, const members aside; copies are cheap.
 class GougeFreePathFitter {
 public:
     GougeFreePathFitter(const part_model::PartModel& model,
@@ -130,6 +131,8 @@ public:
 
     // The least clearance (mm) proved for all moves returned; negative: a gouge within the band.
     double least_clearance() const { return least_clearance_; }
+    // Includes moves that a copy returned, by its least_clearance().
+    void include_moves_with(double least_clearance);
 
 private:
     bool is_arc_clear(Vec3d start, const toolpath::ToolMove& arc);
@@ -145,7 +148,7 @@ private:
     toolpath::Tool tool_;
     toolpath::Tool offset_tool_;
     ToleranceBand band_;
-    std::optional<part_model::EdgeGougeCheck> edges_;
+    std::shared_ptr<const part_model::EdgeGougeCheck> edges_;
     double least_clearance_{};
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/parallel/parallel.hpp"
 #include "host_tools/part_model/facet_distance.hpp"
 
 namespace cusp::finishing {
@@ -18,6 +19,9 @@ constexpr double kLargestFacet = 2;          // the same
 constexpr int kFacetRounds = 5;
 constexpr int kFacetHalvings = 60;
 constexpr std::size_t kMostGaps = 300000;
+constexpr std::size_t kShares = 64;  // of a search on several threads
+constexpr double kSharedFacet = 16;  // in steps: larger ones are divided before they are shared
+constexpr int kFacetSharedHalvings = 24;
 constexpr int kWaysAround = 12;
 constexpr double kFallsOff = 0.5;  // radii
 
@@ -46,10 +50,7 @@ bool MeshScallopCheck::is_hidden(Vec3d point) const
 
 MeshScallopCheck::Verdict MeshScallopCheck::judge(const Cell& cell) const
 {
-    double longest = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        longest = std::max(longest, norm(cell.corners[(k + 1) % 3] - cell.corners[k]));
-    }
+    const double longest = longest_side(cell.corners).length;
     if (longest > kLargestFacet * step()) {
         return Verdict::kHalve;
     }
@@ -170,26 +171,96 @@ void MeshScallopCheck::check_cell(const Cell& cell, int depth)
         }
         return;
     }
-    const std::array<Vec3d, 3>& at = cell.corners;
-    std::size_t side = 0;
-    for (std::size_t k = 1; k < 3; ++k) {
-        if (norm(at[(k + 1) % 3] - at[k]) > norm(at[(side + 1) % 3] - at[side])) {
-            side = k;
+    for (const Cell& half : halves_of(cell, longest_side(cell.corners).side)) {
+        check_cell(half, depth - 1);
+    }
+}
+
+MeshScallopCheck::LongSide MeshScallopCheck::longest_side(const std::array<Vec3d, 3>& corners)
+{
+    LongSide out{0, 0};
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double length = norm(corners[(k + 1) % 3] - corners[k]);
+        if (k == 0 || length > out.length) {
+            out = {length, k};
         }
     }
+    return out;
+}
+
+std::array<MeshScallopCheck::Cell, 2> MeshScallopCheck::halves_of(const Cell& cell,
+                                                                  std::size_t side)
+{
+    const std::array<Vec3d, 3>& at = cell.corners;
     const Vec3d half = (at[side] + at[(side + 1) % 3]) * 0.5;
     const Vec3d across = at[(side + 2) % 3];
-    check_cell({{at[side], half, across}, cell.normal}, depth - 1);
-    check_cell({{half, at[(side + 1) % 3], across}, cell.normal}, depth - 1);
+    return {Cell{{at[side], half, across}, cell.normal},
+            Cell{{half, at[(side + 1) % 3], across}, cell.normal}};
+}
+
+// Cells that several threads share must not be too large for one.
+void MeshScallopCheck::divide(const Cell& cell, int depth, std::vector<Cell>& out) const
+{
+    const LongSide longest = longest_side(cell.corners);
+    if (depth == 0 || longest.length <= kSharedFacet * step()) {
+        out.push_back(cell);
+        return;
+    }
+    for (const Cell& half : halves_of(cell, longest.side)) {
+        divide(half, depth - 1, out);
+    }
+}
+
+MeshScallopCheck::MeshScallopCheck(const MeshScallopCheck& other, ForThread /*tag*/)
+    : triangles_{other.triangles_},
+      path_fitter_{other.path_fitter_},
+      scallop_{other.scallop_},
+      path_off_{other.path_off_},
+      places_{other.places_},
+      checking_{other.checking_}
+{
+}
+
+void MeshScallopCheck::share_out(
+    std::size_t count, const std::function<void(MeshScallopCheck&, std::size_t)>& work) const
+{
+    const std::size_t shares = std::min(count, kShares);
+    parallel::for_each(shares, [&](std::size_t share) {
+        MeshScallopCheck copy{*this, ForThread{}};
+        for (std::size_t k = count * share / shares; k < count * (share + 1) / shares; ++k) {
+            work(copy, k);
+        }
+    });
 }
 
 void MeshScallopCheck::check()
 {
     checking_ = true;
+    std::vector<Cell> cells;
     for (const auto& corners : triangles_) {
         const Facet facet{corners};
         if (!is_upright(corners, facet.normal)) {
-            check_cell({corners, facet.normal}, kFacetHalvings);
+            divide({corners, facet.normal}, kFacetSharedHalvings, cells);
+        }
+    }
+    struct Finding {
+        std::vector<Cell> uncovered;
+        double blocked_area;
+        bool overflowed;
+    };
+    std::vector<Finding> found(cells.size());
+    share_out(cells.size(), [&](MeshScallopCheck& copy, std::size_t k) {
+        copy.blocked_area_ = 0;
+        copy.check_cell(cells[k], kFacetHalvings);
+        found[k] = {std::move(copy.uncovered_), copy.blocked_area_, copy.overflowed_};
+        copy.uncovered_.clear();
+    });
+    for (const Finding& finding : found) {
+        blocked_area_ += finding.blocked_area;
+        overflowed_ = overflowed_ || finding.overflowed ||
+                      uncovered_.size() + finding.uncovered.size() > kMostGaps;
+        if (!overflowed_) {
+            uncovered_.insert(uncovered_.end(), finding.uncovered.begin(), finding.uncovered.end());
         }
     }
     checking_ = false;
@@ -294,8 +365,15 @@ void MeshScallopCheck::add_missing_passes(const std::function<void(const Points&
         const std::vector<Cell> open = std::move(uncovered_);
         uncovered_.clear();
         std::vector<Cell> changed;
+        // Passes cut meanwhile only lower the stock: what misses none now misses none later.
+        std::vector<char> missing(open.size());
+        share_out(open.size(), [&](const MeshScallopCheck& copy, std::size_t k) {
+            missing[k] = copy.uncovered_point(open[k]).has_value() ? 1 : 0;
+        });
         for (const Cell& cell : open) {
-            const std::optional<Place> place = uncovered_point(cell);
+            const std::size_t number = static_cast<std::size_t>(&cell - open.data());
+            const std::optional<Place> place =
+                missing[number] != 0 ? uncovered_point(cell) : std::nullopt;
             if (!place) {
                 continue;
             }
@@ -314,18 +392,30 @@ void MeshScallopCheck::add_missing_passes(const std::function<void(const Points&
             check_cell(cell, kFacetHalvings / 6);
         }
     }
-    const auto met = [&](const Cell& cell) {
-        return !uncovered_point(cell).has_value();
-    };
-    uncovered_.erase(std::remove_if(uncovered_.begin(), uncovered_.end(), met), uncovered_.end());
-    for (const Cell& cell : uncovered_) {
-        if (const std::optional<Place> place = uncovered_point(cell)) {
-            const double left = place->normal.z < kUprightNormal
-                                    ? left_beside(*place)
-                                    : places_.uncut_at(place->point, place->normal, 0).reachable;
-            most_left_ = std::max(most_left_, left);
+    std::vector<double> left(uncovered_.size());
+    share_out(uncovered_.size(), [&](const MeshScallopCheck& copy, std::size_t k) {
+        left[k] = copy.left_over(uncovered_[k]);
+    });
+    std::vector<Cell> kept;
+    for (std::size_t k = 0; k < left.size(); ++k) {
+        if (left[k] >= 0) {
+            kept.push_back(uncovered_[k]);
+            most_left_ = std::max(most_left_, left[k]);
         }
     }
+    uncovered_ = std::move(kept);
+}
+
+// mm: the stock left where a pass is missing, above what the tool can reach; negative: none is.
+double MeshScallopCheck::left_over(const Cell& cell) const
+{
+    const std::optional<Place> place = uncovered_point(cell);
+    if (!place) {
+        return -1;
+    }
+    return place->normal.z < kUprightNormal
+               ? left_beside(*place)
+               : places_.uncut_at(place->point, place->normal, 0).reachable;
 }
 
 }  // namespace cusp::finishing

@@ -19,7 +19,8 @@ namespace cusp::finishing {
 // Over a steep facet the stock may be high and still thin: it counts as thick as it is vertically,
 // multiplied by the cosine of the slope, or as it is along the normal, whichever is less.
 //
-// Not for use by two threads at once.
+// Not for use by two threads at once. Long searches run on several, each with a copy that shares the
+// passes; which copy looks at which cell does not depend on the number of threads.
 class MeshScallopCheck {
 public:
     // path_fitter  of passes over the mesh of `triangles`
@@ -75,6 +76,21 @@ private:
     // kSettled: the tool cannot touch it and has no lower position over it.
     enum class Verdict : std::uint8_t { kCovered, kHalve, kBlocked, kSettled, kUncovered };
 
+    // A copy for another thread: without cells, with the passes of this one.
+    struct ForThread {};
+    MeshScallopCheck(const MeshScallopCheck& other, ForThread tag);
+    // Calls work(copy, k) for each k below count, on several threads.
+    void share_out(std::size_t count,
+                   const std::function<void(MeshScallopCheck&, std::size_t)>& work) const;
+    // The longest side of a triangle and its number.
+    struct LongSide {
+        double length;
+        std::size_t side;
+    };
+    static LongSide longest_side(const std::array<Vec3d, 3>& corners);
+    static std::array<Cell, 2> halves_of(const Cell& cell, std::size_t side);
+    void divide(const Cell& cell, int depth, std::vector<Cell>& out) const;
+    double left_over(const Cell& cell) const;
     void check_cell(const Cell& cell, int depth);
     Verdict judge(const Cell& cell) const;
     Verdict judge_steep(const Cell& cell, double longest) const;

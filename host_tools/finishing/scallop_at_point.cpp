@@ -38,18 +38,25 @@ ScallopAtPoint::ScallopAtPoint(const std::vector<Surface>& surfaces,
                                const GougeFreePathFitter& path_fitter,
                                double scallop,
                                double path_off)
-    : path_fitter_{path_fitter},
+    : surfaces_{surfaces},
+      path_fitter_{path_fitter},
       radius_{path_fitter.tool().radius},
       scallop_{scallop},
       path_off_{path_off},
       step_{std::sqrt(8 * radius_ * scallop)},
-      swept_{radius_, 0.6 * step_},
+      swept_{std::make_shared<SweptVolume>(radius_, 0.6 * step_)},
       accuracy_{std::clamp(kDropAccuracy, kLeastDropShare * scallop, kMostDropShare * scallop)},
       reach_{surfaces, path_fitter, std::max(kReachStep * step_, kReachPitch * radius_), accuracy_}
 {
     if (surfaces.empty()) {
         lower_position_.emplace(path_fitter, std::max(kReachStep * step_, kReachPitch * radius_));
     }
+}
+
+ScallopAtPoint::ScallopAtPoint(const ScallopAtPoint& other)
+    : ScallopAtPoint{other.surfaces_, other.path_fitter_, other.scallop_, other.path_off_}
+{
+    swept_ = other.swept_;
 }
 
 Vec3d ScallopAtPoint::touching_tip(Vec3d point, Vec3d normal) const
@@ -61,9 +68,9 @@ bool ScallopAtPoint::is_covered(Vec3d point, Vec3d normal, double share) const
 {
     const double allowed = scallop_ * share;
     const Vec3d top = raised(point, normal, allowed, normal.z >= kSteepNormal);
-    swept_.near(centre_under(top, normal, allowed, radius_), near_);
+    swept_->near(centre_under(top, normal, allowed, radius_), near_);
     return std::any_of(near_.begin(), near_.end(),
-                       [&](std::uint32_t move) { return swept_.removes(move, top, path_off_); });
+                       [&](std::uint32_t move) { return swept_->removes(move, top, path_off_); });
 }
 
 // Fast test whether some ball removes more than a share of the scallop, within the resolution of
@@ -109,7 +116,7 @@ ScallopAtPoint::LowerTip ScallopAtPoint::searched(Vec3d point,
 
 ScallopAtPoint::LowerTip ScallopAtPoint::lower_tip(Vec3d point, Vec3d normal, double share) const
 {
-    const SweptVolume::Lowest now = swept_.lowest(point.x, point.y);
+    const SweptVolume::Lowest now = swept_->lowest(point.x, point.y);
     return quick_verdict(point, normal, share, now) == LowerPositionProof::Verdict::kNone
                ? LowerTip{}
                : searched(point, normal, share, now);
@@ -124,13 +131,13 @@ std::optional<ReachableHeight::Position> ScallopAtPoint::lowest_below(Vec3d poin
 
 bool ScallopAtPoint::has_no_lower_tip(Vec3d point, Vec3d normal) const
 {
-    return quick_verdict(point, normal, 1, swept_.lowest(point.x, point.y)) ==
+    return quick_verdict(point, normal, 1, swept_->lowest(point.x, point.y)) ==
            LowerPositionProof::Verdict::kNone;
 }
 
 bool ScallopAtPoint::settled(Vec3d point, Vec3d normal) const
 {
-    const SweptVolume::Lowest now = swept_.lowest(point.x, point.y);
+    const SweptVolume::Lowest now = swept_->lowest(point.x, point.y);
     const LowerPositionProof::Verdict quick = quick_verdict(point, normal, kSettledShare, now);
     if (quick != LowerPositionProof::Verdict::kUnknown) {
         return quick == LowerPositionProof::Verdict::kNone;
@@ -141,7 +148,7 @@ bool ScallopAtPoint::settled(Vec3d point, Vec3d normal) const
 
 ScallopAtPoint::Uncut ScallopAtPoint::uncut_at(Vec3d point, Vec3d normal, double resolution) const
 {
-    const SweptVolume::Lowest now = swept_.lowest(point.x, point.y);
+    const SweptVolume::Lowest now = swept_->lowest(point.x, point.y);
     if (!std::isfinite(now.height)) {
         return {radius_, 0};
     }

@@ -2,6 +2,7 @@
 // remove it.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -50,11 +51,15 @@ public:
                    const GougeFreePathFitter& path_fitter,
                    double scallop,
                    double path_off);
+    // Shares the passes with the other, of which only one may add; searches on its own, so that two
+    // threads may use one each while none is added.
+    ScallopAtPoint(const ScallopAtPoint& other);
+    ScallopAtPoint& operator=(const ScallopAtPoint&) = delete;
 
     // A pass that will be cut, by its tips.
-    void add(const Points& tips) { swept_.add(tips); }
+    void add(const Points& tips) { swept_->add(tips); }
 
-    const SweptVolume& swept() const { return swept_; }
+    const SweptVolume& swept() const { return *swept_; }
 
     // mm: stepover on level ground that leaves the scallop.
     double step() const { return step_; }
@@ -109,12 +114,13 @@ private:
                       double share,
                       const SweptVolume::Lowest& now) const;
 
+    const std::vector<nurbs::Surface>& surfaces_;
     const GougeFreePathFitter& path_fitter_;
     double radius_;
     double scallop_;
     double path_off_;
     double step_;
-    SweptVolume swept_;
+    std::shared_ptr<SweptVolume> swept_;
     double accuracy_;  // mm: how much too high drops may be
     mutable ReachableHeight reach_;
     mutable std::optional<LowerPositionProof> lower_position_;  // over a mesh

@@ -23,7 +23,6 @@ constexpr double kSteepCell = 0.04;   // smallest where the stock left has a ste
 constexpr double kGapCell = 0.125;    // smallest below a gap between surfaces
 // Share of the scallop: a step between corners so high is steep.
 constexpr double kSteepShare = 4.0;
-constexpr int kDeepest = 40;
 constexpr double kBorderSlack = 1e-6;  // of a surface's domain
 
 double largest(const std::array<double, 4>& of) { return *std::max_element(of.begin(), of.end()); }
@@ -342,10 +341,10 @@ bool ScallopCheck::silhouette_above(const std::array<Corner, 4>& at) const
 
 const VisibilityFromAbove& ScallopCheck::visibility() const
 {
-    if (!visibility_) {
-        visibility_.emplace(surfaces_, path_fitter_, kBlockedCell * places_.step());
-    }
-    return *visibility_;
+    std::call_once(visibility_->made, [&] {
+        visibility_->value.emplace(surfaces_, path_fitter_, kBlockedCell * places_.step());
+    });
+    return *visibility_->value;
 }
 
 void ScallopCheck::check_cell(const Cell& cell, const std::array<Corner, 4>& at, int depth)
@@ -388,25 +387,37 @@ void ScallopCheck::check(int surface)
 
 void ScallopCheck::check(int surface, Vec2d low, Vec2d high)
 {
-    if (!has_checked_) {
-        for (const Points& tips : waiting_) {
-            places_.add(tips);
-        }
-        waiting_.clear();
-        has_checked_ = true;
+    take_waiting();
+    for (const Cell& cell : cells_of(surface, low, high)) {
+        path_fitter_.model().forget_many_cells();
+        check_cell(cell, corners_of(cell), kDeepestCheck);
     }
+}
+
+void ScallopCheck::take_waiting()
+{
+    for (const Points& tips : waiting_) {
+        places_.add(tips);
+    }
+    waiting_.clear();
+    has_checked_ = true;
+}
+
+// Between knots.
+std::vector<ScallopCheck::Cell> ScallopCheck::cells_of(int surface, Vec2d low, Vec2d high) const
+{
     const Surface& s = surfaces_[static_cast<std::size_t>(surface)];
     const std::vector<double> us =
         knots_between(s.knots_u, std::max(low.x, s.u_begin()), std::min(high.x, s.u_end()));
     const std::vector<double> vs =
         knots_between(s.knots_v, std::max(low.y, s.v_begin()), std::min(high.y, s.v_end()));
+    std::vector<Cell> out;
     for (std::size_t i = 1; i < us.size(); ++i) {
         for (std::size_t j = 1; j < vs.size(); ++j) {
-            const Cell cell{surface, us[i - 1], us[i], vs[j - 1], vs[j]};
-            path_fitter_.model().forget_many_cells();
-            check_cell(cell, corners_of(cell), kDeepest);
+            out.push_back({surface, us[i - 1], us[i], vs[j - 1], vs[j]});
         }
     }
+    return out;
 }
 
 ScallopCheck::Unproved ScallopCheck::unproved()

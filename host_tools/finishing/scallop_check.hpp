@@ -4,6 +4,8 @@
 
 #include <array>
 #include <functional>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -24,7 +26,8 @@ namespace cusp::finishing {
 // The deviation from flat is twice that by the second derivatives at the corners. Points that the
 // tool cannot touch are checked a quarter of a stepover apart; nothing is proved between them.
 //
-// Not for use by two threads at once.
+// Not for use by two threads at once. Long searches run on several, each with a copy that shares the
+// passes; which copy looks at which cell does not depend on the number of threads.
 class ScallopCheck {
 public:
     // scallop    mm: allowed height of uncut stock
@@ -41,6 +44,10 @@ public:
 
     // Checks one surface. Uncovered cells are kept for add_missing_passes().
     void check(int surface);
+    // Checks all surfaces.
+    //
+    // progress  called with about the share that is done
+    void check_all(const std::function<void(double)>& progress);
     // Checks a rectangle of the surface's domain.
     void check(int surface, Vec2d low, Vec2d high);
 
@@ -84,6 +91,7 @@ public:
     double left_beside_edges() const { return left_beside_edges_; }
 
 private:
+    static constexpr int kDeepestCheck = 40;  // halvings of a cell
     struct Place {
         double u;
         double v;
@@ -107,6 +115,31 @@ private:
         double least_z;         // of the normals
     };
     enum class Verdict : std::uint8_t { kCovered, kHalveU, kHalveV, kUncovered };
+    // What a cell without a missing pass, or with one, was found to be.
+    struct CellFinding {
+        bool missing{};         // a pass is
+        bool moved_clear{};     // some tip was rejected since it would gouge an edge
+        double left{};          // mm: over the reachable, where a pass is missing
+        double beside_edges{};  // mm
+    };
+    struct SharedVisibility {
+        std::once_flag made;
+        std::optional<VisibilityFromAbove> value;
+    };
+
+    // A copy for another thread: without cells, with the passes of this one.
+    struct ForThread {};
+    ScallopCheck(const ScallopCheck& other, ForThread tag);
+    // Calls work(copy, k) for each k below count, on several threads.
+    void share_out(std::size_t count,
+                   std::size_t at_once,
+                   const std::function<void(ScallopCheck&, std::size_t)>& work,
+                   const std::function<void(double)>& progress);
+    std::vector<CellFinding> findings_of(const std::vector<Cell>& cells, bool measure);
+    void measure_left(std::vector<Cell>& beside_edges);
+    void take_waiting();
+    std::vector<Cell> cells_of(int surface, Vec2d low, Vec2d high) const;
+    void divide(const Cell& cell, int depth, std::vector<Cell>& out) const;
 
     Corner corner(int surface, double u, double v) const;
     bool inside_trims(int surface, double u, double v) const;
@@ -163,7 +196,8 @@ private:
     ScallopAtPoint places_;
     std::vector<Points> waiting_;  // passes added before the first check
     bool has_checked_{};
-    mutable std::optional<VisibilityFromAbove> visibility_;  // made when first needed
+    std::shared_ptr<SharedVisibility> visibility_{std::make_shared<SharedVisibility>()};
+    std::vector<std::unique_ptr<ScallopCheck>> copies_;
     std::vector<Cell> uncovered_;
     double most_left_{};
     double left_beside_edges_{};

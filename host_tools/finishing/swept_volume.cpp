@@ -174,21 +174,20 @@ std::optional<double> SweptVolume::lowest_share(const Move& move, double x, doub
 void SweptVolume::try_move(std::uint32_t number, double x, double y, Lowest& best) const
 {
     const Move& move = moves_[number];
-    if (std::min(move.from.z, move.to.z) - radius_ >= best.height) {
+    if (std::min(move.from.z, move.to.z) - radius_ > best.height) {
         return;
     }
     if (const std::optional<double> share = lowest_share(move, x, y)) {
         const Vec3d c = move.from + (move.to - move.from) * *share;
         const double square = radius_ * radius_ - (c.x - x) * (c.x - x) - (c.y - y) * (c.y - y);
         const double height = c.z - std::sqrt(std::max(0.0, square));
-        if (height < best.height) {
-            best = {height, c};
-            last_ = number;
+        if (height < best.height || (height == best.height && number < best.move)) {
+            best = {height, c, number};
         }
     }
 }
 
-// Whether a ball with its centre over a square, not below `low`, may cut lower than `than` at `at`.
+// Whether a ball with its centre over a square, not below `low`, may cut as low as `than` at `at`.
 bool SweptVolume::may_be_lower(double low, Vec2d corner, double side, Vec2d at, double than) const
 {
     const double max_error = kCutCorner * pitch_;
@@ -199,12 +198,12 @@ bool SweptVolume::may_be_lower(double low, Vec2d corner, double side, Vec2d at, 
     const double x = beside(corner.x, at.x);
     const double y = beside(corner.y, at.y);
     const double square = radius_ * radius_ - x * x - y * y;
-    return square >= 0 && low - std::sqrt(square) < than;
+    return square >= 0 && low < kInfinite && low - std::sqrt(square) <= than;
 }
 
 SweptVolume::Lowest SweptVolume::lowest(double x, double y) const
 {
-    Lowest best{kInfinite, {}};
+    Lowest best{kInfinite, {}, 0};
     if (moves_.empty()) {
         return best;
     }
@@ -236,6 +235,9 @@ SweptVolume::Lowest SweptVolume::lowest(double x, double y) const
                 look_into(block->second, i * kBlock, j * kBlock);
             }
         }
+    }
+    if (std::isfinite(best.height)) {
+        last_ = best.move;
     }
     return best;
 }

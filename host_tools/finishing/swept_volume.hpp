@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <optional>
 #include <unordered_map>
@@ -46,6 +47,7 @@ public:
     struct Lowest {
         double height;
         Vec3d centre;
+        std::uint32_t move;  // of several the first
     };
     Lowest lowest(double x, double y) const;
 
@@ -75,7 +77,8 @@ private:
     double pitch_;
     std::vector<Move> moves_;
     std::unordered_map<Key, Block> blocks_;
-    mutable std::uint32_t last_{};  // the lowest move of the last query: usually low here too
+    // The lowest move of the last query: usually low here too.
+    mutable std::atomic<std::uint32_t> last_{0};
 };
 
 }  // namespace cusp::finishing

@@ -196,7 +196,7 @@ void halve(const T* from, T* lower, T* upper, std::size_t count, std::size_t str
 
 }  // namespace
 
-BezierCell::BezierCell(const BezierPatch& patch, int surface, std::size_t* made)
+BezierCell::BezierCell(const BezierPatch& patch, int surface, std::atomic<std::size_t>* made)
     : surface_{surface},
       made_{made},
       count_s_{static_cast<std::size_t>(patch.surface.size_u)},
@@ -334,50 +334,83 @@ SurfacePoint BezierCell::at_any_degree(double s, double t) const
 
 std::array<const BezierCell*, 2> BezierCell::halves() const
 {
-    if (!halves_[0]) {
-        std::array<std::unique_ptr<BezierCell>, 2> half;
-        const bool across_u = norm(middle_.du) >= norm(middle_.dv);
-        for (std::size_t k = 0; k < 2; ++k) {
-            half[k].reset(new BezierCell);
-            half[k]->surface_ = surface_;
-            half[k]->made_ = made_;
-            half[k]->count_s_ = count_s_;
-            half[k]->count_t_ = count_t_;
-            half[k]->points_.resize(points_.size());
-            half[k]->weights_.resize(weights_.size());
-            const double u_middle = 0.5 * (u_begin_ + u_end_);
-            const double v_middle = 0.5 * (v_begin_ + v_end_);
-            half[k]->u_begin_ = across_u && k == 1 ? u_middle : u_begin_;
-            half[k]->u_end_ = across_u && k == 0 ? u_middle : u_end_;
-            half[k]->v_begin_ = !across_u && k == 1 ? v_middle : v_begin_;
-            half[k]->v_end_ = !across_u && k == 0 ? v_middle : v_end_;
-            half[k]->first_u_ = first_u_ && !(across_u && k == 1);
-            half[k]->last_u_ = last_u_ && !(across_u && k == 0);
-            half[k]->first_v_ = first_v_ && (across_u || k == 0);
-            half[k]->last_v_ = last_v_ && (across_u || k == 1);
-            half[k]->trim_ = trim_ == Trim::kCut ? Trim::kUnknown : trim_;
-        }
-        const std::size_t lines = across_u ? count_t_ : count_s_;
-        const std::size_t count = across_u ? count_s_ : count_t_;
-        const std::size_t stride = across_u ? count_t_ : 1;
-        for (std::size_t line = 0; line < lines; ++line) {
-            const std::size_t first = across_u ? line : line * count_t_;
-            halve(&points_[first], &half[0]->points_[first], &half[1]->points_[first], count,
+    if (const Halves* known = halves_) {
+        return {(*known)[0].get(), (*known)[1].get()};
+    }
+    std::array<std::unique_ptr<BezierCell>, 2> half;
+    const Trim trim = trim_;
+    const bool across_u = norm(middle_.du) >= norm(middle_.dv);
+    for (std::size_t k = 0; k < 2; ++k) {
+        half[k].reset(new BezierCell);
+        half[k]->surface_ = surface_;
+        half[k]->made_ = made_;
+        half[k]->count_s_ = count_s_;
+        half[k]->count_t_ = count_t_;
+        half[k]->points_.resize(points_.size());
+        half[k]->weights_.resize(weights_.size());
+        const double u_middle = 0.5 * (u_begin_ + u_end_);
+        const double v_middle = 0.5 * (v_begin_ + v_end_);
+        half[k]->u_begin_ = across_u && k == 1 ? u_middle : u_begin_;
+        half[k]->u_end_ = across_u && k == 0 ? u_middle : u_end_;
+        half[k]->v_begin_ = !across_u && k == 1 ? v_middle : v_begin_;
+        half[k]->v_end_ = !across_u && k == 0 ? v_middle : v_end_;
+        half[k]->first_u_ = first_u_ && !(across_u && k == 1);
+        half[k]->last_u_ = last_u_ && !(across_u && k == 0);
+        half[k]->first_v_ = first_v_ && (across_u || k == 0);
+        half[k]->last_v_ = last_v_ && (across_u || k == 1);
+        half[k]->trim_ = trim == Trim::kCut ? Trim::kUnknown : trim;
+    }
+    const std::size_t lines = across_u ? count_t_ : count_s_;
+    const std::size_t count = across_u ? count_s_ : count_t_;
+    const std::size_t stride = across_u ? count_t_ : 1;
+    for (std::size_t line = 0; line < lines; ++line) {
+        const std::size_t first = across_u ? line : line * count_t_;
+        halve(&points_[first], &half[0]->points_[first], &half[1]->points_[first], count, stride);
+        if (!weights_.empty()) {
+            halve(&weights_[first], &half[0]->weights_[first], &half[1]->weights_[first], count,
                   stride);
-            if (!weights_.empty()) {
-                halve(&weights_[first], &half[0]->weights_[first], &half[1]->weights_[first], count,
-                      stride);
-            }
         }
-        half[0]->find_bounds();
-        half[1]->find_bounds();
-        halves_[0] = std::move(half[0]);
-        halves_[1] = std::move(half[1]);
+    }
+    half[0]->find_bounds();
+    half[1]->find_bounds();
+    auto made = std::make_unique<const Halves>(Halves{std::move(half[0]), std::move(half[1])});
+    const Halves* known = nullptr;
+    if (halves_.compare_exchange_strong(known, made.get())) {
+        known = made.release();
         if (made_ != nullptr) {
             *made_ += 2;
         }
     }
-    return {halves_[0].get(), halves_[1].get()};
+    return {(*known)[0].get(), (*known)[1].get()};
+}
+
+void BezierCell::forget() const
+{
+    delete halves_.exchange(nullptr);
+    delete surroundings_.exchange(nullptr);
+    delete near_patches_.exchange(nullptr);
+}
+
+BezierCell::~BezierCell() { forget(); }
+
+void BezierCell::set_surroundings(const Surroundings& found) const
+{
+    auto made = std::make_unique<const Surroundings>(found);
+    const Surroundings* known = nullptr;
+    if (surroundings_.compare_exchange_strong(known, made.get())) {
+        static_cast<void>(made.release());
+    }
+}
+
+const BezierCell::NearPatches& BezierCell::set_near_patches(
+    std::unique_ptr<NearPatches> found) const
+{
+    const NearPatches* known = near_patches_;
+    do {
+        static_cast<void>(found->older.release());
+        found->older.reset(known);
+    } while (!near_patches_.compare_exchange_weak(known, found.get()));
+    return *found.release();
 }
 
 }  // namespace cusp::part_model

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -21,13 +23,19 @@ struct QuadraticForm {
     bool never_negative() const { return a >= 0 && c >= 0 && determinant() >= 0; }
 };
 
-// Not for use by two threads at once: halves() and what follows below it keep what they find.
+// For use by several threads at once, but for forget(): halves() and what follows below it keep what
+// they find, and where two threads find it, they find the same.
 class BezierCell {
 public:
     // A patch with one span in u and v, as by bezier_patches().
     //
     // made  if given, is increased for every half made, at all levels; must outlive the cell
-    BezierCell(const nurbs::BezierPatch& patch, int surface, std::size_t* made = nullptr);
+    BezierCell(const nurbs::BezierPatch& patch,
+               int surface,
+               std::atomic<std::size_t>* made = nullptr);
+    ~BezierCell();
+    BezierCell(const BezierCell&) = delete;
+    BezierCell& operator=(const BezierCell&) = delete;
 
     int surface() const { return surface_; }
     // Point and derivatives by the local parameters, each in [0, 1].
@@ -96,11 +104,7 @@ public:
     // Two halves across the longer side, made when first needed.
     std::array<const BezierCell*, 2> halves() const;
     // Releases the halves and the surroundings.
-    void forget() const
-    {
-        halves_ = {};
-        surroundings_.reset();
-    }
+    void forget() const;
 
     // The surface in and around the cell, for `MoveClearanceBound`; kept here once it is known.
     struct Surroundings {
@@ -116,17 +120,22 @@ public:
         double more;
         double climb;
         double top;  // upper bound of z in the surroundings
-        // Patches nearer than `range` to the core of a ball (its centre and everything straight
-        // above) at `centre`, over the middle of the cell.
-        mutable std::vector<const BezierCell*> patches;
-        mutable Vec3d centre;
-        mutable double range;
     };
-    const Surroundings* surroundings() const { return surroundings_.get(); }
-    void set_surroundings(const Surroundings& found) const
-    {
-        surroundings_ = std::make_unique<const Surroundings>(found);
-    }
+    const Surroundings* surroundings() const { return surroundings_; }
+    void set_surroundings(const Surroundings& found) const;
+
+    // Patches nearer than `range` to the core of a ball (its centre and everything straight above)
+    // at `centre`, over the middle of the cell; null: not known.
+    struct NearPatches {
+        std::vector<const BezierCell*> patches;
+        Vec3d centre;
+        double range;
+        // Those known before, which another thread may still read.
+        std::unique_ptr<const NearPatches> older;
+    };
+    const NearPatches* near_patches() const { return near_patches_; }
+    // Returns the patches as kept.
+    const NearPatches& set_near_patches(std::unique_ptr<NearPatches> found) const;
 
     enum class Trim : std::uint8_t { kUnknown, kInside, kOutside, kCut };
     Trim trim() const { return trim_; }
@@ -140,8 +149,10 @@ private:
     Spread rational_spread() const;
     Vec3d control(std::size_t i, std::size_t j) const;
 
+    using Halves = std::array<std::unique_ptr<const BezierCell>, 2>;
+
     int surface_{};
-    std::size_t* made_{};
+    std::atomic<std::size_t>* made_{};
     std::size_t count_s_{};
     std::size_t count_t_{};
     std::vector<Vec3d> points_;    // times the weight
@@ -161,9 +172,11 @@ private:
     std::array<Vec3d, 3> axes_;
     std::array<double, 3> box_low_{};
     std::array<double, 3> box_high_{};
-    mutable std::array<std::unique_ptr<const BezierCell>, 2> halves_;
-    mutable std::unique_ptr<const Surroundings> surroundings_;
-    mutable Trim trim_{Trim::kUnknown};
+    // Owned.
+    mutable std::atomic<const Halves*> halves_{nullptr};
+    mutable std::atomic<const Surroundings*> surroundings_{nullptr};
+    mutable std::atomic<const NearPatches*> near_patches_{nullptr};
+    mutable std::atomic<Trim> trim_{Trim::kUnknown};
 };
 
 }  // namespace cusp::part_model

@@ -165,8 +165,7 @@ BezierCell::Surroundings find_surroundings(const PartModel::State& state, const 
     const PartModel::State::Grid& grid = state.grids[static_cast<std::size_t>(cell.surface())];
     const auto [u_begin, u_end] = widened(grid.creases_u, cell.u_begin(), cell.u_end());
     const auto [v_begin, v_end] = widened(grid.creases_v, cell.v_begin(), cell.v_end());
-    BezierCell::Surroundings box{u_begin,   u_end, v_begin, v_end, {}, {}, 0,
-                                 kInfinite, 0,     0,       {},    {}, 0};
+    BezierCell::Surroundings box{u_begin, u_end, v_begin, v_end, {}, {}, 0, kInfinite, 0, 0};
     const auto first = [](const std::vector<double>& breaks, double at) {
         return static_cast<std::size_t>(std::upper_bound(breaks.begin() + 1, breaks.end(), at) -
                                         breaks.begin()) -

@@ -28,7 +28,7 @@ bool is_same(const CcPoint& a, const CcPoint& b)
 
 PartModel::State::KnownContact PartModel::State::known(const CcPoint& contact) const
 {
-    for (const std::optional<KnownContact>& known : known_contacts) {
+    for (const std::optional<KnownContact>& known : history().known_contacts) {
         if (known && is_same(known->at, contact)) {
             return *known;
         }
@@ -38,15 +38,16 @@ PartModel::State::KnownContact PartModel::State::known(const CcPoint& contact) c
 
 void PartModel::State::remember(const KnownContact& contact) const
 {
-    for (std::optional<KnownContact>& known : known_contacts) {
+    History& last = history();
+    for (std::optional<KnownContact>& known : last.known_contacts) {
         if (known && is_same(known->at, contact.at)) {
             known->cell = contact.cell;
             known->margin = std::max(known->margin, contact.margin);
             return;
         }
     }
-    known_contacts[oldest_contact] = contact;
-    oldest_contact = (oldest_contact + 1) % known_contacts.size();
+    last.known_contacts[last.oldest_contact] = contact;
+    last.oldest_contact = (last.oldest_contact + 1) % last.known_contacts.size();
 }
 
 std::pair<Vec3d, Vec3d> centre_slopes(const SurfacePoint& p, Vec3d normal, double distance)

@@ -61,7 +61,7 @@ bool Facet::holds(Vec3d p) const
     return left || right;
 }
 
-double facet_distance(const ToolCore& core, const Facet& facet, Vec3d& place)
+double facet_distance(const ToolCore& core, const Facet& facet, Vec3d& place, double limit)
 {
     Vec3d n = facet.normal;
     Vec3d from = core.end;
@@ -73,6 +73,9 @@ double facet_distance(const ToolCore& core, const Facet& facet, Vec3d& place)
         from = from - Vec3d{n.x, n.y, 0} * (core.radius / tilt);
     }
     const double over = dot(from - facet.corners[0], n);
+    if (over >= limit) {
+        return over;
+    }
     if (over > 0) {
         place = from - n * over;
         if (facet.holds(place)) {
@@ -84,12 +87,18 @@ double facet_distance(const ToolCore& core, const Facet& facet, Vec3d& place)
             return 0;
         }
     }
-    double least = 0;
+    double least = limit;
     for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3d a = facet.corners[k];
+        const Vec3d b = facet.corners[(k + 1) % 3];
+        const Vec3d low{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+        const Vec3d high{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)};
+        if (core.distance_to_box(low, high) >= least) {
+            continue;
+        }
         Vec3d there;
-        const double distance =
-            edge_distance(core, {facet.corners[k], facet.corners[(k + 1) % 3]}, there);
-        if (k == 0 || distance < least) {
+        const double distance = edge_distance(core, {a, b}, there);
+        if (distance < least) {
             least = distance;
             place = there;
         }

@@ -24,7 +24,13 @@ struct Facet {
 //
 // Both are convex. If the nearest point of the facet's plane lies in the facet, it is the nearest
 // point; otherwise that is on a side.
-double facet_distance(const ToolCore& core, const Facet& facet, Vec3d& place);
+//
+// limit  mm: where the distance is proved to be at least this, some number not below it is returned,
+//        and no place
+double facet_distance(const ToolCore& core,
+                      const Facet& facet,
+                      Vec3d& place,
+                      double limit = kInfinite);
 
 struct FacetContact {
     double centre;  // mm: height of the ball's centre

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace cusp::part_model {
 namespace {
@@ -65,7 +66,10 @@ std::optional<MeshContact> drop_ball_on_facets(const PartModel::State& state,
                                                double y,
                                                double radius)
 {
-    std::optional<MeshContact> best;
+    // Facets that share the contact are found in any order, so all alike are compared at the end.
+    thread_local std::vector<MeshContact> alike;
+    alike.clear();
+    double highest = -kInfinite;
     const auto facing = [&](const MeshContact& contact) {
         return dot(Vec3d{x, y, contact.at.centre} - contact.at.point,
                    state.facets[contact.facet].normal);
@@ -75,21 +79,29 @@ std::optional<MeshContact> drop_ball_on_facets(const PartModel::State& state,
         return up < 0 ? -kInfinite : box.high.z + std::sqrt(up);
     };
     const auto look = [&](std::size_t facet) {
-        const double least = best ? best->at.centre - kAlike : -kInfinite;
-        if (const auto found = drop_ball_on_facet(state.facets[facet], x, y, radius, least)) {
-            const MeshContact other{*found, facet};
-            const double over = best ? other.at.centre - best->at.centre : kInfinite;
-            if (over > kAlike || (over > -kAlike && facing(other) > facing(*best))) {
-                best = other;
-            }
+        const auto found = drop_ball_on_facet(state.facets[facet], x, y, radius, highest - kAlike);
+        if (found && found->centre >= highest - kAlike) {
+            highest = std::max(highest, found->centre);
+            alike.push_back({*found, facet});
         }
-        return best ? best->at.centre : -kInfinite;
+        return highest;
     };
     // The next query is usually near the last one, and so is its result.
-    const double known = state.facets.empty() ? -kInfinite : look(state.last_facet);
+    std::size_t& last_facet = state.history().last_facet;
+    const double known = state.facets.empty() ? -kInfinite : look(last_facet);
     visit_facets(state, known, bound, look);
+    std::optional<MeshContact> best;
+    for (const MeshContact& contact : alike) {
+        if (contact.at.centre < highest - kAlike) {
+            continue;
+        }
+        const double more = best ? facing(contact) - facing(*best) : kInfinite;
+        if (more > 0 || (more == 0 && contact.facet < best->facet)) {
+            best = contact;
+        }
+    }
     if (best) {
-        state.last_facet = best->facet;
+        last_facet = best->facet;
     }
     return best;
 }
@@ -102,7 +114,8 @@ std::optional<FacetUnder> highest_facet(const PartModel::State& state, double x,
     };
     visit_facets(state, -kInfinite, bound, [&](std::size_t facet) {
         const auto height = height_at(state.facets[facet], x, y);
-        if (height && (!best || *height > best->height)) {
+        if (height &&
+            (!best || *height > best->height || (*height == best->height && facet < best->facet))) {
             best = FacetUnder{facet, *height};
         }
         return best ? best->height : -kInfinite;

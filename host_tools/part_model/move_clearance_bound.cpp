@@ -282,12 +282,13 @@ bool MoveClearanceBound::others_are_far(KnownContact& from,
     const BezierCell::Surroundings& near = *cell.surroundings();
     const ToolCore ball{0, from.at.centre()};
     const double limit = from.at.distance + margin;
+    const BezierCell::NearPatches* around = cell.near_patches();
     // Distances change by no more than the centre moves.
-    if (near.range < limit + norm(ball.end - near.centre)) {
-        find_patches(from.at, cell, limit);
+    if (around == nullptr || around->range < limit + norm(ball.end - around->centre)) {
+        around = &find_patches(from.at, cell, limit);
     }
     const bool far = std::all_of(
-        near.patches.begin(), near.patches.end(),
+        around->patches.begin(), around->patches.end(),
         [&](const BezierCell* patch) { return cell_is_far(*patch, ball, from.at, near, limit); });
     if (far) {
         from.margin = margin;
@@ -295,20 +296,23 @@ bool MoveClearanceBound::others_are_far(KnownContact& from,
     return far;
 }
 
-void MoveClearanceBound::find_patches(const CcPoint& from,
-                                      const BezierCell& cell,
-                                      double limit) const
+const BezierCell::NearPatches& MoveClearanceBound::find_patches(const CcPoint& from,
+                                                                const BezierCell& cell,
+                                                                double limit) const
 {
-    const BezierCell::Surroundings& near = *cell.surroundings();
-    near.centre = cell.middle().point + cell.axes()[0] * from.distance;
-    near.range = limit + std::max(kRangeMore * radius_, 1.1 * norm(from.centre() - near.centre));
-    near.patches.clear();
-    const ToolCore ball{0, near.centre};
+    auto near = std::make_unique<BezierCell::NearPatches>();
+    near->centre = cell.middle().point + cell.axes()[0] * from.distance;
+    near->range = limit + std::max(kRangeMore * radius_, 1.1 * norm(from.centre() - near->centre));
+    // What was known is known again: two distances in turn would be looked for in turn.
+    if (const BezierCell::NearPatches* known = cell.near_patches()) {
+        near->range = std::max(near->range, known->range + norm(near->centre - known->centre));
+    }
+    const ToolCore ball{0, near->centre};
     std::array<int, 128> stack{0};
     std::size_t count = 1;
     while (count > 0) {
         const BoxTree::Node& node = state_.tree.nodes[static_cast<std::size_t>(stack[--count])];
-        if (ball.distance_to_box(node.low, node.high) >= near.range) {
+        if (ball.distance_to_box(node.low, node.high) >= near->range) {
             continue;
         }
         if (node.child[0] >= 0) {
@@ -318,9 +322,10 @@ void MoveClearanceBound::find_patches(const CcPoint& from,
         }
         const std::size_t item = static_cast<std::size_t>(-node.child[0] - 1);
         if (item < state_.cells.size()) {
-            near.patches.push_back(state_.cells[item].get());
+            near->patches.push_back(state_.cells[item].get());
         }
     }
+    return cell.set_near_patches(std::move(near));
 }
 
 bool MoveClearanceBound::cell_is_far(const BezierCell& cell,

@@ -71,7 +71,9 @@ private:
     // The largest cell at a contact whose bounds prove enough, with its surroundings known.
     const BezierCell& cell_of(KnownContact& contact) const;
     bool others_are_far(KnownContact& from, const BezierCell& cell, double margin) const;
-    void find_patches(const CcPoint& from, const BezierCell& cell, double limit) const;
+    const BezierCell::NearPatches& find_patches(const CcPoint& from,
+                                                const BezierCell& cell,
+                                                double limit) const;
     bool cell_is_far(const BezierCell& cell,
                      const ToolCore& ball,
                      const CcPoint& from,

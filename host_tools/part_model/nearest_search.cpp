@@ -230,6 +230,7 @@ class Search {
 public:
     Search(const PartModel::State& state, const ToolCore& core, const NearestOptions& options)
         : state_{state},
+          history_{state.history()},
           core_{core},
           max_error_{std::max(options.max_error, core.radius > 0 ? kDiscSlack : kDistanceSlack)},
           near_enough_{options.near_enough},
@@ -240,12 +241,12 @@ public:
 
     NearestResult run()
     {
-        if (state_.last_cell != nullptr) {
-            first_ = state_.last_cell;
-            look_at_cell(*first_, state_.last_s, state_.last_t);
+        if (history_.last_cell != nullptr) {
+            first_ = history_.last_cell;
+            look_at_cell(*first_, history_.last_s, history_.last_t);
         }
         if (!state_.facets.empty()) {
-            look_at_facet(state_.last_facet);
+            look_at_facet(history_.last_facet);
         }
         std::array<Waiting, 128> stack;
         std::size_t count = 0;
@@ -324,9 +325,9 @@ private:
     void look_at_facet(std::size_t facet)
     {
         Vec3d point;
-        const double distance = facet_distance(core_, state_.facets[facet], point);
+        const double distance = facet_distance(core_, state_.facets[facet], point, found_);
         if (distance < found_) {
-            state_.last_facet = facet;
+            history_.last_facet = facet;
         }
         take(distance, {point, 0, 0, static_cast<int>(state_.regions.size())});
     }
@@ -365,9 +366,9 @@ private:
             if (counts) {
                 bound_ = std::min(bound_, at_least);
                 if (distance < found_ + kBeside) {
-                    state_.last_cell = &cell;
-                    state_.last_s = least.s;
-                    state_.last_t = least.t;
+                    history_.last_cell = &cell;
+                    history_.last_s = least.s;
+                    history_.last_t = least.t;
                 }
             }
             return;
@@ -388,6 +389,7 @@ private:
     }
 
     const PartModel::State& state_;
+    PartModel::State::History& history_;
     const ToolCore& core_;
     double max_error_;
     double near_enough_;
@@ -418,6 +420,12 @@ bool PartModel::State::outside_trims(const BezierCell& cell) const
 const BezierCell& PartModel::State::cell_at(int surface, double u, double v) const
 {
     const Grid& grid = grids[static_cast<std::size_t>(surface)];
+    History& last_query = history();
+    if (last_query.last_surface != surface) {
+        last_query.last_surface = surface;
+        last_query.last_u = last_query.last_v = 0;
+    }
+    // The next place is usually in or beside the span of the last one.
     const auto span = [](const std::vector<double>& breaks, double at, std::size_t& last) {
         const bool above = last == 0 || breaks[last] <= at;
         if (!above || (last + 1 < breaks.size() && !(at < breaks[last + 1]))) {
@@ -426,8 +434,39 @@ const BezierCell& PartModel::State::cell_at(int surface, double u, double v) con
         }
         return last;
     };
-    return *cells[grid.first + span(grid.u, u, grid.last_u) * grid.v.size() +
-                  span(grid.v, v, grid.last_v)];
+    return *cells[grid.first + span(grid.u, u, last_query.last_u) * grid.v.size() +
+                  span(grid.v, v, last_query.last_v)];
+}
+
+std::uint64_t PartModel::State::next_number()
+{
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
+}
+
+PartModel::State::History& PartModel::State::history() const
+{
+    struct Known {
+        std::uint64_t number;
+        History* history;
+    };
+    thread_local Known last{0, nullptr};
+    if (last.number != number_) {
+        const std::lock_guard lock{guard_};
+        std::unique_ptr<History>& mine = histories_[std::this_thread::get_id()];
+        if (!mine) {
+            mine = std::make_unique<History>();
+        }
+        last = {number_, mine.get()};
+    }
+    return *last.history;
+}
+
+void PartModel::State::forget_histories() const
+{
+    for (const auto& [thread, history] : histories_) {
+        *history = {};
+    }
 }
 
 NearestResult nearest(const PartModel::State& state,

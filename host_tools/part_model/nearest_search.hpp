@@ -2,8 +2,13 @@
 #pragma once
 
 #include <array>
+#include <atomic>
+#include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <thread>
+#include <unordered_map>
 #include <vector>
 
 #include "host_tools/part_model/bezier_cell.hpp"
@@ -16,7 +21,7 @@
 namespace cusp::part_model {
 
 struct PartModel::State {
-    std::size_t halves{};  // how many halves of cells exist, at all levels
+    std::atomic<std::size_t> halves{};  // how many halves of cells exist, at all levels
     std::vector<std::unique_ptr<BezierCell>> cells;
     std::vector<TrimRegion> regions;
     std::vector<std::array<Vec3d, 2>> edges;
@@ -34,9 +39,6 @@ struct PartModel::State {
         // Knots where the tangent may jump, and the ends of the domain.
         std::vector<double> creases_u;
         std::vector<double> creases_v;
-        // The spans of the last query: the next one is usually in or beside them.
-        mutable std::size_t last_u{};
-        mutable std::size_t last_v{};
     };
     std::vector<Grid> grids;
     const BezierCell& cell_at(int surface, double u, double v) const;
@@ -52,13 +54,30 @@ struct PartModel::State {
     // The contacts of the last queries: a path queries each contact for the moves to and from it.
     KnownContact known(const CcPoint& contact) const;
     void remember(const KnownContact& contact) const;
-    mutable std::array<std::optional<KnownContact>, 4> known_contacts;
-    mutable std::size_t oldest_contact{};
-    // The cell of the last result: the next one is usually near it.
-    mutable const BezierCell* last_cell{nullptr};
-    mutable double last_s{};
-    mutable double last_t{};
-    mutable std::size_t last_facet{};
+    // What the last queries of a thread have found.
+    struct History {
+        std::array<std::optional<KnownContact>, 4> known_contacts;
+        std::size_t oldest_contact{};
+        // The cell of the last result: the next one is usually near it.
+        const BezierCell* last_cell{nullptr};
+        double last_s{};
+        double last_t{};
+        std::size_t last_facet{};
+        // The span of the last cell_at() in u and v, and its surface.
+        int last_surface{-1};
+        std::size_t last_u{};
+        std::size_t last_v{};
+    };
+    // That of the calling thread.
+    History& history() const;
+    // Of all threads; for one thread while no other queries.
+    void forget_histories() const;
+
+private:
+    static std::uint64_t next_number();
+    const std::uint64_t number_{next_number()};  // no two models ever share one
+    mutable std::mutex guard_;
+    mutable std::unordered_map<std::thread::id, std::unique_ptr<History>> histories_;
 };
 
 // All in mm.

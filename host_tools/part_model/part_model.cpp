@@ -28,7 +28,7 @@ constexpr double kSlowShare = 0.75;
 constexpr double kTouching = 1e-9;   // mm
 constexpr double kDropSlack = 5e-7;  // mm above the least height
 constexpr double kDiscDropSlack = 2e-5;
-constexpr std::size_t kMostHalves = 500'000;  // 0.5 GB
+constexpr std::size_t kMostHalves = 200'000;  // 0.2 GB
 
 void add_cells(const Surface& surface, int number, PartModel::State& state)
 {
@@ -241,13 +241,14 @@ ToolDistance PartModel::distance(const Tool& tool, Vec3d tip, double limit) cons
 
 void PartModel::forget_cells() const
 {
-    state_->last_cell = nullptr;
-    state_->known_contacts.fill(std::nullopt);
+    state_->forget_histories();
     for (const std::unique_ptr<BezierCell>& cell : state_->cells) {
         cell->forget();
     }
     state_->halves = 0;
 }
+
+void PartModel::forget_queries() const { state_->history() = {}; }
 
 void PartModel::forget_many_cells() const
 {
@@ -318,8 +319,9 @@ std::optional<PartModel::DroppedCutter> PartModel::drop_cutter(const Tool& tool,
     // The next query is usually near the last one, and so is its result. The distance of a flat
     // tool does not measure its depth, so a flat tool starts from above.
     const bool measures_depth = tool.corner_radius > 0;
-    if (!guess && measures_depth && state_->last_cell != nullptr) {
-        const Vec3d last = state_->last_cell->at(state_->last_s, state_->last_t).point;
+    const State::History& history = state_->history();
+    if (!guess && measures_depth && history.last_cell != nullptr) {
+        const Vec3d last = history.last_cell->at(history.last_s, history.last_t).point;
         if (const auto touch = touch_height(tool, x, y, last)) {
             low = *touch;
             trial = low;

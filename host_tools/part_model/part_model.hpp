@@ -63,8 +63,9 @@ std::pair<Vec3d, Vec3d> centre_slopes(const nurbs::SurfacePoint& p, Vec3d normal
 // above, so surfaces that overhang the tool count. Model and tool meet from any side: a tool below
 // a surface is in contact with it.
 //
-// Not for use by two threads at once, const members included: queries divide cells and keep the
-// halves. Threads that work in parallel take one each.
+// For queries by several threads at once, forget_cells() and forget_many_cells() aside. Queries keep
+// the halves of cells, and start at what the last query of the thread found: that may change the last
+// bits of an answer. After forget_queries() answers depend on later queries of the thread alone.
 class PartModel {
 public:
     // surfaces    valid (as the reader in host_tools/import checks them); trims are honoured
@@ -174,11 +175,14 @@ public:
     // z of the highest point inside the trims; as accurate as a drop.
     double highest() const;
 
-    // Releases the halves of cells that queries have made; later queries make them again. Bounds
-    // the memory of long series of queries at new points. Invalidates every `SurfaceCut`.
+    // Releases the halves of cells that queries have made; later queries make them again. Only while
+    // no other thread queries. Bounds the memory of long series of queries at new points. Invalidates every `SurfaceCut`.
     void forget_cells() const;
     // forget_cells() if there are many: to be called between queries of any long series.
     void forget_many_cells() const;
+    // Forgets what the last queries of this thread found; quick. To be called before each part of a
+    // parallel loop, and after the loop.
+    void forget_queries() const;
 
     // Whether (u, v) lies inside the trims of the surface.
     bool inside_trims(int surface, double u, double v) const;

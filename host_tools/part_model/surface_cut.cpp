@@ -26,7 +26,7 @@ SurfaceCut::Piece& SurfaceCut::piece_at(double v)
         return pieces_[last_];
     }
     const BezierCell& cell = state_.cell_at(surface_, u_, v);
-    last_ = state_.grids[static_cast<std::size_t>(surface_)].last_v;
+    last_ = state_.history().last_v;
     Piece& piece = pieces_[last_];
     if (piece.cell == nullptr) {
         piece.cell = &cell;

@@ -128,6 +128,11 @@ std::optional<std::array<double, 2>> part_in(const std::array<Vec2d, 2>& side,
                                              Vec2d low,
                                              Vec2d high)
 {
+    // Most sides lie beside the rectangle.
+    if (std::max(side[0].x, side[1].x) < low.x || std::min(side[0].x, side[1].x) > high.x ||
+        std::max(side[0].y, side[1].y) < low.y || std::min(side[0].y, side[1].y) > high.y) {
+        return std::nullopt;
+    }
     double from = 0;
     double to = 1;
     const Vec2d d = side[1] - side[0];
@@ -188,7 +193,9 @@ void TrimRegion::make_rows()
     rows_.resize(std::clamp<std::size_t>(sides_.size() / kSidesInRow, 1, kMostRows));
     for (std::size_t k = 0; k < sides_.size(); ++k) {
         const std::size_t last = row(std::max(sides_[k][0].y, sides_[k][1].y));
-        for (std::size_t at = row(std::min(sides_[k][0].y, sides_[k][1].y)); at <= last; ++at) {
+        first_rows_.push_back(
+            static_cast<std::uint32_t>(row(std::min(sides_[k][0].y, sides_[k][1].y))));
+        for (std::size_t at = first_rows_.back(); at <= last; ++at) {
             rows_[at].push_back(static_cast<std::uint32_t>(k));
         }
     }
@@ -222,10 +229,11 @@ TrimRegion::Part TrimRegion::part(double u_begin, double u_end, double v_begin, 
     if (sides_.empty()) {
         return Part::kInside;
     }
+    const std::size_t first = row(box.low.y);
     const std::size_t last = row(box.high.y);
-    for (std::size_t at = row(box.low.y); at <= last; ++at) {
+    for (std::size_t at = first; at <= last; ++at) {
         for (const std::uint32_t side : rows_[at]) {
-            if (part_in(sides_[side], box.low, box.high)) {
+            if (is_seen_first(side, at, first) && part_in(sides_[side], box.low, box.high)) {
                 return Part::kCut;
             }
         }
@@ -247,9 +255,16 @@ TrimRegion::Remnant TrimRegion::remnant(double u_begin,
         }
     }
     const Box box = widened(u_begin, u_end, v_begin, v_end);
+    if (sides_.empty()) {
+        return result;
+    }
+    const std::size_t first = row(box.low.y);
     const std::size_t last = row(box.high.y);
-    for (std::size_t at = row(box.low.y); at <= last && !sides_.empty(); ++at) {
+    for (std::size_t at = first; at <= last; ++at) {
         for (const std::uint32_t index : rows_[at]) {
+            if (!is_seen_first(index, at, first)) {
+                continue;
+            }
             const std::array<Vec2d, 2>& side = sides_[index];
             if (const auto part = part_in(side, box.low, box.high)) {
                 const Vec2d way = side[1] - side[0];

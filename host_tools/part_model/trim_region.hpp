@@ -1,6 +1,7 @@
 // The trimmed domain of a surface: what is inside, and the edges as polylines in space.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -44,10 +45,17 @@ private:
     static Box widened(double u_begin, double u_end, double v_begin, double v_end);
     std::size_t row(double v) const;
     void make_rows();
+    // Whether rows from `first` on up to this one hold the side for the first time: a long side is in
+    // many rows.
+    bool is_seen_first(std::uint32_t side, std::size_t row, std::size_t first) const
+    {
+        return row == std::max<std::size_t>(first, first_rows_[side]);
+    }
 
     std::vector<std::array<Vec2d, 2>> sides_;
     // The sides that touch each of the equal rows between the least and the greatest v.
     std::vector<std::vector<std::uint32_t>> rows_;
+    std::vector<std::uint32_t> first_rows_;  // of each side
     double low_{};
     double high_{};
     std::vector<std::array<Vec3d, 2>> edges_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 
 #include "host_tools/verify/bands.hpp"
 
@@ -95,19 +96,14 @@ MachinedStock::MachinedStock(const HeightGrid& grid, double top)
 CutFigures MachinedStock::cut_band(const ToolPositions& positions,
                                    double spacing,
                                    std::size_t begin,
-                                   std::size_t end,
-                                   const Progress& progress)
+                                   std::size_t end)
 {
     const Tool& tool = positions.tool;
     const double shrink = spacing * spacing / (4 * tool.radius) + 0.002;
     // Tools with round corners leave no more between positions than the square of their distance.
     const bool edged = tool.radius > tool.corner_radius && tool.corner_radius < spacing;
-    constexpr std::size_t kReport = 4096;
     CutFigures figures;
     for (std::size_t k = 0; k < positions.tips.size(); ++k) {
-        if (begin == 0 && k % kReport == 0) {
-            progress(static_cast<double>(k) / static_cast<double>(positions.tips.size()));
-        }
         const Vec3d tip = positions.tips[k];
         if (tip.z >= top_) {
             continue;
@@ -206,9 +202,13 @@ CutFigures MachinedStock::cut(const ToolPositions& positions,
                               double spacing,
                               const Progress& progress)
 {
-    std::vector<CutFigures> bands(band_count(grid_.nx));
+    std::vector<CutFigures> bands(kBands);
+    std::mutex guard;
+    std::size_t done = 0;
     for_each_band(grid_.nx, [&](std::size_t begin, std::size_t end, std::size_t band) {
-        bands[band] = cut_band(positions, spacing, begin, end, progress);
+        bands[band] = cut_band(positions, spacing, begin, end);
+        const std::lock_guard lock{guard};
+        progress(static_cast<double>(++done) / static_cast<double>(kBands));
     });
     CutFigures sum;
     for (const CutFigures& band : bands) {

@@ -43,8 +43,7 @@ private:
     CutFigures cut_band(const ToolPositions& positions,
                         double spacing,
                         std::size_t begin,
-                        std::size_t end,
-                        const Progress& progress);
+                        std::size_t end);
     // Returns the depth, mm. shrink: reduction of the measuring tool, mm.
     double cut_at(
         const toolpath::Tool& tool, Vec3d tip, double shrink, std::size_t begin, std::size_t end);

@@ -227,9 +227,13 @@ PartHeights part_heights(const std::vector<Surface>& surfaces,
     for (const Surface& surface : surfaces) {
         const Trims trims{surface};
         const std::vector<BezierPatch> patches = bezier_patches(surface);
+        std::vector<std::vector<Quad>> quads(patches.size());
+        parallel::for_each(patches.size(), [&](std::size_t k) {
+            quads[k] = quads_of(patches[k].surface, kQuadPitches * grid.pitch);
+        });
         for_each_band(grid.nx, [&](std::size_t begin, std::size_t end, std::size_t) {
-            for (const BezierPatch& patch : patches) {
-                for (const Quad& quad : quads_of(patch.surface, kQuadPitches * grid.pitch)) {
+            for (const std::vector<Quad>& some : quads) {
+                for (const Quad& quad : some) {
                     fill(quad, trims, grid, begin, end, heights);
                 }
             }

@@ -262,10 +262,7 @@ TEST_GROUP(WaterlineRoughingProperty){
     // Cells of the model are many: the count of allocations would take all the time.
     void setup() override{MemoryLeakWarningPlugin::turnOffNewDeleteOverloads();
 }  // namespace cusp::test
-void teardown() override
-{
-    MemoryLeakWarningPlugin::turnOnDefaultNotThreadSafeNewDeleteOverloads();
-}
+void teardown() override { MemoryLeakWarningPlugin::turnOffNewDeleteOverloads(); }
 }
 ;
 

@@ -49,10 +49,7 @@ TEST_GROUP(WaterlineSlices){
     // The model has many cells: counting allocations would take nearly all the time.
     void setup() override{MemoryLeakWarningPlugin::turnOffNewDeleteOverloads();
 }
-void teardown() override
-{
-    MemoryLeakWarningPlugin::turnOnDefaultNotThreadSafeNewDeleteOverloads();
-}
+void teardown() override { MemoryLeakWarningPlugin::turnOffNewDeleteOverloads(); }
 }
 ;
 

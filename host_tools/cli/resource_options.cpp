@@ -1,0 +1,39 @@
+// --threads and --memory.
+#include "host_tools/cli/resource_options.hpp"
+
+#include "host_tools/parallel/parallel.hpp"
+#include "host_tools/work_place/work_place.hpp"
+
+#include "CLI/CLI.hpp"
+
+namespace cusp::cli {
+namespace {
+
+constexpr int kMostThreads = 1024;
+
+}  // namespace
+
+void add_resource_options(CLI::App& command, Resources& resources)
+{
+    command
+        .add_option("--threads", resources.threads,
+                    "how many to use; the result is the same for any number (default: one a core)")
+        ->check(CLI::Range(1, kMostThreads))
+        ->type_name("N");
+    command
+        .add_option("--memory", resources.memory,
+                    "the most to use, such as 4GB (default: half of the machine's)")
+        ->transform(CLI::AsSizeValue(true))
+        ->type_name("SIZE");
+}
+
+void apply(const Resources& resources)
+{
+    if (resources.threads > 0) {
+        parallel::set_threads(resources.threads);
+    }
+    work_place::stop_with_message(resources.memory > 0 ? resources.memory
+                                                       : work_place::half_of_memory());
+}
+
+}  // namespace cusp::cli

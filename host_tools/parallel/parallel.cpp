@@ -1,0 +1,74 @@
+// oneTBB shares the work; only this file knows it.
+#include "host_tools/parallel/parallel.hpp"
+
+#include <atomic>
+#include <exception>
+#include <memory>
+#include <mutex>
+
+#include "oneapi/tbb/global_control.h"
+#include "oneapi/tbb/parallel_for.h"
+
+namespace cusp::parallel {
+namespace {
+
+std::unique_ptr<tbb::global_control> limit;
+
+// The exception of the lowest number.
+class FirstFault {
+public:
+    void take(std::size_t number, std::exception_ptr fault)
+    {
+        const std::lock_guard lock{mutex_};
+        if (!fault_ || number < number_) {
+            number_ = number;
+            fault_ = std::move(fault);
+        }
+    }
+
+    void rethrow() const
+    {
+        if (fault_) {
+            std::rethrow_exception(fault_);
+        }
+    }
+
+private:
+    std::mutex mutex_;
+    std::size_t number_{};
+    std::exception_ptr fault_;
+};
+
+}  // namespace
+
+void set_threads(int threads)
+{
+    limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                  static_cast<std::size_t>(threads));
+}
+
+void for_each(std::size_t count, const std::function<void(std::size_t)>& body)
+{
+    FirstFault fault;
+    // oneTBB orders all this already. ThreadSanitizer does not see inside it, but sees this count.
+    std::atomic<std::size_t> done;
+    done.store(0, std::memory_order_release);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
+        static_cast<void>(done.load(std::memory_order_acquire));
+        try {
+            body(k);
+        } catch (...) {
+            fault.take(k, std::current_exception());
+        }
+        done.fetch_add(1, std::memory_order_acq_rel);
+    });
+    static_cast<void>(done.load(std::memory_order_acquire));
+    fault.rethrow();
+}
+
+void both(const std::function<void()>& first, const std::function<void()>& second)
+{
+    for_each(2, [&](std::size_t k) { (k == 0 ? first : second)(); });
+}
+
+}  // namespace cusp::parallel

@@ -1,0 +1,28 @@
+// Loops on all cores, whose results do not depend on the number of threads.
+//
+//     parallel::set_threads(4);                        // default: one a core
+//     std::vector<double> heights(cells.size());
+//     parallel::for_each(cells.size(), [&](std::size_t k) { heights[k] = height_of(cells[k]); });
+//     const double highest = *std::max_element(heights.begin(), heights.end());  // in order
+//
+// A body writes to its own place only. Sums and choices are made afterwards, in the order of the
+// numbers, so results are the same to the last bit for any number of threads.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace cusp::parallel {
+
+// threads  >= 1: how many run at once from now on, this one included. For one thread at a time.
+void set_threads(int threads);
+
+// Calls body(k) once for each k from 0 to count - 1, several at once in any order, and returns when
+// all are done. Where bodies throw, all others are called, then the exception of the lowest k is
+// thrown. Bodies may call for_each() themselves.
+void for_each(std::size_t count, const std::function<void(std::size_t)>& body);
+
+// Calls first() and second() at once, as for_each() does.
+void both(const std::function<void()>& first, const std::function<void()>& second);
+
+}  // namespace cusp::parallel

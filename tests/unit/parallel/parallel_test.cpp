@@ -1,0 +1,64 @@
+// Loops: every number once, the exception of the lowest number, loops in loops.
+#include "host_tools/parallel/parallel.hpp"
+
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+// Last: CppUTest redefines new, which breaks standard headers included after it.
+#include "CppUTest/TestHarness.h"
+
+using namespace cusp;
+
+TEST_GROUP(Parallel){void setup() override{parallel::set_threads(4);
+}
+}
+;
+
+TEST(Parallel, CallsEachNumberOnce)
+{
+    std::vector<int> calls(10000);
+    parallel::for_each(calls.size(), [&](std::size_t k) { ++calls[k]; });
+    CHECK(calls == std::vector<int>(calls.size(), 1));
+    parallel::for_each(0, [](std::size_t) { FAIL("there is no number"); });
+}
+
+TEST(Parallel, ThrowsTheExceptionOfTheLowestNumberAfterAllAreDone)
+{
+    for (const int threads : {1, 2, 4}) {
+        parallel::set_threads(threads);
+        std::vector<int> calls(500);
+        std::string first;
+        try {
+            parallel::for_each(calls.size(), [&](std::size_t k) {
+                ++calls[k];
+                if (k % 100 == 37) {
+                    throw std::runtime_error(std::to_string(k));
+                }
+            });
+        } catch (const std::runtime_error& error) {
+            first = error.what();
+        }
+        STRCMP_EQUAL("37", first.c_str());
+        LONGS_EQUAL(500, std::accumulate(calls.begin(), calls.end(), 0));
+    }
+}
+
+TEST(Parallel, RunsLoopsInLoops)
+{
+    std::vector<std::vector<int>> calls(20, std::vector<int>(50));
+    parallel::for_each(calls.size(), [&](std::size_t i) {
+        parallel::for_each(calls[i].size(), [&](std::size_t k) { ++calls[i][k]; });
+    });
+    CHECK(calls == std::vector<std::vector<int>>(20, std::vector<int>(50, 1)));
+}
+
+TEST(Parallel, RunsTwoTasks)
+{
+    int first = 0;
+    int second = 0;
+    parallel::both([&] { first = 1; }, [&] { second = 2; });
+    LONGS_EQUAL(1, first);
+    LONGS_EQUAL(2, second);
+}
