@@ -11,7 +11,7 @@
 namespace cusp::adaptive_isocurve {
 
 // Steps between passes per unit of v, at a point of the surface: |S_v| over the allowed distance.
-// `apart`: the range of v that the point stands for.
+// `apart`: the range of v that the point represents.
 using StepDensity = std::function<double(const nurbs::SurfacePoint&, double apart)>;
 
 // Judges the strip between two neighbouring curves at a u: returns the factor by which the density
