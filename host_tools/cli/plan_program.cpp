@@ -8,9 +8,9 @@
 #include "host_tools/cli/share_progress.hpp"
 #include "host_tools/cli/simulated_times.hpp"
 #include "host_tools/cli/stock_warning.hpp"
-#include "host_tools/cli/strategies.hpp"
 #include "host_tools/files/files.hpp"
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/strategies/strategies.hpp"
 #include "host_tools/toolpath/gcode_writer.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
 
@@ -24,6 +24,7 @@ using files::write_text;
 using job::Job;
 using job::Operation;
 using job::PocketRefusal;
+using strategies::plan_operation;
 using toolpath::MachineRates;
 using toolpath::PathMeasure;
 using toolpath::PlannedOperation;
