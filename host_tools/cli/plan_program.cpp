@@ -12,11 +12,11 @@
 #include "host_tools/cli/share_progress.hpp"
 #include "host_tools/cli/simulated_times.hpp"
 #include "host_tools/cli/stock_warning.hpp"
-#include "host_tools/cli/strategies.hpp"
 #include "host_tools/cli/tool_reach.hpp"
 #include "host_tools/files/files.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/job/fixture_clearance.hpp"
+#include "host_tools/strategies/strategies.hpp"
 #include "host_tools/toolpath/gcode_writer.hpp"
 #include "host_tools/toolpath/tool_order.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
@@ -33,6 +33,7 @@ using job::Job;
 using job::kRoughingDone;
 using job::Operation;
 using job::PocketRefusal;
+using strategies::plan_operation;
 using toolpath::MachineRates;
 using toolpath::PathMeasure;
 using toolpath::PlannedOperation;

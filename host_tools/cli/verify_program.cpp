@@ -78,6 +78,15 @@ Json stats_of(const Verification& result)
             out["left_thickness_at_mm"] = {rounded(at.x), rounded(at.y), rounded(at.z)};
         }
     }
+    if (f.tabs_wanted > 0) {
+        out["tabs_standing"] = f.tabs_standing;
+        out["tabs_wanted"] = f.tabs_wanted;
+    }
+    if (f.level_left) {
+        out["level_left_mm"] = rounded(f.level_left->height);
+        out["level_left_at_mm"] = {rounded(f.level_left->place.x), rounded(f.level_left->place.y)};
+        out["level_left_operation"] = f.level_left->operation;
+    }
     out["broken"] = result.broken;
     return out;
 }

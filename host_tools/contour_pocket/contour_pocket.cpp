@@ -156,7 +156,8 @@ private:
     {
         ClearingSettings settings;
         settings.wall_clearance = tolerances_.wall_clearance;
-        settings.stepover = 2.0 * operation_.tool.radius;
+        const double widest = operation_.step_over.value_or(kUnbounded);
+        settings.stepover = std::min(2.0 * operation_.tool.radius, widest);
         settings.direction = operation_.direction_of_cut;
         settings.cover_corners = *operation_.scallop > operation_.floor_tolerance;
         const bool corners = settings.cover_corners;
@@ -164,8 +165,9 @@ private:
         LoopSpacing interval{floor_, tolerances_, corners && !whole, !corners || !whole};
         settings.stepover_from = [&, whole_area = area(region_)](const Region2d& level) {
             report(kLevelsDone * (1.0 - area(level) / whole_area));
-            return interval.stepover_from(
-                level, corners && whole ? loop_scallop_.proven_stepover(level) : 0.0);
+            return std::min(
+                widest, interval.stepover_from(
+                            level, corners && whole ? loop_scallop_.proven_stepover(level) : 0.0));
         };
         if (corners && whole) {
             settings.scallop_share_between = [&](const LoopStrip& strip) {

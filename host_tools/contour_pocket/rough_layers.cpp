@@ -205,7 +205,7 @@ std::optional<RoughResult> plan_rough_layers(const Job& job,
     ClearingSettings clearing;
     clearing.wall_clearance =
         tolerances.wall_clearance - operation.tool.radius + rough.tool.radius + operation.allowance;
-    clearing.stepover = step.across;
+    clearing.stepover = std::min(step.across, operation.step_over.value_or(kUnbounded));
     clearing.direction = operation.direction_of_cut;
     ClearedRegion cleared = clear_region(region, clearing);
     RoughResult result;

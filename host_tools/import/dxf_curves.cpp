@@ -41,6 +41,9 @@ public:
     // In the order of the drawing; none where the layer draws nothing.
     std::vector<Curve> read();
 
+    // As read(), and the places of POINTs.
+    DxfPlaces read_places();
+
 private:
     // within  the layer of the block's reference, for objects on layer "0"; "": not in a block
     bool shown(const DxfEntity& entity, std::string_view within) const;
@@ -63,6 +66,7 @@ private:
     double unit_;
     std::vector<Curve> curves_;
     std::size_t references_{};
+    bool with_points_{false};  // as curves of no length
 };
 
 std::string_view layer_of(const DxfEntity& entity, std::string_view within)
@@ -285,6 +289,10 @@ void CurveMaker::add(const DxfEntity& entity)
                                                            "VIEWPORT",  "ATTDEF", "IMAGE"};
     if (entity.type == "LINE") {
         add_line(entity);
+    } else if (entity.type == "POINT" && with_points_) {
+        const Vec2d at{unit_ * drawing_.required(entity, 10),
+                       unit_ * drawing_.required(entity, 20)};
+        curves_.push_back(line_curve(at, at));
     } else if (entity.type == "ARC" || entity.type == "CIRCLE") {
         add_arc(entity);
     } else if (entity.type == "LWPOLYLINE") {
@@ -388,6 +396,22 @@ std::vector<Curve> CurveMaker::read()
     return std::move(curves_);
 }
 
+DxfPlaces CurveMaker::read_places()
+{
+    with_points_ = true;
+    add_all(drawing_.entities(), "", 0);
+    DxfPlaces places;
+    for (Curve& curve : curves_) {
+        if (curve.degree == 1 && curve.points.front() == curve.points.back()) {
+            places.points.push_back(in_plan(curve.points.front()));
+        } else {
+            check_curve(curve, drawing_.file());
+            places.curves.push_back(std::move(curve));
+        }
+    }
+    return places;
+}
+
 std::string no_curve(const std::string& file, const std::string& layer)
 {
     return layer.empty() ? file + ": the drawing holds no curve"
@@ -428,6 +452,12 @@ std::vector<Curve> read_dxf_curves(const std::string& file,
         throw InputError(no_curve(file, layer));
     }
     return curves;
+}
+
+DxfPlaces read_dxf_places(const std::string& file, double millimetres, const std::string& layer)
+{
+    const DxfDrawing drawing{file, millimetres};
+    return CurveMaker{drawing, layer}.read_places();
 }
 
 DxfLayers read_dxf_layers(const std::string& file, double millimetres)

@@ -24,6 +24,17 @@ std::vector<nurbs::Curve> read_dxf_curves(const std::string& file,
                                           double millimetres,
                                           const std::string& layer = "");
 
+// What a drawing holds to drill: its POINTs, and its curves.
+struct DxfPlaces {
+    std::vector<Vec2d> points;
+    std::vector<nurbs::Curve> curves;
+};
+
+// As read_dxf_curves(), with the POINTs beside the curves; either may be empty.
+DxfPlaces read_dxf_places(const std::string& file,
+                          double millimetres,
+                          const std::string& layer = "");
+
 // One layer of a drawing.
 struct DxfLayer {
     std::string name;

@@ -17,6 +17,7 @@
 #include "host_tools/import/part_files.hpp"
 #include "host_tools/import/placing_reader.hpp"
 #include "host_tools/import/post_reader.hpp"
+#include "host_tools/import/prismatic_reader.hpp"
 #include "host_tools/import/stock_table.hpp"
 #include "host_tools/import/tool_reader.hpp"
 #include "host_tools/import/trim_loops.hpp"
@@ -45,9 +46,18 @@ constexpr double kMillimetresPerInch = 25.4;
 constexpr double kDefaultTolerance = 0.02;  // mm
 constexpr double kDefaultLargestArcRadius = 1000.0;
 
-const std::vector<std::string> kStrategies{"contour_pocket",     "adaptive_isocurve",
-                                           "grid_pocket",        "hull_rough",
-                                           "complete_isocurves", "parallel_planes"};
+const std::vector<std::string> kStrategies{"contour_pocket",
+                                           "adaptive_isocurve",
+                                           "grid_pocket",
+                                           "hull_rough",
+                                           "complete_isocurves",
+                                           "parallel_planes",
+                                           "pocket",
+                                           "profile",
+                                           "drill",
+                                           "face",
+                                           "engrave",
+                                           "chamfer"};
 
 class JobReader {
 public:
@@ -376,10 +386,21 @@ void JobReader::read_operation(const toml::table& entry, std::size_t index)
     read_depths(table, operation);
     read_strategy_keys(table, operation);
     refuse_keys_of_others(entry, table, operation.strategy);
-    read_parts(table, operation);
-    for (Operation& pocket : read_pockets(table, std::move(operation))) {
-        check_operation(table, pocket);
-        job_.operations.push_back(std::move(pocket));
+    read_prismatic_keys(table, unit_, operation);
+    if (operation.prismatic) {
+        table.leave({"floor", "intersect", "islands"});
+    } else {
+        read_parts(table, operation);
+    }
+    if (operation.prismatic && operation.strategy != "pocket") {
+        const auto name = table.text("boundary");
+        read_drawing(table, unit_, name ? path_of(*name) : "", parts_, operation);
+        job_.operations.push_back(std::move(operation));
+    } else {
+        for (Operation& pocket : read_pockets(table, std::move(operation))) {
+            check_operation(table, pocket);
+            job_.operations.push_back(std::move(pocket));
+        }
     }
     table.check_all_read();
 }
@@ -406,6 +427,7 @@ Job JobReader::read(const std::string& text)
     }
     tools_->store(job_);
     stock.settle(job_);
+    settle_levels(job_);
     job_.notes = parts_.notes();
     rise_over_fixtures();
     return std::move(job_);  // meshes are large

@@ -158,6 +158,23 @@ std::optional<std::vector<double>> JobTable::numbers(const char* key, Range rang
     return out;
 }
 
+std::optional<std::array<double, 2>> JobTable::interval(const char* key, Range range)
+{
+    const toml::node* node = find(key);
+    if (node == nullptr) {
+        return std::nullopt;
+    }
+    if (!node->is_array()) {
+        const double value = checked(*node, key, range);
+        return std::array{value, value};
+    }
+    const std::vector<double> ends = *numbers(key, range);
+    if (ends.size() != 2 || ends[0] > ends[1]) {
+        refuse(key, "a number is needed, or two: [least, greatest]");
+    }
+    return std::array{ends[0], ends[1]};
+}
+
 std::optional<std::vector<std::string>> JobTable::texts(const char* key)
 {
     const toml::node* node = find(key);
@@ -188,6 +205,22 @@ const toml::table* JobTable::table(const char* key)
         refuse(key, fmt::format("a table [{}] is needed", key));
     }
     return node == nullptr ? nullptr : node->as_table();
+}
+
+const toml::table* JobTable::inline_table(const char* key)
+{
+    const toml::node* node = find(key);
+    if (node != nullptr && !node->is_table()) {
+        refuse(key, fmt::format("values in braces are needed: {} = {{ ... }}", key));
+    }
+    return node == nullptr ? nullptr : node->as_table();
+}
+
+JobTable JobTable::inner(const toml::table& table,
+                         const char* key,
+                         std::vector<std::string> known) const
+{
+    return {table, file_, fmt::format("{}: {}", place_, key), std::move(known)};
 }
 
 std::vector<const toml::table*> JobTable::tables(const char* key)

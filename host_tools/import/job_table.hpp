@@ -2,6 +2,7 @@
 // range.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <set>
 #include <string>
@@ -42,9 +43,15 @@ public:
     std::optional<std::vector<double>> numbers(const char* key, Range range);
     // A single number counts as a list of one.
     std::optional<std::vector<double>> one_or_more(const char* key, Range range);
+    // One number, which is both ends, or [least, greatest].
+    std::optional<std::array<double, 2>> interval(const char* key, Range range);
     // A single text counts as a list of one.
     std::optional<std::vector<std::string>> texts(const char* key);
     const toml::table* table(const char* key);
+    // A table within the table, such as tabs = { count = 4 }.
+    const toml::table* inline_table(const char* key);
+    // Of such a table.
+    JobTable inner(const toml::table& table, const char* key, std::vector<std::string> known) const;
     // A single table counts as a list of one.
     std::vector<const toml::table*> tables(const char* key);
 
@@ -56,6 +63,11 @@ public:
 
     // Whether the value, or the first of a list, is a text; false where the key is absent.
     bool is_text(const char* key) const;
+
+    // Known keys that other operations have: refuse_keys_of_others() has refused them here.
+    void leave(const std::vector<std::string>& keys) { read_.insert(keys.begin(), keys.end()); }
+
+    bool has(const char* key) const { return table_.contains(key); }
 
     [[noreturn]] void refuse(const char* key, const std::string& reason) const;
 

@@ -10,28 +10,33 @@ namespace {
 
 struct OperationKey {
     const char* key;
-    std::string_view strategies;  // that accept it; empty: all
+    std::string_view strategies;    // that know it; empty: all
+    std::string_view without = {};  // that do not
 };
 constexpr std::string_view kIsocurves{"adaptive_isocurve, complete_isocurves, parallel_planes"};
+constexpr std::string_view kDepths{"pocket, profile, drill, face, engrave"};
+constexpr std::string_view kPrismatic{"pocket, profile, drill, face, engrave, chamfer"};
+constexpr std::string_view kAllButPocket{"profile, drill, face, engrave, chamfer"};
+constexpr std::string_view kLines{"drill, face, engrave, chamfer"};
 constexpr OperationKey kOperationKeys[]{
     {"strategy", ""},
-    {"floor", ""},
-    {"intersect", ""},
+    {"floor", "", kPrismatic},
+    {"intersect", "", kPrismatic},
     {"boundary", ""},
-    {"islands", ""},
+    {"islands", "", kAllButPocket},
     {"tool", ""},
-    {"output", ""},
-    {"scallop", ""},
+    {"output", "", "drill"},
+    {"scallop", "", kAllButPocket},
     {"floor_tolerance", ""},
     {"plan_tolerance", ""},
-    {"tolerance_side", ""},
-    {"direction_of_cut", ""},
-    {"entry", ""},
-    {"traversal", ""},
-    {"allowance", ""},
-    {"max_depth", ""},
-    {"min_depth", ""},
-    {"layers", ""},
+    {"tolerance_side", "", kAllButPocket},
+    {"direction_of_cut", "", "drill, engrave"},
+    {"entry", "", kLines},
+    {"traversal", "", "pocket, profile, drill, engrave, chamfer"},
+    {"allowance", "", kLines},
+    {"max_depth", "", "drill, chamfer"},
+    {"min_depth", "", kAllButPocket},
+    {"layers", "", kAllButPocket},
     {"feed", ""},
     {"plunge_feed", ""},
     {"spindle", ""},
@@ -40,7 +45,7 @@ constexpr OperationKey kOperationKeys[]{
     {"iso_spacing", "adaptive_isocurve"},
     {"direction", kIsocurves},
     {"roughing", kIsocurves},
-    {"step_over", "parallel_planes"},
+    {"step_over", "parallel_planes, pocket, face"},
     {"grid", "grid_pocket"},
     {"zigzag", "grid_pocket"},
     {"arc_tolerance", "grid_pocket"},
@@ -49,7 +54,30 @@ constexpr OperationKey kOperationKeys[]{
     {"overlap", "hull_rough"},
     {"extra_subdivision", "hull_rough"},
     {"clearing", "hull_rough"},
-    {"tools", "hull_rough, contour_pocket, adaptive_isocurve, complete_isocurves"}};
+    {"tools", "hull_rough, contour_pocket, pocket, adaptive_isocurve, complete_isocurves"},
+    {"depth", kDepths},
+    {"top", kPrismatic},
+    {"side", "profile"},
+    {"tabs", "profile"},
+    {"lead_in", "profile"},
+    {"lead_out", "profile"},
+    {"diameter", "drill"},
+    {"peck", "drill"},
+    {"overhang", "face"},
+    {"width", "chamfer"}};
+
+// Whether the list, with commas between them, holds the word.
+bool lists(std::string_view list, std::string_view word)
+{
+    while (!list.empty()) {
+        const std::size_t comma = list.find(", ");
+        if (list.substr(0, comma) == word) {
+            return true;
+        }
+        list.remove_prefix(comma == std::string_view::npos ? list.size() : comma + 2);
+    }
+    return false;
+}
 
 }  // namespace
 
@@ -63,8 +91,9 @@ std::vector<std::string> library_keys() { return {"units", "tool"}; }
 
 std::vector<std::string> tool_keys()
 {
-    return {"number",       "shape",  "diameter", "corner_radius", "name",    "flutes",
-            "flute_length", "length", "feed",     "plunge_feed",   "spindle", "coolant"};
+    return {"number",       "shape",       "diameter", "corner_radius", "tip_angle",
+            "tip_diameter", "name",        "flutes",   "flute_length",  "length",
+            "feed",         "plunge_feed", "spindle",  "coolant"};
 }
 
 std::vector<std::string> cutting_keys() { return {"feed", "plunge_feed", "spindle"}; }
@@ -83,6 +112,7 @@ std::vector<std::string> fixture_keys()
 {
     return {"name", "x", "y", "centre", "diameter", "top", "margin"};
 }
+std::vector<std::string> tabs_keys() { return {"count", "places", "width", "height", "shape"}; }
 
 std::vector<std::string> operation_keys()
 {
@@ -98,9 +128,13 @@ void refuse_keys_of_others(const toml::table& entry,
                            const std::string& strategy)
 {
     for (const OperationKey& known : kOperationKeys) {
-        // no strategy's name is a substring of another's
-        if (entry.contains(known.key) && !known.strategies.empty() &&
-            known.strategies.find(strategy) == std::string_view::npos) {
+        if (!entry.contains(known.key)) {
+            continue;
+        }
+        if (lists(known.without, strategy)) {
+            table.refuse(known.key, fmt::format("is no key of {}", strategy));
+        }
+        if (!known.strategies.empty() && !lists(known.strategies, strategy)) {
             table.refuse(known.key,
                          fmt::format("is a key of {}, not of {}", known.strategies, strategy));
         }

@@ -15,6 +15,7 @@ std::vector<std::string> fixture_keys();
 std::vector<std::string> cutting_keys();
 std::vector<std::string> stock_keys();
 std::vector<std::string> placing_keys();
+std::vector<std::string> tabs_keys();
 std::vector<std::string> operation_keys();
 
 // Throws InputError where the operation has a key that its strategy does not accept.

@@ -83,7 +83,12 @@ void check_strategy(const JobTable& table, const Operation& operation)
             table.refuse(key, fmt::format("is missing: {} needs {}", strategy, what));
         }
     };
-    if (strategy == "contour_pocket") {
+    if (is_conical(operation.tool)) {
+        table.refuse("tool",
+                     fmt::format("tool {} is {}: {} needs a ball, flat or bull end",
+                                 operation.tool.number, name_of(operation.tool.shape), strategy));
+    }
+    if (strategy == "contour_pocket" || strategy == "pocket") {
         need(operation.boundary.has_value(), "boundary", "the loop that bounds the pocket");
         need(operation.scallop.has_value(), "scallop",
              "the height of the scallops that may remain");

@@ -61,10 +61,44 @@ const std::vector<FileLoop>& PartFiles::loops(const std::string& file,
     const auto [found, is_new] = loops_.try_emplace({file, join});
     if (is_new) {
         found->second = read_loops(file, millimetres, join, notes_);
-        const auto layer = placed_.find(without_layer(file));
-        move_loops(layer == placed_.end() ? placed(file) : layer->second, found->second);
+        move_loops(placed_drawing(file), found->second);
     }
     return found->second;
+}
+
+Similarity PartFiles::placed_drawing(const std::string& name) const
+{
+    const auto layer = placed_.find(without_layer(name));
+    return layer == placed_.end() ? placed(name) : layer->second;
+}
+
+std::vector<job::Hole> PartFiles::holes(const std::string& file,
+                                        double millimetres,
+                                        DiameterRange range,
+                                        bool only_circles)
+{
+    const Similarity move = placed_drawing(file);
+    const double scale = norm(move.axes[0]);
+    const DiameterRange drawn{range.least / scale, range.greatest / scale};
+    std::vector<job::Hole> holes = read_holes(file, millimetres, drawn, only_circles, notes_);
+    for (job::Hole& hole : holes) {
+        hole = {in_plan(move.of({hole.at.x, hole.at.y, 0})), scale * hole.diameter};
+    }
+    return holes;
+}
+
+std::vector<job::Chain> PartFiles::chains(const std::string& file, double millimetres) const
+{
+    const Similarity move = placed_drawing(file);
+    std::vector<job::Chain> chains = read_chains(file, millimetres);
+    for (job::Chain& chain : chains) {
+        for (Curve& curve : chain) {
+            for (Vec3d& point : curve.points) {
+                point = move.of(point);
+            }
+        }
+    }
+    return chains;
 }
 
 void PartFiles::place(const std::string& file, const Similarity& placed) { placed_[file] = placed; }

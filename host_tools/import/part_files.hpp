@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "host_tools/import/dxf_holes.hpp"
 #include "host_tools/import/file_loops.hpp"
 #include "host_tools/import/import.hpp"
 #include "host_tools/import/similarity.hpp"
@@ -30,6 +31,15 @@ public:
     // join  mm: as in `read_loops`
     const std::vector<FileLoop>& loops(const std::string& file, double millimetres, double join);
 
+    // As read_holes() and read_chains(), placed.
+    std::vector<job::Hole> holes(const std::string& file,
+                                 double millimetres,
+                                 DiameterRange range,
+                                 bool only_circles);
+    std::vector<job::Chain> chains(const std::string& file, double millimetres) const;
+
+    void note(const std::string& sentence) { notes_.push_back(sentence); }
+
     // Of a file that was not read yet; "#layer" left out.
     void place(const std::string& file, const Similarity& placed);
     // Moves what was read of the file, and what will be. mm
@@ -43,6 +53,8 @@ public:
 
 private:
     Similarity placed(const std::string& file) const;
+    // Of the drawing, whichever layer.
+    Similarity placed_drawing(const std::string& name) const;
 
     // keys: file, tolerance
     std::map<std::pair<std::string, double>, std::vector<nurbs::Surface>> surfaces_;

@@ -47,14 +47,18 @@ std::optional<double> highest_floor(const Job& job, const Counts& counts)
 
 std::optional<double> part_top(const Job& job)
 {
-    return highest_floor(job, [](const Operation& operation) { return !is_pocket(operation); });
+    return highest_floor(job, [](const Operation& operation) {
+        return !is_pocket(operation) && !operation.prismatic;
+    });
 }
 
 double default_stock_top(const Job& job)
 {
     constexpr double kSteps = 1e4;         // per mm
     constexpr double kOverRounding = 0.5;  // of a step: excess of the measured height, ignored
-    const double highest = *highest_floor(job, [](const Operation&) { return true; });
+    const double highest = highest_floor(job, [](const Operation& operation) {
+                               return !operation.prismatic;
+                           }).value_or(0.0);
     return std::max(0.0, std::ceil(highest * kSteps - kOverRounding) / kSteps);
 }
 

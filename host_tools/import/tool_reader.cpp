@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "firmware/base/math.hpp"
 #include "host_tools/import/known_keys.hpp"
 
 #include "fmt/format.h"
@@ -32,6 +33,34 @@ job::ToolFacts read_facts(JobTable& keys, double millimetres)
                                                 *facts.flute_length, *facts.length));
     }
     return facts;
+}
+
+// The cone of a vee or a drill.
+void read_tip(JobTable& keys, const std::string& shape, double millimetres, Tool& tool)
+{
+    constexpr Range kTipAngle{1, 179};  // degrees
+    constexpr double kTwistDrill = 118;
+    const auto angle = keys.number("tip_angle", kTipAngle);
+    const auto flat = keys.number("tip_diameter", kNotNegative);
+    if (tool.shape == ToolShape::kVee && !angle) {
+        keys.refuse("tip_angle",
+                    "is missing: a vee tool needs the angle between its flanks, such "
+                    "as 60 or 90 degrees");
+    }
+    if (!is_conical(tool) && angle) {
+        keys.refuse("tip_angle", fmt::format("belongs to a vee or a drill, this one is {}", shape));
+    }
+    if (tool.shape != ToolShape::kVee && flat) {
+        keys.refuse("tip_diameter", fmt::format("belongs to a vee tool, this one is {}", shape));
+    }
+    if (is_conical(tool)) {
+        tool.tip_angle = angle.value_or(kTwistDrill) * kPi / 180;
+        tool.tip_radius = flat.value_or(0) * millimetres / 2;
+    }
+    if (is_conical(tool) && tool.tip_radius >= tool.radius) {
+        keys.refuse("tip_diameter", fmt::format("is {:g} mm, the tool's diameter is only {:g} mm",
+                                                2 * tool.tip_radius, 2 * tool.radius));
+    }
 }
 
 }  // namespace
@@ -65,13 +94,16 @@ ReadTool read_tool(const toml::table& table,
     JobTable keys{table, file, fmt::format("tool {}", index), tool_keys()};
     Tool tool;
     tool.number = keys.whole_number("number", kToolNumber).value_or(static_cast<int>(index));
-    const std::string shape = keys.one_of("shape", {"ball", "flat", "bull"}).value_or("");
+    const std::string shape =
+        keys.one_of("shape", {"ball", "flat", "bull", "vee", "drill"}).value_or("");
     if (shape.empty()) {
-        keys.refuse("shape", "is missing: \"ball\", \"flat\" or \"bull\"");
+        keys.refuse("shape", "is missing: \"ball\", \"flat\", \"bull\", \"vee\" or \"drill\"");
     }
     tool.shape = shape == "ball"   ? ToolShape::kBall
                  : shape == "flat" ? ToolShape::kFlat
-                                   : ToolShape::kBull;
+                 : shape == "bull" ? ToolShape::kBull
+                 : shape == "vee"  ? ToolShape::kVee
+                                   : ToolShape::kDrill;
     tool.radius = keys.required_number("diameter", kPositive) * millimetres / 2;
     const auto given = keys.number("corner_radius", kPositive);
     const auto corner = given ? std::optional{*given * millimetres} : std::nullopt;
@@ -86,6 +118,7 @@ ReadTool read_tool(const toml::table& table,
         keys.refuse("corner_radius", fmt::format("is {:g} mm, the tool's radius is only {:g} mm",
                                                  tool.corner_radius, tool.radius));
     }
+    read_tip(keys, shape, millimetres, tool);
     read_rates(keys, millimetres, tool);
     const job::ToolFacts facts = read_facts(keys, millimetres);
     keys.check_all_read();

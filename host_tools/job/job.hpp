@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/job/prismatic.hpp"
 #include "host_tools/nurbs/nurbs.hpp"
 #include "host_tools/toolpath/entry_kind.hpp"
 #include "host_tools/toolpath/post.hpp"
@@ -90,8 +91,10 @@ struct Operation {
     double overlap{};
     int extra_subdivision{};
     bool contour_clearing{false};
-    // parallel_planes
+    // parallel_planes; most between passes of pocket and face
     std::optional<double> step_over;
+    // pocket, profile, drill, face, engrave, chamfer; a pocket's floor and boundary are set too
+    std::optional<Prismatic> prismatic;
 };
 
 // Fraction of an operation's progress at which roughing ends, where a finish follows.

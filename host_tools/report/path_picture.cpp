@@ -8,6 +8,7 @@
 #include "host_tools/report/colour_scale.hpp"
 #include "host_tools/report/picture_frame.hpp"
 #include "host_tools/report/pictures.hpp"
+#include "host_tools/verify/cut_regions.hpp"
 #include "host_tools/verify/part_heights.hpp"
 
 #include "fmt/format.h"
@@ -56,7 +57,13 @@ Extent extent_of(const Job& job, const Program& program)
         surfaces.insert(surfaces.end(), operation.floor.begin(), operation.floor.end());
         mesh.insert(mesh.end(), operation.mesh.begin(), operation.mesh.end());
     }
-    const PartBox box = part_box(surfaces, mesh);
+    PartBox box = part_box(surfaces, mesh);
+    if (const auto plan = verify::prismatic_box(job)) {
+        box.x_low = std::min(box.x_low, plan->low.x);
+        box.x_high = std::max(box.x_high, plan->high.x);
+        box.y_low = std::min(box.y_low, plan->low.y);
+        box.y_high = std::max(box.y_high, plan->high.y);
+    }
     Extent extent{{box.x_low, box.x_high, box.y_low, box.y_high}, 1e9, -1e9};
     for (std::size_t k = 1; k < program.moves.size(); ++k) {
         const path::Move& move = program.moves[k].move;

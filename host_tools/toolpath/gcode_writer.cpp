@@ -45,6 +45,9 @@ std::string tool_text(const Toolpath& path, double unit, const char* name)
         text +=
             fmt::format(" corner radius {} {}", fixed_point(tool.corner_radius / unit, 4), name);
     }
+    if (is_conical(tool)) {
+        text += fmt::format(" tip angle {}", fixed_point(tool.tip_angle * 180 / kPi, 2));
+    }
     if (!path.tool_name.empty()) {
         text += ": " + path.tool_name;
     }

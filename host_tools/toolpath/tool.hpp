@@ -6,7 +6,7 @@
 
 namespace cusp::toolpath {
 
-enum class ToolShape : std::uint8_t { kBall, kFlat, kBull };
+enum class ToolShape : std::uint8_t { kBall, kFlat, kBull, kVee, kDrill };
 
 enum class Coolant : std::uint8_t { kOff, kMist, kFlood };
 
@@ -17,7 +17,7 @@ struct CuttingRates {
     std::optional<double> spindle;  // rpm; none: the job's
 };
 
-// "ball", "flat" or "bull".
+// "ball", "flat", "bull", "vee" or "drill".
 const char* name_of(ToolShape shape);
 
 struct Tool {
@@ -25,9 +25,18 @@ struct Tool {
     ToolShape shape{ToolShape::kBall};
     double radius{};         // mm
     double corner_radius{};  // mm: radius for a ball, 0 for a flat end mill
+    // Of a vee or a drill: the whole angle between its flanks, radians.
+    double tip_angle{};
+    double tip_radius{};  // mm: of the small flat at the tip of a vee
     CuttingRates rates{};
     Coolant coolant{Coolant::kOff};
 };
+
+// Whether the end is a cone: a vee or a drill.
+bool is_conical(const Tool& tool);
+
+// mm: the radius of the level bottom; 0 for a ball, a drill, and a vee with a sharp tip.
+double flat_radius(const Tool& tool);
 
 // Height of the tool's lower side over its tip at distance `d` from its axis; infinity beyond the
 // radius.

@@ -9,7 +9,29 @@ namespace cusp::toolpath {
 
 const char* name_of(ToolShape shape)
 {
-    return shape == ToolShape::kBall ? "ball" : shape == ToolShape::kFlat ? "flat" : "bull";
+    switch (shape) {
+        case ToolShape::kBall:
+            return "ball";
+        case ToolShape::kFlat:
+            return "flat";
+        case ToolShape::kBull:
+            return "bull";
+        case ToolShape::kVee:
+            return "vee";
+        case ToolShape::kDrill:
+            return "drill";
+    }
+    return "";
+}
+
+bool is_conical(const Tool& tool)
+{
+    return tool.shape == ToolShape::kVee || tool.shape == ToolShape::kDrill;
+}
+
+double flat_radius(const Tool& tool)
+{
+    return is_conical(tool) ? tool.tip_radius : tool.radius - tool.corner_radius;
 }
 
 double profile_height(const Tool& tool, double d)
@@ -17,9 +39,12 @@ double profile_height(const Tool& tool, double d)
     if (!(d <= tool.radius)) {
         return std::numeric_limits<double>::infinity();
     }
-    const double beyond_flat = d - (tool.radius - tool.corner_radius);
+    const double beyond_flat = d - flat_radius(tool);
     if (beyond_flat <= 0) {
         return 0.0;
+    }
+    if (is_conical(tool)) {
+        return beyond_flat / std::tan(tool.tip_angle / 2);
     }
     const double corner = tool.corner_radius;
     return corner - std::sqrt(std::max(0.0, corner * corner - beyond_flat * beyond_flat));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <mutex>
 
+#include "host_tools/nurbs/plan_vector.hpp"
 #include "host_tools/verify/bands.hpp"
 
 namespace cusp::verify {
@@ -18,18 +19,23 @@ struct Profile {
     double flat;    // radius of the flat bottom
     double corner;  // radius of the corner
     double reach;   // squared radius of the whole tool
+    double rise;    // of a cone, mm a mm outward; 0: none
 
     explicit Profile(const Tool& tool, double shrink)
-        : flat{}, corner{std::max(0.0, tool.corner_radius - shrink)}, reach{}
+        : flat{}, corner{std::max(0.0, tool.corner_radius - shrink)}, reach{}, rise{}
     {
         const double radius = std::max(0.0, tool.radius - shrink);
         flat = std::max(0.0, radius - corner);
         reach = radius * radius;
+        if (is_conical(tool)) {
+            flat = std::max(0.0, tool.tip_radius - shrink);
+            rise = 1 / std::tan(tool.tip_angle / 2);
+        }
     }
     double at(double squared) const
     {
         const double beyond = std::max(0.0, std::sqrt(squared) - flat);
-        return corner - std::sqrt(std::max(0.0, corner * corner - beyond * beyond));
+        return corner - std::sqrt(std::max(0.0, corner * corner - beyond * beyond)) + rise * beyond;
     }
     // A lower bound of at(squared) is steepness() * squared: a ball lies above its parabola.
     double steepness() const { return flat > 0 || corner <= 0 ? 0.0 : 1 / (2 * corner); }
@@ -101,7 +107,7 @@ CutFigures MachinedStock::cut_band(const ToolPositions& positions,
     const Tool& tool = positions.tool;
     const double shrink = spacing * spacing / (4 * tool.radius) + 0.002;
     // Tools with round corners leave no more between positions than the square of their distance.
-    const bool edged = tool.radius > tool.corner_radius && tool.corner_radius < spacing;
+    const bool edged = flat_radius(tool) > 0 && tool.corner_radius < spacing;
     CutFigures figures;
     for (std::size_t k = 0; k < positions.tips.size(); ++k) {
         const Vec3d tip = positions.tips[k];
@@ -111,6 +117,9 @@ CutFigures MachinedStock::cut_band(const ToolPositions& positions,
         const double depth = cut_at(tool, tip, shrink, begin, end);
         if (edged && k > 0 && positions.tips[k - 1].z < top_) {
             sweep_flat(tool, positions.tips[k - 1], tip, begin, end);
+        }
+        if (is_conical(tool) && k > 0 && positions.tips[k - 1].z < top_) {
+            sweep_cone(tool, positions.tips[k - 1], tip, begin, end);
         }
         double& worst = positions.rapid[k] ? figures.rapid_cut : figures.cut_depth;
         worst = std::max(worst, depth);
@@ -171,7 +180,7 @@ double MachinedStock::cut_at(
 void MachinedStock::sweep_flat(
     const Tool& tool, Vec3d from, Vec3d to, std::size_t begin, std::size_t end)
 {
-    const double radius = tool.radius - tool.corner_radius;
+    const double radius = flat_radius(tool);
     const double squared = radius * radius;
     const double max_error = grid_.pitch / 2;
     const FlatSweep sweep{from, to, radius};
@@ -195,6 +204,35 @@ void MachinedStock::sweep_flat(
         };
         cut_rows(grid_.first_row(y_low - outer), std::min(done, high));
         cut_rows(open, high);
+    }
+}
+
+// Each point is cut from the position nearest to it in plan: exact on level moves, and no deeper
+// than the tool cuts on others.
+void MachinedStock::sweep_cone(
+    const Tool& tool, Vec3d from, Vec3d to, std::size_t begin, std::size_t end)
+{
+    const double rise = 1 / std::tan(tool.tip_angle / 2);
+    const double reach =
+        std::min(tool.radius, tool.tip_radius + (top_ - std::min(from.z, to.z)) / rise);
+    const Vec2d a = in_plan(from);
+    const Vec2d along = in_plan(to) - a;
+    const double squared = dot(along, along);
+    const auto [x_low, x_high] = std::minmax(from.x, to.x);
+    const auto [y_low, y_high] = std::minmax(from.y, to.y);
+    const std::size_t last = std::min(end, grid_.end_column(x_high + reach));
+    for (std::size_t i = std::max(begin, grid_.first_column(x_low - reach)); i < last; ++i) {
+        for (std::size_t j = grid_.first_row(y_low - reach); j < grid_.end_row(y_high + reach);
+             ++j) {
+            const Vec2d p = Vec2d{grid_.x(i, j), grid_.y(i, j)} - a;
+            const double share = squared > 0 ? std::clamp(dot(p, along) / squared, 0.0, 1.0) : 0.0;
+            const double away = norm(p - share * along);
+            if (away <= tool.radius) {
+                double& height = heights_[grid_.index(i, j)];
+                height = std::min(height, from.z + share * (to.z - from.z) +
+                                              rise * std::max(0.0, away - tool.tip_radius));
+            }
+        }
     }
 }
 

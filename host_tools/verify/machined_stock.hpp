@@ -29,8 +29,8 @@ class MachinedStock {
 public:
     MachinedStock(const HeightGrid& grid, double top);
 
-    // Removes the volume of the tool at each position; for a flat bottom with a sharp edge also its
-    // sweep between positions.
+    // Removes the volume of the tool at each position; for a flat bottom with a sharp edge, and for
+    // a cone, also its sweep between positions.
     //
     // spacing  mm between positions: depths are measured with a tool reduced by the height of the
     //          slivers between two positions
@@ -48,6 +48,9 @@ private:
     double cut_at(
         const toolpath::Tool& tool, Vec3d tip, double shrink, std::size_t begin, std::size_t end);
     void sweep_flat(
+        const toolpath::Tool& tool, Vec3d from, Vec3d to, std::size_t begin, std::size_t end);
+
+    void sweep_cone(
         const toolpath::Tool& tool, Vec3d from, Vec3d to, std::size_t begin, std::size_t end);
 
     HeightGrid grid_;

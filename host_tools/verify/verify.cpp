@@ -7,7 +7,9 @@
 
 #include "host_tools/job/fixture_clearance.hpp"
 #include "host_tools/part_model/part_model.hpp"
+#include "host_tools/verify/cut_regions.hpp"
 #include "host_tools/verify/floor_judgement.hpp"
+#include "host_tools/verify/level_judgement.hpp"
 #include "host_tools/verify/wall_distance.hpp"
 
 #include "fmt/format.h"
@@ -44,6 +46,9 @@ struct Scene {
     double plan_tolerance{};
     std::optional<double> scallop;
     double path_clearance{};  // mm: the floor tolerance where it is one-sided
+    bool has_levels{false};   // some operation is 2.5-D
+
+    bool has_floor() const { return !surfaces.empty() || !mesh.empty(); }
 };
 
 Scene scene_of(const Job& job)
@@ -54,6 +59,12 @@ Scene scene_of(const Job& job)
     std::set<Files> meshes;
     std::set<std::string> loops;
     for (const Operation& operation : job.operations) {
+        scene.floor_tolerance = std::max(scene.floor_tolerance, operation.floor_tolerance);
+        scene.plan_tolerance = std::max(scene.plan_tolerance, operation.plan_tolerance);
+        if (operation.prismatic) {
+            scene.has_levels = true;
+            continue;
+        }
         if (!operation.mesh.empty()) {
             if (meshes.insert(operation.floor_files).second) {
                 scene.mesh.insert(scene.mesh.end(), operation.mesh.begin(), operation.mesh.end());
@@ -70,8 +81,6 @@ Scene scene_of(const Job& job)
                 scene.loops.emplace_back(operation.islands[i], false);
             }
         }
-        scene.floor_tolerance = std::max(scene.floor_tolerance, operation.floor_tolerance);
-        scene.plan_tolerance = std::max(scene.plan_tolerance, operation.plan_tolerance);
         if (operation.scallop) {
             scene.scallop = operation.scallop;
             scene.path_clearance =
@@ -162,6 +171,12 @@ HeightGrid make_grid(const Job& job,
                      std::optional<double> pitch)
 {
     PartBox box = part_box(scene.surfaces, scene.mesh);
+    if (const auto plan = prismatic_box(job)) {
+        box.x_low = std::min(box.x_low, plan->low.x);
+        box.x_high = std::max(box.x_high, plan->high.x);
+        box.y_low = std::min(box.y_low, plan->low.y);
+        box.y_high = std::max(box.y_high, plan->high.y);
+    }
     if (job.stock_x) {
         box.x_low = std::min(box.x_low, (*job.stock_x)[0]);
         box.x_high = std::max(box.x_high, (*job.stock_x)[1]);
@@ -272,6 +287,16 @@ void judge(const Scene& scene, Verification& result)
         result.broken.push_back(fmt::format("fixture_hit_max_mm {:.4g}, {}, is over {:.4g}",
                                             *f.fixture_hit_max, f.fixture_hit_at, kFixtureAllowed));
     }
+    if (f.level_left) {
+        result.broken.push_back(
+            fmt::format("left {:.4g} mm over the level of operation {} ({}) at x {:.3f} y {:.3f}",
+                        f.level_left->height, f.level_left->operation, f.level_left->strategy,
+                        f.level_left->place.x, f.level_left->place.y));
+    }
+    if (f.tabs_standing != f.tabs_wanted) {
+        result.broken.push_back(
+            fmt::format("tabs: {} stand, {} are wanted", f.tabs_standing, f.tabs_wanted));
+    }
     if (scene.scallop) {
         bound("uncovered_share", f.uncovered_share, bounds.uncovered_share);
         if (f.thickest_left) {
@@ -309,6 +334,52 @@ void cut_stock(const std::vector<ToolPositions>& runs,
             of_tool = std::max(of_tool, cut.cut_depth);
         }
     }
+}
+
+// What surfaces and their walls ask for.
+void judge_surfaces(const Job& job,
+                    const Scene& scene,
+                    const std::vector<ToolPositions>& runs,
+                    const std::vector<WallDistance>& walls,
+                    const std::vector<Tool>& tools,
+                    double spacing,
+                    const MachinedStock& stock,
+                    Verification& result)
+{
+    VerifyFigures& figures = result.figures;
+    if (!walls.empty()) {
+        figures.wall_gouge_max = wall_gouge(walls, runs, job.stock_top);
+    }
+    figures.ball_gouge_max = ball_gouge(scene, runs, job.stock_top);
+    FloorMaps maps = judge_floor(
+        {scene.surfaces, scene.mesh, tools, walls, result.grid, stock.heights(), job.stock_top,
+         scene.scallop, scene.path_clearance, runs, most_left(scene, tools, spacing)},
+        figures);
+    result.left = std::move(maps.left);
+    result.gouge = std::move(maps.gouge);
+    result.part = std::move(maps.part);
+}
+
+// What 2.5-D operations ask for. Where they cut, a surface of another operation is no bound: their
+// figures of gouges replace those of the surfaces.
+void add_levels(const Job& job,
+                const Scene& scene,
+                const MachinedStock& stock,
+                Verification& result)
+{
+    result.figures.ball_gouge_max.reset();
+    LevelMaps maps =
+        judge_levels({job, result.grid, stock.heights(), scene.floor_tolerance + kJudgement,
+                      scene.plan_tolerance + kJudgement},
+                     result.figures);
+    for (std::size_t k = 0; k < result.left.size(); ++k) {
+        if (std::isnan(maps.left[k])) {
+            maps.left[k] = result.left[k];
+        }
+    }
+    result.left = std::move(maps.left);
+    result.gouge = std::move(maps.gouge);
+    result.part = std::move(maps.part);
 }
 
 }  // namespace
@@ -352,18 +423,13 @@ Verification verify(const Job& job,
     for (const auto& [loop, outer] : scene.loops) {
         walls.emplace_back(loop, outer, widest + 2 * result.grid.pitch);
     }
-    if (!walls.empty()) {
-        figures.wall_gouge_max = wall_gouge(walls, runs, job.stock_top);
+    if (scene.has_floor() || !scene.has_levels) {
+        judge_surfaces(job, scene, runs, walls, tools, spacing, stock, result);
+    }
+    if (scene.has_levels) {
+        add_levels(job, scene, stock, result);
     }
     find_fixture_hits(job, runs, figures);
-    figures.ball_gouge_max = ball_gouge(scene, runs, job.stock_top);
-    FloorMaps maps = judge_floor(
-        {scene.surfaces, scene.mesh, tools, walls, result.grid, stock.heights(), job.stock_top,
-         scene.scallop, scene.path_clearance, runs, most_left(scene, tools, spacing)},
-        figures);
-    result.left = std::move(maps.left);
-    result.gouge = std::move(maps.gouge);
-    result.part = std::move(maps.part);
     judge(scene, result);
     return result;
 }

@@ -29,6 +29,14 @@ struct ThickestLeft {
     Vec3d place;       // the lowest point that the tools can reach there
 };
 
+// Stock left where a 2.5-D operation clears a level.
+struct LevelLeft {
+    double height;  // mm over what it cuts
+    Vec2d place;
+    int operation;  // its number in the job
+    std::string strategy;
+};
+
 // Figures of one tool of the program.
 struct ToolFigures {
     toolpath::Tool tool;
@@ -63,6 +71,10 @@ struct VerifyFigures {
     double left_volume{};                       // mm^3
     std::optional<ThickestLeft> thickest_left;  // if it is more than scallop and tolerance
     double uncovered_share{};                   // of the floor: left above the scallop bound
+    // Of 2.5-D operations: the most that is left over the tolerance; tabs of all profiles.
+    std::optional<LevelLeft> level_left;
+    int tabs_standing{};
+    int tabs_wanted{};
 };
 
 // The limits of the figures, mm. The error of the judgement is added to each.

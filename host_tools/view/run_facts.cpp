@@ -85,6 +85,10 @@ Json tools_of(const RunFacts& facts)
             entry["shape"] = name_of(tool->shape);
             entry["radius"] = tool->radius;
             entry["corner_radius"] = tool->corner_radius;
+            if (is_conical(*tool)) {
+                entry["tip_angle"] = tool->tip_angle;
+                entry["tip_radius"] = tool->tip_radius;
+            }
         }
         if (facts.verification != nullptr) {
             for (const ToolFigures& figures : facts.verification->figures.tools) {

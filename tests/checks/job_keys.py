@@ -11,7 +11,7 @@ import sys
 KEYS = "host_tools/import/known_keys.cpp"  # a key that is in no list there is refused; one that is not read, too
 DOCUMENT = "docs/job_file.md"
 TABLES = {"cutting", "fixture", "operation", "placing", "stock"}
-LISTED = re.compile(r'\{"(\w+)", (?:""|k\w+|"[^"]*")\}')  # of operations, with their strategies
+LISTED = re.compile(r'\{"(\w+)", (?:""|k\w+|"[^"]*")(?:, (?:k\w+|"[^"]*"))?\}')  # of operations, with their strategies
 LIST = re.compile(r'return \{(("\w+"(?:,\s*)?)+)\}')
 ROW = re.compile(r"^\| ((?:`\w+`(?:, )?)+) \|", re.MULTILINE)
 

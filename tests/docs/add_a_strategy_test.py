@@ -51,11 +51,11 @@ class Page(unittest.TestCase):
             self.assertEqual(run.returncode, 0, f"{check}: {run.stdout}{run.stderr}")
 
     def test_plans_a_program_that_cuts_nothing_below_the_floor(self):
-        run, program = self.plan("engrave", "point_spacing = 0.5\nfloor_tolerance = 0.02")
+        run, program = self.plan("trace", "point_spacing = 0.5\nfloor_tolerance = 0.02")
         self.assertEqual(run.returncode, 0, run.stderr)
-        self.assertIn("engrave: gouge at most 0.0", run.stdout)
+        self.assertIn("trace: gouge at most 0.0", run.stdout)
         lines = program.read_text().splitlines()
-        self.assertIn("(engrave: one pass along the boundary)", lines)
+        self.assertIn("(trace: one pass along the boundary)", lines)
         self.assertGreater(sum(line.startswith(("G1", "X", "Y")) for line in lines), 1000)
         # the pocket's own strategy gives verify a job it knows: the same floor, tool and tolerance
         job = self.folder / "floor.toml"
@@ -67,12 +67,12 @@ class Page(unittest.TestCase):
         self.assertLessEqual(gouge[0], 0.02)
 
     def test_refuses_what_the_page_says(self):
-        run, _ = self.plan("engrave", "point_spacing = 40.0\nfloor_tolerance = 0.0001")
+        run, _ = self.plan("trace", "point_spacing = 40.0\nfloor_tolerance = 0.0001")
         self.assertEqual(run.returncode, 2)
         self.assertIn("lower point_spacing", run.stderr)
         run, _ = self.plan("grid_pocket", "grid = [1.0, 1.0]\npoint_spacing = 1.0")
         self.assertEqual(run.returncode, 2)
-        self.assertIn("is a key of engrave, not of grid_pocket", run.stderr)
+        self.assertIn("is a key of trace, not of grid_pocket", run.stderr)
 
     def test_a_block_that_does_not_fit_is_named(self):
         page = self.folder / "page.md"

@@ -3,8 +3,8 @@
 #include <exception>
 #include <fstream>
 
-#include "host_tools/cli/strategies.hpp"
 #include "host_tools/import/import.hpp"
+#include "host_tools/strategies/strategies.hpp"
 #include "host_tools/toolpath/gcode_writer.hpp"
 
 int main(int count, char** arguments)
@@ -17,7 +17,7 @@ int main(int count, char** arguments)
         const cusp::job::Job job = cusp::import::read_job(arguments[1]);
         std::vector<cusp::toolpath::PlannedOperation> planned;
         for (const cusp::job::Operation& operation : job.operations) {
-            for (const auto& result : cusp::cli::plan_operation(job, operation)) {
+            for (const auto& result : cusp::strategies::plan_operation(job, operation)) {
                 std::printf("%s: gouge at most %.4f mm, %d points\n", result.stats.strategy.c_str(),
                             result.stats.gouge_bound_mm, result.stats.cl_points);
                 planned.push_back(result);

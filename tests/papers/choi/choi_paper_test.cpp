@@ -19,7 +19,7 @@ using namespace cusp::toolpath;
 
 namespace {
 
-constexpr double kInch = 25.4;
+constexpr double kOneInch = 25.4;
 
 Job job_of(const std::string& name)
 {
@@ -34,7 +34,7 @@ Job job_of(const std::string& name)
 PlannedOperation rectangle(double arc_tolerance_inch, ToleranceSide side)
 {
     Job job = job_of("rectangle");
-    job.operations.front().arc_tolerance = arc_tolerance_inch * kInch;
+    job.operations.front().arc_tolerance = arc_tolerance_inch * kOneInch;
     job.operations.front().tolerance_side = side;
     return plan_grid_pocket(job, job.operations.front()).front();
 }
@@ -48,7 +48,7 @@ TEST(ChoiPaper, RectangleTakesAtMost125CommandsAtOneHundredthByThePapersRule)
     const PlannedOperation plan = rectangle(.01, ToleranceSide::kBoth);
     DOUBLES_EQUAL(2016, count_of(plan, "cells"), 0);
     CHECK(count_of(plan, "main_path_moves") <= 125);
-    CHECK(plan.stats.gouge_bound_mm <= .01 * kInch + 1e-6);
+    CHECK(plan.stats.gouge_bound_mm <= .01 * kOneInch + 1e-6);
 }
 
 TEST(ChoiPaper, RectangleTakesAtMost225CommandsAtOneThousandthByThePapersRule)
@@ -65,7 +65,7 @@ TEST(ChoiPaper, RectangleIsNeverCutIntoWhereTheToleranceIsOutside)
 
 TEST(ChoiPaper, RectangleStaysUnderThePapersRoughness)
 {
-    CHECK(count_of(rectangle(.01, ToleranceSide::kOutside), "roughness_mm") <= .0089 * kInch);
+    CHECK(count_of(rectangle(.01, ToleranceSide::kOutside), "roughness_mm") <= .0089 * kOneInch);
 }
 
 TEST(ChoiPaper, PolygonWastesAtMostOnePercentOfItsSteps)
@@ -75,5 +75,5 @@ TEST(ChoiPaper, PolygonWastesAtMostOnePercentOfItsSteps)
     DOUBLES_EQUAL(712, count_of(plan, "cells"), 0);
     CHECK(count_of(plan, "backtracks") <= .01 * count_of(plan, "steps"));
     CHECK(plan.stats.gouge_bound_mm <= 1e-6);
-    CHECK(count_of(plan, "roughness_mm") <= .04 * kInch);
+    CHECK(count_of(plan, "roughness_mm") <= .04 * kOneInch);
 }

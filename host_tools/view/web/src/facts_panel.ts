@@ -113,7 +113,7 @@ export function factsPanel(facts: PageFacts, actions: FactsActions): HTMLElement
   if (facts.tools.length > 0) {
     out.push(section("Tools", table(["Tool", "Shape", "Time", "Cut", "Deepest"], facts.tools.map((tool) => [
       tool.number > 0 ? `T${tool.number}` : "T–",
-      tool.shape ? `${tool.shape} ${figure(2 * tool.radius!)}${tool.shape === "bull" ? ` r${figure(tool.corner_radius!)}` : ""} mm` : "not known",
+      tool.shape ? `${tool.shape} ${figure(2 * tool.radius!)}${tool.shape === "bull" ? ` r${figure(tool.corner_radius!)}` : ""} mm${tool.tip_angle ? `, ${figure(tool.tip_angle * 180 / Math.PI)}°` : ""}` : "not known",
       duration(tool.time_s),
       tool.cut_length_mm === undefined ? "–" : metres(tool.cut_length_mm),
       tool.cut_depth_max_mm === undefined ? "–" : `${figure(tool.cut_depth_max_mm, 3)} mm`,

@@ -3,7 +3,7 @@ import * as THREE from "three";
 import type { Timeline } from "./timeline";
 import type { ToolFacts } from "./run_data";
 
-export type Cutter = ToolFacts & { shape: "ball" | "flat" | "bull"; radius: number; corner_radius: number };
+export type Cutter = ToolFacts & { shape: "ball" | "flat" | "bull" | "vee" | "drill"; radius: number; corner_radius: number };
 
 const isCutter = (tool: ToolFacts | undefined): tool is Cutter => tool?.radius !== undefined && tool.corner_radius !== undefined;
 
@@ -16,6 +16,7 @@ export function toolAt(timeline: Timeline, tick: number): Cutter | null {
 
 // Height of the lower side above the tip, at the distance `away` from the axis.
 export function profileOf(tool: Cutter, away: number): number {
+  if (tool.tip_angle) return Math.max(0, away - (tool.tip_radius ?? 0)) / Math.tan(tool.tip_angle / 2);
   const corner = tool.corner_radius, beyond = Math.max(0, away - (tool.radius - corner));
   return corner - Math.sqrt(Math.max(0, corner * corner - beyond * beyond));
 }
@@ -25,12 +26,17 @@ export function toolGeometry(tool: Cutter | null, size: number): THREE.BufferGeo
   const points: THREE.Vector2[] = [];
   if (tool) {
     const { radius, corner_radius: corner } = tool, flat = radius - corner;
+    const end = profileOf(tool, radius);
     points.push(new THREE.Vector2(0, 0));
-    for (let k = 0; k <= 16; ++k) {
-      const angle = k / 16 * Math.PI / 2;
-      points.push(new THREE.Vector2(flat + corner * Math.sin(angle), corner * (1 - Math.cos(angle))));
+    if (tool.tip_angle) {
+      points.push(new THREE.Vector2(tool.tip_radius ?? 0, 0), new THREE.Vector2(radius, end));
+    } else {
+      for (let k = 0; k <= 16; ++k) {
+        const angle = k / 16 * Math.PI / 2;
+        points.push(new THREE.Vector2(flat + corner * Math.sin(angle), corner * (1 - Math.cos(angle))));
+      }
     }
-    const flutes = Math.max(5 * radius, corner + radius), shank = flutes + 5 * radius;
+    const flutes = Math.max(5 * radius, end + radius), shank = flutes + 5 * radius;
     points.push(new THREE.Vector2(radius, flutes), new THREE.Vector2(0.92 * radius, flutes), new THREE.Vector2(0.92 * radius, shank), new THREE.Vector2(0, shank));
   } else {
     points.push(new THREE.Vector2(0, 0), new THREE.Vector2(0.012 * size, 0.05 * size), new THREE.Vector2(0.012 * size, 0.16 * size), new THREE.Vector2(0, 0.16 * size));

@@ -1,4 +1,8 @@
 // Dispatches operations to strategies by name.
+//
+//     for (const job::Operation& operation : job.operations) {
+//         for (const auto& planned : strategies::plan_operation(job, operation)) { ... }
+//     }
 #pragma once
 
 #include <vector>
@@ -6,11 +10,11 @@
 #include "host_tools/job/job.hpp"
 #include "host_tools/toolpath/toolpath.hpp"
 
-namespace cusp::cli {
+namespace cusp::strategies {
 
 // Plans one operation of the job with the strategy that it names.
 // Errors: InputError where the operation can't be planned, or no strategy has that name.
 std::vector<toolpath::PlannedOperation> plan_operation(const job::Job& job,
                                                        const job::Operation& operation);
 
-}  // namespace cusp::cli
+}  // namespace cusp::strategies

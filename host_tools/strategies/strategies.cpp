@@ -1,5 +1,5 @@
 // The table of strategies; a new one is one line.
-#include "host_tools/cli/strategies.hpp"
+#include "host_tools/strategies/strategies.hpp"
 
 #include <array>
 
@@ -8,8 +8,9 @@
 #include "host_tools/contour_pocket/contour_pocket.hpp"
 #include "host_tools/grid_pocket/grid_pocket.hpp"
 #include "host_tools/hull_rough/hull_rough.hpp"
+#include "host_tools/prismatic/prismatic.hpp"
 
-namespace cusp::cli {
+namespace cusp::strategies {
 
 using adaptive_isocurve::plan_adaptive_isocurve;
 using adaptive_isocurve::plan_complete_isocurves;
@@ -28,13 +29,29 @@ struct Strategy {
     std::vector<PlannedOperation> (*plan)(const Job&, const Operation&);
 };
 
+// The contour pocket of a level floor, from its own top down.
+std::vector<PlannedOperation> plan_pocket(const Job& job, const Operation& operation)
+{
+    Job from_top = job;
+    from_top.operations.clear();
+    from_top.stock_top = operation.prismatic->top;
+    from_top.clearance = job.stock_top + job.clearance - from_top.stock_top;
+    return plan_contour_pocket(from_top, operation);
+}
+
 constexpr std::array kStrategies{
     Strategy{"adaptive_isocurve", plan_adaptive_isocurve},
     Strategy{"complete_isocurves", plan_complete_isocurves},
+    Strategy{"chamfer", prismatic::plan_chamfer},
     Strategy{"contour_pocket", plan_contour_pocket},
+    Strategy{"drill", prismatic::plan_drill},
+    Strategy{"engrave", prismatic::plan_engrave},
+    Strategy{"face", prismatic::plan_face},
     Strategy{"grid_pocket", plan_grid_pocket},
     Strategy{"hull_rough", plan_hull_rough},
     Strategy{"parallel_planes", plan_parallel_planes},
+    Strategy{"pocket", plan_pocket},
+    Strategy{"profile", prismatic::plan_profile},
 };
 
 }  // namespace
@@ -50,4 +67,4 @@ std::vector<PlannedOperation> plan_operation(const Job& job, const Operation& op
                      "\" is not part of this build");
 }
 
-}  // namespace cusp::cli
+}  // namespace cusp::strategies

@@ -1,0 +1,163 @@
+// A circle is a closed curve all of whose points are as far from their mean; a block may turn and
+// scale it.
+#include "host_tools/import/dxf_holes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "host_tools/import/dxf_curves.hpp"
+#include "host_tools/import/geometry_json.hpp"
+#include "host_tools/import/loop_nesting.hpp"
+#include "host_tools/import/path_ending.hpp"
+#include "host_tools/input_error/input_error.hpp"
+
+#include "fmt/format.h"
+#include "fmt/ranges.h"
+
+namespace cusp::import {
+
+using job::Chain;
+using job::Hole;
+using nurbs::Curve;
+
+namespace {
+
+struct DrawingName {
+    std::string file;
+    std::string layer;
+};
+
+DrawingName parts_of(const std::string& name)
+{
+    const std::size_t mark = name.rfind('#');
+    DrawingName parts{name.substr(0, mark), mark == std::string::npos ? "" : name.substr(mark + 1)};
+    if (path_ending(parts.file) != ".dxf" && path_ending(parts.file) != ".json") {
+        throw InputError(fmt::format("{}: drawings are read from .dxf, not from \"{}\"", name,
+                                     path_ending(parts.file)));
+    }
+    return parts;
+}
+
+std::optional<Hole> circle_of(const Curve& curve)
+{
+    constexpr int kSamples = 24;
+    constexpr double kRound = 1e-6;  // of the radius
+    const double begin = curve.domain_begin();
+    const double step = (curve.domain_end() - begin) / kSamples;
+    if (norm(in_plan(curve.points.front()) - in_plan(curve.points.back())) > kEndsMeet) {
+        return std::nullopt;
+    }
+    // of a circle in equal pieces, opposite samples are opposite points
+    const Vec2d centre = 0.5 * (in_plan(point_at(curve, begin)) +
+                                in_plan(point_at(curve, begin + step * kSamples / 2)));
+    const double radius = norm(in_plan(curve.points.front()) - centre);
+    for (int i = 0; i < kSamples; ++i) {
+        const double away = norm(in_plan(point_at(curve, begin + i * step)) - centre);
+        if (!(std::abs(away - radius) <= kRound * radius)) {
+            return std::nullopt;
+        }
+    }
+    return Hole{centre, 2 * radius};
+}
+
+Vec2d begin_of(const Chain& chain) { return in_plan(chain.front().points.front()); }
+Vec2d end_of(const Chain& chain) { return in_plan(chain.back().points.back()); }
+
+}  // namespace
+
+std::vector<Hole> read_holes(const std::string& name,
+                             double millimetres,
+                             DiameterRange range,
+                             bool only_circles,
+                             std::vector<std::string>& notes)
+{
+    const auto [file, layer] = parts_of(name);
+    const DxfPlaces drawn = read_dxf_places(file, millimetres, layer);
+    std::vector<Hole> all;
+    for (const Vec2d place : drawn.points) {
+        all.push_back({place, 0});
+    }
+    int others = 0;
+    for (const Curve& curve : drawn.curves) {
+        const auto circle = circle_of(curve);
+        others += circle ? 0 : 1;
+        if (circle) {
+            all.push_back(*circle);
+        }
+    }
+    if (others > 0) {
+        notes.push_back(fmt::format("{}: {} curves are no circles and not drilled", name, others));
+    }
+    std::vector<Hole> holes;
+    std::set<double> diameters;
+    for (const Hole& hole : all) {
+        diameters.insert(std::round(hole.diameter * 1e4) / 1e4);
+        const bool wanted = hole.diameter > 0
+                                ? hole.diameter >= range.least && hole.diameter <= range.greatest
+                                : !only_circles;
+        const bool again = std::any_of(holes.begin(), holes.end(), [&](const Hole& other) {
+            return norm(other.at - hole.at) <= kEndsMeet;
+        });
+        if (wanted && !again) {
+            holes.push_back(hole);
+        }
+    }
+    if (holes.empty()) {
+        diameters.erase(0);
+        throw InputError(diameters.empty()
+                             ? fmt::format("{}: no point and no circle to drill", name)
+                             : fmt::format("{}: no circle of the wanted diameter; there are {:g} "
+                                           "mm",
+                                           name, fmt::join(diameters, ", ")));
+    }
+    return holes;
+}
+
+std::vector<Chain> read_chains(const std::string& name, double millimetres)
+{
+    const auto [file, layer] = parts_of(name);
+    const std::vector<Curve> curves = path_ending(file) == ".json"
+                                          ? read_json_curves(file, millimetres)
+                                          : read_dxf_curves(file, millimetres, layer);
+    std::vector<Chain> chains;
+    std::vector<bool> used(curves.size(), false);
+    for (std::size_t first = 0; first < curves.size(); ++first) {
+        if (used[first]) {
+            continue;
+        }
+        Chain chain{curves[first]};
+        used[first] = true;
+        for (bool grew = true; grew;) {
+            grew = false;
+            for (std::size_t k = first + 1; k < curves.size(); ++k) {
+                if (used[k]) {
+                    continue;
+                }
+                const Chain one{curves[k]};
+                const Chain turned{reversed(curves[k])};
+                const auto meets = [](Vec2d a, Vec2d b) {
+                    return norm(a - b) <= kEndsMeet;
+                };
+                if (meets(end_of(chain), begin_of(one))) {
+                    chain.push_back(one.front());
+                } else if (meets(end_of(chain), end_of(one))) {
+                    chain.push_back(turned.front());
+                } else if (meets(begin_of(chain), end_of(one))) {
+                    chain.insert(chain.begin(), one.front());
+                } else if (meets(begin_of(chain), begin_of(one))) {
+                    chain.insert(chain.begin(), turned.front());
+                } else {
+                    continue;
+                }
+                used[k] = true;
+                grew = true;
+            }
+        }
+        chains.push_back(std::move(chain));
+    }
+    return chains;
+}
+
+}  // namespace cusp::import

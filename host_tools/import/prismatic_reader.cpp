@@ -1,0 +1,272 @@
+// Keys first, then the drawing; levels last, for they follow from the stock's top.
+#include "host_tools/import/prismatic_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "host_tools/import/dxf_holes.hpp"
+#include "host_tools/import/file_loops.hpp"
+#include "host_tools/import/known_keys.hpp"
+#include "host_tools/job/loop_shape.hpp"
+
+#include "fmt/format.h"
+
+namespace cusp::import {
+
+using job::Hole;
+using job::Job;
+using job::loop_polyline;
+using job::NestedLoop;
+using job::Operation;
+using job::Prismatic;
+using job::ProfileSide;
+using job::Tabs;
+using toolpath::Tool;
+
+namespace {
+
+constexpr std::array kPrismaticStrategies{"pocket", "profile", "drill",
+                                          "face",   "engrave", "chamfer"};
+// mm: circles and tools whose diameters differ by no more are of one size.
+constexpr double kSameDiameter = 0.01;
+
+Tabs read_tabs(JobTable& keys, double unit)
+{
+    constexpr Range kCount{1, 1000};
+    Tabs tabs;
+    tabs.count = keys.whole_number("count", kCount).value_or(0);
+    const auto places = keys.numbers("places", kAnyNumber);
+    if (places && places->size() % 2 != 0) {
+        keys.refuse("places", "an even count of numbers is needed: [x, y, x, y]");
+    }
+    for (std::size_t i = 0; places && i < places->size(); i += 2) {
+        tabs.places.push_back({(*places)[i] * unit, (*places)[i + 1] * unit});
+    }
+    if ((tabs.count > 0) == places.has_value()) {
+        keys.refuse("count", "either count or places is needed, such as count = 4");
+    }
+    tabs.width = keys.required_number("width", kPositive) * unit;
+    tabs.height = keys.required_number("height", kPositive) * unit;
+    tabs.ramped = keys.one_of("shape", {"ramp", "square"}).value_or("ramp") == "ramp";
+    keys.check_all_read();
+    return tabs;
+}
+
+std::optional<double> length_of(JobTable& table, const char* key, Range range, double unit)
+{
+    const auto value = table.number(key, range);
+    return value ? std::optional{*value * unit} : std::nullopt;
+}
+
+// A level floor costs nothing more where it is followed closely. The height of ridges says how far
+// apart the loops of a round end are; with a flat end there are none.
+void choose_pocket_tolerances(const JobTable& table, Operation& operation)
+{
+    constexpr double kFloorTolerance = 0.002;  // mm
+    constexpr double kRidges = 0.04;           // mm
+    if (!table.has("floor_tolerance")) {
+        operation.floor_tolerance = kFloorTolerance;
+    }
+    if (!operation.scallop) {
+        operation.scallop =
+            operation.tool.corner_radius > 0 ? kRidges : 2 * operation.floor_tolerance;
+    }
+}
+
+void check_tool(const JobTable& table, const Operation& operation)
+{
+    const Tool& tool = operation.tool;
+    const bool drills = operation.strategy == "drill";
+    if (operation.strategy == "chamfer" && tool.shape != toolpath::ToolShape::kVee) {
+        table.refuse("tool", fmt::format("chamfer needs a vee, tool {} is {}", tool.number,
+                                         name_of(tool.shape)));
+    }
+    if (!drills && tool.shape == toolpath::ToolShape::kDrill) {
+        table.refuse("tool", fmt::format("tool {} is a drill: it cuts straight down only, {} moves "
+                                         "sideways",
+                                         tool.number, operation.strategy));
+    }
+    const bool level = operation.strategy == "pocket" || operation.strategy == "face" ||
+                       operation.strategy == "profile";
+    if (level && is_conical(tool)) {
+        table.refuse("tool", fmt::format("tool {} is {}: {} needs upright flanks: a flat, bull or "
+                                         "ball end",
+                                         tool.number, name_of(tool.shape), operation.strategy));
+    }
+}
+
+void check_profile(const JobTable& table, const Operation& operation)
+{
+    const Prismatic& cut = *operation.prismatic;
+    if (cut.side == ProfileSide::kOn && operation.allowance > 0) {
+        table.refuse("allowance",
+                     "belongs to a profile inside or outside: on the line there is no "
+                     "wall to finish");
+    }
+    if (cut.tabs && cut.tabs->height >= cut.depth) {
+        table.refuse("tabs", fmt::format("height is {:g} mm, the cut is only {:g} mm deep: tabs "
+                                         "are lower than the cut",
+                                         cut.tabs->height, cut.depth));
+    }
+}
+
+// Loops of the drawing, with which of them are holes.
+std::vector<NestedLoop> nested(const std::vector<FileLoop>& loops)
+{
+    std::vector<NestedLoop> out;
+    for (const FileLoop& loop : loops) {
+        out.push_back({loop.loop, loop.name, loop.depth % 2 == 1});
+    }
+    return out;
+}
+
+void check_holes(const JobTable& table, const Operation& operation, PartFiles& parts)
+{
+    const Tool& tool = operation.tool;
+    int larger = 0;
+    for (const Hole& hole : operation.prismatic->holes) {
+        if (hole.diameter > 0 && hole.diameter < 2 * tool.radius - kSameDiameter) {
+            table.refuse(
+                "boundary",
+                fmt::format("the hole of {:g} mm at x {:.6g} y {:.6g} mm is smaller than "
+                            "tool {} of {:g} mm; diameter chooses holes",
+                            hole.diameter, hole.at.x, hole.at.y, tool.number, 2 * tool.radius));
+        }
+        larger += hole.diameter > 2 * tool.radius + kSameDiameter ? 1 : 0;
+    }
+    if (larger > 0) {
+        parts.note(
+            fmt::format("operation {}: drill: {} of {} holes are wider than tool {} of {:g} "
+                        "mm: they get its diameter",
+                        operation.number, larger, operation.prismatic->holes.size(), tool.number,
+                        2 * tool.radius));
+    }
+}
+
+// A level rectangle around the boundary.
+nurbs::Surface flat_floor(const job::Loop& boundary, double margin, double z)
+{
+    double x0 = kUnbounded;
+    double y0 = kUnbounded;
+    double x1 = -kUnbounded;
+    double y1 = -kUnbounded;
+    for (const Vec2d p : loop_polyline(boundary, 0.01)) {
+        x0 = std::min(x0, p.x);
+        y0 = std::min(y0, p.y);
+        x1 = std::max(x1, p.x);
+        y1 = std::max(y1, p.y);
+    }
+    x0 -= margin;
+    y0 -= margin;
+    x1 += margin;
+    y1 += margin;
+    return {1,
+            1,
+            {0, 0, 1, 1},
+            {0, 0, 1, 1},
+            2,
+            2,
+            {{x0, y0, z}, {x0, y1, z}, {x1, y0, z}, {x1, y1, z}},
+            {1, 1, 1, 1},
+            {}};
+}
+
+}  // namespace
+
+bool is_prismatic(const std::string& strategy)
+{
+    return std::find(kPrismaticStrategies.begin(), kPrismaticStrategies.end(), strategy) !=
+           kPrismaticStrategies.end();
+}
+
+void read_prismatic_keys(JobTable& table, double unit, Operation& operation)
+{
+    Prismatic cut;
+    const auto depth = length_of(table, "depth", kPositive, unit);
+    cut.given_top = length_of(table, "top", kAnyNumber, unit);
+    const std::string side = table.one_of("side", {"outside", "inside", "on"}).value_or("outside");
+    cut.side = side == "outside"  ? ProfileSide::kOutside
+               : side == "inside" ? ProfileSide::kInside
+                                  : ProfileSide::kOn;
+    if (const toml::table* tabs = table.inline_table("tabs")) {
+        JobTable keys = table.inner(*tabs, "tabs", tabs_keys());
+        cut.tabs = read_tabs(keys, unit);
+    }
+    cut.lead_in = length_of(table, "lead_in", kNotNegative, unit);
+    cut.lead_out = length_of(table, "lead_out", kNotNegative, unit);
+    cut.peck = length_of(table, "peck", kPositive, unit);
+    cut.overhang = length_of(table, "overhang", kNotNegative, unit);
+    const auto width = length_of(table, "width", kPositive, unit);
+    if (const auto wanted = table.interval("diameter", kPositive)) {
+        cut.diameters = {(*wanted)[0] * unit, (*wanted)[1] * unit};
+    }
+    if (!is_prismatic(operation.strategy)) {
+        return;
+    }
+    const bool chamfers = operation.strategy == "chamfer";
+    if (!depth && !chamfers) {
+        table.refuse("depth",
+                     fmt::format("is missing: {} needs how deep it cuts", operation.strategy));
+    }
+    if (!width && chamfers) {
+        table.refuse("width", "is missing: chamfer needs its width, seen from above");
+    }
+    cut.width = width.value_or(0);
+    cut.depth = chamfers ? cut.width / std::tan(operation.tool.tip_angle / 2) : *depth;
+    operation.prismatic = cut;
+    if (operation.strategy == "pocket") {
+        choose_pocket_tolerances(table, operation);
+    }
+    check_tool(table, operation);
+    check_profile(table, operation);
+}
+
+void read_drawing(const JobTable& table,
+                  double unit,
+                  const std::string& file,
+                  PartFiles& parts,
+                  Operation& operation)
+{
+    Prismatic& cut = *operation.prismatic;
+    if (file.empty() && operation.strategy != "face") {
+        table.refuse("boundary", fmt::format("is missing: {} needs a drawing, such as "
+                                             "\"plate.dxf#layer\"",
+                                             operation.strategy));
+    }
+    cut.file = file;
+    if (operation.strategy == "drill") {
+        const auto [least, greatest] = cut.diameters.value_or(std::array{0.0, kLargest});
+        cut.holes = parts.holes(file, unit, {least - kSameDiameter, greatest + kSameDiameter},
+                                cut.diameters.has_value());
+        check_holes(table, operation, parts);
+    } else if (operation.strategy == "engrave") {
+        cut.chains = parts.chains(file, unit);
+    } else if (!file.empty()) {
+        cut.loops = nested(parts.loops(file, unit, operation.plan_tolerance));
+    }
+}
+
+void settle_levels(Job& job)
+{
+    double level = job.stock_top;
+    for (Operation& operation : job.operations) {
+        if (!operation.prismatic) {
+            continue;
+        }
+        Prismatic& cut = *operation.prismatic;
+        cut.top = cut.given_top.value_or(level);
+        if (operation.strategy == "face" && cut.loops.empty()) {
+            level = cut.top - cut.depth;
+        }
+        if (operation.strategy == "pocket") {
+            operation.floor = {
+                flat_floor(*operation.boundary, 2 * operation.tool.radius, cut.top - cut.depth)};
+            operation.floor_files = {
+                fmt::format("{}: level at {:.9g}", operation.boundary_file, cut.top - cut.depth)};
+        }
+    }
+}
+
+}  // namespace cusp::import

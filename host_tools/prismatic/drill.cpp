@@ -1,0 +1,75 @@
+// Written out: each peck goes a step deeper, then a rapid move up and back down clears the chips.
+#include <algorithm>
+#include <cmath>
+
+#include "host_tools/prismatic/cut_levels.hpp"
+#include "host_tools/prismatic/drill_tour.hpp"
+#include "host_tools/prismatic/prismatic.hpp"
+
+#include "fmt/format.h"
+
+namespace cusp::prismatic {
+
+using job::Hole;
+using job::Job;
+using job::Operation;
+using job::Prismatic;
+using toolpath::MoveKind;
+using toolpath::PlannedOperation;
+using toolpath::ToolpathWriter;
+
+namespace {
+
+// mm: as the controller's own G83, rapid moves back into the hole end above the last depth.
+constexpr double kPeckClearance = 0.254;
+
+// Where a hole is, in height.
+struct HoleHeights {
+    double above;  // rapid moves end here
+    double top;
+    double bottom;
+};
+
+void drill_hole(Vec2d at, const HoleHeights& hole, double peck, ToolpathWriter& writer)
+{
+    writer.approach(at, hole.above);
+    for (double z = hole.top; z > hole.bottom;) {
+        // a last peck thinner than a thousandth of the others is none
+        z = z - peck - peck / 1000 > hole.bottom ? z - peck : hole.bottom;
+        writer.line(MoveKind::kPlunge, {at.x, at.y, z});
+        if (z > hole.bottom) {
+            writer.line(MoveKind::kRapid, {at.x, at.y, hole.above});
+            writer.line(MoveKind::kRapid, {at.x, at.y, std::min(z + kPeckClearance, hole.above)});
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<PlannedOperation> plan_drill(const Job& job, const Operation& operation)
+{
+    const Prismatic& cut = *operation.prismatic;
+    std::vector<Vec2d> places;
+    for (const Hole& hole : cut.holes) {
+        places.push_back(hole.at);
+    }
+    PlannedOperation planned =
+        begun(job, operation, fmt::format("{} holes, {:g} mm deep", places.size(), cut.depth));
+    ToolpathWriter writer{planned.path.moves, {job.stock_top + job.clearance}};
+    const HoleHeights heights{rapid_end(job, cut.top), cut.top, cut.top - cut.depth};
+    const double peck = cut.peck.value_or(2 * cut.depth);
+    double way = 0;
+    Vec2d at{0, 0};
+    for (const std::size_t k : short_tour(places, at)) {
+        drill_hole(places[k], heights, peck, writer);
+        way += norm(places[k] - at);
+        at = places[k];
+    }
+    writer.retract();
+    count_moves(writer, static_cast<int>(places.size()), 1, planned);
+    planned.stats.counts.emplace_back("holes", static_cast<double>(places.size()));
+    planned.stats.counts.emplace_back("way_mm", way);
+    return {planned};
+}
+
+}  // namespace cusp::prismatic

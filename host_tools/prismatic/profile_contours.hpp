@@ -1,0 +1,42 @@
+// Where the tool's centre goes around loops, and which of the loops it does not reach.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host_tools/job/job.hpp"
+#include "host_tools/offset/contour.hpp"
+
+namespace cusp::prismatic {
+
+// mm: lines and circles are exact, other curves are followed as closely.
+inline constexpr double kFit = 2e-4;
+
+// The material that the loops bound: on the left of its contours.
+//
+// Errors: InputError where a loop has no extent.
+offset::Region2d material_of(const job::Prismatic& cut);
+
+// What is on the other side; its contours have it on their left.
+offset::Region2d opposite(offset::Region2d region);
+
+// Stretches of loops that a tool does not touch.
+struct Unreached {
+    double length{};   // mm, of all
+    double longest{};  // mm
+    Vec2d place;       // in the longest
+    // Loops that it touches nowhere, by their place in the list.
+    std::vector<std::size_t> loops;
+};
+
+// waste    the region that the tool may be in
+// centres  contours of the tool's centre at `distance` from those of `waste`
+Unreached unreached(const offset::Region2d& waste,
+                    const offset::Region2d& centres,
+                    double distance);
+
+// The inner ones first: the part comes free last.
+void sort_inner_first(std::vector<offset::Contour>& contours);
+
+}  // namespace cusp::prismatic

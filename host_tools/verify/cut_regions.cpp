@@ -1,0 +1,210 @@
+// Each operation by its words in docs/job_file.md: sides, depths, shapes of tools.
+#include "host_tools/verify/cut_regions.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host_tools/job/loop_shape.hpp"
+#include "host_tools/verify/part_heights.hpp"
+
+namespace cusp::verify {
+
+using job::Chain;
+using job::Hole;
+using job::Job;
+using job::loop_polyline;
+using job::NestedLoop;
+using job::Operation;
+using job::Prismatic;
+using job::ProfileSide;
+
+namespace {
+
+constexpr double kBoxChord = 0.01;  // mm
+
+// mm: the widest that a profile clears beside its wall: the tool, the allowance, its leads.
+double widest(const Operation& operation)
+{
+    const Prismatic& cut = *operation.prismatic;
+    const double radius = operation.tool.radius;
+    const double lead = std::max(cut.lead_in.value_or(radius), cut.lead_out.value_or(radius));
+    return 2 * radius + operation.allowance + lead + cut.width;
+}
+
+// A closed loop on an open chain: no line from its end to its start.
+Chain there_and_back(Chain chain)
+{
+    for (std::size_t k = chain.size(); k-- > 0;) {
+        chain.push_back(reversed(chain[k]));
+    }
+    return chain;
+}
+
+}  // namespace
+
+CutRegion::CutRegion(const Operation& operation, const HeightGrid& grid)
+    : operation_{&operation},
+      cap_{operation.prismatic ? widest(operation) + 2 * grid.pitch
+                               : 2 * operation.tool.radius + 2 * grid.pitch}
+{
+    if (operation.boundary) {
+        walls_.emplace_back(*operation.boundary, true, cap_);
+        for (const auto& island : operation.islands) {
+            walls_.emplace_back(island, false, cap_);
+        }
+    } else if (operation.prismatic) {
+        for (const NestedLoop& loop : operation.prismatic->loops) {
+            walls_.emplace_back(loop.loop, true, cap_);
+        }
+        for (const Chain& chain : operation.prismatic->chains) {
+            walls_.emplace_back(there_and_back(chain), true, cap_);
+        }
+    }
+    if (!operation.prismatic) {
+        heights_ = part_heights(operation.floor, operation.mesh, grid).z;
+    }
+}
+
+double CutRegion::from_curves(double x, double y) const
+{
+    double least = cap_;
+    for (const WallDistance& wall : walls_) {
+        least = std::min(least, std::abs(wall.at(x, y)));
+    }
+    return least;
+}
+
+double CutRegion::into_material(double x, double y) const
+{
+    double least = cap_;
+    bool inside = false;
+    for (const WallDistance& wall : walls_) {
+        const double d = wall.at(x, y);
+        inside = inside != (d > 0);
+        least = std::min(least, std::abs(d));
+    }
+    return inside ? least : -least;
+}
+
+std::size_t CutRegion::nearest_loop(double x, double y) const
+{
+    std::size_t best = 0;
+    double least = kUnbounded;
+    for (std::size_t n = 0; n < walls_.size(); ++n) {
+        const double d = std::abs(walls_[n].at(x, y));
+        best = d < least ? n : best;
+        least = std::min(least, d);
+    }
+    return best;
+}
+
+double CutRegion::room(double x, double y) const
+{
+    if (operation_->boundary) {
+        double least = cap_;
+        for (const WallDistance& wall : walls_) {
+            least = std::min(least, wall.at(x, y));
+        }
+        return least;
+    }
+    const double inward = into_material(x, y);
+    return operation_->prismatic->side == ProfileSide::kInside ? inward : -inward;
+}
+
+RegionAt CutRegion::profile_at(double x, double y) const
+{
+    const Prismatic& cut = *operation_->prismatic;
+    const double bottom = cut.top - cut.depth;
+    if (cut.side == ProfileSide::kOn) {
+        return {operation_->tool.radius - from_curves(x, y), bottom};
+    }
+    const double away = room(x, y);
+    return {std::min(away, widest(*operation_) - away), bottom};
+}
+
+RegionAt CutRegion::hole_at(double x, double y) const
+{
+    const Prismatic& cut = *operation_->prismatic;
+    double nearest = kUnbounded;
+    for (const Hole& hole : cut.holes) {
+        nearest = std::min(nearest, norm(Vec2d{x, y} - hole.at));
+    }
+    const double radius = operation_->tool.radius;
+    return {radius - nearest,
+            cut.top - cut.depth + profile_height(operation_->tool, std::min(nearest, radius))};
+}
+
+RegionAt CutRegion::at(double x, double y, std::size_t k) const
+{
+    if (!operation_->prismatic) {
+        return {walls_.empty() ? cap_ : room(x, y),
+                std::isfinite(heights_[k]) ? heights_[k] : -kUnbounded};
+    }
+    const Prismatic& cut = *operation_->prismatic;
+    const double bottom = cut.top - cut.depth;
+    const double radius = operation_->tool.radius;
+    if (operation_->strategy == "pocket") {
+        return {room(x, y), bottom};
+    }
+    if (operation_->strategy == "profile") {
+        return profile_at(x, y);
+    }
+    if (operation_->strategy == "drill") {
+        return hole_at(x, y);
+    }
+    if (operation_->strategy == "engrave") {
+        const double away = from_curves(x, y);
+        return {radius - away, bottom + profile_height(operation_->tool, std::min(away, radius))};
+    }
+    if (operation_->strategy == "chamfer") {
+        const double inward = into_material(x, y);
+        return {std::min(cut.width - inward, 2 * radius + inward),
+                cut.top - (cut.width - inward) / std::tan(operation_->tool.tip_angle / 2)};
+    }
+    return {cap_, bottom};  // face
+}
+
+std::vector<CutRegion> cut_regions(const Job& job, const HeightGrid& grid)
+{
+    std::vector<CutRegion> regions;
+    for (const Operation& operation : job.operations) {
+        regions.emplace_back(operation, grid);
+    }
+    return regions;
+}
+
+std::optional<PlanBox> prismatic_box(const Job& job)
+{
+    PlanBox box{{kUnbounded, kUnbounded}, {-kUnbounded, -kUnbounded}};
+    const auto widen = [&](Vec2d p, double by) {
+        box.low = {std::min(box.low.x, p.x - by), std::min(box.low.y, p.y - by)};
+        box.high = {std::max(box.high.x, p.x + by), std::max(box.high.y, p.y + by)};
+    };
+    for (const Operation& operation : job.operations) {
+        if (!operation.prismatic) {
+            continue;
+        }
+        const double around =
+            operation.strategy == "profile" && operation.prismatic->side != ProfileSide::kInside
+                ? widest(operation)
+                : operation.tool.radius;
+        const auto add = [&](const Chain& chain) {
+            for (const Vec2d p : loop_polyline(chain, kBoxChord)) {
+                widen(p, around);
+            }
+        };
+        for (const NestedLoop& loop : operation.prismatic->loops) {
+            add(loop.loop);
+        }
+        std::for_each(operation.prismatic->chains.begin(), operation.prismatic->chains.end(), add);
+        for (const Hole& hole : operation.prismatic->holes) {
+            widen(hole.at, around);
+        }
+        if (operation.boundary) {
+            add(*operation.boundary);
+        }
+    }
+    return box.low.x < box.high.x ? std::optional{box} : std::nullopt;
+}
+
+}  // namespace cusp::verify

@@ -1,0 +1,307 @@
+// Jobs of 2.5-D operations as a shop writes them: what is read, what is refused and where, and what
+// the verifier says of good and of spoiled programs.
+#include "host_tools/prismatic/prismatic.hpp"
+
+#include <string>
+
+#include "CppUTest/TestHarness.h"
+
+#include "host_tools/import/import.hpp"
+#include "host_tools/toolpath/gcode_writer.hpp"
+#include "host_tools/verify/verify.hpp"
+#include "tests/support/leaks_on_threads.hpp"
+#include "tests/support/refusal.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+using namespace cusp;
+using namespace cusp::import;
+using namespace cusp::job;
+using namespace cusp::prismatic;
+using namespace cusp::test;
+using namespace cusp::toolpath;
+using namespace cusp::verify;
+
+namespace {
+
+std::string circle(const char* layer, double x, double y, double radius)
+{
+    return "0\nCIRCLE\n8\n" + std::string{layer} + "\n10\n" + std::to_string(x) + "\n20\n" +
+           std::to_string(y) + "\n40\n" + std::to_string(radius) + "\n";
+}
+
+std::string rectangle(const char* layer, double x0, double y0, double x1, double y1)
+{
+    std::string text = "0\nLWPOLYLINE\n8\n" + std::string{layer} + "\n90\n4\n70\n1\n";
+    const double corners[4][2]{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+    for (const auto& p : corners) {
+        text += "10\n" + std::to_string(p[0]) + "\n20\n" + std::to_string(p[1]) + "\n";
+    }
+    return text;
+}
+
+// An outline of 40 x 30 mm with a window, holes of 3 and 5 mm, a point, a small ring.
+std::string drawing()
+{
+    return "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" +
+           rectangle("outline", 0, 0, 40, 30) + rectangle("window", 0, 0, 40, 30) +
+           rectangle("window", 10, 8, 30, 22) + circle("holes", 5, 5, 1.5) +
+           circle("holes", 35, 5, 1.5) + circle("holes", 35, 25, 2.5) +
+           "0\nPOINT\n8\nholes\n10\n20\n20\n4\n" + circle("ring", 20, 15, 2) +
+           circle("dot", 20, 15, 1) + "0\nENDSEC\n0\nEOF\n";
+}
+
+const std::string kHead = R"(
+[[tool]]
+shape = "flat"
+diameter = 3
+[[tool]]
+shape = "drill"
+diameter = 3
+[[tool]]
+shape = "vee"
+diameter = 6
+tip_angle = 90
+[cutting]
+feed = 1000
+[stock]
+x = [-5, 45]
+y = [-5, 35]
+[[operation]]
+)";
+
+std::vector<PlannedOperation> plan(const Job& job)
+{
+    std::vector<PlannedOperation> all;
+    for (const Operation& operation : job.operations) {
+        const auto add = [&](std::vector<PlannedOperation> planned) {
+            all.insert(all.end(), planned.begin(), planned.end());
+        };
+        if (operation.strategy == "profile") {
+            add(plan_profile(job, operation));
+        } else if (operation.strategy == "drill") {
+            add(plan_drill(job, operation));
+        } else if (operation.strategy == "face") {
+            add(plan_face(job, operation));
+        } else if (operation.strategy == "engrave") {
+            add(plan_engrave(job, operation));
+        } else if (operation.strategy == "chamfer") {
+            add(plan_chamfer(job, operation));
+        }
+    }
+    return all;
+}
+
+}  // namespace
+
+TEST_GROUP(Prismatic)
+{
+    TemporaryFolder folder;
+
+    void setup() override { folder.with("plate.dxf", drawing()); }
+
+    Job job_of(const std::string& operations) const
+    {
+        return read_job(folder.with("job.toml", kHead + operations));
+    }
+
+    // Why the operation is refused, when it is read or planned.
+    std::string why_not(const std::string& operation) const
+    {
+        return refusal([&] { plan(job_of(operation)); });
+    }
+
+    std::string program_of(const Job& job) const
+    {
+        std::ofstream out{folder.file("plate.ngc")};
+        write_program(out, {"test", false, job.stock_top + job.clearance, {}}, plan(job));
+        return folder.file("plate.ngc");
+    }
+
+    // What is broken, with every " X" of the program that is in `from` replaced.
+    std::string broken(const std::string& operations, const std::string& from = "",
+                       const std::string& to = "") const
+    {
+        const Job job = job_of(operations);
+        const std::string program = program_of(job);
+        if (!from.empty()) {
+            std::string text = folder.text_of("plate.ngc");
+            const std::size_t at = text.find(from);
+            CHECK(at != std::string::npos);
+            folder.with("plate.ngc", text.replace(at, from.size(), to));
+        }
+        std::string all;
+        for (const std::string& sentence : verify::verify(job, program, {}, [](double) {}).broken) {
+            all += sentence + "\n";
+        }
+        return all;
+    }
+};
+
+#define REFUSED(operation, part)                                                         \
+    do {                                                                                 \
+        const std::string said = why_not(operation);                                     \
+        CHECK_TEXT(said.find(part) != std::string::npos, (said + "|" + (part)).c_str()); \
+    } while (false)
+
+TEST(Prismatic, HolesAreChosenByDiameter)
+{
+    const auto holes = [&](const std::string& keys) {
+        return job_of("strategy = \"drill\"\nboundary = \"plate.dxf#holes\"\ndepth = 4\n" + keys)
+            .operations[0]
+            .prismatic->holes.size();
+    };
+    LONGS_EQUAL(4, holes("tool = 2"));
+    LONGS_EQUAL(2, holes("tool = 2\ndiameter = 3"));
+    LONGS_EQUAL(3, holes("tool = 2\ndiameter = [3, 5]"));
+}
+
+TEST(Prismatic, HolesThatAreTooNarrowOrNotThereAreRefused)
+{
+    REFUSED("strategy = \"drill\"\nboundary = \"plate.dxf#holes\"\ndepth = 4\ntool = 3",
+            "the hole of 3 mm at x 5 y 5 mm is smaller than tool 3 of 6 mm");
+    REFUSED(
+        "strategy = \"drill\"\nboundary = \"plate.dxf#holes\"\ndepth = 4\ntool = 2\n"
+        "diameter = 4",
+        "no circle of the wanted diameter; there are 3, 5 mm");
+    REFUSED("strategy = \"drill\"\nboundary = \"plate.dxf#outline\"\ndepth = 4\ntool = 2",
+            "no point and no circle to drill");
+}
+
+TEST(Prismatic, WiderHolesAreNoted)
+{
+    const Job job =
+        job_of("strategy = \"drill\"\nboundary = \"plate.dxf#holes\"\ndepth = 4\ntool = 2");
+    LONGS_EQUAL(1, job.notes.size());
+    CHECK(job.notes[0].find("1 of 4 holes are wider than tool 2") != std::string::npos);
+}
+
+TEST(Prismatic, AnInsideThatNoToolEntersIsRefusedWithItsPlace)
+{
+    REFUSED("strategy = \"profile\"\nboundary = \"plate.dxf#dot\"\nside = \"inside\"\ndepth = 2",
+            "plate.dxf#dot: tool 1 of 3 mm fits nowhere inside the loops");
+}
+
+TEST(Prismatic, LoopsWithoutRoomAreLeftOutWithAWarning)
+{
+    const Job job = job_of(
+        "strategy = \"profile\"\nboundary = \"plate.dxf#holes\"\nside = \"inside\"\ndepth = 2");
+    const PlannedOperation planned = plan_profile(job, job.operations[0]).front();
+    LONGS_EQUAL(3, planned.stats.warnings.size());
+    STRCMP_CONTAINS("tool 1 of 3 mm fits nowhere along the loop at x 6.5 y 5 mm: not cut",
+                    (planned.stats.warnings[0] + planned.stats.warnings[1]).c_str());
+}
+
+// Where the allowance leaves no room, the last pass would meet stock at full depth.
+TEST(Prismatic, WhatIsNotRoughedIsCutLevelByLevel)
+{
+    const auto passes = [&](const char* allowance) {
+        const Job job =
+            job_of(std::string{"strategy = \"profile\"\nboundary = \"plate.dxf#ring\"\nside = "
+                               "\"inside\"\ndepth = 2\nmax_depth = 1\nallowance = "} +
+                   allowance);
+        return plan_profile(job, job.operations[0]).front().stats.passes;
+    };
+    LONGS_EQUAL(3, passes("0.1"));  // two levels, and the last pass at the bottom
+    LONGS_EQUAL(2, passes("1.0"));
+}
+
+TEST(Prismatic, TabsAreCheckedAgainstTheCut)
+{
+    const std::string cut = "strategy = \"profile\"\nboundary = \"plate.dxf#outline\"\ndepth = 2\n";
+    REFUSED(cut + "tabs = { count = 4, width = 5, height = 2 }",
+            "height is 2 mm, the cut is only 2 mm deep");
+    REFUSED(cut + "tabs = { width = 5, height = 1 }", "either count or places is needed");
+    REFUSED(cut + "tabs = { count = 40, width = 5, height = 1 }", "has no room");
+    REFUSED(cut + "tabs = { places = [20, 90], width = 5, height = 1 }",
+            "the tab at x 20 y 90 mm is");
+    REFUSED(cut + "tabs = { count = 4, wide = 5, height = 1 }", "the nearest known one is width");
+}
+
+TEST(Prismatic, ToolsThatDoNotSuitAreRefused)
+{
+    REFUSED("strategy = \"profile\"\nboundary = \"plate.dxf#outline\"\ndepth = 2\ntool = 2",
+            "tool 2 is a drill");
+    REFUSED("strategy = \"pocket\"\nboundary = \"plate.dxf#outline\"\ndepth = 2\ntool = 3",
+            "tool 3 is vee: pocket needs upright flanks");
+    REFUSED("strategy = \"chamfer\"\nboundary = \"plate.dxf#outline\"\nwidth = 1\ntool = 1",
+            "chamfer needs a vee, tool 1 is flat");
+    REFUSED("strategy = \"chamfer\"\nboundary = \"plate.dxf#outline\"\nwidth = 4\ntool = 3",
+            "is more than the flank of tool 3 cuts");
+    const std::string vee = "[tool]\nshape = \"vee\"\ndiameter = 6\n[cutting]\nfeed = 1\n";
+    STRCMP_CONTAINS("tip_angle: is missing: a vee tool needs the angle",
+                    refusal([&] { read_job(folder.with("vee.toml", vee)); }).c_str());
+}
+
+TEST(Prismatic, KeysOfOtherOperationsAreRefused)
+{
+    REFUSED(
+        "strategy = \"drill\"\nboundary = \"plate.dxf#holes\"\ntool = 2\ndepth = 4\n"
+        "max_depth = 1",
+        "max_depth: is no key of drill");
+    REFUSED("strategy = \"pocket\"\nboundary = \"plate.dxf#outline\"\ndepth = 2\npeck = 1",
+            "peck: is a key of drill, not of pocket");
+    REFUSED("strategy = \"profile\"\nboundary = \"plate.dxf#outline\"", "depth: is missing");
+}
+
+TEST(Prismatic, WhatFollowsAFaceBeginsWhereItEnds)
+{
+    const Job job = job_of(
+        "strategy = \"face\"\ndepth = 0.5\n[[operation]]\nstrategy = \"profile\"\ndepth = 2\n"
+        "boundary = \"plate.dxf#outline\"\n[[operation]]\nstrategy = \"pocket\"\ndepth = 2\n"
+        "top = -1\nboundary = \"plate.dxf#window\"\n");
+    DOUBLES_EQUAL(-0.5, job.operations[1].prismatic->top, 0);
+    DOUBLES_EQUAL(-1.0, job.operations[2].prismatic->top, 0);
+    DOUBLES_EQUAL(-3.0, job.operations[2].floor.front().points.front().z, 0);
+}
+
+TEST(Prismatic, AProfileOfNestedLoopsCutsTheHolesFromInside)
+{
+    const Job job = job_of("strategy = \"profile\"\ndepth = 2\nboundary = \"plate.dxf#window\"\n");
+    const PlannedOperation planned = plan_profile(job, job.operations[0]).front();
+    LONGS_EQUAL(2, planned.stats.passes);
+    STRCMP_EQUAL(
+        "", broken("strategy = \"profile\"\ndepth = 2\nboundary = \"plate.dxf#window\"\n").c_str());
+}
+
+TEST(Prismatic, TheVerifierFindsGoodProgramsGood)
+{
+    STRCMP_EQUAL("", broken("strategy = \"face\"\ndepth = 0.5\n").c_str());
+    STRCMP_EQUAL("", broken("strategy = \"drill\"\nboundary = \"plate.dxf#holes\"\ndepth = 4\n"
+                            "tool = 2\npeck = 1")
+                         .c_str());
+    STRCMP_EQUAL("", broken("strategy = \"engrave\"\nboundary = \"plate.dxf#ring\"\ndepth = 0.5\n"
+                            "tool = 3")
+                         .c_str());
+    STRCMP_EQUAL("", broken("strategy = \"chamfer\"\nboundary = \"plate.dxf#outline\"\nwidth = 1\n"
+                            "tool = 3")
+                         .c_str());
+    STRCMP_EQUAL("", broken("strategy = \"profile\"\nboundary = \"plate.dxf#outline\"\ndepth = 3\n"
+                            "max_depth = 1\nallowance = 0.2\n"
+                            "tabs = { count = 3, width = 4, height = 1 }")
+                         .c_str());
+    STRCMP_EQUAL("",
+                 broken("strategy = \"profile\"\nboundary = \"plate.dxf#outline\"\ndepth = 3\n"
+                        "side = \"on\"\n"
+                        "tabs = { places = [20, 0], width = 4, height = 1, shape = \"square\" }")
+                     .c_str());
+}
+
+TEST(Prismatic, TheVerifierFindsWhatIsSpoiled)
+{
+    const std::string profile =
+        "strategy = \"profile\"\nboundary = \"plate.dxf#outline\"\ndepth = 3\n"
+        "tabs = { count = 3, width = 4, height = 1, shape = \"square\" }\n";
+    // a tab cut through
+    STRCMP_CONTAINS("tabs: 2 stand, 3 are wanted", broken(profile, "Z-2\n", "Z-3\n").c_str());
+    // a side beside its place: into the part, and away from it
+    STRCMP_CONTAINS("wall_gouge_max_mm", broken(profile, "Y-1.5", "Y-1.4").c_str());
+    // a level too high, a level too deep
+    const std::string face = "strategy = \"face\"\ndepth = 0.5\n";
+    STRCMP_CONTAINS("over the level of operation 1 (face)", broken(face, "Z-0.5", "Z-0.4").c_str());
+    STRCMP_CONTAINS("gouge_max_mm", broken(face, "Z-0.5", "Z-0.6").c_str());
+    // a hole elsewhere
+    const std::string holes =
+        "strategy = \"drill\"\nboundary = \"plate.dxf#holes\"\ndepth = 4\ntool = 2";
+    STRCMP_CONTAINS("wall_gouge_max_mm", broken(holes, "X5 ", "X5.1 ").c_str());
+    STRCMP_CONTAINS("left ", broken(holes, "Z-4\n", "Z-3\n").c_str());
+}
