@@ -70,7 +70,7 @@ private:
 
     void find_gouges()
     {
-        std::vector<Cuts> worst(band_count(q_.grid.nx));
+        std::vector<Cuts> worst(kBands);
         for_each_band(q_.grid.nx, [&](std::size_t begin, std::size_t end, std::size_t band) {
             std::vector<RegionAt> here(regions_.size());
             for (std::size_t k = begin * q_.grid.ny; k < end * q_.grid.ny; ++k) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <random>
 #include <string>
 
@@ -27,9 +28,9 @@ using namespace cusp::toolpath;
 namespace {
 
 // All cuts of the path.
-SweptVolume swept_by(const Toolpath& path)
+std::unique_ptr<SweptVolume> swept_by(const Toolpath& path)
 {
-    SweptVolume swept{path.tool.radius, path.tool.radius};
+    auto swept = std::make_unique<SweptVolume>(path.tool.radius, path.tool.radius);
     std::vector<Vec3d> tips;
     for (const ToolMove& move : path.moves) {
         if (!tips.empty()) {
@@ -39,7 +40,7 @@ SweptVolume swept_by(const Toolpath& path)
             tips.push_back(end_of(move));
         }
     }
-    swept.add(tips);
+    swept->add(tips);
     return swept;
 }
 
@@ -107,7 +108,8 @@ TEST(AdaptiveIsocurve, LeavesNoSliverOverTheOpenRimOfAnUprightWall)
     // Otherwise a sliver as thick as the one-sided tolerance would remain up to the stock's top.
     const Job made = job_for({upright_rim()}, "adaptive_isocurve");
     const auto planned = plan_adaptive_isocurve(made, made.operations.front());
-    const SweptVolume swept = swept_by(planned.front().path);
+    const auto volume = swept_by(planned.front().path);
+    const SweptVolume& swept = *volume;
     for (const double y : {0.1, 2.0, 5.9}) {
         for (const double in : {1e-4, 0.002, 0.01, 0.019}) {
             CHECK(swept.lowest(5 - in, y).height < 0.025);
@@ -136,7 +138,8 @@ TEST(AdaptiveIsocurve, RowsOverASlopedMeshReachItsRims)
     const Vec3d c{10, 10, 15}, d{0, 10, 5};
     slope.mesh = {{a, b, c}, {a, c, d}};
     const PlannedOperation planned = plan_adaptive_isocurve(made, slope).front();
-    const SweptVolume swept = swept_by(planned.path);
+    const auto volume = swept_by(planned.path);
+    const SweptVolume& swept = *volume;
     const double tilt = std::sqrt(1 + 1 + 0.25);
     for (const Vec3d p : {a, b, c, d, (a + d) * 0.5, (a + b) * 0.5}) {
         const Vec3d in = p + ((a + c) * 0.5 - p) * 1e-3;
@@ -159,7 +162,7 @@ TEST(AdaptiveIsocurve, CutsThePoleOfABowlOnce)
     const auto planned = plan_adaptive_isocurve(made, made.operations.front());
     // The tip of the tool runs over a ball of radius 2, and once around over the rim.
     CHECK(measure(planned.front().path, {}).cut_length_mm < 130);
-    CHECK(swept_by(planned.front().path).lowest(7.3, -4.1).height < -5.37 + 0.2);
+    CHECK(swept_by(planned.front().path)->lowest(7.3, -4.1).height < -5.37 + 0.2);
     CHECK(planned.front().stats.scallop_bound_mm <= 0.2);
     DOUBLES_EQUAL(0, planned.front().stats.gouge_bound_mm, 1e-6);
     CHECK(progress.rises(0.3));
@@ -180,7 +183,8 @@ TEST(AdaptiveIsocurve, KeepsTheScallopBesideARimThatTheBallPassesOutside)
     Tool lifted = finish.tool;
     lifted.radius += 0.6 * finish.floor_tolerance;
     lifted.corner_radius = lifted.radius;
-    const SweptVolume swept = swept_by(planned.path);
+    const auto volume = swept_by(planned.path);
+    const SweptVolume& swept = *volume;
     std::vector<Vec3d> centres;
     for (double y = -2.6; y < -2.2; y += 0.02) {
         if (const auto z = model.drop_height(lifted, 0, y)) {
@@ -214,7 +218,8 @@ TEST(AdaptiveIsocurve, KeepsTheScallopOverAGapThatAFloorIsSeenThrough)
         const auto planned = plan_adaptive_isocurve(roof, finish).front();
         CHECK(planned.stats.scallop_bound_mm <= 0.1);
         // A ball on both rims drops between them: it may be no higher than level with them.
-        const SweptVolume swept = swept_by(planned.path);
+        const auto volume = swept_by(planned.path);
+        const SweptVolume& swept = *volume;
         for (double y = 0.6; y < 3.5; y += 0.05) {
             CHECK(swept.lowest(5, y).height <= -2.5 + 0.1);
         }
@@ -248,7 +253,8 @@ TEST(AdaptiveIsocurve, ProvesWhatPassesOfAGivenDistanceLeaveBetweenThem)
         const PlannedOperation planned = plan_adaptive_isocurve(made, at_distance).front();
         const double bound = planned.stats.scallop_bound_mm;
         const PartModel model{at_distance.floor};
-        const SweptVolume swept = swept_by(planned.path);
+        const auto volume = swept_by(planned.path);
+        const SweptVolume& swept = *volume;
         double most = 0;
         for (int i = 0; i <= kParts; ++i) {
             for (int j = 0; j <= kParts; ++j) {

@@ -56,7 +56,7 @@ std::vector<DomainCurve> passes_within(const Surface& s, double distance)
 {
     return equal_scallop_passes(
                s, 0, [&](double u, double v) { return derivatives_at(s, u, v); },
-               [&](const SurfacePoint& p) { return norm(p.dv) / distance; },
+               [&](const SurfacePoint& p, double) { return norm(p.dv) / distance; },
                [&](double u, CurvePlace low, CurvePlace high, double) {
                    return norm(point_at(s, u, high.v) - point_at(s, u, low.v)) / distance;
                })

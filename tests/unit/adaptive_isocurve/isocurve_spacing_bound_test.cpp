@@ -67,7 +67,7 @@ TEST(IsocurveSpacingBound, HoldsForPassesThatFollowTheirNeighbours)
         const auto at = [&](double u, double v) {
             return model.evaluate(0, u, v);
         };
-        const auto steps = [](const SurfacePoint& p) {
+        const auto steps = [](const SurfacePoint& p, double) {
             return norm(p.dv) / 2;
         };
         check_bound(name, equal_scallop_passes(s, 0, at, steps, {}).curves, 2);

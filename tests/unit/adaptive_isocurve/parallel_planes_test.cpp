@@ -2,6 +2,7 @@
 #include "host_tools/adaptive_isocurve/parallel_planes.hpp"
 
 #include <cmath>
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -28,15 +29,15 @@ PlannedOperation planes_over(const Job& job)
     return plan_parallel_planes(job, job.operations.front()).front();
 }
 
-SweptVolume cut_by(const Toolpath& path)
+std::unique_ptr<SweptVolume> cut_by(const Toolpath& path)
 {
-    SweptVolume swept{path.tool.radius, path.tool.radius};
+    auto swept = std::make_unique<SweptVolume>(path.tool.radius, path.tool.radius);
     std::vector<Vec3d> tips{end_of(path.moves.front())};
     for (const ToolMove& move : path.moves) {
         const std::vector<Vec3d> next = points_of(move, tips.back(), 1e-4);
         tips.insert(tips.end(), next.begin(), next.end());
     }
-    swept.add(tips);
+    swept->add(tips);
     return swept;
 }
 
@@ -88,7 +89,7 @@ TEST(ParallelPlanes, KeepTheScallopInAHollow)
     job.operations.front().scallop = 0.05;
     const PlannedOperation planned = planes_over(job);
     DOUBLES_EQUAL(0.05, planned.stats.scallop_bound_mm, 1e-12);
-    CHECK(most_over(cut_by(planned.path), hollow()) <= 0.05 / std::cos(std::acos(-1.0) / 6));
+    CHECK(most_over(*cut_by(planned.path), hollow()) <= 0.05 / std::cos(std::acos(-1.0) / 6));
     DOUBLES_EQUAL(0, planned.stats.gouge_bound_mm, 1e-6);
 }
 
@@ -106,7 +107,7 @@ TEST(ParallelPlanes, ReachTheRimsOfASlope)
         job.operations.front().direction = direction;
         const PlannedOperation planned = planes_over(job);
         DOUBLES_EQUAL(0.2, planned.stats.scallop_bound_mm, 1e-12);
-        CHECK(most_over(cut_by(planned.path), flat) <= 0.2 * std::sqrt(1 + 0.25 + 0.01));
+        CHECK(most_over(*cut_by(planned.path), flat) <= 0.2 * std::sqrt(1 + 0.25 + 0.01));
     }
 }
 
@@ -118,7 +119,7 @@ TEST(ParallelPlanes, ArePutAsTheSurfaceAsksNotItsPole)
     const PlannedOperation planned = planes_over(job);
     CHECK(planned.stats.passes > 10);
     CHECK(planned.stats.passes < 200);
-    CHECK(cut_by(planned.path).lowest(7.3, -4.1).height < -5.37 + 0.11);
+    CHECK(cut_by(planned.path)->lowest(7.3, -4.1).height < -5.37 + 0.11);
 }
 
 TEST(ParallelPlanes, RunOverTheTrianglesOfAMesh)
@@ -129,7 +130,8 @@ TEST(ParallelPlanes, RunOverTheTrianglesOfAMesh)
     const Vec3d c{10, 10, 15}, d{0, 10, 5};
     operation.mesh = {{a, b, c}, {a, c, d}};
     const PlannedOperation planned = planes_over(job);
-    const SweptVolume swept = cut_by(planned.path);
+    const auto volume = cut_by(planned.path);
+    const SweptVolume& swept = *volume;
     for (const Vec3d p : {a, b, c, d, (a + d) * 0.5, (a + b) * 0.5}) {
         const Vec3d in = p + ((a + c) * 0.5 - p) * 1e-3;
         CHECK((swept.lowest(in.x, in.y).height - in.z) / std::sqrt(1 + 1 + 0.25) <= 0.2);
