@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host_tools/job/prismatic.hpp"
+#include "host_tools/job/prismatic_keys.hpp"
 
 namespace cusp::import {
 

@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "host_tools/input_error/input_error.hpp"
-#include "host_tools/job/prismatic.hpp"
+#include "host_tools/job/prismatic_keys.hpp"
 #include "host_tools/nurbs/nurbs.hpp"
 #include "host_tools/toolpath/entry_kind.hpp"
 #include "host_tools/toolpath/post.hpp"

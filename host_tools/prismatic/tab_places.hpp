@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "host_tools/job/prismatic.hpp"
+#include "host_tools/job/prismatic_keys.hpp"
 
 namespace cusp::prismatic {
 

@@ -140,7 +140,7 @@ class Info(unittest.TestCase):
                 ("noise.json", bytes(range(256)) * 20, "noise.json: not JSON"),
                 ("noise.dxf", bytes(range(256)) * 20, "noise.dxf:1"),
                 ("noise.step", bytes(range(256)) * 20, "noise.step: "),
-                ("part.obj", b"o part", 'not from ".obj"'),
+                ("part.ply", b"ply", 'not from ".ply"'),
                 ("type.json", b'{"shape": {"type": "volume", "data": []}}', '"volume"'),
                 ("kind.dxf", dxf((0, "3DFACE", 8, 0)).encode(), "3DFACE")):
             (self.folder / name).write_bytes(content)

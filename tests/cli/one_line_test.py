@@ -207,7 +207,7 @@ class OneLine(unittest.TestCase):
     def test_parts_that_are_none(self):
         tool = ("--tool", "ball:6", "--scallop", "0.05")
         self.refused("gone.json: can't be read", "gone.json", *tool)
-        self.refused("part.obj: parts end in .json", "part.obj", *tool)
+        self.refused("part.ply: parts end in .json", "part.ply", *tool)
         self.refused("plate.dxf: a drawing is a boundary", "plate.dxf", *tool)
         self.refused("a job file or a part is required", *tool)
         self.write("cut.json", "{")
