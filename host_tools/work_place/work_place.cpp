@@ -95,10 +95,17 @@ extern "C" void stop_by_signal(int signal)
     _exit(kCannotUse);
 }
 
+// A sanitizer reserves more addresses than any machine has memory.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kLimitsMemory = false;
+#else
+constexpr bool kLimitsMemory = true;
+#endif
+
 void limit_memory(rlim_t bytes)
 {
     rlimit limit{};
-    if (getrlimit(RLIMIT_DATA, &limit) == 0) {
+    if (kLimitsMemory && getrlimit(RLIMIT_DATA, &limit) == 0) {
         limit.rlim_cur = std::min(bytes, limit.rlim_max);
         setrlimit(RLIMIT_DATA, &limit);
     }
