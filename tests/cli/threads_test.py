@@ -20,7 +20,7 @@ sys.path.append(str(TOP / "tests" / "refactor"))
 from compare_bytes import figures
 from random_job import RandomJob
 
-QUICK_EXAMPLES = ("adaptive_isocurve/house-rough-and-finish.toml", "adaptive_isocurve/trimmed.toml")
+QUICK_EXAMPLES = ("adaptive_isocurve/trimmed.toml",)
 THREADS = (1, 2, 3)
 WHOLE = 600  # s: a limit no sound call comes near
 
@@ -56,7 +56,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("cusp")
     parser.add_argument("--first", type=int, default=1)
-    parser.add_argument("--count", type=int, default=10)
+    parser.add_argument("--count", type=int, default=4)
     parser.add_argument("--all-examples", action="store_true")
     args = parser.parse_args()
     examples = TOP / "examples"
