@@ -160,9 +160,10 @@ private:
     {
         std::vector<std::vector<Range>> missing(strips.size());
         for (std::size_t first = 0; first < 2; ++first) {
-            parallel::for_each((strips.size() + 1 - first) / 2, [&](std::size_t k) {
-                missing[2 * k + first] = missing_in(strips[2 * k + first]);
-            });
+            scallop_check_.share_out(
+                (strips.size() + 1 - first) / 2, [&](const MeshScallopCheck& check, std::size_t k) {
+                    missing[2 * k + first] = missing_in(strips[2 * k + first], check);
+                });
             std::vector<Cut> cuts;
             for (std::size_t k = first; k < strips.size(); k += 2) {
                 for (const Range& range : missing[k]) {
@@ -182,25 +183,28 @@ private:
         return out;
     }
 
-    std::vector<Range> missing_in(const Strip& strip) const
+    std::vector<Range> missing_in(const Strip& strip, const MeshScallopCheck& check) const
     {
         std::vector<Range> missing;
         if (strip.high - strip.low >= kNarrowest * row_) {
             for (const Range& range : strip.ranges) {
-                find_missing(range, strip, missing);
+                find_missing(range, strip, check, missing);
             }
         }
         return missing;
     }
 
     // The parts of a range, a sample longer, where a pass is missing in the middle of the strip.
-    void find_missing(const Range& range, const Strip& strip, std::vector<Range>& missing) const
+    void find_missing(const Range& range,
+                      const Strip& strip,
+                      const MeshScallopCheck& check,
+                      std::vector<Range>& missing) const
     {
         const int samples =
             std::max(1, static_cast<int>(std::ceil((range.to - range.from) / sample_pitch_)));
         for (int k = 0; k <= samples; ++k) {
             const double s = range.from + (range.to - range.from) * k / samples;
-            if (!is_missing(s, strip)) {
+            if (!is_missing(s, strip, check)) {
                 continue;
             }
             const Range around{std::max(whole().from, s - sample_pitch_),
@@ -213,14 +217,14 @@ private:
         }
     }
 
-    bool is_missing(double s, const Strip& strip) const
+    bool is_missing(double s, const Strip& strip, const MeshScallopCheck& check) const
     {
         const std::optional<Dropped> here = drop_at(s, 0.5 * (strip.low + strip.high));
         if (!here) {
             return false;
         }
-        return !scallop_check_.is_covered(here->point, (here->centre - here->point) / radius_,
-                                          kMiddleShare) ||
+        return !check.is_covered(here->point, (here->centre - here->point) / radius_,
+                                 kMiddleShare) ||
                (operation_.iso_distance && too_far_apart(s, strip));
     }
 
@@ -248,11 +252,13 @@ private:
     {
         std::vector<std::vector<SurfaceOperation::FittedPass>> passes(cuts.size());
         parallel::for_each(cuts.size(), [&](std::size_t k) {
+            work_.model().forget_queries();
             for (const Range& run : runs_in(cuts[k])) {
                 passes[k].push_back(work_.fitted_pass(work_.path_fitter().sample_dropped(
                     place(run.from, cuts[k].t), place(run.to, cuts[k].t))));
             }
         });
+        work_.model().forget_queries();
         for (std::vector<SurfaceOperation::FittedPass>& some : passes) {
             for (SurfaceOperation::FittedPass& pass : some) {
                 scallop_check_.add(work_.add(std::move(pass)));

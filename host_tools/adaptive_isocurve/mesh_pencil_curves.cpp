@@ -51,10 +51,12 @@ public:
         }
         dropped_.resize(places_.size());
         parallel::for_each(nx_, [&](std::size_t i) {
+            path_fitter.model().forget_queries();
             for (std::size_t k = i * ny_; k < (i + 1) * ny_; ++k) {
                 dropped_[k] = drop_at(places_[k]);
             }
         });
+        path_fitter.model().forget_queries();
     }
 
     std::vector<Points> curves()

@@ -227,10 +227,12 @@ void MeshScallopCheck::share_out(
     const std::size_t shares = std::min(count, kShares);
     parallel::for_each(shares, [&](std::size_t share) {
         MeshScallopCheck copy{*this, ForThread{}};
+        path_fitter_.model().forget_queries();
         for (std::size_t k = count * share / shares; k < count * (share + 1) / shares; ++k) {
             work(copy, k);
         }
     });
+    path_fitter_.model().forget_queries();
 }
 
 void MeshScallopCheck::check()

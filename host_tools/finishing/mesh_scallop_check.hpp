@@ -62,6 +62,11 @@ public:
     // The highest stock measured there above what the tool can reach, mm.
     double most_left() const { return most_left_; }
 
+    // Calls work(copy, k) for each k below count, on several threads, in shares that do not depend on
+    // their number. The copies have the passes of this one and no cells.
+    void share_out(std::size_t count,
+                   const std::function<void(MeshScallopCheck&, std::size_t)>& work) const;
+
 private:
     struct Place {
         Vec3d point;
@@ -79,9 +84,6 @@ private:
     // A copy for another thread: without cells, with the passes of this one.
     struct ForThread {};
     MeshScallopCheck(const MeshScallopCheck& other, ForThread tag);
-    // Calls work(copy, k) for each k below count, on several threads.
-    void share_out(std::size_t count,
-                   const std::function<void(MeshScallopCheck&, std::size_t)>& work) const;
     // The longest side of a triangle and its number.
     struct LongSide {
         double length;

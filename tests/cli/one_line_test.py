@@ -167,8 +167,8 @@ class OneLine(unittest.TestCase):
 
     def test_inches(self):
         self.write("small.json", plane(0, 0.05))
-        program, said = self.program("small.json", "--units", "inch", "--tool", "ball:0.25",
-                                     "--scallop", 0.01)
+        program, said = self.program("small.json", "--units", "inch", "--tool", "ball:2",
+                                     "--scallop", 0.05)
         self.assertIn("part: 60 x 40 inch", said)
         self.assertIn("G20", moves_of(program)[0])
         self.assertIn("feed 47 inch/min", said)
