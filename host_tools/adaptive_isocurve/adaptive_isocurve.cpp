@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <mutex>
 #include <numeric>
 #include <optional>
 
@@ -58,6 +59,27 @@ constexpr int kNormalSamples = 8;        // along u and v
 constexpr double kShortestPiece = 1e-3;  // mm
 constexpr std::size_t kCurvesAtOnce = 32;
 constexpr double kSameEdge = 0.1;  // in steps: edges nearer than this are one
+
+// Reports the share that is done, for use by several threads.
+class ShareOfCount {
+public:
+    ShareOfCount(std::size_t all, std::function<void(double)> report)
+        : all_{static_cast<double>(all)}, report_{std::move(report)}
+    {
+    }
+
+    void count()
+    {
+        const std::lock_guard lock{guard_};
+        report_(static_cast<double>(++done_) / all_);
+    }
+
+private:
+    double all_;
+    std::function<void(double)> report_;
+    std::mutex guard_;
+    std::size_t done_{0};
+};
 
 // Shares of the progress.
 constexpr double kPassesDone = 0.4;
@@ -216,15 +238,18 @@ private:
         bool trimmed = false;
         bool may_be_clear = s.trims.empty() && operation_.output == OutputForm::kLines;
         std::vector<PassesOfCurve> fitted(curves.size());
+        ShareOfCount curves_done{curves.size(), [&](double share) {
+                                     report(passes_done * (surface + share) /
+                                            static_cast<double>(work_.surfaces().size()));
+                                 }};
         for (std::size_t begin = 0; begin < curves.size(); begin += kCurvesAtOnce) {
-            const double share = static_cast<double>(begin) / static_cast<double>(curves.size());
-            report(passes_done * (surface + share) / static_cast<double>(work_.surfaces().size()));
             work_.model().forget_many_cells();
             const std::size_t end = std::min(curves.size(), begin + kCurvesAtOnce);
             parallel::for_each(end - begin, [&](std::size_t k) {
                 const work_place::Part part = part_of(surface);
                 work_.model().forget_queries();
                 fitted[begin + k] = passes_of(curves[begin + k], may_be_clear, offset);
+                curves_done.count();
             });
             work_.model().forget_queries();
             for (std::size_t k = begin; k < end; ++k) {

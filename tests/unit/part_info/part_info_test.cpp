@@ -116,7 +116,7 @@ TEST(PartInfo, JsonHasStableKeys)
 
 TEST(PartInfo, WhatIsNoPartIsRefused)
 {
-    STRCMP_CONTAINS("not from \".obj\"", refusal([&] { of("a.obj", "o"); }).c_str());
+    STRCMP_CONTAINS("not from \".ply\"", refusal([&] { of("a.ply", "ply"); }).c_str());
     STRCMP_CONTAINS("can't be read",
                     refusal([&] { inspect_part(folder.file("gone.stl"), settings); }).c_str());
     STRCMP_CONTAINS("no STL", refusal([&] { of("a.stl", ""); }).c_str());
