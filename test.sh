@@ -83,10 +83,6 @@ else
     quietly build/configure-sanitize.log cmake --preset sanitize -DCUSP_TARGET_TESTS=OFF
     quietly build/build-sanitize.log cmake --build --preset sanitize -j "$jobs" --target unit_tests cusp
     run_tests sanitize -L unit
-    echo "building under ThreadSanitizer"
-    quietly build/configure-thread.log cmake --preset thread
-    quietly build/build-thread.log cmake --build --preset thread -j "$jobs"
-    run_tests thread
     echo "building the fuzz targets"
     quietly build/configure-fuzz.log cmake --preset fuzz -DCUSP_FUZZ_SECONDS=10 \
         -DCUSP_TARGET_TESTS=OFF

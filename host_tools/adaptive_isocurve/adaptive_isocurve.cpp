@@ -214,6 +214,13 @@ private:
             [&](double share) { report(kPassesDone + (kCheckDone - kPassesDone) * share); });
     }
 
+    // share  of the surface's curves that are fitted
+    void report_curves(int surface, double share) const
+    {
+        const double done = plain_ ? kMissingDone : kPassesDone;
+        report(done * (surface + share) / static_cast<double>(work_.surfaces().size()));
+    }
+
     std::size_t add_surface(int surface, bool complete)
     {
         const Surface& s = work_.surfaces()[static_cast<std::size_t>(surface)];
@@ -223,7 +230,6 @@ private:
             curves = selection_.curves_of(surface, complete, true);
             highest = selection_.highest_between(surface, curves);
         }
-        const double passes_done = plain_ ? kMissingDone : kPassesDone;
         if (operation_.traversal == Traversal::kOneWay) {
             put_in_cutting_order(surface, curves);
         }
@@ -238,10 +244,9 @@ private:
         bool trimmed = false;
         bool may_be_clear = s.trims.empty() && operation_.output == OutputForm::kLines;
         std::vector<PassesOfCurve> fitted(curves.size());
-        ShareOfCount curves_done{curves.size(), [&](double share) {
-                                     report(passes_done * (surface + share) /
-                                            static_cast<double>(work_.surfaces().size()));
-                                 }};
+        ShareOfCount done{curves.size(), [&](double share) {
+                              report_curves(surface, share);
+                          }};
         for (std::size_t begin = 0; begin < curves.size(); begin += kCurvesAtOnce) {
             work_.model().forget_many_cells();
             const std::size_t end = std::min(curves.size(), begin + kCurvesAtOnce);
@@ -249,7 +254,7 @@ private:
                 const work_place::Part part = part_of(surface);
                 work_.model().forget_queries();
                 fitted[begin + k] = passes_of(curves[begin + k], may_be_clear, offset);
-                curves_done.count();
+                done.count();
             });
             work_.model().forget_queries();
             for (std::size_t k = begin; k < end; ++k) {
