@@ -45,9 +45,9 @@ struct JunctionShare {
     float jerk;          // and at that speed, in [0, 1)
 };
 
-// What a run of junctions takes. The axis filters turn a jump of direction into acceleration of at most v jump/t1 and jerk of at
-// most v jump/(t1 t2), and a jump of acceleration into jerk of at most jump/t1. Jumps of acceleration
-// to and fro cancel, but for what the speed changes between them.
+// What a run of junctions takes. The axis filters turn a jump of direction into acceleration of at
+// most v jump/t1 and jerk of at most v jump/(t1 t2), and a jump of acceleration into jerk of at most
+// jump/t1. Jumps of acceleration to and fro cancel, but for what the speed changes between them.
 //
 //   max_share  greatest share of acceleration and jerk that the junction may take.
 //   max_speed  mm/s, of the path around it.

@@ -16,12 +16,12 @@
 #include "host_tools/adaptive_isocurve/proved_scallop.hpp"
 #include "host_tools/adaptive_isocurve/surface_operation.hpp"
 #include "host_tools/adaptive_isocurve/waterline_roughing.hpp"
+#include "host_tools/cancellation/cancellation.hpp"
 #include "host_tools/finishing/scallop_check.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/parallel/parallel.hpp"
 #include "host_tools/part_model/offset_surface.hpp"
 #include "host_tools/toolpath/stepover.hpp"
-#include "host_tools/work_place/work_place.hpp"
 
 #include "fmt/format.h"
 
@@ -251,7 +251,7 @@ private:
             work_.model().forget_many_cells();
             const std::size_t end = std::min(curves.size(), begin + kCurvesAtOnce);
             parallel::for_each(end - begin, [&](std::size_t k) {
-                const work_place::Part part = part_of(surface);
+                const cancellation::Part part = part_of(surface);
                 work_.model().forget_queries();
                 fitted[begin + k] = passes_of(curves[begin + k], may_be_clear, offset);
                 done.count();
@@ -281,7 +281,7 @@ private:
         return curves.size();
     }
 
-    work_place::Part part_of(int surface) const
+    cancellation::Part part_of(int surface) const
     {
         const std::string where = operation_.floor_files.size() == 1
                                       ? " of " + operation_.floor_files.front()

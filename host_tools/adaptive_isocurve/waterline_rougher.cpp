@@ -10,6 +10,7 @@
 
 #include "host_tools/adaptive_isocurve/fitted_edges.hpp"
 #include "host_tools/adaptive_isocurve/rest_regions.hpp"
+#include "host_tools/cancellation/cancellation.hpp"
 #include "host_tools/clearing/clearing.hpp"
 #include "host_tools/clearing/layer_toolpath_writer.hpp"
 #include "host_tools/clearing/rest_between_tools.hpp"
@@ -17,7 +18,6 @@
 #include "host_tools/offset/edge_tree.hpp"
 #include "host_tools/parallel/parallel.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
-#include "host_tools/work_place/work_place.hpp"
 
 #include "fmt/format.h"
 
@@ -203,7 +203,7 @@ private:
         std::vector<std::optional<Level>> out(
             std::min(kLevelsAtOnce, work_.depths.heights.size() - first));
         parallel::for_each(out.size(), [&](std::size_t k) {
-            const work_place::Part part{"roughing level ", static_cast<int>(first + k + 1), ""};
+            const cancellation::Part part{"roughing level ", static_cast<int>(first + k + 1), ""};
             work_.model.forget_queries();
             out[k] = cleared_level(slices, first + k);
         });

@@ -1,4 +1,4 @@
-// The only signal handler of the program.
+// For commands that drive a machine. Planning and verifying end at once: host_tools/cancellation.
 #include "host_tools/cli/interruption.hpp"
 
 #include <csignal>

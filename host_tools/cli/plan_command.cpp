@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "host_tools/cancellation/cancellation.hpp"
 #include "host_tools/cli/commands.hpp"
 #include "host_tools/cli/one_line_options.hpp"
 #include "host_tools/cli/plan_program.hpp"
@@ -13,7 +14,6 @@
 #include "host_tools/import/post_reader.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/job/job.hpp"
-#include "host_tools/work_place/work_place.hpp"
 
 #include "CLI/CLI.hpp"
 #include "fmt/format.h"
@@ -56,7 +56,7 @@ int run_plan(PlanOptions& options)
         throw InputError("plan: -o is required: the G-code to write, such as -o part.ngc");
     }
     apply(options.resources);
-    work_place::set_work("reading " + call.job_name());
+    cancellation::set_work("reading " + call.job_name());
     // the standard output of --print-job is the job alone
     options.output.said = call.print_job ? stderr : stdout;
     Job job = call.is_one_line() ? one_line_job_of(options) : read_job(call.files.front());

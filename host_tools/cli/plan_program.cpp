@@ -8,6 +8,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "host_tools/cancellation/cancellation.hpp"
 #include "host_tools/cli/post_fit.hpp"
 #include "host_tools/cli/share_progress.hpp"
 #include "host_tools/cli/simulated_times.hpp"
@@ -20,7 +21,6 @@
 #include "host_tools/toolpath/gcode_writer.hpp"
 #include "host_tools/toolpath/tool_order.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
-#include "host_tools/work_place/work_place.hpp"
 
 #include "fmt/format.h"
 #include "fmt/ranges.h"
@@ -117,8 +117,8 @@ Plan plan_job(Job& job, const MachineRates& rates, std::FILE* said)
                    operation.strategy);
         std::fflush(said);
         const auto begin = std::chrono::steady_clock::now();
-        work_place::set_work(fmt::format("planning operation {} of {} ({}) of {}", i + 1,
-                                         job.operations.size(), operation.strategy, job.file));
+        cancellation::set_work(fmt::format("planning operation {} of {} ({}) of {}", i + 1,
+                                           job.operations.size(), operation.strategy, job.file));
         const auto progress = std::make_shared<PartsProgress>(operation.roughing, kQuiet);
         job.progress = [progress](double share) {
             (*progress)(share);
@@ -161,7 +161,7 @@ void put_simulated_times(const std::string& program,
         return;
     }
     constexpr double kQuiet = 2.0;  // s
-    work_place::set_work("timing the program");
+    cancellation::set_work("timing the program");
     const ShareProgress timing{"timing", kQuiet};
     if (const auto seconds = simulated_times(program, begins, timing)) {
         for (std::size_t i = 0; i < plan.measures.size(); ++i) {
@@ -191,7 +191,7 @@ void write_plan(const Job& job,
                 const PlanOutput& output,
                 const Plan& plan)
 {
-    const work_place::FinishOutput finish;
+    const cancellation::FinishOutput finish;
     write_text(output.program, program);
     if (!output.stats.empty()) {
         nlohmann::ordered_json about{

@@ -1,8 +1,8 @@
 // --threads and --memory.
 #include "host_tools/cli/resource_options.hpp"
 
+#include "host_tools/cancellation/cancellation.hpp"
 #include "host_tools/parallel/parallel.hpp"
-#include "host_tools/work_place/work_place.hpp"
 
 #include "CLI/CLI.hpp"
 
@@ -32,8 +32,8 @@ void apply(const Resources& resources)
     if (resources.threads > 0) {
         parallel::set_threads(resources.threads);
     }
-    work_place::stop_with_message(resources.memory > 0 ? resources.memory
-                                                       : work_place::half_of_memory());
+    cancellation::stop_with_message(resources.memory > 0 ? resources.memory
+                                                         : cancellation::half_of_memory());
 }
 
 }  // namespace cusp::cli

@@ -4,7 +4,7 @@
 #include <unistd.h>
 #include <utility>
 
-#include "host_tools/work_place/work_place.hpp"
+#include "host_tools/cancellation/cancellation.hpp"
 
 #include "fmt/format.h"
 
@@ -20,7 +20,7 @@ ShareProgress::ShareProgress(std::string what, double quiet_s)
 
 void ShareProgress::operator()(double share)
 {
-    work_place::set_share(share);
+    cancellation::set_share(share);
     constexpr int kWidth = 40;
     const int steps = is_terminal_ ? kWidth : 4;
     const int now = static_cast<int>(share * steps);

@@ -1,12 +1,12 @@
 // cusp verify: simulates the cut and compares the remaining stock with the part.
 #include <memory>
 
+#include "host_tools/cancellation/cancellation.hpp"
 #include "host_tools/cli/commands.hpp"
 #include "host_tools/cli/resource_options.hpp"
 #include "host_tools/cli/verify_program.hpp"
 #include "host_tools/import/import.hpp"
 #include "host_tools/job/job.hpp"
-#include "host_tools/work_place/work_place.hpp"
 
 #include "CLI/CLI.hpp"
 #include "fmt/format.h"
@@ -31,7 +31,7 @@ struct VerifyOptions {
 int run_verify(const VerifyOptions& options)
 {
     apply(options.resources);
-    work_place::set_work("reading " + options.job);
+    cancellation::set_work("reading " + options.job);
     VerifySettings settings;
     if (options.pitch > 0) {
         settings.pitch = options.pitch;

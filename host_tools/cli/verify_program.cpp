@@ -3,10 +3,10 @@
 
 #include <cmath>
 
+#include "host_tools/cancellation/cancellation.hpp"
 #include "host_tools/cli/share_progress.hpp"
 #include "host_tools/files/files.hpp"
 #include "host_tools/report/pictures.hpp"
-#include "host_tools/work_place/work_place.hpp"
 
 #include "fmt/format.h"
 #include "nlohmann/json.hpp"
@@ -98,9 +98,9 @@ Verification verify_program(const Job& job,
                             const VerifySettings& settings,
                             const VerifyOutput& output)
 {
-    work_place::set_work("cutting " + program_file);
+    cancellation::set_work("cutting " + program_file);
     Verification result = verify::verify(job, program_file, settings, ShareProgress{"cutting"});
-    const work_place::FinishOutput finish;
+    const cancellation::FinishOutput finish;
     if (!output.stats.empty()) {
         write_text(output.stats, stats_of(result).dump(1) + "\n");
     }

@@ -1,9 +1,9 @@
 // Cells are shared out to copies of the check, the same cells to the same copy for any number of threads.
 #include <algorithm>
 
+#include "host_tools/cancellation/cancellation.hpp"
 #include "host_tools/finishing/scallop_check.hpp"
 #include "host_tools/parallel/parallel.hpp"
-#include "host_tools/work_place/work_place.hpp"
 
 namespace cusp::finishing {
 
@@ -81,7 +81,7 @@ void ScallopCheck::check_all(const std::function<void(double)>& progress)
     share_out(
         cells.size(), kCellsAtOnce,
         [&](ScallopCheck& copy, std::size_t k) {
-            const work_place::Part part{"face ", cells[k].surface + 1, " of the floor"};
+            const cancellation::Part part{"face ", cells[k].surface + 1, " of the floor"};
             copy.check_cell(cells[k], copy.corners_of(cells[k]), kDeepestCheck);
             found[k] = std::move(copy.uncovered_);
             copy.uncovered_.clear();
@@ -106,7 +106,7 @@ std::vector<ScallopCheck::CellFinding> ScallopCheck::findings_of(const std::vect
     share_out(
         cells.size(), kFindingsAtOnce,
         [&](ScallopCheck& copy, std::size_t k) {
-            const work_place::Part part{"face ", cells[k].surface + 1, " of the floor"};
+            const cancellation::Part part{"face ", cells[k].surface + 1, " of the floor"};
             CellFinding& finding = out[k];
             copy.moved_clear_ = false;
             const std::optional<Place> place = copy.uncovered_point(cells[k]);

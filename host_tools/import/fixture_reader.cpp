@@ -58,8 +58,7 @@ Fixture read_fixture(const toml::table& table,
         fixture.high = {x[1] * millimetres, y[1] * millimetres};
     }
     fixture.top = keys.required_number("top", kAnyNumber) * millimetres;
-    const auto margin = keys.number("margin", kNotNegative);
-    fixture.margin = margin ? *margin * millimetres : kDefaultMargin;
+    fixture.margin = keys.length("margin", kNotNegative, millimetres).value_or(kDefaultMargin);
     return fixture;
 }
 

@@ -89,15 +89,13 @@ private:
     void place_files(JobTable& top, const std::vector<const toml::table*>& operations);
     std::string path_of(const std::string& name) const { return path_in(folder_, name); }
 
-    double length(JobTable& table, const char* key, Range range, double otherwise_mm) const
-    {
-        const auto value = table.number(key, range);
-        return value ? *value * unit_ : otherwise_mm;
-    }
     std::optional<double> length(JobTable& table, const char* key, Range range) const
     {
-        const auto value = table.number(key, range);
-        return value ? std::optional{*value * unit_} : std::nullopt;
+        return table.length(key, range, unit_);
+    }
+    double length(JobTable& table, const char* key, Range range, double otherwise_mm) const
+    {
+        return length(table, key, range).value_or(otherwise_mm);
     }
 
     std::string file_;

@@ -78,6 +78,12 @@ std::optional<double> JobTable::number(const char* key, Range range)
     return node == nullptr ? std::nullopt : std::optional{checked(*node, key, range)};
 }
 
+std::optional<double> JobTable::length(const char* key, Range range, double millimetres)
+{
+    const auto value = number(key, range);
+    return value ? std::optional{*value * millimetres} : std::nullopt;
+}
+
 std::optional<int> JobTable::whole_number(const char* key, Range range)
 {
     const std::optional<double> value = number(key, range);

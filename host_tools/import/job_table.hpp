@@ -36,6 +36,8 @@ public:
     // Each returns no value where the key is absent and throws InputError where its value has the
     // wrong type or is out of range.
     std::optional<double> number(const char* key, Range range);
+    // In mm, of a number in units of `millimetres`.
+    std::optional<double> length(const char* key, Range range, double millimetres);
     std::optional<int> whole_number(const char* key, Range range);
     std::optional<bool> flag(const char* key);
     std::optional<std::string> text(const char* key);

@@ -6,12 +6,16 @@
 #include <optional>
 #include <utility>
 
+#include "host_tools/job/loop_shape.hpp"
+#include "host_tools/nurbs/plan_vector.hpp"
 #include "host_tools/part_model/pattern_search.hpp"
 #include "host_tools/part_model/trim_region.hpp"
 
 namespace cusp::import {
 
+using job::loop_polyline;
 using nurbs::BezierPatch;
+using nurbs::Curve;
 using nurbs::Surface;
 using part_model::pattern_search;
 using part_model::TrimRegion;
@@ -159,6 +163,18 @@ PartExtent extent_of_triangles(const Triangles& triangles)
         }
     }
     return box;
+}
+
+PartExtent extent_of_curves(const std::vector<Curve>& chain)
+{
+    constexpr double kChord = 1e-3;  // mm
+    Vec2d low{kUnbounded, kUnbounded};
+    Vec2d high{-kUnbounded, -kUnbounded};
+    for (const Vec2d& p : loop_polyline(chain, kChord)) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+    }
+    return {{low.x, low.y, 0}, {high.x, high.y, 0}};
 }
 
 PartExtent joined(const PartExtent& a, const PartExtent& b)

@@ -25,6 +25,9 @@ double highest_of_surfaces(const std::vector<nurbs::Surface>& surfaces);
 // Precondition: at least one triangle.
 PartExtent extent_of_triangles(const Triangles& triangles);
 
+// In x and y; z is 0. Error: at most 1e-3 mm too small.
+PartExtent extent_of_curves(const std::vector<nurbs::Curve>& chain);
+
 // The bounding box of both.
 PartExtent joined(const PartExtent& a, const PartExtent& b);
 

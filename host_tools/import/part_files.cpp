@@ -10,15 +10,20 @@ using nurbs::Surface;
 
 namespace {
 
-// Seen from above: loops lie in x and y.
+// Seen from above: curves of drawings lie in x and y.
+void move_curves(const Similarity& placed, std::vector<Curve>& curves)
+{
+    for (Curve& curve : curves) {
+        for (Vec3d& point : curve.points) {
+            point = placed.of(point);
+        }
+    }
+}
+
 void move_loops(const Similarity& placed, std::vector<FileLoop>& loops)
 {
     for (FileLoop& found : loops) {
-        for (Curve& curve : found.loop) {
-            for (Vec3d& point : curve.points) {
-                point = placed.of(point);
-            }
-        }
+        move_curves(placed, found.loop);
     }
 }
 
@@ -92,11 +97,7 @@ std::vector<job::Chain> PartFiles::chains(const std::string& file, double millim
     const Similarity move = placed_drawing(file);
     std::vector<job::Chain> chains = read_chains(file, millimetres);
     for (job::Chain& chain : chains) {
-        for (Curve& curve : chain) {
-            for (Vec3d& point : curve.points) {
-                point = move.of(point);
-            }
-        }
+        move_curves(move, chain);
     }
     return chains;
 }

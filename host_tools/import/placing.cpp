@@ -8,13 +8,10 @@
 
 #include "host_tools/import/mesh_file.hpp"
 #include "host_tools/import/path_ending.hpp"
-#include "host_tools/job/loop_shape.hpp"
 
 #include "fmt/format.h"
 
 namespace cusp::import {
-
-using job::loop_polyline;
 
 namespace {
 
@@ -176,10 +173,8 @@ private:
     {
         std::optional<PartExtent> box;
         for (const FileLoop& loop : parts_.loops(name, millimetres_, kChord)) {
-            for (const Vec2d& p : loop_polyline(loop.loop, kChord)) {
-                const PartExtent at{{p.x, p.y, 0}, {p.x, p.y, 0}};
-                box = box ? joined(*box, at) : at;
-            }
+            const PartExtent more = extent_of_curves(loop.loop);
+            box = box ? joined(*box, more) : more;
         }
         return box.value_or(PartExtent{});
     }

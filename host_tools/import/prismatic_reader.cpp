@@ -9,7 +9,7 @@
 #include "host_tools/import/dxf_holes.hpp"
 #include "host_tools/import/file_loops.hpp"
 #include "host_tools/import/known_keys.hpp"
-#include "host_tools/job/loop_shape.hpp"
+#include "host_tools/import/part_extent.hpp"
 
 #include "fmt/format.h"
 
@@ -17,7 +17,6 @@ namespace cusp::import {
 
 using job::Hole;
 using job::Job;
-using job::loop_polyline;
 using job::NestedLoop;
 using job::Operation;
 using job::Prismatic;
@@ -52,12 +51,6 @@ Tabs read_tabs(JobTable& keys, double unit)
     tabs.ramped = keys.one_of("shape", {"ramp", "square"}).value_or("ramp") == "ramp";
     keys.check_all_read();
     return tabs;
-}
-
-std::optional<double> length_of(JobTable& table, const char* key, Range range, double unit)
-{
-    const auto value = table.number(key, range);
-    return value ? std::optional{*value * unit} : std::nullopt;
 }
 
 // A level floor costs nothing more where it is followed closely. The height of ridges says how far
@@ -148,20 +141,11 @@ void check_holes(const JobTable& table, const Operation& operation, PartFiles& p
 // A level rectangle around the boundary.
 nurbs::Surface flat_floor(const job::Loop& boundary, double margin, double z)
 {
-    double x0 = kUnbounded;
-    double y0 = kUnbounded;
-    double x1 = -kUnbounded;
-    double y1 = -kUnbounded;
-    for (const Vec2d p : loop_polyline(boundary, 0.01)) {
-        x0 = std::min(x0, p.x);
-        y0 = std::min(y0, p.y);
-        x1 = std::max(x1, p.x);
-        y1 = std::max(y1, p.y);
-    }
-    x0 -= margin;
-    y0 -= margin;
-    x1 += margin;
-    y1 += margin;
+    const PartExtent box = extent_of_curves(boundary);
+    const double x0 = box.low.x - margin;
+    const double y0 = box.low.y - margin;
+    const double x1 = box.high.x + margin;
+    const double y1 = box.high.y + margin;
     return {1,
             1,
             {0, 0, 1, 1},
@@ -184,8 +168,8 @@ bool is_prismatic(const std::string& strategy)
 void read_prismatic_keys(JobTable& table, double unit, Operation& operation)
 {
     Prismatic cut;
-    const auto depth = length_of(table, "depth", kPositive, unit);
-    cut.given_top = length_of(table, "top", kAnyNumber, unit);
+    const auto depth = table.length("depth", kPositive, unit);
+    cut.given_top = table.length("top", kAnyNumber, unit);
     const std::string side = table.one_of("side", {"outside", "inside", "on"}).value_or("outside");
     cut.side = side == "outside"  ? ProfileSide::kOutside
                : side == "inside" ? ProfileSide::kInside
@@ -194,11 +178,11 @@ void read_prismatic_keys(JobTable& table, double unit, Operation& operation)
         JobTable keys = table.inner(*tabs, "tabs", tabs_keys());
         cut.tabs = read_tabs(keys, unit);
     }
-    cut.lead_in = length_of(table, "lead_in", kNotNegative, unit);
-    cut.lead_out = length_of(table, "lead_out", kNotNegative, unit);
-    cut.peck = length_of(table, "peck", kPositive, unit);
-    cut.overhang = length_of(table, "overhang", kNotNegative, unit);
-    const auto width = length_of(table, "width", kPositive, unit);
+    cut.lead_in = table.length("lead_in", kNotNegative, unit);
+    cut.lead_out = table.length("lead_out", kNotNegative, unit);
+    cut.peck = table.length("peck", kPositive, unit);
+    cut.overhang = table.length("overhang", kNotNegative, unit);
+    const auto width = table.length("width", kPositive, unit);
     if (const auto wanted = table.interval("diameter", kPositive)) {
         cut.diameters = {(*wanted)[0] * unit, (*wanted)[1] * unit};
     }

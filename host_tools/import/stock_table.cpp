@@ -23,14 +23,14 @@ StockTable::StockTable(const toml::table* table,
                        Job& job)
     : keys_{table == nullptr ? kNoStock : *table, file, "stock", stock_keys()}, unit_{millimetres}
 {
-    top_ = length("top", kAnyNumber);
-    job.clearance = length("clearance", kPositive).value_or(kDefaultClearance);
-    job.stock_bottom = length("bottom", kAnyNumber);
+    top_ = keys_.length("top", kAnyNumber, unit_);
+    job.clearance = keys_.length("clearance", kPositive, unit_).value_or(kDefaultClearance);
+    job.stock_bottom = keys_.length("bottom", kAnyNumber, unit_);
     job.stock_x = interval("x");
     job.stock_y = interval("y");
     read_margin();
-    margin_top_ = length("margin_top", kNotNegative);
-    margin_bottom_ = length("margin_bottom", kNotNegative);
+    margin_top_ = keys_.length("margin_top", kNotNegative, unit_);
+    margin_bottom_ = keys_.length("margin_bottom", kNotNegative, unit_);
     const auto refuse_both = [&](bool both, const char* margin, const char* place) {
         if (both) {
             keys_.refuse(margin, fmt::format("is given beside {}: one of them", place));
@@ -41,12 +41,6 @@ StockTable::StockTable(const toml::table* table,
     refuse_both(margin_top_ && top_, "margin_top", "top");
     refuse_both(margin_bottom_ && job.stock_bottom, "margin_bottom", "bottom");
     keys_.check_all_read();
-}
-
-std::optional<double> StockTable::length(const char* key, Range range)
-{
-    const auto value = keys_.number(key, range);
-    return value ? std::optional{*value * unit_} : std::nullopt;
 }
 
 std::optional<std::array<double, 2>> StockTable::interval(const char* key)
@@ -74,18 +68,28 @@ void StockTable::read_margin()
     margin_ = std::array{values->front() * unit_, values->back() * unit_};
 }
 
-void StockTable::settle_box(Job& job) const
+void StockTable::settle_sides(Job& job) const
 {
-    const PartExtent parts = extent_of_job(job);
-    if (margin_) {
-        job.stock_x = std::array{parts.low.x - (*margin_)[0], parts.high.x + (*margin_)[0]};
-        job.stock_y = std::array{parts.low.y - (*margin_)[1], parts.high.y + (*margin_)[1]};
+    const std::optional<PartExtent> box = plan_extent(job);
+    if (!box) {
+        keys_.refuse("margin", "no operation has a floor or a drawing: give x and y");
+    }
+    job.stock_x = std::array{box->low.x - (*margin_)[0], box->high.x + (*margin_)[0]};
+    job.stock_y = std::array{box->low.y - (*margin_)[1], box->high.y + (*margin_)[1]};
+}
+
+void StockTable::settle_heights(Job& job) const
+{
+    const std::optional<PartExtent> floors = floors_extent(job);
+    if (!floors) {
+        keys_.refuse(margin_top_ ? "margin_top" : "margin_bottom",
+                     "no operation has a floor: give top and bottom");
     }
     if (margin_top_) {
-        job.stock_top = (job.part_top ? parts.high.z : job.stock_top) + *margin_top_;
+        job.stock_top = (job.part_top ? floors->high.z : job.stock_top) + *margin_top_;
     }
     if (margin_bottom_) {
-        job.stock_bottom = parts.low.z - *margin_bottom_;
+        job.stock_bottom = floors->low.z - *margin_bottom_;
     }
 }
 
@@ -93,8 +97,11 @@ void StockTable::settle(Job& job) const
 {
     job.part_top = part_top(job);
     job.stock_top = top_ ? *top_ : default_stock_top(job);
-    if (margin_ || margin_top_ || margin_bottom_) {
-        settle_box(job);
+    if (margin_) {
+        settle_sides(job);
+    }
+    if (margin_top_ || margin_bottom_) {
+        settle_heights(job);
     }
     if (job.stock_bottom && !(*job.stock_bottom < job.stock_top)) {
         keys_.refuse("bottom",

@@ -30,10 +30,10 @@ public:
     void settle(job::Job& job) const;
 
 private:
-    std::optional<double> length(const char* key, Range range);
     std::optional<std::array<double, 2>> interval(const char* key);
     void read_margin();
-    void settle_box(job::Job& job) const;
+    void settle_sides(job::Job& job) const;
+    void settle_heights(job::Job& job) const;
 
     JobTable keys_;
     double unit_;  // mm

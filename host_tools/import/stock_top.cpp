@@ -8,12 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "host_tools/job/loop_shape.hpp"
-
 namespace cusp::import {
 
 using job::Job;
-using job::loop_polyline;
 using job::Operation;
 
 namespace {
@@ -43,6 +40,46 @@ std::optional<double> highest_floor(const Job& job, const Counts& counts)
     return highest;
 }
 
+void widen(const std::optional<PartExtent>& by, std::optional<PartExtent>& box)
+{
+    if (by) {
+        box = box ? joined(*box, *by) : *by;
+    }
+}
+
+// A floor that follows from the depth of an operation is none of the part.
+std::optional<PartExtent> floor_extent(const Operation& operation)
+{
+    if (operation.prismatic) {
+        return std::nullopt;
+    }
+    return operation.mesh.empty() ? extent_of_surfaces(operation.floor)
+                                  : extent_of_triangles(operation.mesh);
+}
+
+// In x and y, of what the operation is drawn by.
+std::optional<PartExtent> drawing_extent(const Operation& operation)
+{
+    std::optional<PartExtent> box;
+    if (operation.boundary) {
+        box = extent_of_curves(*operation.boundary);
+    }
+    if (!operation.prismatic) {
+        return box;
+    }
+    for (const job::NestedLoop& loop : operation.prismatic->loops) {
+        widen(extent_of_curves(loop.loop), box);
+    }
+    for (const job::Chain& chain : operation.prismatic->chains) {
+        widen(extent_of_curves(chain), box);
+    }
+    for (const job::Hole& hole : operation.prismatic->holes) {
+        const Vec3d at{hole.at.x, hole.at.y, 0};
+        widen(PartExtent{at, at}, box);
+    }
+    return box;
+}
+
 }  // namespace
 
 std::optional<double> part_top(const Job& job)
@@ -62,24 +99,23 @@ double default_stock_top(const Job& job)
     return std::max(0.0, std::ceil(highest * kSteps - kOverRounding) / kSteps);
 }
 
-PartExtent extent_of_job(const Job& job)
+std::optional<PartExtent> floors_extent(const Job& job)
 {
-    constexpr double kChord = 1e-3;  // mm
     std::optional<PartExtent> box;
     for (const Operation& operation : job.operations) {
-        PartExtent more = operation.mesh.empty() ? extent_of_surfaces(operation.floor)
-                                                 : extent_of_triangles(operation.mesh);
-        if (operation.boundary) {
-            const auto outline = loop_polyline(*operation.boundary, kChord);
-            const auto [west, east] = std::minmax_element(
-                outline.begin(), outline.end(), [](Vec2d a, Vec2d b) { return a.x < b.x; });
-            const auto [south, north] = std::minmax_element(
-                outline.begin(), outline.end(), [](Vec2d a, Vec2d b) { return a.y < b.y; });
-            more = {{west->x, south->y, more.low.z}, {east->x, north->y, more.high.z}};
-        }
-        box = box ? joined(*box, more) : more;
+        widen(floor_extent(operation), box);
     }
-    return box.value_or(PartExtent{});
+    return box;
+}
+
+std::optional<PartExtent> plan_extent(const Job& job)
+{
+    std::optional<PartExtent> box;
+    for (const Operation& operation : job.operations) {
+        const std::optional<PartExtent> drawn = drawing_extent(operation);
+        widen(drawn ? drawn : floor_extent(operation), box);
+    }
+    return box;
 }
 
 }  // namespace cusp::import

@@ -16,7 +16,11 @@ std::optional<double> part_top(const job::Job& job);
 // rounded up to 1e-4.
 double default_stock_top(const job::Job& job);
 
-// The box round all floors, mm; of a pocket no more in x and y than its boundary.
-PartExtent extent_of_job(const job::Job& job);
+// The box round all floors, mm; no value: all operations are 2.5-D.
+std::optional<PartExtent> floors_extent(const job::Job& job);
+
+// The box in x and y round what operations are drawn by, or else their floors; z means nothing. No
+// value: there is neither.
+std::optional<PartExtent> plan_extent(const job::Job& job);
 
 }  // namespace cusp::import

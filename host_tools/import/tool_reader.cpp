@@ -20,14 +20,11 @@ namespace {
 job::ToolFacts read_facts(JobTable& keys, double millimetres)
 {
     constexpr Range kFlutes{1, 20};
-    const auto in_millimetres = [&](const std::optional<double>& value) {
-        return value ? std::optional{*value * millimetres} : std::nullopt;
-    };
     job::ToolFacts facts;
     facts.name = keys.text("name").value_or("");
     facts.flutes = keys.whole_number("flutes", kFlutes).value_or(0);
-    facts.flute_length = in_millimetres(keys.number("flute_length", kPositive));
-    facts.length = in_millimetres(keys.number("length", kPositive));
+    facts.flute_length = keys.length("flute_length", kPositive, millimetres);
+    facts.length = keys.length("length", kPositive, millimetres);
     if (facts.length && facts.flute_length && *facts.flute_length > *facts.length) {
         keys.refuse("flute_length", fmt::format("is {:g} mm, the tool is {:g} mm long",
                                                 *facts.flute_length, *facts.length));
@@ -105,8 +102,7 @@ ReadTool read_tool(const toml::table& table,
                  : shape == "vee"  ? ToolShape::kVee
                                    : ToolShape::kDrill;
     tool.radius = keys.required_number("diameter", kPositive) * millimetres / 2;
-    const auto given = keys.number("corner_radius", kPositive);
-    const auto corner = given ? std::optional{*given * millimetres} : std::nullopt;
+    const auto corner = keys.length("corner_radius", kPositive, millimetres);
     if (tool.shape == ToolShape::kBull && !corner) {
         keys.refuse("corner_radius", "is missing: a bull tool needs it");
     }

@@ -173,6 +173,29 @@ TEST(Placing, MakesTheStockByMargins)
     STRCMP_CONTAINS("margin: has 3 numbers", refused("[stock]\nmargin = [1, 2, 3]\n").c_str());
 }
 
+// A drawing has sides, and neither top nor bottom.
+TEST(Placing, MakesTheSidesOfAPlateByMarginsOfItsDrawing)
+{
+    folder.with("holes.dxf",
+                "0\nSECTION\n2\nENTITIES\n0\nCIRCLE\n8\n0\n10\n30\n20\n20\n40\n2\n0\nCIRCLE\n8\n"
+                "0\n10\n70\n20\n-10\n40\n2\n0\nENDSEC\n0\nEOF\n");
+    const auto plate = [&](const std::string& stock) {
+        return read_job(folder.with(
+            "plate.toml",
+            "[tool]\nshape = \"drill\"\ndiameter = 4\n[cutting]\nfeed = 500\n[stock]\n" + stock +
+                "[[operation]]\nstrategy = \"drill\"\nboundary = \"holes.dxf\"\ndepth = 3\n"));
+    };
+    const job::Job job = plate("margin = [6, 8]\ntop = 1\nbottom = -5\n");
+    DOUBLES_EQUAL(24, (*job.stock_x)[0], 1e-9);
+    DOUBLES_EQUAL(76, (*job.stock_x)[1], 1e-9);
+    DOUBLES_EQUAL(-18, (*job.stock_y)[0], 1e-9);
+    DOUBLES_EQUAL(28, (*job.stock_y)[1], 1e-9);
+    STRCMP_CONTAINS("margin_bottom: no operation has a floor",
+                    cusp::test::refusal([&] { plate("margin_bottom = 2\n"); }).c_str());
+    STRCMP_CONTAINS("margin_top: no operation has a floor",
+                    cusp::test::refusal([&] { plate("margin_top = 2\n"); }).c_str());
+}
+
 TEST(Placing, IsRefusedWithItsKey)
 {
     STRCMP_CONTAINS("other.obj is no file that an operation names",

@@ -1,5 +1,5 @@
 // Texts are prepared in fixed places; handlers only write them out.
-#include "host_tools/work_place/work_place.hpp"
+#include "host_tools/cancellation/cancellation.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -9,7 +9,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-namespace cusp::work_place {
+namespace cusp::cancellation {
 namespace {
 
 constexpr std::size_t kLongestWork = 400;
@@ -166,4 +166,4 @@ FinishOutput::~FinishOutput()
     --finishing;
 }
 
-}  // namespace cusp::work_place
+}  // namespace cusp::cancellation

@@ -1,13 +1,13 @@
 // What a long computation is doing, for the line that is printed when Ctrl-C or the end of memory stops it.
 //
-//     work_place::stop_with_message(8'000'000'000);            // bytes; once, before the work
-//     work_place::set_work("planning operation 1 of 2 (adaptive_isocurve)");
+//     cancellation::stop_with_message(8'000'000'000);            // bytes; once, before the work
+//     cancellation::set_work("planning operation 1 of 2 (adaptive_isocurve)");
 //     for (int face = 0; face < faces; ++face) {
-//         const work_place::Part part{"face ", face + 1, " of part.step"};
-//         work_place::set_share(static_cast<double>(face) / faces);
+//         const cancellation::Part part{"face ", face + 1, " of part.step"};
+//         cancellation::set_share(static_cast<double>(face) / faces);
 //         plan(face);                                          // stops the process, and says where
 //     }
-//     const work_place::FinishOutput finish;                   // files are written to their end
+//     const cancellation::FinishOutput finish;                   // files are written to their end
 //
 // The process ends inside a signal handler or the handler of operator new, whatever loop runs: no
 // loop has to look for an interruption, and no memory is needed for the line.
@@ -17,7 +17,7 @@
 #include <cstddef>
 #include <string_view>
 
-namespace cusp::work_place {
+namespace cusp::cancellation {
 
 // From this call on Ctrl-C, SIGTERM and the end of memory print one line and end the process: a
 // signal as signals do (128 + its number in a shell), the end of memory with exit status 2.
@@ -58,4 +58,4 @@ public:
     FinishOutput& operator=(const FinishOutput&) = delete;
 };
 
-}  // namespace cusp::work_place
+}  // namespace cusp::cancellation
