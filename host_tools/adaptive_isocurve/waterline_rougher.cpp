@@ -202,11 +202,15 @@ private:
     {
         std::vector<std::optional<Level>> out(
             std::min(kLevelsAtOnce, work_.depths.heights.size() - first));
-        parallel::for_each(out.size(), [&](std::size_t k) {
-            const cancellation::Part part{"roughing level ", static_cast<int>(first + k + 1), ""};
-            work_.model.forget_queries();
-            out[k] = cleared_level(slices, first + k);
-        });
+        {
+            const part_model::PartModel::SharedQueries shared{work_.model};
+            parallel::for_each(out.size(), [&](std::size_t k) {
+                const cancellation::Part part{"roughing level ", static_cast<int>(first + k + 1),
+                                              ""};
+                work_.model.forget_queries();
+                out[k] = cleared_level(slices, first + k);
+            });
+        }
         work_.model.forget_cells();  // the next levels need cells at other heights
         return out;
     }
@@ -347,12 +351,13 @@ private:
         const std::size_t count = result_.planned.path.moves.size();
         std::vector<double> least((count + kMovesAtOnce - 1) / kMovesAtOnce, kInfinite);
         for (std::size_t begin = 0; begin < least.size(); begin += kProofsAtOnce) {
+            work_.model.forget_many_cells();
+            const part_model::PartModel::SharedQueries shared{work_.model};
             parallel::for_each(std::min(kProofsAtOnce, least.size() - begin), [&](std::size_t k) {
                 work_.model.forget_queries();
                 const std::size_t first = (begin + k) * kMovesAtOnce;
                 least[begin + k] = least_clearance(first, std::min(count, first + kMovesAtOnce));
             });
-            work_.model.forget_many_cells();
         }
         return *std::min_element(least.begin(), least.end());
     }

@@ -101,7 +101,8 @@ public:
     double box_low(std::size_t k) const { return box_low_[k]; }
     double box_high(std::size_t k) const { return box_high_[k]; }
 
-    // Two halves across the longer side, made when first needed.
+    // Two halves across the longer side, or the one along which a derivative vanishes, made when first
+    // needed.
     std::array<const BezierCell*, 2> halves() const;
     // Releases the halves and the surroundings.
     void forget() const;
@@ -147,6 +148,7 @@ private:
     void find_bounds();
     Spread polynomial_spread() const;
     Spread rational_spread() const;
+    bool is_halved_across_u() const;
     Vec3d control(std::size_t i, std::size_t j) const;
 
     using Halves = std::array<std::unique_ptr<const BezierCell>, 2>;

@@ -22,6 +22,7 @@ namespace cusp::part_model {
 
 struct PartModel::State {
     std::atomic<std::size_t> halves{};  // how many halves of cells exist, at all levels
+    std::atomic<int> sharers{};         // SharedQueries that live
     std::vector<std::unique_ptr<BezierCell>> cells;
     std::vector<TrimRegion> regions;
     std::vector<std::array<Vec3d, 2>> edges;

@@ -91,7 +91,8 @@ public:
 
     double clearance(Vec3d tip, double reach)
     {
-        const double found = model_.distance(tool_, tip, sufficient_ + reach).distance;
+        const double found =
+            model_.distance_within(tool_, tip, {-kInfinite, sufficient_ + reach, resolution_});
         least_seen_ = std::min(least_seen_, found);
         return found;
     }
@@ -252,10 +253,19 @@ void PartModel::forget_queries() const { state_->history() = {}; }
 
 void PartModel::forget_many_cells() const
 {
-    if (state_->halves > kMostHalves) {
+    if (state_->sharers == 0 && state_->halves > kMostHalves) {
         forget_cells();
     }
 }
+
+std::size_t PartModel::kept_cells() const { return state_->halves; }
+
+PartModel::SharedQueries::SharedQueries(const PartModel& model) : model_{model}
+{
+    ++model_.state_->sharers;
+}
+
+PartModel::SharedQueries::~SharedQueries() { --model_.state_->sharers; }
 
 double PartModel::distance_within(const Tool& tool, Vec3d tip, const DistanceOptions& options) const
 {

@@ -63,7 +63,7 @@ std::pair<Vec3d, Vec3d> centre_slopes(const nurbs::SurfacePoint& p, Vec3d normal
 // above, so surfaces that overhang the tool count. Model and tool meet from any side: a tool below
 // a surface is in contact with it.
 //
-// For queries by several threads at once, forget_cells() and forget_many_cells() aside. Queries keep
+// For queries by several threads at once, within SharedQueries. Queries keep
 // the halves of cells, and start at what the last query of the thread found: that may change the last
 // bits of an answer. After forget_queries() answers depend on later queries of the thread alone.
 class PartModel {
@@ -178,8 +178,22 @@ public:
     // Releases the halves of cells that queries have made; later queries make them again. Only while
     // no other thread queries. Bounds the memory of long series of queries at new points. Invalidates every `SurfaceCut`.
     void forget_cells() const;
-    // forget_cells() if there are many: to be called between queries of any long series.
+    // forget_cells() if there are many and no SharedQueries: to be called between queries of any long
+    // series.
     void forget_many_cells() const;
+    // How many halves are kept now; some 1 kB each.
+    std::size_t kept_cells() const;
+    // While one lives, several threads may query, and forget_many_cells() does nothing.
+    class SharedQueries {
+    public:
+        explicit SharedQueries(const PartModel& model);
+        ~SharedQueries();
+        SharedQueries(const SharedQueries&) = delete;
+        SharedQueries& operator=(const SharedQueries&) = delete;
+
+    private:
+        const PartModel& model_;
+    };
     // Forgets what the last queries of this thread found; quick. To be called before each part of a
     // parallel loop, and after the loop.
     void forget_queries() const;

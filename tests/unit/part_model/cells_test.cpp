@@ -1,0 +1,138 @@
+// The halves of cells that queries make: by several threads at once, and how many beside poor parametrizations.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <random>
+#include <thread>
+#include <vector>
+
+#include "CppUTest/TestHarness.h"
+
+#include "host_tools/part_model/part_model.hpp"
+#include "tests/support/leaks_on_threads.hpp"
+
+using namespace cusp;
+using namespace cusp::nurbs;
+using namespace cusp::part_model;
+using namespace cusp::toolpath;
+
+namespace {
+
+const Tool kBall{1, ToolShape::kBall, 3, 3};
+
+// size x size points of degree 3, `pitch` mm apart, at random heights.
+Surface rough_sheet(std::mt19937& random, int size, double pitch)
+{
+    std::uniform_real_distribution<double> height{-2, 2};
+    Surface s;
+    s.degree_u = s.degree_v = 3;
+    for (std::vector<double>* const knots : {&s.knots_u, &s.knots_v}) {
+        knots->assign(3, 0);
+        for (int k = 0; k <= size - 3; ++k) {
+            knots->push_back(k);
+        }
+        knots->insert(knots->end(), 3, size - 3);
+    }
+    s.size_u = s.size_v = size;
+    for (int i = 0; i < size; ++i) {
+        for (int j = 0; j < size; ++j) {
+            s.points.push_back({pitch * i, pitch * j, height(random)});
+        }
+    }
+    s.weights.assign(s.points.size(), 1.0);
+    return s;
+}
+
+// A cubic strip whose first three rows of points coincide: the derivative along u vanishes with the
+// square of u. The side u = 0 is an arc of radius `radius` about (0, y, radius), nearly.
+Surface strip_with_coincident_rows(double radius)
+{
+    Surface s;
+    s.degree_u = s.degree_v = 3;
+    s.knots_u = s.knots_v = {0, 0, 0, 0, 1, 1, 1, 1};
+    s.size_u = s.size_v = 4;
+    constexpr double kHalf = 0.5;  // radians of the arc, to each side
+    const double handle = 4.0 / 3.0 * std::tan(kHalf / 2);
+    const Vec3d a{-radius * std::sin(kHalf), 0, radius * (1 - std::cos(kHalf))};
+    const Vec3d b{-a.x, 0, a.z};
+    const Vec3d along{radius * handle * std::cos(kHalf), 0, radius * handle * std::sin(kHalf)};
+    const Vec3d rows[4]{a, {a.x + along.x, 0, a.z - along.z}, {b.x - along.x, 0, b.z - along.z}, b};
+    for (int i = 0; i < 4; ++i) {
+        for (const Vec3d& p : rows) {
+            s.points.push_back(p + Vec3d{0, i == 3 ? 20.0 : 0.0, i == 3 ? 8.0 : 0.0});
+        }
+    }
+    s.weights.assign(16, 1.0);
+    return s;
+}
+
+}  // namespace
+
+TEST_GROUP(Cells){};
+
+// 200 000 halves are many.
+TEST(Cells, AreNotReleasedWhileThreadsShareTheModel)
+{
+    constexpr unsigned kSeed = 4;
+    std::printf("seed %u ", kSeed);
+    std::mt19937 random{kSeed};
+    const PartModel model{{rough_sheet(random, 60, 2.0)}};
+    std::uniform_real_distribution<double> at{0, 118};
+    std::vector<Vec3d> tips(6000);
+    for (Vec3d& tip : tips) {
+        tip = {at(random), at(random), 0.05 * at(random)};
+    }
+    std::vector<double> alone;
+    for (const Vec3d& tip : tips) {
+        model.forget_queries();
+        alone.push_back(model.distance(kBall, tip, 100).distance);
+    }
+    const std::size_t made = model.kept_cells();
+    CHECK(made > 200'000);
+    model.forget_many_cells();
+    LONGS_EQUAL(0, model.kept_cells());
+
+    std::vector<int> different(3, 0);
+    std::vector<std::thread> threads;
+    {
+        const PartModel::SharedQueries shared{model};
+        for (int& count : different) {
+            threads.emplace_back([&] {
+                for (std::size_t k = 0; k < tips.size(); ++k) {
+                    model.forget_queries();
+                    model.forget_many_cells();
+                    count += model.distance(kBall, tips[k], 100).distance == alone[k] ? 0 : 1;
+                }
+            });
+        }
+        for (std::thread& thread : threads) {
+            thread.join();
+        }
+        LONGS_EQUAL(made, model.kept_cells());
+    }
+    for (const int count : different) {
+        LONGS_EQUAL(0, count);
+    }
+    model.forget_many_cells();
+    LONGS_EQUAL(0, model.kept_cells());
+}
+
+// Halved by length alone the strips beside the side took tens of thousands.
+TEST(Cells, AreFewWhereRowsOfPointsCoincide)
+{
+    constexpr double kRadius = 6;
+    const PartModel model{{strip_with_coincident_rows(kRadius)}};
+    for (int k = 0; k < 40; ++k) {
+        model.forget_cells();
+        const Vec3d tip{0.05 * k, -6.0, 0.02 * k};
+        const double found = model.distance(kBall, tip, 100).distance;
+        // The nearest point is on the side.
+        double dense = 1e9;
+        for (int i = 0; i <= 20'000; ++i) {
+            const Vec3d p = model.evaluate(0, 0, i / 20'000.0).point;
+            dense = std::min(dense, norm(p - (tip + Vec3d{0, 0, 3})) - 3);
+        }
+        DOUBLES_EQUAL(dense, found, 1e-6);
+        CHECK(model.kept_cells() < 1000);
+    }
+}
