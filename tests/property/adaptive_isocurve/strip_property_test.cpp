@@ -158,7 +158,7 @@ TEST_GROUP(StripProperty){};
 
 TEST(StripProperty, CellsProveOnlyWhereStripsDoNot)
 {
-    const int scallops = property_cases(25);
+    const int scallops = property_cases(10);
     for (const Named& each : sheets()) {
         int some = 0;
         double most = 0;
