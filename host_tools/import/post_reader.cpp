@@ -64,8 +64,8 @@ const std::vector<LineKey>& line_keys()
 
 std::vector<std::string> known_post_keys()
 {
-    std::vector<std::string> keys{"mm_decimals", "inch_decimals", "arcs",        "nurbs",
-                                  "point",       "comments",      "line_numbers"};
+    std::vector<std::string> keys{"mm_decimals",  "inch_decimals", "arcs",     "nurbs",
+                                  "drill_cycles", "point",         "comments", "line_numbers"};
     for (const LineKey& key : line_keys()) {
         keys.emplace_back(key.key);
     }
@@ -116,6 +116,7 @@ Post post_of(const toml::table& document, const std::string& file, const std::st
                     : *comments == ";" ? CommentForm::kSemicolon
                                        : CommentForm::kNone;
     post.nurbs = table.required_flag("nurbs");
+    post.drill_cycles = table.flag("drill_cycles").value_or(false);
     post.point = table.required_flag("point");
     post.line_numbers = table.whole_number("line_numbers", kLineNumbers).value_or(0);
     for (const LineKey& key : line_keys()) {

@@ -45,14 +45,22 @@ struct Tabs {
 // A place to drill.
 struct Hole {
     Vec2d at;
-    double diameter{};  // of the circle drawn; 0: a point
+    double diameter{};  // of the circle drawn, or of the cylinder; 0: a point
+    // Of a hole of a model, z; a blind one ends at `bottom`, the tip of its cone.
+    struct Span {
+        double top;
+        double bottom;
+        bool through;
+    };
+    std::optional<Span> span{};
 };
 
 struct Prismatic {
     double top{};    // z at which the cut begins
     double depth{};  // below `top`
     std::optional<double> given_top;
-    // pocket, profile, chamfer; face: what is faced, none: the stock
+    bool given_depth{};  // by the job; else that of a vee's flank
+    // pocket, profile, v_carve, chamfer; face: what is faced, none: the stock
     std::vector<NestedLoop> loops;
     std::vector<Chain> chains;  // engrave
     std::vector<Hole> holes;    // drill

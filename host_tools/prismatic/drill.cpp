@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/job/hole_depth.hpp"
 #include "host_tools/prismatic/cut_levels.hpp"
 #include "host_tools/prismatic/drill_tour.hpp"
 #include "host_tools/prismatic/prismatic.hpp"
@@ -14,6 +15,8 @@ using job::Hole;
 using job::Job;
 using job::Operation;
 using job::Prismatic;
+using job::tip_in_hole;
+using toolpath::DrillCycle;
 using toolpath::MoveKind;
 using toolpath::PlannedOperation;
 using toolpath::ToolpathWriter;
@@ -54,14 +57,16 @@ std::vector<PlannedOperation> plan_drill(const Job& job, const Operation& operat
         places.push_back(hole.at);
     }
     PlannedOperation planned =
-        begun(job, operation, fmt::format("{} holes, {:g} mm deep", places.size(), cut.depth));
+        begun(job, operation, fmt::format("{} holes, {:.6g} mm deep", places.size(), cut.depth));
     ToolpathWriter writer{planned.path.moves, {job.stock_top + job.clearance}};
-    const HoleHeights heights{rapid_end(job, cut.top), cut.top, cut.top - cut.depth};
+    const double above = rapid_end(job, cut.top);
     const double peck = cut.peck.value_or(2 * cut.depth);
+    planned.path.cycle = DrillCycle{above, cut.peck && *cut.peck < cut.depth ? *cut.peck : 0.0};
     double way = 0;
     Vec2d at{0, 0};
     for (const std::size_t k : short_tour(places, at)) {
-        drill_hole(places[k], heights, peck, writer);
+        const double bottom = tip_in_hole(cut, cut.holes[k], operation.tool);
+        drill_hole(places[k], {above, cut.top, bottom}, peck, writer);
         way += norm(places[k] - at);
         at = places[k];
     }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "firmware/base/math.hpp"
+
 #include "fmt/format.h"
 
 namespace cusp::toolpath {
@@ -58,6 +60,24 @@ void add_scaled(std::string& text, std::int64_t value, std::int64_t scale, bool 
     } else if (point) {
         text += '.';
     }
+}
+
+std::string tool_text(const Toolpath& path, double unit, const char* name)
+{
+    const Tool& tool = path.tool;
+    std::string text = fmt::format("tool {} {} diameter {} {}", tool.number, name_of(tool.shape),
+                                   fixed_point(2 * tool.radius / unit, 4), name);
+    if (tool.shape == ToolShape::kBull) {
+        text +=
+            fmt::format(" corner radius {} {}", fixed_point(tool.corner_radius / unit, 4), name);
+    }
+    if (is_conical(tool)) {
+        text += fmt::format(" tip angle {}", fixed_point(tool.tip_angle * 180 / kPi, 2));
+    }
+    if (!path.tool_name.empty()) {
+        text += ": " + path.tool_name;
+    }
+    return text;
 }
 
 }  // namespace cusp::toolpath

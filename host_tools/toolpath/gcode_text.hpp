@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "host_tools/toolpath/toolpath.hpp"
+
 namespace cusp::toolpath {
 
 // A number in fixed point with at most `decimals`, without trailing zeros.
@@ -17,5 +19,10 @@ std::string nine_digits(double value);
 // scale  a power of ten
 // point  whether a whole number gets a point too
 void add_scaled(std::string& text, std::int64_t value, std::int64_t scale, bool point);
+
+// What a comment says of a tool: number, shape and sizes, name.
+//
+// unit  mm; name: of the unit
+std::string tool_text(const Toolpath& path, double unit, const char* name);
 
 }  // namespace cusp::toolpath

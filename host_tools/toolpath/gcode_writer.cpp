@@ -11,6 +11,7 @@
 #include "firmware/base/math.hpp"
 #include "host_tools/nurbs/knot_insertion.hpp"
 #include "host_tools/toolpath/arc_geometry.hpp"
+#include "host_tools/toolpath/drilled_holes.hpp"
 #include "host_tools/toolpath/gcode_text.hpp"
 #include "host_tools/toolpath/rounded_arc.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
@@ -35,24 +36,6 @@ constexpr double kMostSweepByRadius = kPi / 2 + 1e-6;
 constexpr int kMostLineNumber = 99999;
 
 using Place = std::array<std::int64_t, 3>;  // in units of the last decimal
-
-std::string tool_text(const Toolpath& path, double unit, const char* name)
-{
-    const Tool& tool = path.tool;
-    std::string text = fmt::format("tool {} {} diameter {} {}", tool.number, name_of(tool.shape),
-                                   fixed_point(2 * tool.radius / unit, 4), name);
-    if (tool.shape == ToolShape::kBull) {
-        text +=
-            fmt::format(" corner radius {} {}", fixed_point(tool.corner_radius / unit, 4), name);
-    }
-    if (is_conical(tool)) {
-        text += fmt::format(" tip angle {}", fixed_point(tool.tip_angle * 180 / kPi, 2));
-    }
-    if (!path.tool_name.empty()) {
-        text += ": " + path.tool_name;
-    }
-    return text;
-}
 
 class ProgramWriter {
 public:
@@ -114,6 +97,7 @@ private:
                     std::int64_t radius) const;
     void nurbs(const Curve& curve, const std::string& feed);
     void move(const Toolpath& path, const ToolMove& move);
+    void cycles(const Toolpath& path);
 
     std::ostream& out_;
     const ProgramForm& form_;
@@ -443,9 +427,40 @@ void ProgramWriter::move(const Toolpath& path, const ToolMove& move)
     planned_at_ = end_of(move);
 }
 
+// G98: after each hole up to where the cycle began, which is the clearance.
+void ProgramWriter::cycles(const Toolpath& path)
+{
+    const std::vector<DrilledHole> holes = drilled_holes(path);
+    Place at = rounded({holes.front().bottom.x, holes.front().bottom.y, form_.clearance_z});
+    const std::int64_t clearance = at[2];
+    line("G0", millimetres(at), "");
+    const std::int64_t peck = rounded({0, 0, path.cycle->peck})[2];
+    for (const DrilledHole& hole : holes) {
+        const bool first = at[2] == clearance;
+        const Place to = rounded(hole.bottom);
+        std::string text = first ? peck > 0 ? "G98 G83 " : "G98 G81 " : "";
+        text += "X" + coordinate(to[0]) + " Y" + coordinate(to[1]);
+        text += to[2] != at[2] ? " Z" + coordinate(to[2]) : "";
+        if (first) {
+            text += " R" + coordinate(rounded({0, 0, path.cycle->above})[2]);
+            text += peck > 0 ? " Q" + coordinate(peck) : "";
+        }
+        put(text + feed_word(hole.feed));
+        at = to;
+    }
+    put("G80");
+    at_ = Place{at[0], at[1], clearance};
+    planned_at_ = millimetres(*at_);
+    knows_plan_place_ = true;
+}
+
 void ProgramWriter::operation(const Toolpath& path)
 {
     change_tool(path);
+    if (post_.drill_cycles && path.cycle && !path.moves.empty()) {
+        cycles(path);
+        return;
+    }
     for (const ToolMove& m : path.moves) {
         move(path, m);
     }

@@ -24,7 +24,8 @@ struct Post {
     int inch_decimals{5};
     ArcForm arcs{ArcForm::kCentre};
     bool nurbs{true};
-    bool point{false};  // in whole numbers too: X10. instead of X10
+    bool drill_cycles{false};  // G81, G83 with G98, G80
+    bool point{false};         // in whole numbers too: X10. instead of X10
     CommentForm comments{CommentForm::kParentheses};
     int line_numbers{0};             // from one N to the next; 0: none
     std::vector<std::string> begin;  // first of all

@@ -6,7 +6,7 @@
 
 namespace cusp::toolpath {
 
-enum class ToolShape : std::uint8_t { kBall, kFlat, kBull, kVee, kDrill };
+enum class ToolShape : std::uint8_t { kBall, kFlat, kBull, kVee, kDrill, kTaper };
 
 enum class Coolant : std::uint8_t { kOff, kMist, kFlood };
 
@@ -17,7 +17,7 @@ struct CuttingRates {
     std::optional<double> spindle;  // rpm; none: the job's
 };
 
-// "ball", "flat", "bull", "vee" or "drill".
+// "ball", "flat", "bull", "vee", "drill" or "taper".
 const char* name_of(ToolShape shape);
 
 struct Tool {
@@ -25,14 +25,14 @@ struct Tool {
     ToolShape shape{ToolShape::kBall};
     double radius{};         // mm
     double corner_radius{};  // mm: radius for a ball, 0 for a flat end mill
-    // Of a vee or a drill: the whole angle between its flanks, radians.
+    // Of a vee, a drill or a taper: the whole angle between its flanks, radians.
     double tip_angle{};
-    double tip_radius{};  // mm: of the small flat at the tip of a vee
+    double tip_radius{};  // mm: of the flat at the tip of a vee or a taper
     CuttingRates rates{};
     Coolant coolant{Coolant::kOff};
 };
 
-// Whether the end is a cone: a vee or a drill.
+// Whether the end is a cone: a vee, a drill or a taper.
 bool is_conical(const Tool& tool);
 
 // mm: the radius of the level bottom; 0 for a ball, a drill, and a vee with a sharp tip.

@@ -20,13 +20,16 @@ const char* name_of(ToolShape shape)
             return "vee";
         case ToolShape::kDrill:
             return "drill";
+        case ToolShape::kTaper:
+            return "taper";
     }
     return "";
 }
 
 bool is_conical(const Tool& tool)
 {
-    return tool.shape == ToolShape::kVee || tool.shape == ToolShape::kDrill;
+    return tool.shape == ToolShape::kVee || tool.shape == ToolShape::kDrill ||
+           tool.shape == ToolShape::kTaper;
 }
 
 double flat_radius(const Tool& tool)

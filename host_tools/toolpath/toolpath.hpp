@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -50,6 +51,12 @@ struct ToolMove {
     std::variant<LineTo, ArcTo, NurbsTo> shape;
 };
 
+// What a path of holes alone does at each place where it goes down: a canned cycle.
+struct DrillCycle {
+    double above;  // z: rapid moves end here
+    double peck;   // mm: of a step, 0: in one go
+};
+
 // The moves of one operation with one tool, millimetres, from the clearance height and back to it.
 // The first move is a rapid.
 struct Toolpath {
@@ -60,6 +67,8 @@ struct Toolpath {
     std::vector<ToolMove> moves;
     std::vector<std::string> comments;  // header lines: strategy and bounds
     std::string tool_name;              // may be empty
+    // Of a path that does nothing else. Its moves are the same, written out.
+    std::optional<DrillCycle> cycle{};
 };
 
 // What every planner reports; planners add their own counts.
