@@ -57,6 +57,7 @@ const std::vector<std::string> kStrategies{"contour_pocket",
                                            "drill",
                                            "face",
                                            "engrave",
+                                           "v_carve",
                                            "chamfer"};
 
 class JobReader {

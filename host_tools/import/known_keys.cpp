@@ -14,10 +14,11 @@ struct OperationKey {
     std::string_view without = {};  // that do not
 };
 constexpr std::string_view kIsocurves{"adaptive_isocurve, complete_isocurves, parallel_planes"};
-constexpr std::string_view kDepths{"pocket, profile, drill, face, engrave"};
-constexpr std::string_view kPrismatic{"pocket, profile, drill, face, engrave, chamfer"};
-constexpr std::string_view kAllButPocket{"profile, drill, face, engrave, chamfer"};
-constexpr std::string_view kLines{"drill, face, engrave, chamfer"};
+constexpr std::string_view kDepths{"pocket, profile, drill, face, engrave, v_carve"};
+constexpr std::string_view kPrismatic{"pocket, profile, drill, face, engrave, v_carve, chamfer"};
+constexpr std::string_view kAllButPocket{"profile, drill, face, engrave, v_carve, chamfer"};
+constexpr std::string_view kNoScallop{"profile, drill, face, engrave, chamfer"};
+constexpr std::string_view kLines{"drill, face, engrave, v_carve, chamfer"};
 constexpr OperationKey kOperationKeys[]{
     {"strategy", ""},
     {"floor", "", kPrismatic},
@@ -26,13 +27,13 @@ constexpr OperationKey kOperationKeys[]{
     {"islands", "", kAllButPocket},
     {"tool", ""},
     {"output", "", "drill"},
-    {"scallop", "", kAllButPocket},
+    {"scallop", "", kNoScallop},
     {"floor_tolerance", ""},
     {"plan_tolerance", ""},
     {"tolerance_side", "", kAllButPocket},
     {"direction_of_cut", "", "drill, engrave"},
     {"entry", "", kLines},
-    {"traversal", "", "pocket, profile, drill, engrave, chamfer"},
+    {"traversal", "", "pocket, profile, drill, engrave, v_carve, chamfer"},
     {"allowance", "", kLines},
     {"max_depth", "", "drill, chamfer"},
     {"min_depth", "", kAllButPocket},
@@ -45,7 +46,7 @@ constexpr OperationKey kOperationKeys[]{
     {"iso_spacing", "adaptive_isocurve"},
     {"direction", kIsocurves},
     {"roughing", kIsocurves},
-    {"step_over", "parallel_planes, pocket, face"},
+    {"step_over", "parallel_planes, pocket, face, v_carve"},
     {"grid", "grid_pocket"},
     {"zigzag", "grid_pocket"},
     {"arc_tolerance", "grid_pocket"},
@@ -91,9 +92,9 @@ std::vector<std::string> library_keys() { return {"units", "tool"}; }
 
 std::vector<std::string> tool_keys()
 {
-    return {"number",       "shape",       "diameter", "corner_radius", "tip_angle",
-            "tip_diameter", "name",        "flutes",   "flute_length",  "length",
-            "feed",         "plunge_feed", "spindle",  "coolant"};
+    return {"number",      "shape",        "diameter",    "corner_radius", "tip_angle",
+            "taper_angle", "tip_diameter", "name",        "flutes",        "flute_length",
+            "length",      "feed",         "plunge_feed", "spindle",       "coolant"};
 }
 
 std::vector<std::string> cutting_keys() { return {"feed", "plunge_feed", "spindle"}; }

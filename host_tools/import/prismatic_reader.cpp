@@ -10,6 +10,8 @@
 #include "host_tools/import/file_loops.hpp"
 #include "host_tools/import/known_keys.hpp"
 #include "host_tools/import/part_extent.hpp"
+#include "host_tools/input_error/input_error.hpp"
+#include "host_tools/job/hole_depth.hpp"
 
 #include "fmt/format.h"
 
@@ -26,10 +28,11 @@ using toolpath::Tool;
 
 namespace {
 
-constexpr std::array kPrismaticStrategies{"pocket", "profile", "drill",
-                                          "face",   "engrave", "chamfer"};
+constexpr std::array kPrismaticStrategies{"pocket",  "profile", "drill",  "face",
+                                          "engrave", "v_carve", "chamfer"};
 // mm: circles and tools whose diameters differ by no more are of one size.
 constexpr double kSameDiameter = 0.01;
+constexpr double kCarvedRidges = 0.05;  // mm: on the floor of a v_carve
 
 Tabs read_tabs(JobTable& keys, double unit)
 {
@@ -72,9 +75,11 @@ void check_tool(const JobTable& table, const Operation& operation)
 {
     const Tool& tool = operation.tool;
     const bool drills = operation.strategy == "drill";
-    if (operation.strategy == "chamfer" && tool.shape != toolpath::ToolShape::kVee) {
-        table.refuse("tool", fmt::format("chamfer needs a vee, tool {} is {}", tool.number,
-                                         name_of(tool.shape)));
+    const bool flank = operation.strategy == "chamfer" || operation.strategy == "v_carve";
+    if (flank && tool.shape != toolpath::ToolShape::kVee &&
+        tool.shape != toolpath::ToolShape::kTaper) {
+        table.refuse("tool", fmt::format("{} needs a vee or a taper, tool {} is {}",
+                                         operation.strategy, tool.number, name_of(tool.shape)));
     }
     if (!drills && tool.shape == toolpath::ToolShape::kDrill) {
         table.refuse("tool", fmt::format("tool {} is a drill: it cuts straight down only, {} moves "
@@ -138,6 +143,25 @@ void check_holes(const JobTable& table, const Operation& operation, PartFiles& p
     }
 }
 
+// The depth of the deepest one, where they are a model's.
+void settle_holes(const Job& job, Operation& operation)
+{
+    Prismatic& cut = *operation.prismatic;
+    if (operation.strategy != "drill" || cut.given_depth) {
+        return;
+    }
+    for (const Hole& hole : cut.holes) {
+        const double depth = cut.top - job::tip_in_hole(cut, hole, operation.tool);
+        if (!(depth > 0)) {
+            throw InputError(fmt::format(
+                "{}: operation {}: drill: the hole at x {:.6g} y {:.6g} mm ends {:.4g} mm above "
+                "the top of z {:.6g} mm; raise top",
+                job.file, operation.number, hole.at.x, hole.at.y, -depth, cut.top));
+        }
+        cut.depth = std::max(cut.depth, depth);
+    }
+}
+
 // A level rectangle around the boundary.
 nurbs::Surface flat_floor(const job::Loop& boundary, double margin, double z)
 {
@@ -190,20 +214,36 @@ void read_prismatic_keys(JobTable& table, double unit, Operation& operation)
         return;
     }
     const bool chamfers = operation.strategy == "chamfer";
-    if (!depth && !chamfers) {
+    const bool carves = operation.strategy == "v_carve";
+    // holes of a model have a depth of their own
+    const bool drills = operation.strategy == "drill";
+    if (!depth && !chamfers && !carves && !drills) {
         table.refuse("depth",
                      fmt::format("is missing: {} needs how deep it cuts", operation.strategy));
     }
     if (!width && chamfers) {
         table.refuse("width", "is missing: chamfer needs its width, seen from above");
     }
+    check_tool(table, operation);
     cut.width = width.value_or(0);
-    cut.depth = chamfers ? cut.width / std::tan(operation.tool.tip_angle / 2) : *depth;
+    cut.given_depth = depth.has_value();
+    const double slope = 1 / std::tan(operation.tool.tip_angle / 2);
+    if (carves) {
+        const double flank = (operation.tool.radius - operation.tool.tip_radius) * slope;
+        if (depth && *depth > flank) {
+            table.refuse("depth", fmt::format("is {:g} mm, the flank of tool {} is only {:.4g} mm "
+                                              "high",
+                                              *depth, operation.tool.number, flank));
+        }
+        cut.depth = depth.value_or(flank);
+        operation.scallop = operation.scallop.value_or(kCarvedRidges);
+    } else {
+        cut.depth = chamfers ? cut.width * slope : depth.value_or(0);
+    }
     operation.prismatic = cut;
     if (operation.strategy == "pocket") {
         choose_pocket_tolerances(table, operation);
     }
-    check_tool(table, operation);
     check_profile(table, operation);
 }
 
@@ -224,6 +264,11 @@ void read_drawing(const JobTable& table,
         const auto [least, greatest] = cut.diameters.value_or(std::array{0.0, kLargest});
         cut.holes = parts.holes(file, unit, {least - kSameDiameter, greatest + kSameDiameter},
                                 cut.diameters.has_value());
+        if (!cut.given_depth && !cut.holes.front().span) {
+            table.refuse("depth",
+                         "is missing: drill needs how deep it cuts where the holes are "
+                         "those of a drawing");
+        }
         check_holes(table, operation, parts);
     } else if (operation.strategy == "engrave") {
         cut.chains = parts.chains(file, unit);
@@ -241,6 +286,7 @@ void settle_levels(Job& job)
         }
         Prismatic& cut = *operation.prismatic;
         cut.top = cut.given_top.value_or(level);
+        settle_holes(job, operation);
         if (operation.strategy == "face" && cut.loops.empty()) {
             level = cut.top - cut.depth;
         }

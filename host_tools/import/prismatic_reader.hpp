@@ -1,4 +1,4 @@
-// The keys of 2.5-D operations: pocket, profile, drill, face, engrave, chamfer.
+// The keys of 2.5-D operations: pocket, profile, drill, face, engrave, v_carve, chamfer.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ bool is_prismatic(const std::string& strategy);
 // Errors: InputError with the line: values out of range, keys that the strategy needs and lacks.
 void read_prismatic_keys(JobTable& table, double millimetres, job::Operation& operation);
 
-// Reads the drawing that a profile, drill, face, engrave or chamfer takes its curves from.
+// Reads the drawing that a profile, drill, face, engrave, v_carve or chamfer takes its curves from.
 //
 // file  may end in #layer; "": none, which only face allows
 //

@@ -32,26 +32,38 @@ job::ToolFacts read_facts(JobTable& keys, double millimetres)
     return facts;
 }
 
-// The cone of a vee or a drill.
+// The cone of a vee, a drill or a taper.
 void read_tip(JobTable& keys, const std::string& shape, double millimetres, Tool& tool)
 {
-    constexpr Range kTipAngle{1, 179};  // degrees
+    constexpr Range kTipAngle{1, 179};     // degrees
+    constexpr Range kTaperAngle{0.1, 60};  // degrees
     constexpr double kTwistDrill = 118;
     const auto angle = keys.number("tip_angle", kTipAngle);
     const auto flat = keys.number("tip_diameter", kNotNegative);
+    const bool tapers = tool.shape == ToolShape::kTaper;
+    const auto taper = keys.number("taper_angle", kTaperAngle);
+    if (tapers != taper.has_value()) {
+        keys.refuse("taper_angle",
+                    tapers ? "is missing: a taper needs the angle of its flank from the axis"
+                           : fmt::format("belongs to a taper, this one is {}", shape));
+    }
     if (tool.shape == ToolShape::kVee && !angle) {
         keys.refuse("tip_angle",
                     "is missing: a vee tool needs the angle between its flanks, such "
                     "as 60 or 90 degrees");
     }
-    if (!is_conical(tool) && angle) {
+    if ((!is_conical(tool) || tapers) && angle) {
         keys.refuse("tip_angle", fmt::format("belongs to a vee or a drill, this one is {}", shape));
     }
-    if (tool.shape != ToolShape::kVee && flat) {
-        keys.refuse("tip_diameter", fmt::format("belongs to a vee tool, this one is {}", shape));
+    if (tool.shape != ToolShape::kVee && !tapers && flat) {
+        keys.refuse("tip_diameter",
+                    fmt::format("belongs to a vee or a taper, this one is {}", shape));
+    }
+    if (tapers && !flat) {
+        keys.refuse("tip_diameter", "is missing: a taper needs the diameter of its flat end");
     }
     if (is_conical(tool)) {
-        tool.tip_angle = angle.value_or(kTwistDrill) * kPi / 180;
+        tool.tip_angle = (tapers ? 2 * *taper : angle.value_or(kTwistDrill)) * kPi / 180;
         tool.tip_radius = flat.value_or(0) * millimetres / 2;
     }
     if (is_conical(tool) && tool.tip_radius >= tool.radius) {
@@ -92,15 +104,17 @@ ReadTool read_tool(const toml::table& table,
     Tool tool;
     tool.number = keys.whole_number("number", kToolNumber).value_or(static_cast<int>(index));
     const std::string shape =
-        keys.one_of("shape", {"ball", "flat", "bull", "vee", "drill"}).value_or("");
+        keys.one_of("shape", {"ball", "flat", "bull", "vee", "drill", "taper"}).value_or("");
     if (shape.empty()) {
-        keys.refuse("shape", "is missing: \"ball\", \"flat\", \"bull\", \"vee\" or \"drill\"");
+        keys.refuse("shape",
+                    "is missing: \"ball\", \"flat\", \"bull\", \"vee\", \"drill\" or \"taper\"");
     }
-    tool.shape = shape == "ball"   ? ToolShape::kBall
-                 : shape == "flat" ? ToolShape::kFlat
-                 : shape == "bull" ? ToolShape::kBull
-                 : shape == "vee"  ? ToolShape::kVee
-                                   : ToolShape::kDrill;
+    tool.shape = shape == "ball"    ? ToolShape::kBall
+                 : shape == "flat"  ? ToolShape::kFlat
+                 : shape == "bull"  ? ToolShape::kBull
+                 : shape == "vee"   ? ToolShape::kVee
+                 : shape == "drill" ? ToolShape::kDrill
+                                    : ToolShape::kTaper;
     tool.radius = keys.required_number("diameter", kPositive) * millimetres / 2;
     const auto corner = keys.length("corner_radius", kPositive, millimetres);
     if (tool.shape == ToolShape::kBull && !corner) {

@@ -91,9 +91,9 @@ struct Operation {
     double overlap{};
     int extra_subdivision{};
     bool contour_clearing{false};
-    // parallel_planes; most between passes of pocket and face
+    // parallel_planes; most between passes of pocket, face and v_carve
     std::optional<double> step_over;
-    // pocket, profile, drill, face, engrave, chamfer; a pocket's floor and boundary are set too
+    // pocket, profile, drill, face, engrave, v_carve, chamfer; a pocket's floor and boundary are set too
     std::optional<Prismatic> prismatic;
 };
 

@@ -55,6 +55,14 @@ void count_moves(const ToolpathWriter& writer, int passes, int levels, PlannedOp
     }
 }
 
+double chord_tolerance(const Operation& operation)
+{
+    const double across = operation.plan_tolerance / 2;
+    return is_conical(operation.tool) ? std::min(across, operation.floor_tolerance / 2 *
+                                                             std::tan(operation.tool.tip_angle / 2))
+                                      : across;
+}
+
 std::string operation_text(const Job& job, const Operation& operation)
 {
     return fmt::format("{}: operation {}: {}: ", job.file, operation.number, operation.strategy);

@@ -27,6 +27,10 @@ void count_moves(const toolpath::ToolpathWriter& writer,
                  int levels,
                  toolpath::PlannedOperation& planned);
 
+// mm: how far chords may leave curves, so that the flank of a conical tool too keeps the tolerance of
+// heights.
+double chord_tolerance(const job::Operation& operation);
+
 // The z at which rapid moves end above an uncut top.
 inline double rapid_end(const job::Job& job, double top)
 {

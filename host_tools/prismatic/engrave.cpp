@@ -93,7 +93,7 @@ std::vector<PlannedOperation> plan_engrave(const Job& job, const Operation& oper
         begun(job, operation,
               fmt::format("{} curves, {:g} mm deep", chains.size(), operation.prismatic->depth));
     ToolpathWriter writer{planned.path.moves, {job.stock_top + job.clearance}};
-    const EdgeForm form{operation.output != OutputForm::kLines, operation.plan_tolerance / 2, true,
+    const EdgeForm form{operation.output != OutputForm::kLines, chord_tolerance(operation), true,
                         true};
     for (const std::vector<Edge>& edges : in_order(std::move(chains))) {
         double above = operation.prismatic->top;

@@ -46,4 +46,13 @@ std::vector<toolpath::PlannedOperation> plan_engrave(const job::Job& job,
 std::vector<toolpath::PlannedOperation> plan_chamfer(const job::Job& job,
                                                      const job::Operation& operation);
 
+// A vee between the outlines, as deep everywhere as both walls allow: along the medial axis, with
+// sharp corners. No deeper than the depth: there is a level floor then. The flanks touch the
+// outlines at the top, within 0.001 mm and never beyond (tests/property/prismatic).
+//
+// Errors: InputError where the tip fits nowhere between the outlines, with the widest place; more
+// than 20 000 loops on the floor.
+std::vector<toolpath::PlannedOperation> plan_v_carve(const job::Job& job,
+                                                     const job::Operation& operation);
+
 }  // namespace cusp::prismatic

@@ -52,6 +52,7 @@ constexpr std::array kStrategies{
     Strategy{"parallel_planes", plan_parallel_planes},
     Strategy{"pocket", plan_pocket},
     Strategy{"profile", prismatic::plan_profile},
+    Strategy{"v_carve", prismatic::plan_v_carve},
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/job/hole_depth.hpp"
 #include "host_tools/job/loop_shape.hpp"
 #include "host_tools/verify/part_heights.hpp"
 
@@ -126,12 +127,26 @@ RegionAt CutRegion::hole_at(double x, double y) const
 {
     const Prismatic& cut = *operation_->prismatic;
     double nearest = kUnbounded;
+    double tip = cut.top - cut.depth;
     for (const Hole& hole : cut.holes) {
-        nearest = std::min(nearest, norm(Vec2d{x, y} - hole.at));
+        const double away = norm(Vec2d{x, y} - hole.at);
+        tip = away < nearest ? tip_in_hole(cut, hole, operation_->tool) : tip;
+        nearest = std::min(nearest, away);
     }
     const double radius = operation_->tool.radius;
-    return {radius - nearest,
-            cut.top - cut.depth + profile_height(operation_->tool, std::min(nearest, radius))};
+    return {radius - nearest, tip + profile_height(operation_->tool, std::min(nearest, radius))};
+}
+
+// Flanks of the vee rise to the outlines. The tip's flat leaves no more beside the axis than its
+// radius over the slope.
+RegionAt CutRegion::carved_at(double x, double y) const
+{
+    const Prismatic& cut = *operation_->prismatic;
+    const double slope = 1 / std::tan(operation_->tool.tip_angle / 2);
+    const double inward = into_material(x, y);
+    const bool on_floor = inward * slope >= cut.depth;
+    return {inward, cut.top - std::clamp(inward * slope, 0.0, cut.depth),
+            operation_->tool.tip_radius * slope + (on_floor ? *operation_->scallop : 0.0)};
 }
 
 RegionAt CutRegion::at(double x, double y, std::size_t k) const
@@ -144,7 +159,11 @@ RegionAt CutRegion::at(double x, double y, std::size_t k) const
     const double bottom = cut.top - cut.depth;
     const double radius = operation_->tool.radius;
     if (operation_->strategy == "pocket") {
-        return {room(x, y), bottom};
+        return {room(x, y), bottom,
+                operation_->tool.corner_radius > 0 ? *operation_->scallop : 0.0};
+    }
+    if (operation_->strategy == "v_carve") {
+        return carved_at(x, y);
     }
     if (operation_->strategy == "profile") {
         return profile_at(x, y);

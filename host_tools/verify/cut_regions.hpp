@@ -21,6 +21,7 @@ namespace cusp::verify {
 struct RegionAt {
     double inside;
     double floor;
+    double left{0};  // mm: what the operation may leave over the floor
 };
 
 class CutRegion {
@@ -46,6 +47,7 @@ private:
     double from_curves(double x, double y) const;
     RegionAt profile_at(double x, double y) const;
     RegionAt hole_at(double x, double y) const;
+    RegionAt carved_at(double x, double y) const;
 
     const job::Operation* operation_;
     double cap_;

@@ -156,8 +156,6 @@ private:
     {
         const Operation& operation = region.operation();
         const Prismatic& cut = *operation.prismatic;
-        const bool ridges = operation.strategy == "pocket" && operation.tool.corner_radius > 0;
-        const double allowed = q_.floor_tolerance + (ridges ? *operation.scallop : 0.0);
         std::vector<char> high(q_.grid.size(), 0);
         const std::vector<char> here = required(region);
         std::size_t cells = 0;
@@ -166,9 +164,10 @@ private:
                 continue;
             }
             ++cells;
-            const double left = q_.cut[k] - region.at(x(k), y(k), k).floor;
+            const RegionAt at = region.at(x(k), y(k), k);
+            const double left = q_.cut[k] - at.floor;
             maps_.left[k] = std::isnan(maps_.left[k]) ? left : std::min(maps_.left[k], left);
-            high[k] = left > allowed ? 1 : 0;
+            high[k] = left > q_.floor_tolerance + at.left ? 1 : 0;
         }
         figures_.cells += cells;
         if (cut.tabs) {

@@ -2,6 +2,7 @@
 // the verifier says of good and of spoiled programs.
 #include "host_tools/prismatic/prismatic.hpp"
 
+#include <cmath>
 #include <string>
 
 #include "CppUTest/TestHarness.h"
@@ -86,6 +87,8 @@ std::vector<PlannedOperation> plan(const Job& job)
             add(plan_engrave(job, operation));
         } else if (operation.strategy == "chamfer") {
             add(plan_chamfer(job, operation));
+        } else if (operation.strategy == "v_carve") {
+            add(plan_v_carve(job, operation));
         }
     }
     return all;
@@ -224,7 +227,7 @@ TEST(Prismatic, ToolsThatDoNotSuitAreRefused)
     REFUSED("strategy = \"pocket\"\nboundary = \"plate.dxf#outline\"\ndepth = 2\ntool = 3",
             "tool 3 is vee: pocket needs upright flanks");
     REFUSED("strategy = \"chamfer\"\nboundary = \"plate.dxf#outline\"\nwidth = 1\ntool = 1",
-            "chamfer needs a vee, tool 1 is flat");
+            "chamfer needs a vee or a taper, tool 1 is flat");
     REFUSED("strategy = \"chamfer\"\nboundary = \"plate.dxf#outline\"\nwidth = 4\ntool = 3",
             "is more than the flank of tool 3 cuts");
     const std::string vee = "[tool]\nshape = \"vee\"\ndiameter = 6\n[cutting]\nfeed = 1\n";
@@ -304,4 +307,112 @@ TEST(Prismatic, TheVerifierFindsWhatIsSpoiled)
         "strategy = \"drill\"\nboundary = \"plate.dxf#holes\"\ndepth = 4\ntool = 2";
     STRCMP_CONTAINS("wall_gouge_max_mm", broken(holes, "X5 ", "X5.1 ").c_str());
     STRCMP_CONTAINS("left ", broken(holes, "Z-4\n", "Z-3\n").c_str());
+}
+
+TEST(Prismatic, ACarvingIsAsDeepAsHalfOfItsWidthAllows)
+{
+    const auto figures = [&](const std::string& keys) {
+        const Job job = job_of("strategy = \"v_carve\"\ntool = 3\n" + keys);
+        return plan_v_carve(job, job.operations[0]).front().stats;
+    };
+    const auto count = [](const OperationStats& stats, const std::string& name) {
+        for (const auto& [key, value] : stats.counts) {
+            if (key == name) {
+                return value;
+            }
+        }
+        return -1.0;
+    };
+    // 40 x 30 with a window of 20 x 14: 8 mm wide at most beside the window; the flank is 3 mm high
+    const OperationStats narrow = figures("boundary = \"plate.dxf#window\"\ndepth = 2\n");
+    DOUBLES_EQUAL(2, count(narrow, "depth_mm"), 1e-9);
+    CHECK(count(narrow, "floor_loops") > 0);
+    CHECK(narrow.warnings.empty());
+    const OperationStats wide = figures("boundary = \"plate.dxf#window\"\n");
+    LONGS_EQUAL(1, wide.warnings.size());
+    STRCMP_CONTAINS("tool 3 is too narrow for the whole width at x", wide.warnings[0].c_str());
+    const OperationStats cone = figures("boundary = \"plate.dxf#ring\"\n");
+    DOUBLES_EQUAL(2, count(cone, "depth_mm"), 1e-6);
+    LONGS_EQUAL(1, count(cone, "branches"));
+    LONGS_EQUAL(0, count(cone, "floor_loops"));
+}
+
+TEST(Prismatic, CarvingsThatCanNotBeAreRefused)
+{
+    const std::string cut = "strategy = \"v_carve\"\nboundary = \"plate.dxf#ring\"\n";
+    REFUSED(cut + "tool = 1", "v_carve needs a vee or a taper, tool 1 is flat");
+    REFUSED(cut + "tool = 3\ndepth = 4", "depth: is 4 mm, the flank of tool 3 is only 3 mm high");
+    REFUSED(cut + "tool = 3\nallowance = 1", "allowance: is no key of v_carve");
+    REFUSED("strategy = \"v_carve\"\ntool = 3", "boundary: is missing");
+    const std::string wide_tip =
+        "[tool]\nshape = \"vee\"\ndiameter = 9\ntip_angle = 60\ntip_diameter = 5\n[cutting]\n"
+        "feed = 1\n[[operation]]\n" +
+        cut;
+    STRCMP_CONTAINS(
+        "the tip of tool 1, 5 mm wide, fits nowhere between the outlines: the widest "
+        "place, at x 20 y 15 mm, has 4 mm",
+        refusal([&] { plan(read_job(folder.with("wide.toml", wide_tip))); }).c_str());
+}
+
+TEST(Prismatic, TheVerifierJudgesCarvings)
+{
+    const std::string cone = "strategy = \"v_carve\"\nboundary = \"plate.dxf#ring\"\ntool = 3\n";
+    STRCMP_EQUAL("", broken(cone).c_str());
+    STRCMP_EQUAL("", broken(cone + "depth = 1\nscallop = 0.3\n").c_str());
+    STRCMP_EQUAL("", broken(cone + "depth = 1\nmax_depth = 0.6\noutput = \"arcs\"\n").c_str());
+    STRCMP_CONTAINS("gouge_max", broken(cone, "Z-2 F", "Z-2.1 F").c_str());
+    STRCMP_CONTAINS("of operation 1 (v_carve)", broken(cone, "Z-2 F", "Z-1.9 F").c_str());
+    STRCMP_CONTAINS("gouge_max", broken(cone, "X20 Y15", "X20.1 Y15").c_str());
+}
+
+// 2 x 10 degrees and a flat end of 1 mm: at 4 mm it is 2.41 mm wide.
+TEST(Prismatic, ATaperIsConicalAboveItsFlatEnd)
+{
+    const std::string taper = "[tool]\nshape = \"taper\"\ndiameter = 6\ntaper_angle = 10\n";
+    const std::string cut =
+        "[cutting]\nfeed = 100\n[[operation]]\nstrategy = \"engrave\"\n"
+        "boundary = \"plate.dxf#ring\"\ndepth = 1\n";
+    const Job job = read_job(folder.with("taper.toml", taper + "tip_diameter = 1\n" + cut));
+    const Tool& tool = job.operations[0].tool;
+    DOUBLES_EQUAL(0, profile_height(tool, 0.5), 1e-12);
+    DOUBLES_EQUAL(4, profile_height(tool, 0.5 + 4 * std::tan(10 * 3.14159265358979 / 180)), 1e-9);
+    CHECK(std::isinf(profile_height(tool, 3.1)));
+    CHECK(verify::verify(job, program_of(job), {}, [](double) {}).broken.empty());
+    STRCMP_CONTAINS("tip_diameter: is missing: a taper needs the diameter of its flat end",
+                    refusal([&] { read_job(folder.with("taper.toml", taper + cut)); }).c_str());
+    const std::string flat = "[tool]\nshape = \"flat\"\ndiameter = 6\ntaper_angle = 10\n" + cut;
+    STRCMP_CONTAINS("taper_angle: belongs to a taper, this one is flat",
+                    refusal([&] { read_job(folder.with("taper.toml", flat)); }).c_str());
+}
+
+TEST(Prismatic, HolesOfADrawingNeedADepth)
+{
+    REFUSED(
+        "strategy = \"drill\"\nboundary = \"plate.dxf#holes\"\ntool = 2",
+        "depth: is missing: drill needs how deep it cuts where the holes are those of a drawing");
+}
+
+// Where the post has them; every post drills the same holes.
+TEST(Prismatic, HolesAreCyclesOfThePostsThatHaveThem)
+{
+    const auto written = [&](const std::string& keys, const std::string& post) {
+        Job job = read_job(folder.with(
+            "job.toml", "post = \"" + post + "\"\n" + kHead +
+                            "strategy = \"drill\"\nboundary = \"plate.dxf#holes\"\ndepth = 4\n"
+                            "tool = 2\ndiameter = 3\n" +
+                            keys));
+        std::ofstream out{folder.file("holes.ngc")};
+        write_program(out, {"test", false, job.stock_top + job.clearance, {}, job.post}, plan(job));
+        out.close();
+        CHECK(verify::verify(job, folder.file("holes.ngc"), {}, [](double) {}).broken.empty());
+        return folder.text_of("holes.ngc");
+    };
+    STRCMP_CONTAINS("G0 X5 Y5\nG98 G81 X5 Y5 Z-4 R1 F250\nX35 Y5\nG80\n",
+                    written("", "linuxcnc").c_str());
+    STRCMP_CONTAINS("G98 G83 X5 Y5 Z-4 R1 Q1.5 F250\nX35 Y5\nG80\n",
+                    written("peck = 1.5\n", "grblhal").c_str());
+    STRCMP_CONTAINS("G98 G83 X5. Y5. Z-4. R1. Q1.5 F250.\nN70 X35. Y5.\nN80 G80\n",
+                    written("peck = 1.5\n", "fanuc").c_str());
+    CHECK(written("peck = 1.5\n", "grbl").find("G83") == std::string::npos);
+    CHECK(written("", "cusp").find("G81") == std::string::npos);
 }

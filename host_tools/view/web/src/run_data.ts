@@ -13,7 +13,7 @@ export interface MainFacts {
 
 export interface ToolFacts {
   number: number; time_s: number;
-  shape?: "ball" | "flat" | "bull" | "vee" | "drill"; radius?: number; corner_radius?: number;
+  shape?: "ball" | "flat" | "bull" | "vee" | "drill" | "taper"; radius?: number; corner_radius?: number;
   tip_angle?: number; tip_radius?: number;  // of a cone: radians, mm
   cut_length_mm?: number; cut_depth_max_mm?: number;
 }

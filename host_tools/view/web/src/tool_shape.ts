@@ -3,7 +3,7 @@ import * as THREE from "three";
 import type { Timeline } from "./timeline";
 import type { ToolFacts } from "./run_data";
 
-export type Cutter = ToolFacts & { shape: "ball" | "flat" | "bull" | "vee" | "drill"; radius: number; corner_radius: number };
+export type Cutter = ToolFacts & { shape: "ball" | "flat" | "bull" | "vee" | "drill" | "taper"; radius: number; corner_radius: number };
 
 const isCutter = (tool: ToolFacts | undefined): tool is Cutter => tool?.radius !== undefined && tool.corner_radius !== undefined;
 

@@ -1,0 +1,265 @@
+// The tip goes along the medial axis, as deep as the flanks reach both walls. Where that is below the
+// floor it keeps to it, and loops beside the walls clear what is between.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "host_tools/input_error/input_error.hpp"
+#include "host_tools/offset/offset.hpp"
+#include "host_tools/prismatic/contour_run.hpp"
+#include "host_tools/prismatic/cut_levels.hpp"
+#include "host_tools/prismatic/medial_axis.hpp"
+#include "host_tools/prismatic/prismatic.hpp"
+#include "host_tools/prismatic/profile_contours.hpp"
+
+#include "fmt/format.h"
+
+namespace cusp::prismatic {
+
+using job::CutDirection;
+using job::Job;
+using job::Operation;
+using job::OutputForm;
+using job::Prismatic;
+using offset::Contour;
+using offset::Edge;
+using offset::Region2d;
+using offset::RegionOffset;
+using toolpath::MoveKind;
+using toolpath::PlannedOperation;
+using toolpath::ToolpathWriter;
+
+namespace {
+
+constexpr double kEndsMeet = 1e-3;  // mm: the tool continues without a retract
+
+// A way of the tip: along a branch of the axis, or a loop at one height.
+struct Way {
+    std::vector<Vec3d> points;  // both ends of a loop alone
+    std::vector<Edge> loop;
+};
+
+// The branch with a point more wherever its radius passes one of two, in rising order.
+AxisBranch with_crossings(const AxisBranch& branch, std::array<double, 2> limits)
+{
+    AxisBranch out;
+    for (const AxisPoint& p : branch) {
+        if (!out.empty()) {
+            const AxisPoint from = out.back();
+            const double rise = p.radius - from.radius;
+            if (rise < 0) {
+                std::swap(limits[0], limits[1]);
+            }
+            for (const double limit : limits) {
+                const double share = rise != 0 ? (limit - from.radius) / rise : 0.0;
+                if (share > 0 && share < 1) {
+                    out.push_back({from.at + share * (p.at - from.at), limit});
+                }
+            }
+            std::sort(limits.begin(), limits.end());
+        }
+        out.push_back(p);
+    }
+    return out;
+}
+
+class Carver {
+public:
+    Carver(const Job& job, const Operation& operation)
+        : job_{job},
+          operation_{operation},
+          cut_{*operation.prismatic},
+          slope_{1 / std::tan(operation.tool.tip_angle / 2)},
+          tip_{operation.tool.tip_radius},
+          region_{material_of(cut_)},
+          axis_{medial_axis(region_.source())}
+    {
+        for (const AxisBranch& branch : axis_) {
+            for (const AxisPoint& p : branch) {
+                if (!(p.radius <= widest_.radius)) {
+                    widest_ = p;
+                }
+            }
+        }
+    }
+
+    PlannedOperation plan();
+
+private:
+    double depth_of(double radius) const { return (radius - tip_) * slope_; }
+    double radius_at(double depth) const { return tip_ + depth / slope_; }
+    void check_width() const;
+    std::vector<double> depths() const;
+    void add_branches(double above, double depth, std::vector<Way>& ways) const;
+    void add_loops(double above, double depth, bool last, std::vector<Way>& ways);
+    void write(std::vector<Way> ways, double above, ToolpathWriter& writer) const;
+
+    const Job& job_;
+    const Operation& operation_;
+    const Prismatic& cut_;
+    double slope_;  // of the flank
+    double tip_;    // mm: radius of its flat
+    RegionOffset region_;
+    std::vector<AxisBranch> axis_;
+    AxisPoint widest_{{0, 0}, 0};
+    int loops_{0};
+};
+
+void Carver::check_width() const
+{
+    if (!(depth_of(widest_.radius) > 0)) {
+        throw InputError(fmt::format(
+            "{}{}: the tip of tool {}, {:g} mm wide, fits nowhere between the outlines: the widest "
+            "place, at x {:.6g} y {:.6g} mm, has {:.4g} mm",
+            operation_text(job_, operation_), cut_.file, operation_.tool.number, 2 * tip_,
+            widest_.at.x, widest_.at.y, 2 * widest_.radius));
+    }
+}
+
+// Below the top, of each level; the last one is as deep as the widest place, or the floor.
+std::vector<double> Carver::depths() const
+{
+    Operation reached = operation_;
+    reached.prismatic->depth = std::min(cut_.depth, depth_of(widest_.radius));
+    std::vector<double> depths;
+    for (const double z : cut_levels(job_, reached)) {
+        depths.push_back(cut_.top - z);
+    }
+    return depths;
+}
+
+// The parts of the axis that lie deeper than `above`, no deeper than `depth`.
+void Carver::add_branches(double above, double depth, std::vector<Way>& ways) const
+{
+    constexpr double kSame = 1e-9;  // mm
+    for (const AxisBranch& branch : axis_) {
+        Way way;
+        double deepest = 0;
+        const auto end_way = [&] {
+            if (deepest > above + kSame) {
+                ways.push_back(std::move(way));
+            }
+            way = {};
+            deepest = 0;
+        };
+        for (const AxisPoint& p : with_crossings(branch, {radius_at(above), radius_at(depth)})) {
+            const double down = depth_of(p.radius);
+            if (down < above - kSame) {
+                end_way();
+                continue;
+            }
+            way.points.push_back({p.at.x, p.at.y, cut_.top - std::min(down, depth)});
+            deepest = std::max(deepest, down);
+        }
+        end_way();
+    }
+}
+
+// Around the floor at a depth, then inward. The steps leave ridges as high as the scallop; above the
+// last level, no higher than the level before.
+void Carver::add_loops(double above, double depth, bool last, std::vector<Way>& ways)
+{
+    constexpr double kMostLoops = 20000;
+    const double ridge = last ? *operation_.scallop : std::max(*operation_.scallop, depth - above);
+    const double step =
+        operation_.step_over && last ? *operation_.step_over : 2 * (tip_ + ridge / slope_);
+    const double room = widest_.radius - radius_at(depth);
+    if (room / step > kMostLoops) {
+        throw InputError(
+            fmt::format("{}a scallop of {:g} mm needs {:.0f} loops on the floor, the "
+                        "limit is {:g}: a larger one, or step_over",
+                        operation_text(job_, operation_), ridge, room / step, kMostLoops));
+    }
+    for (double away = radius_at(depth); away < widest_.radius; away += step) {
+        for (const Contour& contour : region_.at(away).contours) {
+            const bool climb = operation_.direction_of_cut == CutDirection::kClimb;
+            const Contour way = climb ? contour : offset::reversed(contour);
+            const Vec2d start = way.front().start;
+            const Vec3d end{start.x, start.y, cut_.top - depth};
+            ways.push_back({{end, end}, way});
+            ++loops_;
+        }
+    }
+}
+
+// The nearest next one, branches from either end.
+void Carver::write(std::vector<Way> ways, double above, ToolpathWriter& writer) const
+{
+    const EdgeForm form{operation_.output != OutputForm::kLines, chord_tolerance(operation_),
+                        operation_.direction_of_cut == CutDirection::kClimb};
+    for (std::size_t n = 0; n < ways.size(); ++n) {
+        std::size_t best = n;
+        bool turn = false;
+        double least = kUnbounded;
+        for (std::size_t k = n; k < ways.size(); ++k) {
+            const double from_start = norm(ways[k].points.front() - writer.at());
+            const double from_end = norm(ways[k].points.back() - writer.at());
+            if (std::min(from_start, from_end) < least) {
+                least = std::min(from_start, from_end);
+                best = k;
+                turn = from_end < from_start;
+            }
+        }
+        std::swap(ways[n], ways[best]);
+        Way& way = ways[n];
+        if (turn) {
+            std::reverse(way.points.begin(), way.points.end());
+        }
+        const Vec3d start = way.points.front();
+        if (!writer.started() || least > kEndsMeet) {
+            writer.approach(in_plan(start), rapid_end(job_, cut_.top - above));
+            writer.line(MoveKind::kPlunge, start);
+        }
+        if (!way.loop.empty()) {
+            write_edges(way.loop, start.z, start.z, form, writer);
+        }
+        for (const Vec3d& p : way.points) {
+            writer.line(p.z < writer.at().z ? MoveKind::kPlungingCut : MoveKind::kCut, p);
+        }
+    }
+}
+
+PlannedOperation Carver::plan()
+{
+    check_width();
+    const std::vector<double> levels = depths();
+    const double deepest = levels.back();
+    PlannedOperation planned =
+        begun(job_, operation_,
+              fmt::format("{} branches, {:.4g} mm deep at most", axis_.size(), deepest));
+    ToolpathWriter writer{planned.path.moves, {job_.stock_top + job_.clearance}};
+    double above = 0;
+    std::size_t ways_written = 0;
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+        std::vector<Way> ways;
+        add_loops(above, levels[k], k + 1 == levels.size(), ways);
+        add_branches(above, levels[k], ways);
+        ways_written += ways.size();
+        write(std::move(ways), above, writer);
+        above = levels[k];
+    }
+    writer.retract();
+    count_moves(writer, static_cast<int>(ways_written), static_cast<int>(levels.size()), planned);
+    const double too_deep = depth_of(widest_.radius) - cut_.depth;
+    if (!cut_.given_depth && too_deep > kAxisTolerance) {
+        planned.stats.warnings.push_back(fmt::format(
+            "tool {} is too narrow for the whole width at x {:.6g} y {:.6g} mm: a level floor "
+            "{:.4g} mm deep in place of a groove {:.4g} mm deep",
+            operation_.tool.number, widest_.at.x, widest_.at.y, cut_.depth, cut_.depth + too_deep));
+    }
+    planned.stats.counts.emplace_back("branches", static_cast<double>(axis_.size()));
+    planned.stats.counts.emplace_back("floor_loops", loops_);
+    planned.stats.counts.emplace_back("depth_mm", deepest);
+    planned.stats.gouge_bound_mm = kFit;
+    planned.stats.scallop_bound_mm = loops_ > 0 ? *operation_.scallop : 0.0;
+    return planned;
+}
+
+}  // namespace
+
+std::vector<PlannedOperation> plan_v_carve(const Job& job, const Operation& operation)
+{
+    return {Carver{job, operation}.plan()};
+}
+
+}  // namespace cusp::prismatic
