@@ -1,7 +1,16 @@
 // One cache for each kind of geometry.
 #include "host_tools/import/part_files.hpp"
 
+#include <cmath>
+#include <set>
+
+#include "host_tools/import/cad_holes.hpp"
 #include "host_tools/import/mesh_file.hpp"
+#include "host_tools/import/path_ending.hpp"
+#include "host_tools/input_error/input_error.hpp"
+
+#include "fmt/format.h"
+#include "fmt/ranges.h"
 
 namespace cusp::import {
 
@@ -83,11 +92,40 @@ std::vector<job::Hole> PartFiles::holes(const std::string& file,
                                         bool only_circles)
 {
     const Similarity move = placed_drawing(file);
+    if (is_cad_file(file)) {
+        return model_holes(file, move, range);
+    }
     const double scale = norm(move.axes[0]);
     const DiameterRange drawn{range.least / scale, range.greatest / scale};
     std::vector<job::Hole> holes = read_holes(file, millimetres, drawn, only_circles, notes_);
     for (job::Hole& hole : holes) {
         hole = {in_plan(move.of({hole.at.x, hole.at.y, 0})), scale * hole.diameter};
+    }
+    return holes;
+}
+
+std::vector<job::Hole> PartFiles::model_holes(const std::string& file,
+                                              const Similarity& move,
+                                              DiameterRange range)
+{
+    const CadHoles found = read_cad_holes(file, move);
+    if (found.closed_above > 0) {
+        notes_.push_back(fmt::format("{}: {} holes open below alone and are not drilled", file,
+                                     found.closed_above));
+    }
+    std::vector<job::Hole> holes;
+    std::set<double> diameters;
+    for (const job::Hole& hole : found.holes) {
+        diameters.insert(std::round(hole.diameter * 1e4) / 1e4);
+        if (hole.diameter >= range.least && hole.diameter <= range.greatest) {
+            holes.push_back(hole);
+        }
+    }
+    if (holes.empty()) {
+        throw InputError(diameters.empty()
+                             ? file + ": no vertical hole to drill"
+                             : fmt::format("{}: no hole of the wanted diameter; there are {:g} mm",
+                                           file, fmt::join(diameters, ", ")));
     }
     return holes;
 }

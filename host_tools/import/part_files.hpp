@@ -31,7 +31,8 @@ public:
     // join  mm: as in `read_loops`
     const std::vector<FileLoop>& loops(const std::string& file, double millimetres, double join);
 
-    // As read_holes() and read_chains(), placed.
+    // As read_holes() and read_chains(), placed. Of a model the holes have their heights
+    // (cad_holes.hpp).
     std::vector<job::Hole> holes(const std::string& file,
                                  double millimetres,
                                  DiameterRange range,
@@ -52,6 +53,9 @@ public:
     const std::vector<std::string>& notes() const { return notes_; }
 
 private:
+    std::vector<job::Hole> model_holes(const std::string& file,
+                                       const Similarity& move,
+                                       DiameterRange range);
     Similarity placed(const std::string& file) const;
     // Of the drawing, whichever layer.
     Similarity placed_drawing(const std::string& name) const;
