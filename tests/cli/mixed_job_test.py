@@ -1,0 +1,115 @@
+"""A job of 3-D and 2.5-D operations: cut as it should be, and spoiled in each of them.
+
+usage: mixed_job_test.py CUSP
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+CUSP = str(pathlib.Path(sys.argv[1]).resolve())
+
+# 30 x 20 mm, from z = -1 down to -3
+SLOPE = {"shape": {"type": "surface", "count": 1, "data": [{
+    "degree_u": 1, "degree_v": 1, "size_u": 2, "size_v": 2, "knotvector_u": [0, 0, 1, 1], "knotvector_v": [0, 0, 1, 1],
+    "control_points": {"points": [[0, 0, -1], [0, 20, -1], [30, 0, -3], [30, 20, -3]], "weights": [1, 1, 1, 1]}}]}}
+
+JOB = """
+post = "mach3"
+[[tool]]
+shape = "ball"
+diameter = 6
+[[tool]]
+shape = "drill"
+diameter = 3
+[[tool]]
+shape = "flat"
+diameter = 4
+[[tool]]
+shape = "vee"
+diameter = 6
+tip_angle = 60
+[cutting]
+feed = 1000
+[stock]
+top = 0
+bottom = -6
+x = [-6, 36]
+y = [-6, 26]
+[[operation]]
+strategy = "parallel_planes"
+floor = ["slope.json"]
+scallop = 0.1
+tool = 1
+[[operation]]
+strategy = "drill"
+boundary = "plate.dxf#holes"
+depth = 8
+tool = 2
+[[operation]]
+strategy = "v_carve"
+boundary = "plate.dxf#mark"
+top = -1.5
+depth = 1
+scallop = 0.3
+tool = 4
+[[operation]]
+strategy = "profile"
+boundary = "plate.dxf#outline"
+depth = 6
+max_depth = 3
+tabs = { count = 2, width = 5, height = 1 }
+tool = 3
+"""
+
+
+def rectangle(layer, x0, y0, x1, y1):
+    corners = "".join(f"10\n{x}\n20\n{y}\n" for x, y in ((x0, y0), (x1, y0), (x1, y1), (x0, y1)))
+    return f"0\nLWPOLYLINE\n8\n{layer}\n90\n4\n70\n1\n{corners}"
+
+
+class MixedJob(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.scratch.name)
+        entities = rectangle("outline", 0, 0, 30, 20) + rectangle("mark", 12, 8, 18, 12)
+        entities += "0\nCIRCLE\n8\nholes\n10\n5\n20\n5\n40\n1.5\n"
+        self.write("plate.dxf", f"0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n")
+        self.write("slope.json", json.dumps(SLOPE))
+        self.write("job.toml", JOB)
+        self.cusp(0, "plan", "job.toml", "-o", "p.ngc")
+        self.program = (self.folder / "p.ngc").read_text()
+
+    def tearDown(self):
+        self.scratch.cleanup()
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text)
+
+    def cusp(self, status, *arguments):
+        result = subprocess.run([CUSP, *arguments], cwd=self.folder, text=True, timeout=600, stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT)
+        self.assertEqual(status, result.returncode, f"{arguments}: {result.stdout}")
+        return result.stdout
+
+    def spoiled(self, old, new):
+        self.assertIn(old, self.program)
+        self.write("spoiled.ngc", self.program.replace(old, new, 1))
+        return self.cusp(1, "verify", "job.toml", "spoiled.ngc", "--grid", "0.3")
+
+    def test_holds_its_bounds(self):
+        said = self.cusp(0, "verify", "job.toml", "p.ngc", "--grid", "0.3")
+        self.assertIn("all bounds hold", said)
+        self.assertIn("tabs_standing: 2", said)
+
+    def test_is_found_spoiled_in_each_operation(self):
+        self.assertIn("gouge_max_mm", self.spoiled("X30.3516 Z-3.0086", "X30.3516 Z-3.2086"))
+        self.assertIn("wall_gouge_max_mm", self.spoiled("G98 G81 X5 Y5 ", "G98 G81 X5.3 Y5 "))
+        self.assertIn("of operation 2 (drill)", self.spoiled("Z-8 R1", "Z-2 R1"))
+        self.assertIn("gouge_max_mm", self.spoiled("G1 Z-2.5 F250\n", "G1 Z-2.8 F250\n"))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
