@@ -248,7 +248,6 @@ private:
                               report_curves(surface, share);
                           }};
         for (std::size_t begin = 0; begin < curves.size(); begin += kCurvesAtOnce) {
-            work_.model().forget_many_cells();
             const std::size_t end = std::min(curves.size(), begin + kCurvesAtOnce);
             const part_model::PartModel::SharedQueries shared{work_.model()};
             parallel::for_each(end - begin, [&](std::size_t k) {

@@ -351,7 +351,6 @@ private:
         const std::size_t count = result_.planned.path.moves.size();
         std::vector<double> least((count + kMovesAtOnce - 1) / kMovesAtOnce, kInfinite);
         for (std::size_t begin = 0; begin < least.size(); begin += kProofsAtOnce) {
-            work_.model.forget_many_cells();
             const part_model::PartModel::SharedQueries shared{work_.model};
             parallel::for_each(std::min(kProofsAtOnce, least.size() - begin), [&](std::size_t k) {
                 work_.model.forget_queries();

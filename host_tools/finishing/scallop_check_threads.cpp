@@ -42,7 +42,6 @@ void ScallopCheck::share_out(std::size_t count,
     }
     for (std::size_t begin = 0; begin < count; begin += kCopies * at_once) {
         progress(static_cast<double>(begin) / static_cast<double>(count));
-        path_fitter_.model().forget_many_cells();
         const part_model::PartModel::SharedQueries shared{path_fitter_.model()};
         parallel::for_each(kCopies, [&](std::size_t copy) {
             path_fitter_.model().forget_queries();

@@ -262,6 +262,7 @@ std::size_t PartModel::kept_cells() const { return state_->halves; }
 
 PartModel::SharedQueries::SharedQueries(const PartModel& model) : model_{model}
 {
+    model_.forget_many_cells();
     ++model_.state_->sharers;
 }
 

@@ -183,7 +183,7 @@ public:
     void forget_many_cells() const;
     // How many halves are kept now; some 1 kB each.
     std::size_t kept_cells() const;
-    // While one lives, several threads may query, and forget_many_cells() does nothing.
+    // Calls forget_many_cells(). While one lives, several threads may query, and that does nothing.
     class SharedQueries {
     public:
         explicit SharedQueries(const PartModel& model);
