@@ -102,7 +102,7 @@ LowestPositionSearch::DroppedTool ToolAccess::drop_at(Cutter& cutter, double x, 
     return rest;
 }
 
-double ToolAccess::lowest_over(Vec3d place, Vec3d normal, double resolution)
+double ToolAccess::lowest_over(Vec3d place, Vec3d normal, double exact_below)
 {
     double lowest = kUnreached;
     for (Cutter& cutter : cutters_) {
@@ -113,7 +113,7 @@ double ToolAccess::lowest_over(Vec3d place, Vec3d normal, double resolution)
         const Vec2d touching{place.x + out * normal.x, place.y + out * normal.y};
         const double touched =
             place.z + kTouches + (1 / std::max(normal.z, 0.05)) * path_clearance_;
-        const double lower = std::min(resolution, lowest);
+        const double lower = std::min(exact_below, lowest);
         if (cutter.on_samples &&
             (cutter.failures < kMostFailures || ++cutter.skipped % kAgain == 0)) {
             // The first lower position suffices: the floor itself then decides.
