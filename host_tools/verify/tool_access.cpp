@@ -38,13 +38,13 @@ ToolAccess::ToolAccess(const std::vector<Surface>& surfaces,
       path_clearance_{path_clearance}
 {
     for (const Tool& tool : tools) {
-        Tool kept_off = tool;
-        kept_off.radius += path_clearance;
-        kept_off.corner_radius += path_clearance;
-        if (kept_off.shape == ToolShape::kFlat && path_clearance > 0) {
-            kept_off.shape = ToolShape::kBull;
+        Tool with_clearance = tool;
+        with_clearance.radius += path_clearance;
+        with_clearance.corner_radius += path_clearance;
+        if (with_clearance.shape == ToolShape::kFlat && path_clearance > 0) {
+            with_clearance.shape = ToolShape::kBull;
         }
-        cutters_.push_back({tool, kept_off, {}, {}, {}, 0, 0});
+        cutters_.push_back({tool, with_clearance, {}, {}, {}, 0, 0});
     }
     for (Cutter& cutter : cutters_) {
         const double pitch = kPitch * cutter.tool.radius;
