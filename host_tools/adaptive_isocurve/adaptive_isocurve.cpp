@@ -53,8 +53,7 @@ namespace {
 // Share of the domain: where the scallop is too high on more, curves are chosen again with scallops
 // computed along the curved passes, which takes twice as long.
 constexpr double kOpenShare = 0.01;
-// Share of the band for the error of an approximated offset.
-constexpr double kOffsetShare = 0.9;
+constexpr double kOffsetShare = 0.9;     // of the band: for the error of an approximated offset
 constexpr int kNormalSamples = 8;        // along u and v
 constexpr double kShortestPiece = 1e-3;  // mm
 constexpr std::size_t kCurvesAtOnce = 32;

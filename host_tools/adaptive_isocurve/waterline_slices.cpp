@@ -62,7 +62,7 @@ Contour contour_of(const std::vector<Vec2d>& loop)
 struct WaterlineSlices::Levels {
     double z;
     double least;                // squared distance on the contour
-    double most;                 // larger ones may be inexact
+    double square_limit;         // larger ones may be inexact
     double deep;                 // distance: nodes nearer than this have no neighbour over `least`
     double far;                  // distance: nodes farther have none below `least`
     double corner;               // radius of the tool
@@ -152,13 +152,13 @@ void WaterlineSlices::fill(Levels& levels) const
         }
         double value = square(std::max(0.0, distance));
         if (settled) {
-            value = distance >= levels.far ? levels.most : 0.0;
+            value = distance >= levels.far ? levels.square_limit : 0.0;
         }
         for (std::size_t i = block.i; i < std::min(nx_, block.i + block.size); ++i) {
             for (std::size_t j = block.j; j < std::min(ny_, block.j + block.size); ++j) {
                 // The axis stays inside the field.
                 const bool border = i == 0 || j == 0 || i + 1 == nx_ || j + 1 == ny_;
-                levels.square[i * ny_ + j] = border ? 0.0 : std::min(value, levels.most);
+                levels.square[i * ny_ + j] = border ? 0.0 : std::min(value, levels.square_limit);
             }
         }
     }
@@ -272,7 +272,7 @@ Region2d WaterlineSlices::at(double z, double extra) const
     levels.least = square(keep) + square(side) / 4.0;
     levels.deep = keep - side;
     levels.far = std::sqrt(levels.least) + side;
-    levels.most = square(levels.far);
+    levels.square_limit = square(levels.far);
     levels.square.assign(nx_ * ny_, 0.0);
     fill(levels);
     ContourWalk walk{nx_, ny_, levels.square, levels.least};

@@ -75,13 +75,13 @@ std::optional<double> AxialDepthTracker::allowed_height_over(Vec3d start,
     if (!max_depth_) {
         return std::nullopt;
     }
-    const double most = share * *max_depth_;
+    const double limit = share * *max_depth_;
     std::optional<double> height;
     ahead_ = stock_;
     walk(start, moves, [&](Vec3d from, Vec3d to) {
         const double depth = ahead_->cut_with_shrunk_tool(from, to) + kBetween;
-        if (depth > most) {
-            const double here = to.z + depth - kAimed * most;
+        if (depth > limit) {
+            const double here = to.z + depth - kAimed * limit;
             height = std::max(height.value_or(here), here);
         }
     });

@@ -26,7 +26,7 @@ constexpr double kShare = 0.4995;  // of a step: width cut on either side of a p
 
 struct Loop2d {
     Contour path;
-    int level;
+    int ring;
     double distance;
     double step;
     bool outer;
@@ -40,7 +40,7 @@ struct NextRing {
     bool by_corners{};  // limited by corners: a larger step would leave stock in them
 };
 
-NextRing next_level(const RegionOffset& offset, double distance, double step, bool cover)
+NextRing next_ring(const RegionOffset& offset, double distance, double step, bool cover)
 {
     if (!cover) {
         return {distance + step, offset.at(distance + step)};
@@ -61,9 +61,9 @@ NextRing next_level(const RegionOffset& offset, double distance, double step, bo
     best = rest;
     for (int i = 0; i < 5; ++i) {
         const double middle = 0.5 * (good + bad);
-        auto level = at_share(middle);
-        if (level) {
-            best = std::move(level);
+        auto found = at_share(middle);
+        if (found) {
+            best = std::move(found);
             good = middle;
         } else {
             bad = middle;
@@ -75,7 +75,7 @@ NextRing next_level(const RegionOffset& offset, double distance, double step, bo
 // Moves the inner ring nearer until the scallop between is low enough, or farther if it is lower
 // than allowed. Returns its share of the allowed height; 0 if that is not given.
 double fit_distance(NextRing& inner,
-                    const NextRing& level,
+                    const NextRing& ring,
                     const RegionOffset& offset,
                     const ClearingSettings& settings)
 {
@@ -90,11 +90,11 @@ double fit_distance(NextRing& inner,
     double good_left = 0.0;
     bool bad = false;  // a step with too high a scallop was tried
     for (int round = 0; settings.scallop_share_between && round < kRounds; ++round) {
-        const double step = inner.distance - level.distance;
+        const double step = inner.distance - ring.distance;
         const double left = settings.scallop_share_between(
-            {level.loops, inner.loops, level.distance, inner.distance, offset});
-        const double most = round == 0 ? kMost : kMostAgain;
-        double share = std::clamp(kMost / std::sqrt(left), kLeast, most);
+            {ring.loops, inner.loops, ring.distance, inner.distance, offset});
+        const double largest = round == 0 ? kMost : kMostAgain;
+        double share = std::clamp(kMost / std::sqrt(left), kLeast, largest);
         if (left <= 1.0) {
             good = std::move(inner);
             good_left = left;
@@ -108,7 +108,7 @@ double fit_distance(NextRing& inner,
         } else {
             bad = true;
         }
-        inner = next_level(offset, level.distance, share * step, settings.cover_corners);
+        inner = next_ring(offset, ring.distance, share * step, settings.cover_corners);
     }
     if (good) {
         inner = std::move(*good);
@@ -119,13 +119,13 @@ double fit_distance(NextRing& inner,
 // A ring farther inward than `stepover`, with partial loops before it, if that makes the path
 // shorter.
 struct RingAfterPartialLoops {
-    NextRing level;
+    NextRing ring;
     std::vector<PartialLoop> loops;
     double cost;   // mm of path per mm of depth
     double saved;  // mm of path
 };
 
-std::optional<RingAfterPartialLoops> ring_after_partial_loops(const NextRing& level,
+std::optional<RingAfterPartialLoops> ring_after_partial_loops(const NextRing& ring,
                                                               double step,
                                                               const RegionOffset& offset,
                                                               const ClearingSettings& settings,
@@ -135,24 +135,24 @@ std::optional<RingAfterPartialLoops> ring_after_partial_loops(const NextRing& le
     constexpr double kMany = 0.5;  // of the ring's length: a nearer ring may need fewer
     constexpr double kNearer = 0.9;
     constexpr int kRounds = 3;
-    double wide = settings.partial_stepover ? settings.partial_stepover(level.loops, step) : 0.0;
+    double wide = settings.partial_stepover ? settings.partial_stepover(ring.loops, step) : 0.0;
     double whole = 0.0;
-    for (const Contour& contour : level.loops.contours) {
+    for (const Contour& contour : ring.loops.contours) {
         whole += length(contour);
     }
     std::optional<RingAfterPartialLoops> best;
     for (int round = 0; round < kRounds && wide > step; ++round) {
-        NextRing inner = next_level(offset, level.distance, std::min(wide, settings.stepover),
-                                    settings.cover_corners);
-        const double apart = inner.distance - level.distance;
+        NextRing inner = next_ring(offset, ring.distance, std::min(wide, settings.stepover),
+                                   settings.cover_corners);
+        const double apart = inner.distance - ring.distance;
         if (apart <= step) {
             break;
         }
         tried = true;
         wide = kNearer * apart;
-        const double most = (best ? best->cost : kWorthIt * whole / step) * apart - whole;
+        const double max_length = (best ? best->cost : kWorthIt * whole / step) * apart - whole;
         auto partial = settings.partial_loops(
-            {level.loops, inner.loops, level.distance, inner.distance, offset}, most);
+            {ring.loops, inner.loops, ring.distance, inner.distance, offset}, max_length);
         if (!partial) {
             continue;
         }
@@ -170,14 +170,14 @@ std::optional<RingAfterPartialLoops> ring_after_partial_loops(const NextRing& le
 // Adds partial loops, and the length that they save, to the result.
 //
 // Over 60 lines: each ring depends on the step, the factor and the trials of the ring before.
-std::vector<Loop2d> make_levels(const RegionOffset& offset,
-                                const ClearingSettings& settings,
-                                ClearedRegion& result)
+std::vector<Loop2d> make_rings(const RegionOffset& offset,
+                               const ClearingSettings& settings,
+                               ClearedRegion& result)
 {
     std::vector<Loop2d> loops;
-    const auto step_from = [&](const Region2d& level) {
+    const auto step_from = [&](const Region2d& ring) {
         const double asked =
-            settings.stepover_from ? settings.stepover_from(level) : settings.stepover;
+            settings.stepover_from ? settings.stepover_from(ring) : settings.stepover;
         return std::min(asked, settings.stepover);
     };
     // The factor for one ring mostly suits the next one, which is first tried at that share of its
@@ -186,25 +186,25 @@ std::vector<Loop2d> make_levels(const RegionOffset& offset,
     constexpr double kLeastSuited = 0.1;
     constexpr double kMostSuited = 2.0;
     double suited = 1.0;
-    const auto drawn_from = [&](const NextRing& level, double step) {
+    const auto drawn_from = [&](const NextRing& ring, double step) {
         const double first = std::min(suited * step, std::max(step, 0.5 * settings.stepover));
-        return next_level(offset, level.distance, first, settings.cover_corners);
+        return next_ring(offset, ring.distance, first, settings.cover_corners);
     };
     // Where partial loops do not pay they seldom do at the next ring.
     int next_try = 0;
     int wait = 1;
-    NextRing level{settings.wall_clearance, offset.at(settings.wall_clearance)};
-    double step = level.loops.contours.empty() ? 0.0 : step_from(level.loops);
-    for (int k = 0; k < kMaxRings && !level.loops.contours.empty(); ++k) {
-        const auto add_level = [&](NextRing& inner) {
-            for (Contour& contour : level.loops.contours) {
+    NextRing ring{settings.wall_clearance, offset.at(settings.wall_clearance)};
+    double step = ring.loops.contours.empty() ? 0.0 : step_from(ring.loops);
+    for (int k = 0; k < kMaxRings && !ring.loops.contours.empty(); ++k) {
+        const auto add_ring = [&](NextRing& inner) {
+            for (Contour& contour : ring.loops.contours) {
                 const bool outer = area(contour) > 0.0;
-                loops.push_back({std::move(contour), k, level.distance,
-                                 inner.distance - level.distance, outer});
+                loops.push_back(
+                    {std::move(contour), k, ring.distance, inner.distance - ring.distance, outer});
             }
-            level = std::move(inner);
+            ring = std::move(inner);
         };
-        NextRing inner = drawn_from(level, step);
+        NextRing inner = drawn_from(ring, step);
         double inner_step = step;
         // The step must suit the loops on both of its sides. Loops that move by less than a
         // fiftieth of it are not checked again; a thousandth is subtracted for that.
@@ -217,7 +217,7 @@ std::vector<Loop2d> make_levels(const RegionOffset& offset,
             }
             const bool alike = inner_step >= kAlike * step;
             step = alike ? kMargin * inner_step : inner_step;
-            inner = drawn_from(level, step);
+            inner = drawn_from(ring, step);
             if (alike) {
                 break;
             }
@@ -225,13 +225,13 @@ std::vector<Loop2d> make_levels(const RegionOffset& offset,
         std::optional<RingAfterPartialLoops> far;
         if (k >= next_try) {
             bool tried = false;
-            far = ring_after_partial_loops(level, suited * step, offset, settings, tried);
+            far = ring_after_partial_loops(ring, suited * step, offset, settings, tried);
             wait = far ? 1 : (tried ? 2 * wait : wait);
             next_try = k + (tried ? wait : 1);
         }
         if (far) {
             if (far->loops.empty() && settings.scallop_share_between) {
-                suited = std::clamp((far->level.distance - level.distance) / step, kLeastSuited,
+                suited = std::clamp((far->ring.distance - ring.distance) / step, kLeastSuited,
                                     kMostSuited);
             }
             for (PartialLoop& loop : far->loops) {
@@ -239,17 +239,17 @@ std::vector<Loop2d> make_levels(const RegionOffset& offset,
                 result.partial.push_back(std::move(loop));
             }
             result.saved += far->saved;
-            add_level(far->level);
-            step = level.loops.contours.empty() ? 0.0 : step_from(level.loops);
+            add_ring(far->ring);
+            step = ring.loops.contours.empty() ? 0.0 : step_from(ring.loops);
             continue;
         }
-        const double left = fit_distance(inner, level, offset, settings);
+        const double left = fit_distance(inner, ring, offset, settings);
         if (left > 0.0 && !inner.by_corners) {
-            const double drawn = (inner.distance - level.distance) / step;
+            const double drawn = (inner.distance - ring.distance) / step;
             suited = std::clamp(drawn * std::min(1.0 / std::sqrt(left), kMostAgain), kLeastSuited,
                                 kMostSuited);
         }
-        add_level(inner);
+        add_ring(inner);
         step = inner_step;
     }
     return loops;
@@ -268,7 +268,7 @@ std::vector<int> parents_of(const std::vector<Loop2d>& loops,
         int parent = -1;
         for (std::size_t j = 0; j < i; ++j) {
             const Loop2d& other = loops[static_cast<std::size_t>(chosen[j])];
-            const int apart = outer ? loop.level - other.level : other.level - loop.level;
+            const int apart = outer ? loop.ring - other.ring : other.ring - loop.ring;
             if (apart == 1 && surrounds(other.path, probe)) {
                 parent = static_cast<int>(j);
             }
@@ -291,7 +291,7 @@ public:
     {
         ClearingPass pass;
         pass.path = loop.path;
-        pass.ring = loop.level;
+        pass.ring = loop.ring;
         pass.offset = loop.distance;
         pass.around_island = !loop.outer;
         pass.stepover = loop.step;
@@ -306,7 +306,7 @@ public:
                     {offset_, settings_.wall_clearance, settings_.stepover});
         }
         pass.wall_distance = offset_.clearance(pass.path.front().start);
-        region_.rings = std::max(region_.rings, loop.level + 1);
+        region_.rings = std::max(region_.rings, loop.ring + 1);
         region_.passes.push_back(std::move(pass));
     }
 
@@ -372,7 +372,7 @@ ClearedRegion clear_region(const Region2d& region, const ClearingSettings& setti
 {
     const RegionOffset offset{region};
     PassList list{offset, settings};
-    const std::vector<Loop2d> loops = make_levels(offset, settings, list.region());
+    const std::vector<Loop2d> loops = make_rings(offset, settings, list.region());
     add_rings(loops, list);
     add_trees(loops, list);
     ClearedRegion result = std::move(list.region());

@@ -47,14 +47,14 @@ struct ClearingSettings {
     double wall_clearance{};
     double stepover{};  // mm: largest distance between passes
     // If given, the largest distance inward from a ring of loops; limited by `stepover`.
-    std::function<double(const offset::Region2d& level)> stepover_from;
+    std::function<double(const offset::Region2d& ring)> stepover_from;
     // If given, the scallop between two rings as a share of the allowed height. Rings are moved
     // together until it is at most 1, or apart, up to half of `stepover`, if it is less.
     std::function<double(const LoopStrip& strip)> scallop_share_between;
     // If given: how far inward (mm) the next ring may lie if partial loops fill the strip; 0 if
     // whole loops `stepover` mm apart are no longer. And these partial loops; none if they do not
     // suffice or add more than `max_length` mm of path.
-    std::function<double(const offset::Region2d& level, double step)> partial_stepover;
+    std::function<double(const offset::Region2d& ring, double step)> partial_stepover;
     std::function<std::optional<std::vector<PartialLoop>>(const LoopStrip& strip,
                                                           double max_length)>
         partial_loops;

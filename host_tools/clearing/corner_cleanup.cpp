@@ -49,9 +49,9 @@ class UncutStrip {
 public:
     UncutStrip(const RegionOffset& source,
                const std::vector<Edge>& edges,
-               const EdgeTree& level,
+               const EdgeTree& ring,
                const CleanupSpace& space)
-        : source_{source}, edges_{edges}, ring_{level}, space_{space}
+        : source_{source}, edges_{edges}, ring_{ring}, space_{space}
     {
     }
 
@@ -158,11 +158,11 @@ private:
     // bulging to one side do not reach.
     int end_of_free(const Edge& edge, int i, int n) const
     {
-        const Edge& level = edges_[beside_];
-        const bool straight = edge.turn == 0 && level.turn == 0;
-        const bool round = edge.turn != 0 && level.turn == edge.turn &&
-                           distance(edge.centre, level.centre) < 1e-9 &&
-                           dot(edge.end - edge.start, level.end - level.start) > 0.0;
+        const Edge& beside = edges_[beside_];
+        const bool straight = edge.turn == 0 && beside.turn == 0;
+        const bool round = edge.turn != 0 && beside.turn == edge.turn &&
+                           distance(edge.centre, beside.centre) < 1e-9 &&
+                           dot(edge.end - edge.start, beside.end - beside.start) > 0.0;
         if (!straight && !round) {
             return i;
         }
@@ -206,15 +206,15 @@ private:
         if (is_far(a) || is_far(b)) {
             return is_far(a) != is_far(b);
         }
-        const auto most = [](const FarPoint& p, const FarPoint& q) {
+        const auto farthest = [](const FarPoint& p, const FarPoint& q) {
             return 0.5 * (p.apart + q.apart + distance(p.at, q.at));
         };
         return (a.meets || b.meets) &&
-               std::max(most(a.border, b.border), most(a.inner, b.inner)) > space_.reach;
+               std::max(farthest(a.border, b.border), farthest(a.inner, b.inner)) > space_.reach;
     }
 
     const RegionOffset& source_;
-    const std::vector<Edge>& edges_;  // of the level
+    const std::vector<Edge>& edges_;  // of the ring
     const EdgeTree& ring_;
     const CleanupSpace& space_;
     std::size_t beside_{};  // index of the edge nearest to the last point examined
@@ -259,9 +259,9 @@ bool keeps_room(const RegionOffset& source, Vec2d a, Vec2d b, double room)
 }
 
 // From the ring towards a point, until `reach` remains.
-Spur spur_towards(const FarPoint& far, const EdgeTree& level, double reach)
+Spur spur_towards(const FarPoint& far, const EdgeTree& ring, double reach)
 {
-    const EdgeTree::Nearest foot = level.nearest_edge(far.at);
+    const EdgeTree::Nearest foot = ring.nearest_edge(far.at);
     return {foot.edge, foot.point, far.at + (foot.point - far.at) * (reach / far.apart)};
 }
 
@@ -270,7 +270,7 @@ const FarPoint& farther(const FarPoint& a, const FarPoint& b) { return a.apart <
 // Towards the farthest point of the border; if that does not cover the lines, towards the farthest
 // of all.
 std::optional<Spur> spur_for(std::vector<Way> stretch,
-                             const EdgeTree& level,
+                             const EdgeTree& ring,
                              const UncutStrip& rest,
                              double reach)
 {
@@ -290,7 +290,7 @@ std::optional<Spur> spur_for(std::vector<Way> stretch,
     for (const Way& way : stretch) {
         farthest = farther(farthest, way.border);
     }
-    const Spur by_border = spur_towards(farthest, level, reach);
+    const Spur by_border = spur_towards(farthest, ring, reach);
     if (farthest.apart > reach && covers_all(by_border)) {
         return by_border;
     }
@@ -298,16 +298,16 @@ std::optional<Spur> spur_for(std::vector<Way> stretch,
         way.inner = rest.crest_of(way);
         farthest = farther(farthest, way.inner);
     }
-    const Spur by_all = spur_towards(farthest, level, reach);
+    const Spur by_all = spur_towards(farthest, ring, reach);
     return covers_all(by_all) ? std::optional{by_all} : std::nullopt;
 }
 
 // Where along its edge the spur starts; increasing along the path.
 double along(const Edge& edge, Vec2d foot) { return dot(foot - edge.start, edge.end - edge.start); }
 
-Region2d with_spurs(const Region2d& level, std::vector<Spur> spurs)
+Region2d with_spurs(const Region2d& ring, std::vector<Spur> spurs)
 {
-    const std::vector<Edge> edges = edges_of(level);
+    const std::vector<Edge> edges = edges_of(ring);
     std::sort(spurs.begin(), spurs.end(), [&](const Spur& a, const Spur& b) {
         return a.edge != b.edge ? a.edge < b.edge
                                 : along(edges[a.edge], a.foot) < along(edges[b.edge], b.foot);
@@ -315,7 +315,7 @@ Region2d with_spurs(const Region2d& level, std::vector<Spur> spurs)
     Region2d result;
     std::size_t index = 0;
     auto spur = spurs.begin();
-    for (const Contour& contour : level.contours) {
+    for (const Contour& contour : ring.contours) {
         Contour path;
         for (const Edge& edge : contour) {
             Vec2d from = edge.start;
@@ -341,16 +341,16 @@ Region2d with_spurs(const Region2d& level, std::vector<Spur> spurs)
 
 }  // namespace
 
-std::optional<Region2d> with_corner_cleanup(const Region2d& level,
+std::optional<Region2d> with_corner_cleanup(const Region2d& ring,
                                             const Region2d& border,
                                             const RegionOffset& source,
                                             const CleanupSpace& space)
 {
-    if (level.contours.empty()) {
-        return border.contours.empty() ? std::optional<Region2d>{level} : std::nullopt;
+    if (ring.contours.empty()) {
+        return border.contours.empty() ? std::optional<Region2d>{ring} : std::nullopt;
     }
     const double reach = space.reach;
-    const std::vector<Edge> edges = edges_of(level);
+    const std::vector<Edge> edges = edges_of(ring);
     const EdgeTree tree{edges};
     UncutStrip rest{source, edges, tree, space};
     std::vector<Spur> spurs;
@@ -363,7 +363,7 @@ std::optional<Region2d> with_corner_cleanup(const Region2d& level,
             spurs.push_back(*spur);
         }
     }
-    return spurs.empty() ? level : with_spurs(level, std::move(spurs));
+    return spurs.empty() ? ring : with_spurs(ring, std::move(spurs));
 }
 
 bool starts_cleanup_spur(const Contour& contour, std::size_t edge)

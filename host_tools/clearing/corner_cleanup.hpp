@@ -20,7 +20,7 @@ struct CleanupSpace {
 // it and `border` is farther than `reach` from it, so that afterwards none is. The border is
 // sampled every quarter of `reach` and at its corners, and so are the points where lines inward
 // from there meet. None if straight spurs do not suffice: the ring must be nearer.
-std::optional<offset::Region2d> with_corner_cleanup(const offset::Region2d& level,
+std::optional<offset::Region2d> with_corner_cleanup(const offset::Region2d& ring,
                                                     const offset::Region2d& border,
                                                     const offset::RegionOffset& source,
                                                     const CleanupSpace& space);

@@ -54,21 +54,20 @@ void StockHeightMap::set_tool(const Tool& tool)
     }
 }
 
-StockHeightMap::Range StockHeightMap::range(
-    double low, double high, double origin, double pitch, std::size_t count)
+StockHeightMap::Range StockHeightMap::range(double low, double high, const Axis& axis)
 {
     const auto place = [&](double at) {
         return static_cast<std::size_t>(
-            std::clamp((at - origin) / pitch, 0.0, static_cast<double>(count)));
+            std::clamp((at - axis.origin) / axis.pitch, 0.0, static_cast<double>(axis.count)));
     };
-    return {place(low), std::min(place(high) + 1, count)};
+    return {place(low), std::min(place(high) + 1, axis.count)};
 }
 
 double StockHeightMap::contact_height(Vec2d at, double share) const
 {
     const double reach = share * std::sqrt(probe_profile_.reach);
-    const Range columns = range(at.x - reach, at.x + reach, origin_.x, pitch_, columns_);
-    const Range rows = range(at.y - reach, at.y + reach, origin_.y, pitch_, rows_);
+    const Range columns = range(at.x - reach, at.x + reach, column_axis());
+    const Range rows = range(at.y - reach, at.y + reach, row_axis());
     double highest = -kUnbounded;
     for (std::size_t i = columns.begin; i < columns.end; ++i) {
         const double dx = origin_.x + static_cast<double>(i) * pitch_ - at.x;
@@ -129,7 +128,7 @@ StockHeightMap::Range StockHeightMap::maybe_lower(double x, Range rows, Vec3d ti
         return {ahead < 0.0 ? rows.end : rows.begin, rows.end};
     }
     const double y = middle.y - ahead / way.y;
-    const Range here = range(y, y, origin_.y, pitch_, rows_);
+    const Range here = range(y, y, row_axis());
     return way.y > 0.0 ? Range{std::clamp(here.begin, rows.begin, rows.end), rows.end}
                        : Range{rows.begin, std::clamp(here.end, rows.begin, rows.end)};
 }
@@ -145,8 +144,8 @@ StockHeightMap::Range StockHeightMap::under_last(double x, Range rows, Vec3d tip
     }
     const double half = std::sqrt(foot * foot - dx * dx);
     const double y = last_->tip.y;
-    const std::size_t begin = range(y - half, y - half, origin_.y, pitch_, rows_).end;
-    const std::size_t end = range(y + half, y + half, origin_.y, pitch_, rows_).end;
+    const std::size_t begin = range(y - half, y - half, row_axis()).end;
+    const std::size_t end = range(y + half, y + half, row_axis()).end;
     const std::size_t from = std::clamp(begin, rows.begin, rows.end);
     return {from, std::clamp(end, from, rows.end)};
 }
@@ -160,11 +159,11 @@ void StockHeightMap::cut_at(const Position& position, double& deepest)
     const double reach = std::sqrt(squared);
     const bool onward = last_ && (position.shrunk || !last_->shrunk) &&
                         std::hypot(tip.x - last_->tip.x, tip.y - last_->tip.y) < reach;
-    const Range columns = range(tip.x - reach, tip.x + reach, origin_.x, pitch_, columns_);
+    const Range columns = range(tip.x - reach, tip.x + reach, column_axis());
     for (std::size_t i = columns.begin; i < columns.end; ++i) {
         const double x = origin_.x + static_cast<double>(i) * pitch_;
         const double half = std::sqrt(std::max(0.0, squared - (x - tip.x) * (x - tip.x)));
-        Range rows = range(tip.y - half, tip.y + half, origin_.y, pitch_, rows_);
+        Range rows = range(tip.y - half, tip.y + half, row_axis());
         if (onward) {
             rows = maybe_lower(x, rows, tip);
             const Range cut = under_last(x, rows, tip);

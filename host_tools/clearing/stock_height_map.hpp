@@ -44,6 +44,11 @@ private:
         double reach;  // squared radius of the whole tool
         double at(double squared) const;
     };
+    struct Axis {
+        double origin;
+        double pitch;
+        std::size_t count;
+    };
     struct Range {
         std::size_t begin;
         std::size_t end;
@@ -68,7 +73,9 @@ private:
     std::vector<float> heights_;
     std::optional<Position> last_;  // the points under it are already cut
 
-    static Range range(double low, double high, double origin, double pitch, std::size_t count);
+    Axis column_axis() const { return {origin_.x, pitch_, columns_}; }
+    Axis row_axis() const { return {origin_.y, pitch_, rows_}; }
+    static Range range(double low, double high, const Axis& axis);
     double sweep(Vec3d from, Vec3d to, bool inside);
     void cut_at(const Position& position, double& deepest);
     void cut_column(std::size_t column, Range rows, const Position& position, double& deepest);

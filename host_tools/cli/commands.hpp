@@ -8,6 +8,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "CLI/App.hpp"
 
@@ -22,6 +23,17 @@ enum ExitStatus : int {
 
 // Runs the selected command. Returns the exit status; throws InputError (status 2).
 using Work = std::function<int()>;
+
+// Sets `work` to run(*options) where `command` is the one that is called.
+template <class Options, class Run>
+void run_when_called(CLI::App& command, Work& work, std::shared_ptr<Options> options, Run run)
+{
+    command.callback([&work, options, run] {
+        work = [options, run] {
+            return run(*options);
+        };
+    });
+}
 
 // Adds one subcommand to `app`; its callback sets `work`. A new command is one file
 // <name>_command.cpp with such a function, one line here and one in main.cpp.

@@ -153,11 +153,7 @@ void add_demo_command(CLI::App& app, Work& work)
                         "folder of the examples (default: those of this program)");
     command->add_flag("--traces", options->traces,
                       "also write every pulse (pocket.vcd) and set point (samples.csv): 470 MB");
-    command->callback([&work, options] {
-        work = [options] {
-            return run_demo(*options);
-        };
-    });
+    run_when_called(*command, work, options, run_demo);
 }
 
 }  // namespace cusp::cli

@@ -97,11 +97,7 @@ void add_fit_command(CLI::App& app, Work& work)
         ->required()
         ->check(CLI::Range(0.0001, 10.0));
     command->add_option("--stats", options->stats, "statistics to write (JSON)");
-    command->callback([&work, options] {
-        work = [options] {
-            return run_fit(*options);
-        };
-    });
+    run_when_called(*command, work, options, run_fit);
 }
 
 }  // namespace cusp::cli

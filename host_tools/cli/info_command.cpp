@@ -122,11 +122,7 @@ void add_info_command(CLI::App& app, Work& work)
                         "the description to write (JSON), in mm and degrees");
     command->add_option("--picture", options->picture,
                         "picture to write (SVG) of one file, from above");
-    command->callback([&work, options] {
-        work = [options] {
-            return run_info(*options);
-        };
-    });
+    run_when_called(*command, work, options, run_info);
 }
 
 }  // namespace cusp::cli

@@ -60,7 +60,7 @@ void leave_room_for_rounding(Job& job)
     if (!(added > 0)) {
         return;
     }
-    const auto less = [&](const Operation& operation, const char* key, double& value, double by) {
+    const auto reduce = [&](const Operation& operation, const char* key, double& value, double by) {
         const double least = by + added;
         if (!(value >= least)) {
             throw InputError(fmt::format(
@@ -73,10 +73,10 @@ void leave_room_for_rounding(Job& job)
     };
     for (Operation& operation : job.operations) {
         // twice: half of a floor tolerance has been spent on the height field of a mesh
-        less(operation, "floor_tolerance", operation.floor_tolerance, 2 * added);
-        less(operation, "plan_tolerance", operation.plan_tolerance, added);
+        reduce(operation, "floor_tolerance", operation.floor_tolerance, 2 * added);
+        reduce(operation, "plan_tolerance", operation.plan_tolerance, added);
         if (operation.scallop) {
-            less(operation, "scallop", *operation.scallop, added);
+            reduce(operation, "scallop", *operation.scallop, added);
         }
     }
 }

@@ -292,11 +292,7 @@ void add_sim_command(CLI::App& app, Work& work)
         "The first error or alarm ends the run: files are written up to there, exit status 1.\n"
         "M0, M1 and tool changes are resumed at once and listed; G4 takes its time.\n"
         "With --serve the settings file is read and kept up to date.");
-    command->callback([arguments, &work] {
-        work = [arguments] {
-            return run_sim(*arguments);
-        };
-    });
+    run_when_called(*command, work, arguments, run_sim);
 }
 
 }  // namespace cusp::cli

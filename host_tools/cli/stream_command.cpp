@@ -285,11 +285,7 @@ void add_stream_command(CLI::App& app, Work& work)
     command->footer(std::string{Keyboard::legend()} +
                     "\nCtrl-C holds, then resets; twice resets immediately.\n"
                     "Exit status: 0 done; 1 stopped, refused, alarm or link lost; 2 invalid call.");
-    command->callback([arguments, &work] {
-        work = [arguments] {
-            return run_stream(*arguments);
-        };
-    });
+    run_when_called(*command, work, arguments, run_stream);
 }
 
 }  // namespace cusp::cli

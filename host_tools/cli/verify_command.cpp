@@ -72,11 +72,7 @@ void add_verify_command(CLI::App& app, Work& work)
     command->add_option("--left-picture", options->output.left_picture,
                         "picture to write (SVG): the material left above the floor");
     add_resource_options(*command, options->resources);
-    command->callback([&work, options] {
-        work = [options] {
-            return run_verify(*options);
-        };
-    });
+    run_when_called(*command, work, options, run_verify);
 }
 
 }  // namespace cusp::cli

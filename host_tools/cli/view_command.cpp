@@ -131,11 +131,7 @@ void add_view_command(CLI::App& app, Work& work)
     command->add_option("-o,--output", arguments->page, "page to write (HTML)")->required();
     command->add_option("--still", arguments->still,
                         "picture of the scene to write (PNG): by Chromium, where it is installed");
-    command->callback([&work, arguments] {
-        work = [arguments] {
-            return run_view(*arguments);
-        };
-    });
+    run_when_called(*command, work, arguments, run_view);
 }
 
 }  // namespace cusp::cli

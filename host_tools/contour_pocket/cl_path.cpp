@@ -106,9 +106,9 @@ double path_over_stations(const std::vector<Edge>& plan,
     }
     const std::vector<Station>& stations = row.stations;
     const bool closed = distance(stations.front().at, stations.back().at) < 1e-9;
-    const double most = kUsed * settings.height_tolerance;
+    const double tolerance = kUsed * settings.height_tolerance;
     const StationBand band{kUsedInPlan * settings.plan_tolerance,
-                           settings.one_sided ? settings.clearance_reserve : -most, most};
+                           settings.one_sided ? settings.clearance_reserve : -tolerance, tolerance};
     const Chain chain = settings.even
                             ? equal_pieces_chain(plan, floor,
                                                  {band, settings.allowance, settings.min_z,

@@ -171,8 +171,8 @@ Raised raised_off(Vec3d start,
     constexpr int kRounds = 20;
     constexpr int kGentleRounds = 4;  // then larger steps
     for (int round = 0; clearance < allowed && round < kRounds; ++round) {
-        const double more = std::exp2(std::max(0, round - kGentleRounds));
-        const Vec3d raise{0.0, 0.0, more * (kWrittenStep + 1.5 * (allowed - clearance))};
+        const double factor = std::exp2(std::max(0, round - kGentleRounds));
+        const Vec3d raise{0.0, 0.0, factor * (kWrittenStep + 1.5 * (allowed - clearance))};
         start = written(start + raise);
         move.end = written(move.end + raise);
         clearance = clearance_of(start, move, floor, fine);
@@ -225,7 +225,7 @@ double certify(ClPath& path, const DropCutter& floor, const ClPathSettings& sett
 {
     const double allowed = allowed_clearance(settings);
     path.least_clearance = 0.0;
-    double most = 0.0;
+    double highest_lift = 0.0;
     // The chords of an arc use half of the clearance reserve; the slope has the rest.
     const double fine = std::max(0.5 * settings.clearance_reserve, kWrittenStep);
     for (std::size_t i = 0; i < path.moves.size(); ++i) {
@@ -254,7 +254,7 @@ double certify(ClPath& path, const DropCutter& floor, const ClPathSettings& sett
             continue;
         }
         path.least_clearance = std::min(path.least_clearance, raised.clearance);
-        most = std::max(most, lift);
+        highest_lift = std::max(highest_lift, lift);
         if (lift > settings.height_tolerance && i > 0 && along > kWrittenStep) {
             add_vertical_moves(path.moves, i, raised);
             ++i;
@@ -273,7 +273,7 @@ double certify(ClPath& path, const DropCutter& floor, const ClPathSettings& sett
         const double top = std::max(path.start.z, path.moves.back().end.z);
         path.start.z = path.moves.back().end.z = top;
     }
-    return most;
+    return highest_lift;
 }
 
 namespace {
@@ -282,13 +282,13 @@ namespace {
 //
 // allowed  mm: required clearance
 // least    mm: the least clearance found is stored here
-// most     mm: at a larger shortfall the remaining chords are skipped
+// max_shortfall  mm: at a larger one the remaining chords are skipped
 std::vector<double> shortfalls(Vec3d start,
                                const ClMove& move,
                                const DropCutter& floor,
                                double fine,
                                double allowed,
-                               double most,
+                               double max_shortfall,
                                double& least)
 {
     const auto raise = [&](double clearance) {
@@ -300,18 +300,18 @@ std::vector<double> shortfalls(Vec3d start,
     }
     std::vector<double> raises(move.curve.points.size(), 0.0);
     const Chords chords = chords_of(move.curve, fine);
-    for (std::size_t i = 1; i < chords.points.size() && allowed - least <= most; ++i) {
-        const double more =
+    for (std::size_t i = 1; i < chords.points.size() && allowed - least <= max_shortfall; ++i) {
+        const double raise_by =
             raise(floor.move_clearance(chords.points[i - 1], chords.points[i], chords.sagitta));
         // The four control points of the chord's span determine it.
         for (std::size_t k = chords.spans[i] - 3; k <= chords.spans[i]; ++k) {
-            raises[k] = std::max(raises[k], more);
+            raises[k] = std::max(raises[k], raise_by);
         }
     }
     return raises;
 }
 
-Vec3d raised(Vec3d p, double more) { return more > 0.0 ? written(p + Vec3d{0.0, 0.0, more}) : p; }
+Vec3d raised(Vec3d p, double by) { return by > 0.0 ? written(p + Vec3d{0.0, 0.0, by}) : p; }
 
 // Neighbouring moves share their ends, and therefore the larger of two raises.
 void raise_moves(ClPath& path, std::vector<std::vector<double>>& raises, bool closed)
@@ -344,7 +344,7 @@ double certify_curves(ClPath& path,
     constexpr int kRounds = 20;
     const double allowed = allowed_clearance(settings);
     const double fine = std::max(0.5 * settings.clearance_reserve, kWrittenStep);
-    double most = 0.0;
+    double lift = 0.0;
     for (int round = 0; round < kRounds && !path.moves.empty(); ++round) {
         path.least_clearance = 0.0;
         std::vector<std::vector<double>> raises;
@@ -362,9 +362,9 @@ double certify_curves(ClPath& path,
             break;
         }
         raise_moves(path, raises, closed);
-        most += kWrittenStep + 1.5 * lacks;
+        lift += kWrittenStep + 1.5 * lacks;
     }
-    return most;
+    return lift;
 }
 
 }  // namespace cusp::contour_pocket

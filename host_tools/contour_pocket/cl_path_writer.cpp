@@ -108,12 +108,12 @@ double ClPathWriter::begin_entry(Vec3d start, const EntryHeights& heights)
 
 void ClPathWriter::enter_along(const ClPath& path, const EntryHeights& heights, bool plunges)
 {
-    const bool stands = is_over(path.start);
+    const bool vertical = is_over(path.start);
     double z = begin_entry(path.start, heights);
     std::vector<Vec3d> pass = corners_of(path);
     const double way = (z - path.start.z) / kEntrySlope;
     const bool open = plan_distance(pass.front(), pass.back()) > kSamePlace;
-    if (open || (stands && way < plan_length(pass))) {
+    if (open || (vertical && way < plan_length(pass))) {
         pass = there_and_back(pass, way);
     }
     const double round = plan_length(pass);

@@ -11,7 +11,7 @@
 #include "host_tools/clearing/plunge_feed_limit.hpp"
 #include "host_tools/contour_pocket/loop_scallop.hpp"
 #include "host_tools/contour_pocket/loop_spacing.hpp"
-#include "host_tools/contour_pocket/partial_levels.hpp"
+#include "host_tools/contour_pocket/loops_in_strip.hpp"
 #include "host_tools/contour_pocket/pencil_detours.hpp"
 #include "host_tools/contour_pocket/pencil_passes.hpp"
 #include "host_tools/contour_pocket/pocket_path_writer.hpp"
@@ -55,12 +55,12 @@ namespace {
 double highest_over(const Tool& tool, const Tool& other)
 {
     constexpr int kPlaces = 16;
-    double most = 0.0;
+    double highest = 0.0;
     for (int i = 1; i <= kPlaces; ++i) {
         const double out = std::min(tool.radius, other.radius) * i / kPlaces;
-        most = std::max(most, profile_height(tool, out) - profile_height(other, out));
+        highest = std::max(highest, profile_height(tool, out) - profile_height(other, out));
     }
-    return most;
+    return highest;
 }
 
 // Limits of the cost of partial loops, as shares of the path length with entries. At cliffs partial
@@ -129,9 +129,9 @@ public:
             settings.repeated = beside_roughing(cleared, *rough);
             flatten(cleared, settings);
             end_with_partial_loops(cleared);
-            const bool stands = operation_.allowance > 0.0 ||
-                                rough->operation.path.tool.number != operation_.tool.number;
-            if (stands) {
+            const bool stock_left = operation_.allowance > 0.0 ||
+                                    rough->operation.path.tool.number != operation_.tool.number;
+            if (stock_left) {
                 settings.stock_beside = {stock_beside(cleared, settings.repeated), job_.stock_top,
                                          depths_beside(cleared, *rough)};
             }
@@ -163,11 +163,11 @@ private:
         const bool corners = settings.cover_corners;
         const bool whole = is_one_whole_surface(operation_);
         LoopSpacing interval{floor_, tolerances_, corners && !whole, !corners || !whole};
-        settings.stepover_from = [&, whole_area = area(region_)](const Region2d& level) {
-            report(kLevelsDone * (1.0 - area(level) / whole_area));
+        settings.stepover_from = [&, whole_area = area(region_)](const Region2d& ring) {
+            report(kLevelsDone * (1.0 - area(ring) / whole_area));
             return std::min(
                 widest, interval.stepover_from(
-                            level, corners && whole ? loop_scallop_.proven_stepover(level) : 0.0));
+                            ring, corners && whole ? loop_scallop_.proven_stepover(ring) : 0.0));
         };
         if (corners && whole) {
             settings.scallop_share_between = [&](const LoopStrip& strip) {
@@ -175,11 +175,11 @@ private:
             };
         }
         if (corners) {
-            settings.partial_stepover = [&](const Region2d& level, double step) {
-                return interval.with_partial_loops(level, step);
+            settings.partial_stepover = [&](const Region2d& ring, double step) {
+                return interval.with_partial_loops(ring, step);
             };
-            settings.partial_loops = [&](const LoopStrip& strip, double most) {
-                return partial_levels(strip, loop_scallop_, operation_.tool.radius, most);
+            settings.partial_loops = [&](const LoopStrip& strip, double max_length) {
+                return loops_in_strip(strip, loop_scallop_, operation_.tool.radius, max_length);
             };
         }
         ClearedRegion cleared = clear_region(region_, settings);
@@ -329,11 +329,11 @@ private:
         settings.depth_share = 0.7;
         const double top = job_.stock_top;
         settings.entry_heights = [top, roughed](double pass) {
-            const double metal = std::max(top, pass);
+            const double highest = std::max(top, pass);
             // Stock left by roughing is entered at the plunge feed: beside walls it has full
             // height.
-            const double slope = roughed ? std::min(metal, pass + *roughed + 0.5) : metal;
-            return EntryHeights{heights_over(metal).rapid, heights_over(slope).stock_top};
+            const double slope = roughed ? std::min(highest, pass + *roughed + 0.5) : highest;
+            return EntryHeights{heights_over(highest).rapid, heights_over(slope).stock_top};
         };
         return settings;
     }

@@ -95,9 +95,9 @@ Chain equal_pieces_chain(const std::vector<Edge>& plan,
     chain.start = {first.x, first.y, EdgePieces{plan.front(), floor, settings}.band_middle(first)};
     for (const Edge& edge : plan) {
         const EdgePieces pieces{edge, floor, settings};
-        const int most = 1 + static_cast<int>(length(edge) / settings.spacing);
+        const int max_count = 1 + static_cast<int>(length(edge) / settings.spacing);
         int count = pieces.least_count();
-        while (count < most && !pieces.fits(count)) {
+        while (count < max_count && !pieces.fits(count)) {
             count += 1 + count / 4;
         }
         for (int i = 1; i <= count; ++i) {

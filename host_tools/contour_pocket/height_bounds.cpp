@@ -57,15 +57,15 @@ BendBounds bounds_of(const BezierCell& cell, const BezierCell::Spread& e)
     if (n.z.low <= 0.0 && n.z.high >= 0.0) {
         return kUnknown;
     }
-    const Enclosure level = inverse(n.z);
-    const EnclosureVector unit{n.x * level, n.y * level, {1.0, 1.0}};
+    const Enclosure inverse_z = inverse(n.z);
+    const EnclosureVector unit{n.x * inverse_z, n.y * inverse_z, {1.0, 1.0}};
     const Enclosure ss = dot(unit, around(m.duu, e.dss));
     const Enclosure st = dot(unit, around(m.duv, e.dst));
     const Enclosure tt = dot(unit, around(m.dvv, e.dtt));
-    const Enclosure px = p.x * level;
-    const Enclosure py = p.y * level;
-    const Enclosure qx = q.x * level;
-    const Enclosure qy = q.y * level;
+    const Enclosure px = p.x * inverse_z;
+    const Enclosure py = p.y * inverse_z;
+    const Enclosure qx = q.x * inverse_z;
+    const Enclosure qy = q.y * inverse_z;
     const Enclosure xx = ss * (qy * qy) - 2.0 * (st * (qy * py)) + tt * (py * py);
     const Enclosure xy = st * (qy * px + qx * py) - ss * (qx * qy) - tt * (px * py);
     const Enclosure yy = ss * (qx * qx) - 2.0 * (st * (qx * px)) + tt * (px * px);

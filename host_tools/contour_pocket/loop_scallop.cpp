@@ -69,16 +69,16 @@ double LoopScallop::proven(const BendBounds& bounds) const
 }
 
 // As above, for passes in the box and floor up to `step` (mm) beside it.
-double LoopScallop::proven(const Box2d& level, double step) const
+double LoopScallop::proven(const Box2d& passes, double step) const
 {
     return proven(
-        bounds_.near({level.x0 - step, level.y0 - step, level.x1 + step, level.y1 + step}));
+        bounds_.near({passes.x0 - step, passes.y0 - step, passes.x1 + step, passes.y1 + step}));
 }
 
-double LoopScallop::proven_stepover(const Region2d& level) const
+double LoopScallop::proven_stepover(const Region2d& ring) const
 {
     constexpr double kMargin = 0.9999;
-    const Box2d box = box_of(level);
+    const Box2d box = box_of(ring);
     const double radius = floor_.tool().radius;
     const double flat =
         2.0 * std::sqrt(tolerances_.scallop_height * (2.0 * radius - tolerances_.scallop_height));
@@ -124,7 +124,7 @@ double LoopScallop::relative_scallop(const LoopStrip& strip)
     set_paths(strip.outer, step);
     set_paths(strip.inner, step);
     sort_segments(step);
-    double most = 0.0;
+    double largest = 0.0;
     for (const Contour& contour : strip.outer.contours) {
         Contour loop;
         for (std::size_t e = 0; e < contour.size(); ++e) {
@@ -134,14 +134,14 @@ double LoopScallop::relative_scallop(const LoopStrip& strip)
                 loop.push_back(contour[e]);
             }
         }
-        for (std::size_t e = 0; e < loop.size() && most < kEnough; ++e) {
+        for (std::size_t e = 0; e < loop.size() && largest < kEnough; ++e) {
             const Edge& before = loop[(e + loop.size() - 1) % loop.size()];
             const Edge& after = loop[(e + 1) % loop.size()];
             const Corners corners{turns(before, loop[e]), turns(loop[e], after)};
-            most = std::max(most, cross_lines_along(loop[e], corners, search));
+            largest = std::max(largest, cross_lines_along(loop[e], corners, search));
         }
     }
-    return most;
+    return largest;
 }
 
 // Neighbouring moves may each deviate from their paths; a scallop grows with the square of their
@@ -154,11 +154,11 @@ void LoopScallop::set_resolution(double step)
 }
 
 // Places without floor are refused when the path is projected.
-void LoopScallop::set_paths(const Region2d& level, double step)
+void LoopScallop::set_paths(const Region2d& ring, double step)
 {
     const double height = 0.2 * tolerances_.scallop_height;
     const StationSpacing spacing{0.5 * step, 0.02 * step, height, false};
-    for (const Contour& contour : level.contours) {
+    for (const Contour& contour : ring.contours) {
         const StationRow row = stations_along(contour, &floor_, spacing);
         for (std::size_t i = 1; i < row.stations.size(); ++i) {
             const Station& a = row.stations[i - 1];
@@ -206,9 +206,9 @@ void LoopScallop::sort_segments(double cell)
 Vec2d LoopScallop::inside_rim(Vec2d at, Vec2d touched) const
 {
     constexpr double kInside = 0.9999;
-    const double most = kInside * floor_.tool().radius;
+    const double farthest = kInside * floor_.tool().radius;
     const double out = distance(at, touched);
-    return out > most ? at + (touched - at) * (most / out) : touched;
+    return out > farthest ? at + (touched - at) * (farthest / out) : touched;
 }
 
 // Beside the contact, the lower side of a ball follows the floor. Below the rim of a flat bottom
@@ -285,7 +285,7 @@ double LoopScallop::uncut(const Probe& probe, bool stretches) const
 double LoopScallop::highest_between(const std::array<double, kPlaces + 1>& found,
                                     std::size_t n) const
 {
-    double most = 0.0;
+    double highest = 0.0;
     // Between two probes the height left by one pass rises and that left by the other falls. The
     // ridge is no higher than the intersection of their linear continuations, except for curvature.
     for (std::size_t i = 2; i + 1 < n; ++i) {
@@ -293,16 +293,16 @@ double LoopScallop::highest_between(const std::array<double, kPlaces + 1>& found
         const double fall = found[i + 1] - found[i + 2];
         const double meeting = (found[i + 1] - found[i] + fall) / (rise + fall);
         if (rise > 0.0 && fall > 0.0 && meeting >= 0.0 && meeting <= 1.0) {
-            most = std::max(most, found[i] + rise * meeting);
+            highest = std::max(highest, found[i] + rise * meeting);
         }
     }
     // The steps of a flat bottom rise up to the next pass and end there.
     for (std::size_t i = 1; !ball_ && i < n; ++i) {
         const double rise = found[i] - found[i - 1];
         const double fall = found[i] - found[i + 1];
-        most = std::max(most, found[i] + std::min(std::max(0.0, rise), std::max(0.0, fall)));
+        highest = std::max(highest, found[i] + std::min(std::max(0.0, rise), std::max(0.0, fall)));
     }
-    return most;
+    return highest;
 }
 
 LoopScallop::CrossLine LoopScallop::cross_line(const Edge& edge,
@@ -339,25 +339,25 @@ LoopScallop::CrossLine LoopScallop::cross_line(const Edge& edge,
         end = good;
     }
     std::array<double, kPlaces + 1> found{};
-    double most = 0.0;
+    double largest = 0.0;
     double climb = 0.0;
     CrossLine result{along, 0.0, 0.0};
     const int n = std::max(1, static_cast<int>(std::ceil(places_ * end / step)));
-    for (int i = 0; i <= n && most < kEnough; ++i) {
+    for (int i = 0; i <= n && largest < kEnough; ++i) {
         const Probe here = probe(place(end * i / n));
         if (i > 0) {
             const Probe& before = result.probes[static_cast<std::size_t>(i) - 1];
-            most = std::max(most, left_between(before, here));
+            largest = std::max(largest, left_between(before, here));
         }
         result.probes[static_cast<std::size_t>(i)] = here;
         result.count = i + 1;
         climb = i == 0 ? dot(here.gradient, tangent) : climb;
         const double stock_beside = uncut(here, search.stretches);
         found[static_cast<std::size_t>(i)] = stock_beside;
-        most = std::max(most, stock_beside);
+        largest = std::max(largest, stock_beside);
     }
-    most = std::max(most, highest_between(found, static_cast<std::size_t>(n)));
-    result.share = most;
+    largest = std::max(largest, highest_between(found, static_cast<std::size_t>(n)));
+    result.share = largest;
     result.climb = climb;
     return result;
 }
@@ -388,14 +388,14 @@ double LoopScallop::cross_lines_along(const Edge& edge, Corners corners, const S
 {
     const std::vector<double> places = places_along(edge, corners, search.step);
     CrossLine last = cross_line(edge, 0.0, search);
-    double most = last.share;
-    for (std::size_t i = 1; i < places.size() && most < kEnough; ++i) {
+    double largest = last.share;
+    for (std::size_t i = 1; i < places.size() && largest < kEnough; ++i) {
         const CrossLine next = cross_line(edge, places[i], search);
-        most = std::max(
-            {most, next.share, left_beside(last, next), between(edge, last, next, search)});
+        largest = std::max(
+            {largest, next.share, left_beside(last, next), between(edge, last, next, search)});
         last = next;
     }
-    return most;
+    return largest;
 }
 
 double LoopScallop::between(const Edge& edge,
@@ -406,10 +406,10 @@ double LoopScallop::between(const Edge& edge,
     constexpr double kNear = 0.6;
     constexpr double kEven = 0.1;
     const double apart = (b.along - a.along) * length(edge);
-    const double most = std::max(a.share, b.share);
-    const bool uneven = most > kNear && std::abs(a.share - b.share) > kEven;
+    const double largest = std::max(a.share, b.share);
+    const bool uneven = largest > kNear && std::abs(a.share - b.share) > kEven;
     const bool turns_level = !ball_ && a.climb * b.climb < 0.0;
-    if (apart < kNearestWays * floor_.tool().radius || most > kEnough ||
+    if (apart < kNearestWays * floor_.tool().radius || largest > kEnough ||
         (!uneven && !turns_level)) {
         return 0.0;
     }

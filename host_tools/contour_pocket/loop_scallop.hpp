@@ -36,7 +36,7 @@ public:
 
     // mm: how far inward from the ring the next one may lie so that HeightBounds alone prove a
     // relative_scallop() of at most 1; 0 where they prove nothing.
-    double proven_stepover(const offset::Region2d& level) const;
+    double proven_stepover(const offset::Region2d& ring) const;
 
     // mm: how far apart along a straight line the tip's heights and slopes may be computed so that
     // the cubic through them is within `max_error` (mm) of the true height, by HeightBounds; 0
@@ -86,7 +86,7 @@ private:
         bool stretches;  // for partial loops
     };
     void set_resolution(double step);
-    void set_paths(const offset::Region2d& level, double step);
+    void set_paths(const offset::Region2d& ring, double step);
     void sort_segments(double cell);
     CrossLine cross_line(const offset::Edge& edge, double along, const Search& search) const;
     struct Corners {
@@ -121,7 +121,7 @@ private:
     double highest_between(const std::array<double, kPlaces + 1>& found, std::size_t n) const;
     double left_at(Vec2d at, Vec2d near) const;
 
-    double proven(const offset::Box2d& level, double step) const;
+    double proven(const offset::Box2d& passes, double step) const;
     double proven(const BendBounds& bounds) const;
 
     const drop_cutter::DropCutter& floor_;

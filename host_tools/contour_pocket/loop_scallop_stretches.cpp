@@ -57,7 +57,7 @@ void LoopScallop::stretches_on(const Edge& edge,
 {
     constexpr double kPoint = 1e-6;  // mm
     // A flat bottom leaves steps over narrow places between the lines.
-    const double most = ball_ ? 1.0 : 0.85;
+    const double max_share = ball_ ? 1.0 : 0.85;
     const bool corners = search.foot == 0.0;
     const std::vector<double> places = places_along(edge, {corners, corners}, search.step);
     double begin = -1.0;
@@ -74,7 +74,7 @@ void LoopScallop::stretches_on(const Edge& edge,
         const CrossLine next = cross_line(edge, places[i], search);
         const double share = std::max(
             {last.share, next.share, left_beside(last, next), between(edge, last, next, search)});
-        if (share > most) {
+        if (share > max_share) {
             begin = begin < 0.0 ? places[i - 1] : begin;
         } else if (begin >= 0.0) {
             close(places[i - 1]);

@@ -37,7 +37,7 @@ double LoopScallop::left_under(const Probe& a, const Probe& b) const
         return 0.0;
     }
     const Lowest lowest = where_sides_meet(a, b);
-    double most = 0.0;
+    double largest = 0.0;
     for (int i = 1; i < kPieces; ++i) {
         const double share = static_cast<double>(i) / kPieces;
         const Vec2d p = a.touched + (b.touched - a.touched) * share;
@@ -49,9 +49,9 @@ double LoopScallop::left_under(const Probe& a, const Probe& b) const
         const Vec2d slope = a.gradient * (1.0 - share) + b.gradient * share;
         const double secant = std::sqrt(1.0 + dot(slope, slope));
         const double left = std::min({left_at(p, a.at), left_at(p, lowest.at), left_at(p, b.at)});
-        most = std::max(most, (left - best) / (secant * scallop_share_ * allowed(secant)));
+        largest = std::max(largest, (left - best) / (secant * scallop_share_ * allowed(secant)));
     }
-    return most;
+    return largest;
 }
 
 // Over a valley too narrow for a flat end: height left above the middle and the rim of the flat at
@@ -70,28 +70,28 @@ double LoopScallop::left_under_flat(const Probe& a, const Probe& b) const
     const Lowest lowest = where_sides_meet(a, b);
     const Tool& tool = floor_.tool();
     const double foot = kInside * (tool.radius - tool.corner_radius);
-    double most = lowest.height;
+    double highest = lowest.height;
     for (int i = 0; i <= kRound; ++i) {
         const double angle = 2 * kPi * i / kRound;
         const Vec2d way{std::cos(angle), std::sin(angle)};
         const Vec2d p = i < kRound ? lowest.at + way * foot : lowest.at;
         const double left =
             std::min({left_at(p, lowest.at), left_at(p, (lowest.at + p) * 0.5), left_at(p, p)});
-        most = left < kUnbounded ? std::max(most, left) : most;  // else beyond both rings
+        highest = left < kUnbounded ? std::max(highest, left) : highest;  // else beyond both rings
     }
     // A step is highest just before the next pass, up to one probe beyond those examined.
     const double unseen = static_cast<double>(places_) / (places_ - 1);
-    return unseen * (most - lowest.height) / (scallop_share_ * allowed(1.0));
+    return unseen * (highest - lowest.height) / (scallop_share_ * allowed(1.0));
 }
 
 // The two sides of a valley that the tool touches are found by different cross lines.
 double LoopScallop::left_beside(const CrossLine& a, const CrossLine& b) const
 {
-    double most = 0.0;
+    double largest = 0.0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(std::min(a.count, b.count)); ++i) {
-        most = std::max(most, left_between(a.probes[i], b.probes[i]));
+        largest = std::max(largest, left_between(a.probes[i], b.probes[i]));
     }
-    return most;
+    return largest;
 }
 
 }  // namespace cusp::contour_pocket

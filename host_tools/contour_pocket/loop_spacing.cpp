@@ -38,7 +38,7 @@ double scallop_between(const Tool& tool, const std::vector<double>& heights, dou
 {
     constexpr int kPlaces = 24;
     const auto n = static_cast<double>(heights.size() - 1);
-    double most = 0.0;
+    double highest = 0.0;
     for (int i = 1; i < kPlaces; ++i) {
         const double x = apart * i / kPlaces;
         const auto cut_from = [&](double t, double height) {
@@ -58,9 +58,9 @@ double scallop_between(const Tool& tool, const std::vector<double>& heights, dou
         const std::size_t a = at > 0 ? at - 1 : 0;
         const std::size_t b = std::min(at + 1, heights.size() - 1);
         const double slope = (heights[b] - heights[a]) / (apart * static_cast<double>(b - a) / n);
-        most = std::max(most, (left - best) / std::sqrt(1.0 + slope * slope));
+        highest = std::max(highest, (left - best) / std::sqrt(1.0 + slope * slope));
     }
-    return most;
+    return highest;
 }
 
 double least_stepover(const Tool& tool, const ToleranceSplit& tolerances)
@@ -77,12 +77,12 @@ double LoopSpacing::within_limits(double interval) const
 
 double LoopSpacing::found() const { return within_limits(least_); }
 
-double LoopSpacing::stepover_from(const Region2d& level, double proven)
+double LoopSpacing::stepover_from(const Region2d& ring, double proven)
 {
     constexpr double kWorthIt = 0.95;
     least_ = kUnbounded;
     const double apart = kSamplesApart * floor_.tool().radius;
-    for (const Contour& contour : level.contours) {
+    for (const Contour& contour : ring.contours) {
         std::optional<Vec2d> corner;
         Vec2d arriving = tangent_at_end(contour.back());
         since_ = kUnbounded;
@@ -103,7 +103,7 @@ double LoopSpacing::stepover_from(const Region2d& level, double proven)
     return found();
 }
 
-double LoopSpacing::with_partial_loops(const Region2d& level, double step) const
+double LoopSpacing::with_partial_loops(const Region2d& ring, double step) const
 {
     constexpr double kUneven = 0.7;
     constexpr double kWorthIt = 0.85;
@@ -114,7 +114,7 @@ double LoopSpacing::with_partial_loops(const Region2d& level, double step) const
         return 0.0;
     }
     std::vector<double> intervals;
-    for (const Contour& contour : level.contours) {
+    for (const Contour& contour : ring.contours) {
         double next = 0.0;  // mm along the edge
         for (const Edge& edge : contour) {
             const double whole = length(edge);
@@ -193,7 +193,7 @@ bool LoopSpacing::as_expected(const DropCutter::CcPoint& a,
     return std::abs(rise - by_slopes) < slack && std::abs(turned) * apart < 4.0 * slack;
 }
 
-double LoopSpacing::by_scallop(Vec2d at, Vec2d direction, double most) const
+double LoopSpacing::by_scallop(Vec2d at, Vec2d direction, double widest) const
 {
     constexpr int kPlaces = 32;
     constexpr int kWindow = 4;  // places by which successive windows differ
@@ -218,11 +218,11 @@ double LoopSpacing::by_scallop(Vec2d at, Vec2d direction, double most) const
         }
         return true;
     };
-    if (low_enough(most)) {
-        return most;
+    if (low_enough(widest)) {
+        return widest;
     }
-    double good = std::min(most, kLeastShare * floor_.tool().radius);
-    double bad = most;
+    double good = std::min(widest, kLeastShare * floor_.tool().radius);
+    double bad = widest;
     for (int i = 0; i < kHalvings; ++i) {
         const double middle = 0.5 * (good + bad);
         (low_enough(middle) ? good : bad) = middle;

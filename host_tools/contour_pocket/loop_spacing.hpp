@@ -38,12 +38,12 @@ public:
     //
     // proven  mm: a distance at which no scallop is too high, see LoopScallop. It is returned as
     //         soon as a place of the ring allows hardly more, since others could only allow less.
-    double stepover_from(const offset::Region2d& level, double proven = 0.0);
+    double stepover_from(const offset::Region2d& ring, double proven = 0.0);
 
     // mm: how far inward the next ring may lie for the shortest path if parts that need less get
     // partial loops at halves, quarters ... of that; 0 if whole loops `step` apart are as good. By
     // the stepover formula alone.
-    double with_partial_loops(const offset::Region2d& level, double step) const;
+    double with_partial_loops(const offset::Region2d& ring, double step) const;
 
 private:
     struct Sample {

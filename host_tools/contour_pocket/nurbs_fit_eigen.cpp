@@ -134,15 +134,16 @@ std::optional<Curve> least_squares(const Samples& samples, int count)
 // the squared step times its second derivative. That of a cubic is linear between knots, so the
 // largest value is at a station or a knot.
 bool stays_between(
-    const Curve& curve, const Station& a, const Station& b, double from, double to, Vec3d most)
+    const Curve& curve, const Station& a, const Station& b, double from, double to, Vec3d tolerance)
 {
     const double step = to - from;
     const Vec2d way = b.at - a.at;
     const Vec2d bent = left_normal(way) * (b.bend * std::sqrt(dot(way, way)));
     const auto strays = [&](double u) {
         const Vec3d second = derivatives_at(curve, u).second * (step * step);
-        const Vec2d off = in_plan(second) - bent;
-        return std::sqrt(dot(off, off)) > 8.0 * most.x || std::abs(second.z) > 8.0 * most.z;
+        const Vec2d error = in_plan(second) - bent;
+        return std::sqrt(dot(error, error)) > 8.0 * tolerance.x ||
+               std::abs(second.z) > 8.0 * tolerance.z;
     };
     const double inside = 1e-6 * step;
     if (strays(from + inside) || strays(to - inside)) {
@@ -161,10 +162,10 @@ bool passes(const Curve& curve,
 {
     for (std::size_t k = 0; k < stations.size(); ++k) {
         const Vec3d p = point_at(curve, samples.shares[k]);
-        const Vec2d off = in_plan(p) - stations[k].at;
-        const double over = p.z - stations[k].height - dot(stations[k].gradient, off);
-        if (!(dot(off, off) <= band.plan_tolerance * band.plan_tolerance) || !(over >= band.low) ||
-            !(over <= band.high)) {
+        const Vec2d error = in_plan(p) - stations[k].at;
+        const double over = p.z - stations[k].height - dot(stations[k].gradient, error);
+        if (!(dot(error, error) <= band.plan_tolerance * band.plan_tolerance) ||
+            !(over >= band.low) || !(over <= band.high)) {
             return false;
         }
     }
@@ -187,7 +188,7 @@ bool nurbs_fit_available() { return true; }
 std::optional<Curve> fit_cubic(const std::vector<Station>& stations, const StationBand& band)
 {
     const Samples samples = samples_of(stations, band.middle());
-    const int most = static_cast<int>(stations.size()) / 2;
+    const int max_count = static_cast<int>(stations.size()) / 2;
     const auto fitted = [&](int count) -> std::optional<Curve> {
         auto curve = least_squares(samples, count);
         const bool good = curve && passes(*curve, stations, samples, band);
@@ -196,7 +197,7 @@ std::optional<Curve> fit_cubic(const std::vector<Station>& stations, const Stati
     std::optional<Curve> best;
     int bad = 3;
     int count = 4;
-    for (; count <= most && !best; count *= 2) {
+    for (; count <= max_count && !best; count *= 2) {
         best = fitted(count);
         bad = best ? bad : count;
     }

@@ -397,11 +397,11 @@ private:
             const auto found = between(ahead - side, ahead + side);
             if (found) {
                 const Vec2d gone = found->at - from.at;
-                const double off = std::abs(dot(gone, left_normal(way)));
+                const double error = std::abs(dot(gone, left_normal(way)));
                 const double room = (found->jump ? 4.0 : 40.0) * search_.fine;
-                if (off <= room || step < 2.0 * shortest) {
+                if (error <= room || step < 2.0 * shortest) {
                     const Vec2d on = unit(gone);
-                    step *= off < 0.3 * room ? 1.5 : 1.0;
+                    step *= error < 0.3 * room ? 1.5 : 1.0;
                     step = std::min(step, kLongestStep * radius_);
                     return Step{*found, on};
                 }

@@ -85,12 +85,12 @@ private:
     void follow(Line begin, Line end)
     {
         for (Line line = begin; line != end; ++line) {
-            for (double off = settings_.distance; off <= kFarthest * settings_.distance;
-                 off *= 2.0) {
-                std::vector<ClearingPass> found = along(*line, off);
+            for (double side_step = settings_.distance; side_step <= kFarthest * settings_.distance;
+                 side_step *= 2.0) {
+                std::vector<ClearingPass> found = along(*line, side_step);
                 const bool low = std::all_of(found.begin(), found.end(),
                                              [&](const ClearingPass& p) { return lies_low(p); });
-                if (low || off == kFarthest * settings_.distance) {
+                if (low || side_step == kFarthest * settings_.distance) {
                     passes_.insert(passes_.end(), found.begin(), found.end());
                     break;
                 }
@@ -109,13 +109,13 @@ private:
         ClPathSettings path_settings = settings_.path_settings;
         path_settings.arcs = path_settings.nurbs = false;
         const ClPath path = drop_path(pass.path, floor_, path_settings);
-        const double most = 1.5 * settings_.path_settings.height_tolerance +
-                            2.0 * settings_.path_settings.clearance_reserve;
+        const double lift_allowed = 1.5 * settings_.path_settings.height_tolerance +
+                                    2.0 * settings_.path_settings.clearance_reserve;
         double length = 0.0;
         Vec3d from = path.start;
         for (const ClMove& move : path.moves) {
             const Vec3d middle = (from + move.end) * 0.5;
-            const bool lifted = middle.z > floor_.tip_height({middle.x, middle.y}) + most;
+            const bool lifted = middle.z > floor_.tip_height({middle.x, middle.y}) + lift_allowed;
             length += lifted ? distance(in_plan(from), {move.end.x, move.end.y}) : 0.0;
             from = move.end;
         }
@@ -123,48 +123,48 @@ private:
     }
 
     // Passes along the parts of the curve where passes may run and remove enough.
-    std::vector<ClearingPass> along(const PencilCurve& line, double off)
+    std::vector<ClearingPass> along(const PencilCurve& line, double side_step)
     {
         std::vector<Vec2d> path;
-        std::vector<bool> resolution;
+        std::vector<bool> kept;
         double since = kUnbounded;
         const double apart = kAlong * floor_.tool().radius;
         for (const PencilPoint& point : line.points) {
-            const Vec2d p = point.at + point.low_side * off;
+            const Vec2d p = point.at + point.low_side * side_step;
             const double step = path.empty() ? 0.0 : distance(path.back(), p);
             if (!inside(p) || (!path.empty() && step < kLeastStep)) {
                 continue;
             }
             since += step;
             const bool again = since >= apart;
-            resolution.push_back((jumps_count_ && point.jump) ||
-                                 (again ? is_worth(p) : resolution.back()));
+            kept.push_back((jumps_count_ && point.jump) ||
+                           (again ? removes_enough(p) : kept.back()));
             since = again ? 0.0 : since;
             path.push_back(p);
         }
         if (line.closed && path.size() > 2) {
             path.push_back(path.front());
-            resolution.push_back(resolution.front());
+            kept.push_back(kept.front());
         }
-        fill_openings(path, resolution);
-        return passes_on(path, resolution);
+        fill_openings(path, kept);
+        return passes_on(path, kept);
     }
 
     // Whether the tool there removes more than may remain.
-    bool is_worth(Vec2d q)
+    bool removes_enough(Vec2d q)
     {
         constexpr double kRings[] = {0.0, 0.3, 0.55, 0.75, 0.9, 0.985};
         constexpr int kSpokes = 16;
         const Tool& tool = floor_.tool();
         const auto cl = floor_.drop(q).value_or(DropCutter::ClPoint{-kUnbounded, {}, 0});
-        const double level = 1.0 / std::sqrt(1.0 + dot(cl.slope, cl.slope));
+        const double cos_slope = 1.0 / std::sqrt(1.0 + dot(cl.slope, cl.slope));
         for (const double ring : kRings) {
             const double out = ring * tool.radius;
             const double cut = cl.z + profile_height(tool, out);
             for (int spoke = 0; spoke < (ring > 0.0 ? kSpokes : 1); ++spoke) {
                 const double angle = 2 * kPi * spoke / kSpokes;
                 const Vec2d p = q + Vec2d{std::cos(angle), std::sin(angle)} * out;
-                if ((leavings_->height(p) - cut) * level > settings_.max_uncut) {
+                if ((leavings_->height(p) - cut) * cos_slope > settings_.max_uncut) {
                     return true;
                 }
             }
@@ -173,19 +173,19 @@ private:
     }
 
     // Passes continue over short gaps instead of retracting.
-    void fill_openings(const std::vector<Vec2d>& path, std::vector<bool>& resolution) const
+    void fill_openings(const std::vector<Vec2d>& path, std::vector<bool>& kept) const
     {
         const double longest = kWorthOn * floor_.tool().radius;
         std::size_t last = path.size();
         double since = 0.0;
         for (std::size_t i = 0; i < path.size(); ++i) {
             since += i > 0 ? distance(path[i - 1], path[i]) : 0.0;
-            if (!resolution[i]) {
+            if (!kept[i]) {
                 continue;
             }
             if (last < path.size() && since < longest) {
-                std::fill(resolution.begin() + static_cast<std::ptrdiff_t>(last),
-                          resolution.begin() + static_cast<std::ptrdiff_t>(i), true);
+                std::fill(kept.begin() + static_cast<std::ptrdiff_t>(last),
+                          kept.begin() + static_cast<std::ptrdiff_t>(i), true);
             }
             last = i;
             since = 0.0;
@@ -194,7 +194,7 @@ private:
 
     // A pass for each stretch of the path, from the place before it to the place after it.
     std::vector<ClearingPass> passes_on(const std::vector<Vec2d>& path,
-                                        const std::vector<bool>& resolution) const
+                                        const std::vector<bool>& kept) const
     {
         std::vector<ClearingPass> passes;
         ClearingPass pass;
@@ -209,7 +209,7 @@ private:
         };
         const double longest = 0.25 * floor_.tool().radius;
         for (std::size_t i = 1; i < path.size(); ++i) {
-            const bool on = resolution[i - 1] || resolution[i];
+            const bool on = kept[i - 1] || kept[i];
             const bool whole =
                 distance(path[i - 1], path[i]) < longest && inside((path[i - 1] + path[i]) * 0.5);
             if (on && whole) {

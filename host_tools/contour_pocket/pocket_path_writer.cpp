@@ -296,11 +296,11 @@ PocketPathWriter::ProjectedPass PocketPathWriter::cut_above(const ProjectedPass&
     entering.path_settings.nurbs = false;
     double before = kUnbounded;
     for (int i = 0; i < kMostCuts; ++i) {
-        const auto level = allowed_height_over(last.path, settings);
-        if (!level || *level > before - kWrittenStep) {
+        const auto height = allowed_height_over(last.path, settings);
+        if (!height || *height > before - kWrittenStep) {
             break;
         }
-        before = std::max(*level, settings.path_settings.min_z);
+        before = std::max(*height, settings.path_settings.min_z);
         entering.path_settings.min_z = before;
         entering.entry_heights = [highest = stock_top_over(last.path)](double pass) {
             return heights_over(std::max(highest, pass));
@@ -360,13 +360,13 @@ void PocketPathWriter::cut_beside_stock(std::vector<ClearingPass>& passes,
     }
     double above = settings.stock_beside.top;
     std::size_t last = 0;
-    for (const double level : settings.stock_beside.heights) {
-        over.path_settings.min_z = level;
+    for (const double height : settings.stock_beside.heights) {
+        over.path_settings.min_z = height;
         over.entry_heights = [above](double pass) {
             return heights_over(std::max(above, pass));
         };
         for (std::size_t i = 0; i < passes.size(); ++i) {
-            if (lowest[i] < level - kWrittenStep) {
+            if (lowest[i] < height - kWrittenStep) {
                 if (last > i) {
                     return_over(passes, last, i, over);
                 }
@@ -375,7 +375,7 @@ void PocketPathWriter::cut_beside_stock(std::vector<ClearingPass>& passes,
                 last = i;
             }
         }
-        above = level;
+        above = height;
     }
     if (last > 0) {
         return_over(passes, last, 0, over);

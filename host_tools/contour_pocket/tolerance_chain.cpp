@@ -198,8 +198,8 @@ private:
         for (std::size_t k = i + 1; k <= limit; ++k) {
             const Station& s = stations_[k];
             const double along = std::max(dot(s.at - at_, way), 1e-9);
-            const Vec2d off = at_ + way * along - s.at;
-            const double floor = s.height + dot(s.gradient, off);
+            const Vec2d error = at_ + way * along - s.at;
+            const double floor = s.height + dot(s.gradient, error);
             Rise next = rise;
             if (ends_home(k)) {
                 next.pass(along, home_.z - z_, home_.z - z_);
@@ -245,8 +245,8 @@ private:
             const Station& s = stations_[k];
             const Vec2d spoke = (k == j ? end : s.at) - centre;
             const double angle = angle_of(k == j ? end : s.at);
-            const double off = radius / std::sqrt(dot(spoke, spoke)) - 1.0;
-            const double here = std::abs(off) * std::sqrt(dot(spoke, spoke));
+            const double share = radius / std::sqrt(dot(spoke, spoke)) - 1.0;
+            const double here = std::abs(share) * std::sqrt(dot(spoke, spoke));
             const double apart = radius * (angle - before);
             const double bulge = 0.125 * apart * apart * std::abs(turn / radius - s.bend);
             if (angle < before || angle > 3.0 || here > band_.plan_tolerance ||
@@ -258,7 +258,7 @@ private:
             if (angle < 1e-9) {
                 continue;
             }
-            const double floor = s.height + dot(s.gradient, spoke * off);
+            const double floor = s.height + dot(s.gradient, spoke * share);
             if (ends_home(k)) {
                 rise.pass(angle, home_.z - z_, home_.z - z_);
             } else {

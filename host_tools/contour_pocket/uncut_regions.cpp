@@ -89,8 +89,8 @@ private:
     {
         constexpr double kFarthest = 16.0;  // cells: limit of the search
         struct Room {
-            double least{0.0};
-            double most{kUnbounded};
+            double min_distance{0.0};
+            double max_distance{kUnbounded};
         };
         const double near = 1.01 * cell_;
         places_.assign(rest_.size(), Place::kOutside);
@@ -101,16 +101,17 @@ private:
             for (int j = 0; j < rows_; ++j) {
                 Room& beside = rooms[static_cast<std::size_t>(j)];
                 const Vec2d p = centre(i, j);
-                room = {std::max(room.least, beside.least) - cell_,
-                        std::min(room.most, beside.most) + cell_};
-                if (room.least < wall_clearance_ && room.most >= wall_clearance_) {
+                room = {std::max(room.min_distance, beside.min_distance) - cell_,
+                        std::min(room.max_distance, beside.max_distance) + cell_};
+                if (room.min_distance < wall_clearance_ && room.max_distance >= wall_clearance_) {
                     const double farthest = wall_clearance_ + kFarthest * cell_;
-                    room.least = walls_.nearest(p, std::min(farthest, room.most));
-                    room.most = room.least < farthest ? room.least : kUnbounded;
+                    room.min_distance = walls_.nearest(p, std::min(farthest, room.max_distance));
+                    room.max_distance =
+                        room.min_distance < farthest ? room.min_distance : kUnbounded;
                 }
                 beside = room;
-                const bool at_wall = room.least < wall_clearance_;
-                if (j == 0 || (at_wall && room.least < near) || near > wall_clearance_) {
+                const bool at_wall = room.min_distance < wall_clearance_;
+                if (j == 0 || (at_wall && room.min_distance < near) || near > wall_clearance_) {
                     inside = walls_.contains(p);
                 }
                 if (inside) {

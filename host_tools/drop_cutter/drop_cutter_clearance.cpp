@@ -49,9 +49,9 @@ Vec3d between_segments(Vec3d a, Vec3d b, Vec3d c, Vec3d d)
 // The distance of segment ab from segment cd and everything straight below it.
 double above_edge(Vec3d a, Vec3d b, Vec3d c, Vec3d d)
 {
-    const Vec3d off = between_segments(a, b, c, d);
-    if (off.z >= 0.0) {
-        return norm(off);
+    const Vec3d apart = between_segments(a, b, c, d);
+    if (apart.z >= 0.0) {
+        return norm(apart);
     }
     a.z = b.z = c.z = d.z = 0.0;
     return norm(between_segments(a, b, c, d));

@@ -91,11 +91,11 @@ struct DropCutter::State {
     struct Domain {
         double u0, u1, v0, v1;
     };
-    // The part of a piece inside the trims: points, off by at most `off` mm, in whose hull it lies.
+    // The part of a piece inside the trims: points, wrong by at most `error` mm, in whose hull it lies.
     struct Remnant {
         std::vector<Vec3d> points;
         std::size_t edge;  // from this index on they are points of the edge
-        double off;
+        double error;
     };
     struct Query {
         Vec2d at;

@@ -81,12 +81,12 @@ DropCutter::State::Remnant DropCutter::State::remnant_of(const Piece& piece) con
     for (std::size_t k = 0; k < size; ++k) {
         const double s = static_cast<double>(k / columns) / static_cast<double>(rows - 1);
         const double t = static_cast<double>(k % columns) / static_cast<double>(columns - 1);
-        left.off = std::max(left.off, norm(points[k] - on_plane(s, t)));
+        left.error = std::max(left.error, norm(points[k] - on_plane(s, t)));
         const double weight = patch.weighted ? weights_[piece.net + k] : 1.0;
         least = std::min(least, weight);
         most = std::max(most, weight);
     }
-    left.off += (most / least - 1.0) * (norm(by_s) + norm(by_t)) + kRounding;
+    left.error += (most / least - 1.0) * (norm(by_s) + norm(by_t)) + kRounding;
     const Domain d = domain_of(piece);
     const TrimRegion::Remnant remnant = trims_[patch.surface].remnant(d.u0, d.u1, d.v0, d.v1);
     const auto place = [&](Vec2d at) {
@@ -159,34 +159,34 @@ void DropCutter::State::measure_remnant(Piece& piece)
         low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
-    piece.x0 = std::max(piece.x0, low.x - left.off);
-    piece.y0 = std::max(piece.y0, low.y - left.off);
-    piece.z0 = std::max(piece.z0, low.z - left.off);
-    piece.x1 = std::min(piece.x1, high.x + left.off);
-    piece.y1 = std::min(piece.y1, high.y + left.off);
-    piece.z1 = std::min(piece.z1, high.z + left.off);
+    piece.x0 = std::max(piece.x0, low.x - left.error);
+    piece.y0 = std::max(piece.y0, low.y - left.error);
+    piece.z0 = std::max(piece.z0, low.z - left.error);
+    piece.x1 = std::min(piece.x1, high.x + left.error);
+    piece.y1 = std::min(piece.y1, high.y + left.error);
+    piece.z1 = std::min(piece.z1, high.z + left.error);
     for (std::size_t i = 0; i < outline.count; ++i) {
         Side& side = outline.sides[i];
         Side within = Side::none(side.across);
         for (const Vec3d& p : left.points) {
             widen(within, in_plan(p));
         }
-        side.inner = std::max(side.inner, within.inner - left.off);
-        side.outer = std::min(side.outer, within.outer + left.off);
-        side.low = std::max(side.low, within.low - left.off);
-        side.high = std::min(side.high, within.high + left.off);
+        side.inner = std::max(side.inner, within.inner - left.error);
+        side.outer = std::min(side.outer, within.outer + left.error);
+        side.low = std::max(side.low, within.low - left.error);
+        side.high = std::min(side.high, within.high + left.error);
     }
     double bow = 0.0;
     if (const std::optional<Side> along = side_along(left, bow)) {
         outline.sides[outline.count++] = {along->across,
-                                          along->inner - left.off,
-                                          along->outer + left.off,
-                                          along->low - left.off,
-                                          along->high + left.off,
+                                          along->inner - left.error,
+                                          along->outer + left.error,
+                                          along->low - left.error,
+                                          along->high + left.error,
                                           0.0,
                                           0.0};
     }
-    outline.bow = std::max(outline.bow, bow + 2.0 * left.off);
+    outline.bow = std::max(outline.bow, bow + 2.0 * left.error);
     end_sides(outline);
     piece.outlined = true;
     if (measured) {

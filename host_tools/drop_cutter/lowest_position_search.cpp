@@ -174,7 +174,7 @@ Vec2d LowestPositionSearch::improved(Vec3d place, Vec2d at)
 
 void LowestPositionSearch::improve_from(const Position& start,
                                         Vec3d place,
-                                        double resolution,
+                                        double exact_below,
                                         std::optional<Position>& best)
 {
     const auto take = [&](const Position& answer) {
@@ -187,8 +187,8 @@ void LowestPositionSearch::improve_from(const Position& start,
     for (int drops = 0; drops < kMostDrops; ++drops) {
         const Vec2d to = improved(place, at);
         const double bound = lowest_known(place, to);
-        // From this start nothing lower than the best or the resolution can be reached.
-        if (bound > resolution || bound > best->height - agreement_) {
+        // From this start nothing lower than the best or `exact_below` can be reached.
+        if (bound > exact_below || bound > best->height - agreement_) {
             return;
         }
         const DroppedTool rest = drop_(to.x, to.y);
@@ -358,7 +358,7 @@ std::optional<LowestPositionSearch::Position> LowestPositionSearch::lower_than(d
 }
 
 std::optional<LowestPositionSearch::Position> LowestPositionSearch::lowest_over(
-    Vec3d place, double resolution, double sufficient, std::optional<Vec2d> guess)
+    Vec3d place, double exact_below, double sufficient, std::optional<Vec2d> guess)
 {
     std::optional<Position> first;
     if (guess) {
@@ -379,15 +379,15 @@ std::optional<LowestPositionSearch::Position> LowestPositionSearch::lowest_over(
     // Fast rejection: usually nothing lower exists.
     if (ball && !starts.empty() &&
         std::none_of(starts.begin(), starts.end(),
-                     [&](const Position& start) { return start.height < resolution; })) {
+                     [&](const Position& start) { return start.height < exact_below; })) {
         bool proved = false;
-        best = lower_than(resolution - agreement_, place, proved);
+        best = lower_than(exact_below - agreement_, place, proved);
         if (!best && proved) {
             return starts.front();
         }
     }
     for (const Position& start : starts) {
-        improve_from(start, place, resolution, best);
+        improve_from(start, place, exact_below, best);
         if (best->height <= sufficient) {
             return best;
         }
@@ -395,15 +395,15 @@ std::optional<LowestPositionSearch::Position> LowestPositionSearch::lowest_over(
     if (best && corner_ == 0) {
         improve_by_drops(place, *best);
     }
-    while (ball && best && best->height > sufficient && best->height < resolution) {
-        const double gained = resolution - best->height;
+    while (ball && best && best->height > sufficient && best->height < exact_below) {
+        const double gained = exact_below - best->height;
         bool proved = false;
         const auto lower =
             lower_than(best->height - std::max(agreement_, kMoreGained * gained), place, proved);
         if (!lower) {
             break;
         }
-        improve_from(*lower, place, resolution, best);
+        improve_from(*lower, place, exact_below, best);
     }
     return best;
 }

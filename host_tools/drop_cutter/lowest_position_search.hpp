@@ -50,11 +50,11 @@ public:
     };
     // The lowest position over the point; none where the tool has no position over it.
     //
-    // resolution  mm: heights above this may be inexact; a low one saves most of the time
-    // sufficient  mm: the search ends at heights below this
-    // guess       in plan: where a low position is expected
+    // exact_below  mm: heights above this may be inexact; a low one saves most of the time
+    // sufficient   mm: the search ends at heights below this
+    // guess        in plan: where a low position is expected
     std::optional<Position> lowest_over(Vec3d place,
-                                        double resolution,
+                                        double exact_below,
                                         double sufficient = -kUnbounded,
                                         std::optional<Vec2d> guess = std::nullopt);
 
@@ -87,7 +87,7 @@ private:
     Vec2d improved(Vec3d place, Vec2d at);
     void improve_from(const Position& start,
                       Vec3d place,
-                      double resolution,
+                      double exact_below,
                       std::optional<Position>& best);
 
     void improve_by_drops(Vec3d place, Position& best);

@@ -68,34 +68,34 @@ LowestPositionSearch::DroppedTool ReachableHeight::drop_at(double x, double y, E
 }
 
 std::optional<ReachableHeight::Position> ReachableHeight::lowest_over(Vec3d place,
-                                                                      double resolution)
+                                                                      double exact_below)
 {
     const std::optional<LowestPositionSearch::Position> best =
-        search_.lowest_over(place, resolution);
-    if (best && best->height > resolution) {
+        search_.lowest_over(place, exact_below);
+    if (best && best->height > exact_below) {
         return Position{best->centre - Vec3d{0, 0, radius_}, best->height};
     }
-    return best ? exactly(*best, place, resolution, Edges::kIgnored) : std::nullopt;
+    return best ? exactly(*best, place, exact_below, Edges::kIgnored) : std::nullopt;
 }
 
 std::optional<ReachableHeight::Position> ReachableHeight::lowest_clear_of_edges(
-    Vec3d place, const Position& near, double resolution)
+    Vec3d place, const Position& near, double exact_below)
 {
     const std::optional<LowestPositionSearch::Position> best = search_clear_of_edges_.lowest_over(
-        place, resolution, -kUnbounded, Vec2d{near.tip.x, near.tip.y});
-    if (!best || best->height > resolution) {
+        place, exact_below, -kUnbounded, Vec2d{near.tip.x, near.tip.y});
+    if (!best || best->height > exact_below) {
         return std::nullopt;
     }
-    const std::optional<Position> exact = exactly(*best, place, resolution, Edges::kMovedClear);
-    return exact && exact->height <= resolution ? exact : std::nullopt;
+    const std::optional<Position> exact = exactly(*best, place, exact_below, Edges::kMovedClear);
+    return exact && exact->height <= exact_below ? exact : std::nullopt;
 }
 
 std::optional<ReachableHeight::Position> ReachableHeight::exactly(
-    const LowestPositionSearch::Position& found, Vec3d place, double resolution, Edges edges)
+    const LowestPositionSearch::Position& found, Vec3d place, double exact_below, Edges edges)
 {
     const std::optional<Position> exact = exact_over(place, found.centre.x, found.centre.y, edges);
-    if (exact && exact->height > resolution) {
-        const std::optional<Position> off_brink = beside(place, found.centre, resolution, edges);
+    if (exact && exact->height > exact_below) {
+        const std::optional<Position> off_brink = beside(place, found.centre, exact_below, edges);
         return off_brink ? off_brink : exact;
     }
     return exact;
@@ -120,7 +120,7 @@ std::optional<ReachableHeight::Position> ReachableHeight::exact_over(Vec3d place
 // land on top of the cliff. Slightly away from the cliff the position is hardly higher.
 std::optional<ReachableHeight::Position> ReachableHeight::beside(Vec3d place,
                                                                  Vec3d brink,
-                                                                 double resolution,
+                                                                 double exact_below,
                                                                  Edges edges)
 {
     for (double off = kLeastOffBrink; off < kMostOffBrink * search_.pitch(); off *= 2) {
@@ -129,11 +129,11 @@ std::optional<ReachableHeight::Position> ReachableHeight::beside(Vec3d place,
             const double turn = 2 * kPi * k / kWays;
             const double x = brink.x + off * std::cos(turn);
             const double y = brink.y + off * std::sin(turn);
-            if (search_.height_under(drop_at(x, y, edges).centre, place) > resolution) {
+            if (search_.height_under(drop_at(x, y, edges).centre, place) > exact_below) {
                 continue;
             }
             const std::optional<Position> there = exact_over(place, x, y, edges);
-            if (there && there->height <= resolution && (!best || there->height < best->height)) {
+            if (there && there->height <= exact_below && (!best || there->height < best->height)) {
                 best = there;
             }
         }

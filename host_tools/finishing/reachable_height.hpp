@@ -30,19 +30,19 @@ public:
         Vec3d tip;
         double height;  // mm: z that this tip leaves straight above or below the point
     };
-    // resolution  mm: heights above this and their tips may be inexact; a low one saves most of
-    //             the time
+    // exact_below  mm: heights above this and their tips may be inexact; a low one saves most of
+    //              the time
     //
     // None where the tool has no position over the point.
-    std::optional<Position> lowest_over(Vec3d place, double resolution);
+    std::optional<Position> lowest_over(Vec3d place, double exact_below);
 
     // As lowest_over(), for tips that gouge no edge from the side; none where no such tip is found
-    // that leaves less than `resolution`.
+    // that leaves less than `exact_below`.
     //
     // near  the answer of lowest_over(), which gouges an edge
     std::optional<Position> lowest_clear_of_edges(Vec3d place,
                                                   const Position& near,
-                                                  double resolution);
+                                                  double exact_below);
 
 private:
     // Whether tips that gouge rims and creases from the side are excluded.
@@ -50,10 +50,10 @@ private:
 
     drop_cutter::LowestPositionSearch::DroppedTool drop_at(double x, double y, Edges edges);
     std::optional<Position> exact_over(Vec3d place, double x, double y, Edges edges) const;
-    std::optional<Position> beside(Vec3d place, Vec3d brink, double resolution, Edges edges);
+    std::optional<Position> beside(Vec3d place, Vec3d brink, double exact_below, Edges edges);
     std::optional<Position> exactly(const drop_cutter::LowestPositionSearch::Position& found,
                                     Vec3d place,
-                                    double resolution,
+                                    double exact_below,
                                     Edges edges);
 
     const std::vector<nurbs::Surface>& surfaces_;

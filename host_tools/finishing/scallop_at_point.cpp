@@ -159,18 +159,17 @@ ScallopAtPoint::Uncut ScallopAtPoint::uncut_at(Vec3d point, Vec3d normal, double
         const double from = std::max(point.z, height);
         return std::min(radius_, std::max(0.0, (now.height - from) * normal.z));
     };
-    const double least_resolution = now.height - resolution / normal.z;
-    const std::optional<ReachableHeight::Position> best =
-        reach_.lowest_over(point, least_resolution);
+    const double exact_below = now.height - resolution / normal.z;
+    const std::optional<ReachableHeight::Position> best = reach_.lowest_over(point, exact_below);
     if (!best) {
         return {over(point.z), 0};
     }
-    if (best->height > least_resolution ||
+    if (best->height > exact_below ||
         path_fitter_.moved_clear_of_edges({best->tip}).front() == best->tip) {
         return {over(best->height), 0};
     }
     const std::optional<ReachableHeight::Position> kept =
-        reach_.lowest_clear_of_edges(point, *best, least_resolution);
+        reach_.lowest_clear_of_edges(point, *best, exact_below);
     return {kept ? over(kept->height) : 0, over(best->height)};
 }
 

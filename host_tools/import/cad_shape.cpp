@@ -40,7 +40,7 @@ class GentleRepairs : public XSAlgo_AlgoContainer {
 public:
     TopoDS_Shape ProcessShape(const TopoDS_Shape& shape,
                               double precision,
-                              double most,
+                              double max_tolerance,
                               const char* resource,
                               const char* sequence,
                               Handle(Standard_Transient) & about,
@@ -48,12 +48,12 @@ public:
                               bool non_manifold) const override
     {
         if (shape.IsNull()) {
-            return XSAlgo_AlgoContainer::ProcessShape(shape, precision, most, resource, sequence,
-                                                      about, progress, non_manifold);
+            return XSAlgo_AlgoContainer::ProcessShape(shape, precision, max_tolerance, resource,
+                                                      sequence, about, progress, non_manifold);
         }
         ShapeFix_Shape repair{shape};
         repair.SetPrecision(precision);
-        repair.SetMaxTolerance(most);
+        repair.SetMaxTolerance(max_tolerance);
         repair.FixFaceTool()->FixOrientationMode() = 0;
         repair.FixFaceTool()->FixWireTool()->FixSameParameterMode() = 0;
         repair.FixSolidTool()->CreateOpenSolidMode() = false;

@@ -1,6 +1,8 @@
 // A box has x and y, a cylinder centre and diameter.
 #include "host_tools/import/fixture_reader.hpp"
 
+#include <array>
+
 #include "host_tools/import/known_keys.hpp"
 
 #include "fmt/format.h"
@@ -13,16 +15,30 @@ namespace {
 
 constexpr double kDefaultMargin = 1.0;  // mm
 
-std::vector<double> pair_of(JobTable& keys, const char* key, const char* other)
+[[noreturn]] void refuse_missing(const JobTable& keys, const char* key, const char* other)
 {
-    const auto values = keys.numbers(key, kAnyNumber);
-    if (!values || values->size() != 2) {
-        keys.refuse(
-            key,
-            fmt::format("{}: two numbers are needed, with {}",
-                        values ? "has " + std::to_string(values->size()) : "is missing", other));
+    keys.refuse(key, fmt::format("is missing: two numbers are needed, with {}", other));
+}
+
+std::array<double, 2> extent_of(JobTable& keys, const char* key, const char* other, double unit)
+{
+    const auto extent = keys.extent(key, unit);
+    if (!extent) {
+        refuse_missing(keys, key, other);
     }
-    return *values;
+    return *extent;
+}
+
+Vec2d centre_of(JobTable& keys, double unit)
+{
+    const auto values = keys.numbers("centre", kAnyNumber);
+    if (!values) {
+        refuse_missing(keys, "centre", "diameter");
+    }
+    if (values->size() != 2) {
+        keys.refuse("centre", fmt::format("has {} numbers: two are needed", values->size()));
+    }
+    return {(*values)[0] * unit, (*values)[1] * unit};
 }
 
 }  // namespace
@@ -38,24 +54,20 @@ Fixture read_fixture(const toml::table& table,
     const auto diameter = keys.number("diameter", kPositive);
     const bool round = diameter || table.contains("centre");
     if (round) {
-        const std::vector<double> centre = pair_of(keys, "centre", "diameter");
+        const Vec2d centre = centre_of(keys, millimetres);
         if (!diameter) {
             keys.refuse("diameter", "is missing: a cylinder has centre and diameter");
         }
         if (table.contains("x") || table.contains("y")) {
             keys.refuse(table.contains("x") ? "x" : "y", "is a box', centre a cylinder's");
         }
-        fixture.low = fixture.high = {centre[0] * millimetres, centre[1] * millimetres};
+        fixture.low = fixture.high = centre;
         fixture.radius = *diameter / 2 * millimetres;
     } else {
-        const std::vector<double> x = pair_of(keys, "x", "y, or centre and diameter");
-        const std::vector<double> y = pair_of(keys, "y", "x");
-        if (!(x[0] < x[1]) || !(y[0] < y[1])) {
-            keys.refuse(x[0] < x[1] ? "y" : "x",
-                        "two numbers [min, max] are needed, min below max");
-        }
-        fixture.low = {x[0] * millimetres, y[0] * millimetres};
-        fixture.high = {x[1] * millimetres, y[1] * millimetres};
+        const auto x = extent_of(keys, "x", "y, or centre and diameter", millimetres);
+        const auto y = extent_of(keys, "y", "x", millimetres);
+        fixture.low = {x[0], y[0]};
+        fixture.high = {x[1], y[1]};
     }
     fixture.top = keys.required_number("top", kAnyNumber) * millimetres;
     fixture.margin = keys.length("margin", kNotNegative, millimetres).value_or(kDefaultMargin);

@@ -3,6 +3,11 @@
 //     const job::Job job = read_job("part.toml");  // with the parts that it names
 //     const std::vector<nurbs::Surface> faces = read_surfaces("part.step");
 //     const job::Loop wall = read_loop("plate.dxf#outline");
+//     const toolpath::Post post = read_post("linuxcnc", "");  // post_reader.hpp
+//
+// A job's tables have readers of their own: tools and their library (job_tools.hpp), fixtures
+// (fixture_reader.hpp), stock (stock_table.hpp), 2.5-D keys (prismatic_reader.hpp), placing
+// (placing_reader.hpp). All read a JobTable, which checks keys, types and ranges.
 //
 // Every reader throws InputError with file, place, value and limit.
 #pragma once

@@ -181,6 +181,18 @@ std::optional<std::array<double, 2>> JobTable::interval(const char* key, Range r
     return std::array{ends[0], ends[1]};
 }
 
+std::optional<std::array<double, 2>> JobTable::extent(const char* key, double millimetres)
+{
+    const auto ends = numbers(key, kAnyNumber);
+    if (!ends) {
+        return std::nullopt;
+    }
+    if (ends->size() != 2 || !((*ends)[0] < (*ends)[1])) {
+        refuse(key, "two numbers [min, max] are needed, min below max");
+    }
+    return std::array{(*ends)[0] * millimetres, (*ends)[1] * millimetres};
+}
+
 std::optional<std::vector<std::string>> JobTable::texts(const char* key)
 {
     const toml::node* node = find(key);

@@ -47,6 +47,8 @@ public:
     std::optional<std::vector<double>> one_or_more(const char* key, Range range);
     // One number, which is both ends, or [least, greatest].
     std::optional<std::array<double, 2>> interval(const char* key, Range range);
+    // Two numbers [min, max], min below max, in mm, of numbers in units of `millimetres`.
+    std::optional<std::array<double, 2>> extent(const char* key, double millimetres);
     // A single text counts as a list of one.
     std::optional<std::vector<std::string>> texts(const char* key);
     const toml::table* table(const char* key);

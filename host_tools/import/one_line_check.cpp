@@ -79,11 +79,12 @@ void check_placing(const OneLineRequest& request)
     check_count("--rotate", "degrees about z are needed, or about x, y and z", request.rotate,
                 true);
     check_count("--move", "x, y and z are needed", request.move, false);
-    const auto check_size = [](const char* option, const std::vector<double>& values, double most) {
+    const auto check_size = [](const char* option, const std::vector<double>& values,
+                               double limit) {
         for (const double value : values) {
-            if (!(std::abs(value) <= most)) {
+            if (!(std::abs(value) <= limit)) {
                 throw InputError(
-                    fmt::format("{}: is {:g}, the limit is {:g}", option, value, most));
+                    fmt::format("{}: is {:g}, the limit is {:g}", option, value, limit));
             }
         }
     };

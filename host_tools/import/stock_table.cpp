@@ -26,8 +26,8 @@ StockTable::StockTable(const toml::table* table,
     top_ = keys_.length("top", kAnyNumber, unit_);
     job.clearance = keys_.length("clearance", kPositive, unit_).value_or(kDefaultClearance);
     job.stock_bottom = keys_.length("bottom", kAnyNumber, unit_);
-    job.stock_x = interval("x");
-    job.stock_y = interval("y");
+    job.stock_x = keys_.extent("x", unit_);
+    job.stock_y = keys_.extent("y", unit_);
     read_margin();
     margin_top_ = keys_.length("margin_top", kNotNegative, unit_);
     margin_bottom_ = keys_.length("margin_bottom", kNotNegative, unit_);
@@ -41,18 +41,6 @@ StockTable::StockTable(const toml::table* table,
     refuse_both(margin_top_ && top_, "margin_top", "top");
     refuse_both(margin_bottom_ && job.stock_bottom, "margin_bottom", "bottom");
     keys_.check_all_read();
-}
-
-std::optional<std::array<double, 2>> StockTable::interval(const char* key)
-{
-    const auto values = keys_.numbers(key, kAnyNumber);
-    if (!values) {
-        return std::nullopt;
-    }
-    if (values->size() != 2 || !((*values)[0] < (*values)[1])) {
-        keys_.refuse(key, "two numbers [min, max] are needed, min below max");
-    }
-    return std::array{(*values)[0] * unit_, (*values)[1] * unit_};
 }
 
 void StockTable::read_margin()

@@ -30,7 +30,6 @@ public:
     void settle(job::Job& job) const;
 
 private:
-    std::optional<std::array<double, 2>> interval(const char* key);
     void read_margin();
     void settle_sides(job::Job& job) const;
     void settle_heights(job::Job& job) const;

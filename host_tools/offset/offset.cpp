@@ -77,9 +77,10 @@ std::vector<std::uint32_t> successors(const std::vector<RawPiece>& pieces)
     return next;
 }
 
-// All crossings of two pieces, by a sweep along x; none where more than `most` pairs of boxes
+// All crossings of two pieces, by a sweep along x; none where more than `max_pairs` pairs of boxes
 // overlap in x.
-std::optional<std::vector<Cut>> find_cuts(const std::vector<RawPiece>& pieces, std::size_t most)
+std::optional<std::vector<Cut>> find_cuts(const std::vector<RawPiece>& pieces,
+                                          std::size_t max_pairs)
 {
     const std::vector<std::uint32_t> next = successors(pieces);
     struct Entry {
@@ -100,7 +101,7 @@ std::optional<std::vector<Cut>> find_cuts(const std::vector<RawPiece>& pieces, s
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const Box2d& box = boxes[entries[i].piece];
         for (std::size_t j = i + 1; j < entries.size() && entries[j].x0 <= box.x1; ++j) {
-            if (++pairs > most) {
+            if (++pairs > max_pairs) {
                 return std::nullopt;
             }
             const Box2d& other = boxes[entries[j].piece];

@@ -14,10 +14,10 @@ constexpr std::uint32_t kNone = 0xffffffffU;
 
 class CornerTable {
 public:
-    CornerTable(std::size_t most, std::vector<Vec3d>& corners) : corners_{corners}
+    CornerTable(std::size_t max_corners, std::vector<Vec3d>& corners) : corners_{corners}
     {
         std::size_t size = 16;
-        while (size < most + most / 3) {
+        while (size < max_corners + max_corners / 3) {
             size *= 2;
         }
         table_.assign(size, kNone);

@@ -111,10 +111,10 @@ std::vector<GroundPlace> facet_places(const WeldedMesh& mesh)
     return places;
 }
 
-std::vector<GroundPlace> crease_places(const WeldedMesh& mesh, std::size_t most)
+std::vector<GroundPlace> crease_places(const WeldedMesh& mesh, std::size_t max_count)
 {
     std::vector<Crease> creases = concave_edges(mesh);
-    const std::size_t kept = std::min(most, creases.size());
+    const std::size_t kept = std::min(max_count, creases.size());
     std::partial_sort(creases.begin(), creases.begin() + static_cast<std::ptrdiff_t>(kept),
                       creases.end(), [](const Crease& a, const Crease& b) {
                           return std::tie(a.width_over_turn, a.edge) <
@@ -141,7 +141,7 @@ std::vector<GroundPlace> crease_places(const WeldedMesh& mesh, std::size_t most)
             of_solid[corner] = mesh.outwards[f] != 0 ? 1 : 0;
         }
     }
-    const std::size_t step = std::max<std::size_t>(1, mesh.corners.size() / most);
+    const std::size_t step = std::max<std::size_t>(1, mesh.corners.size() / max_count);
     for (std::size_t k = 0; k < mesh.corners.size(); k += step) {
         if (norm(sums[k]) > kVertical) {
             places.push_back(place_at(mesh.corners[k], sums[k], 0, of_solid[k] != 0));

@@ -12,7 +12,7 @@ namespace cusp::part_info {
 std::vector<GroundPlace> facet_places(const WeldedMesh& mesh);
 
 // Points that a ball may not reach: concave edges, the sharpest relative to their width first, then
-// corners. At most `most` of each; corners are selected evenly.
-std::vector<GroundPlace> crease_places(const WeldedMesh& mesh, std::size_t most);
+// corners. At most `max_count` of each; corners are selected evenly.
+std::vector<GroundPlace> crease_places(const WeldedMesh& mesh, std::size_t max_count);
 
 }  // namespace cusp::part_info

@@ -144,13 +144,13 @@ std::vector<char> hidden_points(const TopOfPart& top, const std::vector<GroundPl
     return hidden;
 }
 
-// An even selection of about `most` points that are not hidden.
+// An even selection of about `max_count` points that are not hidden.
 void add_seen(const std::vector<GroundPlace>& places,
               const std::vector<char>& hidden,
-              std::size_t most,
+              std::size_t max_count,
               std::vector<GroundPlace>& seen)
 {
-    const std::size_t step = std::max<std::size_t>(1, places.size() / most);
+    const std::size_t step = std::max<std::size_t>(1, places.size() / max_count);
     for (std::size_t k = 0; k < places.size(); k += step) {
         if (hidden[k] == 0) {
             seen.push_back(places[k]);

@@ -208,8 +208,8 @@ BezierCell::BezierCell(const BezierPatch& patch, int surface, std::atomic<std::s
       v_end_{patch.v_end}
 {
     const std::vector<double>& weights = patch.surface.weights;
-    const auto [least, most] = std::minmax_element(weights.begin(), weights.end());
-    if (*least != *most) {
+    const auto [smallest, largest] = std::minmax_element(weights.begin(), weights.end());
+    if (*smallest != *largest) {
         weights_ = weights;
         for (std::size_t k = 0; k < points_.size(); ++k) {
             points_[k] = points_[k] * weights_[k];

@@ -112,13 +112,13 @@ public:
         double u_begin, u_end, v_begin, v_end;
         // For a contact x in the cell with upward normal n, and any point y of the surroundings, at
         // the distance w from x in the domain:
-        //   (y - x)^2 >= nearness * metric(w),  2 n . (y - x) <= bend(w) + more * metric(w),
+        //   (y - x)^2 >= nearness * metric(w),  2 n . (y - x) <= bend(w) + extra_bend * metric(w),
         //   (y - x).z^2 <= climb^2 * metric(w).
-        // `more` is kInfinite where nothing is proved.
+        // `extra_bend` is kInfinite where nothing is proved.
         QuadraticForm metric;
         QuadraticForm bend;
         double nearness;
-        double more;
+        double extra_bend;
         double climb;
         double top;  // upper bound of z in the surroundings
     };

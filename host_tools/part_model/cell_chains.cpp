@@ -12,12 +12,12 @@ std::vector<std::vector<GridSide>> CellChains::chains() const
     const auto walk = [&](GridSide from) {
         std::vector<GridSide> chain{from};
         used.insert(from);
-        for (bool more = true; more;) {
-            more = false;
+        for (bool extended = true; extended;) {
+            extended = false;
             for (const GridSide& next : neighbours_.at(chain.back())) {
                 if (used.insert(next).second) {
                     chain.push_back(next);
-                    more = true;
+                    extended = true;
                     break;
                 }
             }

@@ -66,11 +66,11 @@ public:
         top_ = std::max(top_, cell.high().z);
     }
 
-    // Writes the bounds into `box`; leaves `more` at kInfinite where nothing is proved.
+    // Writes the bounds into `box`; leaves `extra_bend` at kInfinite where nothing is proved.
     void fill(BezierCell::Surroundings& box) const
     {
         box.top = top_;
-        box.more = kInfinite;
+        box.extra_bend = kInfinite;
         const double e = dot(middle_.du, middle_.du);
         const double f = dot(middle_.du, middle_.dv);
         const double g = dot(middle_.dv, middle_.dv);
@@ -97,7 +97,7 @@ public:
         box.bend = {dot(normal_, middle_.duu), dot(normal_, middle_.duv),
                     dot(normal_, middle_.dvv)};
         box.nearness = (1 - shorter) * (1 - shorter);
-        box.more = (std::max(uu, vv) + uv) / straight;
+        box.extra_bend = (std::max(uu, vv) + uv) / straight;
         box.climb = std::hypot(normal_.x, normal_.y) +
                     std::hypot(climb_u_ / long_u, climb_v_ / long_v) / std::sqrt(straight);
     }

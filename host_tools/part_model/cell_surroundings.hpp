@@ -7,7 +7,7 @@
 namespace cusp::part_model {
 
 // The cell, widened by its width on either side up to the next crease, with bounds on metric and
-// bend there. `more` is kInfinite where nothing can be proved: beside poles, where du and dv are
+// bend there. `extra_bend` is kInfinite where nothing can be proved: beside poles, where du and dv are
 // nearly parallel, or where the cell bends too much.
 BezierCell::Surroundings find_surroundings(const PartModel::State& state, const BezierCell& cell);
 

@@ -111,8 +111,8 @@ std::optional<CcPoint> PartModel::cc_point_under(
         const SurfacePoint p = evaluate(surface, at.u, at.v);
         at.point = p.point;
         at.normal = facing_up(surface, at.u, at.v, p);
-        const Vec3d off = at.centre() - Vec3d{x, y, 0};
-        if (std::hypot(off.x, off.y) < kUnderSlack) {
+        const Vec3d miss = at.centre() - Vec3d{x, y, 0};
+        if (std::hypot(miss.x, miss.y) < kUnderSlack) {
             return at;
         }
         const auto [by_u, by_v] = centre_slopes(p, at.normal, distance);
@@ -121,8 +121,8 @@ std::optional<CcPoint> PartModel::cc_point_under(
         if (!(std::abs(det) > kLeastLean * size)) {
             return std::nullopt;
         }
-        at.u -= (off.x * by_v.y - off.y * by_v.x) / det;
-        at.v -= (off.y * by_u.x - off.x * by_u.y) / det;
+        at.u -= (miss.x * by_v.y - miss.y * by_v.x) / det;
+        at.v -= (miss.y * by_u.x - miss.x * by_u.y) / det;
     }
     return std::nullopt;
 }

@@ -78,8 +78,8 @@ bool ContourLattice::is_settled(std::size_t lower_node) const
     const std::size_t column = lower_node / rows();
     const std::size_t row = lower_node % rows();
     double nearest = kInfinite;
-    double least = kInfinite;
-    double most = -kInfinite;
+    double lowest = kInfinite;
+    double highest = -kInfinite;
     bool jumps = false;
     bool alike = true;
     for (std::size_t i = column - (column > 0); i <= std::min(column + 2, u_cells_); ++i) {
@@ -90,13 +90,13 @@ bool ContourLattice::is_settled(std::size_t lower_node) const
                 jumps = true;
                 continue;
             }
-            least = std::min(least, value);
-            most = std::max(most, value);
+            lowest = std::min(lowest, value);
+            highest = std::max(highest, value);
             nearest = std::min(nearest, std::abs(value));
         }
     }
-    const bool far = least > most || nearest >= most - least;
-    return alike && far && !(jumps && least <= most);
+    const bool far = lowest > highest || nearest >= highest - lowest;
+    return alike && far && !(jumps && lowest <= highest);
 }
 
 bool ContourLattice::may_halve() const { return u_cells_ * v_cells_ <= kMostCells / 4; }

@@ -174,13 +174,13 @@ private:
         const Vec3d chord = in_space(b) - in_space(a);
         if (depth < kDeepestDivision && norm(chord) > edge_error_) {
             const std::optional<Vec2d> beside = contour_beside(a, b);
-            const bool off = !beside || norm(in_space(*beside) - in_space(middle)) > edge_error_;
-            if (off && beside && lattice_.may_reach(cell_, *beside)) {
+            const bool strays = !beside || norm(in_space(*beside) - in_space(middle)) > edge_error_;
+            if (strays && beside && lattice_.may_reach(cell_, *beside)) {
                 divide(a, *beside, depth + 1, out);
                 divide(*beside, b, depth + 1, out);
                 return;
             }
-            follows_ = follows_ && !off;
+            follows_ = follows_ && !strays;
         }
         out.push_back(b);
     }

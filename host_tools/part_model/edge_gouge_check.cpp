@@ -218,13 +218,13 @@ std::optional<EdgeGougeCheck::EdgeViolation> EdgeGougeCheck::violation_at(const 
 // The vector that moves the centre off the edge with the largest violation; zero without violation.
 Vec3d EdgeGougeCheck::missing_clearance(Vec3d centre, double margin) const
 {
-    double most = 0;
+    double largest = 0;
     Vec3d out;
     visit_around(centre, radius_ + margin, [&](const Piece& piece) {
         const std::optional<EdgeViolation> violation = violation_at(piece, centre, margin);
-        if (violation && violation->amount > most) {
-            most = violation->amount;
-            out = violation->direction * (most / violation->distance);
+        if (violation && violation->amount > largest) {
+            largest = violation->amount;
+            out = violation->direction * (largest / violation->distance);
         }
     });
     return out;
@@ -286,11 +286,11 @@ EdgeGougeCheck::RaisedTip EdgeGougeCheck::raised_clear(Vec3d tip, double band) c
 Vec3d EdgeGougeCheck::moved_clear_of(Vec3d tip, double band) const
 {
     for (int k = 0; k < kMostPushes; ++k) {
-        const Vec3d off = missing_clearance(tip + Vec3d{0, 0, radius_}, band);
-        if (off == Vec3d{}) {
+        const Vec3d shift = missing_clearance(tip + Vec3d{0, 0, radius_}, band);
+        if (shift == Vec3d{}) {
             break;
         }
-        tip = tip + off;
+        tip = tip + shift;
     }
     return tip;
 }
@@ -342,19 +342,19 @@ double EdgeGougeCheck::cut(Vec3d from, Vec3d to, double margin) const
     const int parts = std::max(1, static_cast<int>(std::ceil(length / radius_)));
     // Between the ends of a piece the ball may reach lower: as low as one larger by this sagitta.
     const double round = radius_ * (1 + 0.125 * kPiece * kPiece) + edge_error_ + margin;
-    double most = 0;
+    double deepest = 0;
     for (int k = 0; k < parts; ++k) {
         const Vec3d a = from + way * (static_cast<double>(k) / parts);
         const Vec3d b = from + way * (static_cast<double>(k + 1) / parts);
         visit_around((a + b) * 0.5, round + 0.5 * length / parts, [&](const Piece& piece) {
             for (const Vec3d p : {piece.from, piece.to}) {
                 const Vec3d up{0, 0, radius_};
-                most =
-                    std::max(most, piece.normal_z * (p.z - lowest_over(a + up, b + up, round, p)));
+                deepest = std::max(deepest,
+                                   piece.normal_z * (p.z - lowest_over(a + up, b + up, round, p)));
             }
         });
     }
-    return most;
+    return deepest;
 }
 
 }  // namespace cusp::part_model

@@ -27,8 +27,8 @@ std::optional<FacetContact> drop_ball_on_side(Vec3d a, Vec3d b, double x, double
     }
     const double along = ((x - a.x) * d.x + (y - a.y) * d.y);
     const double half = along * d.z / square;
-    const double off = square_in_plan(a, x, y) - along * along / square - radius * radius;
-    const double root = half * half - cos_square * off;
+    const double constant = square_in_plan(a, x, y) - along * along / square - radius * radius;
+    const double root = half * half - cos_square * constant;
     if (root < 0) {
         return std::nullopt;
     }

@@ -95,8 +95,8 @@ std::optional<MeshContact> drop_ball_on_facets(const PartModel::State& state,
         if (contact.at.centre < highest - kAlike) {
             continue;
         }
-        const double more = best ? facing(contact) - facing(*best) : kInfinite;
-        if (more > 0 || (more == 0 && contact.facet < best->facet)) {
+        const double gain = best ? facing(contact) - facing(*best) : kInfinite;
+        if (gain > 0 || (gain == 0 && contact.facet < best->facet)) {
             best = contact;
         }
     }

@@ -29,21 +29,21 @@ double square(Vec3d a) { return dot(a, a); }
 // domain.
 QuadraticForm rise_of(const BezierCell::Surroundings& near, double distance)
 {
-    const double share = near.nearness - distance * near.more;
+    const double share = near.nearness - distance * near.extra_bend;
     return {share * near.metric.a - distance * near.bend.a,
             share * near.metric.b - distance * near.bend.b,
             share * near.metric.c - distance * near.bend.c};
 }
 
 // The largest ratio of a form to a positive one.
-double most_of(const QuadraticForm& p, const QuadraticForm& metric)
+double largest_ratio(const QuadraticForm& p, const QuadraticForm& metric)
 {
     const double det = metric.determinant();
     const double mean = (metric.a * p.c - 2 * metric.b * p.b + metric.c * p.a) / (2 * det);
     return mean + std::sqrt(std::max(0.0, mean * mean - p.determinant() / det));
 }
 
-QuadraticForm less(const QuadraticForm& p, const QuadraticForm& q, double times)
+QuadraticForm minus(const QuadraticForm& p, const QuadraticForm& q, double times)
 {
     return {p.a - times * q.a, p.b - times * q.b, p.c - times * q.c};
 }
@@ -54,7 +54,7 @@ QuadraticForm below_both(const QuadraticForm& p,
                          const QuadraticForm& q,
                          const QuadraticForm& metric)
 {
-    return less(p, metric, std::max(0.0, most_of(less(p, q, 1), metric)));
+    return minus(p, metric, std::max(0.0, largest_ratio(minus(p, q, 1), metric)));
 }
 
 // Whether the shank clears the part of the surroundings that is higher than the centres.
@@ -75,7 +75,7 @@ bool clears_shank(const QuadraticForm& rise,
     // Lower bounds of the length of w for the lowest and the highest of these points.
     const double low = (centre - contact) / near.climb - 0.5 * apart;
     const double high = (near.top - contact) / near.climb - 0.5 * apart;
-    const double spare = -most_of(less({}, rise, 1), near.metric);
+    const double spare = -largest_ratio(minus({}, rise, 1), near.metric);
     return low >= 0 && high >= 0 && spare * high * high >= over * over;
 }
 
@@ -94,10 +94,10 @@ const BezierCell& half_at(const BezierCell& cell, const CcPoint& at)
 // Whether the bounds prove enough.
 bool holds(const BezierCell::Surroundings& near, const CcPoint& at)
 {
-    if (!std::isfinite(near.more)) {
+    if (!std::isfinite(near.extra_bend)) {
         return false;
     }
-    const QuadraticForm rise = less(rise_of(near, at.distance), near.metric, kSpare);
+    const QuadraticForm rise = minus(rise_of(near, at.distance), near.metric, kSpare);
     return rise.never_negative() && clears_shank(rise, near, at.point.z, at.centre().z, 0);
 }
 
@@ -200,15 +200,16 @@ std::optional<double> MoveClearanceBound::parts_between(KnownContact& a,
                                                         int depth) const
 {
     const auto part = [&](KnownContact& from, KnownContact& to) {
-        return cells != nullptr ? near_between(from, to, *cells, sufficient + middle.off, depth + 1)
-                                : between(from, to, sufficient + middle.off, depth + 1);
+        return cells != nullptr
+                   ? near_between(from, to, *cells, sufficient + middle.from_middle, depth + 1)
+                   : between(from, to, sufficient + middle.from_middle, depth + 1);
     };
     const std::optional<double> first = part(a, middle.contact);
     if (!first) {
         return std::nullopt;
     }
     const std::optional<double> second = part(middle.contact, b);
-    return second ? std::optional{std::min(*first, *second) - middle.off} : std::nullopt;
+    return second ? std::optional{std::min(*first, *second) - middle.from_middle} : std::nullopt;
 }
 
 std::optional<QuadraticForm> MoveClearanceBound::near_rise(const CcPoint& a,
@@ -218,7 +219,8 @@ std::optional<QuadraticForm> MoveClearanceBound::near_rise(const CcPoint& a,
 {
     const BezierCell::Surroundings& near_a = *cell_a.surroundings();
     const BezierCell::Surroundings& near_b = *cell_b.surroundings();
-    if (a.surface != b.surface || !std::isfinite(near_a.more) || !std::isfinite(near_b.more)) {
+    if (a.surface != b.surface || !std::isfinite(near_a.extra_bend) ||
+        !std::isfinite(near_b.extra_bend)) {
         return std::nullopt;
     }
     QuadraticForm rise = rise_of(near_a, a.distance);
@@ -247,8 +249,8 @@ std::optional<MoveClearanceBound::MiddleContact> MoveClearanceBound::contact_of_
         at.point = p.point;
         at.normal = upward_normal(p);
         at.distance = dot(r, at.normal);
-        found.off = norm(r - at.normal * at.distance);
-        if (found.off < kMiddleSlack) {
+        found.from_middle = norm(r - at.normal * at.distance);
+        if (found.from_middle < kMiddleSlack) {
             break;
         }
         const double uu = dot(p.du, p.du) - dot(r, p.duu);
@@ -266,8 +268,8 @@ std::optional<MoveClearanceBound::MiddleContact> MoveClearanceBound::contact_of_
     const PartModel::State::Grid& grid = state_.grids[static_cast<std::size_t>(at.surface)];
     const bool inside = at.u >= grid.creases_u.front() && at.u <= grid.creases_u.back() &&
                         at.v >= grid.creases_v.front() && at.v <= grid.creases_v.back();
-    return found.off < kMiddleSlack && inside && at.distance > 0 ? std::optional{found}
-                                                                 : std::nullopt;
+    return found.from_middle < kMiddleSlack && inside && at.distance > 0 ? std::optional{found}
+                                                                         : std::nullopt;
 }
 
 // Whether everything but the surroundings is farther from the ball's core than the contact, by at

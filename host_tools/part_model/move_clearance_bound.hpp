@@ -48,7 +48,7 @@ private:
     };
     struct MiddleContact {
         KnownContact contact;
-        double off;  // mm, of its centre from the middle
+        double from_middle;  // mm, of its centre from the middle
     };
 
     std::optional<double> between(KnownContact& a,

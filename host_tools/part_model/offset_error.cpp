@@ -108,11 +108,11 @@ Vec3d middle_of(const Vector& v)
 
 double longest(const Vector& v)
 {
-    double most = 0;
+    double largest = 0;
     for (std::size_t k = 0; k < v[0].c.size(); ++k) {
-        most = std::max(most, norm(Vec3d{v[0].c[k], v[1].c[k], v[2].c[k]}));
+        largest = std::max(largest, norm(Vec3d{v[0].c[k], v[1].c[k], v[2].c[k]}));
     }
-    return most;
+    return largest;
 }
 
 // Lower bound of the component of T_u x T_v along its direction at the middle.
@@ -159,14 +159,15 @@ double bound_quartered(
     if (bound <= sufficient || quarterings == 0) {
         return bound;
     }
-    double most = 0;
+    double largest = 0;
     for (const Terms& part : quarters(terms)) {
-        most = std::max(most, bound_quartered(part, distance, side, sufficient, quarterings - 1));
-        if (most > sufficient) {
+        largest =
+            std::max(largest, bound_quartered(part, distance, side, sufficient, quarterings - 1));
+        if (largest > sufficient) {
             return bound;
         }
     }
-    return most;
+    return largest;
 }
 
 }  // namespace

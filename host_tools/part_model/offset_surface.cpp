@@ -336,23 +336,23 @@ private:
                 split_v[j] = split_v[j] || (can_v && (along_v * kAlone > along_u || !can_u));
             }
         }
-        const bool more = insert_middles(knots_u_, us, split_u);
-        return (insert_middles(knots_v_, vs, split_v) || more) &&
+        const bool split_any = insert_middles(knots_u_, us, split_u);
+        return (insert_middles(knots_v_, vs, split_v) || split_any) &&
                knots_u_.size() * knots_v_.size() < kMostControlPoints;
     }
 
     std::array<double, 2> bends(double u0, double u1, double v0, double v1) const
     {
-        std::array<double, 2> most{0, 0};
+        std::array<double, 2> largest{0, 0};
         for (const double share : {0.0, 0.5, 1.0}) {
-            most[0] = std::max(most[0], bend_of([&](double t) {
-                                   return offset_at(u0 + (u1 - u0) * t, v0 + (v1 - v0) * share);
-                               }));
-            most[1] = std::max(most[1], bend_of([&](double t) {
-                                   return offset_at(u0 + (u1 - u0) * share, v0 + (v1 - v0) * t);
-                               }));
+            largest[0] = std::max(largest[0], bend_of([&](double t) {
+                                      return offset_at(u0 + (u1 - u0) * t, v0 + (v1 - v0) * share);
+                                  }));
+            largest[1] = std::max(largest[1], bend_of([&](double t) {
+                                      return offset_at(u0 + (u1 - u0) * share, v0 + (v1 - v0) * t);
+                                  }));
         }
-        return most;
+        return largest;
     }
 
     static bool may_split(const std::vector<double>& own, double from, double to)

@@ -271,7 +271,7 @@ PartModel::SharedQueries::~SharedQueries() { --model_.state_->sharers; }
 double PartModel::distance_within(const Tool& tool, Vec3d tip, const DistanceOptions& options) const
 {
     const NearestResult found = nearest(*state_, core_of(tool, tip),
-                                        {std::max(0.0, options.most + tool.corner_radius),
+                                        {std::max(0.0, options.max_distance + tool.corner_radius),
                                          options.max_error, options.least + tool.corner_radius});
     return found.distance - tool.corner_radius;
 }

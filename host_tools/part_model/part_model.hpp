@@ -39,9 +39,9 @@ struct ToolDistance {
 
 // What distance_within() may leave inexact, all in mm.
 struct DistanceOptions {
-    double least;      // distances below this may be inexact, but do not exceed it by `max_error`
-    double most;       // greater distances are returned as this
-    double max_error;  // how much too low distances between `least` and `most` may be
+    double least;  // distances below this may be inexact, but do not exceed it by `max_error`
+    double max_distance;  // greater distances are returned as this
+    double max_error;     // how much too low distances between `least` and `max_distance` may be
 };
 
 // A ball whose centre is above a point of a surface, along the upward normal.

@@ -57,8 +57,8 @@ double oriented_distance(const ToolCore& core, const BezierCell& cell)
     double square = gap * gap;
     for (std::size_t k = 1; k < 3; ++k) {
         const double along = dot(from, cell.axes()[k]);
-        const double off = std::max({along - cell.box_high(k), cell.box_low(k) - along, 0.0});
-        square += off * off;
+        const double outside = std::max({along - cell.box_high(k), cell.box_low(k) - along, 0.0});
+        square += outside * outside;
     }
     return std::sqrt(square);
 }

@@ -48,8 +48,8 @@ private:
     void trace(const Curve& piece, int depth)
     {
         const double middle = 0.5 * (piece.domain_begin() + piece.domain_end());
-        const bool fine =
-            depth >= kFirstHalvings && is_monotone(piece) && off(piece, middle) <= edge_error_;
+        const bool fine = depth >= kFirstHalvings && is_monotone(piece) &&
+                          chord_error(piece, middle) <= edge_error_;
         if (fine || depth == kDeepestHalving) {
             append(piece);
             return;
@@ -75,19 +75,19 @@ private:
 
     // Bound of the distance between the sides and the edge in space. The deviation at the middle
     // counts twice, since other points are not probed.
-    double off(const Curve& piece, double middle) const
+    double chord_error(const Curve& piece, double middle) const
     {
         const Vec3d from = in_space(piece.points.front());
         const Vec3d to = in_space(piece.points.back());
         const Vec3d way = to - from;
-        double most = 2.0 * norm(in_space(point_at(piece, middle)) - (from + to) * 0.5);
+        double largest = 2.0 * norm(in_space(point_at(piece, middle)) - (from + to) * 0.5);
         for (std::size_t k = 1; k + 1 < piece.points.size(); ++k) {
             const Vec3d arm = in_space(piece.points[k]) - from;
             const double square = dot(way, way);
             const double share = square > 0.0 ? std::clamp(dot(arm, way) / square, 0.0, 1.0) : 0.0;
-            most = std::max(most, norm(arm - way * share));
+            largest = std::max(largest, norm(arm - way * share));
         }
-        return most;
+        return largest;
     }
 
     // Appends the right side of the hull, from the first control point to the last: the points to

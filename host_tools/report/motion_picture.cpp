@@ -59,18 +59,18 @@ std::string line_between(double x1, double y1, double x2, double y2, const char*
 struct MotionPanel {
     int row;
     double seconds;  // at the right end
-    double most;     // value at the upper end
+    double top;      // value at the upper end
 
     double bottom() const { return kTop + row * (kPanelHeight + kGap) + kPanelHeight; }
     double x(double time) const { return kLeft + kPlotWidth * time / seconds; }
-    double y(double value) const { return bottom() - kPanelHeight * std::min(1.0, value / most); }
+    double y(double value) const { return bottom() - kPanelHeight * std::min(1.0, value / top); }
 
     std::string axes(const std::string& title, double step) const
     {
         constexpr const char* kGrid = "stroke=\"#d0d0d0\" stroke-width=\"1\"";
         constexpr double kRounding = 1e-9;
         std::string out = text_at(kLeft, bottom() - kPanelHeight - 6, "start", title);
-        for (double value = 0; value <= most * (1 + kRounding); value += step) {
+        for (double value = 0; value <= top * (1 + kRounding); value += step) {
             out += line_between(kLeft, y(value), kLeft + kPlotWidth, y(value), kGrid);
             out += text_at(kLeft - 6, y(value) + 4, "end", fmt::format("{:g}", value));
         }
@@ -157,8 +157,8 @@ std::string speed_panel(const MotionProfile& profile, double seconds)
     const std::vector<double>& speeds = curves.front().values;
     const double greatest = speeds.empty() ? 0.0 : *std::max_element(speeds.begin(), speeds.end());
     const double step = round_below(std::max(1e-3, greatest) / 2);
-    const double most = step * std::max(1.0, std::ceil(greatest / step));
-    return panel_of({0, seconds, most}, "Speed, mm/s", step, curves, profile.seconds_each());
+    const double top = step * std::max(1.0, std::ceil(greatest / step));
+    return panel_of({0, seconds, top}, "Speed, mm/s", step, curves, profile.seconds_each());
 }
 
 std::string axis_panel(const MotionProfile& profile,

@@ -18,7 +18,7 @@ using job::ProfileSide;
 
 namespace {
 
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
 
 struct Cuts {
     double gouge{};
@@ -47,7 +47,7 @@ public:
         : q_{question},
           figures_{figures},
           regions_{cut_regions(q_.job, q_.grid)},
-          maps_{std::vector<double>(q_.grid.size(), kNothing),
+          maps_{std::vector<double>(q_.grid.size(), kNoFigure),
                 std::vector<double>(q_.grid.size(), 0.0),
                 std::vector<double>(q_.grid.size(), q_.job.stock_top)}
     {

@@ -38,13 +38,13 @@ ToolAccess::ToolAccess(const std::vector<Surface>& surfaces,
       path_clearance_{path_clearance}
 {
     for (const Tool& tool : tools) {
-        Tool kept_off = tool;
-        kept_off.radius += path_clearance;
-        kept_off.corner_radius += path_clearance;
-        if (kept_off.shape == ToolShape::kFlat && path_clearance > 0) {
-            kept_off.shape = ToolShape::kBull;
+        Tool with_clearance = tool;
+        with_clearance.radius += path_clearance;
+        with_clearance.corner_radius += path_clearance;
+        if (with_clearance.shape == ToolShape::kFlat && path_clearance > 0) {
+            with_clearance.shape = ToolShape::kBull;
         }
-        cutters_.push_back({tool, kept_off, {}, {}, {}, 0, 0});
+        cutters_.push_back({tool, with_clearance, {}, {}, {}, 0, 0});
     }
     for (Cutter& cutter : cutters_) {
         const double pitch = kPitch * cutter.tool.radius;
@@ -102,7 +102,7 @@ LowestPositionSearch::DroppedTool ToolAccess::drop_at(Cutter& cutter, double x, 
     return rest;
 }
 
-double ToolAccess::lowest_over(Vec3d place, Vec3d normal, double resolution)
+double ToolAccess::lowest_over(Vec3d place, Vec3d normal, double exact_below)
 {
     double lowest = kUnreached;
     for (Cutter& cutter : cutters_) {
@@ -113,7 +113,7 @@ double ToolAccess::lowest_over(Vec3d place, Vec3d normal, double resolution)
         const Vec2d touching{place.x + out * normal.x, place.y + out * normal.y};
         const double touched =
             place.z + kTouches + (1 / std::max(normal.z, 0.05)) * path_clearance_;
-        const double lower = std::min(resolution, lowest);
+        const double lower = std::min(exact_below, lowest);
         if (cutter.on_samples &&
             (cutter.failures < kMostFailures || ++cutter.skipped % kAgain == 0)) {
             // The first lower position suffices: the floor itself then decides.

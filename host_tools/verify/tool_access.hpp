@@ -35,8 +35,8 @@ public:
     // where none can come. Accuracy 1e-3 mm, as far as the search finds the best position.
     //
     // normal      of the floor there, a unit vector, upward
-    // resolution  mm: heights above this may be inexact
-    double lowest_over(Vec3d place, Vec3d normal, double resolution);
+    // exact_below  mm: heights above this may be inexact
+    double lowest_over(Vec3d place, Vec3d normal, double exact_below);
 
 private:
     struct Cutter {

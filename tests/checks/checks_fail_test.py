@@ -99,6 +99,7 @@ class ChecksOfTheTree(unittest.TestCase):
                             ("host_tools/clearing/loops.hpp", "// See StandingMetal.\n"),
                             ("firmware/base/vec.hpp", "struct Joint;\n"),
                             ("host_tools/clearing/ball.hpp", "// A ball is let down.\n"),
+                            ("docs/walls.md", "The tool can feel the wall.\n"),
                             ("host_tools/view/web/src/scene.ts", "/** Where metal stands. */\n"),
                             ("tests/support/box.hpp", "int a;  // upright\n")):
             self.write(place, text)

@@ -3,7 +3,8 @@
 
 usage: retired_words.py TOP
 WORDS are looked for everywhere: in code, comments, documents and names of files. IDENTIFIERS are common words too, so
-they are looked for in C++ without comments and strings; PHRASES in the comments of host_tools and tests/support. CHANGELOG.md, docs/decisions and docs/evidence tell the past and are left out.
+they are looked for in C++ without comments and strings; PHRASES in the comments of host_tools and tests/support, those
+of PAGE_PHRASES in pages of docs/ too. CHANGELOG.md, docs/decisions and docs/evidence tell the past and are left out.
 Exit status: 0 none is found, 1 some are, 2 there are no sources.
 """
 import pathlib
@@ -57,7 +58,7 @@ IDENTIFIERS = {
     "Barred": "BlockedPart", "bars_shank": "blocks_shank", "feel": "track", "feeler": "probe", "felt": "tracked", "laid": "project",
     "lay": "project_pass", "go_round": "link_around", "hurry": "flush_if_short", "kHere": "kContinue", "kDrop": "kRetractAndDrop",
     "rolls_freely": "is_move_between_contacts_clear", "worth": "resolution", "told": "lookup_spacing", "bare": "uncovered",
-    "cushion": "clearance_reserve",
+    "cushion": "clearance_reserve", "metal": "stock", "stands": "remains", "kept_off": "with_clearance", "askew": "at_an_angle",
 }
 # In comments of COMMENTED.
 COMMENTED = ("host_tools/", "tests/support/")
@@ -68,6 +69,7 @@ PHRASES = {
     "goes on": "continues", "gone on": "resumed", "looks up": "faces up", "looks down": "faces down", "look down": "face down",
     "look out": "look ahead", "looks out": "looks ahead", "way within": "path inside", "under its eyes": "while it reads",
 }
+PAGE_PHRASES = ("told apart", "let down", "askew", "felt", "feel", "feels", "metal", "tells", "hopeful", "for ever", "under its eyes")
 COMMENT = re.compile(r"//.*|/\*.*|^ *\* .*")  # of one line
 COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
 
@@ -76,7 +78,7 @@ def pattern(words):
     return re.compile(r"(?<!\w)(%s)(?=(?:s|_test|_property_test|_drop|_gap|_outline|_section|_trim)?(?!\w))" % "|".join(words))
 
 
-PHRASE = re.compile(r"\b(?:%s)\b" % "|".join(PHRASES))
+PHRASE, PAGE_PHRASE = (re.compile(r"\b(?:%s)\b" % "|".join(words)) for words in (PHRASES, PAGE_PHRASES))
 WORD, IDENTIFIER = pattern(WORDS), re.compile(r"\b(?:%s)\b" % "|".join(IDENTIFIERS))
 
 
@@ -93,7 +95,9 @@ def complaints(file, place):
     text = file.read_text()
     code = COMMENT_OR_STRING.sub(lambda m: re.sub(r"[^\n]", " ", m.group()), text) if file.suffix in (".hpp", ".cpp") else ""
     comments = "\n".join("".join(COMMENT.findall(line)) for line in text.split("\n")) if place.startswith(COMMENTED) else ""
-    for names, searched, found in ((WORDS, text, WORD), (IDENTIFIERS, code, IDENTIFIER), (PHRASES, comments, PHRASE)):
+    page = text if file.suffix == ".md" else ""
+    for names, searched, found in ((WORDS, text, WORD), (IDENTIFIERS, code, IDENTIFIER), (PHRASES, comments, PHRASE),
+                                   (PHRASES, page, PAGE_PHRASE)):
         for match in found.finditer(searched):
             line = searched.count("\n", 0, match.start()) + 1
             yield f"{place}:{line}: {match.group()} is now {names[match.group()]}"

@@ -45,6 +45,13 @@ struct Draw {
     int whole(int low, int high) { return std::uniform_int_distribution<int>{low, high}(engine); }
 };
 
+// Prints what a failure is repeated with.
+Draw seeded(const char* what, unsigned seed, int cases)
+{
+    std::printf("%s: seed %u, %d cases\n", what, seed, cases);
+    return {std::mt19937{seed}};
+}
+
 double from_segment(Vec2d p, Vec2d a, Vec2d b)
 {
     const Vec2d along = b - a;
@@ -198,10 +205,8 @@ TEST_GROUP(PrismaticProperty){};
 
 TEST(PrismaticProperty, ProfilesKeepTheirDistanceToAMicrometreAndLeaveNothingOut)
 {
-    constexpr unsigned kSeed = 28;
     const int cases = property_cases(1000);
-    std::printf("profiles: seed %u, %d cases\n", kSeed, cases);
-    Draw draw{std::mt19937{kSeed}};
+    Draw draw = seeded("profiles", 28, cases);
     for (int i = 0; i < cases; ++i) {
         check_profile(draw, i % 2 == 0);
     }
@@ -211,10 +216,8 @@ TEST(PrismaticProperty, ProfilesKeepTheirDistanceToAMicrometreAndLeaveNothingOut
 // above: what stands are the tabs.
 TEST(PrismaticProperty, TabsStandAsManyAsHighAndAsWideAsAskedFor)
 {
-    constexpr unsigned kSeed = 4;
     const int cases = property_cases(100);
-    std::printf("tabs: seed %u, %d cases\n", kSeed, cases);
-    Draw draw{std::mt19937{kSeed}};
+    Draw draw = seeded("tabs", 4, cases);
     for (int i = 0; i < cases; ++i) {
         const std::vector<Vec2d> corners = random_outline(draw, 0.0);
         Operation operation = profile_of(corners, draw.uniform(0.5, 3.0));
@@ -283,10 +286,8 @@ TEST(PrismaticProperty, TabsStandAsManyAsHighAndAsWideAsAskedFor)
 
 TEST(PrismaticProperty, HolesAreDrilledWhereTheyAreAndOnce)
 {
-    constexpr unsigned kSeed = 83;
     const int cases = property_cases(2000);
-    std::printf("holes: seed %u, %d cases\n", kSeed, cases);
-    Draw draw{std::mt19937{kSeed}};
+    Draw draw = seeded("holes", 83, cases);
     for (int i = 0; i < cases; ++i) {
         Operation operation = cut_of("drill", draw.uniform(0.5, 20));
         const int count = draw.whole(1, 30);
@@ -327,10 +328,8 @@ TEST(PrismaticProperty, HolesAreDrilledWhereTheyAreAndOnce)
 
 TEST(PrismaticProperty, ToursVisitEveryPlaceAndAreNoLongerThanTheNearestNext)
 {
-    constexpr unsigned kSeed = 2;
     const int cases = property_cases(1000);
-    std::printf("tours: seed %u, %d cases\n", kSeed, cases);
-    Draw draw{std::mt19937{kSeed}};
+    Draw draw = seeded("tours", 2, cases);
     for (int i = 0; i < cases; ++i) {
         std::vector<Vec2d> places(static_cast<std::size_t>(draw.whole(1, 40)));
         for (Vec2d& p : places) {
@@ -360,10 +359,8 @@ TEST(PrismaticProperty, ToursVisitEveryPlaceAndAreNoLongerThanTheNearestNext)
 
 TEST(PrismaticProperty, FacesLeaveNoPlaceOfTheStock)
 {
-    constexpr unsigned kSeed = 9;
     const int cases = property_cases(1000);
-    std::printf("faces: seed %u, %d cases\n", kSeed, cases);
-    Draw draw{std::mt19937{kSeed}};
+    Draw draw = seeded("faces", 9, cases);
     for (int i = 0; i < cases; ++i) {
         Operation operation = cut_of("face", draw.uniform(0.1, 3));
         operation.tool.radius = draw.uniform(1, 12);
@@ -395,10 +392,8 @@ TEST(PrismaticProperty, FacesLeaveNoPlaceOfTheStock)
 // On both sides: the tip nowhere leaves the lines, and comes everywhere along them.
 TEST(PrismaticProperty, EngravingFollowsItsLines)
 {
-    constexpr unsigned kSeed = 5;
     const int cases = property_cases(1000);
-    std::printf("engraving: seed %u, %d cases\n", kSeed, cases);
-    Draw draw{std::mt19937{kSeed}};
+    Draw draw = seeded("engraving", 5, cases);
     for (int i = 0; i < cases; ++i) {
         const std::vector<Vec2d> corners = random_outline(draw, 0.8);
         Operation operation = cut_of("engrave", 0.3);
@@ -425,10 +420,8 @@ TEST(PrismaticProperty, EngravingFollowsItsLines)
 // The lowest flank over places beside an edge of a convex outline.
 TEST(PrismaticProperty, ChamfersHaveTheirWidthAndSlope)
 {
-    constexpr unsigned kSeed = 45;
     const int cases = property_cases(150);
-    std::printf("chamfers: seed %u, %d cases\n", kSeed, cases);
-    Draw draw{std::mt19937{kSeed}};
+    Draw draw = seeded("chamfers", 45, cases);
     for (int i = 0; i < cases; ++i) {
         const std::vector<Vec2d> corners = random_outline(draw, 0.0);
         Operation operation = cut_of("chamfer", 1.0);

@@ -26,7 +26,7 @@ double lower_side(const Tool& tool, double out)
     return c - std::sqrt(std::max(0.0, c * c - beyond * beyond));
 }
 
-// One place of metal under every position of the tool, none left out.
+// One place of stock under every position of the tool, none left out.
 class OnePlace {
 public:
     OnePlace(Vec2d at, const Tool& tool) : at_{at}, tool_{tool} {}
@@ -67,8 +67,8 @@ TEST(StockHeightMap, IsWhatAllPositionsOfTheToolLeave)
         tool.corner_radius = n % 3 == 0 ? 0.0 : n % 3 == 1 ? tool.radius : 0.4 * tool.radius;
         constexpr double kShare = 1.0 / 8;
         const double pitch = tool.radius * kShare;
-        StockHeightMap metal{{0.0, 0.0, kSide, kSide}, tool, kTop, kShare};
-        // A pin that is thinner than the places are apart feels one of them.
+        StockHeightMap stock{{0.0, 0.0, kSide, kSide}, tool, kTop, kShare};
+        // A pin thinner than the pitch touches one point of the map.
         Tool pin{};
         pin.radius = 0.5 * pitch;
         std::vector<OnePlace> places;
@@ -85,7 +85,7 @@ TEST(StockHeightMap, IsWhatAllPositionsOfTheToolLeave)
             to.z = kind < 0.4 ? std::min(at.z, -0.5) : 1.0 - 4.0 * any(random);
             to = kind > 0.9 ? Vec3d{at.x, at.y, to.z} : to;
             to = any(random) < 0.5 ? at + (to - at) * (0.3 / kSide) : to;
-            metal.cut(at, to);
+            stock.cut(at, to);
             for (OnePlace& place : places) {
                 place.cut(at, to);
             }
@@ -93,10 +93,10 @@ TEST(StockHeightMap, IsWhatAllPositionsOfTheToolLeave)
         }
         StockHeightMap uncut{{0.0, 0.0, kSide, kSide}, tool, kTop, kShare};
         uncut.set_tool(pin);
-        metal.set_tool(pin);
+        stock.set_tool(pin);
         for (const OnePlace& place : places) {
             const double taken =
-                uncut.contact_height(place.at()) - metal.contact_height(place.at());
+                uncut.contact_height(place.at()) - stock.contact_height(place.at());
             DOUBLES_EQUAL(kTop - place.height(), taken, kGraze);
             cut += taken > 0.5 ? 1 : 0;
         }

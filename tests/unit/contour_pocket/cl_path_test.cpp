@@ -91,8 +91,8 @@ double length_over(const ClPath& path, const DropCutter& floor, double over)
         const double length = std::hypot(move.end.x - from.x, move.end.y - from.y);
         for (int i = 0; i < kPlaces; ++i) {
             const Vec3d tip = from + (move.end - from) * ((i + 0.5) / kPlaces);
-            const bool stands = tip.z - floor.tip_height({tip.x, tip.y}) > over;
-            sum += stands ? length / kPlaces : 0.0;
+            const bool lifted = tip.z - floor.tip_height({tip.x, tip.y}) > over;
+            sum += lifted ? length / kPlaces : 0.0;
         }
         from = move.end;
     }

@@ -144,7 +144,7 @@ TEST(ContourPocket, TellsItsProgressThroughRoughingAndFinish)
 // moves.
 double deepest_first_cut(const std::vector<PlannedOperation>& planned, double top)
 {
-    std::map<std::pair<int, int>, double> metal;
+    std::map<std::pair<int, int>, double> heights;
     double deepest = 0.0;
     for (const PlannedOperation& operation : planned) {
         Vec3d at{};
@@ -154,7 +154,7 @@ double deepest_first_cut(const std::vector<PlannedOperation>& planned, double to
             for (int i = 1; i <= n && move.kind == MoveKind::kCut; ++i) {
                 const Vec3d p = at + (to - at) * (static_cast<double>(i) / n);
                 const std::pair cell{static_cast<int>(p.x), static_cast<int>(p.y)};
-                double& height = metal.emplace(cell, top).first->second;
+                double& height = heights.emplace(cell, top).first->second;
                 deepest = std::max(deepest, height - p.z);
                 height = std::min(height, p.z);
             }

@@ -49,7 +49,7 @@ struct Step {
 
     // z of the ball's centre on the model and, if requested, clear of the rim by the face's allowed
     // depth, along its normal.
-    double middle(double x, bool kept_off) const
+    double middle(double x, bool clear_of_rim) const
     {
         double z = kFloor + kRadius;
         const double on_face = (kRadius + x * leaning) / upright;
@@ -63,7 +63,7 @@ struct Step {
             const double up = std::max(1e-3, at / away);
             return away + band.max_gouge * up / upright >= kRadius + 1.05 * band.half_width;
         };
-        if (!kept_off || free(z)) {
+        if (!clear_of_rim || free(z)) {
             return z;
         }
         double low = z;
@@ -74,13 +74,14 @@ struct Step {
         return high;
     }
 
-    double lowest_over(Vec3d place, bool kept_off) const
+    double lowest_over(Vec3d place, bool clear_of_rim) const
     {
         double least = std::numeric_limits<double>::infinity();
         constexpr double kStep = 1e-4;
         for (double off = -kRadius; off < kRadius; off += kStep) {
             const double x = place.x + off;
-            least = std::min(least, middle(x, kept_off) - std::sqrt(kRadius * kRadius - off * off));
+            least =
+                std::min(least, middle(x, clear_of_rim) - std::sqrt(kRadius * kRadius - off * off));
         }
         return least;
     }

@@ -52,14 +52,14 @@ TEST_GROUP(DepthLimiter){};
 
 TEST(DepthLimiter, StockIsMetAtTheToolsLowerSide)
 {
-    StockHeightMap metal{{-10, -10, 10, 10}, kBall, 0};
-    DOUBLES_EQUAL(0, metal.contact_height({0, 0}), 0.05);
-    DOUBLES_EQUAL(2, metal.cut({-8, 0, -2}, {8, 0, -2}), 0.05);
-    DOUBLES_EQUAL(-2, metal.contact_height({0, 0}), 0.05);
+    StockHeightMap stock{{-10, -10, 10, 10}, kBall, 0};
+    DOUBLES_EQUAL(0, stock.contact_height({0, 0}), 0.05);
+    DOUBLES_EQUAL(2, stock.cut({-8, 0, -2}, {8, 0, -2}), 0.05);
+    DOUBLES_EQUAL(-2, stock.contact_height({0, 0}), 0.05);
     // Beside the groove of the ball its rim still meets the stock's top.
-    CHECK(metal.contact_height({0, 2}) > -0.5);
-    DOUBLES_EQUAL(0, metal.cut({-8, 0, -2}, {8, 0, -2}), 1e-9);
-    DOUBLES_EQUAL(1, metal.cut({-8, 0, -3}, {8, 0, -3}), 0.05);
+    CHECK(stock.contact_height({0, 2}) > -0.5);
+    DOUBLES_EQUAL(0, stock.cut({-8, 0, -2}, {8, 0, -2}), 1e-9);
+    DOUBLES_EQUAL(1, stock.cut({-8, 0, -3}, {8, 0, -3}), 0.05);
 }
 
 TEST(DepthLimiter, HoldsBesideACliffThatTheAllowanceStandsOn)

@@ -177,9 +177,9 @@ TEST(SecondMotor, EndsInAlarm15WhereASwitchNeverCloses)
     // 5 % of 200 mm; the way of braking comes to it.
     const double alone = bench.second() - bench.first();
     DOUBLES_EQUAL(10, alone, 0.1);
-    const double stands = bench.second();
+    const double stopped_at = bench.second();
     bench.run(500);
-    DOUBLES_EQUAL(stands, bench.second(), 0);
+    DOUBLES_EQUAL(stopped_at, bench.second(), 0);
     CHECK(has(bench.say("$X\nG91G1X1F1000\n"), "Unlocked"));
 }
 

@@ -1,5 +1,5 @@
 // Halves strips breadth first: each stretch is examined when all coarser loops are in place.
-#include "host_tools/contour_pocket/partial_levels.hpp"
+#include "host_tools/contour_pocket/loops_in_strip.hpp"
 
 #include <cmath>
 
@@ -26,7 +26,7 @@ struct Part {
 
 }  // namespace
 
-std::optional<std::vector<PartialLoop>> partial_levels(const LoopStrip& strip,
+std::optional<std::vector<PartialLoop>> loops_in_strip(const LoopStrip& strip,
                                                        LoopScallop& loop_scallop,
                                                        double radius,
                                                        double max_length)

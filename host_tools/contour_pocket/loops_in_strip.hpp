@@ -13,7 +13,7 @@ namespace cusp::contour_pocket {
 // halves until no scallop is too high (LoopScallop::stretches()) or passes are as close as allowed
 // (least_stepover()). None if the scallop is too high beside a cleanup spur, or if the loops add
 // more than `max_length` mm of path.
-std::optional<std::vector<clearing::PartialLoop>> partial_levels(const clearing::LoopStrip& strip,
+std::optional<std::vector<clearing::PartialLoop>> loops_in_strip(const clearing::LoopStrip& strip,
                                                                  LoopScallop& loop_scallop,
                                                                  double radius,
                                                                  double max_length);
