@@ -7,6 +7,8 @@ void SimulatedController::settle()
 {
     while (app_ && app_->poll()) {
     }
+    // Replies wait only where the link has no room.
+    settled_ = board_.byte_link.write_room() > 0;
 }
 
 void SimulatedController::tick()
@@ -17,7 +19,10 @@ void SimulatedController::tick()
 
 void SimulatedController::tick_firmware()
 {
-    settle();
+    if (!settled_ || board_.byte_link.unread() > 0) {
+        settle();
+    }
+    settled_ = false;
     if (app_) {
         app_->tick();
     }
@@ -35,6 +40,7 @@ bool SimulatedController::work(unsigned slices)
 
 void SimulatedController::tick_amid_work()
 {
+    settled_ = false;
     if (app_) {
         app_->tick();
     }
@@ -53,6 +59,7 @@ void SimulatedController::power_on()
 {
     if (!app_) {
         app_.emplace(board_);
+        settled_ = false;
     }
 }
 

@@ -51,6 +51,8 @@ public:
 private:
     hal::SimulatedBoard board_;
     std::optional<App> app_;
+    // Whether poll() has nothing to do before the next tick or byte.
+    bool settled_{false};
 };
 
 }  // namespace cusp::board_sim

@@ -9,6 +9,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
 
 #include "firmware/base/axis.hpp"
 #include "firmware/base/pulse_frame.hpp"
@@ -79,9 +82,12 @@ private:
     // Edges of the frame being made and the beginning of the next: raised lines in the low byte,
     // lowered ones in the high byte.
     static constexpr std::size_t kOverhang = 512;
+    // As many ticks as a register holds: compress() looks for edges in them at once.
+    using EdgeWord = std::conditional_t<sizeof(std::size_t) == 8, std::uint64_t, std::uint32_t>;
+    static constexpr std::uint32_t kTicksPerWord = sizeof(EdgeWord) / sizeof(std::uint16_t);
     StepSettings settings_{};
     PerAxis<AxisState> axes_{};
-    alignas(std::uint32_t) std::array<std::uint16_t, kPulseTicksPerFrame + kOverhang> edges_{};
+    alignas(EdgeWord) std::array<std::uint16_t, kPulseTicksPerFrame + kOverhang> edges_{};
     std::uint32_t edges_end_{0};  // beyond the last edge that is set
 };
 

@@ -62,6 +62,9 @@ void SimulatedLink::send(std::string_view bytes)
 std::string SimulatedLink::take_answers()
 {
     std::size_t count = outgoing_.size();
+    if (count == 0) {
+        return {};  // so in most ticks
+    }
     if (bits_per_second_ != 0) {
         count = std::min(count, static_cast<std::size_t>(write_credit_ / kMilliBitsPerByte));
         write_credit_ -= count * kMilliBitsPerByte;

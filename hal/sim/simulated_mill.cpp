@@ -1,7 +1,32 @@
 // Slides, switches and plate of the virtual machine tool.
 #include "hal/sim/simulated_mill.hpp"
 
+#include <array>
+
+#include "firmware/base/pulse_frame.hpp"
+
 namespace cusp::hal {
+namespace {
+
+// Steps of a frame are counted for all axes in one word: no branch for each edge and axis.
+constexpr unsigned kCountBits = 21;
+constexpr std::uint64_t kCountMask = (1U << kCountBits) - 1;
+static_assert(kPulseTicksPerFrame < kCountMask && kAxisCount * kCountBits <= 64);
+constexpr unsigned kAllAxes = (1U << kAxisCount) - 1;
+
+// One step of each axis whose bit is set.
+constexpr std::array<std::uint64_t, kAllAxes + 1> kStepsOfLines = [] {
+    std::array<std::uint64_t, kAllAxes + 1> counts{};
+    for (unsigned lines = 0; lines < counts.size(); ++lines) {
+        for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+            counts[lines] |= static_cast<std::uint64_t>(lines >> axis & 1U) << kCountBits * axis;
+        }
+    }
+    return counts;
+}();
+
+}  // namespace
+
 std::uint16_t SimulatedMill::inputs() const noexcept
 {
     unsigned bits = 0;
@@ -36,17 +61,24 @@ void SimulatedMill::set(const OutputLevels& levels) noexcept
 
 void SimulatedMill::frame_played(std::uint64_t /*start_tick*/, const PulseFrame& frame)
 {
+    std::uint64_t taken = 0;
+    std::uint64_t plus = 0;
     for (const PulseEdge& edge : frame.edges) {
-        const auto risen = static_cast<PulseLines>(edge.raise & ~unsigned{levels_});
+        const unsigned risen = edge.raise & ~unsigned{levels_};
         levels_ = static_cast<PulseLines>((levels_ | edge.raise) & ~unsigned{edge.lower});
-        for (unsigned axis = 0; axis < kAxisCount; ++axis) {
-            if ((risen & step_line(axis)) != 0) {
-                take_step(axis);
-            }
-        }
+        const unsigned towards = unsigned{levels_} / direction_line(0);
+        const unsigned forward = towards ^ geometry_.inverted_directions;
+        taken += kStepsOfLines[risen & kAllAxes];
+        plus += kStepsOfLines[risen & forward & kAllAxes];
         if ((risen & kSecondStepLine) != 0) {
             take_second_step();
         }
+    }
+    for (unsigned axis = 0; axis < kAxisCount; ++axis) {
+        const std::uint64_t steps = taken >> kCountBits * axis & kCountMask;
+        const std::uint64_t forward = plus >> kCountBits * axis & kCountMask;
+        steps_taken_[axis] += steps;
+        steps_[axis] += static_cast<std::int64_t>(2 * forward) - static_cast<std::int64_t>(steps);
     }
 }
 
@@ -71,14 +103,6 @@ double SimulatedMill::second_place() const noexcept
 void SimulatedMill::take_second_step() noexcept
 {
     second_steps_ += (levels_ & kSecondDirectionLine) != 0 ? 1 : -1;
-}
-
-void SimulatedMill::take_step(unsigned axis) noexcept
-{
-    const bool plus = (levels_ & direction_line(axis)) != 0;
-    const bool inverted = (geometry_.inverted_directions >> axis & 1U) != 0;
-    steps_[axis] += plus != inverted ? 1 : -1;
-    ++steps_taken_[axis];
 }
 
 }  // namespace cusp::hal

@@ -63,7 +63,6 @@ public:
     void force_low(std::uint16_t inputs) noexcept { forced_low_ = inputs; }
 
 private:
-    void take_step(unsigned axis) noexcept;
     void take_second_step() noexcept;
 
     MillGeometry geometry_;

@@ -46,6 +46,7 @@ struct ViewArguments {
 RunPage page_of(const ViewArguments& arguments)
 {
     RunPageOptions options;
+    options.simulation.sums_edges = false;
     if (!arguments.settings_file.empty()) {
         options.simulation.settings = read_settings_file(arguments.settings_file);
     }

@@ -2,12 +2,15 @@
 #include "host_tools/parallel/parallel.hpp"
 
 #include <atomic>
+#include <deque>
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 #include "oneapi/tbb/global_control.h"
 #include "oneapi/tbb/parallel_for.h"
+#include "oneapi/tbb/task_group.h"
 
 namespace cusp::parallel {
 namespace {
@@ -70,5 +73,84 @@ void both(const std::function<void()>& first, const std::function<void()>& secon
 {
     for_each(2, [&](std::size_t k) { (k == 0 ? first : second)(); });
 }
+
+class TaskQueue::Implementation {
+public:
+    explicit Implementation(std::size_t most) : most_{most} {}
+    ~Implementation() { group_.wait(); }
+    Implementation(const Implementation&) = delete;
+    Implementation& operator=(const Implementation&) = delete;
+
+    void add(std::function<void()> task)
+    {
+        bool starts = false;
+        bool full = false;
+        {
+            const std::lock_guard lock{mutex_};
+            full = waiting_.size() >= most_;
+            waiting_.push_back(std::move(task));
+            starts = !std::exchange(running_, true);
+        }
+        if (starts) {
+            group_.run([this] { run(); });
+        }
+        if (full) {
+            group_.wait();
+        }
+    }
+
+    void finish()
+    {
+        group_.wait();
+        const std::lock_guard lock{mutex_};
+        if (fault_) {
+            std::rethrow_exception(std::exchange(fault_, nullptr));
+        }
+    }
+
+private:
+    // Runs tasks until none waits.
+    void run()
+    {
+        while (const std::function<void()> task = next()) {
+            try {
+                task();
+            } catch (...) {
+                const std::lock_guard lock{mutex_};
+                fault_ = std::current_exception();
+            }
+        }
+    }
+
+    std::function<void()> next()
+    {
+        const std::lock_guard lock{mutex_};
+        if (fault_) {
+            waiting_.clear();
+        }
+        if (waiting_.empty()) {
+            running_ = false;
+            return nullptr;
+        }
+        std::function<void()> task = std::move(waiting_.front());
+        waiting_.pop_front();
+        return task;
+    }
+
+    std::size_t most_;
+    std::mutex mutex_;
+    std::deque<std::function<void()>> waiting_;
+    bool running_{false};
+    std::exception_ptr fault_;
+    tbb::task_group group_;
+};
+
+TaskQueue::TaskQueue(std::size_t most) : implementation_{std::make_unique<Implementation>(most)} {}
+
+TaskQueue::~TaskQueue() = default;
+
+void TaskQueue::add(std::function<void()> task) { implementation_->add(std::move(task)); }
+
+void TaskQueue::finish() { implementation_->finish(); }
 
 }  // namespace cusp::parallel

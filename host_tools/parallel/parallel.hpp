@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 
 namespace cusp::parallel {
 
@@ -24,5 +25,28 @@ void for_each(std::size_t count, const std::function<void(std::size_t)>& body);
 
 // Calls first() and second() at once, as for_each() does.
 void both(const std::function<void()>& first, const std::function<void()>& second);
+
+// Tasks that run one after the other, in the order of add(), while the caller continues: the later
+// stage of work that comes in pieces. With one thread they run in add() and finish().
+class TaskQueue {
+public:
+    // most  >= 1: tasks that may wait
+    explicit TaskQueue(std::size_t most);
+    // Waits for all tasks; an exception that finish() has not thrown is lost.
+    ~TaskQueue();
+    TaskQueue(const TaskQueue&) = delete;
+    TaskQueue& operator=(const TaskQueue&) = delete;
+
+    // Returns at once unless `most` tasks wait already.
+    void add(std::function<void()> task);
+
+    // Returns when all tasks are done. Throws the exception of the first that threw; those after it
+    // were left out.
+    void finish();
+
+private:
+    class Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
 
 }  // namespace cusp::parallel

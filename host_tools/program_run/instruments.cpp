@@ -18,17 +18,20 @@ Instruments::Instruments(board_sim::SimulatedController& controller, const RunOp
       start_steps_{controller.board().mill.steps_taken()},
       start_tick_{player_.next_frame_start()},
       statistics_{motion_.position()},
-      shadow_{motion_.position()},
+      shadow_{motion_.position(), path_listener()},
       checksum_{start_tick_, player_.levels()},
       delay_us_{pulse::PulseMaker::kDelayTicks * kPulseTicksPerFrame +
                 controller.machine().settings().steps().direction_setup_us}
 {
-    player_.add_listener(checksum_);
+    if (options_.sums_edges) {
+        player_.add_listener(checksum_);
+    }
     if (options_.started) {
         options_.started(controller_.board());
     }
     if (options_.set_point) {
-        options_.set_point({time_of_set_point() - kPulseTicksPerFrame, motion_.position(), 0, 0.0});
+        options_.set_point(
+            {time_of_set_point() - kPulseTicksPerFrame, motion_.position(), 0, 0.0, false});
     }
 }
 
@@ -39,10 +42,11 @@ void Instruments::tick()
     const std::uint32_t line = motion_.executing_line();
     statistics_.add(at);
     tool_times_.add_tick(line);
-    const bool on_path = options_.measures_deviation && !controller_.machine().changing_tool();
-    const double deviation = on_path ? shadow_.deviation().add_set_point(at) : 0.0;
+    const bool on_path = !controller_.machine().changing_tool();
+    const double deviation =
+        on_path && options_.measures_deviation ? deviation_.add_set_point(at) : 0.0;
     if (options_.set_point) {
-        options_.set_point({time_of_set_point(), at, line, deviation});
+        options_.set_point({time_of_set_point(), at, line, deviation, on_path});
     }
     controller_.tick_world();
 }
@@ -60,11 +64,11 @@ void Instruments::finish(RunResult& result)
     result.max_velocity = statistics_.max_velocity();
     result.max_acceleration = statistics_.max_acceleration();
     result.max_jerk = statistics_.max_jerk();
-    result.max_deviation_mm = shadow_.deviation().greatest();
-    result.max_deviation_line = shadow_.deviation().line();
+    result.max_deviation_mm = deviation_.greatest();
+    result.max_deviation_line = deviation_.line();
     result.tools = tool_times_.times();
     result.tool_changes = tool_times_.changes();
-    result.edges_crc32 = checksum_.value();
+    result.edges_crc32 = options_.sums_edges ? checksum_.value() : 0;
     for (unsigned axis = 0; axis < kAxisCount; ++axis) {
         result.steps[axis] = controller_.board().mill.steps_taken()[axis] - start_steps_[axis];
     }
@@ -75,6 +79,20 @@ LineEffects Instruments::read(std::string_view line, std::uint64_t number)
     const LineEffects effects = shadow_.read(line, number);
     tool_times_.read_line(number, shadow_.tool());
     return effects;
+}
+
+PathListener Instruments::path_listener()
+{
+    if (!options_.measures_deviation) {
+        return options_.path;
+    }
+    return [this](const path::Move* move) {
+        if (move != nullptr) {
+            deviation_.add_move(*move);
+        } else {
+            deviation_.restart();
+        }
+    };
 }
 
 double Instruments::seconds() const

@@ -7,6 +7,7 @@
 #include "boards/sim/simulated_controller.hpp"
 #include "host_tools/program_run/edge_checksum.hpp"
 #include "host_tools/program_run/motion_statistics.hpp"
+#include "host_tools/program_run/path_deviation.hpp"
 #include "host_tools/program_run/program_run.hpp"
 
 namespace cusp::program_run {
@@ -32,6 +33,7 @@ public:
 
 private:
     std::uint64_t time_of_set_point() const;
+    PathListener path_listener();
 
     board_sim::SimulatedController& controller_;
     const machine::Motion& motion_;
@@ -40,6 +42,7 @@ private:
     PerAxis<std::uint64_t> start_steps_;
     std::uint64_t start_tick_;
     MotionStatistics statistics_;
+    PathDeviation deviation_;
     ProgramShadow shadow_;
     ToolTimes tool_times_;
     EdgeChecksum checksum_;

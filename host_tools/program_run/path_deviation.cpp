@@ -11,9 +11,8 @@
 namespace cusp::program_run {
 namespace {
 
-PathPlace nearest_on_segment(Vec3d point, Vec3d end)
+PathPlace nearest_on_segment(Vec3d point, Vec3d end, double length_squared)
 {
-    const double length_squared = dot(end, end);
     const double t =
         length_squared > 0 ? std::clamp(dot(point, end) / length_squared, 0.0, 1.0) : 0.0;
     return {norm(point - end * t), t};
@@ -150,7 +149,8 @@ PathPlace nearest_place(const path::Move& move, Position point)
     if (const auto* piece = std::get_if<path::BezierPiece>(&move.path)) {
         return nearest_on_bezier(*piece, relative);
     }
-    return nearest_on_segment(relative, to_millimetres(move.end - move.start));
+    const Vec3d chord = to_millimetres(move.end - move.start);
+    return nearest_on_segment(relative, chord, dot(chord, chord));
 }
 
 void PathDeviation::add_move(const path::Move& move)
@@ -159,7 +159,9 @@ void PathDeviation::add_move(const path::Move& move)
     if (length <= 0.0) {
         return;
     }
-    stretches_.push_back({move, end_, length});
+    const Vec3d chord = to_millimetres(move.end - move.start);
+    const bool straight = std::holds_alternative<path::Line>(move.path);
+    stretches_.push_back({move, end_, end_ + length, straight, chord, dot(chord, chord)});
     end_ += length;
     greatest_tolerance_ = std::max(greatest_tolerance_, static_cast<double>(move.tolerance));
 }
@@ -167,6 +169,7 @@ void PathDeviation::add_move(const path::Move& move)
 void PathDeviation::restart()
 {
     stretches_.clear();
+    first_near_ = 0;
     place_ = end_;
 }
 
@@ -180,6 +183,26 @@ double PathDeviation::reach(Position set_point) const
     return kSlack + 2.0 * travel + 8.0 * greatest_tolerance_;
 }
 
+PathPlace PathDeviation::nearest_on(const Stretch& stretch, Position point)
+{
+    if (!stretch.straight) {
+        return nearest_place(stretch.move, point);
+    }
+    return nearest_on_segment(to_millimetres(point - stretch.move.start), stretch.chord,
+                              stretch.chord_square);
+}
+
+// Stretches follow each other: their ends rise. From one set point to the next few are passed.
+void PathDeviation::find_first_near(double place)
+{
+    while (first_near_ > 0 && stretches_[first_near_ - 1].end >= place) {
+        --first_near_;
+    }
+    while (first_near_ < stretches_.size() && stretches_[first_near_].end < place) {
+        ++first_near_;
+    }
+}
+
 double PathDeviation::add_set_point(Position set_point)
 {
     if (stretches_.empty() || set_point == last_) {
@@ -191,24 +214,23 @@ double PathDeviation::add_set_point(Position set_point)
     double nearest = std::numeric_limits<double>::infinity();
     double place = place_;
     std::uint32_t line = 0;
-    for (const Stretch& stretch : stretches_) {
+    find_first_near(place_ - around);
+    for (std::size_t k = first_near_; k < stretches_.size(); ++k) {
+        const Stretch& stretch = stretches_[k];
         if (stretch.start > place_ + around) {
             break;
         }
-        if (stretch.start + stretch.length < place_ - around) {
-            continue;
-        }
-        const PathPlace found = nearest_place(stretch.move, set_point);
+        const PathPlace found = nearest_on(stretch, set_point);
         if (found.distance <= nearest + kTie) {
             nearest = std::min(nearest, found.distance);
-            place = stretch.start + found.part * stretch.length;
+            place = stretch.start + found.part * (stretch.end - stretch.start);
             line = stretch.move.line;
         }
     }
     place_ = place;
-    while (stretches_.size() > 1 &&
-           stretches_.front().start + stretches_.front().length < place_ - 4.0 * around) {
+    while (stretches_.size() > 1 && stretches_.front().end < place_ - 4.0 * around) {
         stretches_.pop_front();
+        first_near_ = first_near_ > 0 ? first_near_ - 1 : 0;
     }
     if (nearest == std::numeric_limits<double>::infinity()) {
         return 0;

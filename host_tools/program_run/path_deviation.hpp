@@ -42,13 +42,20 @@ private:
     struct Stretch {
         path::Move move;
         double start;  // mm along the path
-        double length;
+        double end;
+        // Of a line, mm: its end from its start, and the square of its length.
+        bool straight;
+        Vec3d chord;
+        double chord_square;
     };
+    static PathPlace nearest_on(const Stretch& stretch, Position point);
     double reach(Position set_point) const;
+    void find_first_near(double place);
 
     std::deque<Stretch> stretches_;
-    double end_{0};    // of the path so far, mm
-    double place_{0};  // of the last set point
+    std::size_t first_near_{0};  // of stretches_: the first within reach of the last set point
+    double end_{0};              // of the path so far, mm
+    double place_{0};            // of the last set point
     Position last_{};
     double greatest_tolerance_{0};
     double greatest_{0};

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "firmware/machine/settings.hpp"
+#include "firmware/path/move.hpp"
 #include "hal/sim/simulated_board.hpp"
 #include "host_tools/dialect/line_source.hpp"
 #include "host_tools/program_run/program_shadow.hpp"
@@ -38,7 +39,12 @@ struct SetPoint {
     Position at;
     std::uint32_t line;   // of the program, that it executes; 0 before the first
     double deviation_mm;  // from the programmed path; 0 where it is not measured
+    bool on_path;         // false: at the start, or away from the path to change a tool
 };
+
+// Receives the moves of the programmed path, each before the set points on it; null: the machine has
+// moved by itself, and the path continues with the next move.
+using PathListener = std::function<void(const path::Move*)>;
 
 struct RunOptions {
     machine::Settings settings;
@@ -53,6 +59,10 @@ struct RunOptions {
     std::uint32_t bits_per_second{0};
     // Whether the deviation from the programmed path is measured.
     bool measures_deviation{true};
+    // Where it is not, for who measures it elsewhere.
+    PathListener path;
+    // Whether the edges of the pulses are summed.
+    bool sums_edges{true};
     // Called once, when the machine has homed and is where the program starts.
     std::function<void(hal::SimulatedBoard&)> started;
     // Called for the start and for every servo tick.
@@ -89,7 +99,7 @@ struct RunResult {
     std::uint64_t pauses{0};
     std::vector<ToolTime> tools;  // in the order of their first use
     std::uint64_t tool_changes{0};
-    std::uint32_t edges_crc32{0};  // see EdgeChecksum
+    std::uint32_t edges_crc32{0};  // see EdgeChecksum; 0 where edges are not summed
     bool stopped{false};
 
     bool good() const { return errors.empty() && alarm == 0 && !stopped; }

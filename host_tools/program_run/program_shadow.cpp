@@ -34,10 +34,10 @@ void ProgramShadow::take(const gcode::Action& action, LineEffects& effects)
 {
     if (const auto* move = std::get_if<path::Move>(&action)) {
         count(*move);
-        deviation_.add_move(*move);
+        pass(move);
     } else if (const auto* probe = std::get_if<gcode::Probe>(&action)) {
         count(probe->move);
-        deviation_.add_move(probe->move);
+        pass(&probe->move);
         effects.moves_by_itself = true;
     }
     effects.ends_program =

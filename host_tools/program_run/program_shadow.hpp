@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string_view>
+#include <utility>
 
 #include "firmware/gcode/interpreter.hpp"
-#include "host_tools/program_run/path_deviation.hpp"
+#include "firmware/path/move.hpp"
 
 namespace cusp::program_run {
 
@@ -29,7 +31,12 @@ struct LineEffects {
 class ProgramShadow {
 public:
     // start: position at the start of the program, machine coordinates.
-    explicit ProgramShadow(Position start) { set_position(start); }
+    // path: called with each move, and with null where the machine has moved by itself; may be empty.
+    ProgramShadow(Position start, std::function<void(const path::Move*)> path)
+        : path_{std::move(path)}
+    {
+        set_position(start);
+    }
 
     // The next line, numbered, before it is sent. A line that the interpreter refuses has no effects: the controller
     // will refuse it.
@@ -39,7 +46,7 @@ public:
     void set_position(Position at)
     {
         interpreter_.set_position(at);
-        deviation_.restart();
+        pass(nullptr);
     }
 
     // After a tool change that may have measured the tool: the controller's position and offsets.
@@ -56,16 +63,20 @@ public:
     bool in_nurbs() const;
 
     const ProgramMoveCounts& moves() const { return moves_; }
-    PathDeviation& deviation() { return deviation_; }
-    const PathDeviation& deviation() const { return deviation_; }
 
 private:
+    void pass(const path::Move* move) const
+    {
+        if (path_) {
+            path_(move);
+        }
+    }
     void take(const gcode::Action& action, LineEffects& effects);
     void count(const path::Move& move);
 
     gcode::Interpreter interpreter_;
     ProgramMoveCounts moves_;
-    PathDeviation deviation_;
+    std::function<void(const path::Move*)> path_;
 };
 
 }  // namespace cusp::program_run

@@ -2,8 +2,11 @@
 #include "host_tools/view/run_page.hpp"
 
 #include <filesystem>
+#include <optional>
+#include <utility>
 
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/parallel/parallel.hpp"
 #include "host_tools/verify/verify.hpp"
 #include "host_tools/view/left_map.hpp"
 #include "host_tools/view/page_text.hpp"
@@ -28,6 +31,8 @@ namespace {
 constexpr double kAnySpacing = 1e9;
 // Distance of tool positions in pitches of the stock's grid.
 constexpr double kSpacingShare = 0.4;
+// Batches of set points that wait to be encoded: some 13 MB.
+constexpr std::size_t kMostWaiting = 16;
 
 std::string block(const char* id, const char* type, std::string_view text)
 {
@@ -44,13 +49,44 @@ std::string deflated_block(const char* id, std::string_view bytes)
     return block(id, "text/plain", seven_bit_text(deflated(bytes)));
 }
 
-SimulationResult run(const std::string& program, const RunPageOptions& options, RunRecord& record)
+std::string program_blocks(const ProgramReading& reading)
 {
-    SimulationOptions simulation = options.simulation;
-    simulation.set_point = [&](const SetPoint& point) {
-        record.add(point);
+    return deflated_block("data-program", reading.text) +
+           deflated_block("data-rapid", std::string(reading.rapid.begin(), reading.rapid.end()));
+}
+
+// Set points are encoded, and their deviation is measured, while the program runs.
+SimulationResult run(const std::string& program,
+                     const RunPageOptions& options,
+                     RunRecord& record,
+                     parallel::TaskQueue& encoding)
+{
+    constexpr std::size_t kBatch = 16384;
+    RunPiece batch;
+    const auto hand_over = [&] {
+        encoding.add([&record, full = std::exchange(batch, {})] { record.add(full); });
     };
-    return simulate::simulate(program, simulation);
+    SimulationOptions simulation = options.simulation;
+    simulation.measures_deviation = false;
+    simulation.path = [&](const path::Move* move) {
+        batch.path.push_back(
+            {batch.points.size(), move != nullptr ? std::optional{*move} : std::nullopt});
+    };
+    simulation.set_point = [&](const SetPoint& point) {
+        if (batch.points.empty()) {
+            batch.points.reserve(kBatch);
+        }
+        batch.points.push_back(point);
+        if (batch.points.size() == kBatch) {
+            hand_over();
+        }
+    };
+    SimulationResult result = simulate::simulate(program, simulation);
+    hand_over();
+    encoding.finish();
+    result.max_deviation_mm = record.deviation().greatest();
+    result.max_deviation_line = record.deviation().line();
+    return result;
 }
 
 // No value where a line is refused; `why` is the reason.
@@ -97,7 +133,6 @@ RunPage run_page(const std::string& program, const RunPageOptions& options)
     if (html.empty()) {
         throw InputError{fmt::format("cusp view has no page: {}", why_no_page())};
     }
-    const ProgramReading reading = read_program_lines(program);
     std::optional<Verification> own;
     std::string why;
     if (options.job != nullptr && options.verification == nullptr) {
@@ -105,8 +140,15 @@ RunPage run_page(const std::string& program, const RunPageOptions& options)
     }
     const Verification* cut_part = own ? &*own : options.verification;
     const HeightGrid grid = cut_part != nullptr ? coarse_grid(cut_part->grid) : HeightGrid{};
+    ProgramReading reading;
+    std::string program_data;
     RunRecord record{reading, cut_part != nullptr ? kSpacingShare * grid.pitch : kAnySpacing};
-    SimulationResult result = run(program, options, record);
+    parallel::TaskQueue encoding{kMostWaiting};
+    encoding.add([&] {
+        reading = read_program_lines(program);
+        program_data = program_blocks(reading);
+    });
+    SimulationResult result = run(program, options, record, encoding);
 
     RunFacts facts{std::filesystem::path{program}.filename().string(),
                    reading,
@@ -119,12 +161,10 @@ RunPage run_page(const std::string& program, const RunPageOptions& options)
                    cut_part,
                    why,
                    {}};
-    std::string data =
-        data_block("data-samples", record.samples().finish()) +
-        deflated_block("data-lines", record.line_runs().text()) +
-        deflated_block("data-path", record.vertices().finish().text()) +
-        deflated_block("data-program", reading.text) +
-        deflated_block("data-rapid", std::string(reading.rapid.begin(), reading.rapid.end()));
+    std::string data = data_block("data-samples", record.samples().finish()) +
+                       deflated_block("data-lines", record.line_runs().text()) +
+                       deflated_block("data-path", record.vertices().finish().text()) +
+                       program_data;
     if (cut_part != nullptr) {
         facts.worst = worst_places(*cut_part, options.job->stock_top);
         data += data_block("data-stock", stock_frames(record.path(), *options.job, grid)) +

@@ -18,8 +18,9 @@
 namespace cusp::view {
 
 struct RunPageOptions {
-    simulate::SimulationOptions simulation;  // set_point is overwritten
-    const job::Job* job{nullptr};            // null: only path and tool
+    // set_point, path and measures_deviation are overwritten. The page does not show the sum of edges.
+    simulate::SimulationOptions simulation;
+    const job::Job* job{nullptr};  // null: only path and tool
     // Of the job and this program; null: run_page() verifies.
     const verify::Verification* verification{nullptr};
     // Called with the fraction of the verification that is done.

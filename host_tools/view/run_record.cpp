@@ -8,6 +8,21 @@
 
 namespace cusp::view {
 
+void RunRecord::add(const RunPiece& batch)
+{
+    auto event = batch.path.begin();
+    for (std::size_t k = 0; k < batch.points.size(); ++k) {
+        for (; event != batch.path.end() && event->before == k; ++event) {
+            if (event->move) {
+                deviation_.add_move(*event->move);
+            } else {
+                deviation_.restart();
+            }
+        }
+        add(batch.points[k]);
+    }
+}
+
 void RunRecord::add(const program_run::SetPoint& point)
 {
     const auto known = [&](std::uint32_t line) {
@@ -30,7 +45,7 @@ void RunRecord::add(const program_run::SetPoint& point)
     ++run_ticks_;
     const int tool = reading_.sections[reading_.section[now]].tool;
     path_.add(to_millimetres(point.at), ticks(), tool, reading_.rapid[now] != 0);
-    vertices_.add(point.at, point.deviation_mm, corner);
+    vertices_.add(point.at, point.on_path ? deviation_.add_set_point(point.at) : 0.0, corner);
     samples_.add(point.at);
 }
 

@@ -1,8 +1,13 @@
-// RunRecord: encodes the set points of a run for a page, tick by tick.
+// RunRecord: encodes the set points of a run for a page, and measures their deviation, tick by tick.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <vector>
 
+#include "firmware/path/move.hpp"
+#include "host_tools/program_run/path_deviation.hpp"
 #include "host_tools/program_run/program_run.hpp"
 #include "host_tools/view/path_vertices.hpp"
 #include "host_tools/view/program_reading.hpp"
@@ -11,13 +16,25 @@
 
 namespace cusp::view {
 
+// A piece of a run.
+struct RunPiece {
+    // A move of the programmed path; none: the machine has moved by itself.
+    struct PathEvent {
+        std::size_t before;  // this one of `points`
+        std::optional<path::Move> move;
+    };
+    std::vector<program_run::SetPoint> points;
+    std::vector<PathEvent> path;
+};
+
 class RunRecord {
 public:
     // reading  must outlive this
     // spacing  mm between the positions that cut the stock
     RunRecord(const ProgramReading& reading, double spacing) : reading_{reading}, path_{spacing} {}
 
-    void add(const program_run::SetPoint& point);
+    // The next ticks.
+    void add(const RunPiece& batch);
 
     std::uint64_t ticks() const { return samples_.ticks(); }
     // Time of the first set point on the clock of the pulse trace, microseconds.
@@ -25,6 +42,9 @@ public:
 
     // Greatest distance of an axis from the first set point, nm.
     std::int64_t farthest() const { return farthest_; }
+
+    // From the programmed path, of all set points.
+    const program_run::PathDeviation& deviation() const { return deviation_; }
 
     SampleBlocks& samples() { return samples_; }
     PathVertices& vertices() { return vertices_; }
@@ -35,9 +55,11 @@ public:
     Bytes line_runs();
 
 private:
+    void add(const program_run::SetPoint& point);
     void end_line_run();
 
     const ProgramReading& reading_;
+    program_run::PathDeviation deviation_;
     SampleBlocks samples_;
     PathVertices vertices_;
     CuttingPath path_;

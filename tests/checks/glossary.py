@@ -20,10 +20,10 @@ STANDARD = set("""
     layout leading left length limit limiter line listener lost lower lowest machine measure mesh model motion
     name navigation nearest nesting number nurbs offer offset one open operation option outcome output page
     parameter partial picture piece place plan plane planned pocket position profile progress proof proved
-    quadratic question range rate raw reach read reading record rectangle refusal refused repair replacement
+    quadratic question queue range rate raw reach read reading record rectangle refusal refused repair replacement
     report request result resume rough row rule sample scripted search section segment selection serial serve
     settings shape share side simulation source space spacing span spline split spot start stat statistic status
-    step stream streamer surface table text thickest time to toolpath trace traversal tree trimmer under unit
+    step stream streamer surface table task text thickest time to toolpath trace traversal tree trimmer under unit
     vcd vec verification verify version vertex vertices visibility volume welded work worst writer
 """.split())
 TYPE = re.compile(r"^(?:struct|class|enum class) (?:alignas\(\d+\) )?(\w+)(?: final)?(?:\s*:(?!:)[^;{]*)?\s*\{", re.MULTILINE)

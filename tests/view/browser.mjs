@@ -53,6 +53,7 @@ export async function startBrowser() {
 // Opens a page that must ask for nothing and complain of nothing: `faults` says what it did.
 export async function openPage(browser, file, { width = 1280, height = 800, dark = false } = {}) {
   const context = await browser.newContext({ viewport: { width, height }, colorScheme: dark ? "dark" : "light", reducedMotion: "reduce" });
+  context.setDefaultTimeout(120_000);  // a loaded machine
   const page = await context.newPage(), faults = [], address = pathToFileURL(file).href;
   page.on("request", (r) => { if (!r.url().startsWith("blob:") && r.url() !== address) faults.push("request " + r.url()); });
   page.on("console", (m) => { if (m.type() === "error" || m.type() === "warning") faults.push("console " + m.text()); });

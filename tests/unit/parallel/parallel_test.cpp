@@ -1,4 +1,4 @@
-// Loops: every number once, the exception of the lowest number, loops in loops.
+// Loops: every number once, the exception of the lowest number, loops in loops. Queues: tasks in order.
 #include "host_tools/parallel/parallel.hpp"
 
 #include <numeric>
@@ -61,4 +61,61 @@ TEST(Parallel, RunsTwoTasks)
     parallel::both([&] { first = 1; }, [&] { second = 2; });
     LONGS_EQUAL(1, first);
     LONGS_EQUAL(2, second);
+}
+
+TEST(Parallel, QueueRunsTasksInOrderBesideTheCaller)
+{
+    for (const int threads : {1, 2, 4}) {
+        parallel::set_threads(threads);
+        std::vector<int> order;
+        parallel::TaskQueue queue{3};
+        for (int task = 0; task < 1000; ++task) {
+            queue.add([&order, task] { order.push_back(task); });
+        }
+        queue.finish();
+        std::vector<int> expected(1000);
+        std::iota(expected.begin(), expected.end(), 0);
+        CHECK(order == expected);
+        queue.add([&order] { order.clear(); });
+        queue.finish();
+        CHECK(order.empty());
+    }
+}
+
+TEST(Parallel, QueueThrowsTheFirstExceptionAndLeavesOutTheRest)
+{
+    for (const int threads : {1, 2, 4}) {
+        parallel::set_threads(threads);
+        std::vector<int> done;
+        std::string said;
+        parallel::TaskQueue queue{100};
+        for (int task = 0; task < 50; ++task) {
+            queue.add([&done, task] {
+                if (task >= 7) {
+                    throw std::runtime_error(std::to_string(task));
+                }
+                done.push_back(task);
+            });
+        }
+        try {
+            queue.finish();
+        } catch (const std::runtime_error& error) {
+            said = error.what();
+        }
+        STRCMP_EQUAL("7", said.c_str());
+        LONGS_EQUAL(7, static_cast<long>(done.size()));
+        queue.finish();
+    }
+}
+
+TEST(Parallel, QueueWaitsForItsTasksAtItsEnd)
+{
+    int done = 0;
+    {
+        parallel::TaskQueue queue{1};
+        for (int task = 0; task < 10; ++task) {
+            queue.add([&done] { ++done; });
+        }
+    }
+    LONGS_EQUAL(10, done);
 }

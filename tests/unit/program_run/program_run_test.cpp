@@ -3,11 +3,13 @@
 
 #include "CppUTest/TestHarness.h"
 
+#include "host_tools/program_run/path_deviation.hpp"
 #include "host_tools/program_run/settings_lines.hpp"
 
 namespace {
 
 using namespace cusp;
+using program_run::PathDeviation;
 using program_run::ProgramRun;
 using program_run::RunOptions;
 using program_run::RunResult;
@@ -77,6 +79,35 @@ TEST(ProgramRun, DoesNotDependOnWhetherTheDeviationIsMeasured)
     DOUBLES_EQUAL(0.0, plain.max_deviation_mm, 0.0);
     UNSIGNED_LONGS_EQUAL(measured.edges_crc32, plain.edges_crc32);
     CHECK(measured.edges_crc32 != run("G21 G90\nG1 X3 F3000\n").edges_crc32);
+}
+
+TEST(ProgramRun, LetsTheDeviationBeMeasuredElsewhere)
+{
+    options.probe_z = -5.0;
+    const std::string text =
+        "G21 G90 G64 P0.05\nG1 X3 F3000\nG2 X6 I1.5\nG38.2 Z-9 F300\nG1 X7 F3000\nY2\n";
+    const RunResult measured = run(text);
+    PathDeviation deviation;
+    options.measures_deviation = false;
+    options.sums_edges = false;
+    options.path = [&](const path::Move* move) {
+        if (move != nullptr) {
+            deviation.add_move(*move);
+        } else {
+            deviation.restart();
+        }
+    };
+    options.set_point = [&](const SetPoint& point) {
+        if (point.on_path) {
+            deviation.add_set_point(point.at);
+        }
+    };
+    const RunResult plain = run(text);
+    CHECK(measured.max_deviation_mm > 0.0);
+    DOUBLES_EQUAL(measured.max_deviation_mm, deviation.greatest(), 0.0);
+    LONGS_EQUAL(measured.max_deviation_line, deviation.line());
+    CHECK(measured.edges_crc32 != 0);
+    UNSIGNED_LONGS_EQUAL(0, plain.edges_crc32);
 }
 
 TEST(ProgramRun, ComesToRestWhereItIsStopped)

@@ -1,7 +1,7 @@
 // Charts over time: each axis' velocity, acceleration and jerk relative to their limits, and the speed along the path.
 import uPlot from "uplot";
 import { axisColours } from "./colours";
-import { element } from "./elements";
+import { element, swatch } from "./elements";
 import { kBucket, kBucketStep, kSpeedChannel } from "./run_data";
 import type { Timeline } from "./timeline";
 
@@ -48,19 +48,10 @@ export class Charts {
     const colours = axisColours(this.dark), text = this.dark ? "#b9c0c9" : "#48505a", grid = this.dark ? "#2a3038" : "#dde2e8";
     const panels = this.panels();
     panels.forEach((panel, k) => {
-      const box = document.createElement("div");
-      box.className = "chart";
-      box.setAttribute("role", "img");
-      box.setAttribute("aria-label", `${panel.title}, ${panel.unit}, over time in seconds`);
-      const title = document.createElement("div");
-      title.className = "chart-title";
-      title.append(element("span", {}, panel.title, " ", element("small", {}, panel.unit)));
+      const box = element("div", { class: "chart", role: "img", "aria-label": `${panel.title}, ${panel.unit}, over time in seconds` });
+      const title = element("div", { class: "chart-title" }, element("span", {}, panel.title, " ", element("small", {}, panel.unit)));
       if (k === 0) {
-        "XYZ".split("").forEach((axis, c) => {
-          const swatch = element("span", { class: "swatch" });
-          swatch.style.background = colours[c];
-          title.append(element("span", { class: "axis-key" }, swatch, axis));
-        });
+        "XYZ".split("").forEach((axis, c) => title.append(element("span", { class: "axis-key" }, swatch(colours[c]), axis)));
       }
       box.append(title);
       this.host.append(box);
@@ -82,8 +73,7 @@ export class Charts {
         }))],
         hooks: { setSelect: [(u: uPlot) => this.select(u)] },
       }, [[], ...panel.channels.map(() => [])] as unknown as uPlot.AlignedData, box);
-      const mark = document.createElement("div");
-      mark.className = "chart-cursor";
+      const mark = element("div", { class: "chart-cursor" });
       plot.over.append(mark);
       this.marks.push(mark);
       let downAt = 0;

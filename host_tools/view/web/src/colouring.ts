@@ -1,7 +1,7 @@
 // The six colourings of the page: values, scale and legend of each.
 import { cssOf, gradientOf, scaleTable } from "./colours";
 import type { Look, ScaleName } from "./colours";
-import { element, figure } from "./elements";
+import { element, figure, legendBar, swatch } from "./elements";
 import type { Scene } from "./scene";
 import type { Timeline } from "./timeline";
 
@@ -51,13 +51,6 @@ function scaleOf(colouring: Colouring, timeline: Timeline): Scale {
   }
 }
 
-function bar(table: Uint8Array, title: string, marks: string[]): HTMLElement[] {
-  const box = element("div", { class: "legend-bar" });
-  box.style.background = gradientOf(table);
-  return [element("div", { class: "legend-title" }, title), box,
-    element("div", { class: "legend-marks" }, ...marks.map((mark) => element("span", {}, mark)))];
-}
-
 // Colours path and surfaces; returns the legend.
 export function applyColouring(colouring: Colouring, timeline: Timeline, scene: Scene, look: Look): HTMLElement[] {
   const left = colouring === "left", scale = scaleOf(left ? "height" : colouring, timeline);
@@ -67,18 +60,15 @@ export function applyColouring(colouring: Colouring, timeline: Timeline, scene: 
   if (left) {
     if (!bounds) return [element("div", { class: "legend-title" }, "The stock left is known only with a job")];
     const { gouge, scallop } = bounds;
-    return bar(scaleTable("left", look), "Gouged and left, mm",
+    return legendBar(gradientOf(scaleTable("left", look)), "Gouged and left, mm",
       [`−${figure(3 * gouge, 2)}`, `−${figure(gouge, 2)}`, "0", figure(scallop, 2), figure(3 * scallop, 2)]);
   }
   const table = scaleTable(scale.name, look);
   if (colouring === "operation") {
-    const items = timeline.facts.reading.sections.map((section, k) => {
-      const swatch = element("span", { class: "swatch" });
-      swatch.style.background = cssOf(table, Math.min(k, 255));
-      return element("div", { class: "legend-kind" }, swatch, section.title || "Before the first tool");
-    });
+    const items = timeline.facts.reading.sections.map((section, k) =>
+      element("div", { class: "legend-kind" }, swatch(cssOf(table, Math.min(k, 255))), section.title || "Before the first tool"));
     return [element("div", { class: "legend-title" }, "Operation"), ...items.slice(items.length > 1 ? 1 : 0, 12)];
   }
   const middle = (scale.low + scale.high) / 2;
-  return bar(table, `${scale.title}, ${scale.unit}`, [scale.low, middle, scale.high].map((value) => figure(value, 3)));
+  return legendBar(gradientOf(table), `${scale.title}, ${scale.unit}`, [scale.low, middle, scale.high].map((value) => figure(value, 3)));
 }

@@ -16,6 +16,20 @@ export function button(label: string, title: string, click: () => void): HTMLBut
   return out;
 }
 
+export function swatch(colour: string): HTMLElement {
+  const out = element("span", { class: "swatch" });
+  out.style.background = colour;
+  return out;
+}
+
+// A scale with a title above and marks below.
+export function legendBar(background: string, title: string, marks: string[]): HTMLElement[] {
+  const box = element("div", { class: "legend-bar" });
+  box.style.background = background;
+  return [element("div", { class: "legend-title" }, title), box,
+    element("div", { class: "legend-marks" }, ...marks.map((mark) => element("span", {}, mark)))];
+}
+
 // At most 4 significant digits below 1000, no exponent.
 export function figure(value: number, digits = 4): string {
   if (!Number.isFinite(value)) return "–";

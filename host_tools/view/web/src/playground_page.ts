@@ -1,8 +1,8 @@
 // The playground: runs a program with settings on the firmware's core; provides `window.cusp.run`.
-import licences from "licences";
 import type { Settings } from "./core/core";
 import { drawProgram, hasCore, runProgram, settingTable } from "./core/run_program";
 import { button, duration, element } from "./elements";
+import { frameButtons, isDark, place } from "./frame";
 import { PathView } from "./playground/path_view";
 import { ProfileCharts, type Limits } from "./playground/profile_charts";
 import { ProgramPanel } from "./playground/program_panel";
@@ -31,9 +31,6 @@ G1 X0 Y0 F6000
 M30
 `;
 
-const systemDark = matchMedia("(prefers-color-scheme: dark)");
-const isDark = () => (document.documentElement.dataset.theme ?? (systemDark.matches ? "dark" : "light")) === "dark";
-const place = (name: string, label: string) => element("section", { class: name, "aria-label": label });
 const parts = { program: place("program", "Program"), stage: place("stage", "Path"), facts: place("facts", "Result and settings"), charts: place("charts", "Charts") };
 const name = element("h1", {}, "cusp playground");
 const state = element("span", { class: "run-state", role: "status" });
@@ -122,17 +119,13 @@ function header(editor: () => Editor, picker: HTMLInputElement): { bar: HTMLElem
   const start = button("Run", "Run (Ctrl+Enter)", () => void run(editor())), stop = button("Stop", "Stop (Esc)", () => running?.abort());
   start.classList.add("primary");
   stop.disabled = true;
-  const rights = element("dialog", { "aria-label": "Licences" }, element("h2", {}, "Licences of what this page holds"), element("pre", { tabindex: "0" }, licences));
-  rights.append(button("Close", "Close", () => rights.close()));
-  document.body.append(rights);
-  const themed = button("Light or dark", "Change between light and dark", () => {
-    document.documentElement.dataset.theme = isDark() ? "light" : "dark";
+  const common = frameButtons(() => {
     if (!last) return;
     editor().path.redraw();
     editor().charts.show(last.profile, last.limits);
   });
   const bars = element("header", {}, name, button("Open …", "Open a program or settings; they may be dropped, too", () => picker.click()), start, stop, bar, state,
-    element("span", { class: "space" }), themed, button("Licences", "Licences of what this page holds", () => rights.showModal()));
+    element("span", { class: "space" }), ...common);
   return { bar: bars, run: start, stop };
 }
 

@@ -1,4 +1,5 @@
 // The program beside the scene: only visible lines are in the document; the line at the cursor is marked.
+import { element } from "./elements";
 import type { RefusedLine } from "./run_data";
 import type { Timeline } from "./timeline";
 
@@ -7,8 +8,8 @@ const kTallest = 8_000_000;  // px that all browsers can scroll
 
 export class ProgramList {
   private readonly lines: number;
-  private readonly spacer = document.createElement("div");
-  private readonly rows = document.createElement("div");
+  private readonly spacer = element("div", { role: "presentation" });
+  private readonly rows = element("div", { class: "program-rows", role: "presentation" });
   private readonly refused = new Map<number, RefusedLine>();
   private readonly decoder = new TextDecoder();
   private marked = 0;
@@ -22,9 +23,6 @@ export class ProgramList {
       if (!this.refused.has(error.line)) this.refused.set(error.line, { ...error, begin: 0, end: 0 });
     }
     this.spacer.style.height = `${this.height}px`;
-    this.rows.className = "program-rows";
-    this.rows.setAttribute("role", "presentation");
-    this.spacer.setAttribute("role", "presentation");
     host.append(this.spacer, this.rows);
     host.addEventListener("scroll", () => this.ask());
     host.addEventListener("click", (event) => {
@@ -88,29 +86,20 @@ export class ProgramList {
   }
 
   private row(line: number): HTMLElement {
-    const row = document.createElement("div"), number = document.createElement("span"), text = document.createElement("span");
-    row.className = "program-row";
-    row.id = "line-" + String(line);
-    row.dataset.line = String(line);
-    row.setAttribute("role", "option");
-    row.setAttribute("aria-selected", String(line === this.marked));
-    row.setAttribute("aria-posinset", String(line));
-    row.setAttribute("aria-setsize", String(this.lines));
-    number.className = "program-number";
-    number.textContent = String(line);
-    const bytes = this.bytesOf(line).subarray(0, 400), refused = this.refused.get(line);
-    if (refused) {
-      row.classList.add("refused");
-      const wrong = document.createElement("mark"), why = document.createElement("span");
-      wrong.textContent = this.decoder.decode(bytes.subarray(refused.begin, refused.end));
-      why.className = "program-why";
-      why.textContent = refused.code > 0 ? `error ${refused.code}: ${refused.text}` : refused.text;
-      text.append(this.decoder.decode(bytes.subarray(0, refused.begin)), wrong, this.decoder.decode(bytes.subarray(refused.end)), why);
-      row.title = why.textContent;
-    } else {
-      text.textContent = this.decoder.decode(bytes);
+    const bytes = this.bytesOf(line).subarray(0, 400), text = element("span"), refused = this.refused.get(line);
+    const part = (from: number, to?: number) => this.decoder.decode(bytes.subarray(from, to));
+    const row = element("div", {
+      class: "program-row", id: `line-${line}`, "data-line": String(line), role: "option",
+      "aria-selected": String(line === this.marked), "aria-posinset": String(line), "aria-setsize": String(this.lines),
+    }, element("span", { class: "program-number" }, String(line)), text);
+    if (!refused) {
+      text.textContent = part(0);
+      return row;
     }
-    row.append(number, text);
+    row.classList.add("refused");
+    row.title = refused.code > 0 ? `error ${refused.code}: ${refused.text}` : refused.text;
+    text.append(part(0, refused.begin), element("mark", {}, part(refused.begin, refused.end)), part(refused.end),
+      element("span", { class: "program-why" }, row.title));
     return row;
   }
 }

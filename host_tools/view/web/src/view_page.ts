@@ -1,11 +1,11 @@
 // The page of one run: creates its parts, and provides `window.cusp`.
-import licences from "licences";
 import { applyColouring, colourings } from "./colouring";
 import type { Colouring } from "./colouring";
 import { Charts } from "./charts";
 import { keyHelp, listenToKeys, readout, sceneTools, transport } from "./controls";
 import type { Choices } from "./controls";
 import { button, duration, element, metres } from "./elements";
+import { dialog, frameButtons, isDark, place } from "./frame";
 import { factsPanel } from "./facts_panel";
 import type { RunResult } from "./core/core";
 import { runProgram } from "./core/run_program";
@@ -28,7 +28,6 @@ declare global {
 }
 
 const facts = pageFacts();
-const place = (name: string, label: string) => element("section", { class: name, "aria-label": label });
 const parts = {
   facts: place("facts", "Facts"), stage: place("stage", "Scene"), program: place("program", "Program"),
   transport: place("transport", "Time"), charts: place("charts", "Charts"),
@@ -36,25 +35,12 @@ const parts = {
 const status = element("div", { class: "status", role: "status" }, "Unpacking the run …");
 const later: { line: (line: number) => void; place: (place: WorstPlace) => void } = { line: () => undefined, place: () => undefined };
 
-function dialog(title: string, ...content: Node[]): HTMLDialogElement {
-  const out = element("dialog", { "aria-label": title }, element("h2", {}, title), ...content);
-  out.append(button("Close", "Close", () => out.close()));
-  document.body.append(out);
-  return out;
-}
-
-const systemDark = matchMedia("(prefers-color-scheme: dark)");
-const isDark = () => (document.documentElement.dataset.theme ?? (systemDark.matches ? "dark" : "light")) === "dark";
 const restyle: (() => void)[] = [];
 
 function frame(): { help: () => void } {
   document.title = `${facts.program} – cusp view`;
   const keys = dialog("Keys", element("dl", { class: "keys" }, ...keyHelp.flatMap(([key, what]) => [element("dt", {}, key), element("dd", {}, what)])));
-  const rights = dialog("Licences of what this page holds", element("pre", { tabindex: "0" }, licences));
-  const themed = button("Light or dark", "Change between light and dark", () => {
-    document.documentElement.dataset.theme = isDark() ? "light" : "dark";
-    for (const act of restyle) act();
-  });
+  const [themed, rights] = frameButtons(() => { for (const act of restyle) act(); });
   const good = facts.run.errors.length === 0 && facts.reading.refused_count === 0 && !facts.not_verified;
   const broken = facts.verification?.broken.length ?? 0;
   const verdict = !good ? "ends early or has refused lines" : !facts.verification ? "runs to its end" : broken > 0 ? "bounds are broken" : "all bounds hold";
@@ -64,7 +50,7 @@ function frame(): { help: () => void } {
       element("span", { class: good && broken === 0 ? "verdict holds" : "verdict broken" }, verdict),
       element("span", { class: "summary" }, `${duration(facts.facts.duration_s)} · ${metres(facts.facts.length_mm)} · ${facts.facts.moves} moves`),
       element("span", { class: "space" }),
-      themed, button("Keys", "Keys (?)", () => keys.showModal()), button("Licences", "Licences of what this page holds", () => rights.showModal())),
+      themed, button("Keys", "Keys (?)", () => keys.showModal()), rights),
     element("main", {}, parts.facts, parts.stage, parts.program, parts.transport, parts.charts));
   parts.facts.tabIndex = 0;
   parts.facts.append(...factsPanel(facts, { toLine: (line) => later.line(line), toPlace: (at) => later.place(at) }));
@@ -123,7 +109,6 @@ async function open(help: () => void): Promise<void> {
   }
   restyle.push(recolour);
   recolour();
-  systemDark.addEventListener("change", () => { for (const act of restyle) act(); });
   listenToKeys(timeline, scene, charts, () => {
     choices.colouring = colourings[(colourings.indexOf(choices.colouring) + 1) % colourings.length];
     recolour();

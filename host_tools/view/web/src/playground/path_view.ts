@@ -1,7 +1,7 @@
 // The path on a canvas, coloured by speed: drag turns it, the wheel zooms, shift and drag moves it.
-import { scaleTable, cssOf } from "../colours";
+import { cssOf, gradientOf, scaleTable } from "../colours";
 import { SKETCH_FIELDS } from "../core/path_sketch";
-import { button, element, figure } from "../elements";
+import { button, element, figure, legendBar } from "../elements";
 
 const STEPS = 24;  // of colour
 const DRAGGED_SEGMENTS = 30_000;
@@ -70,10 +70,7 @@ export class PathView {
     const most = speed.reduce((a, b) => Math.max(a, b), 0);
     this.speedStep = Uint8Array.from(speed, (v) => most > 0 ? Math.min(STEPS - 1, Math.floor(v / most * STEPS)) : 0);
     this.legend.hidden = most === 0;
-    const table = this.table(), bar = element("div", { class: "legend-bar" });
-    bar.style.background = `linear-gradient(90deg, ${Array.from({ length: 9 }, (_, k) => cssOf(table, Math.round(k * 255 / 8))).join(", ")})`;
-    this.legend.replaceChildren(element("div", { class: "legend-title" }, "Speed, mm/s"), bar,
-      element("div", { class: "legend-marks" }, element("span", {}, "0"), element("span", {}, figure(most / 2)), element("span", {}, figure(most))));
+    this.legend.replaceChildren(...legendBar(gradientOf(this.table()), "Speed, mm/s", [0, most / 2, most].map((v) => figure(v))));
   }
 
   private table(): Uint8Array {

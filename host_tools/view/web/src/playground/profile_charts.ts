@@ -2,7 +2,7 @@
 import uPlot from "uplot";
 import { axisColours } from "../colours";
 import { PROFILE_FIELDS, type Profile } from "../core/core";
-import { element } from "../elements";
+import { element, swatch } from "../elements";
 
 /** Limits of the three axes: mm/s, mm/s², mm/s³. */
 export interface Limits { velocity: number[]; acceleration: number[]; jerk: number[] }
@@ -42,11 +42,7 @@ export class ProfileCharts {
   private add(title: string, series: [string, Float64Array][], time: Float64Array, top: number): void {
     const dark = this.isDark(), text = dark ? "#b9c0c9" : "#48505a", grid = dark ? "#2a3038" : "#dde2e8";
     const colours = series.length === 1 ? [text] : axisColours(dark);
-    const key = series.length === 1 ? [] : series.map(([name], k) => {
-      const swatch = element("span", { class: "swatch" });
-      swatch.style.background = colours[k];
-      return element("span", { class: "axis-key" }, swatch, name);
-    });
+    const key = series.length === 1 ? [] : series.map(([name], k) => element("span", { class: "axis-key" }, swatch(colours[k]), name));
     const box = element("div", { class: "chart", role: "img", "aria-label": `${title}, over time in seconds` }, element("div", { class: "chart-title" }, title, ...key));
     this.host.append(box);
     const axis = { stroke: text, grid: { stroke: grid, width: 1 }, ticks: { show: false }, font: "11px system-ui, sans-serif" };
