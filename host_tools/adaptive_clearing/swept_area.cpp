@@ -1,0 +1,219 @@
+// The circle is looked at in short arcs: those in swept cells are covered as a whole.
+#include "host_tools/adaptive_clearing/swept_area.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "firmware/base/math.hpp"
+
+namespace cusp::adaptive_clearing {
+
+using offset::Box2d;
+using offset::Edge;
+
+namespace {
+
+constexpr int kArcs = 256;           // of the circle
+constexpr double kGrown = 0.0125;    // radii: over half of such an arc
+constexpr double kPitch = 1.0 / 12;  // radii: of cells
+constexpr double kDiscSpacing = 0.05;
+constexpr double kLongestPiece = 0.1;  // radii: its half is within kMostSlack with a tolerance
+constexpr double kShortestPiece = 0.004;
+
+// Unit vectors to the middles of the arcs.
+const std::array<Vec2d, kArcs>& directions()
+{
+    static const std::array<Vec2d, kArcs> table = [] {
+        std::array<Vec2d, kArcs> t;
+        for (int i = 0; i < kArcs; ++i) {
+            const double angle = 2 * kPi * (i + 0.5) / kArcs;
+            t[static_cast<std::size_t>(i)] = {std::cos(angle), std::sin(angle)};
+        }
+        return t;
+    }();
+    return table;
+}
+
+}  // namespace
+
+SweptArea::SweptArea(const Box2d& box, double radius)
+    : corner_{box.x0, box.y0},
+      radius_{radius},
+      pitch_{kPitch * radius},
+      columns_{std::max(1, static_cast<int>(std::ceil((box.x1 - box.x0) / pitch_)))},
+      rows_{std::max(1, static_cast<int>(std::ceil((box.y1 - box.y0) / pitch_)))},
+      cells_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_))
+{
+}
+
+const SweptArea::Cell* SweptArea::cell_at(Vec2d point) const
+{
+    const double x = (point.x - corner_.x) / pitch_;
+    const double y = (point.y - corner_.y) / pitch_;
+    if (!(x >= 0.0 && y >= 0.0 && x < columns_ && y < rows_)) {
+        return nullptr;
+    }
+    return &cells_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) +
+                   static_cast<std::size_t>(x)];
+}
+
+void SweptArea::add_disc(Vec2d centre, double radius)
+{
+    const auto index = static_cast<std::uint32_t>(discs_.size());
+    discs_.push_back({centre, radius});
+    seen_.push_back(0);
+    const double diagonal = std::sqrt(0.5) * pitch_ + kGrown * radius_;
+    const double inner = radius - kMostSlack * radius_ - diagonal;
+    // Discs count as larger by up to as much (a negative slack).
+    const double outer = radius + kMostSlack * radius_ + diagonal;
+    const auto column = [&](double x) {
+        return std::clamp(static_cast<int>((x - corner_.x) / pitch_), 0, columns_ - 1);
+    };
+    const auto row = [&](double y) {
+        return std::clamp(static_cast<int>((y - corner_.y) / pitch_), 0, rows_ - 1);
+    };
+    for (int j = row(centre.y - outer); j <= row(centre.y + outer); ++j) {
+        const double dy = corner_.y + (j + 0.5) * pitch_ - centre.y;
+        for (int i = column(centre.x - outer); i <= column(centre.x + outer); ++i) {
+            const double dx = corner_.x + (i + 0.5) * pitch_ - centre.x;
+            const double d2 = dx * dx + dy * dy;
+            Cell& cell = cells_[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
+                                static_cast<std::size_t>(i)];
+            if (cell.swept || d2 > outer * outer) {
+                continue;
+            }
+            if (d2 <= inner * inner) {
+                cell.swept = true;
+                std::vector<std::uint32_t>{}.swap(cell.discs);
+            } else {
+                cell.discs.push_back(index);
+            }
+        }
+    }
+}
+
+void SweptArea::add(const Edge& edge, double tolerance)
+{
+    const double size = length(edge);
+    const int n = std::max(1, static_cast<int>(std::ceil(size / (kDiscSpacing * radius_))));
+    const double radius = radius_ - (edge.turn != 0 ? tolerance : 0.0);
+    for (int i = 0; i <= n; ++i) {
+        add_disc(point_on(edge, static_cast<double>(i) / n), radius);
+    }
+}
+
+// Adds the part of the tool's circle that lies in the disc, as angles from the heading.
+void SweptArea::add_covered(const Disc& disc, Vec2d centre, Vec2d heading, double slack) const
+{
+    const double r = disc.radius - slack;
+    const Vec2d to = disc.centre - centre;
+    const double d = norm(to);
+    if (d + radius_ <= r) {
+        covered_.push_back({-kPi, kPi});
+        return;
+    }
+    const double cosine =
+        d > 0.0 ? (radius_ * radius_ + d * d - r * r) / (2.0 * radius_ * d) : 2.0;
+    if (cosine >= 1.0) {
+        return;
+    }
+    const double half = std::acos(std::max(cosine, -1.0));
+    const double middle = std::atan2(cross(heading, to), dot(heading, to));
+    covered_.push_back({middle - half, middle + half});
+    if (middle - half < -kPi) {
+        covered_.push_back({middle - half + 2 * kPi, kPi});
+    }
+    if (middle + half > kPi) {
+        covered_.push_back({-kPi, middle + half - 2 * kPi});
+    }
+}
+
+double SweptArea::engagement(Vec2d centre, Vec2d heading, double slack, double widened) const
+{
+    const double most = std::min(0.5 * kPi + widened, kPi);
+    ++look_;
+    covered_.clear();
+    const double arc = 2 * kPi / kArcs;
+    const double at = std::atan2(heading.y, heading.x);
+    const int first = static_cast<int>(std::floor((at - most) / arc));
+    const int last = static_cast<int>(std::floor((at + most) / arc));
+    for (int i = first; i <= last; ++i) {
+        const Vec2d u = directions()[static_cast<std::size_t>((i + 4 * kArcs) % kArcs)];
+        const Cell* cell = cell_at(centre + u * radius_);
+        if (cell == nullptr) {
+            continue;
+        }
+        if (cell->swept) {
+            const double from = i * arc - at;
+            if (!covered_.empty() && covered_.back().to == from) {
+                covered_.back().to = from + arc;
+            } else {
+                covered_.push_back({from, from + arc});
+            }
+            continue;
+        }
+        for (const std::uint32_t k : cell->discs) {
+            if (seen_[k] != look_) {
+                seen_[k] = look_;
+                add_covered(discs_[k], centre, heading, slack);
+            }
+        }
+    }
+    std::sort(covered_.begin(), covered_.end(), [](const Interval& a, const Interval& b) {
+        return a.from < b.from || (a.from == b.from && a.to < b.to);
+    });
+    double reached = -most;
+    double open = 0.0;
+    for (const Interval& c : covered_) {
+        if (c.from >= most) {
+            break;
+        }
+        open += std::max(0.0, c.from - reached);
+        reached = std::max(reached, c.to);
+    }
+    return open + std::max(0.0, most - reached);
+}
+
+double SweptArea::bound_of_piece(
+    const Edge& edge, double from, double to, double limit, double tolerance) const
+{
+    const double middle = 0.5 * (from + to);
+    const double size = (to - from) * length(edge);
+    const double slack = 0.5 * size + (edge.turn != 0 ? tolerance : 0.0);
+    const double turn = 0.5 * (to - from) * sweep(edge);
+    const double most =
+        engagement(point_on(edge, middle), tangent_on(edge, middle), slack, turn);
+    if (most <= limit || size < 2.0 * kShortestPiece * radius_) {
+        return most;
+    }
+    return std::max(bound_of_piece(edge, from, middle, limit, tolerance),
+                    bound_of_piece(edge, middle, to, limit, tolerance));
+}
+
+double SweptArea::engagement_bound(const Edge& edge, double limit, double tolerance) const
+{
+    const int n =
+        std::max(1, static_cast<int>(std::ceil(length(edge) / (kLongestPiece * radius_))));
+    double most = 0.0;
+    for (int i = 0; i < n; ++i) {
+        most = std::max(most, bound_of_piece(edge, static_cast<double>(i) / n,
+                                             static_cast<double>(i + 1) / n, limit, tolerance));
+    }
+    return most;
+}
+
+bool SweptArea::contains(Vec2d point) const
+{
+    const Cell* cell = cell_at(point);
+    if (cell == nullptr) {
+        return false;
+    }
+    const auto covers = [&](std::uint32_t k) {
+        const Vec2d d = point - discs_[k].centre;
+        return dot(d, d) <= discs_[k].radius * discs_[k].radius;
+    };
+    return cell->swept || std::any_of(cell->discs.begin(), cell->discs.end(), covers);
+}
+
+}  // namespace cusp::adaptive_clearing
