@@ -36,6 +36,7 @@ namespace {
 // Of the tool's radius.
 constexpr double kSteered[] = {0.3, 0.1, 0.03};  // turning radii
 constexpr double kStrip = 0.04;                  // left along the walls by the first of them
+constexpr double kLeastStrip = 0.002;            // more than a step around an island bulges
 constexpr double kRatio = 0.6;                   // from one opening to the next
 constexpr double kHelix = 0.3;
 constexpr double kLeastHelix = 0.02;
@@ -97,7 +98,7 @@ public:
             if (opened > 0.0) {
                 cut_walls(opened, turn, false, 0);
             }
-            steer(turn, opened > 0.0 ? kStrip * turn : kStrip * radius_);
+            steer(turn, opened > 0.0 ? std::max(kStrip * turn, kLeastStrip * radius_) : kStrip * radius_);
             cut_walls(turn, turn, false, 0);
             opened = turn;
         }

@@ -3,6 +3,7 @@
 #include "host_tools/adaptive_clearing/pass_starts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "firmware/base/math.hpp"
@@ -99,9 +100,16 @@ std::optional<Pose> PassStarts::pose_at(Vec2d place, const SteeringSpace& space)
 {
     bool metal[kDirections];
     bool any = false;
-    for (int i = 0; i < kDirections; ++i) {
-        const double angle = 2 * kPi * i / kDirections;
-        const Vec2d u{std::cos(angle), std::sin(angle)};
+    static const std::array<Vec2d, kDirections> table = [] {
+        std::array<Vec2d, kDirections> t;
+        for (std::size_t i = 0; i < kDirections; ++i) {
+            const double angle = 2 * kPi * static_cast<double>(i) / kDirections;
+            t[i] = {std::cos(angle), std::sin(angle)};
+        }
+        return t;
+    }();
+    for (std::size_t i = 0; i < kDirections; ++i) {
+        const Vec2d u = table[i];
         metal[i] = std::any_of(std::begin(kProbes), std::end(kProbes), [&](double far) {
             return is_metal(place + u * (far * radius_), space.swept);
         });

@@ -26,7 +26,9 @@ constexpr double kSliver = 0.01;       // radii
 constexpr double kLongestAir = 0.5;    // radii of way without metal
 constexpr double kBarely = 0.02;       // radians: less is no cut
 constexpr double kLeastCurvature = 1e-4;  // of 1 / radius: else a line
-constexpr int kBisections = 6;
+constexpr double kGuess = 0.04;           // of 1 / radius
+constexpr double kPrecision = 0.021;
+constexpr int kBisections = 8;
 constexpr int kMostSteps = 2000000;
 
 // curvature  1/mm, positive to the left
@@ -58,12 +60,10 @@ public:
     {
         double right = -1.0 / (kRightTurn * radius_);
         double left = 1.0 / space_.turn_radius;
-        std::optional<Step> best = allowed(pose, right);
-        if (best) {
-            last_ = right;
-            return best;
-        }
-        const double guess = 0.05 / radius_;
+        // The turn of the step before is near.
+        std::optional<Step> best;
+        bool is_right_open = true;
+        const double guess = kGuess / radius_;
         for (const double near : {last_ - guess, last_ + guess}) {
             if (near <= right || near >= left) {
                 continue;
@@ -74,11 +74,18 @@ public:
                 break;
             }
             right = near;
+            is_right_open = false;
+        }
+        if (is_right_open) {
+            if (std::optional<Step> edge = allowed(pose, right)) {
+                last_ = right;
+                return edge;
+            }
         }
         if (!best) {
             best = allowed(pose, left);
         }
-        for (int i = 0; best && i < kBisections && (left - right) * radius_ > 0.01; ++i) {
+        for (int i = 0; best && i < kBisections && (left - right) * radius_ > kPrecision; ++i) {
             const double middle = 0.5 * (left + right);
             if (std::optional<Step> edge = allowed(pose, middle)) {
                 best = edge;
@@ -95,7 +102,8 @@ private:
     std::optional<Step> allowed(Pose pose, double curvature) const
     {
         const Edge edge = step_from(pose, curvature, radius_);
-        if (!has_room_to_turn(space_, {edge.end, tangent_at_end(edge)})) {
+        const Pose end{edge.end, tangent_at_end(edge)};
+        if (!has_room_to_turn(space_, end)) {
             return std::nullopt;
         }
         // Two halves, each about its middle, as in SweptArea::engagement_bound().
@@ -109,6 +117,12 @@ private:
             if (most > space_.max_engagement) {
                 return std::nullopt;
             }
+        }
+        // A way on: away from the metal as tightly as may be.
+        const Edge away = step_from(end, 1.0 / space_.turn_radius, radius_);
+        if (space_.swept.engagement(point_on(away, 0.5), tangent_on(away, 0.5), slack, widened) >
+            space_.max_engagement) {
+            return std::nullopt;
         }
         return Step{edge, most};
     }

@@ -14,12 +14,12 @@ using offset::Edge;
 
 namespace {
 
-constexpr int kArcs = 256;           // of the circle
-constexpr double kGrown = 0.0125;    // radii: over half of such an arc
+constexpr int kArcs = 128;           // of the circle
+constexpr double kGrown = 0.025;     // radii: over half of such an arc
 constexpr double kPitch = 1.0 / 12;  // radii: of cells
 constexpr double kDiscSpacing = 0.05;
 constexpr double kLongestPiece = 0.1;  // radii: its half is within kMostSlack with a tolerance
-constexpr double kShortestPiece = 0.004;
+constexpr double kShortestPiece = 0.001;
 
 // Unit vectors to the middles of the arcs.
 const std::array<Vec2d, kArcs>& directions()
@@ -41,6 +41,7 @@ SweptArea::SweptArea(const Box2d& box, double radius)
     : corner_{box.x0, box.y0},
       radius_{radius},
       pitch_{kPitch * radius},
+      per_mm_{1.0 / pitch_},
       columns_{std::max(1, static_cast<int>(std::ceil((box.x1 - box.x0) / pitch_)))},
       rows_{std::max(1, static_cast<int>(std::ceil((box.y1 - box.y0) / pitch_)))},
       cells_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_))
@@ -49,8 +50,8 @@ SweptArea::SweptArea(const Box2d& box, double radius)
 
 const SweptArea::Cell* SweptArea::cell_at(Vec2d point) const
 {
-    const double x = (point.x - corner_.x) / pitch_;
-    const double y = (point.y - corner_.y) / pitch_;
+    const double x = (point.x - corner_.x) * per_mm_;
+    const double y = (point.y - corner_.y) * per_mm_;
     if (!(x >= 0.0 && y >= 0.0 && x < columns_ && y < rows_)) {
         return nullptr;
     }
@@ -87,10 +88,36 @@ void SweptArea::add_disc(Vec2d centre, double radius)
                 cell.swept = true;
                 std::vector<std::uint32_t>{}.swap(cell.discs);
             } else {
-                cell.discs.push_back(index);
+                put(index, cell, centre + Vec2d{dx, dy});
             }
         }
     }
+}
+
+// Whether all points of the cell about `middle`, and within kGrown of it, are nearer to the other
+// disc, which is no smaller: then it covers in the cell what the disc covers, at any slack.
+bool SweptArea::is_hidden(std::uint32_t disc, std::uint32_t by, Vec2d middle) const
+{
+    const Disc& a = discs_[disc];
+    const Disc& b = discs_[by];
+    const Vec2d way = b.centre - a.centre;
+    const double reach = (0.5 * pitch_ + kGrown * radius_) * (std::abs(way.x) + std::abs(way.y));
+    return b.radius >= a.radius && dot(middle - (a.centre + b.centre) * 0.5, way) >= reach;
+}
+
+void SweptArea::put(std::uint32_t disc, Cell& cell, Vec2d middle) const
+{
+    for (const std::uint32_t other : cell.discs) {
+        if (is_hidden(disc, other, middle)) {
+            return;
+        }
+    }
+    cell.discs.erase(std::remove_if(cell.discs.begin(), cell.discs.end(),
+                                    [&](std::uint32_t other) {
+                                        return is_hidden(other, disc, middle);
+                                    }),
+                     cell.discs.end());
+    cell.discs.push_back(disc);
 }
 
 void SweptArea::add(const Edge& edge, double tolerance)
@@ -98,7 +125,9 @@ void SweptArea::add(const Edge& edge, double tolerance)
     const double size = length(edge);
     const int n = std::max(1, static_cast<int>(std::ceil(size / (kDiscSpacing * radius_))));
     const double radius = radius_ - (edge.turn != 0 ? tolerance : 0.0);
-    for (int i = 0; i <= n; ++i) {
+    const bool goes_on = !discs_.empty() && norm(discs_.back().centre - edge.start) < 1e-9 &&
+                         discs_.back().radius >= radius;
+    for (int i = goes_on ? 1 : 0; i <= n; ++i) {
         add_disc(point_on(edge, static_cast<double>(i) / n), radius);
     }
 }
@@ -138,19 +167,23 @@ double SweptArea::engagement(Vec2d centre, Vec2d heading, double slack, double w
     const double at = std::atan2(heading.y, heading.x);
     const int first = static_cast<int>(std::floor((at - most) / arc));
     const int last = static_cast<int>(std::floor((at + most) / arc));
+    const std::array<Vec2d, kArcs>& table = directions();
+    const auto at_arc = [&](int i) {
+        return cell_at(centre + table[static_cast<std::size_t>((i + 4 * kArcs) % kArcs)] * radius_);
+    };
+    const auto is_swept = [](const Cell* cell) {
+        return cell != nullptr && cell->swept;
+    };
     for (int i = first; i <= last; ++i) {
-        const Vec2d u = directions()[static_cast<std::size_t>((i + 4 * kArcs) % kArcs)];
-        const Cell* cell = cell_at(centre + u * radius_);
+        const Cell* cell = at_arc(i);
         if (cell == nullptr) {
             continue;
         }
         if (cell->swept) {
-            const double from = i * arc - at;
-            if (!covered_.empty() && covered_.back().to == from) {
-                covered_.back().to = from + arc;
-            } else {
-                covered_.push_back({from, from + arc});
+            const int begin = i;
+            for (; i < last && is_swept(at_arc(i + 1)); ++i) {
             }
+            covered_.push_back({begin * arc - at, (i + 1) * arc - at});
             continue;
         }
         for (const std::uint32_t k : cell->discs) {

@@ -42,7 +42,7 @@ public:
     double engagement(Vec2d centre, Vec2d heading, double slack = 0.0, double widened = 0.0) const;
 
     // An upper bound, in radians, of the engagement while the tool moves along the edge, or along
-    // chords of it within `tolerance` (mm). Pieces of the edge are halved down to 0.004 radii until
+    // chords of it within `tolerance` (mm). Pieces of the edge are halved down to 0.001 radii until
     // it is at most `limit`.
     double engagement_bound(const offset::Edge& edge, double limit, double tolerance = 0.0) const;
 
@@ -58,12 +58,15 @@ private:
     };
     struct Cell {
         bool swept{};                      // with all points within kGrown of it
-        std::vector<std::uint32_t> discs;  // that meet it; none where it is swept
+        // The nearest disc of each of its points is among them; none where it is swept.
+        std::vector<std::uint32_t> discs;
     };
     struct Interval {
         double from;
         double to;
     };
+    bool is_hidden(std::uint32_t disc, std::uint32_t by, Vec2d middle) const;
+    void put(std::uint32_t disc, Cell& cell, Vec2d middle) const;
     const Cell* cell_at(Vec2d point) const;
     void add_covered(const Disc& disc, Vec2d centre, Vec2d heading, double slack) const;
     double bound_of_piece(const offset::Edge& edge,
@@ -75,6 +78,7 @@ private:
     Vec2d corner_;
     double radius_;
     double pitch_;
+    double per_mm_;  // cells
     int columns_;
     int rows_;
     std::vector<Cell> cells_;
