@@ -106,25 +106,27 @@ private:
         if (!has_room_to_turn(space_, end)) {
             return std::nullopt;
         }
-        // Two halves, each about its middle, as in SweptArea::engagement_bound().
-        const double slack =
-            0.25 * length(edge) + (edge.turn != 0 ? space_.tolerance : 0.0);
-        const double widened = 0.25 * sweep(edge);
-        double most = 0.0;
-        for (const double share : {0.75, 0.25}) {
-            most = std::max(most, space_.swept.engagement(point_on(edge, share),
-                                                          tangent_on(edge, share), slack, widened));
-            if (most > space_.max_engagement) {
-                return std::nullopt;
-            }
-        }
-        // A way on: away from the metal as tightly as may be.
-        const Edge away = step_from(end, 1.0 / space_.turn_radius, radius_);
-        if (space_.swept.engagement(point_on(away, 0.5), tangent_on(away, 0.5), slack, widened) >
-            space_.max_engagement) {
+        const double second = bound_of_half(edge, 0.75);
+        const double first =
+            second > space_.max_engagement ? second : bound_of_half(edge, 0.25);
+        if (first > space_.max_engagement) {
             return std::nullopt;
         }
-        return Step{edge, most};
+        // From its end there is a way on: away from the metal as tightly as may be.
+        const double left = 1.0 / space_.turn_radius;
+        if (curvature < left &&
+            bound_of_half(step_from(end, left, radius_), 0.25) > space_.max_engagement) {
+            return std::nullopt;
+        }
+        return Step{edge, std::max(first, second)};
+    }
+
+    // Of the half of the edge about its place at `share`, as SweptArea::engagement_bound().
+    double bound_of_half(const Edge& edge, double share) const
+    {
+        return space_.swept.engagement(
+            point_on(edge, share), tangent_on(edge, share),
+            0.25 * length(edge) + (edge.turn != 0 ? space_.tolerance : 0.0), 0.25 * sweep(edge));
     }
 
     const SteeringSpace& space_;
