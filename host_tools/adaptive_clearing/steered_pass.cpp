@@ -103,7 +103,8 @@ private:
     {
         const Edge edge = step_from(pose, curvature, radius_);
         const Pose end{edge.end, tangent_at_end(edge)};
-        if (!has_room_to_turn(space_, end)) {
+        if (!has_room_to_turn(space_, end) ||
+            !has_room_to_turn(space_, {point_on(edge, 0.5), tangent_on(edge, 0.5)})) {
             return std::nullopt;
         }
         const double second = bound_of_half(edge, 0.75);
@@ -147,7 +148,7 @@ SteeredPass steered_pass(const SteeringSpace& space, Pose pose)
     const double radius = space.swept.radius();
     Steering steering{space};
     SteeredPass pass;
-    std::size_t cut = 0;  // edges up to the last one in metal
+    std::size_t cut = 0;  // edges up to the last one in metal: only these are made, and swept
     double air = 0.0;
     for (int i = 0; i < kMostSteps && air < kLongestAir * radius; ++i) {
         const std::optional<Step> step = steering.next(pose);
@@ -159,10 +160,11 @@ SteeredPass steered_pass(const SteeringSpace& space, Pose pose)
                                                      -kSliver * radius) > kBarely;
         pass.path.push_back(edge);
         pass.engagement_bound = std::max(pass.engagement_bound, step->engagement_bound);
-        space.swept.add(edge, space.tolerance);
         pose = {edge.end, tangent_at_end(edge)};
         if (in_metal) {
-            cut = pass.path.size();
+            for (; cut < pass.path.size(); ++cut) {
+                space.swept.add(pass.path[cut], space.tolerance);
+            }
             air = 0.0;
         } else {
             air += length(edge);

@@ -25,7 +25,7 @@ constexpr double kPitch = 1.0 / 40;   // radii
 constexpr double kStep = 1.0 / 30;    // radii between places of the tool
 constexpr double kTolerance = 0.005;  // mm
 // Of the raster: three quarters of a cell outside, half a degree, half a cell of a step.
-constexpr double kRasterDegrees = 5.0;
+constexpr double kRasterDegrees = 4.0;
 
 struct Found {
     double way{};          // mm in metal
@@ -35,6 +35,7 @@ struct Found {
     double uncut{};        // mm2
     Vec2d uncut_at{};
     double nearest{1e9};   // mm: the least clearance from the walls
+    Vec2d nearest_at{};
 };
 
 bool is_listed(const AdaptivePath& path, const std::vector<Edge>& run)
@@ -67,7 +68,10 @@ Found judge(const Region2d& region, const AdaptiveSettings& settings, const Adap
                 const double angle =
                     cutter.engagement(at, tangent_on(edge, static_cast<double>(i) / n));
                 cutter.cut(point_on(edge, share));
-                found.nearest = std::min(found.nearest, walls.clearance(at));
+                if (const double clearance = walls.clearance(at); clearance < found.nearest) {
+                    found.nearest = clearance;
+                    found.nearest_at = at;
+                }
                 found.way += angle > 0.0 ? length(edge) / n : 0.0;
                 if (!listed && angle > settings.max_engagement / kDegrees + kRasterDegrees) {
                     found.over += length(edge) / n;
@@ -105,12 +109,13 @@ void check(const Region2d& region, const AdaptiveSettings& settings, unsigned nu
     if (!good || std::getenv("CUSP_PROPERTY_PRINT") != nullptr) {
         std::printf("case %u: R %.3f wall %.3f asked %.1f: %zu runs, %.0f mm, bound %.2f, %zu over "
                     "%.2f mm; in metal %.0f mm, over %.3f mm, worst %.1f at %.3f,%.3f; uncut %.4f "
-                    "mm2 at %.3f,%.3f; nearest %.5f\n",
+                    "mm2 at %.3f,%.3f; nearest %.5f at %.3f,%.3f\n",
                     number, settings.tool_radius, settings.wall_clearance,
                     settings.max_engagement / kDegrees, path.runs.size(), path.length,
                     path.engagement_bound / kDegrees, path.over.size(), listed, found.way,
                     found.over, found.worst, found.worst_at.x, found.worst_at.y, found.uncut,
-                    found.uncut_at.x, found.uncut_at.y, found.nearest);
+                    found.uncut_at.x, found.uncut_at.y, found.nearest, found.nearest_at.x,
+                    found.nearest_at.y);
     }
     CHECK(path.engagement_bound <= settings.max_engagement);
     CHECK(good);

@@ -54,18 +54,19 @@ public:
 
     void cut(Vec2d at) { remove_disc(at, radius_); }
 
-    // Degrees of the front half of the circle just outside of the tool that are in metal.
+    // Degrees of the front half of the circle just outside of the tool that are in metal which the
+    // tool meets within two cells of its way: slivers along a wall just cut are not metal.
     double engagement(Vec2d at, Vec2d heading) const
     {
         const double out = radius_ + 0.75 * pitch_;
         int count = 0;
         for (int k = -90; k <= 90; ++k) {
             const double angle = std::atan2(heading.y, heading.x) + k * 0.017453292519943295;
-            const Vec2d p = at + Vec2d{std::cos(angle), std::sin(angle)} * out;
-            const int i = static_cast<int>(std::floor((p.x - corner_.x) / pitch_));
-            const int j = static_cast<int>(std::floor((p.y - corner_.y) / pitch_));
-            const bool known = i >= 0 && j >= 0 && i < columns_ && j < rows_;
-            count += known && metal_[index(i, j)] != 0 ? 1 : 0;
+            const Vec2d u{std::cos(angle), std::sin(angle)};
+            count += is_metal(at + u * out) &&
+                             is_metal(at + heading * (2.0 * pitch_) + u * radius_)
+                         ? 1
+                         : 0;
         }
         return count * 180.0 / 181.0;
     }
@@ -86,6 +87,12 @@ public:
     double cell_area() const { return pitch_ * pitch_; }
 
 private:
+    bool is_metal(Vec2d p) const
+    {
+        const int i = static_cast<int>(std::floor((p.x - corner_.x) / pitch_));
+        const int j = static_cast<int>(std::floor((p.y - corner_.y) / pitch_));
+        return i >= 0 && j >= 0 && i < columns_ && j < rows_ && metal_[index(i, j)] != 0;
+    }
     Vec2d centre(int i, int j) const { return corner_ + Vec2d{i + 0.5, j + 0.5} * pitch_; }
     std::size_t index(int i, int j) const
     {
