@@ -16,8 +16,8 @@ namespace cusp::adaptive_clearing {
 using clearing::is_path_clear;
 using job::CutDirection;
 using offset::between;
-using offset::box_of;
 using offset::Box2d;
+using offset::box_of;
 using offset::connected_parts;
 using offset::Contour;
 using offset::Edge;
@@ -42,14 +42,14 @@ constexpr double kHelix = 0.3;
 constexpr double kLeastHelix = 0.02;
 constexpr double kPiece = 0.1;
 constexpr double kTargetMargin = 0.06;
-constexpr double kSteerShare = 0.98;   // of the engagement
+constexpr double kSteerShare = 0.98;     // of the engagement
 constexpr double kLinkEngagement = 0.3;  // radians, most of a link through swept ground
 constexpr int kPoleGrid = 48;
 
 Edge mirrored(const Edge& e)
 {
-    return {{-e.start.x, e.start.y}, {-e.end.x, e.end.y}, {-e.centre.x, e.centre.y}, e.radius,
-            -e.turn};
+    return {
+        {-e.start.x, e.start.y}, {-e.end.x, e.end.y}, {-e.centre.x, e.centre.y}, e.radius, -e.turn};
 }
 
 // About the y axis; still to the left of its contours.
@@ -85,28 +85,30 @@ public:
     AdaptivePath plan()
     {
         double opened = 0.0;
-        const double finest = std::max(settings_.corner / (std::sqrt(2.0) - 1.0), 1e-3 * radius_);
+        const double finest = finest_turn();
         for (const double share : kSteered) {
             const double turn = share * radius_;
             if (opened > 0.0 && turn < finest) {
                 break;
             }
             for (double at = kRatio * opened; at > turn; at *= kRatio) {
-                cut_walls(opened, at, false, 0);
+                cut_walls(opened, at, 0);
                 opened = at;
             }
             if (opened > 0.0) {
-                cut_walls(opened, turn, false, 0);
+                cut_walls(opened, turn, 0);
             }
-            steer(turn, opened > 0.0 ? std::max(kStrip * turn, kLeastStrip * radius_) : kStrip * radius_);
-            cut_walls(turn, turn, false, 0);
+            steer(turn,
+                  opened > 0.0 ? std::max(kStrip * turn, kLeastStrip * radius_) : kStrip * radius_);
+            cut_walls(turn, turn, 0);
             opened = turn;
         }
         for (double at = opened * kRatio; at > finest; at *= kRatio) {
-            cut_walls(opened, at, false, 0);
+            cut_walls(opened, at, 0);
             opened = at;
         }
-        cut_walls(opened, finest, true, 0);
+        cut_walls(opened, finest, 0);
+        cut_rest();
         return std::move(result_);
     }
 
@@ -203,15 +205,13 @@ private:
     }
 
     // Along the walls of the region opened by the radius `to`; `from` is the one of before.
-    //
-    // all  also what has too great an engagement
-    void cut_walls(double from, double to, bool all, int depth)
+    void cut_walls(double from, double to, int depth)
     {
         constexpr int kMostDepth = 3;
         const Region2d region = opened(to);
         bool left = false;
         for (const Contour& contour : region.contours) {
-            for (const std::vector<Edge>& path : stretches(contour)) {
+            for (const std::vector<Edge>& path : stretches(contour, least_sliver())) {
                 if (is_bounded(path)) {
                     cut(path);
                 } else {
@@ -220,23 +220,51 @@ private:
             }
         }
         if (left && depth < kMostDepth && from > 1.05 * to) {
-            cut_walls(from, std::sqrt(from * to), false, depth + 1);
-            cut_walls(std::sqrt(from * to), to, all, depth + 1);
-            return;
+            cut_walls(from, std::sqrt(from * to), depth + 1);
+            cut_walls(std::sqrt(from * to), to, depth + 1);
         }
-        if (left && all) {
-            for (const Contour& contour : region.contours) {
-                for (const std::vector<Edge>& path : stretches(contour)) {
+    }
+
+    // What no turn reaches: slots hardly wider than the tool, and corners that no pass within the
+    // bound opens. What rounding may leave in corners stays.
+    void cut_rest()
+    {
+        const Region2d finest = opened(finest_turn());
+        const Region2d whole = walls_.at(settings_.wall_clearance);
+        for (const Region2d* region : {&finest, &whole}) {
+            const double sliver = region == &finest ? least_sliver() : 2.0 * settings_.corner;
+            for (const Contour& contour : region->contours) {
+                for (const std::vector<Edge>& path : stretches(contour, sliver)) {
+                    enter_at(path.front().start);
                     cut(path);
                 }
             }
         }
     }
 
-    std::vector<std::vector<Edge>> stretches(const Contour& contour) const
+    // Straight down where nothing is swept yet.
+    void enter_at(Vec2d place)
     {
-        return uncut_stretches(contour, {swept_, walls_, settings_.wall_clearance,
-                                         std::min(0.004 * radius_, 0.5 * settings_.corner)});
+        if (swept_.engagement(place, {1.0, 0.0}, -0.01 * radius_, kPi) < 0.1) {
+            return;
+        }
+        AdaptiveRun run;
+        run.helix = EntryHelix{place, 0.0};
+        result_.runs.push_back(run);
+        swept_.add_disc(place, radius_);
+        at_ = place;
+    }
+
+    double least_sliver() const { return std::min(0.004 * radius_, 0.5 * settings_.corner); }
+
+    double finest_turn() const
+    {
+        return std::max(settings_.corner / (std::sqrt(2.0) - 1.0), 1e-3 * radius_);
+    }
+
+    std::vector<std::vector<Edge>> stretches(const Contour& contour, double sliver) const
+    {
+        return uncut_stretches(contour, {swept_, walls_, settings_.wall_clearance, sliver});
     }
 
     bool is_bounded(const std::vector<Edge>& path) const
@@ -283,12 +311,11 @@ private:
         AdaptiveRun run;
         run.path = path;
         const Edge way = line_edge(at_, path.front().start);
-        run.linked =
-            !result_.runs.empty() &&
-            (length(way) < 1e-6 ||
-             (length(way) < 20.0 * radius_ &&
-              is_path_clear(walls_, way, settings_.wall_clearance) &&
-              swept_.engagement_bound(way, kLinkEngagement) <= kLinkEngagement));
+        run.linked = !result_.runs.empty() &&
+                     (length(way) < 1e-6 ||
+                      (length(way) < 20.0 * radius_ &&
+                       is_path_clear(walls_, way, settings_.wall_clearance) &&
+                       swept_.engagement_bound(way, kLinkEngagement) <= kLinkEngagement));
         for (const Edge& edge : path) {
             places_.push_back(edge.end);
             result_.length += length(edge);

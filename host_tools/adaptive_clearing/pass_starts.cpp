@@ -180,9 +180,9 @@ std::optional<Pose> PassStarts::next(Vec2d from, const SteeringSpace& space)
                 if (i < 0 || i >= across_) {
                     continue;
                 }
-                auto& places = buckets_[static_cast<std::size_t>(j) *
-                                            static_cast<std::size_t>(across_) +
-                                        static_cast<std::size_t>(i)];
+                auto& places =
+                    buckets_[static_cast<std::size_t>(j) * static_cast<std::size_t>(across_) +
+                             static_cast<std::size_t>(i)];
                 for (Place& p : places) {
                     const double d = norm(p.at - from);
                     if (p.dropped || d >= nearest) {

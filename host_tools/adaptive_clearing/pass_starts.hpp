@@ -38,11 +38,11 @@ private:
 
     double radius_;
     Vec2d corner_;
-    double pitch_;         // of the target's cells
+    double pitch_;  // of the target's cells
     int columns_;
     int rows_;
     std::vector<bool> target_;
-    double size_;          // mm: of buckets
+    double size_;  // mm: of buckets
     int across_;
     int up_;
     std::vector<std::vector<Place>> buckets_;

@@ -19,12 +19,12 @@ using offset::tangent_on;
 
 namespace {
 
-constexpr double kStep = 0.1;          // radii
-constexpr double kMostTurn = 0.25;     // radians a step
-constexpr double kRightTurn = 1.0;     // radii: the tightest turn towards metal
-constexpr double kSliver = 0.01;       // radii
-constexpr double kLongestAir = 0.5;    // radii of way without metal
-constexpr double kBarely = 0.02;       // radians: less is no cut
+constexpr double kStep = 0.1;             // radii
+constexpr double kMostTurn = 0.25;        // radians a step
+constexpr double kRightTurn = 1.0;        // radii: the tightest turn towards metal
+constexpr double kSliver = 0.01;          // radii
+constexpr double kLongestAir = 0.5;       // radii of way without metal
+constexpr double kBarely = 0.02;          // radians: less is no cut
 constexpr double kLeastCurvature = 1e-4;  // of 1 / radius: else a line
 constexpr double kGuess = 0.04;           // of 1 / radius
 constexpr double kPrecision = 0.021;
@@ -41,8 +41,8 @@ Edge step_from(Pose pose, double curvature, double radius)
     const double angle = std::min(kStep * radius * size, kMostTurn) * (curvature > 0.0 ? 1 : -1);
     const Vec2d n = left_normal(pose.heading);
     const Vec2d centre = pose.at + n * (1.0 / curvature);
-    const Vec2d end = centre + (pose.heading * std::sin(angle) - n * std::cos(angle)) *
-                                   (1.0 / curvature);
+    const Vec2d end =
+        centre + (pose.heading * std::sin(angle) - n * std::cos(angle)) * (1.0 / curvature);
     return arc_edge(pose.at, end, centre, curvature > 0.0 ? 1 : -1);
 }
 
@@ -108,8 +108,7 @@ private:
             return std::nullopt;
         }
         const double second = bound_of_half(edge, 0.75);
-        const double first =
-            second > space_.max_engagement ? second : bound_of_half(edge, 0.25);
+        const double first = second > space_.max_engagement ? second : bound_of_half(edge, 0.25);
         if (first > space_.max_engagement) {
             return std::nullopt;
         }

@@ -112,11 +112,10 @@ void SweptArea::put(std::uint32_t disc, Cell& cell, Vec2d middle) const
             return;
         }
     }
-    cell.discs.erase(std::remove_if(cell.discs.begin(), cell.discs.end(),
-                                    [&](std::uint32_t other) {
-                                        return is_hidden(other, disc, middle);
-                                    }),
-                     cell.discs.end());
+    cell.discs.erase(
+        std::remove_if(cell.discs.begin(), cell.discs.end(),
+                       [&](std::uint32_t other) { return is_hidden(other, disc, middle); }),
+        cell.discs.end());
     cell.discs.push_back(disc);
 }
 
@@ -142,8 +141,7 @@ void SweptArea::add_covered(const Disc& disc, Vec2d centre, Vec2d heading, doubl
         covered_.push_back({-kPi, kPi});
         return;
     }
-    const double cosine =
-        d > 0.0 ? (radius_ * radius_ + d * d - r * r) / (2.0 * radius_ * d) : 2.0;
+    const double cosine = d > 0.0 ? (radius_ * radius_ + d * d - r * r) / (2.0 * radius_ * d) : 2.0;
     if (cosine >= 1.0) {
         return;
     }
@@ -215,8 +213,7 @@ double SweptArea::bound_of_piece(
     const double size = (to - from) * length(edge);
     const double slack = 0.5 * size + (edge.turn != 0 ? tolerance : 0.0);
     const double turn = 0.5 * (to - from) * sweep(edge);
-    const double most =
-        engagement(point_on(edge, middle), tangent_on(edge, middle), slack, turn);
+    const double most = engagement(point_on(edge, middle), tangent_on(edge, middle), slack, turn);
     if (most <= limit || size < 2.0 * kShortestPiece * radius_) {
         return most;
     }

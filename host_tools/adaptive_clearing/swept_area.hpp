@@ -57,7 +57,7 @@ private:
         double radius;
     };
     struct Cell {
-        bool swept{};                      // with all points within kGrown of it
+        bool swept{};  // with all points within kGrown of it
         // The nearest disc of each of its points is among them; none where it is swept.
         std::vector<std::uint32_t> discs;
     };
@@ -69,11 +69,8 @@ private:
     void put(std::uint32_t disc, Cell& cell, Vec2d middle) const;
     const Cell* cell_at(Vec2d point) const;
     void add_covered(const Disc& disc, Vec2d centre, Vec2d heading, double slack) const;
-    double bound_of_piece(const offset::Edge& edge,
-                          double from,
-                          double to,
-                          double limit,
-                          double tolerance) const;
+    double bound_of_piece(
+        const offset::Edge& edge, double from, double to, double limit, double tolerance) const;
 
     Vec2d corner_;
     double radius_;

@@ -70,8 +70,7 @@ std::optional<Edge> lead_in(const Edge& first, const WallSpace& space)
     for (const double size : {0.4, 0.2, 0.1, 0.05}) {
         const double r = size * radius;
         const Vec2d centre = first.start + n * r;
-        const Vec2d start =
-            centre - (n * std::cos(kLeadAngle) + t * std::sin(kLeadAngle)) * r;
+        const Vec2d start = centre - (n * std::cos(kLeadAngle) + t * std::sin(kLeadAngle)) * r;
         const Edge arc = arc_edge(start, first.start, centre, 1);
         const bool clear = is_clear(space, start, 0.0) && is_clear(space, point_on(arc, 0.5), 1e-6);
         if (clear && space.swept.engagement(start, tangent_at_start(arc), -space.sliver,
@@ -142,10 +141,9 @@ std::vector<std::vector<Edge>> uncut_stretches(const Contour& contour, const Wal
     for (Stretch stretch : found) {
         if (stretch.to - stretch.from > whole - kJoined * radius) {
             // Starts in the middle of the longest edge.
-            const auto longest =
-                std::max_element(contour.begin(), contour.end(), [](const Edge& a, const Edge& b) {
-                    return length(a) < length(b);
-                });
+            const auto longest = std::max_element(
+                contour.begin(), contour.end(),
+                [](const Edge& a, const Edge& b) { return length(a) < length(b); });
             double at = 0.5 * length(*longest);
             for (auto e = contour.begin(); e != longest; ++e) {
                 at += length(*e);

@@ -103,8 +103,7 @@ public:
             }
             const Vec2d start = run.path.front().start;
             if (!run.linked) {
-                writer_.approach(start,
-                                 std::min(z + kRapidClearance, writer_.clearance_z()));
+                writer_.approach(start, std::min(z + kRapidClearance, writer_.clearance_z()));
             }
             writer_.line(run.linked ? MoveKind::kLink : MoveKind::kPlunge, {start.x, start.y, z});
             for (const Edge& edge : run.path) {
@@ -140,8 +139,7 @@ private:
         for (int i = 1; i <= halves + 2; ++i) {
             const Vec2d p = side[i % 2];
             const double at = i < halves ? from + (z - from) * i / halves : z;
-            writer_.arc(MoveKind::kPlunge,
-                        {{p.x, p.y, at}, {c.x, c.y, at}, ArcPlane::kXY, false});
+            writer_.arc(MoveKind::kPlunge, {{p.x, p.y, at}, {c.x, c.y, at}, ArcPlane::kXY, false});
         }
     }
 
@@ -203,9 +201,8 @@ void report_engagement(const Operation& operation,
         stats.warnings.push_back(over_text(path.over[i]));
     }
     if (path.over.size() > kNamedPlaces) {
-        stats.warnings.push_back(
-            number_text(static_cast<double>(path.over.size() - kNamedPlaces)) +
-            " more places over max_engagement");
+        stats.warnings.push_back(number_text(static_cast<double>(path.over.size() - kNamedPlaces)) +
+                                 " more places over max_engagement");
     }
 }
 

@@ -83,12 +83,12 @@ void check_adaptive(const JobTable& table, const Operation& operation)
     }
     if (operation.tool.shape != toolpath::ToolShape::kFlat) {
         table.refuse("clearing", fmt::format("\"adaptive\" needs a flat end; tool {} is {}",
-                                             operation.tool.number,
-                                             name_of(operation.tool.shape)));
+                                             operation.tool.number, name_of(operation.tool.shape)));
     }
     if (operation.tools.size() > 1 || operation.tools.front().number != operation.tool.number) {
-        table.refuse("tools", "has more than the operation's tool: clearing = \"adaptive\" cuts "
-                              "with one; a second operation may finish");
+        table.refuse("tools",
+                     "has more than the operation's tool: clearing = \"adaptive\" cuts "
+                     "with one; a second operation may finish");
     }
     if (operation.allowance > 0) {
         table.refuse("allowance", "does not go with clearing = \"adaptive\", which cuts to size");

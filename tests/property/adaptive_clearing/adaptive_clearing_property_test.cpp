@@ -28,22 +28,21 @@ constexpr double kTolerance = 0.005;  // mm
 constexpr double kRasterDegrees = 4.0;
 
 struct Found {
-    double way{};          // mm in metal
-    double over{};         // mm of it over the angle, not listed
-    double worst{};        // degrees, not listed
+    double way{};    // mm in metal
+    double over{};   // mm of it over the angle, not listed
+    double worst{};  // degrees, not listed
     Vec2d worst_at{};
-    double uncut{};        // mm2
+    double uncut{};  // mm2
     Vec2d uncut_at{};
-    double nearest{1e9};   // mm: the least clearance from the walls
+    double nearest{1e9};  // mm: the least clearance from the walls
     Vec2d nearest_at{};
 };
 
 bool is_listed(const AdaptivePath& path, const std::vector<Edge>& run)
 {
     return std::any_of(path.over.begin(), path.over.end(), [&](const OverEngagement& over) {
-        return std::any_of(run.begin(), run.end(), [&](const Edge& edge) {
-            return distance_to(edge, over.at) < 1e-6;
-        });
+        return std::any_of(run.begin(), run.end(),
+                           [&](const Edge& edge) { return distance_to(edge, over.at) < 1e-6; });
     });
 }
 
@@ -107,15 +106,15 @@ void check(const Region2d& region, const AdaptiveSettings& settings, unsigned nu
     const bool good = found.over <= 0.001 * found.way && found.uncut <= 0.0 &&
                       (path.runs.empty() || found.nearest >= settings.wall_clearance - 1e-4);
     if (!good || std::getenv("CUSP_PROPERTY_PRINT") != nullptr) {
-        std::printf("case %u: R %.3f wall %.3f asked %.1f: %zu runs, %.0f mm, bound %.2f, %zu over "
-                    "%.2f mm; in metal %.0f mm, over %.3f mm, worst %.1f at %.3f,%.3f; uncut %.4f "
-                    "mm2 at %.3f,%.3f; nearest %.5f at %.3f,%.3f\n",
-                    number, settings.tool_radius, settings.wall_clearance,
-                    settings.max_engagement / kDegrees, path.runs.size(), path.length,
-                    path.engagement_bound / kDegrees, path.over.size(), listed, found.way,
-                    found.over, found.worst, found.worst_at.x, found.worst_at.y, found.uncut,
-                    found.uncut_at.x, found.uncut_at.y, found.nearest, found.nearest_at.x,
-                    found.nearest_at.y);
+        std::printf(
+            "case %u: R %.3f wall %.3f asked %.1f: %zu runs, %.0f mm, bound %.2f, %zu over "
+            "%.2f mm; in metal %.0f mm, over %.3f mm, worst %.1f at %.3f,%.3f; uncut %.4f "
+            "mm2 at %.3f,%.3f; nearest %.5f at %.3f,%.3f\n",
+            number, settings.tool_radius, settings.wall_clearance,
+            settings.max_engagement / kDegrees, path.runs.size(), path.length,
+            path.engagement_bound / kDegrees, path.over.size(), listed, found.way, found.over,
+            found.worst, found.worst_at.x, found.worst_at.y, found.uncut, found.uncut_at.x,
+            found.uncut_at.y, found.nearest, found.nearest_at.x, found.nearest_at.y);
     }
     CHECK(path.engagement_bound <= settings.max_engagement);
     CHECK(good);

@@ -63,8 +63,7 @@ public:
         for (int k = -90; k <= 90; ++k) {
             const double angle = std::atan2(heading.y, heading.x) + k * 0.017453292519943295;
             const Vec2d u{std::cos(angle), std::sin(angle)};
-            count += is_metal(at + u * out) &&
-                             is_metal(at + heading * (2.0 * pitch_) + u * radius_)
+            count += is_metal(at + u * out) && is_metal(at + heading * (2.0 * pitch_) + u * radius_)
                          ? 1
                          : 0;
         }
