@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "firmware/base/math.hpp"
 #include "host_tools/adaptive_clearing/pass_starts.hpp"
@@ -109,6 +110,7 @@ public:
         }
         cut_walls(opened, finest, 0);
         cut_rest();
+        cut_slivers();
         return std::move(result_);
     }
 
@@ -242,6 +244,44 @@ private:
         }
     }
 
+    // What passes left between them: straight onto it from the nearest place of before.
+    void cut_slivers()
+    {
+        const Region2d whole = walls_.at(settings_.wall_clearance);
+        if (whole.contours.empty()) {
+            return;
+        }
+        constexpr double kMargin = 0.02;
+        for (const Vec2d p : swept_.standing(grown(whole, (1.0 - kMargin) * radius_))) {
+            if (!swept_.contains(p)) {
+                cut_sliver(p);
+            }
+        }
+    }
+
+    void cut_sliver(Vec2d p)
+    {
+        std::vector<std::pair<double, Vec2d>> near;
+        for (const Vec2d place : places_) {
+            const double d = norm(p - place);
+            if (d < 2.0 * radius_) {
+                near.emplace_back(d, place);
+            }
+        }
+        std::sort(near.begin(), near.end(), [](const auto& a, const auto& b) {
+            return a.first < b.first ||
+                   (a.first == b.first &&
+                    std::pair{a.second.x, a.second.y} < std::pair{b.second.x, b.second.y});
+        });
+        for (const auto& [d, place] : near) {
+            const Edge way = line_edge(place, p - (p - place) * (0.98 * radius_ / d));
+            if (is_path_clear(walls_, way, settings_.wall_clearance)) {
+                cut({way});
+                return;
+            }
+        }
+    }
+
     // Straight down where nothing is swept yet.
     void enter_at(Vec2d place)
     {
@@ -317,7 +357,11 @@ private:
                        is_path_clear(walls_, way, settings_.wall_clearance) &&
                        swept_.engagement_bound(way, kLinkEngagement) <= kLinkEngagement));
         for (const Edge& edge : path) {
-            places_.push_back(edge.end);
+            const int n =
+                std::max(1, static_cast<int>(std::ceil(length(edge) / (2.0 * kPiece * radius_))));
+            for (int i = 1; i <= n; ++i) {
+                places_.push_back(point_on(edge, static_cast<double>(i) / n));
+            }
             result_.length += length(edge);
         }
         at_ = path.back().end;

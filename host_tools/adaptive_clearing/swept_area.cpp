@@ -6,11 +6,15 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/offset/edge_tree.hpp"
 
 namespace cusp::adaptive_clearing {
 
 using offset::Box2d;
 using offset::Edge;
+using offset::edges_of;
+using offset::EdgeTree;
+using offset::Region2d;
 
 namespace {
 
@@ -231,6 +235,27 @@ double SweptArea::engagement_bound(const Edge& edge, double limit, double tolera
                                              static_cast<double>(i + 1) / n, limit, tolerance));
     }
     return most;
+}
+
+std::vector<Vec2d> SweptArea::standing(const Region2d& region) const
+{
+    constexpr int kFiner = 3;
+    const EdgeTree tree{edges_of(region)};
+    std::vector<Vec2d> result;
+    for (int j = 0; j < rows_ * kFiner; ++j) {
+        for (int i = 0; i < columns_ * kFiner; ++i) {
+            const Vec2d p = corner_ + Vec2d{i + 0.5, j + 0.5} * (pitch_ / kFiner);
+            const Cell* cell = cell_at(p);
+            if (cell != nullptr && cell->swept) {
+                i += kFiner - 1 - i % kFiner;
+                continue;
+            }
+            if (!contains(p) && tree.surrounds(p)) {
+                result.push_back(p);
+            }
+        }
+    }
+    return result;
 }
 
 bool SweptArea::contains(Vec2d point) const
