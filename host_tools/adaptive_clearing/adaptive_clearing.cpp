@@ -16,6 +16,7 @@ namespace cusp::adaptive_clearing {
 
 using clearing::is_path_clear;
 using job::CutDirection;
+using offset::area;
 using offset::between;
 using offset::Box2d;
 using offset::box_of;
@@ -46,6 +47,8 @@ constexpr double kTargetMargin = 0.06;
 constexpr double kSteerShare = 0.98;     // of the engagement
 constexpr double kLinkEngagement = 0.3;  // radians, most of a link through swept ground
 constexpr int kPoleGrid = 48;
+constexpr double kMoreWay = 1.3;  // than the area over the width of a straight cut
+constexpr double kMostProgress = 0.99;
 
 Edge mirrored(const Edge& e)
 {
@@ -79,7 +82,9 @@ public:
           radius_{settings.tool_radius},
           walls_{region},
           box_{grown_box(box_of(region), settings.tool_radius)},
-          swept_{box_, settings.tool_radius}
+          swept_{box_, settings.tool_radius},
+          expected_{kMoreWay * area(region) /
+                    (settings.tool_radius * (1.0 - std::cos(settings.max_engagement)))}
     {
     }
 
@@ -366,6 +371,9 @@ private:
         }
         at_ = path.back().end;
         result_.runs.push_back(std::move(run));
+        if (settings_.progress) {
+            settings_.progress(std::min(result_.length / expected_, kMostProgress));
+        }
     }
 
     const AdaptiveSettings& settings_;
@@ -373,6 +381,7 @@ private:
     RegionOffset walls_;
     Box2d box_;
     SweptArea swept_;
+    double expected_;  // mm of way
     AdaptivePath result_;
     std::vector<Vec2d> places_;  // where the tool has been
     Vec2d at_{};

@@ -29,7 +29,7 @@ struct AdaptiveSettings {
     double tolerance{};       // mm: of chords in place of arcs
     double corner{};          // mm: most that rounding leaves in a square corner
     job::CutDirection direction{job::CutDirection::kClimb};
-    // If given, called with the share of the area that is swept.
+    // If given, called after passes with about the share of the way that is done.
     std::function<void(double)> progress;
 };
 

@@ -10,6 +10,7 @@
 #include "host_tools/contour_pocket/pocket_report.hpp"
 #include "host_tools/contour_pocket/pocket_task.hpp"
 #include "host_tools/drop_cutter/drop_cutter.hpp"
+#include "host_tools/offset/offset.hpp"
 #include "host_tools/toolpath/toolpath_writer.hpp"
 
 namespace cusp::contour_pocket {
@@ -206,6 +207,23 @@ void report_engagement(const Operation& operation,
     }
 }
 
+// The swept area is kept in cells of a twelfth of the radius.
+void check_size(const Operation& operation, const Region2d& region)
+{
+    constexpr double kMostCells = 2e7;
+    const double pitch = operation.tool.radius / 12.0;
+    const offset::Box2d box = box_of(region);
+    const double x = box.x1 - box.x0;
+    const double y = box.y1 - box.y0;
+    if (x * y > kMostCells * pitch * pitch) {
+        throw InputError(
+            operation.boundary_file + ": the pocket of " + number_text(x) + " x " + number_text(y) +
+            " mm is over " + number_text(kMostCells * pitch * pitch) +
+            " mm^2, the most that clearing \"adaptive\" takes with the tool of radius " +
+            number_text(operation.tool.radius) + " mm");
+    }
+}
+
 AdaptivePath passes_of(const Job& job,
                        const Operation& operation,
                        const Region2d& region,
@@ -238,6 +256,7 @@ std::vector<PlannedOperation> plan_adaptive_pocket(const Job& job, const Operati
     const ToleranceSplit tolerances = split_tolerances(job, operation);
     const Region2d region = make_region(operation, tolerances.fit);
     check_work(job, operation, region, tolerances);
+    check_size(operation, region);
     const DropCutter floor{operation.floor, operation.tool, tolerances.accuracy};
     check_coverage(operation, region, floor);
     const std::vector<double> heights = heights_of(job, operation, level_of(operation));
