@@ -239,7 +239,7 @@ double SweptArea::engagement_bound(const Edge& edge, double limit, double tolera
 
 std::vector<Vec2d> SweptArea::standing(const Region2d& region) const
 {
-    constexpr int kFiner = 3;
+    constexpr int kFiner = 6;
     const EdgeTree tree{edges_of(region)};
     std::vector<Vec2d> result;
     for (int j = 0; j < rows_ * kFiner; ++j) {

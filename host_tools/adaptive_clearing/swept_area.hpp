@@ -49,7 +49,7 @@ public:
     // Whether the point is swept.
     bool contains(Vec2d point) const;
 
-    // Points of a raster of a 36th of the radius in the region that are not swept.
+    // Points of a raster of a 72nd of the radius in the region that are not swept.
     std::vector<Vec2d> standing(const offset::Region2d& region) const;
 
     double radius() const { return radius_; }

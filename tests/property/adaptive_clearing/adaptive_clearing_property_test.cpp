@@ -59,6 +59,7 @@ Found judge(const Region2d& region, const AdaptiveSettings& settings, const Adap
             continue;
         }
         const bool listed = is_listed(path, run.path);
+        cutter.cut(run.path.front().start);
         for (const Edge& edge : run.path) {
             const int n = std::max(1, static_cast<int>(std::ceil(length(edge) / (kStep * radius))));
             for (int i = 0; i < n; ++i) {
