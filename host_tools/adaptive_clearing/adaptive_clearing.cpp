@@ -261,6 +261,9 @@ private:
             if (!swept_.contains(p)) {
                 cut_sliver(p);
             }
+            if (!swept_.contains(p)) {
+                result_.left.push_back(p);
+            }
         }
     }
 
@@ -405,6 +408,9 @@ AdaptivePath clear_adaptively(const Region2d& region, const AdaptiveSettings& se
     }
     for (OverEngagement& over : path.over) {
         over.at.x = -over.at.x;
+    }
+    for (Vec2d& place : path.left) {
+        place.x = -place.x;
     }
     return path;
 }

@@ -57,6 +57,7 @@ struct AdaptivePath {
     std::vector<AdaptiveRun> runs;
     double engagement_bound{};         // radians, outside `over`
     std::vector<OverEngagement> over;  // in order of the path
+    std::vector<Vec2d> left;           // slivers that no straight move reaches
     double length{};                   // mm of all runs
 };
 

@@ -198,6 +198,12 @@ void report_engagement(const Operation& operation,
     stats.counts.emplace_back("engagement_bound_deg", path.engagement_bound / kDegrees);
     stats.counts.emplace_back("over_engagement_mm", over * static_cast<double>(layers));
     stats.counts.emplace_back("over_engagement_places", static_cast<double>(path.over.size()));
+    stats.counts.emplace_back("sliver_points", static_cast<double>(path.left.size()));
+    if (!path.left.empty()) {
+        stats.warnings.push_back("a sliver stays at (" + number_text(path.left.front().x) + ", " +
+                                 number_text(path.left.front().y) +
+                                 ") mm: no straight move reaches it");
+    }
     for (std::size_t i = 0; i < std::min(kNamedPlaces, path.over.size()); ++i) {
         stats.warnings.push_back(over_text(path.over[i]));
     }
