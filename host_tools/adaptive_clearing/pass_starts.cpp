@@ -85,7 +85,7 @@ void PassStarts::drop(Vec2d place)
     }
 }
 
-bool PassStarts::is_metal(Vec2d point, const SweptArea& swept) const
+bool PassStarts::is_stock(Vec2d point, const SweptArea& swept) const
 {
     const double x = (point.x - corner_.x) / pitch_;
     const double y = (point.y - corner_.y) / pitch_;
@@ -95,10 +95,10 @@ bool PassStarts::is_metal(Vec2d point, const SweptArea& swept) const
            !swept.contains(point);
 }
 
-// Headings have the metal in the middle of their right side, or as near to that as room allows.
+// Headings have the stock in the middle of their right side, or as near to that as room allows.
 std::optional<Pose> PassStarts::pose_at(Vec2d place, const SteeringSpace& space) const
 {
-    bool metal[kDirections];
+    bool stock[kDirections];
     bool any = false;
     static const std::array<Vec2d, kDirections> table = [] {
         std::array<Vec2d, kDirections> t;
@@ -110,20 +110,20 @@ std::optional<Pose> PassStarts::pose_at(Vec2d place, const SteeringSpace& space)
     }();
     for (std::size_t i = 0; i < kDirections; ++i) {
         const Vec2d u = table[i];
-        metal[i] = std::any_of(std::begin(kProbes), std::end(kProbes), [&](double far) {
-            return is_metal(place + u * (far * radius_), space.swept);
+        stock[i] = std::any_of(std::begin(kProbes), std::end(kProbes), [&](double far) {
+            return is_stock(place + u * (far * radius_), space.swept);
         });
-        any = any || metal[i];
+        any = any || stock[i];
     }
     if (!any) {
         return std::nullopt;
     }
     for (int i = 0; i < kDirections; ++i) {
-        if (!metal[i] || metal[(i + kDirections - 1) % kDirections]) {
+        if (!stock[i] || stock[(i + kDirections - 1) % kDirections]) {
             continue;
         }
         int n = 1;
-        while (n < kDirections && metal[(i + n) % kDirections]) {
+        while (n < kDirections && stock[(i + n) % kDirections]) {
             ++n;
         }
         for (const double share : {0.5, 0.25, 0.75, 0.0, 1.0}) {

@@ -1,4 +1,4 @@
-// Where the next steered pass starts: on a path of before, with metal on the right.
+// Where the next steered pass starts: on a path of before, with stock on the right.
 #pragma once
 
 #include <optional>
@@ -8,18 +8,18 @@
 
 namespace cusp::adaptive_clearing {
 
-// Places the tool has been at, found by where metal still stands beside them. Metal only goes: a
+// Places the tool has been at, found by where stock is still beside them. Stock only goes: a
 // place without it is dropped for good.
 class PassStarts {
 public:
-    // target  what is to be swept; metal outside it does not count
+    // target  what is to be swept; stock outside it does not count
     PassStarts(const offset::Box2d& box, const offset::Region2d& target, double radius);
 
     void add(Vec2d place);
     void add(const std::vector<offset::Edge>& path);
 
-    // The pose nearest to `from` that has metal on its right and room to turn; if there is metal
-    // behind it too, the one at the upstream end of that metal. None: nothing is left that a pass
+    // The pose nearest to `from` that has stock on its right and room to turn; if there is stock
+    // behind it too, the one at the upstream end of that stock. None: nothing is left that a pass
     // in this space could start on.
     std::optional<Pose> next(Vec2d from, const SteeringSpace& space);
 
@@ -32,7 +32,7 @@ private:
         bool dropped{};
     };
     std::optional<Pose> pose_at(Vec2d place, const SteeringSpace& space) const;
-    bool is_metal(Vec2d point, const SweptArea& swept) const;
+    bool is_stock(Vec2d point, const SweptArea& swept) const;
     Pose upstream(Pose pose, const SteeringSpace& space) const;
     std::size_t bucket(Vec2d point) const;
 

@@ -21,9 +21,9 @@ namespace {
 
 constexpr double kStep = 0.1;             // radii
 constexpr double kMostTurn = 0.25;        // radians a step
-constexpr double kRightTurn = 1.0;        // radii: the tightest turn towards metal
+constexpr double kRightTurn = 1.0;        // radii: the tightest turn towards stock
 constexpr double kSliver = 0.01;          // radii
-constexpr double kLongestAir = 0.5;       // radii of way without metal
+constexpr double kLongestAir = 0.5;       // radii of way without stock
 constexpr double kBarely = 0.02;          // radians: less is no cut
 constexpr double kLeastCurvature = 1e-4;  // of 1 / radius: else a line
 constexpr double kGuess = 0.04;           // of 1 / radius
@@ -112,7 +112,7 @@ private:
         if (first > space_.max_engagement) {
             return std::nullopt;
         }
-        // From its end there is a way on: away from the metal as tightly as may be.
+        // From its end there is a way on: away from the stock as tightly as may be.
         const double left = 1.0 / space_.turn_radius;
         if (curvature < left &&
             bound_of_half(step_from(end, left, radius_), 0.25) > space_.max_engagement) {
@@ -147,7 +147,7 @@ SteeredPass steered_pass(const SteeringSpace& space, Pose pose)
     const double radius = space.swept.radius();
     Steering steering{space};
     SteeredPass pass;
-    std::size_t cut = 0;  // edges up to the last one in metal: only these are made, and swept
+    std::size_t cut = 0;  // edges up to the last one in stock: only these are made, and swept
     double air = 0.0;
     for (int i = 0; i < kMostSteps && air < kLongestAir * radius; ++i) {
         const std::optional<Step> step = steering.next(pose);
@@ -155,12 +155,12 @@ SteeredPass steered_pass(const SteeringSpace& space, Pose pose)
             break;
         }
         const Edge& edge = step->edge;
-        const bool in_metal = space.swept.engagement(point_on(edge, 0.5), tangent_on(edge, 0.5),
+        const bool in_stock = space.swept.engagement(point_on(edge, 0.5), tangent_on(edge, 0.5),
                                                      -kSliver * radius) > kBarely;
         pass.path.push_back(edge);
         pass.engagement_bound = std::max(pass.engagement_bound, step->engagement_bound);
         pose = {edge.end, tangent_at_end(edge)};
-        if (in_metal) {
+        if (in_stock) {
             for (; cut < pass.path.size(); ++cut) {
                 space.swept.add(pass.path[cut], space.tolerance);
             }

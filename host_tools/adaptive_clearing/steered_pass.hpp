@@ -1,4 +1,4 @@
-// A pass that keeps its engagement: at each step it turns towards the metal as far as the bound
+// A pass that keeps its engagement: at each step it turns towards the stock as far as the bound
 // lets it.
 #pragma once
 
@@ -11,14 +11,14 @@ namespace cusp::adaptive_clearing {
 
 struct Pose {
     Vec2d at;
-    Vec2d heading;  // unit vector; metal is on its right
+    Vec2d heading;  // unit vector; stock is on its right
 };
 
 struct SteeringSpace {
     SweptArea& swept;
     const offset::RegionOffset& walls;
     double wall_clearance;  // mm: least distance of the tool's centre from the walls
-    double turn_radius;     // mm: the tightest turn away from metal
+    double turn_radius;     // mm: the tightest turn away from stock
     double max_engagement;  // radians
     double tolerance;       // mm: of chords in place of arcs
 };
@@ -32,10 +32,10 @@ struct SteeredPass {
 // on that does not leave the space.
 bool has_room_to_turn(const SteeringSpace& space, Pose pose);
 
-// Tangent arcs from the pose to where the last metal was cut; swept afterwards. Empty where nothing
+// Tangent arcs from the pose to where the last stock was cut; swept afterwards. Empty where nothing
 // is cut, or no way keeps the bound. Precondition: has_room_to_turn().
 //
-// Within 0.01 radii of what is swept metal does not count: such slivers do not hold a pass.
+// Within 0.01 radii of what is swept stock does not count: such slivers do not hold a pass.
 SteeredPass steered_pass(const SteeringSpace& space, Pose pose);
 
 }  // namespace cusp::adaptive_clearing

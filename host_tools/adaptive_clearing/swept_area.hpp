@@ -1,4 +1,4 @@
-// The area that a flat end mill has swept, and how much of its circumference is in metal beside it.
+// The area that a flat end mill has swept, and how much of its circumference is in stock beside it.
 //
 //     SweptArea swept{box, 3.0};                  // mm: radius of the tool
 //     swept.add_disc({0, 0}, 4.0);                // a hole to start from
@@ -38,7 +38,7 @@ public:
     //
     // slack  mm, at most kMostSlack radii: discs are taken as smaller by it. For the tool anywhere
     //        within `slack` of the centre the result is an upper bound, with headings up to
-    //        `widened` off. Negative: metal thinner than that does not count.
+    //        `widened` off. Negative: stock thinner than that does not count.
     double engagement(Vec2d centre, Vec2d heading, double slack = 0.0, double widened = 0.0) const;
 
     // An upper bound, in radians, of the engagement while the tool moves along the edge, or along

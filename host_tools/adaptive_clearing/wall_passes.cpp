@@ -1,5 +1,5 @@
 // Stretches are found at stations along the contour, and begin and end a little before and behind
-// the metal.
+// the stock.
 #include "host_tools/adaptive_clearing/wall_passes.hpp"
 
 #include <algorithm>
@@ -24,8 +24,8 @@ using offset::tangent_on;
 namespace {
 
 constexpr double kStations = 0.05;  // radii
-constexpr double kBarely = 0.03;    // radians: less is no metal
-constexpr double kBeyond = 0.1;     // radii before and behind the metal
+constexpr double kBarely = 0.03;    // radians: less is no stock
+constexpr double kBeyond = 0.1;     // radii before and behind the stock
 constexpr double kJoined = 0.4;     // radii: nearer stretches are one
 constexpr double kLeadAngle = kPi / 5;
 constexpr double kShortest = 1e-6;  // mm
@@ -97,7 +97,7 @@ std::optional<Edge> lead_out(const Edge& last, const WallSpace& space)
     return std::nullopt;
 }
 
-// Lengths along the contour between which metal stands; in order.
+// Lengths along the contour between which stock is; in order.
 std::vector<Stretch> stretches_of(const Contour& contour, const WallSpace& space)
 {
     const double radius = space.swept.radius();
@@ -113,12 +113,12 @@ std::vector<Stretch> stretches_of(const Contour& contour, const WallSpace& space
                                        -space.sliver) < kBarely) {
                 continue;
             }
-            const Stretch metal{at + size * i / n - kBeyond * radius,
+            const Stretch stock{at + size * i / n - kBeyond * radius,
                                 at + size * (i + 1) / n + kBeyond * radius};
-            if (!found.empty() && metal.from < found.back().to + kJoined * radius) {
-                found.back().to = metal.to;
+            if (!found.empty() && stock.from < found.back().to + kJoined * radius) {
+                found.back().to = stock.to;
             } else {
-                found.push_back(metal);
+                found.push_back(stock);
             }
         }
         at += size;

@@ -1,4 +1,4 @@
-// Passes along a contour where metal still stands beside it, with tangent leads.
+// Passes along a contour where stock is still beside it, with tangent leads.
 #pragma once
 
 #include <vector>
@@ -12,10 +12,10 @@ struct WallSpace {
     const SweptArea& swept;
     const offset::RegionOffset& walls;
     double wall_clearance;  // mm: of leads
-    double sliver;          // mm: thinner metal does not count
+    double sliver;          // mm: thinner stock does not count
 };
 
-// The stretches of the contour that meet metal, each from swept ground to swept ground; a whole turn
+// The stretches of the contour that meet stock, each from swept ground to swept ground; a whole turn
 // where all of it does. Precondition: the region lies to the left of the contour.
 std::vector<std::vector<offset::Edge>> uncut_stretches(const offset::Contour& contour,
                                                        const WallSpace& space);

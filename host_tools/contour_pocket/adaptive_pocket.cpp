@@ -104,7 +104,8 @@ public:
             }
             const Vec2d start = run.path.front().start;
             if (!run.linked) {
-                writer_.approach(start, std::min(z + kRapidClearance, writer_.clearance_z()));
+                // Below it slivers may remain beside the tool: not at rapid.
+                writer_.approach(start, std::min(above + kRapidClearance, writer_.clearance_z()));
             }
             writer_.line(run.linked ? MoveKind::kLink : MoveKind::kPlunge, {start.x, start.y, z});
             for (const Edge& edge : run.path) {
