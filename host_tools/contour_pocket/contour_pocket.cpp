@@ -9,6 +9,7 @@
 #include "host_tools/clearing/clearing.hpp"
 #include "host_tools/clearing/partial_loops.hpp"
 #include "host_tools/clearing/plunge_feed_limit.hpp"
+#include "host_tools/contour_pocket/adaptive_pocket.hpp"
 #include "host_tools/contour_pocket/loop_scallop.hpp"
 #include "host_tools/contour_pocket/loop_spacing.hpp"
 #include "host_tools/contour_pocket/loops_in_strip.hpp"
@@ -393,6 +394,9 @@ private:
 
 std::vector<PlannedOperation> plan_contour_pocket(const Job& job, const Operation& operation)
 {
+    if (operation.max_engagement) {
+        return plan_adaptive_pocket(job, operation);
+    }
     const auto begin = std::chrono::steady_clock::now();
     const ToleranceSplit tolerances = split_tolerances(job, operation);
     const Region2d region = make_region(operation, tolerances.fit);

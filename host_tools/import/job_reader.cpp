@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "firmware/base/math.hpp"
 #include "host_tools/files/files.hpp"
 #include "host_tools/import/fixture_reader.hpp"
 #include "host_tools/import/import.hpp"
@@ -43,7 +44,8 @@ using toolpath::Tool;
 namespace {
 
 constexpr double kMillimetresPerInch = 25.4;
-constexpr double kDefaultTolerance = 0.02;  // mm
+constexpr double kDefaultTolerance = 0.02;   // mm
+constexpr double kDefaultEngagement = 60.0;  // degrees
 constexpr double kDefaultLargestArcRadius = 1000.0;
 
 const std::vector<std::string> kStrategies{"contour_pocket",
@@ -81,6 +83,7 @@ private:
     void read_common(JobTable& table, Operation& operation);
     void read_depths(JobTable& table, Operation& operation);
     void read_tool_choice(JobTable& table, Operation& operation);
+    static void read_clearing(JobTable& table, Operation& operation);
     void read_strategy_keys(JobTable& table, Operation& operation);
     void read_grid(JobTable& table, Operation& operation);
     bool takes_mesh(const Operation& operation, const std::vector<std::string>& floor) const;
@@ -244,6 +247,35 @@ void JobReader::read_grid(JobTable& table, Operation& operation)
     operation.max_roughness = length(table, "max_roughness", kPositive);
 }
 
+void JobReader::read_clearing(JobTable& table, Operation& operation)
+{
+    constexpr Range kEngagement{20, 150};
+    const bool pocket = operation.strategy == "contour_pocket" || operation.strategy == "pocket";
+    const auto clearing = pocket ? table.one_of("clearing", {"contour", "adaptive"})
+                                 : table.one_of("clearing", {"zigzag", "contour"});
+    operation.contour_clearing = clearing == "contour";
+    const auto engagement = table.number("max_engagement", kEngagement);
+    if (clearing == "adaptive") {
+        operation.max_engagement = engagement.value_or(kDefaultEngagement);
+        const double radius = operation.tool.radius;
+        if (operation.step_over && *operation.step_over < radius) {
+            // A straight cut of this width has this angle.
+            operation.max_engagement =
+                std::min(*operation.max_engagement,
+                         std::acos(1.0 - *operation.step_over / radius) * 180.0 / kPi);
+        }
+        if (*operation.max_engagement < kEngagement.low) {
+            table.refuse("step_over",
+                         fmt::format("is {:g} mm, {:.1f} degrees of engagement for a tool of "
+                                     "radius {:g} mm; the least is {:g}",
+                                     *operation.step_over, *operation.max_engagement, radius,
+                                     kEngagement.low));
+        }
+    } else if (engagement) {
+        table.refuse("max_engagement", "needs clearing = \"adaptive\"");
+    }
+}
+
 void JobReader::read_strategy_keys(JobTable& table, Operation& operation)
 {
     constexpr Range kSubdivisions{0, 8};
@@ -256,9 +288,8 @@ void JobReader::read_strategy_keys(JobTable& table, Operation& operation)
     operation.overlap = length(table, "overlap", kNotNegative, 0.0);
     operation.extra_subdivision =
         table.whole_number("extra_subdivision", kSubdivisions).value_or(0);
-    operation.contour_clearing =
-        table.one_of("clearing", {"zigzag", "contour"}).value_or("zigzag") == "contour";
     operation.step_over = length(table, "step_over", kPositive);
+    read_clearing(table, operation);
 }
 
 // Whether the strategy plans on the triangles themselves, without a height field.

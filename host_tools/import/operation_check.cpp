@@ -75,6 +75,29 @@ void check_roughing(const JobTable& table, const Operation& operation)
     }
 }
 
+// Keys that adaptive clearing does not know yet are refused.
+void check_adaptive(const JobTable& table, const Operation& operation)
+{
+    if (!operation.max_engagement) {
+        return;
+    }
+    if (operation.tool.shape != toolpath::ToolShape::kFlat) {
+        table.refuse("clearing", fmt::format("\"adaptive\" needs a flat end; tool {} is {}",
+                                             operation.tool.number, name_of(operation.tool.shape)));
+    }
+    if (operation.tools.size() > 1 || operation.tools.front().number != operation.tool.number) {
+        table.refuse("tools",
+                     "has more than the operation's tool: clearing = \"adaptive\" cuts "
+                     "with one; a second operation may finish");
+    }
+    if (operation.allowance > 0) {
+        table.refuse("allowance", "does not go with clearing = \"adaptive\", which cuts to size");
+    }
+    if (operation.min_depth) {
+        table.refuse("min_depth", "does not go with clearing = \"adaptive\"");
+    }
+}
+
 void check_strategy(const JobTable& table, const Operation& operation)
 {
     const std::string& strategy = operation.strategy;
@@ -94,6 +117,7 @@ void check_strategy(const JobTable& table, const Operation& operation)
              "the height of the scallops that may remain");
         check_least_depth(table, operation);
         check_roughing(table, operation);
+        check_adaptive(table, operation);
     } else if (strategy == "grid_pocket") {
         need(operation.boundary.has_value(), "boundary", "the loop that bounds the pocket");
         need(operation.grid_x > 0, "grid", "the size of its cells, [gx, gy]");

@@ -91,6 +91,8 @@ struct Operation {
     double overlap{};
     int extra_subdivision{};
     bool contour_clearing{false};
+    // contour_pocket, pocket with clearing = "adaptive": degrees
+    std::optional<double> max_engagement;
     // parallel_planes; most between passes of pocket, face and v_carve
     std::optional<double> step_over;
     // pocket, profile, drill, face, engrave, v_carve, chamfer; a pocket's floor and boundary are set too

@@ -129,6 +129,35 @@ TEST(ContourPocket, RoughsInLayersNoDeeperThanAskedFor)
     CHECK(lowest_tip(planned.front().path) >= -8.0 + 0.2);
 }
 
+TEST(ContourPocket, ClearsAdaptivelyInLayersDownToALevelFloor)
+{
+    Operation operation = pocket();
+    operation.boundary = square_loop(30.0, 30.0, 11.0);
+    operation.tool = {1, ToolShape::kFlat, 4.0, 0.0};
+    operation.max_engagement = 60.0;
+    operation.max_depth = 4.0;
+    const std::vector<PlannedOperation> planned = plan_contour_pocket(job(), operation);
+    LONGS_EQUAL(1, planned.size());
+    LONGS_EQUAL(2, planned.front().stats.levels);
+    DOUBLES_EQUAL(-8.0, lowest_tip(planned.front().path), 1e-9);
+    double bound = 0.0;
+    for (const auto& [name, count] : planned.front().stats.counts) {
+        bound = name == "engagement_bound_deg" ? count : bound;
+    }
+    CHECK(bound > 40.0);
+    CHECK(bound <= 60.0);
+}
+
+TEST(ContourPocket, RefusesAdaptiveClearingOnASlope)
+{
+    const std::string text = refusal([](Operation& operation) {
+        operation.tool = {1, ToolShape::kFlat, 4.0, 0.0};
+        operation.max_engagement = 60.0;
+        operation.floor.front().points[3].z = -9.0;
+    });
+    CHECK(says(text, "floor.json: clearing \"adaptive\" needs a level floor"));
+}
+
 TEST(ContourPocket, TellsItsProgressThroughRoughingAndFinish)
 {
     Operation operation = pocket();

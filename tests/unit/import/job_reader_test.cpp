@@ -220,6 +220,25 @@ TEST(JobReader, RefusesRoughingThatAPocketWouldPassOver)
     STRCMP_EQUAL("", refusal("tools = [4]\nlayers = [3]\n").c_str());
 }
 
+TEST(JobReader, RefusesWhatAdaptiveClearingDoesNotKnow)
+{
+    const auto refusal = [&](const std::string& more) {
+        std::string head = kHead;
+        head.replace(head.find("[tool]"), 6, "[[tool]]");
+        return refused(head + "[[tool]]\nnumber = 4\nshape = \"flat\"\ndiameter = 9\n" +
+                       pocket("scallop = 0.4\n" + more));
+    };
+    const std::string adaptive = "clearing = \"adaptive\"\n";
+    STRCMP_CONTAINS("clearing: \"adaptive\" needs a flat end", refusal(adaptive).c_str());
+    STRCMP_EQUAL("", refusal(adaptive + "tool = 4\n").c_str());
+    STRCMP_CONTAINS("allowance: does not go with",
+                    refusal(adaptive + "tool = 4\nmax_depth = 2\nallowance = 0.3\n").c_str());
+    STRCMP_CONTAINS("max_engagement: ",
+                    refusal(adaptive + "tool = 4\nmax_engagement = 10\n").c_str());
+    STRCMP_CONTAINS("max_engagement: needs clearing", refusal("max_engagement = 60\n").c_str());
+    STRCMP_CONTAINS("clearing: ", refusal("clearing = \"zigzag\"\n").c_str());
+}
+
 TEST(JobReader, RefusesAnUnknownKeyAndNamesTheNearest)
 {
     const std::string text = refused(kHead + pocket("scalop = 0.4\nscallop = 0.4\n"));

@@ -1,0 +1,418 @@
+// Steering for each of a few turning radii, and between them contours of the opened region.
+#include "host_tools/adaptive_clearing/adaptive_clearing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "firmware/base/math.hpp"
+#include "host_tools/adaptive_clearing/pass_starts.hpp"
+#include "host_tools/adaptive_clearing/steered_pass.hpp"
+#include "host_tools/adaptive_clearing/swept_area.hpp"
+#include "host_tools/adaptive_clearing/wall_passes.hpp"
+#include "host_tools/clearing/clear_path.hpp"
+
+namespace cusp::adaptive_clearing {
+
+using clearing::is_path_clear;
+using job::CutDirection;
+using offset::area;
+using offset::between;
+using offset::Box2d;
+using offset::box_of;
+using offset::connected_parts;
+using offset::Contour;
+using offset::Edge;
+using offset::grown;
+using offset::length;
+using offset::line_edge;
+using offset::point_on;
+using offset::Region2d;
+using offset::RegionOffset;
+using offset::RegionPart;
+using offset::reversed;
+using offset::surrounds;
+
+namespace {
+
+// Of the tool's radius.
+constexpr double kSteered[] = {0.3, 0.1, 0.03};  // turning radii
+constexpr double kStrip = 0.04;                  // left along the walls by the first of them
+constexpr double kLeastStrip = 0.002;            // more than a step around an island bulges
+constexpr double kRatio = 0.6;                   // from one opening to the next
+constexpr double kHelix = 0.3;
+constexpr double kLeastHelix = 0.02;
+constexpr double kPiece = 0.1;
+constexpr double kTargetMargin = 0.06;
+constexpr double kSteerShare = 0.98;     // of the engagement
+constexpr double kLinkEngagement = 0.3;  // radians, most of a link through swept ground
+constexpr int kPoleGrid = 48;
+constexpr double kMoreWay = 1.3;  // than the area over the width of a straight cut
+constexpr double kMostProgress = 0.99;
+
+Edge mirrored(const Edge& e)
+{
+    return {
+        {-e.start.x, e.start.y}, {-e.end.x, e.end.y}, {-e.centre.x, e.centre.y}, e.radius, -e.turn};
+}
+
+// About the y axis; still to the left of its contours.
+Region2d mirrored(const Region2d& region)
+{
+    Region2d result;
+    for (const Contour& contour : region.contours) {
+        Contour other;
+        for (const Edge& edge : contour) {
+            other.push_back(mirrored(edge));
+        }
+        result.contours.push_back(reversed(other));
+    }
+    return result;
+}
+
+Box2d grown_box(Box2d box, double by)
+{
+    return {box.x0 - by, box.y0 - by, box.x1 + by, box.y1 + by};
+}
+
+class Planner {
+public:
+    Planner(const Region2d& region, const AdaptiveSettings& settings)
+        : settings_{settings},
+          radius_{settings.tool_radius},
+          walls_{region},
+          box_{grown_box(box_of(region), settings.tool_radius)},
+          swept_{box_, settings.tool_radius},
+          expected_{kMoreWay * area(region) /
+                    (settings.tool_radius * (1.0 - std::cos(settings.max_engagement)))}
+    {
+    }
+
+    AdaptivePath plan()
+    {
+        double opened = 0.0;
+        const double finest = finest_turn();
+        for (const double share : kSteered) {
+            const double turn = share * radius_;
+            if (opened > 0.0 && turn < finest) {
+                break;
+            }
+            for (double at = kRatio * opened; at > turn; at *= kRatio) {
+                cut_walls(opened, at, 0);
+                opened = at;
+            }
+            if (opened > 0.0) {
+                cut_walls(opened, turn, 0);
+            }
+            steer(turn,
+                  opened > 0.0 ? std::max(kStrip * turn, kLeastStrip * radius_) : kStrip * radius_);
+            cut_walls(turn, turn, 0);
+            opened = turn;
+        }
+        for (double at = opened * kRatio; at > finest; at *= kRatio) {
+            cut_walls(opened, at, 0);
+            opened = at;
+        }
+        cut_walls(opened, finest, 0);
+        cut_rest();
+        cut_slivers();
+        return std::move(result_);
+    }
+
+private:
+    // The part of the region that a turn of this radius reaches.
+    Region2d opened(double radius) const
+    {
+        const Region2d inner = walls_.at(settings_.wall_clearance + radius);
+        return inner.contours.empty() ? inner : grown(inner, radius);
+    }
+
+    void steer(double turn, double strip)
+    {
+        const Region2d centres = walls_.at(settings_.wall_clearance + strip + turn);
+        if (centres.contours.empty()) {
+            return;
+        }
+        const SteeringSpace space{swept_,
+                                  walls_,
+                                  settings_.wall_clearance + strip,
+                                  turn,
+                                  kSteerShare * settings_.max_engagement,
+                                  settings_.tolerance};
+        PassStarts starts{box_, grown(centres, turn + (1.0 - kTargetMargin) * radius_), radius_};
+        for (const Vec2d place : places_) {
+            starts.add(place);
+        }
+        for (const RegionPart& part : connected_parts(centres)) {
+            enter(centres, part, starts);
+            for (;;) {
+                const std::optional<Pose> pose = starts.next(at_, space);
+                if (!pose) {
+                    break;
+                }
+                const SteeredPass pass = steered_pass(space, *pose);
+                if (pass.path.empty()) {
+                    starts.drop(pose->at);
+                    continue;
+                }
+                result_.engagement_bound =
+                    std::max(result_.engagement_bound, pass.engagement_bound);
+                starts.add(pass.path);
+                add_run(pass.path);
+            }
+        }
+    }
+
+    // A helix into the part, unless there is a hole in it.
+    void enter(const Region2d& centres, const RegionPart& part, PassStarts& starts)
+    {
+        const Vec2d pole = deepest_place(centres, part);
+        if (swept_.contains(pole)) {
+            return;
+        }
+        const double room = walls_.nearest(pole, kUnbounded) - settings_.wall_clearance;
+        double r = std::min(kHelix * radius_, room);
+        r = r < kLeastHelix * radius_ ? 0.0 : r;
+        AdaptiveRun run;
+        run.helix = EntryHelix{pole, r};
+        result_.runs.push_back(run);
+        swept_.add_disc(pole, radius_ + r);
+        for (int i = 0; i < 16; ++i) {
+            const double angle = 2 * kPi * i / 16;
+            const Vec2d place = pole + Vec2d{std::cos(angle), std::sin(angle)} * r;
+            starts.add(place);
+            places_.push_back(place);
+        }
+        at_ = pole + Vec2d{r, 0.0};
+    }
+
+    // Of a grid over the part, the place farthest from walls.
+    Vec2d deepest_place(const Region2d& centres, const RegionPart& part) const
+    {
+        const Contour& outer = centres.contours[part.outer];
+        const Box2d box = box_of(Region2d{{outer}});
+        Vec2d best = outer.front().start;
+        double most = walls_.nearest(best, kUnbounded);
+        for (int j = 0; j < kPoleGrid; ++j) {
+            for (int i = 0; i < kPoleGrid; ++i) {
+                const Vec2d p{box.x0 + (box.x1 - box.x0) * (i + 0.5) / kPoleGrid,
+                              box.y0 + (box.y1 - box.y0) * (j + 0.5) / kPoleGrid};
+                const double d = walls_.nearest(p, kUnbounded);
+                const auto in_hole = [&](std::size_t k) {
+                    return surrounds(centres.contours[k], p);
+                };
+                if (d > most && surrounds(outer, p) &&
+                    std::none_of(part.holes.begin(), part.holes.end(), in_hole)) {
+                    best = p;
+                    most = d;
+                }
+            }
+        }
+        return best;
+    }
+
+    // Along the walls of the region opened by the radius `to`; `from` is the one of before.
+    void cut_walls(double from, double to, int depth)
+    {
+        constexpr int kMostDepth = 3;
+        const Region2d region = opened(to);
+        bool left = false;
+        for (const Contour& contour : region.contours) {
+            for (const std::vector<Edge>& path : stretches(contour, least_sliver())) {
+                if (is_bounded(path)) {
+                    cut(path);
+                } else {
+                    left = true;
+                }
+            }
+        }
+        if (left && depth < kMostDepth && from > 1.05 * to) {
+            cut_walls(from, std::sqrt(from * to), depth + 1);
+            cut_walls(std::sqrt(from * to), to, depth + 1);
+        }
+    }
+
+    // What no turn reaches: slots hardly wider than the tool, and corners that no pass within the
+    // bound opens. What rounding may leave in corners stays.
+    void cut_rest()
+    {
+        const Region2d finest = opened(finest_turn());
+        const Region2d whole = walls_.at(settings_.wall_clearance);
+        for (const Region2d* region : {&finest, &whole}) {
+            const double sliver = region == &finest ? least_sliver() : 2.0 * settings_.corner;
+            for (const Contour& contour : region->contours) {
+                for (const std::vector<Edge>& path : stretches(contour, sliver)) {
+                    enter_at(path.front().start);
+                    cut(path);
+                }
+            }
+        }
+    }
+
+    // What passes left between them: straight onto it from the nearest place of before.
+    void cut_slivers()
+    {
+        const Region2d whole = walls_.at(settings_.wall_clearance);
+        if (whole.contours.empty()) {
+            return;
+        }
+        constexpr double kMargin = 0.02;
+        for (const Vec2d p : swept_.standing(grown(whole, (1.0 - kMargin) * radius_))) {
+            if (!swept_.contains(p)) {
+                cut_sliver(p);
+            }
+            if (!swept_.contains(p)) {
+                result_.left.push_back(p);
+            }
+        }
+    }
+
+    void cut_sliver(Vec2d p)
+    {
+        std::vector<std::pair<double, Vec2d>> near;
+        for (const Vec2d place : places_) {
+            const double d = norm(p - place);
+            if (d < 2.0 * radius_) {
+                near.emplace_back(d, place);
+            }
+        }
+        std::sort(near.begin(), near.end(), [](const auto& a, const auto& b) {
+            return a.first < b.first ||
+                   (a.first == b.first &&
+                    std::pair{a.second.x, a.second.y} < std::pair{b.second.x, b.second.y});
+        });
+        for (const auto& [d, place] : near) {
+            const Edge way = line_edge(place, p - (p - place) * (0.98 * radius_ / d));
+            if (is_path_clear(walls_, way, settings_.wall_clearance)) {
+                cut({way});
+                return;
+            }
+        }
+    }
+
+    // Straight down where nothing is swept yet.
+    void enter_at(Vec2d place)
+    {
+        if (swept_.engagement(place, {1.0, 0.0}, -0.01 * radius_, kPi) < 0.1) {
+            return;
+        }
+        AdaptiveRun run;
+        run.helix = EntryHelix{place, 0.0};
+        result_.runs.push_back(run);
+        swept_.add_disc(place, radius_);
+        at_ = place;
+    }
+
+    double least_sliver() const { return std::min(0.004 * radius_, 0.5 * settings_.corner); }
+
+    double finest_turn() const
+    {
+        return std::max(settings_.corner / (std::sqrt(2.0) - 1.0), 1e-3 * radius_);
+    }
+
+    std::vector<std::vector<Edge>> stretches(const Contour& contour, double sliver) const
+    {
+        return uncut_stretches(contour, {swept_, walls_, settings_.wall_clearance, sliver});
+    }
+
+    bool is_bounded(const std::vector<Edge>& path) const
+    {
+        return std::all_of(path.begin(), path.end(), [&](const Edge& edge) {
+            return swept_.engagement_bound(edge, settings_.max_engagement, settings_.tolerance) <=
+                   settings_.max_engagement;
+        });
+    }
+
+    // Measures and sweeps the path piece by piece.
+    void cut(const std::vector<Edge>& path)
+    {
+        OverEngagement over{};
+        for (const Edge& edge : path) {
+            const int n =
+                std::max(1, static_cast<int>(std::ceil(length(edge) / (kPiece * radius_))));
+            for (int i = 0; i < n; ++i) {
+                const Edge piece =
+                    between(edge, point_on(edge, static_cast<double>(i) / n),
+                            i + 1 == n ? edge.end : point_on(edge, static_cast<double>(i + 1) / n));
+                const double most =
+                    swept_.engagement_bound(piece, settings_.max_engagement, settings_.tolerance);
+                swept_.add(piece, settings_.tolerance);
+                if (most <= settings_.max_engagement) {
+                    result_.engagement_bound = std::max(result_.engagement_bound, most);
+                    continue;
+                }
+                over.length += length(piece);
+                if (most > over.engagement) {
+                    over.engagement = most;
+                    over.at = piece.end;
+                }
+            }
+        }
+        if (over.length > 0.0) {
+            result_.over.push_back(over);
+        }
+        add_run(path);
+    }
+
+    void add_run(const std::vector<Edge>& path)
+    {
+        AdaptiveRun run;
+        run.path = path;
+        const Edge way = line_edge(at_, path.front().start);
+        run.linked = !result_.runs.empty() &&
+                     (length(way) < 1e-6 ||
+                      (length(way) < 20.0 * radius_ &&
+                       is_path_clear(walls_, way, settings_.wall_clearance) &&
+                       swept_.engagement_bound(way, kLinkEngagement) <= kLinkEngagement));
+        for (const Edge& edge : path) {
+            const int n =
+                std::max(1, static_cast<int>(std::ceil(length(edge) / (2.0 * kPiece * radius_))));
+            for (int i = 1; i <= n; ++i) {
+                places_.push_back(point_on(edge, static_cast<double>(i) / n));
+            }
+            result_.length += length(edge);
+        }
+        at_ = path.back().end;
+        result_.runs.push_back(std::move(run));
+        if (settings_.progress) {
+            settings_.progress(std::min(result_.length / expected_, kMostProgress));
+        }
+    }
+
+    const AdaptiveSettings& settings_;
+    double radius_;
+    RegionOffset walls_;
+    Box2d box_;
+    SweptArea swept_;
+    double expected_;  // mm of way
+    AdaptivePath result_;
+    std::vector<Vec2d> places_;  // where the tool has been
+    Vec2d at_{};
+};
+
+}  // namespace
+
+AdaptivePath clear_adaptively(const Region2d& region, const AdaptiveSettings& settings)
+{
+    if (settings.direction == CutDirection::kClimb) {
+        return Planner{region, settings}.plan();
+    }
+    AdaptivePath path = Planner{mirrored(region), settings}.plan();
+    for (AdaptiveRun& run : path.runs) {
+        for (Edge& edge : run.path) {
+            edge = mirrored(edge);
+        }
+        if (run.helix) {
+            run.helix->centre.x = -run.helix->centre.x;
+        }
+    }
+    for (OverEngagement& over : path.over) {
+        over.at.x = -over.at.x;
+    }
+    for (Vec2d& place : path.left) {
+        place.x = -place.x;
+    }
+    return path;
+}
+
+}  // namespace cusp::adaptive_clearing

@@ -1,0 +1,274 @@
+// The circle is looked at in short arcs: those in swept cells are covered as a whole.
+#include "host_tools/adaptive_clearing/swept_area.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "firmware/base/math.hpp"
+#include "host_tools/offset/edge_tree.hpp"
+
+namespace cusp::adaptive_clearing {
+
+using offset::Box2d;
+using offset::Edge;
+using offset::edges_of;
+using offset::EdgeTree;
+using offset::Region2d;
+
+namespace {
+
+constexpr int kArcs = 128;           // of the circle
+constexpr double kGrown = 0.025;     // radii: over half of such an arc
+constexpr double kPitch = 1.0 / 12;  // radii: of cells
+constexpr double kDiscSpacing = 0.05;
+constexpr double kLongestPiece = 0.1;  // radii: its half is within kMostSlack with a tolerance
+constexpr double kShortestPiece = 0.001;
+
+// Unit vectors to the middles of the arcs.
+const std::array<Vec2d, kArcs>& directions()
+{
+    static const std::array<Vec2d, kArcs> table = [] {
+        std::array<Vec2d, kArcs> t;
+        for (int i = 0; i < kArcs; ++i) {
+            const double angle = 2 * kPi * (i + 0.5) / kArcs;
+            t[static_cast<std::size_t>(i)] = {std::cos(angle), std::sin(angle)};
+        }
+        return t;
+    }();
+    return table;
+}
+
+}  // namespace
+
+SweptArea::SweptArea(const Box2d& box, double radius)
+    : corner_{box.x0, box.y0},
+      radius_{radius},
+      pitch_{kPitch * radius},
+      per_mm_{1.0 / pitch_},
+      columns_{std::max(1, static_cast<int>(std::ceil((box.x1 - box.x0) / pitch_)))},
+      rows_{std::max(1, static_cast<int>(std::ceil((box.y1 - box.y0) / pitch_)))},
+      cells_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_))
+{
+}
+
+const SweptArea::Cell* SweptArea::cell_at(Vec2d point) const
+{
+    const double x = (point.x - corner_.x) * per_mm_;
+    const double y = (point.y - corner_.y) * per_mm_;
+    if (!(x >= 0.0 && y >= 0.0 && x < columns_ && y < rows_)) {
+        return nullptr;
+    }
+    return &cells_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) +
+                   static_cast<std::size_t>(x)];
+}
+
+void SweptArea::add_disc(Vec2d centre, double radius)
+{
+    const auto index = static_cast<std::uint32_t>(discs_.size());
+    discs_.push_back({centre, radius});
+    seen_.push_back(0);
+    const double diagonal = std::sqrt(0.5) * pitch_ + kGrown * radius_;
+    const double inner = radius - kMostSlack * radius_ - diagonal;
+    // Discs count as larger by up to as much (a negative slack).
+    const double outer = radius + kMostSlack * radius_ + diagonal;
+    const auto column = [&](double x) {
+        return std::clamp(static_cast<int>((x - corner_.x) / pitch_), 0, columns_ - 1);
+    };
+    const auto row = [&](double y) {
+        return std::clamp(static_cast<int>((y - corner_.y) / pitch_), 0, rows_ - 1);
+    };
+    for (int j = row(centre.y - outer); j <= row(centre.y + outer); ++j) {
+        const double dy = corner_.y + (j + 0.5) * pitch_ - centre.y;
+        for (int i = column(centre.x - outer); i <= column(centre.x + outer); ++i) {
+            const double dx = corner_.x + (i + 0.5) * pitch_ - centre.x;
+            const double d2 = dx * dx + dy * dy;
+            Cell& cell = cells_[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
+                                static_cast<std::size_t>(i)];
+            if (cell.swept || d2 > outer * outer) {
+                continue;
+            }
+            if (d2 <= inner * inner) {
+                cell.swept = true;
+                std::vector<std::uint32_t>{}.swap(cell.discs);
+            } else {
+                put(index, cell, centre + Vec2d{dx, dy});
+            }
+        }
+    }
+}
+
+// Whether all points of the cell about `middle`, and within kGrown of it, are nearer to the other
+// disc, which is no smaller: then it covers in the cell what the disc covers, at any slack.
+bool SweptArea::is_hidden(std::uint32_t disc, std::uint32_t by, Vec2d middle) const
+{
+    const Disc& a = discs_[disc];
+    const Disc& b = discs_[by];
+    const Vec2d way = b.centre - a.centre;
+    const double reach = (0.5 * pitch_ + kGrown * radius_) * (std::abs(way.x) + std::abs(way.y));
+    return b.radius >= a.radius && dot(middle - (a.centre + b.centre) * 0.5, way) >= reach;
+}
+
+void SweptArea::put(std::uint32_t disc, Cell& cell, Vec2d middle) const
+{
+    for (const std::uint32_t other : cell.discs) {
+        if (is_hidden(disc, other, middle)) {
+            return;
+        }
+    }
+    cell.discs.erase(
+        std::remove_if(cell.discs.begin(), cell.discs.end(),
+                       [&](std::uint32_t other) { return is_hidden(other, disc, middle); }),
+        cell.discs.end());
+    cell.discs.push_back(disc);
+}
+
+void SweptArea::add(const Edge& edge, double tolerance)
+{
+    const double size = length(edge);
+    const int n = std::max(1, static_cast<int>(std::ceil(size / (kDiscSpacing * radius_))));
+    const double radius = radius_ - (edge.turn != 0 ? tolerance : 0.0);
+    const bool goes_on = !discs_.empty() && norm(discs_.back().centre - edge.start) < 1e-9 &&
+                         discs_.back().radius >= radius;
+    for (int i = goes_on ? 1 : 0; i <= n; ++i) {
+        add_disc(point_on(edge, static_cast<double>(i) / n), radius);
+    }
+}
+
+// Adds the part of the tool's circle that lies in the disc, as angles from the heading.
+void SweptArea::add_covered(const Disc& disc, Vec2d centre, Vec2d heading, double slack) const
+{
+    const double r = disc.radius - slack;
+    const Vec2d to = disc.centre - centre;
+    const double d = norm(to);
+    if (d + radius_ <= r) {
+        covered_.push_back({-kPi, kPi});
+        return;
+    }
+    const double cosine = d > 0.0 ? (radius_ * radius_ + d * d - r * r) / (2.0 * radius_ * d) : 2.0;
+    if (cosine >= 1.0) {
+        return;
+    }
+    const double half = std::acos(std::max(cosine, -1.0));
+    const double middle = std::atan2(cross(heading, to), dot(heading, to));
+    covered_.push_back({middle - half, middle + half});
+    if (middle - half < -kPi) {
+        covered_.push_back({middle - half + 2 * kPi, kPi});
+    }
+    if (middle + half > kPi) {
+        covered_.push_back({-kPi, middle + half - 2 * kPi});
+    }
+}
+
+double SweptArea::engagement(Vec2d centre, Vec2d heading, double slack, double widened) const
+{
+    const double most = std::min(0.5 * kPi + widened, kPi);
+    ++look_;
+    covered_.clear();
+    const double arc = 2 * kPi / kArcs;
+    const double at = std::atan2(heading.y, heading.x);
+    const int first = static_cast<int>(std::floor((at - most) / arc));
+    const int last = static_cast<int>(std::floor((at + most) / arc));
+    const std::array<Vec2d, kArcs>& table = directions();
+    const auto at_arc = [&](int i) {
+        return cell_at(centre + table[static_cast<std::size_t>((i + 4 * kArcs) % kArcs)] * radius_);
+    };
+    const auto is_swept = [](const Cell* cell) {
+        return cell != nullptr && cell->swept;
+    };
+    for (int i = first; i <= last; ++i) {
+        const Cell* cell = at_arc(i);
+        if (cell == nullptr) {
+            continue;
+        }
+        if (cell->swept) {
+            const int begin = i;
+            for (; i < last && is_swept(at_arc(i + 1)); ++i) {
+            }
+            covered_.push_back({begin * arc - at, (i + 1) * arc - at});
+            continue;
+        }
+        for (const std::uint32_t k : cell->discs) {
+            if (seen_[k] != look_) {
+                seen_[k] = look_;
+                add_covered(discs_[k], centre, heading, slack);
+            }
+        }
+    }
+    std::sort(covered_.begin(), covered_.end(), [](const Interval& a, const Interval& b) {
+        return a.from < b.from || (a.from == b.from && a.to < b.to);
+    });
+    double reached = -most;
+    double open = 0.0;
+    for (const Interval& c : covered_) {
+        if (c.from >= most) {
+            break;
+        }
+        open += std::max(0.0, c.from - reached);
+        reached = std::max(reached, c.to);
+    }
+    return open + std::max(0.0, most - reached);
+}
+
+double SweptArea::bound_of_piece(
+    const Edge& edge, double from, double to, double limit, double tolerance) const
+{
+    const double middle = 0.5 * (from + to);
+    const double size = (to - from) * length(edge);
+    const double slack = 0.5 * size + (edge.turn != 0 ? tolerance : 0.0);
+    const double turn = 0.5 * (to - from) * sweep(edge);
+    const double most = engagement(point_on(edge, middle), tangent_on(edge, middle), slack, turn);
+    if (most <= limit || size < 2.0 * kShortestPiece * radius_) {
+        return most;
+    }
+    return std::max(bound_of_piece(edge, from, middle, limit, tolerance),
+                    bound_of_piece(edge, middle, to, limit, tolerance));
+}
+
+double SweptArea::engagement_bound(const Edge& edge, double limit, double tolerance) const
+{
+    const int n =
+        std::max(1, static_cast<int>(std::ceil(length(edge) / (kLongestPiece * radius_))));
+    double most = 0.0;
+    for (int i = 0; i < n; ++i) {
+        most = std::max(most, bound_of_piece(edge, static_cast<double>(i) / n,
+                                             static_cast<double>(i + 1) / n, limit, tolerance));
+    }
+    return most;
+}
+
+std::vector<Vec2d> SweptArea::standing(const Region2d& region) const
+{
+    constexpr int kFiner = 6;
+    const EdgeTree tree{edges_of(region)};
+    std::vector<Vec2d> result;
+    for (int j = 0; j < rows_ * kFiner; ++j) {
+        for (int i = 0; i < columns_ * kFiner; ++i) {
+            const Vec2d p = corner_ + Vec2d{i + 0.5, j + 0.5} * (pitch_ / kFiner);
+            const Cell* cell = cell_at(p);
+            if (cell != nullptr && cell->swept) {
+                i += kFiner - 1 - i % kFiner;
+                continue;
+            }
+            if (!contains(p) && tree.surrounds(p)) {
+                result.push_back(p);
+            }
+        }
+    }
+    return result;
+}
+
+bool SweptArea::contains(Vec2d point) const
+{
+    const Cell* cell = cell_at(point);
+    if (cell == nullptr) {
+        return false;
+    }
+    const auto covers = [&](std::uint32_t k) {
+        const Vec2d d = point - discs_[k].centre;
+        return dot(d, d) <= discs_[k].radius * discs_[k].radius;
+    };
+    return cell->swept || std::any_of(cell->discs.begin(), cell->discs.end(), covers);
+}
+
+}  // namespace cusp::adaptive_clearing

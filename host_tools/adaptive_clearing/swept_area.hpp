@@ -1,0 +1,92 @@
+// The area that a flat end mill has swept, and how much of its circumference is in stock beside it.
+//
+//     SweptArea swept{box, 3.0};                  // mm: radius of the tool
+//     swept.add_disc({0, 0}, 4.0);                // a hole to start from
+//     const double angle = swept.engagement({1.2, 0}, {0, 1});     // radians
+//     const double most = swept.engagement_bound(edge, limit);     // nowhere more along the edge
+//     swept.add(edge);
+//
+// The area is kept as discs: those of the tool at places on its path, at most kDiscSpacing radii
+// apart. They lie within what the tool sweeps, so that engagement is never found too small.
+// Cells of a grid that lie within a single disc are known as swept; in the others the circle is cut
+// with each disc.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "host_tools/offset/contour.hpp"
+
+namespace cusp::adaptive_clearing {
+
+class SweptArea {
+public:
+    // Of the radius: the largest slack of engagement().
+    static constexpr double kMostSlack = 0.06;
+
+    // box     of the places that the tool's circle may reach
+    // radius  mm, of the tool, > 0
+    SweptArea(const offset::Box2d& box, double radius);
+
+    // Precondition: a radius (mm) of at least the tool's.
+    void add_disc(Vec2d centre, double radius);
+    // The tool along the edge, by chords of its arcs within `tolerance` (mm).
+    void add(const offset::Edge& edge, double tolerance = 0.0);
+
+    // Radians of the tool's circle at `centre` that are not swept, of those within a quarter turn
+    // and `widened` (radians) of the unit vector `heading`.
+    //
+    // slack  mm, at most kMostSlack radii: discs are taken as smaller by it. For the tool anywhere
+    //        within `slack` of the centre the result is an upper bound, with headings up to
+    //        `widened` off. Negative: stock thinner than that does not count.
+    double engagement(Vec2d centre, Vec2d heading, double slack = 0.0, double widened = 0.0) const;
+
+    // An upper bound, in radians, of the engagement while the tool moves along the edge, or along
+    // chords of it within `tolerance` (mm). Pieces of the edge are halved down to 0.001 radii until
+    // it is at most `limit`.
+    double engagement_bound(const offset::Edge& edge, double limit, double tolerance = 0.0) const;
+
+    // Whether the point is swept.
+    bool contains(Vec2d point) const;
+
+    // Points of a raster of a 72nd of the radius in the region that are not swept.
+    std::vector<Vec2d> standing(const offset::Region2d& region) const;
+
+    double radius() const { return radius_; }
+
+private:
+    struct Disc {
+        Vec2d centre;
+        double radius;
+    };
+    struct Cell {
+        bool swept{};  // with all points within kGrown of it
+        // The nearest disc of each of its points is among them; none where it is swept.
+        std::vector<std::uint32_t> discs;
+    };
+    struct Interval {
+        double from;
+        double to;
+    };
+    bool is_hidden(std::uint32_t disc, std::uint32_t by, Vec2d middle) const;
+    void put(std::uint32_t disc, Cell& cell, Vec2d middle) const;
+    const Cell* cell_at(Vec2d point) const;
+    void add_covered(const Disc& disc, Vec2d centre, Vec2d heading, double slack) const;
+    double bound_of_piece(
+        const offset::Edge& edge, double from, double to, double limit, double tolerance) const;
+
+    Vec2d corner_;
+    double radius_;
+    double pitch_;
+    double per_mm_;  // cells
+    int columns_;
+    int rows_;
+    std::vector<Cell> cells_;
+    std::vector<Disc> discs_;
+    // Of the last engagement(): which discs were seen, and what they cover.
+    mutable std::vector<std::uint32_t> seen_;
+    mutable std::uint32_t look_{0};
+    mutable std::vector<Interval> covered_;
+};
+
+}  // namespace cusp::adaptive_clearing

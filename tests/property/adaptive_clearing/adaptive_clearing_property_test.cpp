@@ -1,0 +1,148 @@
+// Adaptive clearing of random pockets, cut again on a raster: the engagement keeps its bound, all
+// that contour clearing cuts is cut, and no path comes nearer to a wall than it may.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "host_tools/adaptive_clearing/adaptive_clearing.hpp"
+#include "tests/property/adaptive_clearing/raster_cutter.hpp"
+#include "tests/property/offset/random_regions.hpp"
+#include "tests/support/property_cases.hpp"
+
+// Last: CppUTest redefines new, which the standard headers can not bear.
+#include "CppUTest/TestHarness.h"
+
+namespace cusp::test {
+
+using namespace adaptive_clearing;
+using namespace offset;
+
+namespace {
+
+constexpr double kDegrees = 3.14159265358979323846 / 180.0;
+constexpr double kPitch = 1.0 / 40;   // radii
+constexpr double kStep = 1.0 / 30;    // radii between places of the tool
+constexpr double kTolerance = 0.005;  // mm
+// Of the raster: three quarters of a cell outside, half a degree, half a cell of a step.
+constexpr double kRasterDegrees = 4.0;
+
+struct Found {
+    double way{};    // mm in metal
+    double over{};   // mm of it over the angle, not listed
+    double worst{};  // degrees, not listed
+    Vec2d worst_at{};
+    double uncut{};  // mm2
+    Vec2d uncut_at{};
+    double nearest{1e9};  // mm: the least clearance from the walls
+    Vec2d nearest_at{};
+};
+
+bool is_listed(const AdaptivePath& path, const std::vector<Edge>& run)
+{
+    return std::any_of(path.over.begin(), path.over.end(), [&](const OverEngagement& over) {
+        return std::any_of(run.begin(), run.end(),
+                           [&](const Edge& edge) { return distance_to(edge, over.at) < 1e-6; });
+    });
+}
+
+Found judge(const Region2d& region, const AdaptiveSettings& settings, const AdaptivePath& path)
+{
+    const double radius = settings.tool_radius;
+    const double pitch = kPitch * radius;
+    const RegionOffset walls{region};
+    RasterCutter cutter{region, radius, pitch, 2.0 * pitch};
+    Found found;
+    for (const AdaptiveRun& run : path.runs) {
+        if (run.helix) {
+            cutter.remove_disc(run.helix->centre, radius + run.helix->radius);
+            continue;
+        }
+        const bool listed = is_listed(path, run.path);
+        cutter.cut(run.path.front().start);
+        for (const Edge& edge : run.path) {
+            const int n = std::max(1, static_cast<int>(std::ceil(length(edge) / (kStep * radius))));
+            for (int i = 0; i < n; ++i) {
+                const double share = (i + 1.0) / n;
+                const Vec2d at = point_on(edge, static_cast<double>(i) / n);
+                const double angle =
+                    cutter.engagement(at, tangent_on(edge, static_cast<double>(i) / n));
+                cutter.cut(point_on(edge, share));
+                if (const double clearance = walls.clearance(at); clearance < found.nearest) {
+                    found.nearest = clearance;
+                    found.nearest_at = at;
+                }
+                found.way += angle > 0.0 ? length(edge) / n : 0.0;
+                if (!listed && angle > settings.max_engagement / kDegrees + kRasterDegrees) {
+                    found.over += length(edge) / n;
+                    if (angle > found.worst) {
+                        found.worst = angle;
+                        found.worst_at = at;
+                    }
+                }
+            }
+        }
+    }
+    const Region2d centres = walls.at(settings.wall_clearance);
+    if (!centres.contours.empty()) {
+        const RegionOffset reached{grown(centres, radius)};
+        cutter.visit_metal([&](Vec2d p) {
+            if (reached.clearance(p) > 2.0 * pitch) {
+                found.uncut += cutter.cell_area();
+                found.uncut_at = p;
+            }
+        });
+    }
+    return found;
+}
+
+void check(const Region2d& region, const AdaptiveSettings& settings, unsigned number)
+{
+    const AdaptivePath path = clear_adaptively(region, settings);
+    const Found found = judge(region, settings, path);
+    double listed = 0.0;
+    for (const OverEngagement& over : path.over) {
+        listed += over.length;
+    }
+    const bool good = found.over <= 0.001 * found.way && found.uncut <= 0.0 &&
+                      (path.runs.empty() || found.nearest >= settings.wall_clearance - 1e-4);
+    if (!good || std::getenv("CUSP_PROPERTY_PRINT") != nullptr) {
+        std::printf(
+            "case %u: R %.3f wall %.3f asked %.1f: %zu runs, %.0f mm, bound %.2f, %zu over "
+            "%.2f mm; in metal %.0f mm, over %.3f mm, worst %.1f at %.3f,%.3f; uncut %.4f "
+            "mm2 at %.3f,%.3f; nearest %.5f at %.3f,%.3f\n",
+            number, settings.tool_radius, settings.wall_clearance,
+            settings.max_engagement / kDegrees, path.runs.size(), path.length,
+            path.engagement_bound / kDegrees, path.over.size(), listed, found.way, found.over,
+            found.worst, found.worst_at.x, found.worst_at.y, found.uncut, found.uncut_at.x,
+            found.uncut_at.y, found.nearest, found.nearest_at.x, found.nearest_at.y);
+    }
+    CHECK(path.engagement_bound <= settings.max_engagement);
+    CHECK(good);
+}
+
+TEST_GROUP(RandomAdaptiveClearing){};
+
+TEST(RandomAdaptiveClearing, KeepsItsBoundAndLeavesNothing)
+{
+    constexpr unsigned kSeed = 26;
+    const int cases = property_cases(4);
+    std::printf("%d random pockets, seeds from %u\n", cases, kSeed);
+    for (int i = 0; i < cases; ++i) {
+        Random random{kSeed + static_cast<unsigned>(i)};
+        const Region2d region = random_region(random);
+        AdaptiveSettings settings;
+        settings.tool_radius = uniform(random, 2.0, 6.0);
+        settings.wall_clearance = settings.tool_radius + uniform(random, 0.01, 0.3);
+        settings.max_engagement = uniform(random, 35.0, 100.0) * kDegrees;
+        settings.tolerance = kTolerance;
+        settings.corner = 0.02;
+        settings.direction =
+            i % 2 == 0 ? job::CutDirection::kClimb : job::CutDirection::kConventional;
+        check(region, settings, kSeed + static_cast<unsigned>(i));
+    }
+}
+
+}  // namespace
+
+}  // namespace cusp::test

@@ -1,0 +1,110 @@
+// A cutter on a raster, as simple as can be: what a path leaves, and how much of the tool's
+// circumference is in metal along it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "host_tools/offset/offset.hpp"
+
+namespace cusp::test {
+
+class RasterCutter {
+public:
+    // Metal is what lies in the region, farther than `margin` (mm) from its contours.
+    RasterCutter(const offset::Region2d& region, double radius, double pitch, double margin)
+        : radius_{radius}, pitch_{pitch}
+    {
+        const offset::RegionOffset walls{region};
+        const offset::Box2d box = offset::box_of(region);
+        corner_ = {box.x0, box.y0};
+        columns_ = static_cast<int>((box.x1 - box.x0) / pitch) + 1;
+        rows_ = static_cast<int>((box.y1 - box.y0) / pitch) + 1;
+        metal_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+        for (int j = 0; j < rows_; ++j) {
+            double known = 0.0;  // mm to the right in which nothing changes
+            bool inside = false;
+            for (int i = 0; i < columns_; ++i, known -= pitch) {
+                if (known <= 0.0) {
+                    const double clearance = walls.clearance(centre(i, j));
+                    inside = clearance > margin;
+                    known = std::abs(clearance - margin);
+                }
+                metal_[index(i, j)] = inside ? 1 : 0;
+            }
+        }
+    }
+
+    void remove_disc(Vec2d at, double radius)
+    {
+        const int n = static_cast<int>(radius / pitch_) + 1;
+        const int i0 = static_cast<int>(std::floor((at.x - corner_.x) / pitch_));
+        const int j0 = static_cast<int>(std::floor((at.y - corner_.y) / pitch_));
+        for (int j = std::max(0, j0 - n); j <= std::min(rows_ - 1, j0 + n); ++j) {
+            for (int i = std::max(0, i0 - n); i <= std::min(columns_ - 1, i0 + n); ++i) {
+                const Vec2d d = centre(i, j) - at;
+                if (dot(d, d) <= radius * radius) {
+                    metal_[index(i, j)] = 0;
+                }
+            }
+        }
+    }
+
+    void cut(Vec2d at) { remove_disc(at, radius_); }
+
+    // Degrees of the front half of the circle just outside of the tool that are in metal which the
+    // tool meets within two cells of its way: slivers along a wall just cut are not metal.
+    double engagement(Vec2d at, Vec2d heading) const
+    {
+        const double out = radius_ + 0.75 * pitch_;
+        int count = 0;
+        for (int k = -90; k <= 90; ++k) {
+            const double angle = std::atan2(heading.y, heading.x) + k * 0.017453292519943295;
+            const Vec2d u{std::cos(angle), std::sin(angle)};
+            count += is_metal(at + u * out) && is_metal(at + heading * (2.0 * pitch_) + u * radius_)
+                         ? 1
+                         : 0;
+        }
+        return count * 180.0 / 181.0;
+    }
+
+    // Calls visit(place) for each cell of metal.
+    template <class Visit>
+    void visit_metal(Visit visit) const
+    {
+        for (int j = 0; j < rows_; ++j) {
+            for (int i = 0; i < columns_; ++i) {
+                if (metal_[index(i, j)] != 0) {
+                    visit(centre(i, j));
+                }
+            }
+        }
+    }
+
+    double cell_area() const { return pitch_ * pitch_; }
+
+private:
+    bool is_metal(Vec2d p) const
+    {
+        const int i = static_cast<int>(std::floor((p.x - corner_.x) / pitch_));
+        const int j = static_cast<int>(std::floor((p.y - corner_.y) / pitch_));
+        return i >= 0 && j >= 0 && i < columns_ && j < rows_ && metal_[index(i, j)] != 0;
+    }
+    Vec2d centre(int i, int j) const { return corner_ + Vec2d{i + 0.5, j + 0.5} * pitch_; }
+    std::size_t index(int i, int j) const
+    {
+        return static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
+               static_cast<std::size_t>(i);
+    }
+
+    double radius_;
+    double pitch_;
+    Vec2d corner_{};
+    int columns_{};
+    int rows_{};
+    std::vector<std::uint8_t> metal_;
+};
+
+}  // namespace cusp::test

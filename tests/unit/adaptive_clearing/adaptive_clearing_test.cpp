@@ -1,0 +1,92 @@
+#include "host_tools/adaptive_clearing/adaptive_clearing.hpp"
+
+#include <algorithm>
+
+// Last: CppUTest redefines new, which breaks standard headers included after it.
+#include "CppUTest/TestHarness.h"
+
+namespace cusp::test {
+
+using namespace adaptive_clearing;
+using namespace offset;
+
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+
+Region2d rectangle(double x, double y)
+{
+    return {{{line_edge({0, 0}, {x, 0}), line_edge({x, 0}, {x, y}), line_edge({x, y}, {0, y}),
+              line_edge({0, y}, {0, 0})}}};
+}
+
+AdaptiveSettings settings(double degrees)
+{
+    AdaptiveSettings result;
+    result.tool_radius = 3.0;
+    result.wall_clearance = 3.01;
+    result.max_engagement = degrees * kDegree;
+    result.tolerance = 0.005;
+    result.corner = 0.02;
+    return result;
+}
+
+double least_x(const AdaptivePath& path)
+{
+    double least = 1e300;
+    for (const AdaptiveRun& run : path.runs) {
+        for (const Edge& edge : run.path) {
+            least = std::min({least, edge.start.x, edge.end.x});
+        }
+    }
+    return least;
+}
+
+TEST_GROUP(AdaptiveClearing){};
+
+TEST(AdaptiveClearing, BeginsWithAHelixAndReachesTheWalls)
+{
+    const AdaptivePath path = clear_adaptively(rectangle(30, 24), settings(60.0));
+    CHECK(path.runs.front().helix.has_value());
+    CHECK(path.engagement_bound <= 60.0 * kDegree);
+    CHECK(path.engagement_bound > 40.0 * kDegree);
+    DOUBLES_EQUAL(3.01, least_x(path), 1e-6);
+}
+
+TEST(AdaptiveClearing, RunsAreTangentChains)
+{
+    for (const AdaptiveRun& run : clear_adaptively(rectangle(30, 24), settings(60.0)).runs) {
+        for (std::size_t i = 1; i < run.path.size(); ++i) {
+            DOUBLES_EQUAL(0.0, distance(run.path[i - 1].end, run.path[i].start), 1e-6);
+            CHECK(dot(tangent_at_end(run.path[i - 1]), tangent_at_start(run.path[i])) > 0.99);
+        }
+    }
+}
+
+TEST(AdaptiveClearing, ASlotAsWideAsTheToolIsCutAndListed)
+{
+    const AdaptivePath path = clear_adaptively(rectangle(30, 6.1), settings(60.0));
+    CHECK(!path.over.empty());
+    CHECK(path.over.front().engagement > 90.0 * kDegree);
+    DOUBLES_EQUAL(3.01, least_x(path), 0.05);
+}
+
+TEST(AdaptiveClearing, ATooLargeToolHasNoRuns)
+{
+    CHECK(clear_adaptively(rectangle(30, 5.9), settings(60.0)).runs.empty());
+}
+
+TEST(AdaptiveClearing, ConventionalIsTheMirrorImage)
+{
+    AdaptiveSettings other = settings(60.0);
+    other.direction = job::CutDirection::kConventional;
+    const AdaptivePath a = clear_adaptively(rectangle(24, 20), settings(60.0));
+    const AdaptivePath b = clear_adaptively(rectangle(24, 20), other);
+    CHECK(b.engagement_bound <= 60.0 * kDegree);
+    // The first steered run turns the other way.
+    LONGS_EQUAL(-a.runs[1].path.front().turn, b.runs[1].path.front().turn);
+}
+
+}  // namespace
+
+}  // namespace cusp::test

@@ -1,0 +1,73 @@
+#include "host_tools/adaptive_clearing/swept_area.hpp"
+
+#include <cmath>
+#include <random>
+
+// Last: CppUTest redefines new, which breaks standard headers included after it.
+#include "CppUTest/TestHarness.h"
+
+namespace cusp::test {
+
+using namespace adaptive_clearing;
+using namespace offset;
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+SweptArea swept_by_a_line()
+{
+    SweptArea swept{{-20, -20, 20, 20}, 3.0};
+    swept.add(line_edge({-15, 0}, {15, 0}));
+    return swept;
+}
+
+TEST_GROUP(SweptArea){};
+
+TEST(SweptArea, AStraightCutHasTheAngleOfItsWidth)
+{
+    const SweptArea swept = swept_by_a_line();
+    for (const double width : {0.3, 1.5, 3.0}) {
+        const double angle = std::acos(1.0 - width / 3.0);
+        // Between two discs of the line stands a cusp of 0.001 mm.
+        DOUBLES_EQUAL(angle, swept.engagement({0, width}, {1, 0}), 2e-3);
+        DOUBLES_EQUAL(angle, swept.engagement({0, width}, {-1, 0}), 2e-3);
+    }
+}
+
+TEST(SweptArea, ASlotHasHalfATurnAndTheLineItselfNone)
+{
+    const SweptArea swept = swept_by_a_line();
+    DOUBLES_EQUAL(kPi, swept.engagement({15.01, 0}, {1, 0}), 0.1);
+    DOUBLES_EQUAL(kPi, swept.engagement({0, 12}, {1, 0}), 1e-9);
+    DOUBLES_EQUAL(0.0, swept.engagement({3, 0}, {1, 0}, -0.01), 1e-9);
+    CHECK(swept.contains({14, 2.9}));
+    CHECK(!swept.contains({14, 3.1}));
+}
+
+TEST(SweptArea, TheBoundOfAnEdgeIsNowherePassed)
+{
+    constexpr unsigned kSeed = 7;
+    std::mt19937_64 random{kSeed};
+    std::uniform_real_distribution<double> place{-8.0, 8.0};
+    for (int round = 0; round < 300; ++round) {
+        SweptArea swept{{-20, -20, 20, 20}, 3.0};
+        for (int i = 0; i < 4; ++i) {
+            swept.add(line_edge({place(random), place(random)}, {place(random), place(random)}));
+        }
+        const Vec2d a{place(random), place(random)};
+        const Vec2d b{place(random), place(random)};
+        const Edge way = round % 2 == 0
+                             ? line_edge(a, b)
+                             : arc_edge(a, b, (a + b) * 0.5 + left_normal(b - a) * 0.3, 1);
+        const double bound = swept.engagement_bound(way, 0.5 * kPi);
+        for (int i = 0; i <= 200; ++i) {
+            const double share = i / 200.0;
+            CHECK(swept.engagement(point_on(way, share), tangent_on(way, share)) <= bound + 1e-9);
+        }
+    }
+}
+
+}  // namespace
+
+}  // namespace cusp::test
