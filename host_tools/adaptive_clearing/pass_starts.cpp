@@ -20,7 +20,7 @@ using offset::Region2d;
 
 namespace {
 
-constexpr double kPitch = 1.0 / 12;  // radii
+constexpr double kStartPitch = 1.0 / 12;  // radii
 constexpr int kDirections = 32;
 constexpr double kProbes[] = {1.03, 1.08, 1.15};  // radii from the place
 constexpr double kUpstream = 0.5;                 // radii
@@ -32,7 +32,7 @@ constexpr double kSame = 1e-9;
 PassStarts::PassStarts(const Box2d& box, const Region2d& target, double radius)
     : radius_{radius},
       corner_{box.x0, box.y0},
-      pitch_{kPitch * radius},
+      pitch_{kStartPitch * radius},
       columns_{std::max(1, static_cast<int>(std::ceil((box.x1 - box.x0) / pitch_)))},
       rows_{std::max(1, static_cast<int>(std::ceil((box.y1 - box.y0) / pitch_)))},
       target_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)),

@@ -23,10 +23,10 @@ using offset::tangent_on;
 
 namespace {
 
-constexpr double kStations = 0.05;  // radii
-constexpr double kBarely = 0.03;    // radians: less is no stock
-constexpr double kBeyond = 0.1;     // radii before and behind the stock
-constexpr double kJoined = 0.4;     // radii: nearer stretches are one
+constexpr double kStations = 0.05;    // radii
+constexpr double kBarelyOpen = 0.03;  // radians: less is no stock
+constexpr double kBeyond = 0.1;       // radii before and behind the stock
+constexpr double kJoined = 0.4;       // radii: nearer stretches are one
 constexpr double kLeadAngle = kPi / 5;
 constexpr double kShortest = 1e-6;  // mm
 
@@ -74,7 +74,7 @@ std::optional<Edge> lead_in(const Edge& first, const WallSpace& space)
         const Edge arc = arc_edge(start, first.start, centre, 1);
         const bool clear = is_clear(space, start, 0.0) && is_clear(space, point_on(arc, 0.5), 1e-6);
         if (clear && space.swept.engagement(start, tangent_at_start(arc), -space.sliver,
-                                            0.5 * kPi) < kBarely) {
+                                            0.5 * kPi) < kBarelyOpen) {
             return arc;
         }
     }
@@ -110,7 +110,7 @@ std::vector<Stretch> stretches_of(const Contour& contour, const WallSpace& space
         for (int i = 0; i < n; ++i) {
             const double share = (i + 0.5) / n;
             if (space.swept.engagement(point_on(edge, share), tangent_on(edge, share),
-                                       -space.sliver) < kBarely) {
+                                       -space.sliver) < kBarelyOpen) {
                 continue;
             }
             const Stretch stock{at + size * i / n - kBeyond * radius,

@@ -18,10 +18,10 @@ using nurbs::SurfacePoint;
 
 namespace {
 
-constexpr int kLooks = 13;           // samples along u and along v
-constexpr double kUpright = 1e-5;    // z of a unit normal
-constexpr double kRound = 1e-4;      // of the radius
-constexpr double kSamePlace = 1e-3;  // mm
+constexpr int kHoleLooks = 13;         // samples along u and along v
+constexpr double kUprightAxis = 1e-5;  // z of a unit normal
+constexpr double kRound = 1e-4;        // of the radius
+constexpr double kSameHole = 1e-3;     // mm
 
 struct Sample {
     Vec3d point;
@@ -29,7 +29,7 @@ struct Sample {
 };
 
 struct SampledFace {
-    std::vector<Sample> samples;  // kLooks rows of kLooks
+    std::vector<Sample> samples;  // kHoleLooks rows of kHoleLooks
     double low;                   // z
     double high;
 };
@@ -46,10 +46,10 @@ struct Wall {
 SampledFace sampled(const Surface& surface, double outwards)
 {
     SampledFace face{{}, kUnbounded, -kUnbounded};
-    for (int i = 0; i < kLooks; ++i) {
-        for (int j = 0; j < kLooks; ++j) {
+    for (int i = 0; i < kHoleLooks; ++i) {
+        for (int j = 0; j < kHoleLooks; ++j) {
             const auto at = [](double begin, double end, int k) {
-                return begin + (end - begin) * k / (kLooks - 1);
+                return begin + (end - begin) * k / (kHoleLooks - 1);
             };
             const SurfacePoint p =
                 derivatives_at(surface, at(surface.u_begin(), surface.u_end(), i),
@@ -83,15 +83,15 @@ std::optional<Vec2d> meeting(const Sample& a, const Sample& b)
 double angle_around(const SampledFace& face, Vec2d axis)
 {
     const auto direction = [&](int i, int j) {
-        return in_plan(face.samples[static_cast<std::size_t>(i * kLooks + j)].point) - axis;
+        return in_plan(face.samples[static_cast<std::size_t>(i * kHoleLooks + j)].point) - axis;
     };
     const auto between = [](Vec2d a, Vec2d b) {
         return std::abs(std::atan2(cross(a, b), dot(a, b)));
     };
     double along_u = 0;
     double along_v = 0;
-    const int middle = kLooks / 2;
-    for (int k = 1; k < kLooks; ++k) {
+    const int middle = kHoleLooks / 2;
+    for (int k = 1; k < kHoleLooks; ++k) {
         along_u += between(direction(k - 1, middle), direction(k, middle));
         along_v += between(direction(middle, k - 1), direction(middle, k));
     }
@@ -102,7 +102,7 @@ std::optional<Wall> wall_of(const SampledFace& face)
 {
     std::optional<Vec2d> axis;
     for (const Sample& sample : face.samples) {
-        if (!(std::abs(sample.normal.z) <= kUpright) || norm(sample.normal) == 0) {
+        if (!(std::abs(sample.normal.z) <= kUprightAxis) || norm(sample.normal) == 0) {
             return std::nullopt;
         }
         axis = axis ? axis : meeting(face.samples.front(), sample);
@@ -113,7 +113,7 @@ std::optional<Wall> wall_of(const SampledFace& face)
     const double radius = norm(in_plan(face.samples.front().point) - *axis);
     for (const Sample& sample : face.samples) {
         const Vec2d inward = *axis - in_plan(sample.point);
-        if (std::abs(norm(inward) - radius) > std::max(kRound * radius, kSamePlace) ||
+        if (std::abs(norm(inward) - radius) > std::max(kRound * radius, kSameHole) ||
             dot(in_plan(sample.normal), inward) <= 0) {
             return std::nullopt;
         }
@@ -123,7 +123,7 @@ std::optional<Wall> wall_of(const SampledFace& face)
 
 bool are_one(const Wall& a, const Wall& b)
 {
-    return norm(a.axis - b.axis) <= kSamePlace && std::abs(a.radius - b.radius) <= kSamePlace;
+    return norm(a.axis - b.axis) <= kSameHole && std::abs(a.radius - b.radius) <= kSameHole;
 }
 
 // Whether the walls go all around, over all heights that they have.
@@ -147,7 +147,7 @@ bool is_complete(std::vector<Wall> walls)
 bool is_within(const SampledFace& face, const Wall& hole)
 {
     // a level face is a square around its circle
-    const double reach = std::sqrt(2.0) * hole.radius + kSamePlace;
+    const double reach = std::sqrt(2.0) * hole.radius + kSameHole;
     return std::all_of(face.samples.begin(), face.samples.end(), [&](const Sample& sample) {
         return norm(in_plan(sample.point) - hole.axis) <= reach;
     });
@@ -160,8 +160,8 @@ int facing(const SampledFace& face)
     bool down = true;
     for (const Sample& sample : face.samples) {
         const bool pole = norm(sample.normal) == 0;
-        up = up && (pole || sample.normal.z > -kUpright);
-        down = down && (pole || sample.normal.z < kUpright);
+        up = up && (pole || sample.normal.z > -kUprightAxis);
+        down = down && (pole || sample.normal.z < kUprightAxis);
     }
     return up == down ? 0 : up ? 1 : -1;
 }
@@ -171,8 +171,8 @@ Hole hole_of(const Wall& wall, const std::vector<SampledFace>& faces, bool narro
     constexpr double kDeepestTip = 1.75;  // radii: of a cone of 60 degrees
     Hole::Span span{wall.high, wall.low, !narrower_below};
     for (const SampledFace& face : faces) {
-        if (facing(face) > 0 && is_within(face, wall) && face.high <= wall.low + kSamePlace &&
-            face.low >= wall.low - kDeepestTip * wall.radius - kSamePlace) {
+        if (facing(face) > 0 && is_within(face, wall) && face.high <= wall.low + kSameHole &&
+            face.low >= wall.low - kDeepestTip * wall.radius - kSameHole) {
             span.bottom = std::min(span.bottom, face.low);
             span.through = false;
         }
@@ -183,8 +183,8 @@ Hole hole_of(const Wall& wall, const std::vector<SampledFace>& faces, bool narro
 bool is_closed_above(const Wall& wall, const std::vector<SampledFace>& faces)
 {
     return std::any_of(faces.begin(), faces.end(), [&](const SampledFace& face) {
-        return facing(face) < 0 && is_within(face, wall) && face.low >= wall.high - kSamePlace &&
-               face.low <= wall.high + kSamePlace;
+        return facing(face) < 0 && is_within(face, wall) && face.low >= wall.high - kSameHole &&
+               face.low <= wall.high + kSameHole;
     });
 }
 
@@ -223,8 +223,8 @@ CadHoles holes_of(const CadModel& model)
     CadHoles found;
     for (const Wall& hole : holes) {
         const bool narrower_below = std::any_of(holes.begin(), holes.end(), [&](const Wall& other) {
-            return norm(other.axis - hole.axis) <= kSamePlace && other.radius < hole.radius &&
-                   other.low < hole.low - kSamePlace;
+            return norm(other.axis - hole.axis) <= kSameHole && other.radius < hole.radius &&
+                   other.low < hole.low - kSameHole;
         });
         if (is_closed_above(hole, faces)) {
             ++found.closed_above;

@@ -114,15 +114,15 @@ private:
 };
 
 // A side of a facet, from its lower corner to its higher one.
-struct Side {
+struct FacetSide {
     std::uint32_t low, high;
     std::uint32_t facet;
     bool forth;  // the facet runs along it from low to high
 };
 
-std::vector<Side> sides_of(const Mesh& mesh, const std::vector<std::size_t>& facets)
+std::vector<FacetSide> sides_of(const Mesh& mesh, const std::vector<std::size_t>& facets)
 {
-    std::vector<Side> out;
+    std::vector<FacetSide> out;
     out.reserve(3 * facets.size());
     for (const std::size_t f : facets) {
         const auto& c = mesh.corners(f).of;
@@ -132,7 +132,7 @@ std::vector<Side> sides_of(const Mesh& mesh, const std::vector<std::size_t>& fac
             out.push_back({std::min(a, b), std::max(a, b), static_cast<std::uint32_t>(f), a < b});
         }
     }
-    std::sort(out.begin(), out.end(), [](const Side& a, const Side& b) {
+    std::sort(out.begin(), out.end(), [](const FacetSide& a, const FacetSide& b) {
         return std::pair{a.low, a.high} < std::pair{b.low, b.high};
     });
     return out;
@@ -140,7 +140,7 @@ std::vector<Side> sides_of(const Mesh& mesh, const std::vector<std::size_t>& fac
 
 // Calls `use(first, last)` for the sides between each two corners.
 template <typename Use>
-void for_each_edge(const std::vector<Side>& sides, Use use)
+void for_each_edge(const std::vector<FacetSide>& sides, Use use)
 {
     for (std::size_t i = 0; i < sides.size();) {
         std::size_t end = i + 1;
@@ -179,15 +179,15 @@ std::optional<std::vector<std::vector<std::size_t>>> joined(const Mesh& mesh,
                                                             const std::vector<std::size_t>& up,
                                                             double crease)
 {
-    const std::vector<Side> sides = sides_of(mesh, up);
+    const std::vector<FacetSide> sides = sides_of(mesh, up);
     Groups groups{mesh.size()};
     bool against = false;
     for_each_edge(sides, [&](std::size_t first, std::size_t last) {
         if (last - first != 2) {
             return;
         }
-        const Side& a = sides[first];
-        const Side& b = sides[first + 1];
+        const FacetSide& a = sides[first];
+        const FacetSide& b = sides[first + 1];
         against = against || a.forth == b.forth;
         if (dot(mesh.normal(a.facet), mesh.normal(b.facet)) > crease) {
             groups.join(a.facet, b.facet);
@@ -217,7 +217,7 @@ double turn_left(Vec3d in, Vec3d out)
 // leftmost one is taken, so that loops may touch but do not cross.
 std::vector<std::vector<Vec3d>> outline(const Mesh& mesh, const std::vector<std::size_t>& group)
 {
-    const std::vector<Side> sides = sides_of(mesh, group);
+    const std::vector<FacetSide> sides = sides_of(mesh, group);
     std::multimap<std::uint32_t, std::uint32_t> ways;
     for_each_edge(sides, [&](std::size_t first, std::size_t last) {
         for (std::size_t k = first; last - first != 2 && k < last; ++k) {
