@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "firmware/machine/report_units.hpp"
+
 namespace cusp::machine {
 namespace {
 
@@ -10,7 +12,6 @@ constexpr unsigned kAllAxes = 7;
 // Distances of search, as in Grbl: over the travel, and over the pull-off.
 constexpr float kSeekOverTravel = 1.5F;
 constexpr float kLocateOverPullOff = 5.0F;
-constexpr float kSecondsPerMinute = 60.0F;
 
 std::int64_t nanometres(float mm) noexcept { return to_nanometres(static_cast<double>(mm)); }
 

@@ -1,12 +1,12 @@
 // Lines of `$$`, `$#`, `$N`, `$I` and `$G`.
 #include "firmware/machine/listing.hpp"
 
+#include "firmware/machine/report_units.hpp"
+
 namespace cusp::machine {
 namespace {
 
 using protocol::ReplyQueue;
-
-constexpr float kMillimetresPerInch = 25.4F;
 
 bool write_setting(unsigned index, const Settings& settings, ReplyQueue& out) noexcept
 {

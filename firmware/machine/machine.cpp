@@ -1,6 +1,8 @@
 // States, alarms and resets, and what the machine says of itself.
 #include "firmware/machine/machine.hpp"
 
+#include "firmware/machine/report_units.hpp"
+
 namespace cusp::machine {
 namespace {
 
@@ -309,7 +311,6 @@ OutputLevels Machine::outputs() const noexcept
 
 void Machine::report_status() noexcept
 {
-    constexpr float kSecondsPerMinute = 60.0F;
     StatusFields status;
     status.state = state_;
     if (state_ == State::kHold) {

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "firmware/machine/report_units.hpp"
+
 namespace cusp::machine {
 namespace {
 
@@ -10,7 +12,6 @@ constexpr float kMostAny = 1e7F;
 constexpr float kMostJerk = 1e10F;
 constexpr float kLeastPositive = 0.001F;
 constexpr float kLongestFilter = 0.250F;  // s: what the interpolator's filter holds
-constexpr float kSecondsPerMinute = 60.0F;
 
 constexpr std::array<SettingEntry, kSettingCount> kTable{{
     {0, 0, 2, 1, 100},

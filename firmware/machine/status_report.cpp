@@ -1,6 +1,8 @@
 // Fields of the status report, as Grbl 1.1 orders them.
 #include "firmware/machine/status_report.hpp"
 
+#include "firmware/machine/report_units.hpp"
+
 namespace cusp::machine {
 namespace {
 
@@ -8,7 +10,6 @@ using protocol::ReplyQueue;
 
 constexpr unsigned kReportMachinePosition = 1;
 constexpr unsigned kReportBufferState = 2;
-constexpr float kMillimetresPerInch = 25.4F;
 
 std::string_view name_of(State state) noexcept
 {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "firmware/gcode/tool_table.hpp"
+#include "firmware/machine/report_units.hpp"
 #include "firmware/machine/travel.hpp"
 
 namespace cusp::machine {
@@ -228,7 +229,6 @@ void ToolChanger::push(Motion& motion,
                        path::MoveKind kind,
                        float mm_per_minute) const noexcept
 {
-    constexpr float kSecondsPerMinute = 60.0F;
     path::Move move;
     move.kind = kind;
     move.start = motion.tail();

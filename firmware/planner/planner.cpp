@@ -38,7 +38,7 @@ constexpr float kCornerShareOfTolerance = 0.985F;
 // A junction that takes less of the axes' jerk is none.
 constexpr float kNegligible = 1e-3F;
 
-constexpr float kMostTicks = 22.0F;
+constexpr float kLongestFilterTicks = 22.0F;
 // Positions on arcs and curves are off by up to half a nanometre, third differences by 4 and,
 // rounded once more, 8. Divided by the filters' lengths, n and 2, this is to be 1 % of the least
 // jerk; behind 4 ticks it is a nanometre at most, which is to be an eighth of it.
@@ -109,7 +109,7 @@ Planner::FilterChoice Planner::filter_for(float tolerance) const noexcept
     constexpr float kSecond = 2.0F;
     const float square = deviation * 24.0F / (greatest_acceleration_ * kServoTick * kServoTick) -
                          kSecond * kSecond + 2.0F;
-    const float ticks = std::clamp(std::sqrt(std::max(square, 1.0F)), 1.0F, kMostTicks);
+    const float ticks = std::clamp(std::sqrt(std::max(square, 1.0F)), 1.0F, kLongestFilterTicks);
     const auto first = static_cast<std::uint8_t>(std::max(ticks, least_filter_));
     const AxisFilter filter{first, first > 1 ? std::uint8_t{2} : std::uint8_t{1}};
     return {filter, deviation, deviation / std::max(circle_factor(filter), 1e-12F)};
@@ -128,7 +128,8 @@ void Planner::set_limits(const MachineLimits& limits) noexcept
     path_filter_ = std::clamp(static_cast<std::uint32_t>(std::ceil(longest / kServoTick - 0.001F)),
                               std::uint32_t{1}, kMaxPathFilter);
     least_filter_ = std::clamp(std::ceil(kRoughJerk / least_jerk), 1.0F, kFilterForRoughness);
-    least_filter_ = std::clamp(std::ceil(kRoughestJerk / least_jerk), least_filter_, kMostTicks);
+    least_filter_ =
+        std::clamp(std::ceil(kRoughestJerk / least_jerk), least_filter_, kLongestFilterTicks);
     limits_ = with_margin(limits, path_filter_);
     blender_.set_limits(limits_, static_cast<float>(path_filter_) * kServoTick);
     queue_.set_half_filter(0.5F * static_cast<float>(path_filter_) * kServoTick);
