@@ -4,7 +4,6 @@
 #include <cmath>
 #include <set>
 
-#include "host_tools/import/cad_holes.hpp"
 #include "host_tools/import/mesh_file.hpp"
 #include "host_tools/import/path_ending.hpp"
 #include "host_tools/input_error/input_error.hpp"
@@ -93,7 +92,7 @@ std::vector<job::Hole> PartFiles::holes(const std::string& file,
 {
     const Similarity move = placed_drawing(file);
     if (is_cad_file(file)) {
-        return model_holes(file, move, range);
+        return model_holes(file, range);
     }
     const double scale = norm(move.axes[0]);
     const DiameterRange drawn{range.least / scale, range.greatest / scale};
@@ -104,14 +103,16 @@ std::vector<job::Hole> PartFiles::holes(const std::string& file,
     return holes;
 }
 
-std::vector<job::Hole> PartFiles::model_holes(const std::string& file,
-                                              const Similarity& move,
-                                              DiameterRange range)
+std::vector<job::Hole> PartFiles::model_holes(const std::string& file, DiameterRange range)
 {
-    const CadHoles found = read_cad_holes(file, move);
-    if (found.closed_above > 0) {
-        notes_.push_back(fmt::format("{}: {} holes open below alone and are not drilled", file,
-                                     found.closed_above));
+    const auto [known, is_new] = cad_holes_.try_emplace(file);
+    CadHoles& found = known->second;
+    if (is_new) {
+        found = read_cad_holes(file, placed(file));
+        if (found.closed_above > 0) {
+            notes_.push_back(fmt::format("{}: {} holes open below alone and are not drilled", file,
+                                         found.closed_above));
+        }
     }
     std::vector<job::Hole> holes;
     std::set<double> diameters;
@@ -159,6 +160,7 @@ void PartFiles::shift(const std::string& file, Vec3d by)
             }
         }
     }
+    cad_holes_.erase(file);
     for (auto& [key, loops] : loops_) {
         if (key.first == file || without_layer(key.first) == file) {
             Similarity move;

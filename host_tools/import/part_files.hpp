@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "host_tools/import/cad_holes.hpp"
 #include "host_tools/import/dxf_holes.hpp"
 #include "host_tools/import/file_loops.hpp"
 #include "host_tools/import/import.hpp"
@@ -53,9 +54,7 @@ public:
     const std::vector<std::string>& notes() const { return notes_; }
 
 private:
-    std::vector<job::Hole> model_holes(const std::string& file,
-                                       const Similarity& move,
-                                       DiameterRange range);
+    std::vector<job::Hole> model_holes(const std::string& file, DiameterRange range);
     Similarity placed(const std::string& file) const;
     // Of the drawing, whichever layer.
     Similarity placed_drawing(const std::string& name) const;
@@ -64,6 +63,7 @@ private:
     std::map<std::pair<std::string, double>, std::vector<nurbs::Surface>> surfaces_;
     std::map<std::string, Triangles> meshes_;
     std::map<std::pair<std::string, double>, std::vector<FileLoop>> loops_;  // keys: file, join
+    std::map<std::string, CadHoles> cad_holes_;
     std::map<std::string, Similarity> placed_;  // by file; others lie as they are
     bool is_placed_{false};
     std::vector<std::string> notes_;
