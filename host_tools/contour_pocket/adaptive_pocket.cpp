@@ -231,6 +231,12 @@ void check_size(const Operation& operation, const Region2d& region)
     }
 }
 
+// mm: of chords in place of arcs. The bound of SweptArea has room for this share of the radius.
+double chord_tolerance(const Operation& operation, const ToleranceSplit& tolerances)
+{
+    return std::min(tolerances.plan_tolerance, 0.005 * operation.tool.radius);
+}
+
 AdaptivePath passes_of(const Job& job,
                        const Operation& operation,
                        const Region2d& region,
@@ -240,7 +246,7 @@ AdaptivePath passes_of(const Job& job,
     settings.tool_radius = operation.tool.radius;
     settings.wall_clearance = tolerances.wall_clearance;
     settings.max_engagement = *operation.max_engagement * kDegrees;
-    settings.tolerance = std::min(tolerances.plan_tolerance, 0.005 * operation.tool.radius);
+    settings.tolerance = chord_tolerance(operation, tolerances);
     settings.corner = tolerances.plan_tolerance;
     settings.direction = operation.direction_of_cut;
     settings.progress = [&](double share) {
@@ -273,10 +279,10 @@ std::vector<PlannedOperation> plan_adaptive_pocket(const Job& job, const Operati
     set_tool(result.path, job, operation.tool);
     ToolpathWriter writer{result.path.moves,
                           {job.stock_top + job.clearance, operation.entry, operation.tool.radius}};
-    AdaptiveWriter cutter{writer,
-                          {operation.output != OutputForm::kLines,
-                           std::min(tolerances.plan_tolerance, 0.005 * operation.tool.radius),
-                           operation.entry == EntryKind::kPlunge}};
+    AdaptiveWriter cutter{
+        writer,
+        {operation.output != OutputForm::kLines, chord_tolerance(operation, tolerances),
+         operation.entry == EntryKind::kPlunge}};
     double above = job.stock_top;
     for (const double z : heights) {
         cutter.write(path, above, z);

@@ -14,11 +14,10 @@ using job::Operation;
 using toolpath::PlannedOperation;
 using toolpath::ToolpathWriter;
 
-std::vector<double> cut_levels(const Job& job, const Operation& operation)
+std::vector<double> cut_levels(const Job& job, const Operation& operation, double depth)
 {
     constexpr double kMost = 1000;
     constexpr double kRounding = 1e-9;
-    const double depth = operation.prismatic->depth;
     const double top = operation.prismatic->top;
     const double count = std::ceil(depth / operation.max_depth.value_or(depth) - kRounding);
     if (count > kMost) {

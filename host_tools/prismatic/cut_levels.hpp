@@ -11,10 +11,11 @@
 
 namespace cusp::prismatic {
 
-// z of each level, the highest first, the bottom last: equal ones of at most max_depth.
+// z of each level, the highest first, the bottom last: equal ones of at most max_depth, down to
+// `depth` (mm) below the top.
 //
 // Errors: InputError where there are more than a thousand.
-std::vector<double> cut_levels(const job::Job& job, const job::Operation& operation);
+std::vector<double> cut_levels(const job::Job& job, const job::Operation& operation, double depth);
 
 // Tool, feeds and a comment; no moves yet.
 toolpath::PlannedOperation begun(const job::Job& job,

@@ -88,7 +88,7 @@ std::vector<PlannedOperation> plan_engrave(const Job& job, const Operation& oper
         throw InputError(operation_text(job, operation) + operation.prismatic->file +
                          ": no curve to engrave");
     }
-    const std::vector<double> levels = cut_levels(job, operation);
+    const std::vector<double> levels = cut_levels(job, operation, operation.prismatic->depth);
     PlannedOperation planned =
         begun(job, operation,
               fmt::format("{} curves, {:g} mm deep", chains.size(), operation.prismatic->depth));

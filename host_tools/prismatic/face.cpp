@@ -77,7 +77,7 @@ std::vector<PlannedOperation> plan_face(const Job& job, const Operation& operati
         throw InputError(fmt::format("{}step_over {:g} mm makes {:g} passes, the limit is {:g}",
                                      operation_text(job, operation), step, passes, kMostPasses));
     }
-    const std::vector<double> levels = cut_levels(job, operation);
+    const std::vector<double> levels = cut_levels(job, operation, operation.prismatic->depth);
     PlannedOperation planned = begun(
         job, operation, fmt::format("to z {:.6g} mm, {:g} passes a level", levels.back(), passes));
     ToolpathWriter writer{planned.path.moves, {job.stock_top + job.clearance}};

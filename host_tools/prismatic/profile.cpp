@@ -48,7 +48,7 @@ public:
           waste_{cut_.side == ProfileSide::kOutside ? opposite(material_of(cut_))
                                                     : material_of(cut_)},
           walls_{edges_of(waste_)},
-          levels_{cut_levels(job, operation)},
+          levels_{cut_levels(job, operation, cut_.depth)},
           planned_{begun(job, operation, side_text())},
           writer_{planned_.path.moves,
                   {job.stock_top + job.clearance,

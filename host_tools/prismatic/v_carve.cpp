@@ -119,10 +119,9 @@ void Carver::check_width() const
 // Below the top, of each level; the last one is as deep as the widest place, or the floor.
 std::vector<double> Carver::depths() const
 {
-    Operation reached = operation_;
-    reached.prismatic->depth = std::min(cut_.depth, depth_of(widest_.radius));
+    const double deepest = std::min(cut_.depth, depth_of(widest_.radius));
     std::vector<double> depths;
-    for (const double z : cut_levels(job_, reached)) {
+    for (const double z : cut_levels(job_, operation_, deepest)) {
         depths.push_back(cut_.top - z);
     }
     return depths;
