@@ -18,9 +18,9 @@ constexpr std::size_t kNodes = 6;
 constexpr double kRight = 0.02;  // of the band
 // How much less the error is at half the spacing; 8 where a third derivative jumps.
 constexpr double kFinerBy = 6;
-constexpr double kSagShare = 0.06;  // of the band: between dense tips
-constexpr std::size_t kMost = 64;   // dense tips between two exact ones
-constexpr int kDeepest = 12;        // halvings
+constexpr double kSagShare = 0.06;        // of the band: between dense tips
+constexpr std::size_t kMostBetween = 64;  // dense tips between two exact ones
+constexpr int kDeepest = 12;              // halvings
 
 using Weights = std::array<double, kNodes>;
 
@@ -111,7 +111,7 @@ DenseTips dense_tips(const GougeFreePathFitter& path_fitter,
         const double sag =
             norm(halves[bent - 1] - halves[bent] * 2 + halves[bent + 1]) / (8 * kSagShare * band);
         const std::size_t parts = static_cast<std::size_t>(std::ceil(std::sqrt(sag))) + 1;
-        if (!smooth[span] || parts > kMost) {
+        if (!smooth[span] || parts > kMostBetween) {
             std::vector<double> exact_u;
             const Points exact = path_fitter.sample(at, {from, to}, kDeepest, &exact_u);
             out.points.insert(out.points.end(), exact.begin() + 1, exact.end());

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kLeastNodes = 160;
 constexpr std::size_t kNodesInSpan = 4;
-constexpr std::size_t kMostNodes = 800;
+constexpr std::size_t kMostTableNodes = 800;
 constexpr double kLeastFitted = 0.4;  // steps: narrower strips are not fitted
 constexpr double kMostFitted = 1.2;   // largest change of the density in a round
 constexpr double kFullStep = 0.998;   // the rest is for the interpolation between nodes
@@ -27,7 +27,7 @@ std::vector<double> nodes_of(const std::vector<double>& knots, double begin, dou
     const std::vector<double> breaks = knots_between(knots, begin, end);
     const std::size_t spans = breaks.size() - 1;
     const std::size_t parts = std::clamp(kLeastNodes / spans + 1, kNodesInSpan,
-                                         std::max(kNodesInSpan, kMostNodes / spans));
+                                         std::max(kNodesInSpan, kMostTableNodes / spans));
     std::vector<double> out;
     for (std::size_t k = 0; k < spans; ++k) {
         for (std::size_t part = 0; part < parts; ++part) {

@@ -48,7 +48,7 @@ struct Range {
 };
 
 // A strip between two neighbours, with the ranges in which a middle may be missing.
-struct Strip {
+struct MeshStrip {
     double low;
     double high;
     std::vector<Range> ranges;
@@ -137,7 +137,7 @@ private:
         // A ball on a slope that ends in a rim is beyond the rim.
         const int rows = std::max(1, static_cast<int>(std::ceil(width_ / row_)));
         const int beyond = static_cast<int>(std::ceil(radius_ / row_));
-        std::vector<Strip> strips;
+        std::vector<MeshStrip> strips;
         std::vector<Cut> cuts;
         for (int k = -beyond; k <= rows + beyond; ++k) {
             const double t = width_ * k / rows;
@@ -156,7 +156,7 @@ private:
 
     // The halves of strips whose middle misses passes, which are added. Every second strip is looked
     // at at once: neighbours see each other's passes.
-    std::vector<Strip> halved(const std::vector<Strip>& strips)
+    std::vector<MeshStrip> halved(const std::vector<MeshStrip>& strips)
     {
         std::vector<std::vector<Range>> missing(strips.size());
         for (std::size_t first = 0; first < 2; ++first) {
@@ -172,7 +172,7 @@ private:
             }
             add(cuts);
         }
-        std::vector<Strip> out;
+        std::vector<MeshStrip> out;
         for (std::size_t k = 0; k < strips.size(); ++k) {
             if (!missing[k].empty()) {
                 const double middle = 0.5 * (strips[k].low + strips[k].high);
@@ -183,7 +183,7 @@ private:
         return out;
     }
 
-    std::vector<Range> missing_in(const Strip& strip, const MeshScallopCheck& check) const
+    std::vector<Range> missing_in(const MeshStrip& strip, const MeshScallopCheck& check) const
     {
         std::vector<Range> missing;
         if (strip.high - strip.low >= kNarrowest * row_) {
@@ -196,7 +196,7 @@ private:
 
     // The parts of a range, a sample longer, where a pass is missing in the middle of the strip.
     void find_missing(const Range& range,
-                      const Strip& strip,
+                      const MeshStrip& strip,
                       const MeshScallopCheck& check,
                       std::vector<Range>& missing) const
     {
@@ -217,7 +217,7 @@ private:
         }
     }
 
-    bool is_missing(double s, const Strip& strip, const MeshScallopCheck& check) const
+    bool is_missing(double s, const MeshStrip& strip, const MeshScallopCheck& check) const
     {
         const std::optional<Dropped> here = drop_at(s, 0.5 * (strip.low + strip.high));
         if (!here) {
@@ -229,7 +229,7 @@ private:
     }
 
     // Where the tip or its contact jumps, no distance is small enough: such places do not count.
-    bool too_far_apart(double s, const Strip& strip) const
+    bool too_far_apart(double s, const MeshStrip& strip) const
     {
         const std::optional<Dropped> low = drop_at(s, strip.low);
         const std::optional<Dropped> high = drop_at(s, strip.high);

@@ -12,9 +12,9 @@ using offset::Edge;
 
 namespace {
 
-constexpr double kShortestPart = 4e-3;  // mm: shorter undecided parts count as stock
-constexpr double kShortGap = 2.0;       // radii: shorter than a retract and an entry
-constexpr std::size_t kMost = 2000;     // more runs keep their order
+constexpr double kShortestPart = 4e-3;      // mm: shorter undecided parts count as stock
+constexpr double kShortGap = 2.0;           // radii: shorter than a retract and an entry
+constexpr std::size_t kMostOrdered = 2000;  // more runs keep their order
 
 struct Part {
     Edge edge;
@@ -129,7 +129,7 @@ void add_parts(const LayerRun& run, const std::vector<Part>& parts, std::vector<
 
 void put_in_near_order(std::vector<LayerRun>& runs)
 {
-    if (runs.size() > kMost) {
+    if (runs.size() > kMostOrdered) {
         return;
     }
     for (std::size_t done = 1; done < runs.size(); ++done) {

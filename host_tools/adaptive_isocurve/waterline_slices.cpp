@@ -17,7 +17,7 @@ using toolpath::Tool;
 
 namespace {
 
-constexpr double kMostNodes = 4e6;
+constexpr double kMostSliceNodes = 4e6;
 constexpr std::size_t kBlock = 16;  // nodes, each way: a power of two
 // Share of a side: contours cross sides no nearer to their ends, so no edge is too short.
 constexpr double kNearestEnd = 0.01;
@@ -79,7 +79,7 @@ WaterlineSlices::WaterlineSlices(const PartModel& model,
     const double height = field.y1 - field.y0;
     const double wanted =
         std::max(pitch_for(tool.corner_radius + settings.clearance, settings.excess),
-                 std::max(settings.least_pitch, std::sqrt(width * height / kMostNodes)));
+                 std::max(settings.least_pitch, std::sqrt(width * height / kMostSliceNodes)));
     const auto count = [&](double length) {
         return std::max<std::size_t>(4, static_cast<std::size_t>(std::ceil(length / wanted)));
     };

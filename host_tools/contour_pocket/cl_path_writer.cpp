@@ -23,7 +23,7 @@ constexpr double kAboveStock = 0.1;   // mm above the stock: the plunge feed end
 constexpr double kRapidOver = 0.9;    // mm above that: end of rapid moves
 constexpr double kSettled = 0.03;     // mm above the pass: the slope has reached it
 constexpr double kHardlyDeep = 0.15;  // mm of plunge: height that a helix leaves above the pass
-constexpr double kSamePlace = 1e-6;   // mm in plan
+constexpr double kSamePoint = 1e-6;   // mm in plan
 constexpr int kHelixSides = 48;
 constexpr int kMostPoints = 100000;  // of one entry: a limit where a pass is too short for a slope
 
@@ -85,7 +85,7 @@ std::vector<ToolMove> tool_moves(const ClPath& path, MoveKind kind)
 
 bool ClPathWriter::is_over(Vec3d place) const
 {
-    return is_down() && plan_distance(writer_.at(), place) < kSamePlace;
+    return is_down() && plan_distance(writer_.at(), place) < kSamePoint;
 }
 
 // Moves above the start, as low as the stock allows. Returns that z.
@@ -112,7 +112,7 @@ void ClPathWriter::enter_along(const ClPath& path, const EntryHeights& heights, 
     double z = begin_entry(path.start, heights);
     std::vector<Vec3d> pass = corners_of(path);
     const double way = (z - path.start.z) / kEntrySlope;
-    const bool open = plan_distance(pass.front(), pass.back()) > kSamePlace;
+    const bool open = plan_distance(pass.front(), pass.back()) > kSamePoint;
     if (open || (vertical && way < plan_length(pass))) {
         pass = there_and_back(pass, way);
     }

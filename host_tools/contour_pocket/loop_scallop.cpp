@@ -25,7 +25,8 @@ using toolpath::Tool;
 
 namespace {
 
-constexpr double kAlong = 1.0 / 6.0;  // of the tool's radius: largest distance between cross lines
+constexpr double kLinesApart =
+    1.0 / 6.0;  // of the tool's radius: largest distance between cross lines
 constexpr double kNearestWays = 1.0 / 48.0;  // of it: where the scallop changes
 constexpr double kFine = 0.02;   // of the tool's radius: least distance between probes on a line
 constexpr double kEnough = 4.0;  // larger relative scallops need not be exact
@@ -36,7 +37,7 @@ double cross_lines_apart(const Tool& tool, double scallop_height)
 {
     constexpr double kShare = 0.3;
     const double chord = kShare * std::sqrt(2.0 * scallop_height * tool.radius);
-    return std::min(kAlong * tool.radius, std::max(chord, kAlong * tool.corner_radius));
+    return std::min(kLinesApart * tool.radius, std::max(chord, kLinesApart * tool.corner_radius));
 }
 
 bool turns(const Edge& before, const Edge& after)

@@ -22,17 +22,17 @@ using part_model::pattern_search;
 
 namespace {
 
-constexpr double kGrid = 0.125;         // of the tool's radius
-constexpr double kMostCells = 600.0;    // a side
-constexpr double kTurn = 0.15;          // of the slope
-constexpr double kUpright = 20.0;       // larger changes of the slope are jumps
-constexpr double kLongestStep = 0.1;    // of the radius
-constexpr double kShortestStep = 2e-3;  // of the radius
-constexpr double kBeside = 0.35;        // of a step: search beside its end
-constexpr double kSame = 0.04;          // of the radius: along a line, near its points
-constexpr double kBesideSame = 0.005;   // of the radius: beside a line
-constexpr double kParallel = 0.9;       // cosine
-constexpr double kDimple = 6.0;         // half sides of the grid: largest distance
+constexpr double kGrid = 0.125;             // of the tool's radius
+constexpr double kMostPencilCells = 600.0;  // a side
+constexpr double kTurn = 0.15;              // of the slope
+constexpr double kUpright = 20.0;           // larger changes of the slope are jumps
+constexpr double kLongestStep = 0.1;        // of the radius
+constexpr double kShortestStep = 2e-3;      // of the radius
+constexpr double kBeside = 0.35;            // of a step: search beside its end
+constexpr double kSame = 0.04;              // of the radius: along a line, near its points
+constexpr double kBesideSame = 0.005;       // of the radius: beside a line
+constexpr double kParallel = 0.9;           // cosine
+constexpr double kDimple = 6.0;             // half sides of the grid: largest distance
 
 class LineTracer {
 public:
@@ -49,7 +49,7 @@ public:
     {
         const Box2d& box = search_.box;
         const double longest = std::max(box.x1 - box.x0, box.y1 - box.y0);
-        const double grid = std::max(kGrid * radius_, longest / kMostCells);
+        const double grid = std::max(kGrid * radius_, longest / kMostPencilCells);
         const int columns = static_cast<int>((box.x1 - box.x0) / grid) + 2;
         const int rows = static_cast<int>((box.y1 - box.y0) / grid) + 2;
         std::vector<GridPlace> before;

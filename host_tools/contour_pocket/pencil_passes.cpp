@@ -23,12 +23,12 @@ using toolpath::Tool;
 
 namespace {
 
-constexpr double kAlong = 0.1;       // of the radius: distance of samples
-constexpr double kWorthOn = 3.0;     // radii: a pass continues over shorter gaps
-constexpr double kFarthest = 4.0;    // of `distance`
-constexpr double kFragment = 2.0;    // radii: shorter lines
-constexpr double kLifted = 0.02;     // of the radius: length of a pass that may be raised
-constexpr double kLeastStep = 1e-4;  // mm
+constexpr double kPencilSamplesApart = 0.1;  // of the radius: distance of samples
+constexpr double kWorthOn = 3.0;             // radii: a pass continues over shorter gaps
+constexpr double kFarthest = 4.0;            // of `distance`
+constexpr double kFragment = 2.0;            // radii: shorter lines
+constexpr double kLifted = 0.02;             // of the radius: length of a pass that may be raised
+constexpr double kLeastStep = 1e-4;          // mm
 
 class PencilPassMaker {
 public:
@@ -128,7 +128,7 @@ private:
         std::vector<Vec2d> path;
         std::vector<bool> kept;
         double since = kUnbounded;
-        const double apart = kAlong * floor_.tool().radius;
+        const double apart = kPencilSamplesApart * floor_.tool().radius;
         for (const PencilPoint& point : line.points) {
             const Vec2d p = point.at + point.low_side * side_step;
             const double step = path.empty() ? 0.0 : distance(path.back(), p);

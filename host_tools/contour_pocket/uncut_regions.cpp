@@ -23,7 +23,7 @@ using toolpath::ToolShape;
 
 namespace {
 
-constexpr double kMostCells = 500.0;  // a side
+constexpr double kMostUncutCells = 500.0;  // a side
 
 // A needle: its CL height is the floor's height.
 Tool needle() { return {1, ToolShape::kFlat, 1e-3, 0.0}; }
@@ -44,7 +44,7 @@ public:
           box_{box_of(walls.source())}
     {
         const double longest = std::max(box_.x1 - box_.x0, box_.y1 - box_.y0);
-        cell_ = std::max(0.25 * radius_, longest / kMostCells);
+        cell_ = std::max(0.25 * radius_, longest / kMostUncutCells);
         columns_ = static_cast<int>((box_.x1 - box_.x0) / cell_) + 1;
         rows_ = static_cast<int>((box_.y1 - box_.y0) / cell_) + 1;
         rest_.assign(index(columns_, 0), 0.0);

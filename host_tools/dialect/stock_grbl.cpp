@@ -14,7 +14,7 @@ constexpr int kExpectedLetter = 1;
 constexpr int kBadNumber = 2;
 constexpr int kNegative = 4;
 constexpr int kOverflow = 11;
-constexpr int kUnsupported = 20;
+constexpr int kUnsupportedInGrbl = 20;
 constexpr int kTwoOfAGroup = 21;
 constexpr int kNotInteger = 23;
 constexpr int kAxisConflict = 24;
@@ -139,7 +139,7 @@ private:
     static Group with_part(Group group, Word& word, const std::set<int>& parts)
     {
         if (group.error == 0 && parts.count(word.hundredths) == 0) {
-            group.error = error::kUnsupported;
+            group.error = error::kUnsupportedInGrbl;
         }
         word.hundredths = 0;
         return group;
@@ -171,13 +171,13 @@ private:
             case 61:
                 return with_part({'D', 0}, word, {0});
             case 90:
-                return part == 0 ? Group{'3', 0} : Group{'4', error::kUnsupported};
+                return part == 0 ? Group{'3', 0} : Group{'4', error::kUnsupportedInGrbl};
             case 91:
                 return part == 0 ? Group{'3', 0} : with_part({'4', 0}, word, {10});
             default:
                 dwells_ = dwells_ || word.whole == 4;
                 return {plain_group(word.whole),
-                        plain_group(word.whole) == 'x' ? error::kUnsupported : 0};
+                        plain_group(word.whole) == 'x' ? error::kUnsupportedInGrbl : 0};
         }
     }
 
@@ -213,14 +213,14 @@ private:
             case 9:
                 return {'u', 0};
             default:
-                return {'x', error::kUnsupported};
+                return {'x', error::kUnsupportedInGrbl};
         }
     }
 
     int command(const Word& word, Group group)
     {
         if (group.error != 0 || word.value < 0) {
-            return group.error != 0 ? group.error : error::kUnsupported;
+            return group.error != 0 ? group.error : error::kUnsupportedInGrbl;
         }
         if (word.hundredths != 0) {
             return error::kNotInteger;
@@ -231,7 +231,7 @@ private:
     int value(const Word& word)
     {
         if (std::string_view{"FIJKLNPRSTXYZ"}.find(word.letter) == std::string_view::npos) {
-            return error::kUnsupported;
+            return error::kUnsupportedInGrbl;
         }
         if (word.letter == 'T' && word.value > kMostTool) {
             return error::kTooLarge;
@@ -269,7 +269,7 @@ private:
             }
             const int l = static_cast<int>(l_);
             if ((l != 20 && l != 2) || (l == 2 && has('R'))) {
-                return {error::kUnsupported, ""};
+                return {error::kUnsupportedInGrbl, ""};
             }
             return {};
         }

@@ -7,8 +7,6 @@
 namespace cusp::drop_cutter {
 namespace {
 
-double square(double a) { return a * a; }
-
 Vec3d unit(Vec3d a) { return a * (1 / norm(a)); }
 
 }  // namespace
@@ -22,7 +20,7 @@ ApproachDirections::BlockedCap ApproachDirections::blocked_cap(std::size_t conta
 {
     const Vec3d way = contacts_[contact] - point_;
     const double least =
-        (dot(way, way) + square(radius_) - square(contact_radius_)) / (2 * radius_);
+        (dot(way, way) + radius_ * radius_ - contact_radius_ * contact_radius_) / (2 * radius_);
     return {way, std::max(0.0, least), contact};
 }
 
@@ -65,10 +63,11 @@ Vec3d ApproachDirections::middle(const Triangle& t) { return unit(t[0] + t[1] + 
 bool ApproachDirections::blocks_shank(const BlockedCap& cap, const Triangle& triangle) const
 {
     const auto under = [&](Vec3d centre) {
-        const double room = square(contact_radius_) - square(centre.x - cap.direction.x) -
-                            square(centre.y - cap.direction.y);
+        const Vec3d aside = centre - cap.direction;
+        const double room =
+            contact_radius_ * contact_radius_ - aside.x * aside.x - aside.y * aside.y;
         const double over = centre.z - cap.direction.z;
-        return room > 0 && (over <= 0 || square(over) < room);
+        return room > 0 && (over <= 0 || over * over < room);
     };
     // Fast rejection: usually some corner is not.
     for (const Vec3d& corner : triangle) {

@@ -43,7 +43,6 @@ using toolpath::Tool;
 
 namespace {
 
-constexpr double kMillimetresPerInch = 25.4;
 constexpr double kDefaultTolerance = 0.02;   // mm
 constexpr double kDefaultEngagement = 60.0;  // degrees
 constexpr double kDefaultLargestArcRadius = 1000.0;

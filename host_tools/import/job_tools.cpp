@@ -23,7 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kInchOfLibraries = 25.4;  // mm
 constexpr const char* kLibraries = "tool_libraries";
 constexpr std::size_t kNearest = 3;
 
@@ -82,8 +81,8 @@ void JobTools::read_library(const std::string& name, const fs::path& folder)
         top.refuse("tool", "is missing: several [[tool]]");
     }
     for (std::size_t i = 0; i < tables.size(); ++i) {
-        const ReadTool read =
-            read_tool(*tables[i], library_file_, i + 1, *units == "inch" ? kInchOfLibraries : 1.0);
+        const ReadTool read = read_tool(*tables[i], library_file_, i + 1,
+                                        *units == "inch" ? kMillimetresPerInch : 1.0);
         JobTable place{*tables[i], library_file_, fmt::format("tool {}", i + 1), tool_keys()};
         if (read.facts.name.empty()) {
             place.refuse("name", "is missing: operations name the tools of a library");

@@ -1,4 +1,4 @@
-// Ranges of the numbers in jobs and of the options that replace a job.
+// Ranges of the numbers in jobs and of the options that replace a job; the inch.
 #pragma once
 
 namespace cusp::import {
@@ -8,6 +8,8 @@ struct Range {
     double high;
     bool above_low{false};  // `low` itself is not allowed
 };
+
+inline constexpr double kMillimetresPerInch = 25.4;
 
 // mm, mm/min, rpm
 inline constexpr double kLargest = 1e6;

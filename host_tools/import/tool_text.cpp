@@ -14,8 +14,6 @@
 namespace cusp::import {
 namespace {
 
-constexpr double kMillimetresPerInch = 25.4;
-
 [[noreturn]] void refuse(const std::string& text, const std::string& what)
 {
     throw InputError(fmt::format("--tool {}: {}", text, what));

@@ -14,9 +14,9 @@ using nurbs::SurfacePoint;
 
 namespace {
 
-constexpr double kTurn = 0.27;  // radians within a span
+constexpr double kTurnOfSpan = 0.27;  // radians within a span
 constexpr int kMostParts = 32;
-constexpr int kLines = 9;
+constexpr int kLinesAcross = 9;
 constexpr int kLooks = 9;
 
 // Angle by which the normal turns between two parameters, radians, summed over samples.
@@ -52,13 +52,13 @@ std::vector<double> knots_for(const Surface& s,
     std::vector<double> more;
     for (std::size_t k = 0; k + 1 < distinct.size(); ++k) {
         double turn = 0;
-        for (int line = 0; line < kLines; ++line) {
+        for (int line = 0; line < kLinesAcross; ++line) {
             const double across =
-                across_begin + (across_end - across_begin) * (line + 0.5) / kLines;
+                across_begin + (across_end - across_begin) * (line + 0.5) / kLinesAcross;
             turn = std::max(turn, turn_between(s, distinct[k], distinct[k + 1],
                                                [&](double along) { return place(along, across); }));
         }
-        const int parts = std::min(kMostParts, static_cast<int>(std::ceil(turn / kTurn)));
+        const int parts = std::min(kMostParts, static_cast<int>(std::ceil(turn / kTurnOfSpan)));
         for (int part = 1; part < parts; ++part) {
             more.push_back(distinct[k] + (distinct[k + 1] - distinct[k]) * part / parts);
         }

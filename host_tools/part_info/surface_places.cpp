@@ -18,7 +18,7 @@ using part_model::TrimRegion;
 namespace {
 
 constexpr double kEdgeError = 1e-3;  // mm, of trims
-constexpr double kPlacesInAll = 30000;
+constexpr double kSurfacePlaces = 30000;
 constexpr double kVertical = 1e-9;  // z of a normal
 constexpr double kParallel = 1e-12;
 
@@ -80,7 +80,7 @@ public:
                 patches.push_back({static_cast<int>(k), std::move(patch.surface), lengths});
             }
         }
-        const double width = std::sqrt(area / kPlacesInAll);
+        const double width = std::sqrt(area / kSurfacePlaces);
         for (const Patch& patch : patches) {
             add_cells(patch, width);
             add_corners(patch);

@@ -16,12 +16,12 @@ constexpr int kFirstHalvings = 2;  // of a Bezier piece, which is probed at its 
 constexpr int kDeepestHalving = 14;
 constexpr std::size_t kSidesInRow = 4;
 constexpr std::size_t kMostRows = 2000;
-constexpr double kRounding = 1e-12;  // of a length
+constexpr double kLengthRounding = 1e-12;  // of a length
 
 // Whether p lies to the right of the segment, by more than rounding.
 bool right_of(Vec2d from, Vec2d to, Vec2d p)
 {
-    return cross(p - from, to - from) > kRounding * norm(to - from) * norm(to - from);
+    return cross(p - from, to - from) > kLengthRounding * norm(to - from) * norm(to - from);
 }
 
 // Turns loops with the inside to their left into polygons. A Bezier piece lies in the convex hull
@@ -66,8 +66,8 @@ private:
         const Vec2d way = in_plan(piece.points.back()) - from;
         return std::all_of(piece.points.begin(), piece.points.end(), [&](const Vec3d& p) {
             const double along = dot(in_plan(p) - from, way);
-            return along >= -kRounding * dot(way, way) &&
-                   along <= dot(way, way) * (1.0 + kRounding);
+            return along >= -kLengthRounding * dot(way, way) &&
+                   along <= dot(way, way) * (1.0 + kLengthRounding);
         });
     }
 

@@ -205,6 +205,20 @@ class ChecksOfTheTree(unittest.TestCase):
         self.write("firmware/path/vec.hpp", "#pragma once\n")
         self.assertEqual(self.run_check("headers.py", "g++")[0], 1)
 
+    def test_unnamed_names_refuses_one_name_in_two_sources_of_a_folder(self):
+        self.assertEqual(2, self.run_check("unnamed_names.py")[0])
+        unnamed = "namespace {{\n{}\n}}  // namespace\n".format
+        self.write("host_tools/clearing/loops.cpp", unnamed("constexpr double kStep = 0.1;  // mm"))
+        for place, text, status in (("host_tools/offset/rings.cpp", "constexpr int kStep{2};", 0),
+                                    ("host_tools/clearing/rings.cpp", "constexpr int kStep{2};", 1),
+                                    ("host_tools/clearing/rings.cpp", "struct Ring {\n};", 0),
+                                    ("host_tools/clearing/arcs.cpp", "struct Ring {\n};", 1),
+                                    ("host_tools/clearing/arcs.cpp", "double of(int a)\n{\n}", 0),
+                                    ("host_tools/clearing/loops.cpp", "double of(double a)\n{\n}", 0),
+                                    ("host_tools/clearing/loops.cpp", "double of(int a)\n{\n}", 1)):
+            self.write(place, unnamed(text))
+            self.assertEqual(status, self.run_check("unnamed_names.py")[0], (place, text))
+
     def test_examples_refuses_files_outside(self):
         self.assertEqual(2, self.run_check("examples.py")[0])
         self.write("examples/parts/floor.json", "")
