@@ -5,6 +5,7 @@
 
 #include "host_tools/cli/commands.hpp"
 #include "host_tools/files/files.hpp"
+#include "host_tools/import/part_geometry_reader.hpp"
 #include "host_tools/part_info/part_info.hpp"
 #include "host_tools/report/part_picture.hpp"
 
@@ -14,7 +15,8 @@
 namespace cusp::cli {
 
 using files::write_text;
-using part_info::InspectSettings;
+using import::read_part_geometry;
+using part_info::inspect_part;
 using part_info::PartInfo;
 using report::part_picture;
 
@@ -73,17 +75,15 @@ int run_info(const InfoOptions& options)
         throw InputError(fmt::format("--tolerance is {} mm, a number from 0.0001 to 10 is needed",
                                      options.tolerance));
     }
-    InspectSettings settings;
-    settings.millimetres = options.units == "inch" ? kInch : 1.0;
-    settings.tolerance = options.tolerance;
+    const double millimetres = options.units == "inch" ? kInch : 1.0;
     std::vector<PartInfo> parts;
     std::string text;
     for (const std::string& file : options.files) {
-        parts.push_back(inspect_part(file, settings));
+        parts.push_back(inspect_part(read_part_geometry(file, millimetres), options.tolerance));
         text += (text.empty() ? "" : "\n") + text_of(parts.back());
         if (options.picture.empty()) {  // only the picture needs them later
-            parts.back().surfaces = {};
-            parts.back().triangles = {};
+            parts.back().part.surfaces = {};
+            parts.back().part.triangles = {};
         }
     }
     write_outputs(options, parts);

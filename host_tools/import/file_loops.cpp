@@ -16,8 +16,11 @@
 namespace cusp::import {
 
 using job::closed_loop;
+using job::ClosedLoop;
 using job::lies_outside;
 using job::loop_polyline;
+using job::LoopNesting;
+using job::OpenChain;
 using job::Operation;
 
 namespace {

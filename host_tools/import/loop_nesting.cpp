@@ -15,9 +15,12 @@
 
 namespace cusp::import {
 
+using job::ClosedLoop;
 using job::crossing_of;
 using job::encloses;
 using job::loop_polyline;
+using job::LoopNesting;
+using job::OpenChain;
 using nurbs::Curve;
 using nurbs::CurvePoint;
 

@@ -7,9 +7,10 @@
 
 namespace cusp::part_info {
 
-using import::ClosedLoop;
-using import::LoopNesting;
-using import::OpenChain;
+using job::ClosedLoop;
+using job::LoopNesting;
+using job::OpenChain;
+using job::PartLayer;
 
 namespace {
 
@@ -52,7 +53,7 @@ Json chain_json(const OpenChain& chain)
             {"gap_to_mm", point(chain.gap_to)}};
 }
 
-Json layer_json(const LayerInfo& layer)
+Json layer_json(const PartLayer& layer)
 {
     const LoopNesting& nesting = layer.loops;
     Json out{{"name", layer.name},       {"hidden", layer.hidden},
@@ -81,7 +82,7 @@ void add_mesh(const PartInfo& info, Json& out)
 {
     const MeshHealth& mesh = *info.mesh;
     out["facets"] = info.pieces;
-    out["degenerate_facets"] = info.degenerate;
+    out["degenerate_facets"] = info.part.degenerate;
     out["shells"] = mesh.shells;
     out["closed"] = mesh.closed;
     out["open_edges"] = mesh.open_edges;
@@ -137,22 +138,22 @@ void add_ball(const PartInfo& info, Json& out)
 
 Json part_json(const PartInfo& info)
 {
-    Json out{{"file", info.file}, {"format", info.format}, {"unit", info.unit.name}};
-    out["unit_assumed"] = info.unit.assumed;
-    out["box_low_mm"] = point(info.box_low);
-    out["box_high_mm"] = point(info.box_high);
-    out["size_mm"] = point(info.box_high - info.box_low);
+    Json out{{"file", info.part.file}, {"format", info.part.format}, {"unit", info.part.unit.name}};
+    out["unit_assumed"] = info.part.unit.assumed;
+    out["box_low_mm"] = point(info.part.box_low);
+    out["box_high_mm"] = point(info.part.box_high);
+    out["size_mm"] = point(info.part.box_high - info.part.box_low);
     if (info.is_drawing()) {
         out["layers"] = Json::array();
-        for (const LayerInfo& layer : info.layers) {
+        for (const PartLayer& layer : info.part.layers) {
             out["layers"].push_back(layer_json(layer));
         }
     } else if (info.is_mesh()) {
         add_mesh(info, out);
     } else {
         out["faces"] = info.pieces;
-        out["solids"] = info.solids;
-        out["unread_faces"] = info.unread_faces;
+        out["solids"] = info.part.solids;
+        out["unread_faces"] = info.part.unread_faces;
     }
     if (info.ground) {
         add_ground(*info.ground, out);

@@ -7,9 +7,10 @@
 
 namespace cusp::part_info {
 
-using import::ClosedLoop;
-using import::LoopNesting;
-using import::OpenChain;
+using job::ClosedLoop;
+using job::LoopNesting;
+using job::OpenChain;
+using job::PartLayer;
 
 namespace {
 
@@ -52,7 +53,7 @@ private:
     std::string text_;
 };
 
-std::string unit_text(const PartUnit& unit)
+std::string unit_text(const job::PartUnit& unit)
 {
     if (unit.assumed) {
         return unit.name + fmt::format(", assumed: the file names none (--units {} for the other)",
@@ -65,16 +66,16 @@ std::string unit_text(const PartUnit& unit)
 void add_box(const PartInfo& info, Lines& lines)
 {
     const auto sizes = [&](double unit, const char* name) {
-        const Vec3d size = info.box_high - info.box_low;
+        const Vec3d size = info.part.box_high - info.part.box_low;
         return fmt::format("{} x {} x {} {}", number(size.x / unit), number(size.y / unit),
                            number(size.z / unit), name);
     };
-    lines.add("box",
-              fmt::format("x {} to {} mm, y {} to {} mm, z {} to {} mm", number(info.box_low.x),
-                          number(info.box_high.x), number(info.box_low.y), number(info.box_high.y),
-                          number(info.box_low.z), number(info.box_high.z)));
+    lines.add("box", fmt::format("x {} to {} mm, y {} to {} mm, z {} to {} mm",
+                                 number(info.part.box_low.x), number(info.part.box_high.x),
+                                 number(info.part.box_low.y), number(info.part.box_high.y),
+                                 number(info.part.box_low.z), number(info.part.box_high.z)));
     std::string size = sizes(1, "mm");
-    std::string name = info.unit.name;
+    std::string name = info.part.unit.name;
     for (char& c : name) {
         c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
     }
@@ -117,7 +118,7 @@ void add_loops(const LoopNesting& nesting, Lines& lines)
     }
 }
 
-void add_layer(const LayerInfo& layer, Lines& lines)
+void add_layer(const PartLayer& layer, Lines& lines)
 {
     const LoopNesting& nesting = layer.loops;
     std::string text = count(nesting.curves, "curve", "curves");
@@ -148,8 +149,8 @@ void add_mesh(const PartInfo& info, Lines& lines)
     const MeshHealth& mesh = *info.mesh;
     lines.add("facets",
               fmt::format("{} in {}", info.pieces, count(mesh.shells, "shell", "shells")));
-    if (info.degenerate > 0) {
-        lines.add("", count(info.degenerate, "facet", "facets") + " without area, left out");
+    if (info.part.degenerate > 0) {
+        lines.add("", count(info.part.degenerate, "facet", "facets") + " without area, left out");
     }
     if (mesh.open_edges > 0) {
         lines.add("holes", fmt::format("{} of {}, one {}", count(mesh.holes, "border", "borders"),
@@ -182,7 +183,7 @@ void add_ground(const PartInfo& info, Lines& lines)
 {
     const Ground& ground = *info.ground;
     // Surfaces of a union may continue under each other.
-    const char* const by = info.format == "JSON surfaces"
+    const char* const by = info.part.format == "JSON surfaces"
                                ? " hidden from above, by overhangs or other surfaces, as "
                                : " hidden from above, as ";
     lines.add("area", number(ground.area, 2) + " mm2");
@@ -233,22 +234,23 @@ void add_ball(const PartInfo& info, Lines& lines)
 
 std::string text_of(const PartInfo& info)
 {
-    Lines lines{info.file};
-    lines.add("format", info.format);
-    lines.add("unit", unit_text(info.unit));
+    Lines lines{info.part.file};
+    lines.add("format", info.part.format);
+    lines.add("unit", unit_text(info.part.unit));
     add_box(info, lines);
-    for (const LayerInfo& layer : info.layers) {
+    for (const PartLayer& layer : info.part.layers) {
         add_layer(layer, lines);
     }
     if (info.is_mesh()) {
         add_mesh(info, lines);
     } else if (!info.is_drawing()) {
         std::string faces = fmt::format("{}", info.pieces);
-        if (info.solids > 0) {
-            faces += ", of " + count(info.solids, "solid", "solids");
+        if (info.part.solids > 0) {
+            faces += ", of " + count(info.part.solids, "solid", "solids");
         }
-        if (info.unread_faces > 0) {
-            faces += fmt::format("; {} more face down and have broken edges", info.unread_faces);
+        if (info.part.unread_faces > 0) {
+            faces +=
+                fmt::format("; {} more face down and have broken edges", info.part.unread_faces);
         }
         lines.add("faces", faces);
     }

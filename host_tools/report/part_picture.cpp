@@ -11,12 +11,12 @@
 
 namespace cusp::report {
 
-using import::ClosedLoop;
-using import::OpenChain;
+using job::ClosedLoop;
+using job::OpenChain;
+using job::PartLayer;
 using part_info::BallReach;
 using part_info::Ground;
 using part_info::kLevelDegrees;
-using part_info::LayerInfo;
 using part_info::PartInfo;
 using verify::HeightGrid;
 using verify::PartHeights;
@@ -69,9 +69,9 @@ std::string ground_picture(const PartInfo& info, const PictureFrame& frame)
     grid.x0 = frame.x_low + grid.pitch / 2;
     grid.y0 = frame.y_low + grid.pitch / 2;
     grid.shifted = false;
-    const PartHeights heights = part_heights(info.surfaces, info.triangles, grid);
-    const double low = info.box_low.z;
-    const double high = info.box_high.z;
+    const PartHeights heights = part_heights(info.part.surfaces, info.part.triangles, grid);
+    const double low = info.part.box_low.z;
+    const double high = info.part.box_high.z;
     ColourRuns colours{kColourSteps};
     ColourRuns shades{kShades + 1};
     for (std::size_t i = 0; i < grid.nx; ++i) {
@@ -128,7 +128,7 @@ std::string line_of(const PictureFrame& frame,
     return out + "\"/>\n";
 }
 
-std::string layer_picture(const LayerInfo& layer, const PictureFrame& frame)
+std::string layer_picture(const PartLayer& layer, const PictureFrame& frame)
 {
     constexpr std::array<const char*, 2> kFills{"#bcd4ee", "#ffffff"};
     std::string lines;
@@ -155,12 +155,13 @@ std::string layer_picture(const LayerInfo& layer, const PictureFrame& frame)
 
 std::string part_picture(const PartInfo& info)
 {
-    const PictureFrame frame{info.box_low.x, info.box_high.x, info.box_low.y, info.box_high.y};
+    const PictureFrame frame{info.part.box_low.x, info.part.box_high.x, info.part.box_low.y,
+                             info.part.box_high.y};
     std::string out = frame.head();
     if (info.is_drawing()) {
-        const bool all_hidden = std::all_of(info.layers.begin(), info.layers.end(),
-                                            [](const LayerInfo& layer) { return layer.hidden; });
-        for (const LayerInfo& layer : info.layers) {
+        const bool all_hidden = std::all_of(info.part.layers.begin(), info.part.layers.end(),
+                                            [](const PartLayer& layer) { return layer.hidden; });
+        for (const PartLayer& layer : info.part.layers) {
             out += layer.hidden && !all_hidden ? "" : layer_picture(layer, frame);
         }
     } else {

@@ -71,6 +71,13 @@ class ChecksOfTheTree(unittest.TestCase):
         self.assertEqual(status, 1)
         self.assertIn("firmware/path is not in the row of firmware/base", text)
 
+    def test_includes_refuses_a_second_user_of_import(self):
+        self.write("docs/architecture.md", "| host_tools/import | |\n| host_tools/view | host_tools/import |\n")
+        self.write("host_tools/view/page.hpp", '#include "host_tools/import/import.hpp"\n')
+        status, text = self.run_check("includes.py")
+        self.assertEqual(status, 2)
+        self.assertIn("host_tools/import, which is for host_tools/cli alone", text)
+
     def test_includes_needs_a_table_and_sources(self):
         self.assertEqual(self.run_check("includes.py")[0], 2)
         self.write("docs/architecture.md", "none\n")

@@ -16,7 +16,7 @@ STANDARD = set("""
     cad call chain check checksum choice cleanup clear clearing closed colour command comment contour control controller
     coolant count cross curve cutting dense descriptor diameter difference display distance domain drawing dxf edge effect end
     entity equal error executed extent fact fault figure file fit fitted fitter flat flow follow form free from
-    grid group guess health hermite hit hole homogeneous info input inspect instrument job key keyboard kind lattice
+    geometry grid group guess health hermite hit hole homogeneous info input inspect instrument job key keyboard kind lattice
     layout leading left length limit limiter line listener lost lower lowest machine measure mesh model motion
     name navigation nearest nesting number nurbs offer offset one open operation option outcome output page
     parameter partial picture piece place plan plane planned pocket position profile progress proof proved

@@ -17,6 +17,8 @@ FREESTANDING_HEADERS = {
     "algorithm", "array", "atomic", "cmath", "cstddef", "cstdint", "limits", "optional",
     "string_view", "tuple", "type_traits", "utility", "variant",
 }
+# Modules that one module alone may include, so that readers of files stay out of planning.
+SOLE_USER = {"host_tools/import": "host_tools/cli"}
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include\s*([<"])([^>"]+)[>"]', re.M)
 ROW = re.compile(r"^\|\s*((?:%s)/[\w/]+)\s*\|([^|]*)\|" % "|".join(TOP_FOLDERS), re.M)
 
@@ -33,6 +35,9 @@ def read_table(path):
     for module, allowed in table.items():
         for other in sorted(allowed - table.keys()):
             raise ValueError(f"{path}: {module} may include {other}, which has no row")
+        for other in sorted(allowed):
+            if SOLE_USER.get(other, module) != module:
+                raise ValueError(f"{path}: {module} may include {other}, which is for {SOLE_USER[other]} alone")
     return table
 
 

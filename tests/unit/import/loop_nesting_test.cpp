@@ -14,6 +14,8 @@ using namespace cusp;
 using namespace cusp::nurbs;
 using namespace cusp::import;
 using namespace cusp::test;
+using cusp::job::LoopNesting;
+using cusp::job::OpenChain;
 
 namespace {
 

@@ -6,6 +6,7 @@
 #include "CppUTest/TestHarness.h"
 
 #include "firmware/base/math.hpp"
+#include "host_tools/import/part_geometry_reader.hpp"
 #include "host_tools/part_info/part_info.hpp"
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -102,9 +103,7 @@ std::vector<ProfilePoint> straight(double r0, double z0, double r1, double z1)
 PartInfo inspected(const std::string& name, const std::string& text, double tolerance = 0.01)
 {
     const TemporaryFolder folder;
-    InspectSettings settings;
-    settings.tolerance = tolerance;
-    return inspect_part(folder.with(name, text), settings);
+    return inspect_part(import::read_part_geometry(folder.with(name, text), 1.0), tolerance);
 }
 
 // Half a pipe of n facets along y, its rims level, in a plate.
@@ -158,8 +157,8 @@ TEST(BallReach, ABowlTakesItsOwnBall)
     DOUBLES_EQUAL(80, info.ground->steepest, 1.0);
     // of a cap: 2 pi R h
     DOUBLES_EQUAL(1, info.ground->area / (2 * kPi * 400 * (1 - std::cos(rim))), 2e-3);
-    DOUBLES_EQUAL(-20, info.box_low.z, 1e-6);
-    DOUBLES_EQUAL(20 * std::sin(rim), info.box_high.x, 1e-6);
+    DOUBLES_EQUAL(-20, info.part.box_low.z, 1e-6);
+    DOUBLES_EQUAL(20 * std::sin(rim), info.part.box_high.x, 1e-6);
 }
 
 TEST(BallReach, ADomeTakesAnyBall)

@@ -1,8 +1,9 @@
-// What inspect_part says of whole files.
+// What inspect_part says of whole files, read as `cusp info` reads them.
 #include "host_tools/part_info/part_info.hpp"
 
 #include "CppUTest/TestHarness.h"
 
+#include "host_tools/import/part_geometry_reader.hpp"
 #include "tests/support/box_mesh.hpp"
 #include "tests/support/refusal.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -32,16 +33,21 @@ std::string circle(const char* layer, double x, double y, double radius)
 
 const char* const kInches = "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n1\n0\nENDSEC\n";
 
+PartInfo inspected(const std::string& name, double millimetres)
+{
+    return inspect_part(import::read_part_geometry(name, millimetres), 0.01);
+}
+
 }  // namespace
 
 TEST_GROUP(PartInfo)
 {
     TemporaryFolder folder;
-    InspectSettings settings;
+    double millimetres{1};
 
     PartInfo of(const std::string& name, const std::string& text)
     {
-        return inspect_part(folder.with(name, text), settings);
+        return inspected(folder.with(name, text), millimetres);
     }
 };
 
@@ -50,22 +56,22 @@ TEST(PartInfo, LayersAreListedEachWithItsLoops)
     const PartInfo info =
         of("plate.dxf", drawing(circle("holes", 5, 5, 1) + circle("holes", 9, 5, 1) +
                                 line("marks", 0, 0, 4, 3) + "0\n3DFACE\n8\nsolid\n10\n0\n"));
-    UNSIGNED_LONGS_EQUAL(3, info.layers.size());
-    STRCMP_EQUAL("holes", info.layers[0].name.c_str());
-    UNSIGNED_LONGS_EQUAL(2, info.layers[0].loops.loops.size());
-    STRCMP_EQUAL("marks", info.layers[1].name.c_str());
-    DOUBLES_EQUAL(5, info.layers[1].loops.open[0].gap, 1e-12);
-    STRCMP_CONTAINS("3DFACE", info.layers[2].problem.c_str());
-    CHECK(info.unit.assumed);
-    DOUBLES_EQUAL(10, info.box_high.x, 1e-2);
+    UNSIGNED_LONGS_EQUAL(3, info.part.layers.size());
+    STRCMP_EQUAL("holes", info.part.layers[0].name.c_str());
+    UNSIGNED_LONGS_EQUAL(2, info.part.layers[0].loops.loops.size());
+    STRCMP_EQUAL("marks", info.part.layers[1].name.c_str());
+    DOUBLES_EQUAL(5, info.part.layers[1].loops.open[0].gap, 1e-12);
+    STRCMP_CONTAINS("3DFACE", info.part.layers[2].problem.c_str());
+    CHECK(info.part.unit.assumed);
+    DOUBLES_EQUAL(10, info.part.box_high.x, 1e-2);
 }
 
 TEST(PartInfo, ADrawingInInchesIsMeasuredInMillimetres)
 {
     const PartInfo info = of("plate.dxf", drawing(circle("0", 0, 0, 1), kInches));
-    STRCMP_EQUAL("inch", info.unit.name.c_str());
-    CHECK(!info.unit.assumed);
-    DOUBLES_EQUAL(2 * 25.4, info.box_high.x - info.box_low.x, 1e-2);
+    STRCMP_EQUAL("inch", info.part.unit.name.c_str());
+    CHECK(!info.part.unit.assumed);
+    DOUBLES_EQUAL(2 * 25.4, info.part.box_high.x - info.part.box_low.x, 1e-2);
     STRCMP_CONTAINS("2 x 2 x 0 inch", text_of(info).c_str());
 }
 
@@ -73,11 +79,11 @@ TEST(PartInfo, OneLayerCanBeAskedFor)
 {
     const std::string file =
         folder.with("plate.dxf", drawing(circle("a", 0, 0, 1) + circle("b", 9, 0, 2)));
-    const PartInfo info = inspect_part(file + "#b", settings);
-    UNSIGNED_LONGS_EQUAL(1, info.layers.size());
-    DOUBLES_EQUAL(7, info.box_low.x, 1e-2);
+    const PartInfo info = inspected(file + "#b", millimetres);
+    UNSIGNED_LONGS_EQUAL(1, info.part.layers.size());
+    DOUBLES_EQUAL(7, info.part.box_low.x, 1e-2);
     STRCMP_CONTAINS("no curve on the layer \"c\"; layers with curves: \"a\", \"b\"",
-                    refusal([&] { inspect_part(file + "#c", settings); }).c_str());
+                    refusal([&] { inspected(file + "#c", millimetres); }).c_str());
 }
 
 TEST(PartInfo, ARoofOverAPlateIsAnUndercut)
@@ -96,9 +102,9 @@ TEST(PartInfo, ARoofOverAPlateIsAnUndercut)
 
 TEST(PartInfo, InchesAreForFilesThatNameNoUnit)
 {
-    settings.millimetres = 25.4;
+    millimetres = 25.4;
     const PartInfo info = of("box.stl", ascii_stl(box_mesh({0, 0, 0}, {1, 2, 3})));
-    DOUBLES_EQUAL(3 * 25.4, info.box_high.z, 1e-9);
+    DOUBLES_EQUAL(3 * 25.4, info.part.box_high.z, 1e-9);
     STRCMP_CONTAINS("inch, assumed", text_of(info).c_str());
 }
 
@@ -118,7 +124,7 @@ TEST(PartInfo, WhatIsNoPartIsRefused)
 {
     STRCMP_CONTAINS("not from \".ply\"", refusal([&] { of("a.ply", "ply"); }).c_str());
     STRCMP_CONTAINS("can't be read",
-                    refusal([&] { inspect_part(folder.file("gone.stl"), settings); }).c_str());
+                    refusal([&] { inspected(folder.file("gone.stl"), millimetres); }).c_str());
     STRCMP_CONTAINS("no STL", refusal([&] { of("a.stl", ""); }).c_str());
     STRCMP_CONTAINS("not JSON", refusal([&] { of("a.json", "{"); }).c_str());
     STRCMP_CONTAINS("holds no curve", refusal([&] { of("a.dxf", drawing("")); }).c_str());
