@@ -236,6 +236,7 @@ def run_one(options, seed):
         options.settings = folder / f"random_{seed}.settings"
         options.settings.write_text(random_settings(chance))
         options.as_it_is = seed % 2 == 0
+        options.twice = seed % 6 == 0
         options.script = folder / f"random_{seed}.script" if chance.random() < 0.7 else None
         if options.script:
             options.script.write_text(random_script(chance))
