@@ -66,15 +66,23 @@ PathPlace nearest_on_arc(const path::Arc& arc, Vec3d point)
     if (at_end.distance < nearest.distance) {
         nearest = at_end;
     }
-    const double rise = dot(arc.axial, arc.axial);
-    const double turn_by_height =
-        rise > 0 ? dot(from_centre, arc.axial) / rise * arc.sweep / (2.0 * kPi) : 0.0;
+    // The turn whose height and radius are nearest to the point's.
+    const double outwards = std::hypot(dot(from_centre, arc.u), dot(from_centre, arc.v));
+    const double change = dot(arc.axial, arc.axial) + arc.radius_change * arc.radius_change;
+    const double nearest_t =
+        change > 0
+            ? (dot(from_centre, arc.axial) + (outwards - arc.radius) * arc.radius_change) / change
+            : 0.0;
     const double turns = std::ceil(arc.sweep / (2.0 * kPi));
-    const double middle = std::clamp(std::floor(turn_by_height), 0.0, turns - 1.0);
+    const double middle =
+        std::clamp(std::floor(nearest_t * arc.sweep / (2.0 * kPi)), 0.0, turns - 1.0);
+    // Where radius or height change, the nearest place is turned away from the point's own angle, and
+    // may lie on the arc where that angle is beyond its end: by up to a quarter turn it counts.
+    const double quarter = 0.5 * kPi / arc.sweep;
     for (double turn = middle - 1.0; turn <= middle + 1.0; ++turn) {
         const double t = (angle + turn * 2.0 * kPi) / arc.sweep;
-        if (t >= 0.0 && t <= 1.0) {
-            const PathPlace found = nearest_on_arc_from(arc, point, t);
+        if (t >= -quarter && t <= 1.0 + quarter) {
+            const PathPlace found = nearest_on_arc_from(arc, point, std::clamp(t, 0.0, 1.0));
             if (found.distance < nearest.distance) {
                 nearest = found;
             }

@@ -59,10 +59,13 @@ TEST(PathDeviation, OfAHelixIsTheDistanceToItsNearestSample)
     const unsigned seed = 7;
     std::mt19937 random{seed};
     std::uniform_real_distribution<double> unit{0.0, 1.0};
-    for (int round = 0; round < 40; ++round) {
+    for (int round = 0; round < 100; ++round) {
+        // Drawn one by one: arguments of a call have no order.
+        const double radius = 1.0 + 9.0 * unit(random);
+        const double change = 0.1 * unit(random) - 0.05;
+        const double sweep = 0.1 + 15.0 * unit(random);
         const path::Move move =
-            helix(1.0 + 9.0 * unit(random), 0.1 * unit(random) - 0.05, 0.1 + 15.0 * unit(random),
-                  round % 2 == 0 ? 0.0 : 5.0 * unit(random));
+            helix(radius, change, sweep, round % 2 == 0 ? 0.0 : 5.0 * unit(random));
         const auto& arc = std::get<path::Arc>(move.path);
         const Vec3d off{0.2 * unit(random), 0.2 * unit(random), 0.2 * unit(random)};
         const Position point = to_position(helix_point(arc, unit(random)) + off);
