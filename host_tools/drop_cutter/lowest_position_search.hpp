@@ -22,7 +22,8 @@ namespace cusp::drop_cutter {
 // position is found.
 //
 // Not a proof: the division ends after some hundred parts, and for other tools a lower position may
-// lie between points of the grid.
+// lie between points of the grid. Between cliffs with a gap of 0.33 to 0.93 diameters 3 of 360 answers
+// for a ball were too high, by 0.005 to 0.04 mm for a radius of 1.5 mm.
 //
 // Not for use by two threads at once.
 class LowestPositionSearch {
