@@ -230,7 +230,12 @@ void PulseMaker::compress(PulseFrame& frame) noexcept
         __builtin_memset(&edges_[tick], 0, sizeof word);
         const auto put = [&](std::uint32_t k) {
             const auto lines = static_cast<std::uint32_t>(word >> 16U * k & 0xFFFFU);
-            if (lines != 0) {
+            if constexpr (kTicksPerWord == 4) {
+                // Desktop processors predict badly which ticks have edges: written in any case,
+                // and kept where there is one. Never beyond the edge of the frame's last tick.
+                *out = edge_at(tick + k, lines);
+                out += lines != 0 ? 1 : 0;
+            } else if (lines != 0) {
                 *out++ = edge_at(tick + k, lines);
             }
         };
