@@ -33,7 +33,7 @@ void set_work(std::string_view what);
 // The share of it that is done, 0 to 1; from any thread.
 void set_share(double share);
 
-// The part of the work that this thread is at, while the object lives; objects may be nested.
+// Names the part of the work that this thread does while the object lives; objects may be nested.
 class Part {
 public:
     // As in {"face ", 12, " of part.step"}.

@@ -1,4 +1,4 @@
-// Steps along moves by the distance that is free.
+// Steps along moves by the free distance to the fixtures (sphere tracing).
 #include "host_tools/job/fixture_clearance.hpp"
 
 #include <algorithm>
@@ -69,7 +69,7 @@ std::optional<Vec3d> hit_on_line(const Fixture& fixture, double radius, Vec3d fr
         2 * radius, fixture.margin));
 }
 
-// In place of links: a way over the fixtures.
+// Replaces links by moves over the fixtures.
 void lead_over(const Job& job, Vec3d from, Vec3d to, std::vector<ToolMove>& moves)
 {
     const double z = job.stock_top + job.clearance;

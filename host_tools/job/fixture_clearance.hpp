@@ -1,4 +1,4 @@
-// How near tools come to the fixtures of a job, and links that go over them.
+// Clearance between tools and the fixtures of a job, and links that are raised over fixtures.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace cusp::job {
 
-// mm from a fixture grown by its margin to a tool whose tip is there: a vertical cylinder of the
-// tool's radius over the tip. Not above 0 where it touches; over a rim at most the true distance.
+// mm from a fixture grown by its margin to a tool with its tip at `tip`, a vertical cylinder of the
+// tool's radius. At most 0 where they touch; over a rim a lower bound of the distance.
 double distance_to(const Fixture& fixture, double tool_radius, Vec3d tip);
 
 struct FixtureHit {
@@ -18,7 +18,7 @@ struct FixtureHit {
     Vec3d tip;
 };
 
-// A place of the move where the tool is in a grown fixture, by 1e-3 mm or more; curves as chords
+// A point of the move where the tool enters a grown fixture by 1e-3 mm or more; curves are chords
 // within that.
 std::optional<FixtureHit> fixture_hit(const Job& job,
                                       double tool_radius,

@@ -102,7 +102,7 @@ struct Operation {
 // Fraction of an operation's progress at which roughing ends, where a finish follows.
 inline constexpr double kRoughingDone = 0.5;
 
-// What a tool's library lists beside its shape and rates.
+// Data of a tool's library besides shape and rates.
 struct ToolFacts {
     std::string name;
     int flutes{};                        // 0: none given
@@ -141,7 +141,7 @@ struct Job {
     bool group_by_tool{true};
     std::vector<Operation> operations;
     std::vector<std::string> notes;  // sentences on what the readers left out or changed
-    // Planners call it repeatedly with the approximate fraction of an operation that is done, 0 to
+    // Progress: planners call it repeatedly with the approximate fraction of an operation done, 0 to
     // 1; may be empty.
     std::function<void(double)> progress;
 

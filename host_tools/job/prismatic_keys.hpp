@@ -1,4 +1,4 @@
-// What the 2.5-D operations cut: loops, curves or holes in plan, straight down from a level.
+// Geometry of 2.5-D operations: loops, curves or holes in plan, cut straight down from a level.
 //
 //     job::Prismatic cut;
 //     cut.top = 0.0;

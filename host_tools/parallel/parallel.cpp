@@ -109,7 +109,7 @@ public:
     }
 
 private:
-    // Runs tasks until none waits.
+    // Runs tasks until the queue is empty.
     void run()
     {
         while (const std::function<void()> task = next()) {

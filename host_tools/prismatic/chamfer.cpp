@@ -27,7 +27,7 @@ using toolpath::ToolpathWriter;
 
 namespace {
 
-// mm: how far the tip keeps from the wall, so that the flank and not the tip cuts the lower edge.
+// mm: clearance between tip and wall, so that the flank and not the tip cuts the lower edge.
 constexpr double kTipClearance = 0.2;
 
 }  // namespace

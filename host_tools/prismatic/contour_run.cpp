@@ -1,5 +1,5 @@
-// Lines beside an arc: its chords on the hollow side, its tangents on the other, so that they never
-// lie between the arc and the part.
+// An arc becomes chords where the part is on its convex side and tangents where it is on the hollow
+// one, so no line cuts into the part.
 #include "host_tools/prismatic/contour_run.hpp"
 
 #include <algorithm>

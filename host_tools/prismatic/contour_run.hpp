@@ -1,4 +1,4 @@
-// A plan path by its length: parts of it, and the moves along them at a height.
+// A plan path addressed by arc length: its parts, and the moves along them at a height.
 //
 //     const ContourRun run{contour};                 // closed where its ends meet
 //     run.part(10.0, 25.0);                          // edges from 10 to 25 mm
@@ -31,7 +31,7 @@ public:
     // The edges from one length to another. Precondition: 0 <= from <= to <= length().
     std::vector<offset::Edge> part(double from, double to) const;
 
-    // Of a closed contour: the same from another start.
+    // A closed contour with its start moved to `at`.
     ContourRun turned(double start) const;
 
 private:

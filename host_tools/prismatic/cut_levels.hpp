@@ -1,4 +1,4 @@
-// What all 2.5-D operations begin with: levels, the head of a path, the name in messages.
+// Shared by all 2.5-D operations: levels, the head of a path, the name in messages.
 #pragma once
 
 #include <algorithm>
@@ -28,8 +28,7 @@ void count_moves(const toolpath::ToolpathWriter& writer,
                  int levels,
                  toolpath::PlannedOperation& planned);
 
-// mm: how far chords may leave curves, so that the flank of a conical tool too keeps the tolerance of
-// heights.
+// mm: chord tolerance, so small that the flank of a conical tool keeps the tolerance of heights too.
 double chord_tolerance(const job::Operation& operation);
 
 // The z at which rapid moves end above an uncut top.

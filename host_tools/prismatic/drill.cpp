@@ -1,4 +1,5 @@
-// Written out: each peck goes a step deeper, then a rapid move up and back down clears the chips.
+// Drill cycles as single moves: each peck goes a step deeper, then rapid moves up and down clear the
+// chips.
 #include <algorithm>
 #include <cmath>
 
@@ -26,7 +27,7 @@ namespace {
 // mm: as the controller's own G83, rapid moves back into the hole end above the last depth.
 constexpr double kPeckClearance = 0.254;
 
-// Where a hole is, in height.
+// Heights of a hole, z.
 struct HoleHeights {
     double above;  // rapid moves end here
     double top;

@@ -1,4 +1,4 @@
-// An open way: it need not come back.
+// The tour is open: it does not return to its start.
 #include "host_tools/prismatic/drill_tour.hpp"
 
 #include <algorithm>

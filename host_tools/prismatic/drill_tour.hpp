@@ -1,4 +1,4 @@
-// A short way through places.
+// A short tour of places.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +8,8 @@
 
 namespace cusp::prismatic {
 
-// The order in which to visit the places, each once: the nearest next one from `start`, then
-// pieces turned around as long as that shortens the way (2-opt). No longer than the nearest-next
-// order; for up to 2000 places, beyond that only the nearest next.
+// The order in which to visit the places, each once: nearest neighbour from `start`, then 2-opt.
+// Never longer than the nearest-neighbour tour. Over 2000 places 2-opt is left out.
 std::vector<std::size_t> short_tour(const std::vector<Vec2d>& places, Vec2d start);
 
 }  // namespace cusp::prismatic

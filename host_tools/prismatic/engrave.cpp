@@ -1,4 +1,4 @@
-// Chains in the order of a short tour; open ones from whichever end is nearer.
+// Chains in the order of a short tour; open ones start at the nearer end.
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,6 @@
-// From each place of the contours a disc that touches it shrinks until nothing is inside. Its centre
-// goes along the whole axis while the place goes around the contours, each part once for either of
-// the two places that its disc touches; one of them counts.
+// At each point of the contours a disc that touches it shrinks until it contains no other contour
+// point. While the point goes around the contours, the centre traces the axis: each part twice, once
+// for either contact of its disc. One of the two is kept.
 #include "host_tools/prismatic/medial_axis.hpp"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ constexpr double kTouch = 1e-8;                   // mm
 constexpr double kSamePlace = 1e-4;               // mm: a step across a fork of the axis
 constexpr double kReflex = 1e-7;                  // radians
 
-// The disc that touches the contours at `foot`, and where else it does.
+// The disc that touches the contours at `foot`, and its other contact.
 struct Disc {
     Vec2d at;
     double radius;
@@ -190,7 +190,7 @@ private:
         }
     }
 
-    // Halves the way until the axis is straight between its ends, or a fork lies in no length.
+    // Halves the step until the axis is straight between its ends, or a fork lies between equal points.
     template <class At>
     void refine(const At& at, double a, const Disc& from, double b, const Disc& to, int depth)
     {
@@ -229,7 +229,7 @@ private:
                            {to.at, to.radius});
     }
 
-    // mm: what the disc leaves of a corner between the places that it touches.
+    // mm: height of the corner left between the disc and the two points that it touches.
     static double sharpness(const Disc& disc)
     {
         if (disc.slot == disc.other_slot || !(disc.radius > 0)) {
@@ -270,7 +270,7 @@ private:
         extend({to.at, to.radius});
     }
 
-    // Adds the point; leaves out those before it that a chord does without.
+    // Adds the point; removes those before it that a chord replaces within tolerance.
     void extend(const AxisPoint& to)
     {
         constexpr double kSame = 1e-7;  // mm
@@ -301,7 +301,7 @@ private:
         left_out_.clear();
     }
 
-    // Beside a corner of the contour a chord is nearer to it than its ends are: they shrink.
+    // Beside a corner a chord is nearer to the contour than its ends are: their discs shrink.
     void shrink(AxisBranch& branch) const
     {
         constexpr int kLooks = 16;

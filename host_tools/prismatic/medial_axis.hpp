@@ -18,12 +18,12 @@ struct AxisPoint {
     double radius;  // mm
 };
 
-// One point where the largest disc is alone, as in a circle. Between two points the axis is
-// straight and the radius changes evenly.
+// Points of one branch; a single one where the axis is a point, as in a circle. Between two points
+// the axis is straight and the radius changes linearly.
 using AxisBranch = std::vector<AxisPoint>;
 
-// mm: no point of a chord has a disc that reaches beyond the contours by more than 2e-5 mm, and none
-// is smaller than the largest one by more than this. Branches into bends and corners that are rounder are left out: the
+// mm: no disc of a chord is smaller than the largest disc there by more than this, nor beyond the
+// contours by more than 2e-5 mm. Branches into round bends and blunt corners are left out where the
 // discs beside them leave no more than this of the region.
 inline constexpr double kAxisTolerance = 1e-3;
 

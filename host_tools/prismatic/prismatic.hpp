@@ -17,38 +17,38 @@
 
 namespace cusp::prismatic {
 
-// Each loop once around at every level, then at the bottom where an allowance was left; inner loops
-// first. The tool's centre keeps its radius from the loops, within 0.001 mm and never less than
-// that below it (tests/property/prismatic). Tabs stand from the bottom to their height.
+// Cuts around each loop at every level, then at the bottom where an allowance was left; inner loops
+// first. The tool's centre stays one radius from the loops, within 0.001 mm (tests/property/prismatic).
+// Tabs reach from the bottom to their height.
 //
 // Errors: InputError where the tool fits along none of the loops, with a place; tabs that find no
 // room. A loop that the tool fits nowhere along, and stretches that it does not reach, are warnings.
 std::vector<toolpath::PlannedOperation> plan_profile(const job::Job& job,
                                                      const job::Operation& operation);
 
-// Straight down at every hole, in pecks where asked for, in the order of a short tour.
+// Drills every hole, in pecks where the job has them, in the order of a short tour.
 std::vector<toolpath::PlannedOperation> plan_drill(const job::Job& job,
                                                    const job::Operation& operation);
 
-// Passes along x over the stock, or over the box of the operation's loops, to a level.
+// Faces the stock, or the bounding box of the operation's loops, by passes along x down to a level.
 //
 // Errors: InputError where neither gives x and y.
 std::vector<toolpath::PlannedOperation> plan_face(const job::Job& job,
                                                   const job::Operation& operation);
 
-// The tip along every chain of curves, at the depth.
+// Moves the tip along every chain of curves, at the depth.
 std::vector<toolpath::PlannedOperation> plan_engrave(const job::Job& job,
                                                      const job::Operation& operation);
 
-// A vee along the outside of the loops' material: the flank cuts `width` off its upper edge.
+// Moves a vee along the outside of the material: its flank cuts `width` off the upper edge.
 //
 // Errors: InputError where the vee is too small for the width, or fits along none of the loops.
 std::vector<toolpath::PlannedOperation> plan_chamfer(const job::Job& job,
                                                      const job::Operation& operation);
 
-// A vee between the outlines, as deep everywhere as both walls allow: along the medial axis, with
-// sharp corners. No deeper than the depth: there is a level floor then. The flanks touch the
-// outlines at the top, within 0.001 mm and never beyond (tests/property/prismatic).
+// Moves a vee along the medial axis between the outlines, everywhere as deep as both walls allow, so
+// corners are sharp. Where that exceeds the depth, the floor is level. At the top the flanks touch the
+// outlines, within 0.001 mm and never beyond (tests/property/prismatic).
 //
 // Errors: InputError where the tip fits nowhere between the outlines, with the widest place; more
 // than 20 000 loops on the floor.

@@ -36,7 +36,7 @@ using toolpath::ToolpathWriter;
 
 namespace {
 
-// Of the tool's radius, where the job gives none.
+// Radius of leads over the tool's, where the job gives none.
 constexpr double kLeadRadius = 1.0;
 
 class ProfilePlanner {
@@ -164,7 +164,7 @@ private:
         return roughed.size() > 0 && std::all_of(contour.begin(), contour.end(), near);
     }
 
-    // Of each contour, the tabs that the job places on it.
+    // The tabs that the job places on each contour.
     std::vector<std::vector<Vec2d>> places_by_contour(const Region2d& centres) const
     {
         std::vector<std::vector<Vec2d>> out(centres.contours.size());
@@ -191,7 +191,7 @@ private:
         return out;
     }
 
-    // Middles of the tabs along a run that begins where the tool comes on.
+    // Middles of the tabs along a run that begins at the lead-in.
     std::vector<double> tab_middles(const ContourRun& run, const std::vector<Vec2d>& places) const
     {
         std::vector<double> middles;
@@ -277,7 +277,7 @@ private:
         ++passes_;
     }
 
-    // The lead-in and the contour up to its first tab, which a ramp goes back and forth on.
+    // The lead-in and the contour up to its first tab: a ramp runs back and forth along it.
     std::vector<Vec3d> entry_run(const LeadContour& led,
                                  const std::vector<TabStretch>& tabs,
                                  Vec2d start,

@@ -1,4 +1,4 @@
-// Loops are looked at every quarter of the distance.
+// Loops are sampled at steps of a quarter of the distance.
 #include "host_tools/prismatic/profile_contours.hpp"
 
 #include <algorithm>

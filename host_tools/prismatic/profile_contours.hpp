@@ -1,4 +1,4 @@
-// Where the tool's centre goes around loops, and which of the loops it does not reach.
+// Contours of the tool's centre around loops, and the parts of the loops that it does not reach.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace cusp::prismatic {
 
-// mm: lines and circles are exact, other curves are followed as closely.
+// mm: tolerance of curves; lines and circles are exact.
 inline constexpr double kFit = 2e-4;
 
 // The material that the loops bound: on the left of its contours.
@@ -18,7 +18,7 @@ inline constexpr double kFit = 2e-4;
 // Errors: InputError where a loop has no extent.
 offset::Region2d material_of(const job::Prismatic& cut);
 
-// What is on the other side; its contours have it on their left.
+// The complement of the material; its contours have it on their left.
 offset::Region2d opposite(offset::Region2d region);
 
 // Stretches of loops that a tool does not touch.
@@ -36,7 +36,7 @@ Unreached unreached(const offset::Region2d& waste,
                     const offset::Region2d& centres,
                     double distance);
 
-// The inner ones first: the part comes free last.
+// Inner contours first, so the part comes free last.
 void sort_inner_first(std::vector<offset::Contour>& contours);
 
 }  // namespace cusp::prismatic

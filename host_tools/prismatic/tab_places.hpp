@@ -1,4 +1,4 @@
-// Where tabs stand along a path, and the heights of the tip that leave them.
+// Positions of tabs along a path, and the heights of the tip that leave them.
 #pragma once
 
 #include <vector>
@@ -30,7 +30,7 @@ std::vector<TabStretch> tab_stretches(const job::Tabs& tabs,
                                       const std::vector<double>& middles,
                                       double tool_radius);
 
-// The pass at z over a path of `length`: raised to `full` where tabs stand higher than z.
+// The pass at z over a path of `length`: raised to `full` where tabs are higher than z.
 std::vector<HeightStretch> heights_over_tabs(
     const std::vector<TabStretch>& tabs, double length, double z, double bottom, double full);
 

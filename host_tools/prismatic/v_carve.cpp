@@ -1,5 +1,5 @@
-// The tip goes along the medial axis, as deep as the flanks reach both walls. Where that is below the
-// floor it keeps to it, and loops beside the walls clear what is between.
+// The tip follows the medial axis at the depth where both flanks touch a wall. Where that is below the
+// floor, the tip stays on the floor, and loops along the walls clear the rest.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,13 +33,13 @@ namespace {
 
 constexpr double kEndsMeet = 1e-3;  // mm: the tool continues without a retract
 
-// A way of the tip: along a branch of the axis, or a loop at one height.
+// A path of the tip: along a branch of the axis, or a loop at one height.
 struct Way {
     std::vector<Vec3d> points;  // both ends of a loop alone
     std::vector<Edge> loop;
 };
 
-// The branch with a point more wherever its radius passes one of two, in rising order.
+// The branch with a point added wherever its radius passes one of two values, in rising order.
 AxisBranch with_crossings(const AxisBranch& branch, std::array<double, 2> limits)
 {
     AxisBranch out;
@@ -116,7 +116,7 @@ void Carver::check_width() const
     }
 }
 
-// Below the top, of each level; the last one is as deep as the widest place, or the floor.
+// Depths of the levels below the top; the last is that of the widest place, or of the floor.
 std::vector<double> Carver::depths() const
 {
     const double deepest = std::min(cut_.depth, depth_of(widest_.radius));
@@ -127,7 +127,7 @@ std::vector<double> Carver::depths() const
     return depths;
 }
 
-// The parts of the axis that lie deeper than `above`, no deeper than `depth`.
+// The parts of the axis deeper than `above`, limited to `depth`.
 void Carver::add_branches(double above, double depth, std::vector<Way>& ways) const
 {
     constexpr double kSame = 1e-9;  // mm
@@ -154,8 +154,8 @@ void Carver::add_branches(double above, double depth, std::vector<Way>& ways) co
     }
 }
 
-// Around the floor at a depth, then inward. The steps leave ridges as high as the scallop; above the
-// last level, no higher than the level before.
+// Loops on the floor at a depth, from the walls inward. Between them scallops of the height allowed
+// remain; above the last level they reach the level before at most.
 void Carver::add_loops(double above, double depth, bool last, std::vector<Way>& ways)
 {
     constexpr double kMostLoops = 20000;
@@ -181,7 +181,7 @@ void Carver::add_loops(double above, double depth, bool last, std::vector<Way>& 
     }
 }
 
-// The nearest next one, branches from either end.
+// Nearest neighbour first; branches may start at either end.
 void Carver::write(std::vector<Way> ways, double above, ToolpathWriter& writer) const
 {
     const EdgeForm form{operation_.output != OutputForm::kLines, chord_tolerance(operation_),

@@ -181,8 +181,8 @@ void PathDeviation::restart()
     place_ = end_;
 }
 
-// Bound of the movement along the path since the last set point: the distance travelled, and what
-// blending cuts off at a corner.
+// Upper bound of the movement along the path since the last set point: the distance travelled plus
+// the length that blending cuts off at a corner.
 double PathDeviation::reach(Position set_point) const
 {
     constexpr double kSlack = 0.5;
@@ -200,7 +200,7 @@ PathPlace PathDeviation::nearest_on(const Stretch& stretch, Position point)
                               stretch.chord_square);
 }
 
-// Stretches follow each other: their ends rise. From one set point to the next few are passed.
+// Ends of stretches ascend. A set point passes few of them.
 void PathDeviation::find_first_near(double place)
 {
     while (first_near_ > 0 && stretches_[first_near_ - 1].end >= place) {

@@ -59,7 +59,7 @@ struct RunOptions {
     std::uint32_t bits_per_second{0};
     // Whether the deviation from the programmed path is measured.
     bool measures_deviation{true};
-    // Where it is not, for who measures it elsewhere.
+    // Receives the path for a measurement elsewhere.
     PathListener path;
     // Whether the edges of the pulses are summed.
     bool sums_edges{true};

@@ -10,7 +10,7 @@
 
 namespace cusp::program_run {
 
-// Why settings are refused.
+// The reason why settings are refused.
 struct SettingsRefusal {
     std::uint64_t line;  // from 1; 0: no line of the text
     std::string text;    // with setting, value and limit

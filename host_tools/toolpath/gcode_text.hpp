@@ -20,7 +20,7 @@ std::string nine_digits(double value);
 // point  whether a whole number gets a point too
 void add_scaled(std::string& text, std::int64_t value, std::int64_t scale, bool point);
 
-// What a comment says of a tool: number, shape and sizes, name.
+// The comment on a tool: number, shape, sizes and name.
 //
 // unit  mm; name: of the unit
 std::string tool_text(const Toolpath& path, double unit, const char* name);

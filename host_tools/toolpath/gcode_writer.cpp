@@ -1,4 +1,4 @@
-// The writer keeps the rounded position, so that what it writes is what the controller sums up.
+// The writer tracks the rounded position, so that its deltas are those that the controller computes.
 #include "host_tools/toolpath/gcode_writer.hpp"
 
 #include <algorithm>

@@ -11,7 +11,7 @@ constexpr std::size_t kCommentWidth = 72;
 // In last decimals: 1.5 in the plane of an arc, 0.5 square to it, together 1.58.
 constexpr double kMostRounding = 1.6;
 
-// What controllers take out of the stream as a command, or as the end of the comment, is none here.
+// Replaces characters that a controller reads as a realtime command or as the end of the comment.
 char plain_character(char c)
 {
     const bool printable = c >= ' ' && c <= '~';

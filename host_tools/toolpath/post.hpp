@@ -1,5 +1,5 @@
-// A post: how a program is written for one controller. Which words it knows, how arcs and comments
-// look, what frames the program and its changes of tool.
+// A post: the G-code form of one controller: the words it knows, the form of arcs and comments, the
+// lines around the program and its tool changes.
 //
 // The default is the post "cusp"; import/post_reader.hpp reads others. docs/posts.md explains the
 // keys, which are these members.
@@ -50,13 +50,12 @@ struct Post {
     int decimals(bool inch) const { return inch ? inch_decimals : mm_decimals; }
 };
 
-// mm: how far the rounding to the post's decimals moves any point of a path, at most. Each axis by
-// half of the last decimal; arcs besides by what the rounding of their centre or radius does, which
-// the writer measures and holds below 1.5 of the last decimal.
+// mm: bound on the error of rounding to the post's decimals. Each axis moves by half of the last
+// decimal. Rounding the centre or radius of an arc adds an error that the writer measures and keeps
+// below 1.5 of the last decimal.
 double rounding_of(const Post& post, bool inch);
 
-// mm: by how much that is more than the rounding of the post "cusp", which planners know; 0 where
-// it is not.
+// mm: the excess over the rounding of the post "cusp", which planners allow for; never below 0.
 double added_rounding(const Post& post, bool inch);
 
 // The template with every {name} replaced by its value; a name without a value stays.
@@ -67,7 +66,7 @@ std::string filled(std::string line,
 // where the form has none. Characters that controllers take for commands are replaced.
 std::string comment_lines(std::string text, CommentForm form);
 
-// A comment to stand at the end of a line, cut where it is too long; "" where there are none.
+// A comment for the end of a line, shortened where it is too long; "" where the post has none.
 std::string comment_word(std::string text, CommentForm form);
 
 }  // namespace cusp::toolpath

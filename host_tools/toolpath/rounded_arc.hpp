@@ -1,5 +1,5 @@
-// The arc that is written for a planned one: between rounded ends, with a centre or a radius that
-// the last decimal can say. Places are in units of the last decimal, in the plane of the arc.
+// The arc written for a planned one: ends, centre and radius are rounded to the last decimal.
+// Coordinates are in units of the last decimal, in the plane of the arc.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ std::array<std::int64_t, 2> fitted_centre(Vec2d start, Vec2d end, Vec2d wanted);
 // The centre of the arc of this radius, of at most a half turn.
 Vec2d centre_of_radius(Vec2d start, Vec2d end, double radius, bool clockwise);
 
-// mm: how far the written arc leaves the circle of the planned one, at the most of 33 places.
+// mm: the largest deviation of the written arc from the circle of the planned one, at 33 points.
 double arc_deviation(const ArcShape& written, const ArcTo& planned);
 
 }  // namespace cusp::toolpath

@@ -1,4 +1,4 @@
-// Boxes of the ground that each operation sweeps; boxes apart may change places.
+// Plan boxes swept by each operation; operations with disjoint boxes may change places.
 #include "host_tools/toolpath/tool_order.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The order of operations that changes tools least often.
+// Reorders operations to save tool changes.
 #pragma once
 
 #include <vector>
@@ -7,9 +7,9 @@
 
 namespace cusp::toolpath {
 
-// The places of the operations in their new order. One that needs the tool at hand comes forward
-// past those whose cuts lie wholly beside its own, seen from above: what it finds and what they
-// find is the same. All others keep their order.
+// Indices of the operations in their new order. An operation for the current tool is moved ahead of
+// those whose cuts are disjoint from its own in plan, so each still meets the same stock. All others
+// keep their order.
 //
 // clearance_z  mm: moves at this height or above cut nothing
 std::vector<std::size_t> tool_order(const std::vector<PlannedOperation>& operations,

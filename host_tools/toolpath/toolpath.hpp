@@ -51,7 +51,7 @@ struct ToolMove {
     std::variant<LineTo, ArcTo, NurbsTo> shape;
 };
 
-// What a path of holes alone does at each place where it goes down: a canned cycle.
+// The canned cycle of a path that only drills holes.
 struct DrillCycle {
     double above;  // z: rapid moves end here
     double peck;   // mm: of a step, 0: in one go

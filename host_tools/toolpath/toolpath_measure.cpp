@@ -12,7 +12,7 @@ using nurbs::Curve;
 
 namespace {
 
-// What the estimate of time needs of one move.
+// Data of one move for the estimate of time.
 struct Stretch {
     double length;
     double velocity;      // at most, mm/s
@@ -120,8 +120,7 @@ double seconds_of(const Stretch& s, double begin_squared, double end_squared)
            std::max(0.0, s.length - ramps) / peak;
 }
 
-// From rest to rest, the acceleration rising and falling by the jerk; an endless jerk gives the
-// trapezoid.
+// Time from rest to rest with limited jerk; infinite jerk gives the trapezoid.
 double rest_to_rest(double length, double velocity, double acceleration, double jerk)
 {
     const double rise = acceleration / jerk;    // s
@@ -136,7 +135,7 @@ double rest_to_rest(double length, double velocity, double acceleration, double 
     return 2 * ramp + std::max(0.0, length - peak * ramp) / peak;
 }
 
-// What jerk adds between two stops.
+// Time that the jerk limit adds between two stops.
 class JerkTime {
 public:
     void add(const Stretch& s)
@@ -258,7 +257,7 @@ void add_curve_points(const Curve& curve, double tolerance, std::vector<Vec3d>& 
     }
 }
 
-// The part of a straight way that is above z.
+// The part of a straight move that is above z.
 double length_above(Vec3d a, Vec3d b, double z)
 {
     const double low = std::min(a.z, b.z);
@@ -307,7 +306,7 @@ double steepest_descent(const ToolMove& move, Vec3d start)
     if (!arc) {
         return steepest;
     }
-    // A helix is as steep all along, and its chords are a little shorter.
+    // A helix has one slope; its chords are a little shorter and would be steeper.
     const ArcShape shape = arc_shape(start, std::get<ArcTo>(move.shape));
     return shape.axes[2] == 2 ? std::max(0.0, -tangent_on(shape, 0.5).z) : steepest;
 }

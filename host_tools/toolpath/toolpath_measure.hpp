@@ -33,8 +33,9 @@ struct MachineRates {
 
 // start  where the tool is before the path's first move
 //
-// estimated_s is the time of trapezoids with look-ahead, and from stop to stop what jerk adds to a
-// straight way as long: up to 15 % short. The simulator knows the time to the tick.
+// estimated_s is the time of trapezoidal profiles with look-ahead. From stop to stop the time that
+// jerk adds to a straight move of the same length is included. It is up to 15 % low; the simulator
+// gives the time to the tick.
 PathMeasure measure(const Toolpath& path, Vec3d start, const MachineRates& rates = {});
 
 // Length of the parts of all feed moves at which the tip is above z, mm; curves by chords within

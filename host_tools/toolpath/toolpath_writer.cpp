@@ -1,5 +1,5 @@
-// A helix is made of half turns; a ramp is the run itself, raised by an amount that falls with the
-// way gone.
+// A helix consists of half turns. A ramp is the run itself, raised by an amount that falls with the
+// distance travelled.
 #include "host_tools/toolpath/toolpath_writer.hpp"
 
 #include <algorithm>
@@ -85,7 +85,7 @@ void ToolpathWriter::enter(const std::vector<Vec3d>& run, double stock_top, cons
     if (settings_.kind != EntryKind::kRamp) {
         line(MoveKind::kPlunge, {start.x, start.y, top});
         narrow_entries_ += helix(start, floor) ? 0 : 1;
-        // What the floor around keeps the helix from is left to a ramp.
+        // Where the floor leaves no room for a helix, a ramp is used.
         if (at_.z - start.z <= kShallow) {
             line(MoveKind::kPlunge, start);
             return;
@@ -100,7 +100,7 @@ void ToolpathWriter::enter(const std::vector<Vec3d>& run, double stock_top, cons
     line(MoveKind::kPlunge, start);
 }
 
-// Of the circles through the start, the one where the tip gets lowest.
+// Among the circles through the start, the one where the tip gets lowest.
 bool ToolpathWriter::helix(Vec3d start, const HelixFloor& floor)
 {
     constexpr int kSides = 16;

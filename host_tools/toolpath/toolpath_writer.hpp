@@ -7,8 +7,8 @@
 //     writer.line(MoveKind::kCut, run.back());
 //     writer.retract();                                // rapid up to z = 5
 //
-// All coordinates are of the tool's tip, in mm. What a strategy alone knows (where the floor is,
-// where stock is cut already) it hands in; where passes start and how they are linked it decides.
+// All coordinates are of the tool's tip, in mm. The strategy passes the heights of floor and stock,
+// and decides where passes start and how they are linked.
 #pragma once
 
 #include <functional>
@@ -72,9 +72,9 @@ public:
 
     int retracts() const { return retracts_; }
     int helices() const { return helices_; }
-    // Entries into stock that went straight down though they were to be a helix or a ramp.
+    // Number of entries that plunge straight though a helix or a ramp was asked for.
     int steep_plunges() const { return steep_plunges_; }
-    // Entries that were to be a helix where none has room.
+    // Number of entries without room for the helix that was asked for.
     int narrow_entries() const { return narrow_entries_; }
 
 private:

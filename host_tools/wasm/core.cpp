@@ -112,7 +112,7 @@ void take_figures(Run& run)
 
 }  // namespace
 
-// Room for a text of this size, which the caller fills: what the next call takes.
+// Allocates a text of this size, which the caller fills and the next call reads.
 CUSP_EXPORT(cusp_text) char* cusp_text(std::uint32_t size)
 {
     Run& run = the_run();
