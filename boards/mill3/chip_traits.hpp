@@ -1,6 +1,6 @@
 // ChipTraits: a mill controller with a chip of the STM32F4 family, made of the table of its board.
 //
-// A board's table, such as boards/skr2_f407/skr2_table.hpp, says:
+// A board's table, such as boards/skr2_f407/skr2_table.hpp, defines:
 //   kLines              pins of the step and direction lines, on up to three ports
 //   kPanelPins          pins of inputs, spindle, coolant and drives
 //   Pace                hal/stm32f4/pace.hpp: which timer asks for the pulses
@@ -9,7 +9,7 @@
 //   kBaud               of the line
 //   kMostStepsPerSecond of each axis while all three move: what the core has time for
 //
-// The traits type of a board says: which parts it is made of (Chip, PulsePlayer, ByteLink, Panel,
+// The traits type of a board defines its parts (Chip, PulsePlayer, ByteLink, Panel,
 // SettingsStore); start(board), called before the application exists; run(board, application), the
 // main loop; and stop(), the end after a fault.
 #pragma once
@@ -43,7 +43,7 @@ struct ChipTraits {
     static_assert(Table::kClocks.fast_bus_divisor == 1 || Table::kClocks.fast_bus_divisor == 2);
     static_assert(Table::kClocks.slow_bus_divisor == 2 || Table::kClocks.slow_bus_divisor == 4);
 
-    // What MillPanel asks.
+    // Members that MillPanel needs.
     static constexpr bool kSpindleTimer = true;
     static constexpr const PanelPins& kPanelPins = Table::kPanelPins;
     static constexpr std::uint32_t kSpindleTimerHz = Table::kClocks.slow_timer_hz();
@@ -83,7 +83,7 @@ struct ChipTraits {
         set_field(Chip::system().shpr3, 16, 8, kServoTickPriority);
     }
 
-    // After a fault: all that moves is switched off, then a fresh start that tells the reason.
+    // After a fault: switches off everything that moves, then restarts, which reports the reason.
     [[noreturn]] static void stop() noexcept
     {
         PulsePlayer::stop();
@@ -91,7 +91,7 @@ struct ChipTraits {
         hal::stm32f4::reset_chip<Chip>();
     }
 
-    // After each servo tick: what a reset from now on means for the position.
+    // After each servo tick: records whether a reset would lose the position.
     template <class Board>
     static void after_tick(const Board& board) noexcept
     {

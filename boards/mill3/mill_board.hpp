@@ -1,15 +1,15 @@
-// MillBoard: the 3-axis mill controller, put together of the parts that its traits name.
+// MillBoard: the 3-axis mill controller, composed of the parts that its traits name.
 #pragma once
 
 #include "hal/contract/board.hpp"
 
 namespace cusp::boards {
 
-// `Traits` is the one place where boards of this kind differ; boards/mill3/chip_traits.hpp says what
-// it holds.
+// Boards of this kind differ only in `Traits`; boards/mill3/chip_traits.hpp lists its
+// members.
 template <class Traits>
 struct MillBoard {
-    // Clocks and pins first: the application that is made next finds a board that works.
+    // Sets up clocks and pins before the application is constructed.
     MillBoard() noexcept { Traits::start(*this); }
     MillBoard(const MillBoard&) = delete;
     MillBoard& operator=(const MillBoard&) = delete;

@@ -1,4 +1,4 @@
-// MillImage: all objects of a mill controller's firmware, and how its interrupts reach them.
+// MillImage: all objects of a mill controller's firmware, and the entries of its interrupts.
 #pragma once
 
 #include <array>

@@ -154,7 +154,7 @@ private:
             spindle_compare().write(levels.spindle_on ? levels.spindle_pwm : 0U);
         }
     }
-    // The levels are there first: nothing starts by itself.
+    // Levels are set before the mode, so that no output is on in between.
     static void switch_outputs_on() noexcept
     {
         using namespace hal::stm32f4;

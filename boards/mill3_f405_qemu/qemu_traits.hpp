@@ -1,5 +1,5 @@
 // QemuTraits: the mill controller on QEMU's netduinoplus2 (an STM32F405 without its DMA, its
-// clocks, its flash controller and most of its timers): all that differs from the chip stands here.
+// clocks, its flash controller and most of its timers): all differences from the chip are here.
 //
 // Arguments (-semihosting-config arg=...): `program FILE`, `script FILE`, `trace FILE`, `real`.
 // With a program the run is that of the simulator: the main loop runs until nothing is left to do,
@@ -97,7 +97,7 @@ struct QemuTraits {
     static bool live() noexcept { return live_; }
     static constexpr unsigned player_interrupt() noexcept { return hal::stm32f4::kTimer2Interrupt; }
     static constexpr unsigned serial_interrupt() noexcept { return hal::stm32f4::kUsart1Interrupt; }
-    // QEMU's port sends without an interrupt: a place in the table that nothing raises.
+    // QEMU's port sends without an interrupt: an entry of the table that is never raised.
     static constexpr unsigned send_interrupt() noexcept { return hal::stm32f4::dma2_interrupt(7); }
 
 private:
@@ -122,7 +122,7 @@ private:
             }
             play_tick(board, application);
         }
-        // After an error what was taken already is still done.
+        // After an error, lines already taken are still executed.
         while (!machine.motion().settled() && !held(machine)) {
             settle(application);
             play_tick(board, application);

@@ -29,9 +29,9 @@ public:
     // The main loop until nothing more happens.
     void settle();
 
-    // settle(), then one servo tick of the firmware and of the world.
+    // settle(), then one servo tick of the firmware and of the simulated mill.
     void tick();
-    // The same by halves, for who looks in between.
+    // The two halves of tick(), for callers that act between them.
     void tick_firmware();
     void tick_world() { board_.advance(); }
 

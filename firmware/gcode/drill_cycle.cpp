@@ -6,8 +6,8 @@
 namespace cusp::gcode {
 namespace {
 
-// A rapid back into the hole ends this far above the metal that the last peck left (LinuxCNC's
-// 0.010 inch).
+// A rapid back into the hole ends this far above the depth of the last peck (LinuxCNC's 0.010
+// inch).
 constexpr std::int64_t kPeckClearanceNm = 254000;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// What the controller remembers from line to line: the modal state, and the offsets that turn
-// program coordinates into machine coordinates. Plain data; `$G` and `$#` read it.
+// The state kept from line to line: the modal state, and the offsets that turn program coordinates
+// into machine coordinates. Plain data; `$G` and `$#` read it.
 #pragma once
 
 #include <array>

@@ -40,8 +40,8 @@ Status read_tool_number(Command& command, char upper_case, std::uint8_t& tool) n
     return kDone;
 }
 
-// The length with which the tool, as it stands now, is at the Z of the line: in the system in force
-// with G92, or in G59.3 without.
+// The tool length with which the present tip is at the Z of the line: in the system in force with
+// G92, or in G59.3 without.
 std::int64_t length_from_here(const LineContext& line, G10Value how, std::int64_t z) noexcept
 {
     constexpr std::size_t kSetter = kCoordinateSystems - 1;

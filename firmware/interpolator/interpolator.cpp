@@ -135,7 +135,7 @@ bool Interpolator::find_stop(std::uint32_t& block) const noexcept
     return false;
 }
 
-// The path goes on behind a stop: the other track follows it.
+// The path continues after a stop: the other track follows it.
 void Interpolator::change_track() noexcept
 {
     std::uint32_t next = leading_->block;

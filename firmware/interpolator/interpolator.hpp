@@ -31,7 +31,7 @@ public:
     // Whether nothing moves: all filters are empty.
     bool at_rest() const noexcept { return at_rest_; }
 
-    // Feed hold: slows down on the path and stays. at_rest() tells when it is complete.
+    // Feed hold: slows down on the path to a stop; at_rest() is true when it is complete.
     void hold() noexcept { holding_ = true; }
     void resume() noexcept { holding_ = false; }
     bool holding() const noexcept { return holding_; }

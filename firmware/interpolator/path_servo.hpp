@@ -21,8 +21,8 @@ public:
 
     struct Conditions {
         OverrideFactors factors;  // of squared speeds, by the overrides; {0, 0} holds
-        // Whether a stop that it stands at may be left: the filters are empty, but for what the
-        // stop lets overlap.
+        // Whether the present stop may be left: the filters are empty, but for the overlap that
+        // the stop allows.
         bool may_pass;
         // Whether it may slow down: not while a stretch before the stop still drains.
         bool may_brake;

@@ -1,12 +1,12 @@
 // Homing: finds the switch of each axis and makes its place known.
 //
 // Each axis in turn, Z first: seek the switch fast, pull off, find it again slowly, pull off. The
-// machine then stands $27 inside its travel.
+// machine is then $27 inside its travel.
 //
-// An axis with two motors and two switches is squared on the way: both motors go until the first
-// switch closes slowly; the other motor goes on alone to its own, and then to where it is as far
-// beyond its switch as the first ($170 to $172 more or less). Both pull off together, so the axis
-// stays square. The skew that may be found so is bounded by $347 to $349.
+// An axis with two motors and two switches is squared during the slow search: both motors run until
+// the first switch closes. The other motor continues alone to its switch, then until it is as far
+// beyond it as the first ($170 to $172 are added). Both pull off together, so the axis stays square.
+// $347 to $349 bound the skew.
 #pragma once
 
 #include <cstdint>
@@ -65,8 +65,8 @@ private:
     bool resting_{false};
     std::uint32_t rest_until_{0};
     std::int64_t contact_{0};
-    // Of squaring: the motor whose switch closes later, where it does so if that is known, and where
-    // the other one stands.
+    // Squaring: the motor whose switch closes later, the position of that switch if it is known, and
+    // the position of the other motor.
     Motors lagging_{Motors::kBoth};
     std::optional<std::int64_t> later_contact_;
     std::int64_t stands_at_{0};

@@ -181,7 +181,7 @@ void Machine::follow_door() noexcept
     }
 }
 
-// Everything that was under way is forgotten; the machine stands where it is.
+// Discards all moves and lines in progress; the machine stays at its position.
 void Machine::drop_all() noexcept
 {
     motion_.abandon();
@@ -286,7 +286,7 @@ void Machine::say_hello() noexcept
     startup_next_ = 0;
 }
 
-// The interpreter goes on from where the machine really is.
+// The interpreter continues from the machine's true position.
 void Machine::resynchronise() noexcept
 {
     interpreter_.discard();
@@ -295,8 +295,8 @@ void Machine::resynchronise() noexcept
 
 OutputLevels Machine::outputs() const noexcept
 {
-    // $1: the drives stay on that long after the last step; 255 is for ever. Before the first move
-    // they are off unless it is for ever.
+    // $1: ms that the drives stay on after the last step; 255: always. Before the first move they
+    // are off unless it is 255.
     constexpr std::uint32_t kAlwaysOn = 255;
     const std::uint32_t idle_lock = stored_.settings.whole(Setting::kIdleLock);
     const bool still = motion_.settled() && motion_.ticks() - still_since_ >= idle_lock;

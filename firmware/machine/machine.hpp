@@ -44,7 +44,7 @@ public:
     // What the store keeps. Fill it before start(), write it when wants_store().
     StoredState& stored() noexcept { return stored_; }
 
-    // Says hello and runs the startup lines. `loaded` tells what the store came to.
+    // Sends the banner and runs the startup lines. `loaded` is the state of the store.
     void start(LogState loaded) noexcept;
 
     // A byte from the sender.

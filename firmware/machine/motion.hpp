@@ -1,7 +1,7 @@
 // Motion: planner, interpolator and pulses as one thing that takes moves and makes frames.
 //
-// The servo tick may interrupt the main loop at any place, never the other way round. What the main
-// loop must not be caught at, it does behind a gate: while the gate is shut a tick stands still.
+// The servo tick may interrupt the main loop at any instruction, never the other way round. A gate
+// protects critical sections of the main loop: while it is shut, ticks advance nothing.
 #pragma once
 
 #include <array>
@@ -63,10 +63,10 @@ public:
     void resume() noexcept;
     void set_overrides(unsigned feed_percent, unsigned rapid_percent) noexcept;
 
-    // Forgets all moves and stands where the last set point is: after a hold, or at once where
-    // something has gone wrong.
+    // Discards all moves and stays at the last set point: after a hold, or at once after a
+    // fault.
     void abandon() noexcept;
-    // The machine stands at this place from now on. Precondition: settled().
+    // Sets the machine's position without motion. Precondition: settled().
     void relocate(Position at) noexcept;
     // Precondition: settled().
     void configure(const Settings& settings) noexcept;
@@ -82,12 +82,12 @@ public:
     std::optional<Position> contact() const noexcept;
     // Which of the watched inputs answered then.
     std::uint16_t contact_inputs() const noexcept { return contact_inputs_; }
-    // Where the machine was when another of them answered, until it stood.
+    // The position at which another of them answered before the machine came to rest.
     std::optional<Position> later_contact() const noexcept;
 
     // While on, any limit switch stops everything within the tick.
     void guard_limits(bool on) noexcept { guarding_.store(on, std::memory_order_relaxed); }
-    // Whether that happened; motion stands still until abandon().
+    // Whether that happened; there is no motion until abandon().
     bool limit_hit() const noexcept { return limit_hit_.load(std::memory_order_acquire); }
 
     const InputFilter& inputs() const noexcept { return inputs_; }

@@ -14,7 +14,7 @@ namespace cusp::machine {
 
 // $341, grblHAL's numbers.
 enum class ToolChangeMode : std::uint8_t {
-    kPause,     // a pause where the machine stands
+    kPause,     // a pause at the present position
     kAtTop,     // changed at the top of Z
     kAtPlace,   // changed at G59.3
     kTouchOff,  // changed over G59.3, touched off there

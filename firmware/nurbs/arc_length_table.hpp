@@ -36,8 +36,8 @@ inline constexpr float kMaxSpeedError = 1e-4F;
 
 // Fills the table: nodes where |dP/ds| - 1 stays below kMaxSpeedError between them.
 //
-// Returns false where kMaxArcLengthNodes do not suffice, or where the curve stands still; never for
-// a piece out of PieceStream, which splits until they do. Context: main loop.
+// Returns false where kMaxArcLengthNodes do not suffice, or where dP/du vanishes; never for a piece
+// out of PieceStream, which splits until they do. Context: main loop.
 bool make_arc_length_table(const path::BezierPiece& piece, ArcLengthTable& table) noexcept;
 
 // The parameter at arc length s, clamped to the piece.
@@ -61,8 +61,8 @@ struct CurveState {
     float ddu;        // d2u/ds2, 1/mm^2
 };
 
-// At parameter u in [0, 1]. Where the curve stands still (|dP/du| below 1e-12 mm) all derivatives
-// are zero. Relative accuracy about 1e-5 of the derivatives by u. Context: main loop.
+// At parameter u in [0, 1]. Where |dP/du| is below 1e-12 mm all derivatives are zero. Relative
+// accuracy about 1e-5 of the derivatives by u. Context: main loop.
 CurveState state_at(const path::BezierPiece& piece, float u) noexcept;
 
 }  // namespace cusp::nurbs

@@ -1,5 +1,5 @@
 // Spans to Bezier pieces by blossoming (Ramshaw 1987): control point k of the span [a, b] is the
-// polar form at (a, ..., a, b, ..., b) with b standing k times.
+// polar form at (a, ..., a, b, ..., b) with k times b.
 #include "firmware/nurbs/piece_stream.hpp"
 
 #include <algorithm>

@@ -36,8 +36,8 @@ struct Piece {
 // No piece is longer than this, mm, so that float resolves half a nanometre along it.
 inline constexpr double kMaxPieceLength = 8.0;
 
-// A piece shorter than this, mm, is replaced by its chord where the curve has a cusp or stands
-// still, so the path is off by at most half of it.
+// A piece shorter than this, mm, is replaced by its chord where the curve has a cusp or dP/du
+// vanishes, so the path is off by at most half of it.
 inline constexpr double kMaxChordLength = 0.001;
 
 enum class KnotSource : std::uint8_t {

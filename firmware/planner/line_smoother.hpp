@@ -24,7 +24,7 @@ public:
     // Whether the move may be part of a run: a short feed line with a tolerance.
     static bool accepts(const path::Move& move) noexcept;
 
-    // Whether the move goes on with the run: same feed and tolerance, no corner. An empty run takes
+    // Whether the move continues the run: same feed and tolerance, no corner. An empty run takes
     // any.
     bool continues(const path::Move& move) const noexcept;
 

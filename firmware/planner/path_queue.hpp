@@ -35,7 +35,7 @@ struct Interval {
         Allowance allowance;  // until published
         Envelope envelope;    // from then on
     };
-    bool stop_at_end;      // the path filter drains there before the path goes on,
+    bool stop_at_end;      // the path filter drains there before the path continues,
     std::uint8_t overlap;  // but for so many ticks
     bool rapid;
     bool origin_is_rapid;

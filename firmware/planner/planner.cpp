@@ -14,8 +14,8 @@ namespace {
 constexpr float kCornerTurn = 0.00872665F;
 // Slower than this, passing a junction takes longer than stopping at it.
 constexpr float kLeastJunctionSpeed = 1.5F;  // mm/s
-// What a junction may take of the axes' acceleration and jerk; the rest is for the curves around
-// it. Near a junction that stands alone speed hardly changes; in dense runs it must.
+// Share of the axes' acceleration and jerk for a junction; the rest is for the curves around it.
+// Near a single junction the speed hardly changes; in dense runs it must.
 constexpr float kLoneJunctionShare = 0.98F;
 constexpr float kDenseJunctionShare = 0.8F;
 // A stretch that is passed in less time, s, gains nothing by limits of its own.

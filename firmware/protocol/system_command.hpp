@@ -36,7 +36,7 @@ struct SystemCommand {
     std::uint32_t number{0};  // of a setting or startup line
     float value{0};           // kSetSetting
     AxisMask axes;            // kHome: empty for the whole cycle
-    std::string_view text;    // kJog, kSetStartupLine, kSetBuildInfo: what stands after the '='
+    std::string_view text;    // kJog, kSetStartupLine, kSetBuildInfo: the text after the '='
 };
 
 // Reads a line that begins with '$', clean as LineAssembler leaves it. The text of the result is a

@@ -1,5 +1,5 @@
-// What the library calls where a promise of its own is broken: the same as a broken promise of
-// ours.
+// Called by the standard library where one of its preconditions is violated: a fault, as for our
+// own.
 #include "firmware/base/assert.hpp"
 
 extern "C" {
@@ -9,7 +9,7 @@ int __aeabi_atexit(void* object, void (*destroy)(void*), void* dso);
 void* __dso_handle = nullptr;
 }
 
-// Out of the library's headers: a view asked for a part that begins beyond its end.
+// Called by the library's headers: a substr() of a view begins beyond its end.
 namespace std {
 [[noreturn]] void __throw_out_of_range_fmt(const char*, ...);
 void __throw_out_of_range_fmt(const char* /*format*/, ...) { abort(); }

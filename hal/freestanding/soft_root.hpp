@@ -5,9 +5,9 @@
 
 namespace cusp::hal {
 
-// The square root of a double given by its bits, rounded to nearest, ties to even: as IEEE 754
-// asks. Negative numbers and NaN give NaN; zeros and infinity themselves. Accuracy: bit for bit the
-// host's std::sqrt, held by soft_root_test. Cost: 54 rounds.
+// The square root of a double given by its bits, rounded to nearest, ties to even, as in IEEE 754.
+// Negative numbers and NaN give NaN; zeros and infinity give themselves. Accuracy: equal to the
+// host's std::sqrt in every bit (soft_root_test). Cost: 54 rounds.
 constexpr std::uint64_t square_root_bits(std::uint64_t bits) noexcept
 {
     constexpr std::uint64_t kInfinity = 0x7FF0000000000000U;

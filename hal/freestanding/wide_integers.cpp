@@ -1,5 +1,5 @@
-// From float to 64-bit integers, without the way through double that the compiler's own runtime
-// takes: the servo tick converts, and may not touch doubles.
+// From float to 64-bit integers without double, which the compiler's own runtime uses: the servo
+// tick converts, and must not use doubles.
 #include <cstdint>
 
 namespace {

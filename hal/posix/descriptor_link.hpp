@@ -12,8 +12,8 @@
 namespace cusp::hal {
 
 // The contract's ByteLink over a descriptor, which it makes non-blocking. Without a descriptor, or
-// once the other end is gone, nothing is read and what is written is dropped, as on a wire that
-// nobody holds.
+// once the other end is gone, nothing is read and written bytes are dropped, as on an open
+// line.
 class DescriptorLink {
 public:
     DescriptorLink() = default;
@@ -24,7 +24,7 @@ public:
     std::uint32_t write_room() const noexcept;
     void write(Span<const std::uint8_t> bytes) noexcept;
 
-    // Passes on what the kernel did not take at once. write() does so as well.
+    // Sends the bytes that the kernel did not take at once. write() does so as well.
     void flush() noexcept;
 
     // The other end hung up since the last connect(): for a socket or a file this is final.

@@ -184,8 +184,8 @@ Descriptor connect_tcp(const TcpAddress& address)
 
 namespace {
 
-// A pseudo-terminal keeps TIOCEXCL after its close, as long as its other end is open: nobody but
-// root could open it a second time.
+// A pseudo-terminal keeps TIOCEXCL after its close, as long as its other end is open: only root
+// could open it a second time.
 bool is_pseudo_terminal(int terminal)
 {
     constexpr unsigned kFirstMajor = 136;

@@ -1,5 +1,5 @@
-// Where lines come from: pseudo-terminals, TCP sockets, and a terminal or socket somebody else
-// made.
+// Opens serial lines: new pseudo-terminals, TCP sockets, existing terminals and
+// sockets.
 //
 // Errors are std::system_error whose text names the place.
 #pragma once
@@ -25,7 +25,7 @@ public:
 
     // A descriptor of the controller's end.
     Descriptor open_controller_end() const;
-    // Whether somebody has the other end open.
+    // Whether any process has the other end open.
     bool has_peer() const noexcept;
     const std::string& name() const noexcept { return name_; }
 
@@ -51,7 +51,7 @@ public:
     // The next sender, or a closed descriptor where none waits. Does not block.
     Descriptor accept_waiting() const;
     int descriptor() const noexcept { return socket_.number(); }
-    // The port in use: of interest where 0 was asked for.
+    // The port in use; the system chooses it where 0 was requested.
     std::uint16_t port() const;
 
 private:

@@ -1,10 +1,10 @@
 // EdgePlayer: plays pulse frames edge by edge from an interrupt, for QEMU, which models no DMA.
 //
 // Each interrupt writes one edge to the port's set/reset register, as the DMA of the real board
-// would, and notes its tick and the levels of the six lines in the trace. Two paces:
-//   stretched  the interrupt asks for the next one itself: the run takes the time it takes, the
-//              trace tells the ticks; a frame that is missing is waited for
-//   real       timer 2 makes each edge due at its tick; a frame that is missing is an underrun
+// would, and records its tick and the levels of the six lines in the trace. Two paces:
+//   stretched  each interrupt requests the next one: run time is not real time, ticks are in the
+//              trace; the player waits for a missing frame
+//   real       timer 2 makes each edge due at its tick; a missing frame is an underrun
 #pragma once
 
 #include <array>

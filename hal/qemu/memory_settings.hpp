@@ -1,4 +1,4 @@
-// MemorySettings: the settings store in memory, for a machine that forgets when it stops.
+// MemorySettings: the settings store in memory, lost when the program ends.
 #pragma once
 
 #include <array>
@@ -41,7 +41,7 @@ public:
     }
 
 private:
-    // The chip's have 16 KB; a few records show the same.
+    // The chip's have 16 KB; room for a few records suffices for tests.
     static constexpr std::uint32_t kSectorSize = 4096;
     static constexpr std::uint8_t kErased = 0xFF;
 

@@ -1,5 +1,5 @@
-// ProgramLink: a byte link whose far end is a program in a file, sent as a sender would: a line
-// goes out when the line before it is answered; realtime bytes go out at their servo ticks.
+// ProgramLink: a byte link whose far end sends a program from a file: each line after the answer to
+// the one before, realtime bytes at their servo ticks.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ namespace cusp::hal::qemu {
 // firmware before the servo tick of that number, counted from 0.
 class ProgramLink {
 public:
-    // `script` may be empty: then there is none.
+    // `script`  may be empty: no script
     void open(const char* program, const char* script) noexcept
     {
         program_.open(program);
@@ -44,9 +44,9 @@ public:
     // A line was answered by an error, an alarm was raised or the controller was reset: the run is
     // over.
     bool refused() const noexcept { return refused_; }
-    // Whether the script has bytes that are still to come.
+    // Whether bytes of the script are still to be sent.
     bool script_waits() const noexcept { return script_waits_; }
-    // Sends a byte of its own, ahead of the program; no line is begun until the next tick.
+    // Sends a byte ahead of the program; no line is begun until the next tick.
     void send(char byte) noexcept
     {
         own_ = static_cast<std::uint8_t>(byte);
@@ -198,10 +198,10 @@ inline void ProgramLink::take_answer() noexcept
     if ((answer == "ok" || error) && unanswered_ > 0) {
         --unanswered_;
     }
-    // A banner amid the program: the controller was reset, and what it had is gone.
+    // A banner amid the program: the controller was reset and has lost its lines.
     const bool reset = tick_ > 0 && answer.substr(0, 5) == "Grbl ";
     refused_ = refused_ || error || reset || answer.substr(0, 6) == "ALARM:";
-    // What follows M2 or M30 is not sent.
+    // Lines after M2 or M30 are not sent.
     ended_ = ended_ || answer == "[MSG:Pgm End]";
 }
 

@@ -1,4 +1,4 @@
-// RunArguments: what a run under QEMU was asked for on its command line.
+// RunArguments: the command line of a run under QEMU.
 #pragma once
 
 #include <array>
@@ -38,7 +38,7 @@ public:
     bool real_pace() const noexcept { return real_pace_; }
 
 private:
-    // Ends the word that begins here; returns where the next one does.
+    // Ends the word that begins here; returns the start of the next one.
     static char* cut_word(char* word) noexcept
     {
         while (*word != '\0' && *word != ' ') {

@@ -1,5 +1,5 @@
-// What a program under QEMU may ask of the host: files, its arguments, an end (Arm
-// semihosting 3.0).
+// Services of the host for a program under QEMU: files, arguments, exit (Arm semihosting
+// 3.0).
 #pragma once
 
 #include <array>
@@ -67,7 +67,7 @@ private:
     std::int32_t number_{-1};
 };
 
-// The terminal, with as much of a byte link as a report needs.
+// The terminal, with the members of a byte link that a report needs.
 struct Console {
     static std::uint32_t write_room() noexcept { return 1; }
     void write(Span<const std::uint8_t> bytes) const noexcept { file.write(bytes); }

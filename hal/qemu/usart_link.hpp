@@ -1,5 +1,5 @@
-// UsartLink: the serial line through USART1 as QEMU has it: a ring and an interrupt for what comes,
-// and no interrupt for what goes. The chip's line is stm32f4::DmaLink.
+// UsartLink: the serial line through USART1 as QEMU models it: a ring and an interrupt for received
+// bytes, polling for sent ones. On the chip stm32f4::DmaLink is used.
 #pragma once
 
 #include <atomic>

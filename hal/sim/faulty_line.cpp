@@ -39,8 +39,8 @@ std::string FaultyLine::take()
 
 void FaultyLine::advance() { ++now_; }
 
-// Takes a random number only where the fault can happen, so that adding one kind leaves the others
-// where they were.
+// Draws a random number only where the fault can happen, so that adding one kind of fault does not
+// move the others.
 bool FaultyLine::happens(double probability)
 {
     if (probability <= 0.0) {

@@ -10,7 +10,7 @@
 
 namespace cusp::hal {
 
-// The contract's ByteLink; what follows it belongs to the simulation.
+// The contract's ByteLink; members after it belong to the simulation.
 class SimulatedLink {
 public:
     bool try_read(std::uint8_t& byte) noexcept;
@@ -22,7 +22,7 @@ public:
     // passes.
     void send(std::string_view bytes);
 
-    // Takes what the controller has said since the last call.
+    // Takes the controller's output since the last call.
     std::string take_answers();
 
     // Ten bits a byte, both ways; 0: no time at all.
@@ -31,11 +31,11 @@ public:
     // One servo tick of virtual time passes on the line.
     void advance() noexcept;
 
-    // Forgets every byte on its way, both ways: the plug is pulled or the power fails.
+    // Discards all bytes in transit, both ways: the plug is pulled or the power fails.
     void clear() noexcept;
 
     std::size_t unread() const noexcept { return incoming_.size(); }
-    // No byte is on its way, in either direction.
+    // No byte is in transit, in either direction.
     bool idle() const noexcept { return incoming_.empty() && outgoing_.empty(); }
 
     // Fault injection: received bytes were lost in the controller's port.

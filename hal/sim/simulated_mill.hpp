@@ -1,5 +1,5 @@
 // SimulatedMill: the axes of the virtual machine tool: slides that follow the pulses, limit
-// switches at both ends of each travel, a probe plate, buttons, and a spindle that only remembers.
+// switches at both ends of each travel, a probe plate, buttons, and the spindle's state.
 //
 // Positions are those of the slides, in millimetres from the upper end of each travel, like Grbl's
 // machine space: the table is free to move from -travel to 0. The controller's position may differ;
@@ -29,8 +29,8 @@ struct MillGeometry {
     std::uint8_t inverted_directions{0};
     // The axis with a second motor; its switch is read as kSecondLimit.
     std::optional<unsigned> second_motor;
-    double second_ahead{0.0};  // how far it stands further towards plus at the start, mm
-    // How far its switches lie further towards plus than those of the first, mm; none: it has none.
+    double second_ahead{0.0};  // its lead towards plus at the start, mm
+    // Lead of its switches towards plus over those of the first motor, mm; none: it has none.
     std::optional<double> second_switch{0.0};
 };
 
@@ -54,7 +54,7 @@ public:
     const PerAxis<std::uint64_t>& steps_taken() const noexcept { return steps_taken_; }
     const PerAxis<std::int64_t>& steps() const noexcept { return steps_; }
     const OutputLevels& outputs() const noexcept { return outputs_; }
-    // Counts the calls of set() that changed something.
+    // Number of calls of set() that changed a level.
     std::uint32_t output_changes() const noexcept { return output_changes_; }
 
     // Fault injection, or a person at the panel: bits of InputBit that read high, or low, whatever

@@ -14,7 +14,7 @@
 
 namespace cusp::hal {
 
-// Learns of frames when they are over.
+// Receives each frame when it is over.
 class FrameListener {
 public:
     FrameListener() = default;
@@ -32,7 +32,7 @@ public:
     bool try_play(const PulseFrame& frame) noexcept;
     bool underrun() const noexcept { return underrun_; }
     void clear_underrun() noexcept { underrun_ = false; }
-    // Listeners learn of lines, not of pins.
+    // Listeners receive lines, not pins.
     void invert(PulseLines lines) noexcept { inverted_ = lines; }
     PulseLines inverted() const noexcept { return inverted_; }
 
@@ -49,7 +49,7 @@ public:
     // Levels after the last frame that is over.
     PulseLines levels() const noexcept { return levels_; }
 
-    // The power fails: frames in flight are lost and all lines fall. Time goes on with the next
+    // The power fails: frames in flight are lost and all lines fall. Time continues with the next
     // frame.
     void power_off();
 

@@ -1,5 +1,5 @@
-// SimulatedStore: two sectors of flash in memory, kept in a file if wanted, with power cuts on
-// demand.
+// SimulatedStore: two sectors of flash in memory, optionally kept in a file, with simulated power
+// cuts.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace cusp::hal {
 
-// The contract's SettingsStore; what follows it belongs to the simulation.
+// The contract's SettingsStore; members after it belong to the simulation.
 class SimulatedStore {
 public:
     static constexpr std::uint32_t kSectorSize = 16 * 1024;
@@ -25,14 +25,14 @@ public:
     bool write(unsigned sector, std::uint32_t offset, Span<const std::uint8_t> bytes) noexcept;
     bool erase(unsigned sector) noexcept;
 
-    // Keeps the sectors in this file from now on; what it holds already is loaded. A file of
+    // Loads the sectors from this file, if it exists, and keeps them in it from now on. A file of
     // another size is refused.
     //
     // Returns false where the file can't be read or written.
     bool keep_in(const std::string& file);
 
     // Fault injection: after this many more words (an erased sector counts as one) the power fails;
-    // nothing is written from then on, and every write says so. None: never.
+    // from then on every write fails. None: never.
     void cut_power_after(std::optional<std::uint64_t> words) noexcept { words_left_ = words; }
     bool power_is_cut() const noexcept { return words_left_ && *words_left_ == 0; }
     // Words written and sectors erased so far.

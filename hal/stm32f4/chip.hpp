@@ -12,8 +12,8 @@ Block& block_at(std::uintptr_t address) noexcept
     return *reinterpret_cast<Block*>(address);
 }
 
-// The chip as the drivers of this folder see it: a type with one function a block. Tests hand them
-// one that yields models instead.
+// The chip as the drivers of this folder see it: a type with one function a block. Tests pass a type
+// whose functions return models.
 struct Chip {
     using Word = DeviceWord;
 
@@ -46,7 +46,7 @@ struct Chip {
         return block_at<SystemControl<Word>>(0xE000ED00);
     }
 
-    // What a word of memory is called on the bus: DMA and flash see the same addresses as the core.
+    // The bus address of a word of memory: DMA and flash use the same addresses as the core.
     static std::uint32_t bus_address(const volatile void* memory) noexcept
     {
         return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(memory));

@@ -7,7 +7,7 @@
 
 namespace cusp::hal::stm32f4 {
 
-// What a chip of the family is to run at. The crystal is divided to 1 MHz, multiplied and halved.
+// The clock rates of a chip of the family. The crystal is divided to 1 MHz, multiplied and halved.
 struct ClockPlan {
     std::uint32_t crystal_hz;        // a whole number of MHz
     std::uint32_t core_hz;           // a whole number of MHz, 50 to 216
@@ -36,7 +36,7 @@ enum class ClockSource : std::uint8_t {
 
 namespace detail {
 
-// Every wait for the chip ends: a register that never changes is an answer too.
+// Every wait for the chip is bounded: a register that never changes counts as a failure.
 inline constexpr std::uint32_t kReadyRounds = 200000;
 
 template <class Word>
@@ -50,8 +50,8 @@ bool wait_for(Word& word, std::uint32_t mask, std::uint32_t value) noexcept
     return false;
 }
 
-// Whether the crystal that runs is the planned one, within what the chip's own oscillator is good
-// for. The core and timer 11 run from that oscillator, 16 MHz; timer 11 captures each eighth edge of
+// Whether the running crystal is the planned one, within the accuracy of the chip's own oscillator.
+// The core and timer 11 run from that oscillator, 16 MHz; timer 11 captures each eighth edge of
 // the crystal divided by 31 (RTCPRE). RM0090 sections 7.2.10 and 19.5.11.
 template <class Chip>
 bool crystal_is(std::uint32_t hz) noexcept

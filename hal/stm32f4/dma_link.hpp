@@ -1,5 +1,5 @@
-// DmaLink: the serial line through a USART, both ways by DMA: while the core stands still, as it does
-// when the flash is erased, bytes still come in.
+// DmaLink: the serial line through a USART, both ways by DMA: bytes are received even while the core
+// is stalled, as during an erase of the flash.
 //
 // Received bytes go round in a ring that one stream fills; what is sent leaves a ring through
 // another, a piece at a time. The port's receive interrupt only wakes the core: the byte is the
@@ -34,8 +34,8 @@ public:
     void on_interrupt() noexcept;
 
 private:
-    // More than a sender may have under way (1024 bytes, as `$I` says) and its questions while a
-    // sector is erased.
+    // More than a sender may have in transit (1024 bytes, as `$I` reports) plus its status queries
+    // while a sector is erased.
     static constexpr std::uint32_t kReceiveSize = 2048;
     static constexpr std::uint32_t kSendSize = 512;
 
@@ -54,7 +54,7 @@ private:
     static constexpr std::uint32_t kReceiveFlags = kStreamAllFlags << kReceivePlace;
     static constexpr std::uint32_t kSendFlags = kStreamAllFlags << kSendPlace;
     static constexpr std::uint32_t kSendEnd = kStreamComplete << kSendPlace;
-    // Bytes, memory goes on; the port's streams are less urgent than the pulses'.
+    // Bytes, memory increments; the port's streams have a lower priority than the pulses'.
     static constexpr std::uint32_t kBytes = 4U << 25U | 1U << 16U | 1U << 10U;
     static constexpr std::uint32_t kReceiveSettings = kBytes | 1U << 8U;
     static constexpr std::uint32_t kSendSettings = kBytes | 1U << 6U | 1U << 4U;
@@ -113,8 +113,8 @@ bool DmaLink<Chip, Port>::try_read(std::uint8_t& byte) noexcept
     return true;
 }
 
-// Called before each reading. The stream passes its middle and its end: where it has passed both and
-// stands less than half a ring further, it went all the way round.
+// Called before each reading. The stream passes its middle and its end: if it has passed both and is
+// less than half a ring further, it has overrun the ring.
 template <class Chip, class Port>
 bool DmaLink<Chip, Port>::overrun() noexcept
 {
@@ -123,7 +123,7 @@ bool DmaLink<Chip, Port>::overrun() noexcept
     stream_flag_clear(Port::dma(), Port::kReceiveStream).write(raised & kReceiveFlags);
     const std::uint32_t came = (now + kReceiveSize - seen_) % kReceiveSize;
     const bool both = (raised & kReceiveHalf) != 0 && (raised & kReceiveEnd) != 0;
-    // A flag may have been raised just after it was read here: it is the next call's.
+    // A flag raised just after this reading counts for the next call.
     constexpr std::uint32_t kLate = 64;
     const bool lapped = unread_ + came >= kReceiveSize || (both && came + kLate < kReceiveSize / 2);
     seen_ = now;
@@ -145,7 +145,7 @@ void DmaLink<Chip, Port>::write(Span<const std::uint8_t> bytes) noexcept
         ++send_head_;
     }
     std::atomic_thread_fence(std::memory_order_release);
-    // The interrupt, which may come now, goes on with what is there.
+    // If the interrupt comes now, it sends the remaining bytes.
     if (piece_.load(std::memory_order_acquire) == 0) {
         send_piece();
     }

@@ -1,18 +1,18 @@
 // DmaPulsePlayer: plays pulse frames by DMA, so that no interrupt makes a step.
 //
-// A timer asks DMA2 for one word a port each microsecond; a stream takes it from a ring of two
+// A timer requests one word a port from DMA2 each microsecond; a stream takes it from a ring of two
 // halves, a frame each, and writes it to the port's set/reset register: bits 0 to 15 raise pins, bits
 // 16 to 31 lower them, 0 changes nothing. While one half plays, the servo tick fills the other. The
-// lines may lie on up to three ports: one ring and one stream each, all asked by one event of the
+// lines may lie on up to three ports: one ring and one stream each, all requested by one event of the
 // timer. Their words of a microsecond follow each other within some 20 bus cycles.
 //
-// At each change of half the interrupt erases the half that has just played, so that no word is
-// ever played twice: a frame that comes late finds silence, never yesterday's steps. If motion went
-// on and the next frame is not there, the stream is stopped with the steps low: an underrun.
+// At each change of half the interrupt clears the half that has just played, so no word is played
+// twice: where a frame is late, no steps are played. If the next frame is missing during motion, the
+// stream is stopped with the steps low: an underrun.
 //
-// The pace needs the core: timer 2, a single pulse that the interrupt begins anew, gates it. Where
-// the interrupt stays away (a core that is held, locked up or busy with faults) the stream ends
-// kGateMargin after the half that plays, before a word of the next is played twice.
+// Timer 2 gates the requests: a single pulse that the interrupt restarts. If the interrupt does not
+// come (the core is halted, locked up or handles faults) the stream ends kGateMargin after the half
+// that plays, before a word of the next is played twice.
 //
 // Never tried on silicon. tests/unit/hal_stm32f4 runs it against a model of timer, stream and port.
 #pragma once
@@ -90,8 +90,8 @@ private:
     static constexpr std::uint32_t kStreamSettings = 3U << 16U    // most urgent stream
                                                      | 2U << 13U  // words from memory
                                                      | 2U << 11U  // words to the port
-                                                     | 1U << 10U  // memory address goes on
-                                                     | 1U << 8U   // round and round
+                                                     | 1U << 10U  // memory address increments
+                                                     | 1U << 8U   // circular
                                                      | 1U << 6U;  // memory to peripheral
     static constexpr std::uint32_t kTimerEnable = 1U << 0U;
     static constexpr std::uint32_t kOnePulse = 1U << 3U;
@@ -99,7 +99,7 @@ private:
     static constexpr std::uint32_t kGatedByTimer2 = 1U << 4U | 5U;  // ITR1 is timer 2
     // The latest that the interrupt may come in motion, us after the change of half.
     static constexpr std::uint32_t kGateMargin = 20;
-    // Which half plays is not known: both flags were up.
+    // The half that plays is unknown: both flags were set.
     static constexpr unsigned kUnknown = 2;
     static constexpr std::uint32_t kAllRequestsAtUpdate = 1U << 3U;  // CCDS
     // A stream that is switched off finishes its word first: some 20 bus cycles.
@@ -152,7 +152,7 @@ private:
         }
     }
     static bool in_step() noexcept;
-    // Words that are left of the half that plays; 0 where its end has come.
+    // Words left of the half that plays; 0 at its end.
     static std::uint32_t words_left(unsigned playing) noexcept;
     static void begin_gate() noexcept;
     static bool gate_ended() noexcept { return (Chip::timer2().cr1.read() & kTimerEnable) == 0; }
@@ -267,8 +267,8 @@ void DmaPulsePlayer<Chip, Table, Pace>::stop() noexcept
     set_lines(pin_levels(0, kStepLines & Ports::kAllLines, inverted_), EachPort{});
 }
 
-// Whether the streams of further ports stand where the first one's does. One that has met an error
-// of the bus stands still, one that has missed a request is late.
+// Whether the streams of further ports are at the same word as the first one. After a bus error a
+// stream stops; after a missed request it is late.
 template <class Chip, class Table, class Pace>
 bool DmaPulsePlayer<Chip, Table, Pace>::in_step() noexcept
 {

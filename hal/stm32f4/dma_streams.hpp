@@ -1,4 +1,4 @@
-// Streams of a DMA controller: where the flags of each stand (RM0090 sections 10.5.1 to 10.5.4).
+// Streams of a DMA controller: positions of their flags (RM0090 sections 10.5.1 to 10.5.4).
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Where every fault ends: the reason is kept over the reset that follows, the board stops the iron.
+// The end of every fault: its reason is kept over the reset that follows, and the board stops motion.
 #include "hal/stm32f4/fault_record.hpp"
 #include "hal/stm32f4/vectors.hpp"
 

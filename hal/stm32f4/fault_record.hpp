@@ -1,4 +1,4 @@
-// FaultRecord: why the firmware stopped last time, in memory that a reset leaves alone.
+// FaultRecord: the reason of the last stop of the firmware, in memory that a reset keeps.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 namespace cusp::hal::stm32f4 {
 
 struct FaultRecord {
-    // Says that what follows was written by fault() and is not what the memory came up with.
+    // Marks a record written by fault(), as opposed to the memory's content at power-up.
     static constexpr std::uint32_t kWritten = 0x46415544;
 
     std::uint32_t mark;
@@ -21,7 +21,7 @@ struct FaultRecord {
     std::uint32_t fault_status;  // CFSR, PM0214 section 4.4.10
 };
 
-// What outlives a reset beside it: whether something moved, and why the last reset came.
+// Kept over a reset besides it: whether the machine moved, and the reason of the last reset.
 struct ResetRecord {
     static constexpr std::uint32_t kMoving = 0x4D4F5645;
 
@@ -33,7 +33,7 @@ extern ResetRecord last_reset;
 // The record that the last fault has left; its mark is kWritten if there was one.
 extern FaultRecord last_fault;
 
-// A fault of the core or an interrupt that nobody expects: records it and ends as fault() does.
+// Records a fault of the core or an unexpected interrupt and ends as fault() does.
 [[noreturn]] void core_fault(std::uint32_t exception,
                              std::uint32_t program_counter,
                              std::uint32_t link_register,

@@ -91,8 +91,8 @@ private:
         }
         return false;
     }
-    // After an erase the data cache still has what was there (RM0090 section 3.5.2); it may be
-    // emptied only while it is off. A write goes through it.
+    // After an erase the data cache still holds the old data (RM0090 section 3.5.2); it may be
+    // flushed only while it is off. A write goes through it.
     static void forget_cached() noexcept
     {
         constexpr std::uint32_t kDataCache = 1U << 10U;
@@ -111,7 +111,7 @@ private:
             flash.keyr.write(kFirstKey);
             flash.keyr.write(kSecondKey);
         }
-        // Errors that a broken write of the past has left.
+        // Clears error flags of an earlier write.
         flash.sr.write(kErrors);
     }
     static void lock() noexcept { Chip::flash().cr.write(kLock); }

@@ -1,7 +1,7 @@
-// Pace: the timer whose update asks for a word of pulses each microsecond, one stream of DMA2 a port.
+// Pace: the timer whose update requests a word of pulses each microsecond, one stream of DMA2 a port.
 //
-// The first port's stream is asked by the update itself, those of further ports by compare requests,
-// which CCDS of the timer's CR2 moves to the update (RM0090 section 17.4.2): all of one event. The
+// The update itself requests from the first port's stream, compare requests from those of further
+// ports. CCDS of the timer's CR2 moves these to the update (RM0090 section 17.4.2): one event. The
 // streams are those of RM0090 table 43 that the serial ports leave free; RM0383 and RM0390 have them
 // alike.
 #pragma once

@@ -1,8 +1,8 @@
 // The registers of the STM32F405 that this firmware touches, by the names of the reference manual
-// (RM0090, revision 19), in lower case. The section of each block stands beside it.
+// (RM0090, revision 19), in lower case. A comment names the section of each block.
 //
-// Each block is a template over the word it is made of: DeviceWord on the chip; a word that tells a
-// model of the chip about each access in the tests (tests/unit/hal_stm32f4).
+// Each block is a template over its word type: DeviceWord on the chip; in the tests a word that
+// reports each access to a model of the chip (tests/unit/hal_stm32f4).
 #pragma once
 
 #include <cstddef>

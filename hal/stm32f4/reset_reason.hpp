@@ -1,4 +1,4 @@
-// Says over the serial line why the firmware stopped last time, if it did, and what its clock is.
+// Reports over the serial line why the firmware stopped last time, and faults of its clock.
 #pragma once
 
 #include <cstdint>
@@ -41,8 +41,8 @@ void write_number(Link& link, std::uint32_t value, unsigned base) noexcept
 
 }  // namespace detail
 
-// Writes `[MSG:Fault: ...]` for a record that is there, and takes it away. The record is in memory
-// that only a loss of power changes.
+// Writes `[MSG:Fault: ...]` if there is a record, and clears it. The record is in memory that only a
+// loss of power changes.
 template <class Link>
 void report_last_fault(Link& link) noexcept
 {
@@ -88,7 +88,7 @@ void note_reset_cause() noexcept
     constexpr std::uint32_t kRemove = 1U << 24U;
     last_reset.cause = Chip::rcc().csr.read();
     Chip::rcc().csr.write(kRemove);
-    // After a loss of power the memory says nothing.
+    // After a loss of power the content of the memory is random.
     if ((last_reset.cause & detail::kPowerUp) != 0) {
         last_reset.motion = 0;
         last_fault.mark = 0;
@@ -101,8 +101,8 @@ inline void mark_motion(bool moving) noexcept
 }
 inline bool reset_amid_motion() noexcept { return last_reset.motion == ResetRecord::kMoving; }
 
-// The messages of a start: a fault, a watchdog, a supply that broke down, a clock that is not the
-// planned one.
+// The messages of a start: a fault, the watchdog, a brown-out, a clock that is not the planned
+// one.
 template <class Link>
 void report_reset(Link& link, ClockSource clock) noexcept
 {

@@ -1,4 +1,4 @@
-// Which USART a board's serial line is, and what of the chip that takes: streams, interrupts, pins.
+// The USARTs that may be a board's serial line, with their streams, interrupts and pins.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// From reset to cusp_main(): the floating-point unit, the initial values of the statics, their
-// constructors. And from a fault of the core to fault_entry(), with what the core has saved.
+// From reset to cusp_main(): floating-point unit, initial values of statics, constructors. From a
+// fault of the core to fault_entry(), with the registers that the core has saved.
 #include <cstdint>
 
 #include "hal/stm32f4/chip.hpp"
@@ -21,7 +21,7 @@ extern Constructor cusp_constructors_begin, cusp_constructors_end;
 
 void cusp_reset()
 {
-    // The compiler may use float registers anywhere, so the unit goes on before all else.
+    // The compiler may use float registers anywhere, so the unit is enabled first.
     constexpr std::uint32_t kFullAccess = 0xFU << 20U;
     cusp::hal::stm32f4::set_bits(Chip::system().cpacr, kFullAccess);
     // A boot loader that has started the firmware may have left its own table in force.

@@ -1,4 +1,4 @@
-// StepPorts: on which ports the step and direction lines lie, worked out while compiling.
+// StepPorts: the ports of the step and direction lines, computed at compile time.
 //
 //   struct Table { static constexpr LinePins kLines{{{'E', 2}, {'D', 5}, ...}}; };
 //   using Ports = StepPorts<Table>;                // Ports::kCount == 2: ports E and D
@@ -40,7 +40,7 @@ class StepPorts {
 
 public:
     static constexpr unsigned kCount = count_ports(kLines);
-    // The lines that there are.
+    // The lines that the board has.
     static constexpr PulseLines kAllLines = has_second_motor(kLines) ? 0xFF : 0x3F;
 
     static constexpr std::array<char, kCount> kLetters = [] {
@@ -59,7 +59,7 @@ public:
         return letters;
     }();
 
-    // The port's pins, one bit each, that these lines are.
+    // The port's pins of these lines, one bit each.
     template <unsigned kPort>
     static std::uint32_t pins(PulseLines lines) noexcept
     {

@@ -25,7 +25,7 @@ struct InterruptEntry {
 };
 
 // A table with `reset`, `servo_tick` at PendSV, the entries, and `fault` everywhere else: an
-// interrupt that nobody expects is a fault.
+// unexpected interrupt is a fault.
 template <std::size_t N>
 constexpr VectorTable make_vectors(const void* stack_top,
                                    InterruptFunction reset,
@@ -55,7 +55,7 @@ void cusp_reset();
 void cusp_exception();
 // By the board: what runs after the start. Not main(), which has no C linkage without a C library.
 [[noreturn]] void cusp_main();
-// By the board: steps low, drives off, and whatever follows a fault. Context: any.
+// By the board: steps low, drives off, and the handling of the fault. Context: any.
 [[noreturn]] void cusp_board_stop();
 void cusp_servo_tick();
 void cusp_player_interrupt();

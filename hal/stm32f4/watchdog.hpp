@@ -1,4 +1,4 @@
-// The independent watchdog, and a fresh start.
+// The independent watchdog, and a restart.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace cusp::hal::stm32f4 {
 
-// Resets the chip when feed_watchdog() stays away for 3 s (2 to 5.6 s: the chip's slow oscillator
-// is coarse). The longest that the core can be held up is the erasing of a settings sector, 0.8 s.
+// Resets the chip if feed_watchdog() is not called for 3 s (2 to 5.6 s: the chip's slow oscillator
+// is coarse). The longest stall of the core is the erase of a settings sector, 0.8 s.
 template <class Chip>
 void start_watchdog() noexcept
 {
@@ -27,7 +27,7 @@ void feed_watchdog() noexcept
     Chip::watchdog().kr.write(0xAAAA);
 }
 
-// Starts the chip anew: everything but the retained memory is as after power-up.
+// Restarts the chip: everything but the retained memory is as after power-up.
 template <class Chip>
 [[noreturn]] void reset_chip() noexcept
 {

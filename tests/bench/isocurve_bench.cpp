@@ -165,8 +165,8 @@ BENCHMARK(waterline_roughing)
     ->Iterations(1)
     ->Unit(benchmark::kMillisecond);
 
-// Along the foot of a slope that the ball can't enter, as a model's coverage asks: for what would
-// take a hundredth of the radius off what stands.
+// Along the foot of a slope that the ball can't enter, as the scallop check of a model does: for
+// positions that would remove a hundredth of the radius.
 void lowest_beside_a_concave_edge(benchmark::State& state)
 {
     Surface wall = hills(1);

@@ -179,7 +179,7 @@ void plan_replica(benchmark::State& state)
 }
 BENCHMARK(plan_replica)->Unit(benchmark::kMillisecond);
 
-// Roughing in layers and the finish; most of it feels the metal that stands.
+// Roughing in layers and the finish; most of the time goes into tracking the stock's height.
 void plan_in_layers(benchmark::State& state, ToolShape shape)
 {
     Operation operation = replica_over(read_surfaces(part("floor")));

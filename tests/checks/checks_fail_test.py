@@ -108,6 +108,7 @@ class ChecksOfTheTree(unittest.TestCase):
                             ("host_tools/clearing/ball.hpp", "// A ball is let down.\n"),
                             ("docs/walls.md", "The tool can feel the wall.\n"),
                             ("host_tools/view/web/src/scene.ts", "/** Where metal stands. */\n"),
+                            ("hal/sim/mill.hpp", "int a;  // The axis stands still.\n"),
                             ("tests/support/box.hpp", "int a;  // upright\n")):
             self.write(place, text)
             status, said = self.run_check("retired_words.py")

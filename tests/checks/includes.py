@@ -3,7 +3,7 @@
 
 usage: includes.py TOP
 The table holds exactly the arrows that exist: an #include without an arrow, an arrow without an #include, and a module
-whose DEPENDS are not its row are refused. What is linked without an #include stands behind LINKS.
+whose DEPENDS are not its row are refused. Modules that are linked without an #include are listed in LINKS.
 Exit status: 0 they agree, 1 they do not, 2 the tree or its table can't be read.
 """
 import collections

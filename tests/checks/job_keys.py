@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that docs/job_file.md tells every key that the reader of jobs knows, and no other.
+"""Checks that docs/job_file.md documents every key that the reader of jobs knows, and no other.
 
 usage: job_keys.py TOP
 Exit status: 0 the same keys, 1 not, 2 a file can't be read or knows no keys.

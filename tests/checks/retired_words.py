@@ -3,8 +3,8 @@
 
 usage: retired_words.py TOP
 WORDS are looked for everywhere: in code, comments, documents and names of files. IDENTIFIERS are common words too, so
-they are looked for in C++ without comments and strings; PHRASES in the comments of host_tools and tests/support, those
-of PAGE_PHRASES in pages of docs/ too. CHANGELOG.md, docs/decisions and docs/evidence tell the past and are left out.
+they are looked for in C++ without comments and strings; PHRASES in comments, those of PAGE_PHRASES in pages of docs/
+too. CHANGELOG.md, docs/decisions and docs/evidence tell the past and are left out.
 Exit status: 0 none is found, 1 some are, 2 there are no sources.
 """
 import pathlib
@@ -60,8 +60,7 @@ IDENTIFIERS = {
     "rolls_freely": "is_move_between_contacts_clear", "worth": "resolution", "told": "lookup_spacing", "bare": "uncovered",
     "cushion": "clearance_reserve", "metal": "stock", "stands": "remains", "kept_off": "with_clearance", "askew": "at_an_angle",
 }
-# In comments of COMMENTED.
-COMMENTED = ("host_tools/", "tests/support/")
+# In comments of C++ and TypeScript.
 PHRASES = {
     "told apart": "inexact", "let down": "dropped", "askew": "at an angle", "felt": "tracked", "feel": "track", "feels": "tracks",
     "upright": "vertical", "metal": "stock", "stands": "is", "standing": "uncut", "stood": "was", "told": "given", "tells": "returns",
@@ -94,7 +93,8 @@ def complaints(file, place):
         yield f"{place}: {word} is now {WORDS[word]}"
     text = file.read_text()
     code = COMMENT_OR_STRING.sub(lambda m: re.sub(r"[^\n]", " ", m.group()), text) if file.suffix in (".hpp", ".cpp") else ""
-    comments = "\n".join("".join(COMMENT.findall(line)) for line in text.split("\n")) if place.startswith(COMMENTED) else ""
+    commented = file.suffix in (".hpp", ".cpp", ".ts", ".mjs")
+    comments = "\n".join("".join(COMMENT.findall(line)) for line in text.split("\n")) if commented else ""
     page = text if file.suffix == ".md" else ""
     for names, searched, found in ((WORDS, text, WORD), (IDENTIFIERS, code, IDENTIFIER), (PHRASES, comments, PHRASE),
                                    (PHRASES, page, PAGE_PHRASE)):

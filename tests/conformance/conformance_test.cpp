@@ -8,8 +8,8 @@
 //   wait <ticks>             lets servo ticks pass
 //   finish                   lets ticks pass until nothing moves and no line waits
 //   press <bits>, release    holds inputs on (bits of InputBit), or none
-//   = line                   the next line of the controller; '*' stands for any characters
-//   silent                   the controller has said nothing more
+//   = line                   the next line of the controller; '*' matches any characters
+//   silent                   the controller has sent nothing more
 //   at <x> <y> <z>           machine position in mm, within 0.0005
 //   state <name>             state of the next status report
 #include <cmath>

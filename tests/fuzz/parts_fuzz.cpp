@@ -1,4 +1,4 @@
-// Bytes as a part or a job: whatever stands in a file, the readers take it or refuse it in words.
+// Any bytes as a part or a job: the readers accept the file or refuse it with a message.
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -73,7 +73,7 @@ def outputs(program, job, folder, out, plan_limit, options):
         motion = json.loads((out / "plan.json").read_text())["estimated_s"]
         if options.simulation(motion):
             add_trace(found, program, folder, out)
-    # both programs are told other names of files
+    # the two programs get different file names
     return {key: value.replace(out.name.encode(), b"OUT") for key, value in found.items()
             if options.messages or not key.startswith("messages")}
 

@@ -106,7 +106,7 @@ class ResumeTest(unittest.TestCase):
         return before
 
 
-# Machine zero is homed: the tool stands at -1,-1,-1; work zero lies amid the travel.
+# After homing the tool is at -1,-1,-1; work zero lies amid the travel.
 WORK_ZERO = (-150.0, -100.0, -40.0)
 TRAVEL_Z = 6.0
 
@@ -172,7 +172,7 @@ class Interrupted(ResumeTest):
         missing = [point for point in path if point[2] < TRAVEL_Z - 0.01 and not cut.near(point)]
         self.assertEqual(missing[:3], [], f"{len(missing)} of {len(path)} points were not cut")
         meant = Grid(path, tolerance)
-        # On the way down the tool is above the place where it goes on.
+        # During the descent the tool is above the place where it resumes.
         columns = {}
         for x, y, z in path:
             cell = (math.floor(x / tolerance), math.floor(y / tolerance))

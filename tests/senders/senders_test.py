@@ -380,7 +380,7 @@ class Answers(SenderTest):
             self.assertEqual(port.ask(setting)[1], "ok")
         self.assertEqual(port.ask("T1M6")[1], "error:46")
         self.assertEqual(port.ask("$H", 30)[1], "ok")
-        self.mill.command("plate 2")  # 30 mm below the top: the mill stood at -32
+        self.mill.command("plate 2")  # 30 mm below the top: the mill was at -32
         program = ["G10 L2 P9 X-20 Y-20 Z-15", "M3 S1000", "G0 X-10 Y-10 Z-5", "T1 M6", "G1 X-12 F3000", "M5",
                    "T2 M6", "G43 H2", "G1 Z-5", "X-10", "M30"]
         port.send("".join(line + "\n" for line in program))

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Streams a program to the image under QEMU over a live serial line and asks where the machine stands.
+"""Streams a program to the image under QEMU over a live serial line and asks for the machine's position.
 
 usage: live.py --cusp CUSP --image IMAGE PROGRAM --end X,Y,Z [--alone]
 

@@ -31,7 +31,7 @@ constexpr double kTolerance = 0.005;  // mm
 constexpr double kRasterDegrees = 4.0;
 
 struct Found {
-    double way{};    // mm in metal
+    double way{};    // mm in stock
     double over{};   // mm of it over the angle, not listed
     double worst{};  // degrees, not listed
     Vec2d worst_at{};
@@ -89,7 +89,7 @@ Found judge(const Region2d& region, const AdaptiveSettings& settings, const Adap
     const Region2d centres = walls.at(settings.wall_clearance);
     if (!centres.contours.empty()) {
         const RegionOffset reached{grown(centres, radius)};
-        cutter.visit_metal([&](Vec2d p) {
+        cutter.visit_stock([&](Vec2d p) {
             if (reached.clearance(p) > 2.0 * pitch) {
                 found.uncut += cutter.cell_area();
                 found.uncut_at = p;

@@ -1,5 +1,5 @@
-// A cutter on a raster, as simple as can be: what a path leaves, and how much of the tool's
-// circumference is in metal along it.
+// A simple cutter on a raster: the stock that a path leaves, and the tool's engagement along
+// it.
 #pragma once
 
 #include <algorithm>
@@ -54,8 +54,8 @@ public:
 
     void cut(Vec2d at) { remove_disc(at, radius_); }
 
-    // Degrees of the front half of the circle just outside of the tool that are in metal which the
-    // tool meets within two cells of its way: slivers along a wall just cut are not metal.
+    // Degrees of the front half of the circle just outside of the tool that are in stock which the
+    // tool meets within two cells of travel: slivers along a wall just cut do not count.
     double engagement(Vec2d at, Vec2d heading) const
     {
         const double out = radius_ + 0.75 * pitch_;
@@ -63,16 +63,16 @@ public:
         for (int k = -90; k <= 90; ++k) {
             const double angle = std::atan2(heading.y, heading.x) + k * 0.017453292519943295;
             const Vec2d u{std::cos(angle), std::sin(angle)};
-            count += is_metal(at + u * out) && is_metal(at + heading * (2.0 * pitch_) + u * radius_)
+            count += is_stock(at + u * out) && is_stock(at + heading * (2.0 * pitch_) + u * radius_)
                          ? 1
                          : 0;
         }
         return count * 180.0 / 181.0;
     }
 
-    // Calls visit(place) for each cell of metal.
+    // Calls visit(place) for each cell of stock.
     template <class Visit>
-    void visit_metal(Visit visit) const
+    void visit_stock(Visit visit) const
     {
         for (int j = 0; j < rows_; ++j) {
             for (int i = 0; i < columns_; ++i) {
@@ -86,7 +86,7 @@ public:
     double cell_area() const { return pitch_ * pitch_; }
 
 private:
-    bool is_metal(Vec2d p) const
+    bool is_stock(Vec2d p) const
     {
         const int i = static_cast<int>(std::floor((p.x - corner_.x) / pitch_));
         const int j = static_cast<int>(std::floor((p.y - corner_.y) / pitch_));

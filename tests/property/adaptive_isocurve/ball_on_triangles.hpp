@@ -47,7 +47,7 @@ struct SegmentFromAxis {
     double high{};
     double slope{};
     double z0{};
-    double bottom{};  // of an upright segment
+    double bottom{};  // of a vertical segment
 };
 
 // The centre of a ball that rests on the segment; -inf where it misses it.
@@ -177,7 +177,7 @@ public:
 
     const std::vector<std::array<Vec3d, 2>>& moves() const { return moves_; }
 
-    // The top of the metal over (x, y); +inf where nothing is cut.
+    // The top of the stock at (x, y); +inf where nothing is cut.
     double top(double x, double y) const
     {
         double best = kNothing;

@@ -158,8 +158,8 @@ private:
         return t[0] * (1 - a) + t[1] * (a * (1 - b)) + t[2] * (a * b);
     }
 
-    // The metal left over a place, square to it, above what a ball can reach there. Metal that is
-    // high but thin, as beside a wall, counts as thick as it is.
+    // Thickness of the stock left at a place, along the normal, above what a ball can reach there.
+    // Stock that is high but thin, as beside a wall, counts by its thickness.
     double left_over(Vec3d place, Vec3d normal, double bound) const
     {
         const double top = moves_.top(place.x, place.y);

@@ -1,6 +1,6 @@
 // Random models of one to four surfaces, roughed and cut in memory move by move: nothing nearer to
-// the model than the allowance, no cut deeper than a level, no metal under rapid moves, nothing
-// left that the levels could have taken.
+// the model than the allowance, no cut deeper than a level, no stock under rapid moves, nothing
+// left that the levels could have removed.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -77,7 +77,7 @@ Job random_model(Random& random, unsigned seed)
     return job;
 }
 
-// The stock as heights over a grid of its own, cut by a tool that stands at places in turn.
+// The stock as heights on a grid of its own, cut by a tool at discrete positions.
 class Block {
 public:
     Block(const PartModel& model, double top)
@@ -88,10 +88,10 @@ public:
     {
     }
 
-    // How much metal the tool meets above its lower side.
+    // Depth of the stock above the tool's lower side, mm.
     double cut(const Tool& tool, Vec3d tip)
     {
-        // Slivers between two places looked at are no metal: they are felt with less of the tool.
+        // Slivers between two positions do not count: the depth is probed with a smaller tool.
         const double less = kStep * kStep / (4 * tool.radius) + 0.004;
         const Tool probe{tool.number, tool.shape, tool.radius - less,
                          std::max(0.0, tool.corner_radius - less)};
@@ -123,7 +123,7 @@ public:
         return deepest;
     }
 
-    // The most that stands over a level where the tool would fit with room to spare.
+    // The highest stock left above a level where the tool would fit with room to spare.
     double left(const PartModel& model,
                 const Tool& tool,
                 const std::set<double>& levels,
@@ -251,7 +251,7 @@ void check_model(unsigned seed)
     CHECK(figures.rapid <= 1e-3);
     CHECK(figures.clearance >= operation.allowance - 1e-6);
     CHECK(left <= 0.3 * *operation.max_depth);
-    // An arrangement in fewer levels would be deeper than max_depth, or it is told.
+    // Fewer levels would be deeper than max_depth, or a warning says so.
     CHECK(thinnest >= operation.min_depth.value_or(0) - 2e-3 || warnings > 0);
     CHECK_EQUAL(0.0, gouge);
 }

@@ -22,8 +22,8 @@ constexpr int kRegions = 200;
 constexpr double kEnough = 1.01;  // of half a step
 
 // A place as far from all passes as any, among those at least `wall_clearance` inside the region;
-// found by halving squares, to a two hundredth of `enough`. Places nearer than `enough` are not
-// told apart.
+// found by halving squares, to a two hundredth of `enough`. Below `enough` the result may be
+// inexact.
 class FarthestPlace {
 public:
     FarthestPlace(const Region2d& region, const ClearedRegion& cleared, double first, double enough)

@@ -15,7 +15,7 @@ namespace cusp::test {
 struct MovesVerdict {
     double rapid_cut{};  // mm, deepest
     bool low_rapid{};    // a rapid move below the clearance that is not straight up or down
-    double plunged{};    // mm of metal under the middle of the tool on a way straight down
+    double plunged{};    // mm of stock under the middle of the tool on a vertical plunge
     double entry_cut{};  // mm, deepest there on slopes steeper than entries may be
     double sunk{};       // mm there on ways down at more than the plunge feed
     double deepest{};    // mm of cut
@@ -69,7 +69,7 @@ public:
                     along = offset::unit(way);
                     before = move.kind;
                 } else if (move.kind == toolpath::MoveKind::kPlunge) {
-                    // What goes over the metal and straight down is no link, but an entry.
+                    // A move over the stock and straight down is no link, but an entry.
                     before = move.kind;
                 }
             }
@@ -77,7 +77,7 @@ public:
         return verdict;
     }
 
-    // Height of the metal around the place, the highest of four.
+    // Height of the stock around the place, the highest of four.
     double height(Vec2d p) const
     {
         const auto i = static_cast<int>((p.x - low_.x) / pitch_);
@@ -187,7 +187,7 @@ private:
         }
     }
 
-    // With the spindle turning clockwise from above, metal is on the right of a climbing cutter.
+    // With the spindle turning clockwise from above, stock is on the right of a climbing cutter.
     static void add_sides(const Bite& bite, bool climb, MovesVerdict& verdict)
     {
         constexpr double kOneSided = 4.0;

@@ -110,7 +110,7 @@ RandomTask random_task(Random& random)
     return task;
 }
 
-// Plates in steps over the floor, some askew and beside walls, so that passes lie along cliffs.
+// Plates in steps over the floor, some rotated or beside walls, so that passes run along cliffs.
 RandomTask random_task_with_cliffs(Random& random)
 {
     RandomTask task = random_task(random);
@@ -142,7 +142,7 @@ bool warned(const PlannedOperation& planned)
     });
 }
 
-// How much nearer to the floor than it may be the metal is that stands, mm.
+// mm: how far the stock left is below the allowance over the floor.
 double under(const MovesJudge& judge, const Surface& floor, double allowance)
 {
     constexpr int kEach = 200;
@@ -245,12 +245,12 @@ TEST(PocketPathWriter, EnterGentlyLinkThroughCutMetalAndKeepSideDepthAndAllowanc
         links.turned += some.turned;
     }
     std::printf("%d links, %d end on a corner\n", links.all, links.turned);
-    // Ways over the metal that end at the pass itself.
+    // Links over the stock that end at the pass itself.
     constexpr double kFew = 2.0;
     CHECK(links.turned <= 0.01 * links.all + kFew);
 }
 
-// They go over the edges of cliffs into what stands at their feet.
+// Passes cross the edges of cliffs into the stock at their feet.
 TEST(PocketPathWriter, TakeNoMoreRetractsForCliffsAndGoDownThemNoFasterThanThePlungeFeed)
 {
     constexpr unsigned kCliffSeed = 1991;

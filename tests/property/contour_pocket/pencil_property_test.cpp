@@ -120,7 +120,7 @@ double best_at(const Tool& tool, const Patch& patch, double apart, const Ledge& 
     return best;
 }
 
-// Of the steepness of what the tool leaves at best: what it does not reach stands on a slope.
+// Cosine of the slope of the stock that the tool leaves at best.
 double cosine_at(const Tool& tool,
                  const Patch& patch,
                  double apart,
@@ -201,7 +201,7 @@ TEST(RandomCliff, LeavesNoMoreAtItsFootThanTheScallop)
     }
 }
 
-// Where the tool's side is nearly upright as it meets the cliff's edge its height is all but a
+// Where the tool's side is nearly vertical at the cliff's edge, its height changes almost in a
 // jump.
 TEST(RandomCliff, LeavesNoMoreAtTheFootOfACliffAsHighAsTheToolIsRound)
 {
@@ -263,7 +263,7 @@ TEST(RandomCliff, LeavesNoMoreAtTheFootOfALedgeThanTheScallop)
     }
 }
 
-// Between the line where the tool is let down and the wall there is hardly room for it.
+// The tool hardly fits between the line where it drops off the cliff and the wall.
 TEST(RandomCliff, LeavesNoMoreAtItsFootBesideAWallThanTheScallop)
 {
     constexpr unsigned kSeed = 76;
@@ -276,7 +276,7 @@ TEST(RandomCliff, LeavesNoMoreAtItsFootBesideAWallThanTheScallop)
         const double room = uniform(random, 0.02, 0.1) * radius + 0.02;
         const double edge = -kHalf + 2.0 * radius + room;
         const double top = kLow + uniform(random, 1.05, 1.5) * radius;
-        // Askew, so that some loops cross the line.
+        // Rotated, so that some loops cross the line.
         const double angle = uniform(random, 0.0, 0.004);
         const Patch patch{
             {edge + 15.0, 0.0}, {std::cos(angle), std::sin(angle)}, 30.0, 30.0, 0.0, top};

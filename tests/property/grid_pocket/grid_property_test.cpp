@@ -1,4 +1,4 @@
-// Random pockets cut in memory: no gouge, no metal under rapid moves, nothing left over the
+// Random pockets cut in memory: no gouge, no stock under rapid moves, nothing left over the
 // computed roughness.
 #include <cstdio>
 #include <fstream>

@@ -1,5 +1,5 @@
 // Random models of one to nine surfaces, roughed by one to three tools and cut in memory: no
-// overcut, no metal under rapid moves, no layer left uncleared, no cut deeper than reported.
+// overcut, no stock under rapid moves, no layer left uncleared, no cut deeper than reported.
 #include <cstdio>
 #include <fstream>
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Random STL parts with upright walls, planned and judged against their triangles, not against the surfaces made of them.
+"""Random STL parts with vertical walls, planned and judged against their triangles, not against the surfaces made of them.
 
 usage: random_meshes.py CUSP [--first SEED] [--count N] [--keep FOLDER]
 
@@ -31,7 +31,7 @@ def quad(a, b, c, d):
 
 
 def prism(outline, z0, z1):
-    """A closed upright prism over a counter-clockwise outline, its ends as fans about their middles."""
+    """A closed vertical prism over a counter-clockwise outline, its ends as fans about their middles."""
     n = len(outline)
     middle = (sum(p[0] for p in outline) / n, sum(p[1] for p in outline) / n)
     out = []
@@ -94,7 +94,7 @@ def cylinders(rng):
 
 
 def dome(rng):
-    """A cap on an upright wall, on a plate."""
+    """A cap on a vertical wall, on a plate."""
     n, rings = rng.choice([32, 64]), rng.choice([8, 16])
     r, wall = rng.uniform(5, 9), rng.uniform(1, 3)
     most = rng.uniform(0.5, 1.3)  # radians from the top to where the wall begins
@@ -137,7 +137,7 @@ def half_pipe(rng):
 
 
 def barrel(rng):
-    """A cylinder's upper side on upright walls, its facets long and narrow."""
+    """A cylinder's upper side on vertical walls, its facets long and narrow."""
     r, n = rng.uniform(12, 25), rng.choice([16, 48])
     a, b = rng.uniform(5, 9), rng.uniform(5, 9)
     out = plate()
@@ -306,7 +306,7 @@ def left(tips, radius, triangles):
         index = (at[on, 0], at[on, 1])
         stock[index] = numpy.minimum(stock[index], z)
     over = (stock - numpy.maximum(reach, part)) * cosine
-    # Beside walls the grid tells neither where they stand nor how far the ball gets.
+    # Beside walls the grid resolves neither their positions nor the reach of the ball.
     n = int(radius / GRID) + 2
     padded = numpy.pad(part, n, mode="edge")
     around = numpy.full(part.shape, -numpy.inf)

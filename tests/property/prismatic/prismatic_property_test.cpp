@@ -212,8 +212,8 @@ TEST(PrismaticProperty, ProfilesKeepTheirDistanceToAMicrometreAndLeaveNothingOut
     }
 }
 
-// Along a convex outline, which the tool reaches everywhere, the stock beside it is looked at from
-// above: what stands are the tabs.
+// Along a convex outline, which the tool reaches everywhere, the heights of the stock beside it are
+// sampled: only the tabs are left.
 TEST(PrismaticProperty, TabsStandAsManyAsHighAndAsWideAsAskedFor)
 {
     const int cases = property_cases(100);

@@ -92,7 +92,7 @@ TEST(SettingsStore, HoldsAGoodRecordAfterAPowerCutAtEveryWordOfEveryWrite)
                 version == 1 && !is_new && (state == LogState::kEmpty || state == LogState::kLost);
             CHECK(is_new || is_old || never);
             CHECK(!said_done || is_new);
-            // And the store goes on from there.
+            // The store accepts the next record.
             CHECK(append(store, version + 1));
             CHECK(load(store, record) == LogState::kGood);
             CHECK(record == record_of(version + 1));
@@ -112,7 +112,7 @@ TEST(SettingsStore, ReportsDamageOfTheNewestRecordAndFallsBackToTheOneBefore)
         store.damage(0, offset, 0x10);
         Record record{};
         const LogState state = load(store, record);
-        // Damage to the mark itself looks like a write cut short, and is told as that.
+        // Damage to the mark itself looks like an interrupted write, and is reported as one.
         CHECK(state == LogState::kDamaged || state == LogState::kInterrupted);
         CHECK(record == record_of(1));
     }

@@ -27,7 +27,7 @@ gcode::Interpreter lines;
 PulseFrame frame;
 hal::qemu::HostFile out;
 
-// QEMU has no DMA: the player's registers are memory that stands still.
+// QEMU has no DMA: the player's registers are plain memory.
 struct StillChip {
     using Word = DeviceWord;
     static inline Dma<Word> dma{};

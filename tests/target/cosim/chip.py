@@ -158,7 +158,7 @@ class Chip:
         return sum(1 for (_, before), (_, after) in zip(edges, edges[1:]) if after > before)
 
     def steps_after_an_underrun(self):
-        """The core stands still amid a jog and goes on: what is said, and the steps of X Y Z in a jog after it."""
+        """The core halts amid a jog and resumes: the messages, and the steps of X Y Z in a jog after it."""
         self.ask("$J=G91 X30 Y30 Z30 F3000")
         self.run(200)
         self.command("core stop")

@@ -34,7 +34,8 @@ public:
     // Lets this much time pass. Ends early where `until` says so; it is asked when the core sleeps.
     void run(Picoseconds time, const std::function<bool()>& until = {});
 
-    // run() ends when the core has executed this many: one that takes no time may run for ever.
+    // run() ends when the core has executed this many: a core whose time does not advance would run
+    // endlessly.
     void limit_instructions(std::uint64_t count)
     {
         last_instruction_ = core_->instructions() + count;

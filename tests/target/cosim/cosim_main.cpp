@@ -4,7 +4,7 @@
 //
 // `external`: a clock from outside is there in place of a crystal; `usart2`: the line is USART2.
 //
-// Each command is a line; its answer ends with the line "done". tests/target/cosim/chip.py speaks it.
+// Each command is a line; its answer ends with the line "done". tests/target/cosim/chip.py sends them.
 // Exit status: 0, or 2 where a command or the image can't be used.
 #include <cstdio>
 #include <cstdlib>

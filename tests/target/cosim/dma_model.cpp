@@ -15,7 +15,7 @@ constexpr std::uint32_t kHalf = 16;
 constexpr std::uint32_t kComplete = 32;
 // A stream that is switched off finishes what it does.
 constexpr Picoseconds kStopTime = 120'000;
-// NDTR stands at 0 after the last item of a ring, no longer than to the next.
+// NDTR is 0 after the last item of a ring, at most until the next.
 constexpr Picoseconds kReloadTime = 990'000;
 // Interrupt enables may be changed at any time.
 constexpr std::uint32_t kFreeBits = 0x1F;
@@ -243,7 +243,7 @@ void DmaModel::happen()
             stream.stops_at = kNever;
             stream.cr &= ~kEnable;
             stream.ndtr = stream.left;
-            // Section 10.3.17: the end is told as if it were complete.
+            // Section 10.3.17: the complete flag is set at an early end, too.
             raise(i, kComplete);
         }
         due_ = std::min(due_, stream.stops_at);

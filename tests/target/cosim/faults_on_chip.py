@@ -143,7 +143,7 @@ class Pins(unittest.TestCase):
 
 class StandStill(unittest.TestCase):
     def steps_after(self, how):
-        """Steps after the core stood still amid a fast jog of all axes, and those of a millisecond before."""
+        """Steps after the core halted amid a fast jog of all axes, and those of a millisecond before."""
         with chip() as machine:
             machine.boot()
             for line in QUICK.split():

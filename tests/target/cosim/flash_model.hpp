@@ -16,7 +16,7 @@ public:
 
     // A store of the core to the array itself.
     void store(std::uint32_t address, std::uint32_t size, std::uint32_t value);
-    // While the controller is busy the core, which runs from the flash, stands still.
+    // While the controller is busy the core, which runs from the flash, is stalled.
     Picoseconds busy_until() const { return busy_until_; }
 
     std::vector<std::uint8_t>& bytes() { return bytes_; }

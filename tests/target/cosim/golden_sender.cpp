@@ -201,7 +201,7 @@ void GoldenSender::collect()
         const bool more_at_once = i + 1 < changes.size() && changes[i + 1].time == changes[i].time;
         const bool changed = std::exchange(levels, after) != after || pending;
         pending = changed && more_at_once;
-        // What was before the start is how the pins stood.
+        // Changes before the start give the initial levels of the pins.
         if (!changed || more_at_once || changes[i].time < start_) {
             continue;
         }

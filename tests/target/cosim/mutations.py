@@ -28,7 +28,7 @@ PORTS = "hal/stm32f4/step_ports.hpp"
 TABLE = "boards/mill3_f405/mill_table.hpp"
 PILL = "boards/black_pill_f411/pill_table.hpp"
 SKR2 = "boards/skr2_f407/skr2_table.hpp"
-# What a driver may get wrong: file, what stands there, what is put there.
+# Faults of a driver: file, its text, the faulty text in its place.
 FAULTS = {
     "wrong channel": (PACE, "{1, 7, detail", "{1, 6, detail"),
     "wrong stream": (PACE, "{1, 7, detail", "{2, 7, detail"),

@@ -92,7 +92,7 @@ class SecondMotor(unittest.TestCase):
             machine.wait_for("Idle")
             changes = machine.changes()
             for first, second in zip(LINES["first"], LINES["second"]):
-                # The first entry is how the pin stands.
+                # The first entry is the initial level of the pin.
                 edges = machine.edges_of(first, changes)[1:]
                 self.assertGreater(len(edges), 1)
                 self.assertEqual(edges, machine.edges_of(second, changes)[1:])

@@ -1,8 +1,8 @@
 // A QEMU plugin that logs the time of every store to a port's set/reset register.
 //
-// QEMU's own log of what it does not model (-d unimp) tells the value, this one the instruction
-// count; with -d unimp,plugin both stand in one file, in order. Debian ships no qemu-plugin.h: what
-// is used of it (API version 1, QEMU 7.2) is declared here.
+// QEMU's own log of accesses that it does not model (-d unimp) has the value, this one the
+// instruction count; with -d unimp,plugin both are in one file, in order. Debian ships no
+// qemu-plugin.h: the part of it that is used (API version 1, QEMU 7.2) is declared here.
 #include <cinttypes>
 #include <cstddef>
 #include <cstdint>

@@ -29,7 +29,7 @@ TEST(SweptArea, AStraightCutHasTheAngleOfItsWidth)
     const SweptArea swept = swept_by_a_line();
     for (const double width : {0.3, 1.5, 3.0}) {
         const double angle = std::acos(1.0 - width / 3.0);
-        // Between two discs of the line stands a cusp of 0.001 mm.
+        // Two discs of the line leave a cusp of 0.001 mm between them.
         DOUBLES_EQUAL(angle, swept.engagement({0, width}, {1, 0}), 2e-3);
         DOUBLES_EQUAL(angle, swept.engagement({0, width}, {-1, 0}), 2e-3);
     }

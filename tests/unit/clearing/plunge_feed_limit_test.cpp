@@ -1,4 +1,4 @@
-// Ways down through metal and through air.
+// Descents through stock and through air.
 #include "host_tools/clearing/plunge_feed_limit.hpp"
 
 #include "CppUTest/TestHarness.h"

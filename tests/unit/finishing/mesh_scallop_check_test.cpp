@@ -63,7 +63,7 @@ TEST(MeshScallopCheck, AddsPassesAlongAWallOf89Degrees)
     const std::vector<Points> passes = missing_passes(plate_and_wall(kSlope), uncovered);
     LONGS_EQUAL(0, uncovered);
     CHECK(!passes.empty());
-    // Without them the metal over the foot is as thick as the wall leans: 0.2 mm.
+    // Without them the stock over the foot is 0.2 mm thick, the lean of the wall.
     SweptVolume swept{3, 1};
     for (const Points& tips : passes) {
         swept.add(tips);

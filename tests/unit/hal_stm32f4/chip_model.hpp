@@ -11,12 +11,12 @@
 
 namespace cusp::test {
 
-// A register that tells the model of each access.
+// A register that reports each access to the model.
 class ModelWord {
 public:
     std::uint32_t read();
     void write(std::uint32_t value);
-    // The register as it stands, unseen by the model.
+    // The value of the register; reading it is not reported.
     std::uint32_t value{0};
 };
 

@@ -176,7 +176,7 @@ TEST(HeightFieldOfAMesh, FollowsASmoothOneToTheTolerance)
 TEST(HeightFieldOfAMesh, ReportsStepsOverhangsAndOpenGround)
 {
     std::vector<Triangle> triangles = sheet(40, step);
-    triangles.push_back({Vec3d{0, 0, 5}, Vec3d{0, 4, 5}, Vec3d{4, 0, 5}});  // looks down
+    triangles.push_back({Vec3d{0, 0, 5}, Vec3d{0, 4, 5}, Vec3d{4, 0, 5}});  // faces down
     triangles.push_back({Vec3d{20, 0, 0}, Vec3d{40, 0, 0}, Vec3d{20, 20, 0}});
     const HeightField field = height_field({triangles, 0}, 0.01);
     DOUBLES_EQUAL(8, field.overhang_area, 1e-9);
@@ -277,7 +277,7 @@ TEST(MeshPatchesOfAMesh, AreNoneWhereFacetsRunAgainstEachOther)
 {
     std::vector<Triangle> triangles = sheet(4, level);
     std::swap(triangles[10][0], triangles[10][1]);
-    // That one looks down: it is left out, and a hole is left.
+    // That one faces down: it is left out, and a hole is left.
     const auto groups = facet_groups({triangles, 0});
     CHECK(groups.has_value());
     LONGS_EQUAL(2, groups->front().loops.size());

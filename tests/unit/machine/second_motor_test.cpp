@@ -139,7 +139,7 @@ TEST(SecondMotor, IsSquaredByHoming)
         DOUBLES_EQUAL(0, bench.skew(), accuracy);
         const double travel = Bench::geometry(gantry).travel[gantry.axis];
         const double wanted = to_minus ? 1 - travel : -1;
-        // The axis stands by the switch that closed first.
+        // The axis is at the switch that closed first.
         const double off = bench.first() - wanted;
         DOUBLES_EQUAL(0, off, accuracy);
         // It stays square.
