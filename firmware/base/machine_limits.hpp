@@ -1,4 +1,4 @@
-// What the axes can do: the words that planner, interpolator and settings share.
+// Capabilities of the axes: the types that planner, interpolator and settings share.
 #pragma once
 
 #include "firmware/base/vec.hpp"

@@ -35,7 +35,7 @@ enum OutputBit : std::uint8_t {
     kSpindlePulsesOutput = 1U << 4U,
 };
 
-// What the outputs other than steps shall be.
+// The levels of all outputs but the steps.
 struct OutputLevels {
     bool spindle_on{false};
     bool spindle_reverse{false};

@@ -41,7 +41,7 @@ private:
     bool has_value_{false};
 };
 
-// What an action that yields nothing came to: done, or why not.
+// The outcome of an action without a value: done, or the reason why not.
 struct Done {};
 using Status = Result<Done>;
 inline constexpr Done kDone{};

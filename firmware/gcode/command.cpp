@@ -30,7 +30,7 @@ Status claim_axes(Command& command, AxisUse use) noexcept
     return kDone;
 }
 
-// What a G number does to a command. Numbers are in hundredths: G38.2 is 3820.
+// The effect of a G number on a command. Numbers are in hundredths: G38.2 is 3820.
 struct Entry {
     std::uint16_t hundredths;
     Group group;

@@ -11,7 +11,7 @@
 
 namespace cusp::gcode {
 
-// What the axis words of a line belong to; at most one thing.
+// The command that the axis words of a line belong to; at most one.
 enum class AxisUse : std::uint8_t { kNone, kNonModal, kMotion, kToolLength };
 
 // Group 0: commands that hold for one line.

@@ -24,7 +24,7 @@
 
 namespace cusp::gcode {
 
-// What a line with M6 may hold; the machine sets it.
+// The rule for lines with M6; the machine sets it.
 enum class ToolChangeRule : std::uint8_t {
     kFree,      // anything
     kTouchOff,  // T 1 to 16, and nothing in the line that depends on the length of the new tool
@@ -85,7 +85,7 @@ public:
     const ModalState& modal() const noexcept { return modal_; }
     const Parameters& parameters() const noexcept { return parameters_; }
 
-    // What was stored, or `$RST=#`. Precondition: no action is left to fetch.
+    // Sets offsets from the store, or after `$RST=#`. Precondition: no action is left to fetch.
     void set_parameters(const Parameters& parameters) noexcept { parameters_ = parameters; }
 
 private:

@@ -1,4 +1,4 @@
-// What is left to do of one line: a few flags and the source of its moves.
+// The remaining work of one line: flags and the source of its moves.
 #pragma once
 
 #include <cstdint>

@@ -16,7 +16,7 @@ std::int64_t tool_length(const LineContext& line, unsigned axis) noexcept
     return axis == 2 ? line.parameters.tool_length_offset_nm : 0;
 }
 
-// What G10's L says.
+// The meaning of G10's L word.
 enum class G10Value : std::uint8_t {
     kToolLength = 1,
     kOffset = 2,

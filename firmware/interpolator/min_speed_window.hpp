@@ -8,7 +8,7 @@
 
 namespace cusp::interpolator {
 
-// What overrides leave of the programmed speeds: factors of squared speeds. kFeed and kRapid.
+// Overrides as factors of squared speeds. kFeed and kRapid.
 struct OverrideFactors {
     float feed{1};
     float rapid{1};

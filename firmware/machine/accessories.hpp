@@ -31,7 +31,7 @@ struct Accessories {
     std::uint32_t restoring_ticks() const noexcept;
 };
 
-// What the spindle turns at, rpm: the programmed speed with the override, inside $31 to $30. 0 when
+// Speed of the spindle, rpm: the programmed speed with the override, inside $31 to $30. 0 when
 // it is off.
 float spindle_speed(const Accessories& accessories,
                     unsigned override_percent,

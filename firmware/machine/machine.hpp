@@ -41,7 +41,7 @@ public:
     Machine(const Machine&) = delete;
     Machine& operator=(const Machine&) = delete;
 
-    // What the store keeps. Fill it before start(), write it when wants_store().
+    // The stored state. Fill it before start(), write it when wants_store().
     StoredState& stored() noexcept { return stored_; }
 
     // Sends the banner and runs the startup lines. `loaded` is the state of the store.
@@ -83,7 +83,7 @@ public:
     bool idle() const noexcept;
 
 private:
-    // What the line being executed waits for.
+    // The event that the executed line waits for.
     enum class Task : std::uint8_t {
         kNone,
         kActions,  // steps of G-code
@@ -95,7 +95,7 @@ private:
         kConfigure,  // motion to settle, then the new settings
         kFinish,     // the store, then the answer
     };
-    // What to do when the line is done.
+    // The actions after the line.
     enum class Ending : std::uint8_t { kAnswer, kStartupLine, kKeepStartupLine };
 
     // machine_realtime.cpp
@@ -116,7 +116,7 @@ private:
     void follow_door() noexcept;
     // Stops everything; the line that waits is answered with an error.
     void raise(Alarm alarm) noexcept;
-    // The same, but the caller answers.
+    // As above, but the caller answers.
     void enter_alarm(Alarm alarm) noexcept;
     void drop_all() noexcept;
     void reset() noexcept;
@@ -127,7 +127,7 @@ private:
     {
         return (motion_.inputs().steady() & input) != 0;
     }
-    // What stops everything: an alarm while its input is on.
+    // Inputs that stop everything: an alarm while one is on.
     Alarm protector() const noexcept
     {
         return input_on(kEmergencyStop) ? Alarm::kEmergencyStop

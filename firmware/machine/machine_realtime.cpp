@@ -30,7 +30,7 @@ void Machine::act(RealtimeCommand command) noexcept
     switch (command) {
         case RealtimeCommand::kReset:
             reset_wanted_ = true;
-            // What came before the reset is forgotten; what comes after it is not.
+            // Bytes before the reset are discarded; bytes after it are not.
             received_.clear();
             line_.begin_line();
             checked_.switch_off();

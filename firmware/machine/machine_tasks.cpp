@@ -1,4 +1,4 @@
-// What a line waits for: room, the end of motion, a dwell, a probe, homing, the store.
+// The events that a line waits for: room, the end of motion, a dwell, a probe, homing, the store.
 #include "firmware/machine/machine.hpp"
 #include "firmware/machine/travel.hpp"
 

@@ -18,7 +18,7 @@
 
 namespace cusp::machine {
 
-// What makes motion stop by itself: an input that comes on, or goes off.
+// The condition that stops motion: an input that comes on, or goes off.
 struct Watch {
     std::uint16_t inputs{0};  // any of these
     bool off{false};          // goes off
@@ -55,7 +55,7 @@ public:
     bool at_rest() const noexcept { return interpolator_.at_rest(); }
     // Every move is done.
     bool finished() const noexcept { return planner_.empty() && interpolator_.at_rest(); }
-    // The same, and the last pulse is made.
+    // As above, and the last pulse is made.
     bool settled() const noexcept { return finished() && pulses_.idle(); }
 
     void hold() noexcept { interpolator_.hold(); }

@@ -94,7 +94,7 @@ struct SettingFault {
     bool of_board{false};     // the bound is the board's: both are steps/s
 };
 
-// What the board can do; settings that ask for more are refused.
+// The board's capabilities; settings beyond them are refused.
 struct BoardLimits {
     // On each axis while all three move. By default a step each microsecond: nothing asks for more.
     std::uint32_t most_steps_per_second{1000000};
@@ -128,7 +128,7 @@ public:
     //   kGcodeMaxValueExceeded the value is above its range
     std::optional<Error> put(std::uint32_t number, float value) noexcept;
 
-    // What keeps the settings from being used together, if anything:
+    // The contradiction between settings, if any:
     //   kMaxStepRateExceeded   $110 x $100 needs steps closer than twice $0, or more of them than
     //                          the board plays
     //   kGcodeMaxValueExceeded $120 / $800 asks for a filter over 250 ms

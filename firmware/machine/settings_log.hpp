@@ -69,7 +69,7 @@ private:
     Store& store_;
     unsigned sector_{0};     // being filled
     std::uint32_t next_{0};  // slot in it where the next may go
-    // Of the record in force; kSectors where there is none. It is never erased.
+    // Sector of the record in force; kSectors where there is none. It is never erased.
     unsigned newest_sector_{kSectors};
     std::uint32_t sequence_{0};
 };

@@ -36,7 +36,7 @@ void include_turns(Extent& extent, const path::Arc& arc, unsigned axis, Position
         if (first <= arc.sweep) {
             include(extent, start + to_position(point_at(arc, first)));
         }
-        // Of several turns the last is the outermost where the radius grows.
+        // Among several turns the last is the outermost where the radius grows.
         const double last = first + kTurn * std::floor((arc.sweep - first) / kTurn);
         if (last > first) {
             include(extent, start + to_position(point_at(arc, last)));

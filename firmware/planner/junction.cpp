@@ -21,8 +21,8 @@ Vec3f smaller(Vec3f a, Vec3f b) noexcept
     return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
 }
 
-// What jumps of curvature count together at the speed v, 1/mm: the largest net change, and where the
-// speed has a minimum between them, as jerk along the path allows, what it is lower there.
+// Combined effect of jumps of curvature at the speed v, 1/mm: the largest net change. Where the
+// speed has a minimum between them, its decrease is bounded by jerk along the path.
 Vec3f counted_curvature(const JunctionRun& run,
                         const MachineLimits& limits,
                         AxisFilter filter,

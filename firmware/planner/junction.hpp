@@ -37,7 +37,7 @@ struct JunctionRun {
     Vec3f total;     // sum of the |changes|, 1/mm
 };
 
-// What a junction takes of what the path around it leaves of the axes' limits.
+// The share of the axes' limits, after the path around it, that a junction uses.
 struct JunctionShare {
     float speed;         // mm/s, greatest that it may be passed at
     float acceleration;  // share taken at that speed, in [0, 1)
@@ -45,7 +45,7 @@ struct JunctionShare {
     float jerk;          // and at that speed, in [0, 1)
 };
 
-// What a run of junctions takes. The axis filters turn a jump of direction into acceleration of at
+// The limits used by a run of junctions. The axis filters turn a jump of direction into acceleration of at
 // most v jump/t1 and jerk of at most v jump/(t1 t2), and a jump of acceleration into jerk of at most
 // jump/t1. Jumps of acceleration to and fro cancel, but for what the speed changes between them.
 //

@@ -20,7 +20,7 @@ constexpr float kTangentSpan = 0.2F;
 // window of the axis filters, 1.2 mm at 100 mm/s, they gain nothing.
 constexpr float kLongestBiarc = 2.0F;  // mm
 
-// Of a short distance, below 2 m: the target converts 32 bits in one instruction.
+// For distances below 2 m: the target converts 32 bits in one instruction.
 Vec3f millimetres(Position p) noexcept
 {
     constexpr float kScale = 1e-6F;

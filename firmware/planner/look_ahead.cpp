@@ -17,7 +17,7 @@ float braking(const SpeedLimit& limit, float end, float length, float half_filte
     return limit.acceleration_behind(std::sqrt(std::min(start, limit.cap)), half_filter);
 }
 
-// What the path after an interval allows at the interval's end.
+// The limits at an interval's end set by the path after it.
 struct Ahead {
     float speed;
     float feed;

@@ -21,7 +21,7 @@ struct Envelope {
     SpeedLimit limit;
     float end_speed;  // squared, at the end
     float slope;      // braking, mm/s^2
-    // The same for the feed alone: min(limit.feed, feed_end + 2 slope d). An override scales
+    // For the feed alone: min(limit.feed, feed_end + 2 slope d). An override scales
     // the part of it that stems from a programmed feed, feed_origin.
     float feed_end;
     float feed_origin;

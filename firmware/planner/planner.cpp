@@ -87,7 +87,7 @@ bool are_alike(const Allowance& a, const Allowance& b) noexcept
            !lines_differ(a.by_jerk, b.by_jerk);
 }
 
-// What of the limits the motion before rounding may use.
+// Share of the limits for the motion before rounding.
 MachineLimits with_margin(const MachineLimits& limits, std::uint32_t path_filter) noexcept
 {
     const float factor = 1.0F - kRoundingMargin - kTickMargin / static_cast<float>(path_filter);
@@ -337,7 +337,7 @@ void Planner::join(const EndGeometry& after,
     builder_.add_junction(share, 0.0F);
 }
 
-// What a junction takes, `distance` mm back, together with the `earlier` oldest ones.
+// Limits used by a junction, `distance` mm back, together with the `earlier` oldest ones.
 JunctionShare Planner::share_of(const Junction& junction,
                                 std::size_t earlier,
                                 float distance,

@@ -126,7 +126,7 @@ private:
     std::optional<path::Move> waiting_;  // until the run of lines before it is done
     bool close_requested_{false};
     bool flushing_{false};
-    // Of the last block: the next one to add, how many there are, and the end of the last, path units.
+    // Intervals of the last block: next to add, count, and the end of the last one, path units.
     std::uint8_t next_stretch_{0};
     std::uint8_t stretches_{0};
     std::uint32_t stretch_end_{0};

@@ -1,4 +1,4 @@
-// What the geometry of a stretch of path allows: its speed, and the acceleration along it.
+// Limits set by the geometry of a stretch of path: its speed, and the acceleration along it.
 #pragma once
 
 #include "firmware/base/machine_limits.hpp"
@@ -31,7 +31,7 @@ struct SpeedLimit {
         return squared_speed >= cap ? u1 : u0 - (u0 - u1) * (squared_speed / cap);
     }
 
-    // What may be used at a speed, mm/s, though the tool, behind half a path filter (s), is
+    // The acceleration allowed at a speed, mm/s, though the tool, behind half a path filter (s), is
     // faster by what that gains or loses.
     float acceleration_behind(float speed, float half_filter) const noexcept
     {
@@ -85,7 +85,7 @@ inline constexpr float kCentripetalShare = 0.92F;
 // And where v^3 |d3P/ds3| takes this part of its jerk.
 inline constexpr float kCurvatureJerkShare = 0.5F;
 
-// What a stretch with such derivatives allows.
+// The limits of a stretch with such derivatives.
 //
 //   limits           of the axes.
 //   filter_s         length of the path filter, s, > 0: jerk along the path is at most

@@ -26,7 +26,7 @@ public:
     void switch_on() noexcept;
     void switch_off() noexcept { on_ = false; }
 
-    // What is to be executed of a complete line, without number and check: it then counts as run,
+    // The command of a complete line, without number and check: the line then counts as run,
     // and the next number is expected. None: refuse it with expected(). Precondition: on().
     std::optional<std::string_view> accept(const LineAssembler& line) noexcept;
 

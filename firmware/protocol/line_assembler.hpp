@@ -24,7 +24,7 @@ namespace cusp::protocol {
 
 inline constexpr std::size_t kMaxLineLength = 255;
 
-// What the end of a checked line says about the bytes before it.
+// The verdict of the end of a checked line on the bytes before it.
 struct LineCheck {
     bool present{false};  // the line ends in '*' and eight hexadecimal digits
     bool good{false};     // and they are the CRC-32 of every byte before the '*'
@@ -39,7 +39,7 @@ public:
 
     // The line without spaces, control characters, '/' and comments, in capitals.
     std::string_view line() const noexcept { return {text_.data(), length_}; }
-    // The same up to the last '*', for checked lines.
+    // As above, up to the last '*', for checked lines.
     std::string_view checked_part() const noexcept { return {text_.data(), length_at_star_}; }
     LineCheck check() const noexcept;
     // checked_part() is not whole: the check behind it does not count.

@@ -1,4 +1,4 @@
-// What a long computation is doing, for the line that is printed when Ctrl-C or the end of memory stops it.
+// The progress of a long computation, for the line printed when Ctrl-C or the end of memory stops it.
 //
 //     cancellation::stop_with_message(8'000'000'000);            // bytes; once, before the work
 //     cancellation::set_work("planning operation 1 of 2 (adaptive_isocurve)");

@@ -8,6 +8,7 @@
 #include "host_tools/import/part_geometry_reader.hpp"
 #include "host_tools/part_info/part_info.hpp"
 #include "host_tools/report/part_picture.hpp"
+#include "host_tools/toolpath/post.hpp"
 
 #include "CLI/CLI.hpp"
 #include "fmt/format.h"
@@ -65,7 +66,6 @@ void write_outputs(const InfoOptions& options, const std::vector<PartInfo>& part
 
 int run_info(const InfoOptions& options)
 {
-    constexpr double kInch = 25.4;
     if (!options.picture.empty() && options.files.size() > 1) {
         throw InputError(
             fmt::format("--picture: {} files; a picture is of one: call cusp info once for each",
@@ -75,7 +75,7 @@ int run_info(const InfoOptions& options)
         throw InputError(fmt::format("--tolerance is {} mm, a number from 0.0001 to 10 is needed",
                                      options.tolerance));
     }
-    const double millimetres = options.units == "inch" ? kInch : 1.0;
+    const double millimetres = options.units == "inch" ? toolpath::kInch : 1.0;
     std::vector<PartInfo> parts;
     std::string text;
     for (const std::string& file : options.files) {

@@ -19,6 +19,7 @@
 #include "host_tools/job/fixture_clearance.hpp"
 #include "host_tools/strategies/strategies.hpp"
 #include "host_tools/toolpath/gcode_writer.hpp"
+#include "host_tools/toolpath/post.hpp"
 #include "host_tools/toolpath/tool_order.hpp"
 #include "host_tools/toolpath/toolpath_measure.hpp"
 
@@ -173,11 +174,10 @@ void put_simulated_times(const std::string& program,
 // The G-code. Sets the times in the plan to those on the controller.
 std::string program_of(const Job& job, const std::string& title, double blend, Plan& plan)
 {
-    constexpr double kInch = 25.4;
     ProgramForm form{
         "cusp " CUSP_VERSION ", " + title, job.inch, job.stock_top + job.clearance, {}, job.post};
     if (blend > 0) {
-        form.blend_tolerance = blend * (job.inch ? kInch : 1.0);
+        form.blend_tolerance = blend * (job.inch ? toolpath::kInch : 1.0);
     }
     std::ostringstream lines;
     const std::vector<std::size_t> begins = write_program(lines, form, plan.operations);

@@ -1,4 +1,4 @@
-// What `cusp plan` reports: a summary on the terminal, statistics as JSON.
+// The report of `cusp plan`: a summary on the terminal, statistics as JSON.
 #pragma once
 
 #include <cstdio>

@@ -1,4 +1,4 @@
-// What a job's post asks of its operations before they are planned, and of their bounds after.
+// Fits operations to a job's post before planning, and their bounds after it.
 #pragma once
 
 #include "host_tools/job/job.hpp"

@@ -1,4 +1,4 @@
-// What `cusp --version` prints.
+// The text of `cusp --version`.
 #include "host_tools/cli/version_text.hpp"
 
 #include "host_tools/cli/build_version.hpp"

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "host_tools/nurbs/knot_insertion.hpp"
+#include "host_tools/nurbs/plan_vector.hpp"
 #include "host_tools/part_model/bezier_cell.hpp"
 #include "host_tools/part_model/enclosure.hpp"
 
@@ -22,8 +22,7 @@ using part_model::Enclosure;
 
 namespace {
 
-constexpr double kNoBound = std::numeric_limits<double>::infinity();
-constexpr BendBounds kUnknown{kNoBound, kNoBound, kNoBound};
+constexpr BendBounds kUnknown{kInfinite, kInfinite, kInfinite};
 
 struct EnclosureVector {
     Enclosure x, y, z;
@@ -96,7 +95,7 @@ bool folds(const std::vector<double>& knots, int degree, int size)
 
 double proven_reach(double radius, double scallop_height, const BendBounds& bounds)
 {
-    if (!(bounds.up * radius < 1.0) || !(bounds.slope < kNoBound) || !(bounds.down < kNoBound)) {
+    if (!(bounds.up * radius < 1.0) || !(bounds.slope < kInfinite) || !(bounds.down < kInfinite)) {
         return 0.0;
     }
     const double up = bounds.up / (1.0 - bounds.up * radius);

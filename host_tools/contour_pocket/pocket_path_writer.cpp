@@ -209,7 +209,7 @@ bool PocketPathWriter::link_above_stock(const ProjectedPass& projected_pass,
     return true;
 }
 
-// Of any length; false if no path exists.
+// The link may have any length; false if no path exists.
 bool PocketPathWriter::link_around(const ProjectedPass& projected_pass, const CutSettings& settings)
 {
     if (!reach_) {

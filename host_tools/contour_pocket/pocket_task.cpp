@@ -32,7 +32,7 @@ using toolpath::Tool;
 
 namespace {
 
-// Of the radius of the finishing tool: a larger tolerance is meaningless for a pocket.
+// Fraction of the finishing tool's radius: a larger tolerance is meaningless for a pocket.
 constexpr double kMostTolerance = 0.25;
 // In radii of the finishing tool. Larger lengths mean wrong units, or the wrong tool.
 constexpr double kMostDepth = 1e3;

@@ -1,4 +1,4 @@
-// The same loops at every depth; where the floor is above a layer the tool follows the floor.
+// Every layer has the same loops; where the floor is above a layer the tool follows the floor.
 #include "host_tools/contour_pocket/rough_layers.hpp"
 
 #include <algorithm>

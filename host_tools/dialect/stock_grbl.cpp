@@ -32,7 +32,7 @@ constexpr double kMostNumbered = 1e7;
 constexpr double kMostTool = 255;
 constexpr double kMostSystem = 6;
 
-// What Grbl stores of a line: capitals, without blanks, comments and block deletes.
+// The line as Grbl stores it: capitals, without blanks, comments and block deletes.
 std::string stored(std::string_view line)
 {
     std::string text;
@@ -181,7 +181,7 @@ private:
         }
     }
 
-    // Of commands that take no axis words and have no decimals; 'x': there is none.
+    // Group of a command without axis words and decimals; 'x': none.
     static char plain_group(int g)
     {
         return g == 4 || g == 53    ? '0'

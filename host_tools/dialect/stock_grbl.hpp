@@ -1,4 +1,4 @@
-// What stock Grbl 1.1 refuses of the words that this project's dialect takes.
+// The words of this project's dialect that stock Grbl 1.1 refuses.
 //
 //     stock_grbl_refusal("G64 P0.02").code  // 20: not supported
 //

@@ -8,6 +8,7 @@
 #include "host_tools/drop_cutter/floor_coverage.hpp"
 #include "host_tools/offset/contour_fit.hpp"
 #include "host_tools/offset/region_check.hpp"
+#include "host_tools/toolpath/post.hpp"
 
 namespace cusp::grid_pocket {
 
@@ -27,8 +28,6 @@ using offset::reversed;
 using toolpath::Tool;
 
 namespace {
-
-constexpr double kInch = 25.4;
 
 // Memory and time grow with the cells: more than this is probably a typing error.
 constexpr double kMostCells = 4e6;
@@ -83,7 +82,7 @@ void refuse_grid_pocket(const Job& job, const std::string& what)
 std::string length_text(const Job& job, double mm)
 {
     char text[64];
-    const double value = job.inch ? mm / kInch : mm;
+    const double value = job.inch ? mm / toolpath::kInch : mm;
     const bool tiny = value != 0 && std::abs(value) < 1e-4;
     std::snprintf(text, sizeof text, tiny ? "%.3g" : job.inch ? "%.6f" : "%.5f", value);
     return std::string{text} + (job.inch ? " in" : " mm");

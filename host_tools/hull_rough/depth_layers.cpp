@@ -234,9 +234,8 @@ std::vector<double> least_leftover_planes(const LayerPlan& plan, DepthLimits lim
     const std::vector<double> z = candidates(plan, limits);
     const CoveredShare share{plan.patches, plan.planes.back()};
     const std::size_t layers = plan.planes.size() - 1;
-    const double impossible = kInfinite;
     // cost[k][j]: the least volume left over the part by k layers that end at z[j].
-    std::vector<std::vector<double>> cost(layers + 1, std::vector<double>(z.size(), impossible));
+    std::vector<std::vector<double>> cost(layers + 1, std::vector<double>(z.size(), kInfinite));
     std::vector<std::vector<std::size_t>> from(layers + 1, std::vector<std::size_t>(z.size(), 0));
     std::vector<double> covered;
     for (const double height : z) {
@@ -257,7 +256,7 @@ std::vector<double> least_leftover_planes(const LayerPlan& plan, DepthLimits lim
     }
     std::size_t best = 0;
     for (std::size_t k = 1; k <= layers; ++k) {
-        if (cost[k].back() < (best == 0 ? impossible : cost[best].back())) {
+        if (cost[k].back() < (best == 0 ? kInfinite : cost[best].back())) {
             best = k;
         }
     }

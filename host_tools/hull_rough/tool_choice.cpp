@@ -8,15 +8,13 @@
 namespace cusp::hull_rough {
 namespace {
 
-constexpr double kNever = kInfinite;
-
 double cost(const std::vector<ToolOffer>& layer, std::size_t tool)
 {
     double best = 0;
     for (const ToolOffer& offer : layer) {
         best = std::max(best, offer.cleared_area);
     }
-    return layer[tool].cleared_area >= kLeastShare * best ? layer[tool].seconds : kNever;
+    return layer[tool].cleared_area >= kLeastShare * best ? layer[tool].seconds : kInfinite;
 }
 
 }  // namespace
@@ -25,11 +23,11 @@ ToolChoice choose_tools(const std::vector<std::vector<ToolOffer>>& offers, doubl
 {
     const std::size_t layers = offers.size();
     const std::size_t tools = offers.front().size();
-    std::vector<std::vector<double>> sum(layers, std::vector<double>(tools, kNever));
+    std::vector<std::vector<double>> sum(layers, std::vector<double>(tools, kInfinite));
     std::vector<std::vector<std::size_t>> before(layers, std::vector<std::size_t>(tools, 0));
     for (std::size_t layer = 0; layer < layers; ++layer) {
         for (std::size_t tool = 0; tool < tools; ++tool) {
-            double best = layer == 0 ? 0 : kNever;
+            double best = layer == 0 ? 0 : kInfinite;
             for (std::size_t other = 0; layer > 0 && other < tools; ++other) {
                 const double way = sum[layer - 1][other] + (other == tool ? 0 : change_seconds);
                 if (way < best) {
@@ -41,7 +39,7 @@ ToolChoice choose_tools(const std::vector<std::vector<ToolOffer>>& offers, doubl
         }
     }
     ToolChoice choice;
-    choice.seconds_with_one = kNever;
+    choice.seconds_with_one = kInfinite;
     for (std::size_t tool = 0; tool < tools; ++tool) {
         double alone = 0;
         for (const auto& layer : offers) {

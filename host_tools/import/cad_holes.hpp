@@ -23,7 +23,7 @@ struct CadHoles {
 // model  with all of its faces (read_cad_model())
 CadHoles holes_of(const CadModel& model);
 
-// Of a file, placed; z is the tool's axis.
+// The holes of a file, placed; z is the tool's axis.
 //
 // Errors: as read_cad_model().
 CadHoles read_cad_holes(const std::string& file, const Similarity& placed);

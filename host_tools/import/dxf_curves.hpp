@@ -24,7 +24,7 @@ std::vector<nurbs::Curve> read_dxf_curves(const std::string& file,
                                           double millimetres,
                                           const std::string& layer = "");
 
-// What a drawing holds to drill: its POINTs, and its curves.
+// The objects of a drawing that can be drilled: its POINTs, and its curves.
 struct DxfPlaces {
     std::vector<Vec2d> points;
     std::vector<nurbs::Curve> curves;

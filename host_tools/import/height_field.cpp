@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "host_tools/nurbs/knot_insertion.hpp"
+#include "host_tools/nurbs/plan_vector.hpp"
 
 namespace cusp::import {
 
@@ -19,7 +19,6 @@ constexpr int kFirstCells = 24;  // along the longer side
 constexpr int kMostCells = 192;
 // Subdivision of a cell, along each side, for the proof.
 constexpr int kParts = 4;
-constexpr double kNone = -std::numeric_limits<double>::infinity();
 
 struct Box {
     double x0, x1, y0, y1, z0;
@@ -27,8 +26,7 @@ struct Box {
 
 Box box_of(const Facets& facets)
 {
-    constexpr double kFar = std::numeric_limits<double>::infinity();
-    Box box{kFar, -kFar, kFar, -kFar, kFar};
+    Box box{kInfinite, -kInfinite, kInfinite, -kInfinite, kInfinite};
     for (const Triangle& t : facets.triangles) {
         for (const Vec3d& p : t) {
             box = {std::min(box.x0, p.x), std::max(box.x1, p.x), std::min(box.y0, p.y),
@@ -146,7 +144,7 @@ private:
 // Heights of the upper envelope over the knots.
 void Field::sample()
 {
-    samples_.assign(static_cast<std::size_t>((nx_ + 1) * (ny_ + 1)), kNone);
+    samples_.assign(static_cast<std::size_t>((nx_ + 1) * (ny_ + 1)), -kInfinite);
     for (const Triangle& t : facets_.triangles) {
         const double det =
             (t[1].x - t[0].x) * (t[2].y - t[0].y) - (t[2].x - t[0].x) * (t[1].y - t[0].y);
@@ -171,7 +169,7 @@ void Field::sample()
             }
         }
     }
-    const auto open = std::count(samples_.begin(), samples_.end(), kNone);
+    const auto open = std::count(samples_.begin(), samples_.end(), -kInfinite);
     open_share_ = static_cast<double>(open) / static_cast<double>(samples_.size());
 }
 
@@ -180,7 +178,7 @@ double Field::gone_on(int i, int j) const
 {
     const auto known = [&](int a, int b) {
         return a < 0 || a > nx_ || b < 0 || b > ny_
-                   ? kNone
+                   ? -kInfinite
                    : samples_[static_cast<std::size_t>(a * (ny_ + 1) + b)];
     };
     double straight = 0;
@@ -191,16 +189,16 @@ double Field::gone_on(int i, int j) const
         for (int dj = -1; dj <= 1; ++dj) {
             const double near = known(i + di, j + dj);
             const double far = known(i + 2 * di, j + 2 * dj);
-            if (near != kNone && far != kNone) {
+            if (near != -kInfinite && far != -kInfinite) {
                 straight += 2 * near - far;
                 ++straights;
-            } else if (near != kNone) {
+            } else if (near != -kInfinite) {
                 beside += near;
                 ++besides;
             }
         }
     }
-    return straights > 0 ? straight / straights : besides > 0 ? beside / besides : kNone;
+    return straights > 0 ? straight / straights : besides > 0 ? beside / besides : -kInfinite;
 }
 
 // Extrapolates samples to all knots that influence cells with facets.
@@ -212,14 +210,14 @@ void Field::go_on()
         for (int i = 0; i <= nx_; ++i) {
             for (int j = 0; j <= ny_; ++j) {
                 double& z = next[static_cast<std::size_t>(i * (ny_ + 1) + j)];
-                z = z == kNone ? gone_on(i, j) : z;
+                z = z == -kInfinite ? gone_on(i, j) : z;
             }
         }
         samples_.swap(next);
     }
 }
 
-void Field::fill_open() { std::replace(samples_.begin(), samples_.end(), kNone, box_.z0); }
+void Field::fill_open() { std::replace(samples_.begin(), samples_.end(), -kInfinite, box_.z0); }
 
 // Quasi-interpolation: exact for cubics, without a system of equations.
 void Field::fit()
@@ -313,7 +311,7 @@ LowPlane plane_below(const std::array<double, 16>& cell, int p, int q, double sx
     // mean slopes of the part, from its corners
     const double rise_x = (net[3][0] - net[0][0] + net[3][3] - net[0][3]) / 2;
     const double rise_y = (net[0][3] - net[0][0] + net[3][3] - net[3][0]) / 2;
-    double level = std::numeric_limits<double>::infinity();
+    double level = kInfinite;
     for (std::size_t k = 0; k < 4; ++k) {
         for (std::size_t m = 0; m < 4; ++m) {
             level = std::min(level, net[k][m] - rise_x * static_cast<double>(k) / 3 -
@@ -451,7 +449,7 @@ HeightField finest(const Facets& facets, double tolerance, bool goes_on)
 {
     const Box box = box_of(facets);
     HeightField out;
-    double before = std::numeric_limits<double>::infinity();
+    double before = kInfinite;
     int more = 0;
     for (int cells = kFirstCells; cells <= kMostCells; cells = more) {
         Field field{facets, box, cells, goes_on};

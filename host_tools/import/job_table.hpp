@@ -54,7 +54,7 @@ public:
     const toml::table* table(const char* key);
     // A table within the table, such as tabs = { count = 4 }.
     const toml::table* inline_table(const char* key);
-    // Of such a table.
+    // Members of such a table.
     JobTable inner(const toml::table& table, const char* key, std::vector<std::string> known) const;
     // A single table counts as a list of one.
     std::vector<const toml::table*> tables(const char* key);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "host_tools/import/facet_groups.hpp"
@@ -53,7 +52,7 @@ Frame frame_of(const FacetGroup& group)
 // Least and greatest signed distance of corners from the plane.
 std::pair<double, double> off_plane(const FacetGroup& group, const Frame& frame)
 {
-    double low = std::numeric_limits<double>::infinity();
+    double low = kInfinite;
     double high = -low;
     for (const auto& t : group.facets.triangles) {
         for (const Vec3d& p : t) {

@@ -2,7 +2,6 @@
 #include "host_tools/import/part_extent.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -60,7 +59,7 @@ public:
     {
         std::vector<std::pair<double, const Patch*>> bounds;
         for (const Patch& patch : patches_) {
-            double bound = -std::numeric_limits<double>::infinity();
+            double bound = -kInfinite;
             for (const Vec3d point : patch.bezier.surface.points) {
                 bound = std::max(bound, side.reach(point));
             }
@@ -69,7 +68,7 @@ public:
         std::stable_sort(bounds.begin(), bounds.end(),
                          [](const auto& a, const auto& b) { return a.first > b.first; });
         std::vector<bool> looked_at_edges(surfaces_.size(), false);
-        double most = -std::numeric_limits<double>::infinity();
+        double most = -kInfinite;
         for (const auto& [bound, patch] : bounds) {
             if (bound <= most + kRounding) {
                 break;
@@ -107,7 +106,7 @@ private:
         constexpr double kFinest = 1e-7;  // of the patch
         const Surface& s = patch.bezier.surface;
         const TrimRegion& trims = region(patch.surface);
-        double most = -std::numeric_limits<double>::infinity();
+        double most = -kInfinite;
         const auto is_farther = [&](Vec2d place) {
             if (std::min(place.x, place.y) < 0 || std::max(place.x, place.y) > 1) {
                 return false;

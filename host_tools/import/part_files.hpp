@@ -42,7 +42,7 @@ public:
 
     void note(const std::string& sentence) { notes_.push_back(sentence); }
 
-    // Of a file that was not read yet; "#layer" left out.
+    // Places a file that was not read yet; its name has no "#layer".
     void place(const std::string& file, const Similarity& placed);
     // Moves what was read of the file, and what will be. mm
     void shift(const std::string& file, Vec3d by);
@@ -56,7 +56,7 @@ public:
 private:
     std::vector<job::Hole> model_holes(const std::string& file, DiameterRange range);
     Similarity placed(const std::string& file) const;
-    // Of the drawing, whichever layer.
+    // The placing of a drawing, the same for all layers.
     Similarity placed_drawing(const std::string& name) const;
 
     // keys: file, tolerance

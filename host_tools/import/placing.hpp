@@ -27,7 +27,7 @@ inline const std::vector<std::string> kOrigins{"corner", "centre", "top"};
 
 // Scale, up and rotate. Quarter turns are exact.
 Similarity turn_of(const Placing& placing);
-// The same of a drawing, which lies in x and y: scale, and the turn about z alone.
+// The placing of a drawing, which is in x and y: scale, and rotation about z only.
 Similarity turn_of_drawing(const Placing& placing);
 
 // Origin and move of what the turn has left in `box`: "top" puts the box's top at z = 0, "corner"

@@ -20,7 +20,7 @@ std::vector<Placing> read_placings(const std::vector<const toml::table*>& tables
                                    const std::filesystem::path& folder,
                                    double millimetres);
 
-// What the operations name, whether or not they are valid otherwise.
+// The files that the operations name, even of operations that are invalid otherwise.
 PlacedFiles files_of_operations(const std::vector<const toml::table*>& operations,
                                 const std::filesystem::path& folder);
 

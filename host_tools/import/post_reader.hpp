@@ -18,7 +18,7 @@ namespace cusp::import {
 // Errors: InputError with file, line and key, or with the names that there are.
 toolpath::Post read_post(const std::string& name, const std::filesystem::path& folder);
 
-// Of the posts that come with the program, in alphabetical order.
+// Names of the built-in posts, in alphabetical order.
 std::vector<std::string> post_names();
 
 }  // namespace cusp::import

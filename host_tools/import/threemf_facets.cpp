@@ -63,9 +63,9 @@ private:
     static constexpr int kDeepest = 32;
     static constexpr int kMostObjects = 100000;  // after components are multiplied out
 
-    // Throws what lib3mf says of the failed call.
+    // Throws lib3mf's message on the failed call.
     void check(int result, Handle about) const;
-    // What `make` hands out; lib3mf says of `about` why it does not.
+    // The result of `make`; on failure, throws lib3mf's reason for `about`.
     template <class Make>
     Owned made(const Make& make, Handle about) const
     {

@@ -110,7 +110,7 @@ struct ToolFacts {
     std::optional<double> length;        // mm, out of the holder
 };
 
-// What holds the stock: a box or a vertical cylinder, from the table to `top`. Neither tool nor
+// A fixture that holds the stock: a box or a vertical cylinder, from the table to `top`. Neither tool nor
 // shank comes nearer than `margin`.
 struct Fixture {
     std::string name;

@@ -1,4 +1,4 @@
-// What a part file holds: loops of a drawing, faces of a model or facets of a mesh. `import` reads it
+// Content of a part file: loops of a drawing, faces of a model or facets of a mesh. `import` reads it
 // (part_geometry_reader.hpp), `part_info` describes it.
 #pragma once
 

@@ -46,7 +46,7 @@ struct Tabs {
 struct Hole {
     Vec2d at;
     double diameter{};  // of the circle drawn, or of the cylinder; 0: a point
-    // Of a hole of a model, z; a blind one ends at `bottom`, the tip of its cone.
+    // Holes of models, z; a blind one ends at `bottom`, the tip of its cone.
     struct Span {
         double top;
         double bottom;

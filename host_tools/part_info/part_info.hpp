@@ -33,7 +33,7 @@ struct PartInfo {
 
 // tolerance  mm, above 0: material that a ball may leave
 //
-// Of a drawing nothing is added to what the file holds.
+// A drawing is reported as it is in the file, without inspection.
 PartInfo inspect_part(job::PartGeometry part, double tolerance);
 
 // Aligned lines, with a unit on every number.

@@ -52,7 +52,7 @@ double through_point(Vec2d foot, Vec2d normal, Vec2d q)
     return along > 0 ? squared / (2 * along) : kUnbounded;
 }
 
-// Likewise that touches the line or the circle of an edge, which has the region on its left.
+// As above, for the line or the circle of an edge, which has the region on its left.
 double touching(Vec2d foot, Vec2d normal, const Edge& edge)
 {
     if (edge.turn == 0) {

@@ -143,7 +143,7 @@ PathPlace nearest_on_bezier(const path::BezierPiece& piece, Vec3d point)
     return {nearest, static_cast<double>(best) / kSamples};
 }
 
-// Of two equally near moves the later one counts.
+// Among equally near moves the latest counts.
 constexpr double kTie = 1e-7;
 
 }  // namespace

@@ -43,7 +43,7 @@ private:
         path::Move move;
         double start;  // mm along the path
         double end;
-        // Of a line, mm: its end from its start, and the square of its length.
+        // Lines only, mm: end minus start, and the square of the length.
         bool straight;
         Vec3d chord;
         double chord_square;

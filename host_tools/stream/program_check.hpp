@@ -23,7 +23,7 @@ public:
 
     // Number of the line that was added last; 0: none.
     std::uint64_t lines() const { return line_; }
-    // Of the text of all lines added.
+    // Checksum of the text of all lines added.
     std::uint32_t crc() const { return crc_.value(); }
 
 private:

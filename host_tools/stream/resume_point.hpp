@@ -22,7 +22,7 @@ struct ResumePoint {
     gcode::Parameters parameters;
     Position position;             // machine
     std::int64_t highest_z_nm{0};  // the tool's highest since the start of the program, machine
-    // Of the last feed move straight down, mm/min; none if there was none.
+    // Feed of the last feed move straight down, mm/min; none if there was none.
     std::optional<float> plunge_feed;
 };
 

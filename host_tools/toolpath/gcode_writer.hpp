@@ -11,7 +11,7 @@
 
 namespace cusp::toolpath {
 
-// Of the whole program.
+// The form of the whole program.
 struct ProgramForm {
     std::string title;     // of the header comment
     bool inch{false};      // G20 or G21

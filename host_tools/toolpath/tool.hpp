@@ -25,7 +25,7 @@ struct Tool {
     ToolShape shape{ToolShape::kBall};
     double radius{};         // mm
     double corner_radius{};  // mm: radius for a ball, 0 for a flat end mill
-    // Of a vee, a drill or a taper: the whole angle between its flanks, radians.
+    // Vee, drill and taper: the whole angle between the flanks, radians.
     double tip_angle{};
     double tip_radius{};  // mm: of the flat at the tip of a vee or a taper
     CuttingRates rates{};

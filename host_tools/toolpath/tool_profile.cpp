@@ -1,8 +1,8 @@
 // The lower side of a tool.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "host_tools/nurbs/plan_vector.hpp"
 #include "host_tools/toolpath/tool.hpp"
 
 namespace cusp::toolpath {
@@ -40,7 +40,7 @@ double flat_radius(const Tool& tool)
 double profile_height(const Tool& tool, double d)
 {
     if (!(d <= tool.radius)) {
-        return std::numeric_limits<double>::infinity();
+        return kInfinite;
     }
     const double beyond_flat = d - flat_radius(tool);
     if (beyond_flat <= 0) {

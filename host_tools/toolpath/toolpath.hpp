@@ -67,14 +67,14 @@ struct Toolpath {
     std::vector<ToolMove> moves;
     std::vector<std::string> comments;  // header lines: strategy and bounds
     std::string tool_name;              // may be empty
-    // Of a path that does nothing else. Its moves are the same, written out.
+    // Only for paths that do nothing else; `moves` are the cycle's moves.
     std::optional<DrillCycle> cycle{};
 };
 
-// What every planner reports; planners add their own counts.
+// Statistics of every planner; planners add their own counts.
 struct OperationStats {
     std::string strategy;
-    // What it leaves is for another operation: its scallop bound is no promise.
+    // Stock left is for another operation: the scallop bound is no promise.
     bool roughing{false};
     int passes{};
     int levels{};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/nurbs/plan_vector.hpp"
 #include "host_tools/toolpath/arc_geometry.hpp"
 
 namespace cusp::toolpath {
@@ -64,7 +65,8 @@ Geometry geometry_of(const NurbsTo& to, Vec3d start)
 // The largest speed along a direction for which no axis is above its own limit.
 double along(Vec3d direction, Vec3d limit)
 {
-    double most = 1e9;
+    constexpr double kNoDirection = 1e9;  // the tangent at a standstill has length 0
+    double most = kNoDirection;
     for (unsigned axis = 0; axis < 3; ++axis) {
         const double share = std::abs(direction[axis]);
         if (share > 0) {
@@ -149,17 +151,16 @@ public:
     {
         const double velocity = velocity_ / length_;
         const double more = rest_to_rest(length_, velocity, acceleration_, jerk_) -
-                            rest_to_rest(length_, velocity, acceleration_, kEndless);
+                            rest_to_rest(length_, velocity, acceleration_, kInfinite);
         *this = {};
         return more;
     }
 
 private:
-    static constexpr double kEndless = 1e30;
     double length_{};
     double velocity_{};  // times the length
-    double acceleration_{kEndless};
-    double jerk_{kEndless};
+    double acceleration_{kInfinite};
+    double jerk_{kInfinite};
 };
 
 double estimated_seconds(const std::vector<Stretch>& stretches, bool exact_stop)
@@ -344,7 +345,6 @@ double cut_length_above(const Toolpath& path, Vec3d start, double z)
 PathMeasure measure(const Toolpath& path, Vec3d start, const MachineRates& rates)
 {
     constexpr double kSecondsPerMinute = 60.0;
-    constexpr double kNoFeedLimit = 1e9;
     PathMeasure sum;
     std::vector<Stretch> stretches;
     Vec3d at = start;
@@ -357,7 +357,7 @@ PathMeasure measure(const Toolpath& path, Vec3d start, const MachineRates& rates
         if (g.length > 0) {
             const double feed = feed_of(path, move, at);
             stretches.push_back(
-                stretch_of(g, feed > 0 ? feed / kSecondsPerMinute : kNoFeedLimit, rates));
+                stretch_of(g, feed > 0 ? feed / kSecondsPerMinute : kUnbounded, rates));
         }
         at = end_of(move);
     }
