@@ -22,7 +22,7 @@ public:
     Interpolator(const Interpolator&) = delete;
     Interpolator& operator=(const Interpolator&) = delete;
 
-    // Stands at `at`, filters empty. The planner must have been reset with it.
+    // Starts at rest at `at`, filters empty. The planner must have been reset with it.
     void reset(Position at) noexcept;
 
     // The next set point, machine nanometres.

@@ -35,7 +35,7 @@ public:
     std::uint32_t interval() const noexcept { return interval_; }
 
     // Least squared speed allowed between two positions along the path, path units. 0 where the
-    // window reaches over more intervals than one tick may look at; the next ticks go on from
+    // window reaches over more intervals than one tick may read; the next ticks continue from
     // there.
     float least_between(const planner::PathQueue& queue,
                         std::uint64_t from,

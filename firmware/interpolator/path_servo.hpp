@@ -33,7 +33,7 @@ public:
     // Advances by one tick. Returns the travel in path units.
     std::int32_t tick(const Conditions& conditions) noexcept;
 
-    // How far it has come since the reset, in units of 256 path units; wraps. Context: any.
+    // Travel since the reset, in units of 256 path units; wraps. Context: any.
     std::uint32_t travelled() const noexcept { return travelled_.load(std::memory_order_relaxed); }
 
     bool standing() const noexcept { return speed_ == 0; }

@@ -1,4 +1,4 @@
-// Accessories: spindle, coolant and drives, from what program, person and safety ask of them.
+// Accessories: outputs of spindle, coolant and drives, from program, operator and safety.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct Accessories {
     // Off for a while, though the program wants them: in a hold (0x9E), at an open door.
     bool spindle_paused{false};
     bool coolant_paused{false};
-    bool changing_tool{false};  // both off, whatever a person asks for
+    bool changing_tool{false};  // both off, even if the operator switches them on
 
     bool spindle_on() const noexcept
     {

@@ -80,7 +80,7 @@ auto Homing::step(Motion& motion, const Settings& settings) noexcept -> Progress
     }
     motion.abandon();
     moving_ = false;
-    // Switches bounce: give them their time before the next look.
+    // Switches bounce: the debounce time passes before the next reading.
     resting_ = true;
     rest_until_ = motion.ticks() + settings.whole(Setting::kHomingDebounce);
     return Progress::kStepped;
@@ -113,7 +113,7 @@ void Homing::note_contact(const Motion& motion) noexcept
     } else if (const std::optional<Position> later = motion.later_contact()) {
         later_contact_ = (*later)[axis_];
     }
-    stands_at_ = motion.position()[axis_];
+    other_at_ = motion.position()[axis_];
 }
 
 auto Homing::start_phase(Motion& motion, const Settings& settings) noexcept -> Progress
@@ -145,7 +145,7 @@ auto Homing::start_phase(Motion& motion, const Settings& settings) noexcept -> P
     return Progress::kStepped;
 }
 
-// False where the motor that lags is too far behind already.
+// False where the lagging motor is too far behind.
 bool Homing::start_search(Motion& motion, const Settings& settings) noexcept
 {
     const std::int64_t sign = homes_to_minus(settings) ? -1 : 1;
@@ -153,7 +153,7 @@ bool Homing::start_search(Motion& motion, const Settings& settings) noexcept
     if (phase_ == Phase::kLocate) {
         distance = nanometres(kLocateOverPullOff * settings.value(Setting::kHomingPullOff));
     } else if (phase_ == Phase::kSquare) {
-        distance = nanometres(most_skew(settings, axis_)) - sign * (stands_at_ - contact_);
+        distance = nanometres(most_skew(settings, axis_)) - sign * (other_at_ - contact_);
     }
     if (distance <= 0) {
         return false;
@@ -164,11 +164,11 @@ bool Homing::start_search(Motion& motion, const Settings& settings) noexcept
     return true;
 }
 
-// The way of the motor that lags to where it is as far beyond its switch as the other one.
+// Travel of the lagging motor until it is as far beyond its switch as the other one.
 std::int64_t Homing::alignment(const Motion& motion, const Settings& settings) const noexcept
 {
     const std::int64_t offset = nanometres(settings.value(Setting::kSquareOffset, axis_));
-    return later_contact_.value_or(stands_at_) + stands_at_ - contact_ +
+    return later_contact_.value_or(other_at_) + other_at_ - contact_ +
            (lagging_ == Motors::kSecond ? offset : -offset) - motion.tail()[axis_];
 }
 
@@ -212,7 +212,7 @@ auto Homing::finish_phase(Motion& motion, const Settings& settings) noexcept -> 
             return finish_search(motion, settings);
         case Phase::kAlign: {
             Position at = motion.position();
-            at[axis_] = stands_at_;
+            at[axis_] = other_at_;
             motion.relocate(at);
             phase_ = Phase::kSecondPullOff;
             return Progress::kStepped;

@@ -1,4 +1,4 @@
-// Homing: finds the switch of each axis and makes its place known.
+// Homing: finds the switch of each axis and sets the machine position from it.
 //
 // Each axis in turn, Z first: seek the switch fast, pull off, find it again slowly, pull off. The
 // machine is then $27 inside its travel.
@@ -25,7 +25,7 @@ public:
 
     enum class Progress : std::uint8_t { kWaiting, kStepped, kFinished, kFailed };
 
-    // Goes on where it can.
+    // Performs the next step, if its conditions hold.
     Progress step(Motion& motion, const Settings& settings) noexcept;
 
     // Why it failed.
@@ -69,7 +69,7 @@ private:
     // the position of the other motor.
     Motors lagging_{Motors::kBoth};
     std::optional<std::int64_t> later_contact_;
-    std::int64_t stands_at_{0};
+    std::int64_t other_at_{0};
     Alarm alarm_{Alarm::kNone};
 };
 

@@ -1,4 +1,4 @@
-// InputFilter: inputs that noise can't trip. A level counts once it has lasted.
+// InputFilter: debounced inputs. A level counts once it has lasted.
 #pragma once
 
 #include <array>

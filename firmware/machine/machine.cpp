@@ -1,4 +1,4 @@
-// States, alarms and resets, and what the machine says of itself.
+// States, alarms and resets, and the messages about them.
 #include "firmware/machine/machine.hpp"
 
 #include "firmware/machine/report_units.hpp"
@@ -6,7 +6,7 @@
 namespace cusp::machine {
 namespace {
 
-// Room for the longest single thing that a slice writes.
+// Room for the longest output of one slice.
 constexpr std::uint32_t kReplyRoom = 256;
 
 }  // namespace
@@ -74,7 +74,7 @@ bool Machine::poll() noexcept
     motion_.work(can_answer && (!received_.empty() || task_ == Task::kActions));
     guard_limits();
     if (!can_answer) {
-        // Though the sender does not listen, a stop is a stop.
+        // A stop acts even if the sender does not read the reply.
         if (hold_wanted_ || door_wanted_ || reset_wanted_) {
             motion_.hold();
         }
@@ -111,7 +111,7 @@ void Machine::guard_limits() noexcept
     }
 }
 
-// Takes the state along with what motion does by itself.
+// Updates the state after changes that motion makes by itself.
 bool Machine::follow_motion() noexcept
 {
     if (!motion_.settled()) {
@@ -267,7 +267,7 @@ void Machine::reset() noexcept
     say_hello();
 }
 
-// The banner, and what follows it: a lock, an open door, or the startup lines.
+// Sends the banner, then enters the lock, reports an open door, or runs the startup lines.
 void Machine::say_hello() noexcept
 {
     reporter_ = StatusReporter{};

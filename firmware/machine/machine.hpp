@@ -36,7 +36,7 @@ namespace cusp::machine {
 class Machine {
 public:
     //   factory  the settings where the store holds none, and after `$RST=$`
-    //   board    what it can do: settings that ask for more are refused
+    //   board    its capabilities: settings beyond them are refused
     explicit Machine(const Settings& factory, const BoardLimits& board = {}) noexcept;
     Machine(const Machine&) = delete;
     Machine& operator=(const Machine&) = delete;
@@ -62,7 +62,7 @@ public:
     bool wants_store() const noexcept { return store_wanted_; }
     void store_done(bool written) noexcept;
 
-    // A pulse frame was missing while in motion: the steps stopped where they were.
+    // A pulse frame was missing during motion: the steps stopped at once.
     void frame_missed() noexcept;
 
     // Context: servo tick.
@@ -209,7 +209,7 @@ private:
 
     State state_{State::kIdle};
     Alarm alarm_{Alarm::kNone};
-    bool critical_{false};      // after a limit alarm: nothing but a reset is heard
+    bool critical_{false};      // after a limit alarm: only a reset is accepted
     bool reset_needed_{false};  // after an emergency stop: no motion before a reset
     bool locked_{false};        // check mode was entered from an alarm
     bool hold_pending_{false};  // M0: the hold begins once the line is answered

@@ -1,4 +1,4 @@
-// Realtime bytes, buttons, the link's silence: what stops and starts the machine.
+// Stops and starts of the machine: realtime bytes, buttons, the link's silence.
 #include "firmware/machine/machine.hpp"
 
 namespace cusp::machine {
@@ -120,7 +120,7 @@ bool Machine::handle_events() noexcept
         return true;
     }
     if (hold_wanted_ || door_wanted_) {
-        // A start that came at the same time as a stop is not meant.
+        // A stop overrides a start that arrives at the same time.
         start_wanted_ = false;
         if (door_wanted_) {
             open_door();
@@ -171,7 +171,7 @@ bool Machine::watch_link() noexcept
 {
     constexpr std::uint32_t kCheckedLinesLapse = 3000;  // ticks
     const std::uint32_t silence = motion_.ticks() - last_byte_tick_;
-    // Questions are no lines: any sender asks them all the while.
+    // Status queries are no lines: senders send them all the time.
     const bool no_lines = motion_.ticks() - last_text_tick_ > kCheckedLinesLapse;
     if (checked_.on() && no_lines && idle()) {
         checked_.switch_off();

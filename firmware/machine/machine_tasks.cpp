@@ -39,7 +39,7 @@ bool Machine::step_actions() noexcept
         return true;
     }
     action_waits_ = true;
-    // Performing may end the line or go on in another task; only a wait leaves the action.
+    // Performing may end the line or continue in another task; only a wait keeps the action.
     if (perform_action()) {
         action_waits_ = false;
         return true;
@@ -70,7 +70,7 @@ bool Machine::perform(const path::Move& move) noexcept
             finish_line(Error::kTravelExceeded);
             return true;
         }
-        // As in Grbl: what lies before is stopped softly, then the alarm.
+        // As in Grbl: earlier moves are stopped softly, then the alarm is raised.
         motion_.hold();
         if (!motion_.at_rest()) {
             return false;

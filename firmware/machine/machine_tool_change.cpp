@@ -6,7 +6,7 @@ namespace {
 
 constexpr std::size_t kPlace = gcode::kCoordinateSystems - 1;  // G59.3
 
-// The zero of machine positions is at the limit switches, where no one changes a tool: a system that
+// Machine zero is at the limit switches, which is no place for a tool change: a coordinate system that
 // lies there was not set.
 bool is_set(Position place) noexcept { return !(place == Position{}); }
 
@@ -69,7 +69,7 @@ void Machine::start_tool_change(const gcode::ToolChange& change, ToolChangeMode 
 bool Machine::step_tool_change() noexcept
 {
     const ToolChanger::Progress progress = tool_changer_.step(motion_, stored_.settings);
-    // Between its moves, too: a sender takes Idle for the end of the line.
+    // Also between its moves: senders take Idle as the end of the line.
     if (state_ == State::kIdle) {
         state_ = State::kRun;
     }

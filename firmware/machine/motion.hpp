@@ -1,4 +1,4 @@
-// Motion: planner, interpolator and pulses as one thing that takes moves and makes frames.
+// Motion: planner, interpolator and pulses as one object that takes moves and makes frames.
 //
 // The servo tick may interrupt the main loop at any instruction, never the other way round. A gate
 // protects critical sections of the main loop: while it is shut, ticks advance nothing.
@@ -40,7 +40,7 @@ public:
     void push(const path::Move& move) noexcept;
     // No move follows for now.
     void close() noexcept;
-    // Lets the planner go on with what it has; closes the path where it runs out and nothing came
+    // Lets the planner continue with its moves; closes the path where it runs out and nothing came
     // for a while. more_waits: lines are at hand.
     void work(bool more_waits) noexcept;
 
@@ -134,7 +134,7 @@ private:
     std::atomic<bool> guarding_{false};
     std::atomic<bool> limit_hit_{false};
     std::atomic<bool> gate_shut_{false};
-    std::atomic<bool> stands_still_{false};  // no pulses either: where they stand is being changed
+    std::atomic<bool> stands_still_{false};  // no pulses either: their position is being changed
     std::atomic<std::uint32_t> ticks_{0};
 
     float least_acceleration_{1};

@@ -1,4 +1,4 @@
-// Overrides: what the person at the machine makes of the programmed feeds and speeds.
+// Overrides: the operator's factors on the programmed feeds and speeds.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct Overrides {
     }
 };
 
-// The overrides after a realtime command; unchanged where it is about something else.
+// The overrides after a realtime command; unchanged by commands that are no override.
 Overrides overridden(Overrides overrides, protocol::RealtimeCommand command) noexcept;
 
 }  // namespace cusp::machine

@@ -1,4 +1,4 @@
-// The table of settings and what they must be, alone and together.
+// The table of settings, their ranges, and the conditions between them.
 #include "firmware/machine/settings.hpp"
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 constexpr float kMostAny = 1e7F;
 constexpr float kMostJerk = 1e10F;
 constexpr float kLeastPositive = 0.001F;
-constexpr float kLongestFilter = 0.250F;  // s: what the interpolator's filter holds
+constexpr float kLongestFilter = 0.250F;  // s: the longest filter of the interpolator
 
 constexpr std::array<SettingEntry, kSettingCount> kTable{{
     {0, 0, 2, 1, 100},
@@ -165,7 +165,7 @@ std::optional<SettingFault> Settings::find_fault(const BoardLimits& board) const
 bool Settings::sound(const BoardLimits& board) const noexcept
 {
     for (std::size_t i = 0; i < kSettingCount; ++i) {
-        // So written that it refuses a NaN.
+        // This form of the comparison refuses a NaN.
         if (!(values_[i] >= kTable[i].least && values_[i] <= kTable[i].most)) {
             return false;
         }

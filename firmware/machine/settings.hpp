@@ -1,7 +1,7 @@
-// Settings: what a person sets once for a machine, by Grbl's numbers.
+// Settings: the configuration of a machine, by Grbl's numbers.
 //
 // A value is a float and a number in a table; `$$` lists them in the table's order. Numbers that
-// are not Grbl's ($8, $14 to $16, $29, $170 to $172 and $341 to $349 as in grblHAL, $790 and up) stand after Grbl's own.
+// are not Grbl's ($8, $14 to $16, $29, $170 to $172 and $341 to $349 as in grblHAL, $790 and up) come after Grbl's own.
 #pragma once
 
 #include <array>
@@ -50,7 +50,7 @@ enum class Setting : std::uint8_t {
     kCoolantInvert,               // $15 mask: 1 flood, 2 mist
     kSpindleInvert,               // $16 mask: 1 on, 2 reverse, 4 pulses
     kDirectionSetup,              // $29 us
-    kSquareOffset,                // $170 mm: how far the second motor shall stand towards plus
+    kSquareOffset,                // $170 mm: offset of the second motor towards plus
     kToolChangeMode = kSquareOffset + 3,  // $341; see ToolChangeMode
     kToolSearch,                          // $342 mm: the longest way down to the tool setter
     kToolFeed,                            // $343 mm/min: the slow touch
@@ -84,7 +84,7 @@ struct SettingEntry {
 
 const SettingEntry& setting_entry(std::size_t index) noexcept;
 
-// Why a value is refused. Where the reason is two settings together, both stand here.
+// The reason why a value is refused. If two settings contradict each other, both are here.
 struct SettingFault {
     Error error{Error::kSettingDisabled};
     std::uint16_t first{0};   // number of the setting at fault; 0: the reason is the value alone
@@ -136,7 +136,7 @@ public:
     //   kSettingDisabled       a second motor on a board without pins for it
     std::optional<SettingFault> find_fault(const BoardLimits& board = {}) const noexcept;
 
-    // Every value is in its range and all go together: what put() and find_fault() let through.
+    // Every value is in its range and none contradict: put() and find_fault() accept them.
     // Stored bytes of another firmware may not be.
     bool sound(const BoardLimits& board = {}) const noexcept;
 

@@ -1,4 +1,4 @@
-// StoredState: all that outlives a power cycle, as one record of plain bytes.
+// StoredState: everything kept over a power cycle, as one record of plain bytes.
 #pragma once
 
 #include <array>

@@ -50,7 +50,7 @@ public:
         kFailed,
     };
 
-    // Goes on where it can.
+    // Performs the next step, if its conditions hold.
     Progress step(Motion& motion, const Settings& settings) noexcept;
 
     void rest(std::uint32_t until_tick) noexcept

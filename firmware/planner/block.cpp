@@ -131,7 +131,7 @@ PathDerivatives curve_derivatives(const CurveBlock& curve,
     const nurbs::CurveState m = nurbs::state_at(curve.piece, 0.5F * (from + to));
     const nurbs::CurveState b = nurbs::state_at(curve.piece, to);
     // A parabola through three places exceeds the greatest of them by at most an eighth of their
-    // second difference. Twice that is for what is not a parabola:
+    // second difference. Twice that bounds other functions:
     // tests/unit/planner/stretch_test.cpp.
     const auto bound = [](const Vec3f& at_a, const Vec3f& at_m, const Vec3f& at_b) {
         const Vec3f bend = magnitude(at_a - at_m * 2.0F + at_b);

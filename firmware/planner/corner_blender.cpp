@@ -22,7 +22,7 @@ constexpr double kShareOfLine = 0.45;
 // from the corner.
 constexpr double kApex = 3.0 / 16.0;
 
-// A blend must save this part of the time of a stop: what speeds up around it takes longer.
+// A blend must save this part of the time of a stop: acceleration around it takes longer.
 constexpr float kWorthIt = 0.5F;
 
 bool may_blend(const path::Move& move) noexcept
@@ -58,7 +58,7 @@ void CornerBlender::add(const path::Move& move) noexcept
     }
 }
 
-// Lets all of a long line go but the end that a blend may need, so that the tool need not slow down
+// Releases all of a long line but the end that a blend may need, so that the tool need not slow down
 // while the next move is not known.
 void CornerBlender::release_front(path::Move& line) noexcept
 {

@@ -25,7 +25,7 @@ public:
         filter_s_ = filter_s;
     }
 
-    // Whether add() takes a move: everything made so far was taken.
+    // Whether add() takes a move: all of its output was taken.
     bool ready() const noexcept { return made_.empty(); }
     bool empty() const noexcept { return made_.empty() && !held_; }
 

@@ -31,7 +31,7 @@ public:
     // Adds a stretch at the end of the path.
     void append(std::uint32_t length, const Allowance& allowance, bool rapid) noexcept;
 
-    // Spreads what a junction demands, `distance` mm before the end of the path so far.
+    // Spreads the limit of a junction, `distance` mm before the end of the path so far.
     void add_junction(const JunctionShare& junction, float distance) noexcept;
 
     // The path stops at its end: all of it may be published, and no limit is spread over the stop.

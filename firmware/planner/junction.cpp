@@ -1,4 +1,4 @@
-// Speeds at junctions, from what the axis filters make of a jump.
+// Speeds at junctions, from the response of the axis filters to a jump.
 #include "firmware/planner/junction.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Where two blocks meet: how fast the jumps of direction and curvature may be passed.
+// Junctions of two blocks: the speed at which jumps of direction and curvature may be passed.
 #pragma once
 
 #include "firmware/planner/block.hpp"

@@ -33,7 +33,7 @@ constexpr float kGreatestSpeed = 2000.0F;  // mm/s
 // Deviation, mm, left to the axis filters on the exact path and as a share of a tolerance.
 constexpr float kExactDeviation = 0.0009F;
 constexpr float kFilterShareOfTolerance = 0.45F;
-// And by which a corner may be cut, but for what the path has departed.
+// Deviation by which a corner may be cut, less that of the path itself.
 constexpr float kCornerShareOfTolerance = 0.985F;
 // A junction that takes less of the axes' jerk is none.
 constexpr float kNegligible = 1e-3F;
@@ -55,7 +55,7 @@ float circle_factor(AxisFilter filter) noexcept
     return (first * first + second * second - 2.0F) * (kServoTick * kServoTick / 24.0F);
 }
 
-// Duration of what the axis filters make of a jump, s.
+// Duration of the axis filters' response to a jump, s.
 float filter_window(AxisFilter filter) noexcept
 {
     return static_cast<float>(filter.first + filter.second) * kServoTick;
@@ -199,7 +199,7 @@ void Planner::start(const path::Move& move) noexcept
     choice_ = filter_for(move.tolerance);
     const AxisFilter filter = choice_.filter;
     maker_.start(move, filter);
-    // Where the axis filters change the path stops: nothing reaches over that.
+    // The path stops where the axis filters change: no limit is spread over that.
     const float half = queue_.half_filter() + 2.0F * kServoTick;
     const float beyond = half + static_cast<float>(filter.first + filter.second) * kServoTick;
     builder_.set_reach({half, beyond, beyond});
@@ -369,7 +369,7 @@ void Planner::add_recent(const Junction& junction, float speed) noexcept
 }
 
 // A stretch is to be added that takes more of the limits than a junction, within one window of the
-// axis filters before it, reckoned with.
+// axis filters before it, taken into account.
 void Planner::apply_junction_limits(const PathDerivatives& coming) noexcept
 {
     const float window = filter_window(end_filter_);
@@ -463,7 +463,7 @@ void Planner::add_stretch() noexcept
     end_speed_ = greatest_speed(allowed, block.rapid);
 }
 
-// How much the corner at the end of the path so far may be cut in time.
+// Overlap in time at the corner at the end of the path so far.
 CornerOverlap Planner::overlap_at_corner(const EndGeometry& after,
                                          const Block& block) const noexcept
 {

@@ -37,7 +37,7 @@ public:
     void set_limits(const MachineLimits& limits) noexcept;
     const MachineLimits& limits() const noexcept { return limits_; }
 
-    // Forgets all moves; the next starts at `at`. The interpolator must be reset with it.
+    // Discards all moves; the next starts at `at`. The interpolator must be reset with it.
     void reset(Position at) noexcept;
 
     // Works on the moves so far, as far as there is room for their blocks. Returns whether push()
@@ -48,7 +48,7 @@ public:
     // dropped.
     void push(const path::Move& move) noexcept;
 
-    // The next move is late: where the path could be over soon, plan what is known of a run of
+    // The next move is late: if the path could end soon, plans the known part of a run of
     // lines instead of waiting for longer arcs.
     void flush_if_short() noexcept;
 
@@ -135,7 +135,7 @@ private:
     std::optional<EndGeometry> end_;
     AxisFilter end_filter_{};
     float end_length_{0};  // mm, without a junction
-    float end_left_{0};    // mm, what its path leaves of the tolerance
+    float end_left_{0};    // mm, part of the tolerance not used by its path
     float end_speed_{0};   // mm/s, the most that its last stretch allows
     // Since the path stopped last, the newest at the back.
     StaticVector<RecentJunction, kRecentJunctions> junctions_;

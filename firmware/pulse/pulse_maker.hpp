@@ -46,7 +46,7 @@ public:
         settings_.step_lines[axis] = lines;
     }
 
-    // Stands at `at`; makes no edge. Precondition: idle().
+    // Sets the position to `at`; makes no edge. Precondition: idle().
     void reset(Position at) noexcept;
 
     // Takes the set point at the end of the next tick and makes the frame of the tick before it:

@@ -89,7 +89,7 @@ void check_tool(const JobTable& table, const Operation& operation)
     const bool level = operation.strategy == "pocket" || operation.strategy == "face" ||
                        operation.strategy == "profile";
     if (level && is_conical(tool)) {
-        table.refuse("tool", fmt::format("tool {} is {}: {} needs upright flanks: a flat, bull or "
+        table.refuse("tool", fmt::format("tool {} is {}: {} needs vertical flanks: a flat, bull or "
                                          "ball end",
                                          tool.number, name_of(tool.shape), operation.strategy));
     }

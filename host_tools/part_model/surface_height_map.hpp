@@ -13,7 +13,7 @@
 namespace cusp::part_model {
 
 // Each surface is divided into small pieces with nine samples. A query solves the equations of the
-// pieces that may lie over the point by Newton's method, from a sample. Upright surfaces have no
+// pieces that may lie over the point by Newton's method, from a sample. Vertical surfaces have no
 // height.
 //
 // Accuracy: 1e-7 mm in x and y. Folds that the samples do not show (narrower than a 100th of the

@@ -210,7 +210,7 @@ private:
                 const Vec2d p = run.point(middles[k]);
                 throw InputError(fmt::format(
                     "{}the tab at x {:.6g} y {:.6g} mm has no room: each takes {:.4g} mm of the "
-                    "path of {:.4g} mm (its width, the tool's diameter, its slopes); {} stand on "
+                    "path of {:.4g} mm (its width, the tool's diameter, its slopes); {} are on "
                     "it",
                     text(), p.x, p.y, 2 * half, run.length(), middles.size()));
             }

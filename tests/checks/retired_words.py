@@ -68,7 +68,8 @@ PHRASES = {
     "goes on": "continues", "gone on": "resumed", "looks up": "faces up", "looks down": "faces down", "look down": "face down",
     "look out": "look ahead", "looks out": "looks ahead", "way within": "path inside", "under its eyes": "while it reads",
 }
-PAGE_PHRASES = ("told apart", "let down", "askew", "felt", "feel", "feels", "metal", "tells", "hopeful", "for ever", "under its eyes")
+PAGE_PHRASES = ("told", "let down", "askew", "felt", "feel", "feels", "metal", "tells", "hopeful", "for ever", "under its eyes", "upright",
+                "stands", "stood", "bare", "speaks", "goes on", "gone on", "looks up", "looks down", "look out", "looks out", "way within")
 COMMENT = re.compile(r"//.*|/\*.*|^ *\* .*")  # of one line
 COMMENT_OR_STRING = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\\n])*"', re.DOTALL)
 
@@ -77,7 +78,7 @@ def pattern(words):
     return re.compile(r"(?<!\w)(%s)(?=(?:s|_test|_property_test|_drop|_gap|_outline|_section|_trim)?(?!\w))" % "|".join(words))
 
 
-PHRASE, PAGE_PHRASE = (re.compile(r"\b(?:%s)\b" % "|".join(words)) for words in (PHRASES, PAGE_PHRASES))
+PHRASE, PAGE_PHRASE = (re.compile(r"\b(?:%s)\b" % "|".join(words), re.IGNORECASE) for words in (PHRASES, PAGE_PHRASES))
 WORD, IDENTIFIER = pattern(WORDS), re.compile(r"\b(?:%s)\b" % "|".join(IDENTIFIERS))
 
 
@@ -100,7 +101,7 @@ def complaints(file, place):
                                    (PHRASES, page, PAGE_PHRASE)):
         for match in found.finditer(searched):
             line = searched.count("\n", 0, match.start()) + 1
-            yield f"{place}:{line}: {match.group()} is now {names[match.group()]}"
+            yield f"{place}:{line}: {match.group()} is now {names.get(match.group()) or names[match.group().lower()]}"
 
 
 def main(arguments):

@@ -1,5 +1,5 @@
 // Adaptive clearing of random pockets, cut again on a raster: the engagement keeps its bound, all
-// that contour clearing cuts is cut, and no path comes nearer to a wall than it may.
+// that contour clearing cuts is cut, and every path keeps its clearance from walls.
 //
 // Not judged: stock within two cells of what the tool reaches, runs that the plan lists as over the
 // bound, and a thousandth of the way, where the raster may find more than kRasterDegrees too much.

@@ -13,7 +13,7 @@ namespace cusp::test {
 
 class RasterCutter {
 public:
-    // Metal is what lies in the region, farther than `margin` (mm) from its contours.
+    // Stock fills the region, except within `margin` (mm) of its contours.
     RasterCutter(const offset::Region2d& region, double radius, double pitch, double margin)
         : radius_{radius}, pitch_{pitch}
     {

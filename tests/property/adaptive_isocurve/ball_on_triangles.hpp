@@ -1,5 +1,5 @@
-// What a ball can reach over triangles and what its moves leave, by brute force: closed forms over
-// every triangle and every move near, no tree, no proof.
+// Reach of a ball over triangles, and stock left by its moves, by brute force: closed forms over
+// every triangle and every near move, without trees and proofs.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Random polyhedra, finished and judged by brute force: nowhere a ball can reach is more left than
+// Random polyhedra, finished and judged by brute force: within the ball's reach no more is left than
 // the plan claims, and no move cuts deeper than it claims.
 #include <algorithm>
 #include <cmath>
@@ -89,7 +89,7 @@ public:
         }
     }
 
-    // Where the most is left of `places`, over the bound.
+    // The one of `places` where most is left over the bound.
     Worst most_left(Random& random, double bound) const
     {
         Worst worst;
@@ -190,7 +190,7 @@ private:
         return height_under({x, y, drop(x, y)}, place);
     }
 
-    // The lowest that a ball cuts over the place, from the best positions on the grid on.
+    // The lowest cut of a ball over the place, searched from the best positions on the grid.
     double lowest_over(Vec3d place) const
     {
         struct Start {
@@ -239,7 +239,7 @@ private:
     BallOnTriangles part_;
     const CutMoves& moves_;
     double radius_;
-    double clear_of_;            // mm: what a one-sided tolerance keeps the ball off
+    double clear_of_;            // mm: clearance of the ball by a one-sided tolerance
     std::vector<double> areas_;  // of the facets up to each
     std::vector<double> centres_;
     Vec3d low_;

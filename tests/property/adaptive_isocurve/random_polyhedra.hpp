@@ -12,7 +12,7 @@
 
 namespace cusp::test {
 
-// A place of a profile: how far along, how high.
+// A point of a profile: distance along it, and height.
 using Profile = std::vector<Vec2d>;
 
 // 0.1 to 5 degrees from the vertical, small ones as often as large ones; as a tangent.
@@ -99,7 +99,7 @@ inline Triangles polygon_steps(Random& random)
     return out;
 }
 
-// Heights by chance over a net of uneven meshes, the narrow ones steep.
+// Random heights over an uneven grid, steep in its narrow cells.
 inline Triangles crags(Random& random)
 {
     const auto places = [&] {

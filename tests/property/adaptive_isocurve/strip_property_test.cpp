@@ -31,7 +31,7 @@ constexpr double kRadius = 3;
 constexpr double kTolerance = 0.3;  // of the scallop
 constexpr double kForRidges = 0.7;  // the same
 
-// Of a net over the unit square.
+// Points of a grid over the unit square.
 Surface sheet(int degree, int size, const std::function<Vec3d(double, double)>& at)
 {
     Surface s;
@@ -136,7 +136,7 @@ double count(const OperationStats& stats, const std::string& name)
     return 0;
 }
 
-// The least that passes along u can be: area over the widest steps everywhere.
+// Lower bound of the length of passes along u: area over the widest steps everywhere.
 double least_length(const Surface& s, double scallop)
 {
     constexpr int kParts = 60;

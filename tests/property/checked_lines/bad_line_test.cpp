@@ -82,7 +82,7 @@ private:
     std::mt19937 random_;
 };
 
-// Sends lines until all are acknowledged: what docs/protocol.md asks of a sender.
+// Sends lines until all are acknowledged, as docs/protocol.md requires of a sender.
 class CheckedSender {
 public:
     CheckedSender(ControllerBench& bench, std::vector<std::string> lines, Noise noise)
@@ -188,7 +188,7 @@ private:
         outstanding_ = 0;
         sizes_.clear();
         quiet_ = 0;
-        // Ends what may be left of a line whose end was lost.
+        // Ends the remainder of a line whose end was lost.
         waiting_ += "\n";
     }
 

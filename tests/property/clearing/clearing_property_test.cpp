@@ -21,7 +21,7 @@ namespace {
 constexpr int kRegions = 200;
 constexpr double kEnough = 1.01;  // of half a step
 
-// A place as far from all passes as any, among those at least `wall_clearance` inside the region;
+// The point farthest from all passes among those at least `wall_clearance` inside the region,
 // found by halving squares, to a two hundredth of `enough`. Below `enough` the result may be
 // inexact.
 class FarthestPlace {

@@ -1,4 +1,4 @@
-// Ways between random places of random regions with islands stay inside, and are found wherever
+// Paths between random points of random regions with islands stay inside, and are found wherever
 // there is one.
 #include <cstdio>
 

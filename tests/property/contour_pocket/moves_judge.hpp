@@ -1,4 +1,4 @@
-// Cuts a pocket in memory, move by move, and judges how the tool goes in, over and out. No code of
+// Cuts a pocket in memory, move by move, and judges entries, links and retracts. No code of
 // the planner is used.
 #pragma once
 
@@ -17,12 +17,12 @@ struct MovesVerdict {
     bool low_rapid{};    // a rapid move below the clearance that is not straight up or down
     double plunged{};    // mm of stock under the middle of the tool on a vertical plunge
     double entry_cut{};  // mm, deepest there on slopes steeper than entries may be
-    double sunk{};       // mm there on ways down at more than the plunge feed
+    double sunk{};       // mm there on descents faster than the plunge feed
     double deepest{};    // mm of cut
     int retracts{};      // up to the clearance
     int links{};
     int turned{};           // links that end on a corner of more than 30 degrees
-    double wrong_side{};    // mm^3 that cuts on one side take from the other one than they should
+    double wrong_side{};    // mm^3 that cuts remove on the wrong side of the cutter
     double right_side{};    // mm^3 from that
     double nearest_wall{};  // mm, of the tool's axis below the top
 };
@@ -155,7 +155,7 @@ private:
     {
         middle_ = 0.0;
         constexpr double kSteepest = 0.1;  // entries' 0.08, and chords of it
-        constexpr double kFelt = 0.05;     // mm
+        constexpr double kTracked = 0.05;  // mm
         const Vec3d way = to - from;
         const double level = std::hypot(way.x, way.y);
         if (kind == toolpath::MoveKind::kRapid) {
@@ -181,7 +181,7 @@ private:
                 verdict.entry_cut = std::max(verdict.entry_cut, bite.middle);
             } else if ((kind == toolpath::MoveKind::kCut ||
                         kind == toolpath::MoveKind::kPlungingCut) &&
-                       bite.tracked > kFelt) {
+                       bite.tracked > kTracked) {
                 add_sides(bite, climb, verdict);
             }
         }
@@ -205,7 +205,7 @@ private:
     int columns_{};
     int rows_{};
     std::vector<double> heights_;
-    double middle_{};  // what the last move cut under the middle of the tool, mm
+    double middle_{};  // depth cut by the last move under the middle of the tool, mm
 };
 
 }  // namespace cusp::test

@@ -1,4 +1,4 @@
-// How the tool goes through random pockets with islands: entries, links, retracts, side of the
+// Moves in random pockets with islands: entries, links, retracts, side of the
 // cut, layers, allowance, one tool or two.
 #include <cstdio>
 
@@ -254,7 +254,7 @@ TEST(PocketPathWriter, EnterGentlyLinkThroughCutMetalAndKeepSideDepthAndAllowanc
 TEST(PocketPathWriter, TakeNoMoreRetractsForCliffsAndGoDownThemNoFasterThanThePlungeFeed)
 {
     constexpr unsigned kCliffSeed = 1991;
-    constexpr double kRidge = 0.06;  // of the radius: what passes leave each other
+    constexpr double kRidge = 0.06;  // of the radius: stock between passes
     int descents = 0;
     Random random{kCliffSeed};
     for (int i = 0; i < property_cases(8); ++i) {

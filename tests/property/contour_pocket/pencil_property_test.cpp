@@ -1,4 +1,4 @@
-// Patches over level floors: what stays at the foot of their cliffs, by brute force.
+// Patches over level floors: stock left at the foot of their cliffs, by brute force.
 #include <cstdio>
 
 #include "tests/property/contour_pocket/pocket_judge.hpp"
@@ -89,7 +89,7 @@ Surface surface_of(const Patch& patch)
     return s;
 }
 
-// How low the tip may stand over a place so far from the patch, over which another one may stand on
+// The lowest tip at such a distance from the patch, above which another one may lie on
 // a ledge.
 struct Ledge {
     double width, top;
@@ -104,7 +104,7 @@ double tip_at(const Tool& tool, const Patch& patch, double apart, const Ledge& l
                     over(ledge.top, std::max(0.0, apart + ledge.width)));
 }
 
-// The lowest that the tool cuts, so far from the patch: best along the way straight off it.
+// The lowest cut of the tool at such a distance from the patch, over tips along the normal of its edge.
 double best_at(const Tool& tool, const Patch& patch, double apart, const Ledge& ledge = {0.0, kLow})
 {
     if (apart == 0.0) {
@@ -137,7 +137,7 @@ Loop square_loop(double half)
     return loop_of({{-half, -half}, {half, -half}, {half, half}, {-half, half}});
 }
 
-// Turned by chance; each second one is a circle.
+// Rotated at random; every second one is a circle.
 Patch random_patch(Random& random, int i, double least, double most)
 {
     const double angle = uniform(random, 0.0, 3.0);
@@ -225,7 +225,7 @@ TEST(RandomCliff, LeavesNoMoreAtTheFootOfACliffAsHighAsTheToolIsRound)
     }
 }
 
-// The foot of the lower cliff is as clean where the upper one rises higher beside it.
+// The stock left at the foot of the lower cliff does not depend on the height of the upper one.
 TEST(RandomCliff, LeavesNoMoreAtTheFootOfALedgeThanTheScallop)
 {
     constexpr unsigned kSeed = 35;
@@ -272,7 +272,7 @@ TEST(RandomCliff, LeavesNoMoreAtItsFootBesideAWallThanTheScallop)
     const ToolShape shapes[] = {ToolShape::kBall, ToolShape::kFlat, ToolShape::kBull};
     for (int i = 0; i < property_cases(3); ++i) {
         const double radius = uniform(random, 1.5, 2.5);
-        // The tool's axis keeps off the wall by the tolerance at most.
+        // The tool's axis is at most the tolerance off its distance from the wall.
         const double room = uniform(random, 0.02, 0.1) * radius + 0.02;
         const double edge = -kHalf + 2.0 * radius + room;
         const double top = kLow + uniform(random, 1.05, 1.5) * radius;
@@ -302,7 +302,7 @@ TEST(RandomCliff, LeavesNoMoreAtItsFootBesideAWallThanTheScallop)
     }
 }
 
-// From beside, a ball that goes a tolerance into the edge would take more off the patch.
+// From the side, a ball that cuts a tolerance into the edge would remove more of the patch.
 TEST(RandomCliff, IsCutNoDeeperThanATwoSidedTolerance)
 {
     constexpr unsigned kSeed = 718;

@@ -80,7 +80,7 @@ inline std::vector<Vec3d> tips_of(const toolpath::Toolpath& path, double top, do
     return tips;
 }
 
-// The lowest that the tool cuts over a place, z.
+// z of the lowest cut over a place.
 inline double lowest_cut(const toolpath::Tool& tool, const std::vector<Vec3d>& tips, Vec2d p)
 {
     double least = 1e300;

@@ -1,4 +1,4 @@
-// Steep floors with valleys that a tool does not reach into: what it leaves, by brute force.
+// Steep floors with valleys that a tool does not reach: stock left, by brute force.
 #include <cstdio>
 
 #include "tests/property/contour_pocket/pocket_judge.hpp"
@@ -50,7 +50,7 @@ Surface drawn_out(Random& random, double height, double wave)
     return s;
 }
 
-// The section of such a floor, how low a tool's tip may stand over it, and the lowest it cuts.
+// The section of such a floor, the lowest tip over it, and the lowest cut.
 class Section {
 public:
     Section(const Surface& s, const Tool& tool) : tool_{tool}
@@ -59,7 +59,7 @@ public:
         const double length = s.points.back().x - low_;
         const int count = static_cast<int>(length / kPitch) + 1;
         for (int i = 0; i < count; ++i) {
-            // x is linear in u: control points stand at the Greville abscissae.
+            // x is linear in u: control points are at the Greville abscissae.
             const double u = s.u_begin() + (s.u_end() - s.u_begin()) * kPitch * i / length;
             floor_.push_back(derivatives_at(s, u, 0.5).point.z);
         }
@@ -71,7 +71,7 @@ public:
             [](double a, double b) { return std::min(a, b); });
     }
 
-    // By places of the floor only: no tip may be lower.
+    // From points of the floor only: a lower bound of the tip.
     double tip(double x) const
     {
         const auto count = static_cast<double>(floor_.size());
@@ -88,7 +88,7 @@ public:
 
     double cut(double x) const { return at(cut_, x); }
 
-    // Of the steepness of what the tool leaves.
+    // Cosine of the slope of the stock left.
     double cosine(double x) const
     {
         return 1.0 / std::hypot(1.0, (cut(x + kPitch) - cut(x - kPitch)) / (2.0 * kPitch));

@@ -1,4 +1,4 @@
-// Whatever holds, overrides and reports fall into a program: it ends where it should, to the
+// With holds, overrides and reports at random ticks a program ends at its end point, to the
 // nanometre and the step, and every line is answered once.
 #include <cstdio>
 #include <cstdlib>

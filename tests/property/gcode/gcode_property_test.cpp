@@ -35,7 +35,7 @@ public:
         }
         return line;
     }
-    // A curve, right or nearly so.
+    // A curve, valid or with one fault.
     std::vector<std::string> curve()
     {
         const unsigned order = 2 + static_cast<unsigned>(random_() % 4);

@@ -48,7 +48,7 @@ void check_pocket(unsigned seed)
     try {
         plan = plan_grid_pocket(job, operation);
     } catch (const InputError& error) {
-        // A narrow shape may hold no place for the tool: that is for the words to say.
+        // The tool may not fit into a narrow shape: then the message must say so.
         CHECK_TEXT(std::string(error.what()).find("does not fit") != std::string::npos,
                    error.what());
         return;
@@ -64,7 +64,7 @@ void check_pocket(unsigned seed)
     if (job.operations.front().max_depth) {
         CHECK(figures.cut_depth_max <= *job.operations.front().max_depth + 0.01);
     }
-    // The map of heights in memory is itself only so fine.
+    // Resolution of the height map in memory.
     CHECK(figures.scallop_max <= stats.scallop_bound_mm + 0.01);
     std::printf("  %d passes, left %.4f of %.4f mm, deepest cut %.3f mm\n", stats.passes,
                 figures.scallop_max, stats.scallop_bound_mm, figures.cut_depth_max);

@@ -29,7 +29,7 @@ using namespace verify;
 
 namespace {
 
-// Sheets anywhere; steps that meet edge to edge, flat or nearly; small islands over a floor.
+// Sheets at random positions; steps that share edges, flat or nearly flat; small islands over a floor.
 std::vector<Surface> random_surfaces(Random& random)
 {
     std::vector<Surface> out;
@@ -119,7 +119,7 @@ Job random_model(Random& random)
                                    EntryKind::kPlunge};
     operation.entry = kEntries[whole(random, 0, 3)];
     Job job = job_of(operation);
-    // The slower the cut, the more changes of cutter pay.
+    // A slower feed makes more changes of cutter worthwhile.
     job.feed = whole(random, 0, 1) == 0 ? 1200 : 100;
     job.stock_top = whole(random, 0, 2) == 0 ? stock_top(job) + uniform(random, 0.0, 4.0) : 0.0;
     return job;

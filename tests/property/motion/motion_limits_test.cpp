@@ -1,4 +1,4 @@
-// Limits hold in the integer set points of every tick, whatever the program and whatever happens to
+// Limits hold in the integer set points of every tick, for random programs and random events during
 // it.
 #include "tests/support/motion_limits.hpp"
 
@@ -54,7 +54,7 @@ TEST(MotionLimits, HoldThroughHoldsOverridesAndStarvation)
 }
 
 // Arcs of 6 um behind a line of 30 mm: their limits once split it into more pieces than the servo
-// looks at in a tick.
+// reads in a tick.
 TEST(MotionLimits, HoldWhereTinyArcsReachIntoALine)
 {
     constexpr std::uint64_t kTinyArcs = 80942;

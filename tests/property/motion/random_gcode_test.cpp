@@ -64,7 +64,7 @@ TEST(RandomGcode, HoldsEveryLimitAndEndsExactly)
         rig.start_at({});
         test::check_motion(rig.run(program.moves), program.moves.back().end, limits, seed);
     }
-    // The programs are what they are meant to be.
+    // The programs have the intended moves.
     CHECK(curves > test::motion_program_count());
     UNSIGNED_LONGS_EQUAL(0, refused);
 }

@@ -1,4 +1,4 @@
-// Random height fields intersected: at random places what is left is the lowest of them, and only
+// Random height fields intersected: at random points the result is the lowest of them, and only
 // that.
 #include <algorithm>
 #include <cmath>
@@ -43,7 +43,7 @@ struct Field {
     }
 };
 
-// Control points stand over their Greville places: x and y are linear in u and v.
+// Control points are at the Greville abscissae: x and y are linear in u and v.
 Field random_field(std::mt19937& random)
 {
     const auto within = [&](double low, double high) {

@@ -33,7 +33,7 @@ using toolpath::ToolShape;
 
 namespace {
 
-constexpr double kExact = 1e-3;  // mm: what a profile promises
+constexpr double kExact = 1e-3;  // mm: accuracy of a profile
 
 struct Draw {
     std::mt19937 engine;
@@ -45,7 +45,7 @@ struct Draw {
     int whole(int low, int high) { return std::uniform_int_distribution<int>{low, high}(engine); }
 };
 
-// Prints what a failure is repeated with.
+// Prints the seed, to repeat a failure.
 Draw seeded(const char* what, unsigned seed, int cases)
 {
     std::printf("%s: seed %u, %d cases\n", what, seed, cases);
@@ -197,7 +197,7 @@ void check_profile(Draw& draw, bool with_leads)
         for (const Vec2d c : cut) {
             least = std::min(least, norm(c - p));
         }
-        CHECK(least <= 0.1 + allowed);  // half of what places are apart
+        CHECK(least <= 0.1 + allowed);  // half of the distance between samples
     }
 }
 
@@ -309,7 +309,7 @@ TEST(PrismaticProperty, HolesAreDrilledWhereTheyAreAndOnce)
             CHECK(!moved || (at.z >= 5 && end.z >= 5));  // sideways above the stock alone
             deepest = moved ? 0 : deepest;
             if (move.kind == MoveKind::kRapid) {
-                CHECK(end.z > deepest || end.z > 0);  // never into what is not drilled
+                CHECK(end.z > deepest || end.z > 0);  // never into stock beside the hole
             } else if (end.z < deepest) {
                 CHECK(!operation.prismatic->peck || deepest - end.z <= peck * 1.001 + 1e-9);
                 deepest = end.z;
@@ -389,7 +389,7 @@ TEST(PrismaticProperty, FacesLeaveNoPlaceOfTheStock)
     }
 }
 
-// On both sides: the tip nowhere leaves the lines, and comes everywhere along them.
+// In both directions: the tip never leaves the lines, and visits all of them.
 TEST(PrismaticProperty, EngravingFollowsItsLines)
 {
     const int cases = property_cases(1000);

@@ -199,7 +199,7 @@ Operation carving_of(Draw& draw, const std::vector<Corners>& outlines)
     return operation;
 }
 
-// z over q of the lower side of the tool as it goes.
+// z over q of the lower side of the moving tool.
 double lowest_over(const PlannedOperation& planned, Vec2d q)
 {
     const toolpath::Tool& tool = planned.path.tool;
@@ -275,7 +275,7 @@ TEST(VCarveProperty, EveryPointIsAsDeepAsItsDistanceFromTheOutlineSays)
     }
 }
 
-// Into a corner the groove runs up to the very point.
+// In a corner the groove ends exactly at the corner point.
 TEST(VCarveProperty, CornersAreSharp)
 {
     constexpr unsigned kSeed = 63;

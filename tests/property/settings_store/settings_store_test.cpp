@@ -77,7 +77,7 @@ TEST(SettingsStore, HoldsAGoodRecordAfterAPowerCutAtEveryWordOfEveryWrite)
         for (std::uint32_t earlier = 1; earlier < version; ++earlier) {
             CHECK(append(before, earlier));
         }
-        // Every word where the log is new or goes over to the other sector; samples in between.
+        // Every word where the log is new or changes to the other sector; samples in between.
         const bool plain = version > 1 && version % 6 != 0 && version % 6 != 1;
         for (std::uint64_t words = 0;; words += plain ? 17 : 1) {
             SimulatedStore store = before;

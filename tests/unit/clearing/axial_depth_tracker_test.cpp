@@ -1,4 +1,4 @@
-// Depths of straight cuts of a ball, and the heights that a limit allows, against what they are.
+// Depths of straight cuts of a ball, and the heights that a limit allows, against closed forms.
 #include "host_tools/clearing/axial_depth_tracker.hpp"
 
 #include "CppUTest/TestHarness.h"

@@ -30,7 +30,7 @@ Contour square(double half, double angle)
     return loop;
 }
 
-// Where the way comes nearest to the contours, by brute force; below zero where it leaves.
+// Least distance of the path from the contours, by brute force; below zero where it leaves the region.
 double nearest_on_way(const Region2d& region, const Edge& way)
 {
     constexpr int kPlaces = 6000;

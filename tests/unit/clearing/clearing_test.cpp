@@ -68,7 +68,7 @@ TEST(Clearing, EntersOncePerLeafAndIsland)
     CHECK(entries <= cleared.leaves + kIslands);
 }
 
-TEST(Clearing, RunsClimbCutsWithTheMetalOnTheRight)
+TEST(Clearing, RunsClimbCutsWithTheStockOnTheRight)
 {
     ClearingSettings settings;
     settings.wall_clearance = 3.0;
@@ -90,7 +90,7 @@ TEST(Clearing, IsEmptyWhereTheToolDoesNotFit)
     CHECK(clear_region({{rectangle(0, 0, 100, 60)}}, settings).passes.empty());
 }
 
-// The step asked for is four times what suits, on every level.
+// The requested step is four times the suitable one, on every level.
 TEST(Clearing, DrawsALevelFirstWhereTheLastOneSuited)
 {
     ClearingSettings settings;

@@ -39,9 +39,9 @@ double way(const std::vector<Edge>& link)
     return sum;
 }
 
-TEST_GROUP(LinkAlongPassPassPassPass){};
+TEST_GROUP(LinkAlongPass){};
 
-TEST(LinkAlongPassPassPassPass, FollowsThePassBeforeToWhereTheNextIsNear)
+TEST(LinkAlongPass, FollowsThePassBeforeToWhereTheNextIsNear)
 {
     const Contour before = square(10.0);
     const std::vector<Edge> link = link_along_pass(before, triangle(), 2.0);
@@ -50,7 +50,7 @@ TEST(LinkAlongPassPassPassPass, FollowsThePassBeforeToWhereTheNextIsNear)
     DOUBLES_EQUAL(40.0 + std::sqrt(2.0), way(link), 1e-9);
 }
 
-TEST(LinkAlongPassPassPassPass, GoesTheShorterWayRound)
+TEST(LinkAlongPass, GoesTheShorterWayRound)
 {
     Contour before = square(10.0);
     std::rotate(before.begin(), before.begin() + 3, before.end());
@@ -59,12 +59,12 @@ TEST(LinkAlongPassPassPassPass, GoesTheShorterWayRound)
     CHECK(distance(link.front().end, {10.0, 10.0}) < 1e-9);
 }
 
-TEST(LinkAlongPassPassPassPass, IsNoneWhereNoPlaceIsNear)
+TEST(LinkAlongPass, IsNoneWhereNoPlaceIsNear)
 {
     CHECK(link_along_pass(square(10.0), triangle(), 1.0).empty());
 }
 
-TEST(LinkAlongPassPassPassPass, FollowsPartsOfArcs)
+TEST(LinkAlongPass, FollowsPartsOfArcs)
 {
     const Contour circle{arc_edge({-10, 0}, {10, 0}, {0, 0}, 1),
                          arc_edge({10, 0}, {-10, 0}, {0, 0}, 1)};

@@ -51,7 +51,7 @@ TEST(PartialLoops, LieStraightInwardFromTheirFeet)
     const Contour& path = loops[0].path;
     DOUBLES_EQUAL(-16.0, path.front().start.y, 1e-6);
     DOUBLES_EQUAL(-16.0, path.back().end.y, 1e-6);
-    // To where the margin is used up, and less than half of it on.
+    // Up to the end of the margin, and less than half of it beyond.
     CHECK(path.front().start.x <= -2.45 && path.front().start.x > -3.0);
     CHECK(path.back().end.x >= 2.45 && path.back().end.x < 3.0);
 }
@@ -78,7 +78,7 @@ TEST(PartialLoops, LeaveTheirLoopSquareToItAndComeBack)
         const Contour& path = cleared.passes[0].path;
         check_runs_on(path);
         DOUBLES_EQUAL(8.0 * 17.0 + added, length(path), 1e-6);
-        // First it runs the way that its loop runs.
+        // At first it runs in the direction of its loop.
         const auto first = std::find_if(path.begin(), path.end(), [](const Edge& edge) {
             return edge.start.y > -16.001 && edge.end.y > -16.001 && edge.start.y < -15.999 &&
                    edge.end.y < -15.999;

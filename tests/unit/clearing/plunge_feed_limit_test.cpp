@@ -41,7 +41,7 @@ double end_z(const ToolMove& move) { return std::get<LineTo>(move.shape).end.z; 
 
 TEST_GROUP(PlungeFeedLimit){};
 
-TEST(PlungeFeedLimit, GoSlowlyFromJustOverTheMetalOn)
+TEST(PlungeFeedLimit, SlowsDownFromJustAboveTheStockOn)
 {
     const std::vector<ToolMove> moves = slowed(path_of({{0, 0, -2}}));
     LONGS_EQUAL(3, moves.size());
@@ -51,7 +51,7 @@ TEST(PlungeFeedLimit, GoSlowlyFromJustOverTheMetalOn)
     DOUBLES_EQUAL(-2.0, end_z(moves[2]), 1e-12);
 }
 
-TEST(PlungeFeedLimit, KeepTheFeedWhereTheMetalIsCut)
+TEST(PlungeFeedLimit, KeepsTheFeedWhereTheStockIsCut)
 {
     const std::vector<ToolMove> moves = slowed(path_of({{0, 0, -2}, {0, 0, 1}, {0, 0, -2}}));
     LONGS_EQUAL(5, moves.size());

@@ -1,4 +1,4 @@
-// Which cutters count what another has cleared as cleared.
+// Whether the area cleared by one cutter counts as cleared for another.
 #include "host_tools/clearing/rest_between_tools.hpp"
 
 #include <cmath>
@@ -19,7 +19,7 @@ constexpr Tool kFlat3{2, ToolShape::kFlat, 3, 0};
 constexpr Tool kBall6{3, ToolShape::kBall, 6, 6};
 constexpr Tool kBall3{4, ToolShape::kBall, 3, 3};
 
-// What a cutter with its axis at 0 leaves at a distance, and what another at `apart` cuts there.
+// Height left at a distance by a cutter with its axis at 0, and the cut there by another at `apart`.
 double deepest_meeting(const Tool& before, const Tool& after, double apart)
 {
     double deepest = 0;
@@ -52,7 +52,7 @@ TEST(RestBetweenTools, OfBallsMeetsTheRidgeAndNoMore)
     CHECK(deepest_meeting(kBall6, kBall3, reach + 0.05) > 0.05);
 }
 
-TEST(RestBetweenTools, OfAFlatEndUnderABallIsWhereAllOfItStandsOnTheRidges)
+TEST(RestBetweenTools, OfAFlatEndUnderABallIsWhereAllOfItIsOnTheRidges)
 {
     // sqrt(0.1 (2 6 - 0.1)) of the ball are flat enough; 3 mm of the flat end must lie within.
     DOUBLES_EQUAL(std::sqrt(0.1 * 11.9) - 3, *rest_offset_between_tools(kBall6, kFlat3, 0.1), 0.02);

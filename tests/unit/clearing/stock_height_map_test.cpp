@@ -53,7 +53,7 @@ private:
 
 TEST_GROUP(StockHeightMap){};
 
-// Level, up, down, plunging, from somewhere else: what the last position left is relied on.
+// Level, up, down, plunging, from another place: the map relies on the last position.
 TEST(StockHeightMap, IsWhatAllPositionsOfTheToolLeave)
 {
     constexpr unsigned kSeed = 20261122;

@@ -22,7 +22,7 @@ namespace {
 TEST_GROUP(PencilCurves){};
 
 // Over holes narrower than the ball, for any position of the search's grid.
-TEST(PencilCurves, AWayGoesThroughTheBottomOfADimple)
+TEST(PencilCurves, ALineCrossesTheBottomOfADimple)
 {
     constexpr unsigned kSeed = 5;
     std::printf("seed %u ", kSeed);

@@ -1,4 +1,4 @@
-// The word that is refused, and what a message says of it.
+// The refused word, and its message.
 #include "host_tools/dialect/refusal.hpp"
 
 #include "CppUTest/TestHarness.h"

@@ -1,4 +1,4 @@
-// What stock Grbl 1.1 takes, against the table of G-codes of its documents.
+// Words that stock Grbl 1.1 accepts, against the table of G-codes in its documentation.
 #include "host_tools/dialect/stock_grbl.hpp"
 
 #include <cstdio>

@@ -44,7 +44,7 @@ const Step kSteps[] = {
 
 TEST_GROUP(DropCutter){};
 
-TEST(DropCutter, EndsWhereAPatchThatLiesAskewDoes)
+TEST(DropCutter, EndsWhereARotatedPatchDoes)
 {
     for (const Step& step : kSteps) {
         for (const double angle : {0.0, 0.4, 0.8, 2.2}) {
@@ -67,7 +67,7 @@ TEST(DropCutter, EndsWhereAPatchThatLiesAskewDoes)
     }
 }
 
-TEST(DropCutter, GivesAWayBesideAPatchThatLiesAskewItsRoom)
+TEST(DropCutter, GivesTheClearanceBesideARotatedPatch)
 {
     for (const Step& step : kSteps) {
         const double angle = 0.7;
@@ -85,7 +85,7 @@ TEST(DropCutter, GivesAWayBesideAPatchThatLiesAskewItsRoom)
     }
 }
 
-TEST(DropCutter, CoversNothingBesideAPatchThatLiesAskew)
+TEST(DropCutter, CoversNothingBesideARotatedPatch)
 {
     const DropCutter floor{{level_patch(20.0, 14.0, 0.7, kHigh)}, kSteps[0].tool, 2e-3};
     const Vec2d out{std::cos(0.7), std::sin(0.7)};

@@ -130,7 +130,7 @@ TEST(TrimmedFloor, TellsTheRoomOfMovesOverItsRim)
 }
 
 // The sheet is the top of solid material: a ball on the plate cannot reach below the rim.
-TEST(TrimmedFloor, LeavesNoWayUnderItsRim)
+TEST(TrimmedFloor, LeavesNoPathUnderItsRim)
 {
     const Tool ball{1, ToolShape::kBall, kRadius, kRadius};
     const DropCutter tips{floor, ball, kAccuracy};

@@ -85,7 +85,7 @@ struct Ground {
 };
 
 // Number of points without a lower ball just below the lowest of the grid, by the proof.
-int told_places(double pitch, double noise, int places, std::mt19937& random)
+int decided_places(double pitch, double noise, int places, std::mt19937& random)
 {
     const Ground ground{rough_bowl(pitch, noise, random)};
     LowerPositionProof lower{*ground.path_fitter, 0.375};
@@ -119,7 +119,7 @@ TEST(LowerPositionProof, NoBallIsLowerWhereItSaysSoAndMostlyItDoes)
     constexpr int kPlaces = 12;
     // On the rough mesh the ball touches few points; on smooth ground contacts block directions
     // everywhere.
-    CHECK_TRUE(told_places(1.0, 0.1, kPlaces, random) > kPlaces / 2);
-    CHECK_TRUE(told_places(0.4, 0.1, kPlaces, random) > kPlaces / 2);
-    told_places(0.5, 0.0, kPlaces, random);
+    CHECK_TRUE(decided_places(1.0, 0.1, kPlaces, random) > kPlaces / 2);
+    CHECK_TRUE(decided_places(0.4, 0.1, kPlaces, random) > kPlaces / 2);
+    decided_places(0.5, 0.0, kPlaces, random);
 }

@@ -32,7 +32,7 @@ Surface plate()
 TEST_GROUP(ScallopCheck){};
 
 // In the smallest cells an uncovered plate would have five million of them.
-TEST(ScallopCheck, CutsBareGroundWithoutHalvingItToTheLast)
+TEST(ScallopCheck, ChecksAnUncutPlateInLargeCells)
 {
     constexpr double kScallop = 0.02;
     const Tool ball{1, ToolShape::kBall, 1.5, 1.5};

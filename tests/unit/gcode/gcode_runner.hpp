@@ -1,4 +1,4 @@
-// Runs lines through an interpreter and collects what they ask for.
+// Runs lines through an interpreter and collects the resulting actions.
 #pragma once
 
 #include <string_view>

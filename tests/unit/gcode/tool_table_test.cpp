@@ -1,4 +1,4 @@
-// Lengths of tools: entered by G10, used by G43 H; and what a line with M6 may hold.
+// Lengths of tools: entered by G10, used by G43 H; and the words allowed on a line with M6.
 #include <optional>
 #include <random>
 #include <string>
@@ -90,7 +90,7 @@ TEST(ToolTable, RefusesBadEntries)
 }
 
 // As LinuxCNC has it: with the new length the tool would be at the Z of the line.
-TEST(ToolTable, L10AndL11MeasureFromWhereTheMachineStands)
+TEST(ToolTable, L10AndL11MeasureFromTheMachinesPosition)
 {
     run("G10 L2 P1 Z-20");
     run("G10 L2 P9 Z-50");
@@ -150,7 +150,7 @@ TEST(ToolTable, ATouchedOffToolKeepsTheProgramsPosition)
     LONGS_EQUAL(0, offset());
 }
 
-// A map and plain sums say what table and offset must be.
+// The oracle: a map for the table, plain sums for the offset.
 TEST(ToolTable, FollowsRandomLines)
 {
     for (unsigned seed = 1; seed <= 200; ++seed) {

@@ -62,7 +62,7 @@ TEST(DepthLimiter, StockIsMetAtTheToolsLowerSide)
     DOUBLES_EQUAL(1, stock.cut({-8, 0, -3}, {8, 0, -3}), 0.05);
 }
 
-TEST(DepthLimiter, HoldsBesideACliffThatTheAllowanceStandsOn)
+TEST(DepthLimiter, HoldsBesideACliffWithAnAllowance)
 {
     Operation operation = beside_a_cliff();
     operation.allowance = 0.3;

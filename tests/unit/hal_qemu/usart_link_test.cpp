@@ -78,7 +78,7 @@ TEST(UsartLink, WaitsForThePortAndSends)
     LONGS_EQUAL('k', chip.usart1.dr.value);
 }
 
-TEST(UsartLink, WaitsNotForEverForAPortThatStaysFull)
+TEST(UsartLink, WaitsABoundedTimeForAPortThatStaysFull)
 {
     chip.usart1.sr.value = 0;
     const std::array<std::uint8_t, 1> bytes{'x'};

@@ -1,4 +1,4 @@
-// The iron of the virtual machine tool.
+// Axes, switches and outputs of the virtual machine tool.
 #include "hal/sim/simulated_mill.hpp"
 
 #include "CppUTest/TestHarness.h"

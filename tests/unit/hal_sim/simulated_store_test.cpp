@@ -1,4 +1,4 @@
-// The simulated flash: what it keeps, and power cuts.
+// The simulated flash: its content, and power cuts.
 #include "hal/sim/simulated_store.hpp"
 
 #include <filesystem>

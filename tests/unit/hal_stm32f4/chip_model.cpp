@@ -1,4 +1,4 @@
-// What each register of the modelled chip does, after RM0090.
+// Behaviour of each register of the modelled chip, after RM0090.
 #include "tests/unit/hal_stm32f4/chip_model.hpp"
 
 namespace cusp::test {

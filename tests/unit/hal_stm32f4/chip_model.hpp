@@ -1,6 +1,6 @@
 // A model of the parts of the STM32F405 that the drivers touch, register by register: timer 8,
-// stream 1 of DMA2, port C, the flash and its data cache, the clocks. What the reference manual
-// says a register does, the model does; what the manual forbids, it counts.
+// stream 1 of DMA2, port C, the flash and its data cache, the clocks. The model behaves as the
+// reference manual describes, and counts accesses that the manual forbids.
 #pragma once
 
 #include <cstdint>
@@ -98,7 +98,7 @@ private:
     std::uint32_t busy_reads_{0};
 };
 
-// What the drivers' template parameter Chip is in the tests.
+// The drivers' template argument Chip in the tests.
 struct ModelChip {
     using Word = ModelWord;
     static auto& rcc() { return ChipModel::current->rcc; }

@@ -204,7 +204,7 @@ TEST(DmaPulsePlayer, StopsOnAnErrorOfTheBus)
     LONGS_EQUAL(0, chip.changes.back().levels);
 }
 
-TEST(DmaPulsePlayer, SurvivesALongStandstillOfTheCoreAtRest)
+TEST(DmaPulsePlayer, SurvivesALongHaltOfTheCoreAtRest)
 {
     run(1000);
     for (unsigned i = 0; i < 800300; ++i) {
@@ -217,7 +217,7 @@ TEST(DmaPulsePlayer, SurvivesALongStandstillOfTheCoreAtRest)
     LONGS_EQUAL(2, chip.changes.size());
 }
 
-TEST(DmaPulsePlayer, TakesAStandstillOfTheCoreInMotionForAnUnderrun)
+TEST(DmaPulsePlayer, TakesAHaltOfTheCoreInMotionForAnUnderrun)
 {
     run(1000);
     CHECK_TRUE(player.try_play(pulses_at({10})));
@@ -283,8 +283,8 @@ TEST(DmaPulsePlayer, SwapsTheLevelsOfInvertedLines)
     LONGS_EQUAL(0x00, chip.changes.back().levels);
 }
 
-// Whatever the delays of interrupt and servo tick: what is played is the frames that were taken, in
-// order, each edge once and at its tick; what is cut short is said to be.
+// For all delays of interrupt and servo tick: the frames taken are played, in
+// order, each edge once and at its tick; a frame cut short is reported.
 TEST(DmaPulsePlayer, PlaysWhatItTookOrSaysSoWhateverTheDelays)
 {
     const unsigned seed = 4711;

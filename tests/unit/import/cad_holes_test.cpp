@@ -125,7 +125,7 @@ TEST(CadHoles, OfACounterboreBothDiametersAreHoles)
     DOUBLES_EQUAL(-6, found.holes[1].span->bottom, 1e-6);
 }
 
-TEST(CadHoles, WhatOpensBelowOrLiesOrStandsIsNone)
+TEST(CadHoles, OpenBelowHorizontalAndSolidCylindersAreNone)
 {
     const CadHoles below = holes(without(plate(), cylinder(30, 20, -25, -12, 2.5)));
     LONGS_EQUAL(0, below.holes.size());

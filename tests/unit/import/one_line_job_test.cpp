@@ -60,7 +60,7 @@ TEST_GROUP(OneLineJob)
             return line.find(words) != std::string::npos;
         });
     }
-    // Of a request with one thing changed.
+    // The job of a request with one change.
     std::string refused(const std::function<void(OneLineRequest&)>& change)
     {
         OneLineRequest asked = request(-10, 5);

@@ -112,7 +112,7 @@ TEST(Placing, ScalesTurnsAndMovesInThatOrder)
     check_box({5, 6, 8}, {45, 26, 18}, "[placing]\nmove = [0, 0, 1]\n");
 }
 
-// All of a placing keep their places to each other; a file of its own is measured alone.
+// Files of one placing keep their relative positions; a file with its own placing is measured alone.
 TEST(Placing, KeepsTheFilesOfOnePlacingTogether)
 {
     folder.with("a.obj", "v 0 0 0\nv 10 0 0\nv 0 10 2\nf 1 2 3\n");

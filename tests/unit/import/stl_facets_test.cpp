@@ -24,7 +24,7 @@ namespace {
 
 using Triangle = std::array<Vec3d, 3>;
 
-// As programs write it, least byte first; `count` is what the head announces.
+// Binary STL, least byte first; `count` is the number in the header.
 std::string binary(const std::vector<Triangle>& triangles, std::uint32_t count)
 {
     std::string out(80, ' ');

@@ -14,7 +14,7 @@ using machine::State;
 namespace {
 
 constexpr double kStep = 1.0 / 800;
-// A contact is known to the way of a servo tick and to a step of each motor.
+// The position of a contact is accurate to the travel of a servo tick and a step of each motor.
 constexpr double kSlow = 120;  // mm/min
 constexpr double kAccuracy = kSlow / 60 / 1000 + 2 * kStep;
 
@@ -81,7 +81,7 @@ double uniform(std::mt19937& random, double least, double most)
 
 TEST_GROUP(SecondMotor){};
 
-TEST(SecondMotor, StandsStillUnlessASettingNamesItsAxis)
+TEST(SecondMotor, MakesNoStepsUnlessASettingNamesItsAxis)
 {
     ControllerBench bench;
     (void)bench.exchange("G91G1X3Y2Z-1F3000\n", 3000);
@@ -101,7 +101,7 @@ TEST(SecondMotor, StepsWithItsAxisInNormalMotion)
     }
 }
 
-// Set while the axis has turned already: the new line must say the same direction.
+// Set after the axis has reversed: the new line must have the same direction.
 TEST(SecondMotor, TurnsWithItsAxisFromTheFirstMoveOn)
 {
     for (const char* first : {"G91G1Y1F3000\n", "G91G1Y-1F3000\n"}) {
@@ -148,7 +148,7 @@ TEST(SecondMotor, IsSquaredByHoming)
     }
 }
 
-TEST(SecondMotor, StandsAsFarFromSquareAsTheOffsetSays)
+TEST(SecondMotor, IsAsFarFromSquareAsTheOffset)
 {
     for (const double offset : {0.25, -0.25}) {
         for (const double ahead : {1.5, -1.5}) {
@@ -174,7 +174,7 @@ TEST(SecondMotor, EndsInAlarm15WhereASwitchNeverCloses)
     const std::string said = bench.say("$H\n");
     CHECK(has(said, "ALARM:15"));
     CHECK(bench.app.machine().state() == State::kAlarm);
-    // 5 % of 200 mm; the way of braking comes to it.
+    // 5 % of 200 mm, plus the braking distance.
     const double alone = bench.second() - bench.first();
     DOUBLES_EQUAL(10, alone, 0.1);
     const double stopped_at = bench.second();
@@ -230,7 +230,7 @@ TEST(SecondMotor, HasASwitchThatGuardsTheTravelToo)
     CHECK(has(bench.exchange("?"), "|Pn:Y"));
 }
 
-// A switch that is not there reads as it likes.
+// An input without a switch may have any level.
 TEST(SecondMotor, HasASwitchThatIsReadWithSquaringAlone)
 {
     for (const char* setting : {"$794=0\n", "$793=0\n"}) {

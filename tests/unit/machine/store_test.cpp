@@ -17,7 +17,7 @@ bool contains(const std::string& text, const std::string& part)
     return text.find(part) != std::string::npos;
 }
 
-// A controller that comes up with what another left in the store.
+// A controller that starts with the store of another one.
 struct PowerCycle {
     explicit PowerCycle(const SimulatedStore& store) : board{{}}
     {
@@ -79,7 +79,7 @@ TEST(Store, KeepsTheTableOfTools)
     LONGS_EQUAL(-7300000, tools.length_nm(2));
 }
 
-// A record of another layout is none: it is said, and the machine is locked.
+// A record of another layout does not count: a message says so, and the machine is locked.
 TEST(Store, TellsOfSettingsOfAnEarlierVersion)
 {
     (void)bench.exchange("$110=5000\n", 50);

@@ -13,7 +13,7 @@ using machine::State;
 namespace {
 
 constexpr double kPlate = -40.0;  // where the first tool touches, machine mm
-// Contact is a whole step, and known to the way of a servo tick at 60 mm/min.
+// A contact is at a whole step, accurate to the travel of a servo tick at 60 mm/min.
 constexpr double kAccuracy = 0.003;
 
 machine::Settings settings_with(unsigned mode)
@@ -50,13 +50,13 @@ public:
     void fit_tool(double longer) { bench.board.mill.set_geometry(geometry(kPlate + longer)); }
     void take_plate_away() { bench.board.mill.set_geometry({}); }
 
-    // Says it, and waits until all is done.
+    // Sends the line, and waits until it is done.
     std::string say(const std::string& text)
     {
         bench.board.byte_link.send(text);
         return bench.finish();
     }
-    // Says it, and waits until the machine holds.
+    // Sends the line, and waits until the machine holds.
     std::string until_held(const std::string& text)
     {
         bench.board.byte_link.send(text);
@@ -78,7 +78,7 @@ public:
         said += say("~");
         return said;
     }
-    void stands_at(double x, double y, double z) const
+    void is_at(double x, double y, double z) const
     {
         const Vec3d at = bench.position();
         DOUBLES_EQUAL(x, at.x, 1e-6);
@@ -119,15 +119,15 @@ TEST(ToolChange, AtTheTopStopsTheSpindleAndComesBack)
     CHECK(mill.outputs().spindle_on && mill.outputs().flood);
     const std::string asked = mill.until_held("T7M6\nG4P0\n");
     STRCMP_EQUAL("[MSG:Tool change T7: cycle start to go on]\r\n", asked.c_str());
-    mill.stands_at(-10, -20, -1);
+    mill.is_at(-10, -20, -1);
     CHECK(!mill.outputs().spindle_on && !mill.outputs().flood);
     // Up to speed before it goes down.
     mill.bench.board.byte_link.send("~");
     mill.bench.run(2000);
-    mill.stands_at(-10, -20, -1);
+    mill.is_at(-10, -20, -1);
     CHECK(mill.outputs().spindle_on && mill.outputs().flood);
     STRCMP_EQUAL("ok\r\nok\r\n", mill.say("").c_str());
-    mill.stands_at(-10, -20, -30);
+    mill.is_at(-10, -20, -30);
     DOUBLES_EQUAL(0, mill.offset(), 0);
 }
 
@@ -135,7 +135,7 @@ TEST(ToolChange, AtItsPlaceGoesDownThereAndComesBackByTheTop)
 {
     Mill mill{2};
     (void)mill.until_held("T2M6\n");
-    mill.stands_at(-250, -150, -20);
+    mill.is_at(-250, -150, -20);
     CHECK(has(mill.bench.exchange("?", 1), "<Hold:0|"));
     mill.bench.board.byte_link.send("~");
     double highest = -80;
@@ -144,27 +144,27 @@ TEST(ToolChange, AtItsPlaceGoesDownThereAndComesBackByTheTop)
         highest = std::max(highest, mill.bench.position().z);
     }
     DOUBLES_EQUAL(-1, highest, 1e-6);
-    mill.stands_at(-10, -20, -30);
+    mill.is_at(-10, -20, -30);
 }
 
 TEST(ToolChange, TheFirstToolTouchedOffKeepsTheOffsetAndTheNextIsMeasuredAgainstIt)
 {
     Mill mill{3};
     CHECK(has(mill.change(1, 0), "[MSG:Tool T1: length 0.000]\r\nok"));
-    mill.stands_at(-10, -20, -30);
+    mill.is_at(-10, -20, -30);
     const std::string said = mill.change(2, 5.25);
     CHECK(has(said, "[MSG:Tool T2: length 5.2"));
     DOUBLES_EQUAL(5.25, mill.offset(), kAccuracy);
-    mill.stands_at(-10, -20, -30 + mill.offset());
+    mill.is_at(-10, -20, -30 + mill.offset());
     CHECK(has(mill.change(3, -12), "[MSG:Tool T3: length -1"));
-    mill.stands_at(-10, -20, -42);
+    mill.is_at(-10, -20, -42);
     const std::string listed = mill.say("$#\n");
     CHECK(has(listed,
               "[G92:0.000,0.000,0.000]\r\n[T:1|0.000,0.000,0.000|0.000]\r\n[T:2|0.000,0.000,5.2"));
     CHECK_FALSE(has(listed, "[T:4"));
-    // In program coordinates the tip never moved, and G43 H finds what was measured.
+    // In program coordinates the tip never moved, and G43 H uses the measured length.
     (void)mill.say("G43H2\nG1Z-30F1000\n");
-    mill.stands_at(-10, -20, -24.75);
+    mill.is_at(-10, -20, -24.75);
     CHECK(has(mill.say("G43H4\n"), "error:38"));
 }
 
@@ -184,7 +184,7 @@ TEST(ToolChange, IsRefusedWholeBeforeHoming)
         Mill mill{mode, false};
         const Vec3d before = mill.bench.position();
         CHECK(has(mill.say("T2M6M3S1000\n"), "error:46"));
-        mill.stands_at(before.x, before.y, before.z);
+        mill.is_at(before.x, before.y, before.z);
         CHECK(!mill.outputs().spindle_on);
         CHECK(has(mill.say("$G\n"), " M5 M9 T0 "));
         CHECK(has(mill.say("$HX\n$HY\n$HZ\n"), "ok"));
@@ -203,15 +203,15 @@ TEST(ToolChange, IsRefusedWholeWhereItsPlaceIsNotSet)
             continue;
         }
         CHECK(has(mill.say("T2M6M3S1000G0X-50\n"), "error:47"));
-        mill.stands_at(-10, -20, -30);
+        mill.is_at(-10, -20, -30);
         CHECK(!mill.outputs().spindle_on);
         CHECK(has(mill.say("$G\n"), " M5 M9 T0 "));
         CHECK(has(mill.say("$RST=#\n$H\nT2M6\n"), "error:47"));
         CHECK(has(mill.say("$C\nT2M6\n$C\n$X\n"), "ok"));
-        // One axis that is set is a choice.
+        // Setting one axis counts as setting the place.
         CHECK(has(mill.say("G10L2P9Z-20\n"), "ok"));
         CHECK(has(mill.until_held("T2M6\n"), "Tool change T2"));
-        mill.stands_at(0, 0, mode == 2 ? -20 : -1);
+        mill.is_at(0, 0, mode == 2 ? -20 : -1);
     }
 }
 
@@ -232,7 +232,7 @@ TEST(ToolChange, ASetterThatIsNotThereIsAnAlarm)
     (void)mill.until_held("T1M6M3S1000\n");
     mill.take_plate_away();
     STRCMP_EQUAL("ALARM:5\r\nerror:9\r\n", mill.say("~").c_str());
-    mill.stands_at(-250, -150, -55);  // 35 mm below G59.3
+    mill.is_at(-250, -150, -55);  // 35 mm below G59.3
     CHECK(!mill.outputs().spindle_on);
     LONGS_EQUAL(static_cast<int>(State::kAlarm),
                 static_cast<int>(mill.bench.app.machine().state()));
@@ -246,7 +246,7 @@ TEST(ToolChange, TheSearchEndsWithTheTravel)
     (void)mill.until_held("T1M6\n");
     mill.take_plate_away();
     CHECK(has(mill.say("~"), "ALARM:5"));
-    mill.stands_at(-250, -150, -80);
+    mill.is_at(-250, -150, -80);
 }
 
 TEST(ToolChange, ASetterThatIsClosedAlreadyIsAnAlarm)
@@ -255,7 +255,7 @@ TEST(ToolChange, ASetterThatIsClosedAlreadyIsAnAlarm)
     (void)mill.until_held("T1M6\n");
     mill.bench.board.mill.force_high(kProbe);
     CHECK(has(mill.say("~"), "ALARM:4\r\nerror:9"));
-    mill.stands_at(-250, -150, -20);
+    mill.is_at(-250, -150, -20);
 }
 
 TEST(ToolChange, APlaceBeyondTheTravelMovesNothing)
@@ -263,7 +263,7 @@ TEST(ToolChange, APlaceBeyondTheTravelMovesNothing)
     Mill mill{3};
     (void)mill.say("G10L2P9X-301\n");
     CHECK(has(mill.say("T1M6\n"), "ALARM:2\r\n[MSG:Reset to continue]\r\nerror:15"));
-    mill.stands_at(-10, -20, -30);
+    mill.is_at(-10, -20, -30);
 }
 
 TEST(ToolChange, AToolWithWhichTheTipCannotComeBackIsAnAlarm)
@@ -286,7 +286,7 @@ TEST(ToolChange, AResetAtTheChangeKeepsThePositionAndForgetsLengths)
     (void)mill.until_held("T3M6\n");
     const std::string said = mill.bench.exchange("\x18", 100);
     CHECK(has(said, "Grbl 1.1h") && !has(said, "ALARM"));
-    mill.stands_at(-250, -150, -1);
+    mill.is_at(-250, -150, -1);
     DOUBLES_EQUAL(0, mill.offset(), 0);
     CHECK(mill.bench.app.machine().parameters().tools.empty());
     CHECK(has(mill.say("G0X-10Y-20Z-30\n"), "ok"));
@@ -312,11 +312,11 @@ TEST(ToolChange, IsLeftOutInCheckModeAndWhereM6IsIgnored)
 {
     Mill ignored{4};
     STRCMP_EQUAL("ok\r\n", ignored.say("T2M6\n").c_str());
-    ignored.stands_at(-10, -20, -30);
+    ignored.is_at(-10, -20, -30);
     Mill checked{3};
     (void)checked.say("$C\n");
     STRCMP_EQUAL("ok\r\n", checked.say("T2M6\n").c_str());
-    checked.stands_at(-10, -20, -30);
+    checked.is_at(-10, -20, -30);
 }
 
 TEST(ToolChange, TheDoorMayBeOpenedForIt)
@@ -327,13 +327,13 @@ TEST(ToolChange, TheDoorMayBeOpenedForIt)
     mill.bench.board.mill.force_high(kDoor);
     CHECK(has(mill.bench.exchange("", 50), "Check Door"));
     (void)mill.bench.exchange("~", 50);
-    mill.stands_at(-250, -150, -1);
+    mill.is_at(-250, -150, -1);
     mill.bench.board.mill.force_high(0);
     (void)mill.bench.exchange("", 50);
     CHECK(has(mill.bench.exchange("?", 1), "<Door:0"));
     CHECK(!mill.outputs().spindle_on);
     (void)mill.say("~");
-    mill.stands_at(-10, -20, -30);
+    mill.is_at(-10, -20, -30);
     CHECK(mill.outputs().spindle_on);
 }
 
@@ -361,7 +361,7 @@ TEST(ToolChange, AHoldAtTheContactDoesNotDriveTheToolOn)
     }
 }
 
-// Whatever holds fall into it: every tool is measured, and the tip comes back.
+// With holds at random ticks every tool is measured, and the tip returns.
 TEST(ToolChange, RandomToolsAndHoldsLeaveTheProgramWhereItWas)
 {
     for (unsigned seed = 1; seed <= 8; ++seed) {
@@ -383,7 +383,7 @@ TEST(ToolChange, RandomToolsAndHoldsLeaveTheProgramWhereItWas)
             }
             said += mill.say("~");
             DOUBLES_EQUAL_TEXT(length, mill.offset(), kAccuracy, where.c_str());
-            mill.stands_at(-10, -20, -30 + mill.offset());
+            mill.is_at(-10, -20, -30 + mill.offset());
         }
         UNSIGNED_LONGS_EQUAL_TEXT(4, count_of(said, "ok\r\n"), where.c_str());
         UNSIGNED_LONGS_EQUAL_TEXT(0, count_of(said, "ALARM") + count_of(said, "error"),

@@ -235,7 +235,7 @@ TEST(PieceStream, PassesCuspsAndRepeatedPoints)
     }
 }
 
-TEST(PieceStream, LeavesOutPartsThatStandStill)
+TEST(PieceStream, LeavesOutPartsWithoutLength)
 {
     const Reference curve{2,
                           {{{5, 5, 5}, 1}, {{5, 5, 5}, 1}, {{5, 5, 5}, 1}, {{1000005, 5, 5}, 1}},

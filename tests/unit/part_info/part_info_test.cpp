@@ -1,4 +1,4 @@
-// What inspect_part says of whole files, read as `cusp info` reads them.
+// Results of inspect_part for whole files, read as `cusp info` reads them.
 #include "host_tools/part_info/part_info.hpp"
 
 #include "CppUTest/TestHarness.h"
@@ -92,7 +92,7 @@ TEST(PartInfo, ARoofOverAPlateIsAnUndercut)
     const Triangles roof = box_mesh({20, 20, 30}, {60, 70, 35});
     part.insert(part.end(), roof.begin(), roof.end());
     const PartInfo info = of("roof.stl", ascii_stl(part));
-    // what lies under the roof and the roof's underside; the plate's underside is none
+    // the area under the roof and the roof's underside; the plate's underside does not count
     const double hidden = 2.0 * 40 * 50;
     DOUBLES_EQUAL(1, info.ground->hidden_area / hidden, 0.01);
     UNSIGNED_LONGS_EQUAL(2, info.mesh->shells);

@@ -1,4 +1,4 @@
-// What a junction takes of the axes' limits, against the axis filters themselves.
+// The share of the axes' limits used by a junction, against the axis filters themselves.
 #include "firmware/planner/junction.hpp"
 
 #include <algorithm>

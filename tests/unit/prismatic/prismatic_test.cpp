@@ -1,5 +1,5 @@
-// Jobs of 2.5-D operations as a shop writes them: what is read, what is refused and where, and what
-// the verifier says of good and of spoiled programs.
+// Jobs of 2.5-D operations as a shop writes them: parsing, refusals with their places, and
+// verdicts on correct and on spoiled programs.
 #include "host_tools/prismatic/prismatic.hpp"
 
 #include <cmath>
@@ -107,7 +107,7 @@ TEST_GROUP(Prismatic)
         return read_job(folder.with("job.toml", kHead + operations));
     }
 
-    // Why the operation is refused, when it is read or planned.
+    // The message with which the operation is refused, on reading or planning.
     std::string why_not(const std::string& operation) const
     {
         return refusal([&] { plan(job_of(operation)); });
@@ -120,7 +120,7 @@ TEST_GROUP(Prismatic)
         return folder.file("plate.ngc");
     }
 
-    // What is broken, with every " X" of the program that is in `from` replaced.
+    // The broken bounds, with every " X" of the program that is in `from` replaced.
     std::string broken(const std::string& operations, const std::string& from = "",
                        const std::string& to = "") const
     {
@@ -225,7 +225,7 @@ TEST(Prismatic, ToolsThatDoNotSuitAreRefused)
     REFUSED("strategy = \"profile\"\nboundary = \"plate.dxf#outline\"\ndepth = 2\ntool = 2",
             "tool 2 is a drill");
     REFUSED("strategy = \"pocket\"\nboundary = \"plate.dxf#outline\"\ndepth = 2\ntool = 3",
-            "tool 3 is vee: pocket needs upright flanks");
+            "tool 3 is vee: pocket needs vertical flanks");
     REFUSED("strategy = \"chamfer\"\nboundary = \"plate.dxf#outline\"\nwidth = 1\ntool = 1",
             "chamfer needs a vee or a taper, tool 1 is flat");
     REFUSED("strategy = \"chamfer\"\nboundary = \"plate.dxf#outline\"\nwidth = 4\ntool = 3",

@@ -1,4 +1,4 @@
-// What becomes of whole programs: words kept, modal state restored, tolerance held, real size.
+// Whole programs: words kept, modal state restored, tolerance held, real size.
 #include "host_tools/program_fit/fit_program.hpp"
 
 #include <cmath>

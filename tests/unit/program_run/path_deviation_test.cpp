@@ -98,7 +98,7 @@ TEST(PathDeviation, OfABezierPieceIsTheDistanceToItsCurve)
 
 TEST(PathDeviation, FollowsThePathAndNotItsNeighbourhood)
 {
-    // Out along x and back 5 mm above. A tool that takes the way out again instead of the way back
+    // Out along x and back 5 mm above. A tool that repeats the outward path instead of the return path
     // is 5 mm off, though it is on the path all the time.
     program_run::PathDeviation deviation;
     deviation.add_move(line({0, 0, 0}, {10'000'000, 0, 0}, 1));

@@ -126,7 +126,7 @@ TEST(ProgramRun, ComesToRestWhereItIsStopped)
     CHECK(program.fraction() > 0.5);
 }
 
-// The run is the operator too: it starts the cycle, and knows afterwards where the tool is.
+// The run also acts as the operator: it starts the cycle, and knows the tool's position afterwards.
 TEST(ProgramRun, ChangesAndTouchesOffATool)
 {
     for (const auto& [number, value] :
@@ -141,7 +141,7 @@ TEST(ProgramRun, ChangesAndTouchesOffATool)
     LONGS_EQUAL(1, touched.pauses);
     CHECK(touched.end == to_position({-12, -9, -9}));
     CHECK(touched.length_mm > 2 * 280);
-    // The way to the setter is not the program's.
+    // The path to the tool setter is not part of the program's path.
     CHECK(touched.max_deviation_mm < 0.001);
     options.probe_z.reset();
     const RunResult missed = run(text);

@@ -36,7 +36,7 @@ TEST(Queue, TellsOfLostLineEndsOnceEverythingBeforeThemIsRead)
     }
     CHECK_FALSE(queue.lost());
     while (queue.take(byte)) {
-        // What is lost stays lost, though there would be room now.
+        // Lost bytes stay lost, though there would be room now.
         queue.put('B');
     }
     CHECK(queue.lost());

@@ -192,7 +192,7 @@ TEST(StepTimes, AreAllCrossingsOfATickInOrder)
             const bool amid = k > 0 && k + 1 < count;
             const float time = amid && times.steady() ? times.next_steady() : times.next();
             const float level = sign * (static_cast<float>(k) + 0.5F);
-            // 2e-5 of a tick, and what single floats make of the level.
+            // 2e-5 of a tick, plus the rounding of the level in float.
             const float least = std::fabs(cubic.slope_at(time)) * 2.1e-5F + 1e-4F;
             DOUBLES_EQUAL(level, cubic.at(time), least);
             CHECK(time >= last && time <= 1.0F);

@@ -117,7 +117,7 @@ TEST(SerialTransport, CarriesBytesBothWaysAtTheRateAskedFor)
 
 TEST(SerialTransport, TakesAMegabaud) { stream::SerialTransport transport{device, 1'000'000}; }
 
-TEST(SerialTransport, WaitsForAByteAsLongAsItIsTold)
+TEST(SerialTransport, WaitsForAByteUpToItsTimeout)
 {
     stream::SerialTransport transport{device, 115200};
     const auto start = std::chrono::steady_clock::now();

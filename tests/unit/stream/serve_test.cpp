@@ -31,7 +31,7 @@ struct QuietWatcher : stream::StreamWatcher {
 
 TEST_GROUP(Serve)
 {
-    // A busy computer is no silent controller.
+    // A busy computer must not count as a silent controller.
     static constexpr std::chrono::seconds kPatience{60};
     test::TemporaryFolder folder;
     simulate::ServeOptions serve_options;
@@ -62,7 +62,7 @@ TEST_GROUP(Serve)
         serve_stop = 0;
         return report;
     }
-    // Steps of X forwards less those backwards. What a status says would not do: the line damages it.
+    // Net steps of X. Status reports are no oracle: the line damages them.
     static int net_steps_x(const std::string& vcd)
     {
         std::istringstream in{vcd};

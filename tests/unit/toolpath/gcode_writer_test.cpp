@@ -1,4 +1,4 @@
-// What a written program looks like, and that rounding keeps arcs round.
+// The text of a written program, and the radii of rounded arcs.
 #include "host_tools/toolpath/gcode_writer.hpp"
 
 #include <cmath>

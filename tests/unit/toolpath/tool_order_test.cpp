@@ -1,5 +1,5 @@
-// Operations that change places: fewer changes of tool, and no place on the ground sees its cuts in
-// another order.
+// Reordered operations: fewer changes of tool, and at every point of the plan the cuts stay in
+// order.
 #include "host_tools/toolpath/tool_order.hpp"
 
 #include <algorithm>

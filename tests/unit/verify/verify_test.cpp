@@ -119,7 +119,7 @@ TEST(Verify, MeasuresThePathThatIsTooLow)
     CHECK(!result.broken.empty());
 }
 
-// Of so many points not all are settled.
+// With so many points some remain undecided.
 TEST(Verify, TellsAProgramThatLeavesMuchEverywhere)
 {
     settings.pitch = 0.07;
@@ -314,7 +314,7 @@ TEST(Verify, FindsTheFloorThatWasNeverCut)
     CHECK(!result.broken.empty());
 }
 
-TEST(Verify, FindsARapidMoveThroughMetal)
+TEST(Verify, FindsARapidMoveThroughStock)
 {
     std::string program = passes(-5, 1);
     program.replace(program.find("G0 X0 Y0\n"), 9, "G0 X0 Y0\nG0 Z-2\nG0 X10\nG0 X0\n");

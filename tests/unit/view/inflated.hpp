@@ -1,4 +1,4 @@
-// The way back from deflated bytes, and a reader of little-endian numbers: what the page does.
+// Inflates bytes, and reads little-endian numbers, as the page does.
 #pragma once
 
 #include <cstdint>

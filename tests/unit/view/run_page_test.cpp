@@ -1,4 +1,4 @@
-// The page of a run, whatever the number of threads.
+// The page of a run is equal for any number of threads.
 #include "host_tools/view/run_page.hpp"
 
 #include "host_tools/input_error/input_error.hpp"

@@ -1,4 +1,4 @@
-// Every set point comes back exactly, whatever it is.
+// Every set point is restored exactly.
 #include "host_tools/view/sample_blocks.hpp"
 
 #include <algorithm>
@@ -147,7 +147,7 @@ TEST(SampleBlocks, OfASteadyMoveTakeAlmostNothing)
     CHECK(blocks.finish().size() < 1000);
 }
 
-// Layers of one shape with walks between them: what the layers repeat is found however long ago it was.
+// Layers of one shape with random motion between them: repetitions are found at any distance.
 TEST(SampleBlocks, OfLayersTakeHardlyMoreThanOfOne)
 {
     constexpr unsigned kSeeds = 20;
@@ -220,7 +220,7 @@ TEST(SampleBlocks, OfRandomRepetitionsComeBack)
                 }
             }
         }
-        // Differences of the second order alone: places stay within what a double holds.
+        // Differences of the second order only: positions stay exact in double.
         std::vector<Position> points;
         Position at{};
         for (const Position& third : thirds) {
