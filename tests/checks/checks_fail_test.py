@@ -83,7 +83,7 @@ class ChecksOfTheTree(unittest.TestCase):
         self.write("docs/architecture.md", "none\n")
         self.assertEqual(self.run_check("includes.py")[0], 2)
 
-    def test_job_keys_refuses_a_key_that_is_told_or_known_alone(self):
+    def test_job_keys_refuses_a_key_that_is_documented_or_known_alone(self):
         self.write("host_tools/import/known_keys.cpp",
                    'OperationKey kKeys[]{{"feed", ""}, {"grid", kGrids}};\nreturn {"top", "operation"};\n')
         self.write("docs/job_file.md", "| `feed`, `grid` | needed | |\n| `top` | 0 | |\n")

@@ -22,20 +22,20 @@ def main(arguments):
         code = (top / KEYS).read_text()
         known = set(LISTED.findall(code))
         known |= {key for found in LIST.finditer(code) for key in re.findall(r"\w+", found[1])} - TABLES
-        told = {key for row in ROW.findall((top / DOCUMENT).read_text()) for key in re.findall(r"\w+", row)}
+        documented = {key for row in ROW.findall((top / DOCUMENT).read_text()) for key in re.findall(r"\w+", row)}
     except OSError as error:
         print(f"job_keys: {error}", file=sys.stderr)
         return 2
-    if not known or not told:
+    if not known or not documented:
         print("job_keys: no keys found", file=sys.stderr)
         return 2
-    for key in sorted(known - told):
+    for key in sorted(known - documented):
         print(f"{DOCUMENT}: does not tell the key {key} of {KEYS}")
-    for key in sorted(told - known):
+    for key in sorted(documented - known):
         print(f"{DOCUMENT}: tells a key {key} that {KEYS} does not know")
-    if known == told:
-        print(f"job_keys: all {len(known)} keys are told")
-    return 0 if known == told else 1
+    if known == documented:
+        print(f"job_keys: all {len(known)} keys are documented")
+    return 0 if known == documented else 1
 
 
 if __name__ == "__main__":
