@@ -33,34 +33,34 @@ constexpr double kTouch = 1e-8;                   // mm
 constexpr double kSamePlace = 1e-4;               // mm: a step across a fork of the axis
 constexpr double kReflex = 1e-7;                  // radians
 
-// The disc that touches the contours at `foot`, and its other contact.
+// The disc that touches the contours at `contact`, and its other contact.
 struct Disc {
     Vec2d at;
     double radius;
-    Vec2d foot;
+    Vec2d contact;
     Vec2d other;
-    std::size_t slot;        // of foot: 2 n on edge n, 2 n + 1 at the corner after it
+    std::size_t slot;        // of contact: 2 n on edge n, 2 n + 1 at the corner after it
     std::size_t other_slot;  // `slot` where nothing stopped it but the bend of its own edge
 };
 
-// The radius of the circle with its centre on the ray from `foot` along `normal`, through foot, that
+// The radius of the circle with its centre on the ray from `contact` along `normal`, through contact, that
 // touches a point.
-double through_point(Vec2d foot, Vec2d normal, Vec2d q)
+double through_point(Vec2d contact, Vec2d normal, Vec2d q)
 {
-    const double along = dot(normal, q - foot);
-    const double squared = dot(q - foot, q - foot);
+    const double along = dot(normal, q - contact);
+    const double squared = dot(q - contact, q - contact);
     return along > 0 ? squared / (2 * along) : kUnbounded;
 }
 
 // As above, for the line or the circle of an edge, which has the region on its left.
-double touching(Vec2d foot, Vec2d normal, const Edge& edge)
+double tangent_radius(Vec2d contact, Vec2d normal, const Edge& edge)
 {
     if (edge.turn == 0) {
         const Vec2d inward = left_normal(tangent_at_start(edge));
         const double closing = 1 - dot(normal, inward);
-        return closing > 0 ? dot(foot - edge.start, inward) / closing : kUnbounded;
+        return closing > 0 ? dot(contact - edge.start, inward) / closing : kUnbounded;
     }
-    const Vec2d w = foot - edge.centre;
+    const Vec2d w = contact - edge.centre;
     // inside a circle to the left, outside of one to the right
     const double sum = 2 * (dot(w, normal) + edge.turn * edge.radius);
     const double radius = (edge.radius * edge.radius - dot(w, w)) / sum;
@@ -114,35 +114,35 @@ private:
         return 2 * edge;
     }
 
-    Disc disc(Vec2d foot, Vec2d normal, double most, std::size_t slot) const
+    Disc disc(Vec2d contact, Vec2d normal, double max_radius, std::size_t slot) const
     {
         constexpr int kMostSteps = 200;
-        double radius = most;
+        double radius = max_radius;
         std::optional<std::size_t> stop;
         for (int step = 0; step < kMostSteps; ++step) {
-            const Vec2d centre = foot + normal * radius;
+            const Vec2d centre = contact + normal * radius;
             const EdgeTree::Nearest near = tree_.nearest_edge(centre);
             if (near.distance >= radius - kTouch) {
                 break;
             }
-            double less = touching(foot, normal, edges_[near.edge]);
-            const Vec2d q = foot + normal * less;
-            if (!(less < radius) ||
-                std::abs(distance(nearest_on(edges_[near.edge], q), q) - less) > kTouch) {
-                less = through_point(foot, normal, near.point);
+            double shrunk = tangent_radius(contact, normal, edges_[near.edge]);
+            const Vec2d q = contact + normal * shrunk;
+            if (!(shrunk < radius) ||
+                std::abs(distance(nearest_on(edges_[near.edge], q), q) - shrunk) > kTouch) {
+                shrunk = through_point(contact, normal, near.point);
             }
-            if (!(less < radius)) {
+            if (!(shrunk < radius)) {
                 break;
             }
-            radius = less;
+            radius = shrunk;
             stop = near.edge;
         }
-        const Vec2d centre = foot + normal * radius;
+        const Vec2d centre = contact + normal * radius;
         if (!stop) {
-            return {centre, radius, foot, foot, slot, slot};
+            return {centre, radius, contact, contact, slot, slot};
         }
         const Vec2d other = nearest_on(edges_[*stop], centre);
-        return {centre, radius, foot, other, slot, slot_of(*stop, other)};
+        return {centre, radius, contact, other, slot, slot_of(*stop, other)};
     }
 
     void walk_edge(std::size_t k)
@@ -235,7 +235,7 @@ private:
         if (disc.slot == disc.other_slot || !(disc.radius > 0)) {
             return 0;
         }
-        const Vec2d a = (disc.foot - disc.at) * (1 / disc.radius);
+        const Vec2d a = (disc.contact - disc.at) * (1 / disc.radius);
         const Vec2d b = (disc.other - disc.at) * (1 / disc.radius);
         const double cosine = std::sqrt(std::max(0.0, (1 + dot(a, b)) / 2));
         return cosine > 0 ? disc.radius * (1 / cosine - 1) : kUnbounded;
