@@ -115,7 +115,7 @@ void add_info_command(CLI::App& app, Work& work)
     command->add_option("--units", options->units, "mm or inch: of files that name no unit")
         ->check(CLI::IsMember({"mm", "inch"}))
         ->capture_default_str();
-    command->add_option("--tolerance", options->tolerance, "mm that a ball may leave")
+    command->add_option("--tolerance", options->tolerance, "mm of stock that a ball may leave")
         ->check(CLI::Range(1e-4, 10.0))
         ->capture_default_str();
     command->add_option("--stats", options->stats,

@@ -67,13 +67,13 @@ void add_one_line_options(CLI::App& command, PlanCall& call)
         ->type_name("SHAPE:DIAMETER ...");
     add("--scallop", request.scallop, "height of the scallops that may remain, tolerance included");
     add("--units", call.units,
-        "of the options, the G-code, and .json, .stl and .obj files, which name none")
+        "unit of the options, the G-code, and .json, .stl and .obj files, which have no unit")
         ->check(CLI::IsMember({"mm", "inch"}))
         ->capture_default_str();
     add("--boundary", request.boundary, "loop round a pocket (.json, .dxf, plate.dxf#layer)");
     add("--island", request.islands, "loop of an island in the pocket; may be repeated")
         ->allow_extra_args(false);
-    add("--feed", request.feed, "a minute; default 200 diameters, at most 1200 mm")
+    add("--feed", request.feed, "length a minute; default 200 diameters, at most 1200 mm")
         ->type_name("FEED");
     add("--plunge-feed", request.plunge_feed, "default: a quarter of the feed")->type_name("FEED");
     add("--spindle", request.spindle, "default 12000")->type_name("RPM");
@@ -94,7 +94,7 @@ void add_one_line_options(CLI::App& command, PlanCall& call)
         ->allow_extra_args(false)
         ->type_name("DEGREES");
     add("--origin", request.origin,
-        "corner, centre, top: what lies at 0; the top is z = 0 with each")
+        "corner, centre, top: the point of the part at 0; its top is z = 0 with each")
         ->check(CLI::IsMember(import::kOrigins))
         ->type_name("PLACE");
     add("--move", request.move, "by x,y,z, after --origin")

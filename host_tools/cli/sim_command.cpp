@@ -246,7 +246,7 @@ void add_serve_options(CLI::App& command, SimArguments& arguments)
         .add_option("--line-faults", arguments.line_faults,
                     "Probabilities a byte: noise=P,loss=P,doubling=P,delay=P")
         ->group(group);
-    command.add_option("--seed", arguments.seed, "Of the line's faults")->group(group);
+    command.add_option("--seed", arguments.seed, "Seed of the line's random faults")->group(group);
     command
         .add_option("--cut-power-after", arguments.cut_power_after,
                     "Words written to the settings store before the power fails")

@@ -264,9 +264,10 @@ void add_stream_command(CLI::App& app, Work& work)
     command->add_option("port", arguments->port, "Serial device, pseudo-terminal, or tcp:HOST:PORT")
         ->required();
     command->add_option("program", arguments->program, "G-code to send")->required();
-    command->add_option("--baud", arguments->baud, "Of a serial device")->capture_default_str();
+    command->add_option("--baud", arguments->baud, "Baud rate of a serial device")
+        ->capture_default_str();
     command->add_option("--window", arguments->window,
-                        "Bytes of the controller's buffer; 0: ask it");
+                        "Bytes of the controller's buffer; 0: query it");
     command->add_flag("--checked", arguments->checked,
                       "Number and check every line: damaged or lost lines are sent again");
     command->add_option("--settings", arguments->settings_file,
