@@ -9,6 +9,9 @@ const kTitle = 16;  // px above a plot, as page.css has it
 
 interface Panel { title: string; unit: string; channels: number[]; scale: (channel: number) => number; top: number }
 
+// Steps of the axis of time: none below a set point's millisecond, which is what the labels show.
+const kSeconds = [0, 1, 2, 3, 4, 5, 6, 7].flatMap((e) => [1, 2, 5].map((f) => f * 10 ** e / 1000));
+
 export class Charts {
   private readonly plots: uPlot[] = [];
   private readonly marks: HTMLElement[] = [];
@@ -65,7 +68,7 @@ export class Charts {
           y: { range: (_u: uPlot, _low: number, high: number): [number, number] => [0, panel.top || Math.max(high * 1.08, 1)] },
         },
         axes: [
-          { ...axis, show: last, size: last ? 24 : 0, values: (_u: uPlot, at: number[]) => at.map((v) => `${+v.toFixed(3)} s`) },
+          { ...axis, show: last, size: last ? 24 : 0, incrs: kSeconds, values: (_u: uPlot, at: number[]) => at.map((v) => `${+v.toFixed(3)} s`) },
           { ...axis, size: 44, gap: 2, ...(panel.top ? { splits: () => [0, 50, 100] } : { space: 20 }) },
         ],
         series: [{}, ...panel.channels.map((channel) => ({
