@@ -80,14 +80,9 @@ if [ "$all" = no ]; then
 else
     run_tests dev
     echo "building (sanitize)"
-    quietly build/configure-sanitize.log cmake --preset sanitize -DCUSP_TARGET_TESTS=OFF
-    quietly build/build-sanitize.log cmake --build --preset sanitize -j "$jobs" --target unit_tests cusp
-    run_tests sanitize -L unit
-    echo "building the fuzz targets"
-    quietly build/configure-fuzz.log cmake --preset fuzz -DCUSP_FUZZ_SECONDS=10 \
-        -DCUSP_TARGET_TESTS=OFF
-    quietly build/build-fuzz.log cmake --build --preset fuzz -j "$jobs"
-    run_tests fuzz
+    quietly build/configure-sanitize.log cmake --preset sanitize -DCUSP_FUZZ_SECONDS=10 -DCUSP_TARGET_TESTS=OFF
+    quietly build/build-sanitize.log cmake --build --preset sanitize -j "$jobs" --target unit_tests cusp fuzz
+    run_tests sanitize -L 'unit|fuzz'
     echo "building without Eigen, Open CASCADE and lib3mf, with clang and make"
     quietly build/configure-least.log cmake -S . -B build/least -G "Unix Makefiles" -DCMAKE_CXX_COMPILER=clang++ \
         -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS_DEBUG=-O0 -DBUILD_TESTING=OFF -DCUSP_EIGEN=OFF -DCUSP_OCCT=OFF -DCUSP_3MF=OFF \

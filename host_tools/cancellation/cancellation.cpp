@@ -95,8 +95,15 @@ extern "C" void stop_by_signal(int signal)
     _exit(kCannotUse);
 }
 
-// A sanitizer reserves more addresses than any machine has memory.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+// A sanitizer reserves more addresses than any machine has memory. GCC defines macros, Clang has features.
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define CUSP_SANITIZED
+#endif
+#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define CUSP_SANITIZED
+#endif
+#if defined(CUSP_SANITIZED)
 constexpr bool kLimitsMemory = false;
 #else
 constexpr bool kLimitsMemory = true;
