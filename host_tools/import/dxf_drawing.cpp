@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "host_tools/files/files.hpp"
+#include "host_tools/import/number_ranges.hpp"
 #include "host_tools/input_error/input_error.hpp"
 
 #include "fmt/format.h"
@@ -113,10 +114,9 @@ void DxfDrawing::read_unit()
         } else if (asked && group.code == 70) {
             constexpr double kInches = 1;
             constexpr double kMillimetres = 4;
-            constexpr double kInch = 25.4;
             const double unit = number(group);
             names_unit_ = unit == kInches || unit == kMillimetres;
-            unit_ = unit == kInches ? kInch : unit == kMillimetres ? 1.0 : unit_;
+            unit_ = unit == kInches ? kMillimetresPerInch : unit == kMillimetres ? 1.0 : unit_;
             return;
         } else if (group.code == 0 && group.value == "ENDSEC") {
             return;  // of the header, the first section

@@ -19,6 +19,7 @@ check() {
     if "$@" >"$work/log" 2>&1; then
         passed=$((passed + 1))
         echo "fresh: $name: passed in $(($(date +%s) - begun)) s"
+        grep 'first picture' "$work/log" || true
     else
         failed=$((failed + 1))
         tail -40 "$work/log"
