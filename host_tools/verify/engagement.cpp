@@ -43,14 +43,13 @@ std::optional<double> engagement_limit(const Job& job,
 }
 
 void add_engagement(const ToolPositions& positions,
-                    const EngagementRun& run,
                     std::optional<double> limit,
                     double pitch,
+                    EngagementRun& run,
                     EngagementFigures& figures)
 {
-    double over = kUnbounded;
     if (limit) {
-        over = found_over(*limit, positions.tool.radius, pitch);
+        run.counts_over = found_over(*limit, positions.tool.radius, pitch);
         figures.limit = std::min(figures.limit.value_or(*limit), *limit);
         figures.over_length = figures.over_length.value_or(0);
     }
@@ -59,7 +58,7 @@ void add_engagement(const ToolPositions& positions,
         const auto angle = static_cast<double>(run.angles[k]);
         if (run.kinds[k] == StepKind::kAir) {
             figures.air_length += way;
-        } else if (run.kinds[k] == StepKind::kCut && limit && angle > over) {
+        } else if (run.kinds[k] == StepKind::kCut && limit && angle > run.counts_over) {
             *figures.over_length += way;
         }
         if (angle > figures.angle_max) {

@@ -29,12 +29,12 @@ std::optional<double> engagement_limit(const job::Job& job,
                                        const toolpath::Tool& tool,
                                        std::optional<double> asked);
 
-// Adds a run of one tool. Over the limit is what is over by more than 5 %, and by more than half a
+// Adds a run of one tool, and sets what counts as over in it. Over the limit is what is over by more than 5 %, and by more than half a
 // pitch of a straight cut's width, which the grid does not resolve.
 void add_engagement(const ToolPositions& positions,
-                    const EngagementRun& run,
                     std::optional<double> limit,
                     double pitch,
+                    EngagementRun& run,
                     EngagementFigures& figures);
 
 // Feed moves at their feed, rapid moves at the rates of the controller's default machine; without

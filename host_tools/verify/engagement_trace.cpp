@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "firmware/base/math.hpp"
-#include "host_tools/nurbs/plan_vector.hpp"
 
 namespace cusp::verify {
 
@@ -42,7 +41,11 @@ public:
     {
         const double x = (place.x - grid_.x0) / grid_.pitch;
         const double y = (place.y - grid_.y0) / grid_.pitch;
-        const long first = rounded(y - shift(rounded(x)));
+        const long column = rounded(x);  // off by one at most
+        if (column + 1 < static_cast<long>(begin) || column > static_cast<long>(end)) {
+            return grid_.size();
+        }
+        const long first = rounded(y - shift(column));
         const long i = rounded(x - shift(first));
         const long second = rounded(y - shift(i));
         const auto squared = [&](long j) {
@@ -175,7 +178,7 @@ std::vector<StepKind> EngagementTrace::kinds() const
 
 EngagementRun EngagementTrace::finish() const
 {
-    EngagementRun run{kinds(), {}};
+    EngagementRun run{kinds(), {}, kUnbounded};
     const std::size_t count = run.kinds.size();
     run.angles.resize(count);
     const double reach = kMeanReach * grid_.pitch;

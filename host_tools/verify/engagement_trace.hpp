@@ -21,6 +21,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "host_tools/nurbs/plan_vector.hpp"
 #include "host_tools/verify/bands.hpp"
 #include "host_tools/verify/height_grid.hpp"
 #include "host_tools/verify/tool_positions.hpp"
@@ -38,7 +39,8 @@ enum class StepKind : std::uint8_t {
 // For each position of a run.
 struct EngagementRun {
     std::vector<StepKind> kinds;
-    std::vector<float> angles;  // degrees, 0 to 180; 0 but for kCut
+    std::vector<float> angles;       // degrees, 0 to 180; 0 but for kCut
+    double counts_over{kUnbounded};  // degrees: more is over the limit
 };
 
 class EngagementTrace {

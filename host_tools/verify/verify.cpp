@@ -358,8 +358,8 @@ void sum_engagement(const Job& job,
 {
     EngagementFigures& figures = result.figures.engagement.emplace();
     for (std::size_t k = 0; k < runs.size(); ++k) {
-        add_engagement(runs[k], result.engagement[k], engagement_limit(job, runs[k].tool, asked),
-                       result.grid.pitch, figures);
+        add_engagement(runs[k], engagement_limit(job, runs[k].tool, asked), result.grid.pitch,
+                       result.engagement[k], figures);
     }
     figures.removed_volume = stock.removed_volume();
     figures.seconds = programmed_seconds(result.program);
