@@ -34,6 +34,17 @@ double rounded(double value)
     return std::round(value * kMicro) / kMicro;
 }
 
+void add_tools_to(Json& out, const std::vector<ToolFigures>& tools)
+{
+    for (const ToolFigures& t : tools) {
+        out["tools"].push_back({{"number", t.tool.number},
+                                {"shape", name_of(t.tool.shape)},
+                                {"diameter_mm", rounded(2 * t.tool.radius)},
+                                {"cut_length_mm", rounded(t.cut_length)},
+                                {"cut_depth_max_mm", rounded(t.cut_depth_max)}});
+    }
+}
+
 void add_engagement_to(Json& out, const EngagementFigures& f)
 {
     out["engagement_max_deg"] = rounded(f.angle_max);
@@ -64,13 +75,7 @@ Json stats_of(const Verification& result)
              {"rapid_cut_max_mm", rounded(f.rapid_cut_max)},
              {"cut_depth_max_mm", rounded(f.cut_depth_max)},
              {"gouge_max_mm", rounded(f.gouge_max)}};
-    for (const ToolFigures& t : f.tools) {
-        out["tools"].push_back({{"number", t.tool.number},
-                                {"shape", name_of(t.tool.shape)},
-                                {"diameter_mm", rounded(2 * t.tool.radius)},
-                                {"cut_length_mm", rounded(t.cut_length)},
-                                {"cut_depth_max_mm", rounded(t.cut_depth_max)}});
-    }
+    add_tools_to(out, f.tools);
     const auto optional = [&](const char* name, std::optional<double> value) {
         if (value && std::isfinite(*value)) {
             out[name] = rounded(*value);

@@ -16,7 +16,7 @@ using toolpath::Tool;
 namespace {
 
 constexpr double kAllowedShare = 1.05;   // of the limit
-constexpr double kAllowedPitches = 0.5;  // of the width of a straight cut
+constexpr double kAllowedPitches = 0.7;  // of the width of a straight cut
 constexpr double kRadian = 180 / kPi;    // degrees
 
 // degrees

@@ -1,5 +1,5 @@
 // What the engagement of a program amounts to: its greatest, the way over a limit, air, and how
-// much metal is removed in a minute.
+// much stock is removed in a minute.
 #pragma once
 
 #include <cstdint>
@@ -29,8 +29,8 @@ std::optional<double> engagement_limit(const job::Job& job,
                                        const toolpath::Tool& tool,
                                        std::optional<double> asked);
 
-// Adds a run of one tool, and sets what counts as over in it. Over the limit is what is over by more than 5 %, and by more than half a
-// pitch of a straight cut's width, which the grid does not resolve.
+// Adds a run of one tool, and sets what counts as over in it. Over the limit is what is over by more than 5 %, and by more than 0.7
+// pitches of a straight cut's width, which the grid does not resolve.
 void add_engagement(const ToolPositions& positions,
                     std::optional<double> limit,
                     double pitch,

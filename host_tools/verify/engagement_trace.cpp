@@ -10,12 +10,12 @@ namespace cusp::verify {
 
 namespace {
 
-constexpr int kLooks = 120;         // on the front half of the circle: 1.5 degrees apart
-constexpr double kOutside = 1.0;    // pitches from the tool to the places looked up
-constexpr double kMeanReach = 1.5;  // pitches: the mean is over so much before and after
-constexpr double kGap = 3.0;        // pitches between two cuts that are one
-constexpr double kDescent = 0.02;   // of the way: steeper ones down are entries
-constexpr double kStanding = 1e-4;  // mm: metal that stands higher over the tool is in its way
+constexpr int kLooks = 120;           // on the front half of the circle: 1.5 degrees apart
+constexpr double kOutside = 1.0;      // pitches from the tool to the places looked up
+constexpr double kMeanReach = 1.5;    // pitches: the mean is over so much before and after
+constexpr double kGap = 3.0;          // pitches between two cuts that are one
+constexpr double kEntrySlope = 0.02;  // of the way: steeper ones down are entries
+constexpr double kOverTip = 1e-4;     // mm: stock that is higher over the tool is in its way
 
 // Directions from the axis, x along the feed.
 std::array<Vec2d, kLooks> front_half()
@@ -92,7 +92,7 @@ double EngagementTrace::way(std::size_t k) const
 
 bool EngagementTrace::enters(std::size_t k) const
 {
-    return positions_.tips[k].z - positions_.tips[k - 1].z < -kDescent * way(k);
+    return positions_.tips[k].z - positions_.tips[k - 1].z < -kEntrySlope * way(k);
 }
 
 void EngagementTrace::look(const std::vector<double>& heights,
@@ -117,16 +117,16 @@ void EngagementTrace::look(const std::vector<double>& heights,
     }
     const Vec2d ahead{step.x / flat * radius, step.y / flat * radius};
     const double height = std::max(from.z, from.z + step.z) +
-                          profile_height(positions_.tool, positions_.tool.radius) + kStanding;
+                          profile_height(positions_.tool, positions_.tool.radius) + kOverTip;
     const NearPoint points{grid_, shifts_};
-    int in_metal = 0;
+    int in_stock = 0;
     for (const Vec2d direction : kFront) {
         const Vec2d place{from.x + direction.x * ahead.x - direction.y * ahead.y,
                           from.y + direction.x * ahead.y + direction.y * ahead.x};
         const std::size_t point = points.at(place, begin, end);
-        in_metal += point < heights.size() && heights[point] > height ? 1 : 0;
+        in_stock += point < heights.size() && heights[point] > height ? 1 : 0;
     }
-    seen_[band][k].in_metal = static_cast<std::uint8_t>(in_metal);
+    seen_[band][k].in_stock = static_cast<std::uint8_t>(in_stock);
 }
 
 bool EngagementTrace::cuts(std::size_t k) const
@@ -136,15 +136,15 @@ bool EngagementTrace::cuts(std::size_t k) const
 
 double EngagementTrace::angle_seen(std::size_t k) const
 {
-    int in_metal = 0;
+    int in_stock = 0;
     for (const auto& band : seen_) {
-        in_metal += band[k].in_metal;
+        in_stock += band[k].in_stock;
     }
     const double outer = 1 + kOutside * grid_.pitch / positions_.tool.radius;
-    return std::acos(std::clamp(outer * std::cos(kPi * in_metal / kLooks), -1.0, 1.0));
+    return std::acos(std::clamp(outer * std::cos(kPi * in_stock / kLooks), -1.0, 1.0));
 }
 
-// Thin cuts remove a point of the grid now and then: only long gaps between them are air.
+// Thin cuts remove a point of the grid now and then: only long gaps between such are air.
 std::vector<StepKind> EngagementTrace::kinds() const
 {
     const std::size_t count = positions_.tips.size();

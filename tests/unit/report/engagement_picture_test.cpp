@@ -47,8 +47,7 @@ TEST_GROUP(EngagementPicture)
             return false;
         }
         const std::size_t tag = text.rfind('<', found);
-        return text.substr(tag, found - tag).find("stroke=\"" + stroke + "\"") !=
-               std::string::npos;
+        return text.substr(tag, found - tag).find("stroke=\"" + stroke + "\"") != std::string::npos;
     }
 };
 
