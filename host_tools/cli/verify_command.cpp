@@ -1,5 +1,7 @@
 // cusp verify: simulates the cut and compares the remaining stock with the part.
+#include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "host_tools/cancellation/cancellation.hpp"
 #include "host_tools/cli/commands.hpp"
@@ -14,6 +16,7 @@
 namespace cusp::cli {
 
 using import::read_job;
+using job::Job;
 using verify::Verification;
 using verify::VerifySettings;
 
@@ -25,8 +28,33 @@ struct VerifyOptions {
     VerifyOutput output;
     double pitch{};
     double spacing{};
+    std::optional<double> max_engagement;
     Resources resources;
 };
+
+constexpr double kLeastEngagement = 1;
+constexpr double kMostEngagement = 180;
+
+// CLI::Range lets nan pass.
+std::string refusal_of_engagement(const std::string& text)
+{
+    double value = 0;
+    const bool is_number = CLI::detail::lexical_cast(text, value);
+    if (is_number && value >= kLeastEngagement && value <= kMostEngagement) {
+        return {};
+    }
+    return fmt::format("{} degrees is not between {:g} and {:g} degrees", text, kLeastEngagement,
+                       kMostEngagement);
+}
+
+// It takes time, so not for the figures that are printed alone.
+bool asks_for_engagement(const VerifyOptions& options, const Job& job)
+{
+    return options.max_engagement || !options.output.stats.empty() ||
+           !options.output.engagement_picture.empty() ||
+           std::any_of(job.operations.begin(), job.operations.end(),
+                       [](const auto& operation) { return operation.max_engagement.has_value(); });
+}
 
 int run_verify(const VerifyOptions& options)
 {
@@ -39,8 +67,10 @@ int run_verify(const VerifyOptions& options)
     if (options.spacing > 0) {
         settings.spacing = options.spacing;
     }
-    const Verification result =
-        verify_program(read_job(options.job), options.program, settings, options.output);
+    const Job job = read_job(options.job);
+    settings.max_engagement = options.max_engagement;
+    settings.engagement = asks_for_engagement(options, job);
+    const Verification result = verify_program(job, options.program, settings, options.output);
     fmt::print("{}", verification_text(result));
     return result.broken.empty() ? kDone : kFoundWrong;
 }
@@ -55,7 +85,9 @@ void add_verify_command(CLI::App& app, Work& work)
         "Gouge and scallop are measured square to the surface, in mm, whatever the job's units.\n"
         "Exit status 1 where a bound of the job does not hold: floor_tolerance (gouge),\n"
         "plan_tolerance (walls), scallop (on 99 % of what the tools reach; stock on the rest may\n"
-        "be no thicker than scallop and floor_tolerance), or where a rapid move cuts stock.");
+        "be no thicker than scallop and floor_tolerance), or where a rapid move cuts stock.\n"
+        "The engagement is looked for with --stats, --engagement-picture, --max-engagement, and\n"
+        "where an operation has max_engagement.");
     auto options = std::make_shared<VerifyOptions>();
     command->add_option("JOB", options->job, "job file (TOML)")->required();
     command->add_option("PROGRAM", options->program, "G-code")->required();
@@ -71,6 +103,13 @@ void add_verify_command(CLI::App& app, Work& work)
                         "picture to write (SVG): the path from above, coloured by height");
     command->add_option("--left-picture", options->output.left_picture,
                         "picture to write (SVG): the material left above the floor");
+    command->add_option("--engagement-picture", options->output.engagement_picture,
+                        "picture to write (SVG): the path from above, coloured by engagement");
+    command
+        ->add_option("--max-engagement", options->max_engagement,
+                     "degrees, for over_engagement_mm; default: that of the job's operations")
+        ->check(refusal_of_engagement)
+        ->type_name("DEGREES");
     add_resource_options(*command, options->resources);
     run_when_called(*command, work, options, run_verify);
 }

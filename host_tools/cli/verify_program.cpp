@@ -15,8 +15,10 @@ namespace cusp::cli {
 
 using files::write_text;
 using job::Job;
+using report::engagement_picture;
 using report::left_picture;
 using report::path_picture;
+using verify::EngagementFigures;
 using verify::ToolFigures;
 using verify::Verification;
 using verify::VerifyFigures;
@@ -30,6 +32,33 @@ double rounded(double value)
 {
     constexpr double kMicro = 1e6;
     return std::round(value * kMicro) / kMicro;
+}
+
+void add_tools_to(Json& out, const std::vector<ToolFigures>& tools)
+{
+    for (const ToolFigures& t : tools) {
+        out["tools"].push_back({{"number", t.tool.number},
+                                {"shape", name_of(t.tool.shape)},
+                                {"diameter_mm", rounded(2 * t.tool.radius)},
+                                {"cut_length_mm", rounded(t.cut_length)},
+                                {"cut_depth_max_mm", rounded(t.cut_depth_max)}});
+    }
+}
+
+void add_engagement_to(Json& out, const EngagementFigures& f)
+{
+    out["engagement_max_deg"] = rounded(f.angle_max);
+    if (f.line > 0) {
+        out["engagement_max_at_mm"] = {rounded(f.place.x), rounded(f.place.y), rounded(f.place.z)};
+        out["engagement_max_line"] = f.line;
+    }
+    if (f.limit) {
+        out["max_engagement_deg"] = *f.limit;
+        out["over_engagement_mm"] = rounded(*f.over_length);
+    }
+    out["air_mm"] = rounded(f.air_length);
+    out["removed_mm3"] = rounded(f.removed_volume);
+    out["removed_mm3_per_min"] = rounded(f.seconds > 0 ? 60 * f.removed_volume / f.seconds : 0);
 }
 
 Json stats_of(const Verification& result)
@@ -46,13 +75,7 @@ Json stats_of(const Verification& result)
              {"rapid_cut_max_mm", rounded(f.rapid_cut_max)},
              {"cut_depth_max_mm", rounded(f.cut_depth_max)},
              {"gouge_max_mm", rounded(f.gouge_max)}};
-    for (const ToolFigures& t : f.tools) {
-        out["tools"].push_back({{"number", t.tool.number},
-                                {"shape", name_of(t.tool.shape)},
-                                {"diameter_mm", rounded(2 * t.tool.radius)},
-                                {"cut_length_mm", rounded(t.cut_length)},
-                                {"cut_depth_max_mm", rounded(t.cut_depth_max)}});
-    }
+    add_tools_to(out, f.tools);
     const auto optional = [&](const char* name, std::optional<double> value) {
         if (value && std::isfinite(*value)) {
             out[name] = rounded(*value);
@@ -62,6 +85,9 @@ Json stats_of(const Verification& result)
     optional("ball_gouge_max_mm", f.ball_gouge_max);
     optional("wall_gouge_max_mm", f.wall_gouge_max);
     optional("wall_left_max_mm", f.wall_left_max);
+    if (f.engagement) {
+        add_engagement_to(out, *f.engagement);
+    }
     out["cells"] = f.cells;
     out["unreachable_share"] = rounded(f.unreachable_share);
     out["uncut_share"] = rounded(f.uncut_share);
@@ -109,6 +135,9 @@ Verification verify_program(const Job& job,
     }
     if (!output.left_picture.empty()) {
         write_text(output.left_picture, left_picture(job, result));
+    }
+    if (!output.engagement_picture.empty()) {
+        write_text(output.engagement_picture, engagement_picture(job, result));
     }
     return result;
 }

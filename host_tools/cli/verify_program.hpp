@@ -10,9 +10,10 @@ namespace cusp::cli {
 
 // Files to write; empty: none.
 struct VerifyOutput {
-    std::string stats;         // JSON
-    std::string path_picture;  // SVG
-    std::string left_picture;  // SVG
+    std::string stats;                 // JSON
+    std::string path_picture;          // SVG
+    std::string left_picture;          // SVG
+    std::string engagement_picture{};  // SVG
 };
 
 // Prints progress. Throws InputError where the program can't be read or uses a tool that the job

@@ -67,7 +67,7 @@ std::string PictureFrame::scale(double low, double high, const std::string& titl
 {
     // room for ten numbers
     const double size = std::min(0.8 * text(), height() / 14);
-    return scale_bar({scale_x(), y_low, 0.75 * height(), size}, low, high, title);
+    return scale_bar({scale_x(), y_low, scale_height(), size}, low, high, title);
 }
 
 std::string PictureFrame::legend(int row, const std::string& stroke, const std::string& title) const

@@ -25,6 +25,9 @@ struct PictureFrame {
     double stride() const { return width() + margin(); }
     // x to the right of the last panel.
     double scale_x() const { return x_high + (panels - 1) * stride() + margin(); }
+    // y in the picture of a value on the scale, 0 to 1 of the way from its low end to the high one.
+    double scale_y(double share) const { return y_low + (1 - share) * scale_height(); }
+    double scale_height() const { return 0.75 * height(); }
 
     std::string head() const;
     // Opens a panel with its title, which "</g>" closes. number: from 0.

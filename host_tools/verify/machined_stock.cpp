@@ -7,6 +7,7 @@
 
 #include "host_tools/nurbs/plan_vector.hpp"
 #include "host_tools/verify/bands.hpp"
+#include "host_tools/verify/engagement_trace.hpp"
 
 namespace cusp::verify {
 
@@ -101,6 +102,8 @@ MachinedStock::MachinedStock(const HeightGrid& grid, double top)
 
 CutFigures MachinedStock::cut_band(const ToolPositions& positions,
                                    double spacing,
+                                   EngagementTrace* trace,
+                                   std::size_t band,
                                    std::size_t begin,
                                    std::size_t end)
 {
@@ -114,7 +117,13 @@ CutFigures MachinedStock::cut_band(const ToolPositions& positions,
         if (tip.z >= top_) {
             continue;
         }
+        if (trace != nullptr) {
+            trace->look(heights_, k, band, begin, end);
+        }
         const double depth = cut_at(tool, tip, shrink, begin, end);
+        if (trace != nullptr && depth > 0) {
+            trace->add_cut(k, band);
+        }
         if (edged && k > 0 && positions.tips[k - 1].z < top_) {
             sweep_flat(tool, positions.tips[k - 1], tip, begin, end);
         }
@@ -238,13 +247,14 @@ void MachinedStock::sweep_cone(
 
 CutFigures MachinedStock::cut(const ToolPositions& positions,
                               double spacing,
-                              const Progress& progress)
+                              const Progress& progress,
+                              EngagementTrace* trace)
 {
     std::vector<CutFigures> bands(kBands);
     std::mutex guard;
     std::size_t done = 0;
     for_each_band(grid_.nx, [&](std::size_t begin, std::size_t end, std::size_t band) {
-        bands[band] = cut_band(positions, spacing, begin, end);
+        bands[band] = cut_band(positions, spacing, trace, band, begin, end);
         const std::lock_guard lock{guard};
         progress(static_cast<double>(++done) / static_cast<double>(kBands));
     });
@@ -254,6 +264,15 @@ CutFigures MachinedStock::cut(const ToolPositions& positions,
         sum.cut_depth = std::max(sum.cut_depth, band.cut_depth);
     }
     return sum;
+}
+
+double MachinedStock::removed_volume() const
+{
+    double depths = 0;
+    for (const double height : heights_) {
+        depths += top_ - height;
+    }
+    return depths * grid_.pitch * grid_.pitch;
 }
 
 }  // namespace cusp::verify

@@ -6,15 +6,11 @@
 
 #include "host_tools/toolpath/toolpath.hpp"
 #include "host_tools/verify/height_grid.hpp"
+#include "host_tools/verify/tool_positions.hpp"
 
 namespace cusp::verify {
 
-// Positions of one tool's tip, in order; `rapid` says which are reached by rapid moves.
-struct ToolPositions {
-    toolpath::Tool tool;
-    std::vector<Vec3d> tips;
-    std::vector<bool> rapid;
-};
+class EngagementTrace;
 
 struct CutFigures {
     double rapid_cut{};  // mm: deepest cut of a rapid move into stock
@@ -34,14 +30,21 @@ public:
     //
     // spacing  mm between positions: depths are measured with a tool reduced by the height of the
     //          slivers between two positions
-    CutFigures cut(const ToolPositions& positions, double spacing, const Progress& progress);
+    // trace    looks at the stock before each position; may be null
+    CutFigures cut(const ToolPositions& positions,
+                   double spacing,
+                   const Progress& progress,
+                   EngagementTrace* trace = nullptr);
 
     const std::vector<double>& heights() const { return heights_; }
     double top() const { return top_; }
+    double removed_volume() const;  // mm^3
 
 private:
     CutFigures cut_band(const ToolPositions& positions,
                         double spacing,
+                        EngagementTrace* trace,
+                        std::size_t band,
                         std::size_t begin,
                         std::size_t end);
     // Returns the depth, mm. shrink: reduction of the measuring tool, mm.

@@ -161,6 +161,7 @@ std::vector<ToolPositions> positions_of(const Job& job,
             append_points(m.move, spacing, run.tips);
         }
         run.rapid.resize(run.tips.size(), rapid);
+        run.lines.resize(run.tips.size(), m.move.line);
     }
     return runs;
 }
@@ -310,22 +311,35 @@ void judge(const Scene& scene, Verification& result)
     }
 }
 
-// Cuts the stock run by run; fills the figures of depths.
+// Cuts the stock run by run; fills the figures of depths, and the engagement if it is wanted.
 void cut_stock(const std::vector<ToolPositions>& runs,
                double spacing,
+               bool engagement,
                const Progress& progress,
                MachinedStock& stock,
-               VerifyFigures& figures)
+               Verification& result)
 {
+    VerifyFigures& figures = result.figures;
     for (const ToolPositions& run : runs) {
         figures.tool_positions += run.tips.size();
     }
     std::size_t done = 0;
     for (const ToolPositions& run : runs) {
-        const CutFigures cut = stock.cut(run, spacing, [&](double share) {
-            progress((static_cast<double>(done) + share * static_cast<double>(run.tips.size())) /
-                     static_cast<double>(figures.tool_positions));
-        });
+        std::optional<EngagementTrace> trace;
+        if (engagement) {
+            trace.emplace(result.grid, run);
+        }
+        const CutFigures cut = stock.cut(
+            run, spacing,
+            [&](double share) {
+                progress(
+                    (static_cast<double>(done) + share * static_cast<double>(run.tips.size())) /
+                    static_cast<double>(figures.tool_positions));
+            },
+            trace ? &*trace : nullptr);
+        if (trace) {
+            result.engagement.push_back(trace->finish());
+        }
         done += run.tips.size();
         figures.rapid_cut_max = std::max(figures.rapid_cut_max, cut.rapid_cut);
         figures.cut_depth_max = std::max(figures.cut_depth_max, cut.cut_depth);
@@ -334,6 +348,21 @@ void cut_stock(const std::vector<ToolPositions>& runs,
             of_tool = std::max(of_tool, cut.cut_depth);
         }
     }
+}
+
+void sum_engagement(const Job& job,
+                    const std::vector<ToolPositions>& runs,
+                    std::optional<double> asked,
+                    const MachinedStock& stock,
+                    Verification& result)
+{
+    EngagementFigures& figures = result.figures.engagement.emplace();
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+        add_engagement(runs[k], engagement_limit(job, runs[k].tool, asked), result.grid.pitch,
+                       result.engagement[k], figures);
+    }
+    figures.removed_volume = stock.removed_volume();
+    figures.seconds = programmed_seconds(result.program);
 }
 
 // What surfaces and their walls ask for.
@@ -406,13 +435,16 @@ Verification verify(const Job& job,
     constexpr double kSpacingsPerRadius = 20;
     const double spacing =
         settings.spacing.value_or(std::min(kDefaultSpacing, least_radius / kSpacingsPerRadius));
-    const std::vector<ToolPositions> runs =
+    std::vector<ToolPositions> runs =
         positions_of(job, result.program, program_file, spacing, figures);
     result.grid = make_grid(job, scene, least_radius, settings.pitch);
 
     MachinedStock stock{result.grid, job.stock_top};
     const std::vector<Tool> tools = finishing_tools(job, runs);
-    cut_stock(runs, spacing, progress, stock, figures);
+    cut_stock(runs, spacing, settings.engagement, progress, stock, result);
+    if (settings.engagement) {
+        sum_engagement(job, runs, settings.max_engagement, stock, result);
+    }
     progress(1.0);
 
     double widest = 0;
@@ -431,6 +463,9 @@ Verification verify(const Job& job,
     }
     find_fixture_hits(job, runs, figures);
     judge(scene, result);
+    if (settings.engagement) {
+        result.positions = std::move(runs);
+    }
     return result;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "host_tools/job/job.hpp"
+#include "host_tools/verify/engagement.hpp"
 #include "host_tools/verify/height_grid.hpp"
 #include "host_tools/verify/machined_stock.hpp"
 #include "host_tools/verify/part_heights.hpp"
@@ -21,6 +22,8 @@ namespace cusp::verify {
 struct VerifySettings {
     std::optional<double> pitch;    // mm between heights; else 0.173 and fine enough for the tools
     std::optional<double> spacing;  // mm between tool positions; else 0.1, likewise
+    bool engagement{false};         // look for it too
+    std::optional<double> max_engagement;  // degrees, of all tools; else that of the operations
 };
 
 // Stock left over the surface that the tools can cut.
@@ -75,6 +78,7 @@ struct VerifyFigures {
     std::optional<LevelLeft> level_left;
     int tabs_standing{};
     int tabs_wanted{};
+    std::optional<EngagementFigures> engagement;  // where it was asked for
 };
 
 // The limits of the figures, mm. The error of the judgement is added to each.
@@ -95,6 +99,9 @@ struct Verification {
     std::vector<double> gouge;  // mm cut below the part inside the walls; 0 where none is
     std::vector<double> part;   // z; NaN where there is none, the stock's top beyond walls
     Program program;
+    // where the engagement was asked for: the runs of all tools, and what was found on each
+    std::vector<ToolPositions> positions;
+    std::vector<EngagementRun> engagement;
 };
 
 // The bounds are those of the job. Gouges: the floor tolerances. Walls: the plan tolerances.

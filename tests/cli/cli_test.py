@@ -151,6 +151,40 @@ class Cli(unittest.TestCase):
         for words in (">Speed, mm/s<", ">Z, % of its limits<", "up to 4000 mm/s³ of jerk is rounding.<"):
             self.assertIn(words, run)
 
+    # A slot of 40 mm through the stock, 50 mm x 40 mm, and back; then a pass beside it at 60 degrees.
+    def test_the_engagement_of_any_program(self):
+        self.write("job.toml", JOB.replace('"ball"', '"flat"'))
+        self.write("slot.ngc", "G21 G90 F600\nG0 Z5\nG0 X5 Y20\nG1 Z-2\nG1 X45\nG1 X5\nG1 Y21.5\nG1 X45\n"
+                               "G0 Z5\nM30\n")
+        plain = self.run_cusp("verify", "job.toml", "slot.ngc").stdout
+        self.assertNotIn("engagement", plain)
+        self.run_cusp("verify", "job.toml", "slot.ngc", "--stats", "v.json")
+        free = json.loads((self.folder / "v.json").read_text())
+        self.assertNotIn("over_engagement_mm", free)
+        self.assertNotIn("max_engagement_deg", free)
+        said = self.run_cusp("verify", "job.toml", "slot.ngc", "--stats", "v.json", "--max-engagement", "90",
+                             "--engagement-picture", "e.svg").stdout
+        figures = json.loads((self.folder / "v.json").read_text())
+        self.assertEqual(90, figures["max_engagement_deg"])
+        self.assertAlmostEqual(180, figures["engagement_max_deg"], delta=0.01)
+        self.assertEqual(5, figures["engagement_max_line"])
+        x, y, z = figures["engagement_max_at_mm"]
+        self.assertTrue(5 <= x <= 45 and abs(y - 20) < 1e-6 and abs(z + 2) < 1e-6)
+        self.assertAlmostEqual(40 + 1.5, figures["over_engagement_mm"], delta=1)
+        self.assertAlmostEqual(5 + 40, figures["air_mm"], delta=1)
+        removed = 2 * (40 * 7.5 + 6 * 1.5 + 28.27)  # a slot of 7.5 mm with round ends
+        self.assertAlmostEqual(removed, figures["removed_mm3"], delta=0.02 * removed)
+        # F600: 7 + 40 + 40 + 1.5 + 40 mm; rapids at the default machine's 100 mm/s, 50 in z
+        minutes = (128.5 / 10 + 20.62 / 100 + 7 / 50) / 60
+        self.assertAlmostEqual(1, figures["removed_mm3_per_min"] * minutes / figures["removed_mm3"], delta=0.02)
+        for key in ("engagement_max_deg: 180.0", "engagement_max_line: 5", "over_engagement_mm: ", "air_mm: ",
+                    "removed_mm3_per_min: "):
+            self.assertIn(key, said)
+        self.assertIn("over 90°", (self.folder / "e.svg").read_text())
+        for value in ("200", "nan", "0", "-5", "inf", "wide"):
+            self.expect(2, f"--max-engagement: {value} degrees is not between 1 and 180 degrees", "verify", "job.toml",
+                        "slot.ngc", "--max-engagement=" + value)
+
     def examples_with(self, settings):
         demo = self.folder / "examples" / "demo"
         demo.mkdir(parents=True, exist_ok=True)

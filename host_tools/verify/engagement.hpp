@@ -1,0 +1,44 @@
+// What the engagement of a program amounts to: its greatest, the way over a limit, air, and how
+// much stock is removed in a minute.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "host_tools/job/job.hpp"
+#include "host_tools/verify/engagement_trace.hpp"
+#include "host_tools/verify/program_moves.hpp"
+
+namespace cusp::verify {
+
+struct EngagementFigures {
+    double angle_max{};                 // degrees, on feed moves outside entries
+    Vec3d place{};                      // the tip there
+    std::uint32_t line{};               // of the program; 0: nothing is cut
+    std::optional<double> limit;        // degrees; the least, where tools have several
+    std::optional<double> over_length;  // mm of way over the limit; no value without a limit
+    double air_length{};                // mm of feed moves that remove nothing
+    double removed_volume{};            // mm^3
+    double seconds{};                   // of the program
+};
+
+// The largest engagement that is allowed to a tool, degrees: `asked` for all tools, else the least
+// of the operations of this tool that have one.
+std::optional<double> engagement_limit(const job::Job& job,
+                                       const toolpath::Tool& tool,
+                                       std::optional<double> asked);
+
+// Adds a run of one tool, and sets what counts as over in it. Over the limit is what is over by more than 5 %, and by more than 0.7
+// pitches of a straight cut's width, which the grid does not resolve.
+void add_engagement(const ToolPositions& positions,
+                    std::optional<double> limit,
+                    double pitch,
+                    EngagementRun& run,
+                    EngagementFigures& figures);
+
+// Feed moves at their feed, rapid moves at the rates of the controller's default machine; without
+// the way to the first position, acceleration and stops.
+double programmed_seconds(const Program& program);
+
+}  // namespace cusp::verify
