@@ -251,7 +251,7 @@ private:
             const part_model::PartModel::SharedQueries shared{work_.model()};
             parallel::for_each(end - begin, [&](std::size_t k) {
                 const cancellation::Part part = part_of(surface);
-                work_.model().forget_queries();
+                const part_model::PartModel::SharedQueries::Part queries{work_.model()};
                 fitted[begin + k] = passes_of(curves[begin + k], may_be_clear, offset);
                 done.count();
             });

@@ -149,6 +149,7 @@ std::vector<Points> OffsetCurveTrimmer::clear_region_edges(int surface, double s
              parts(length_along(model, surface, {u_middle, s.v_begin()}, {u_middle, s.v_end()})));
     std::vector<bool> free;
     for (const double u : us) {
+        model.forget_many_cells();
         for (const double v : vs) {
             free.push_back(is_clear_at(surface, u, v));
         }

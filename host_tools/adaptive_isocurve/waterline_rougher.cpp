@@ -207,7 +207,7 @@ private:
             parallel::for_each(out.size(), [&](std::size_t k) {
                 const cancellation::Part part{"roughing level ", static_cast<int>(first + k + 1),
                                               ""};
-                work_.model.forget_queries();
+                const part_model::PartModel::SharedQueries::Part queries{work_.model};
                 out[k] = cleared_level(slices, first + k);
             });
         }
@@ -353,7 +353,7 @@ private:
         for (std::size_t begin = 0; begin < least.size(); begin += kProofsAtOnce) {
             const part_model::PartModel::SharedQueries shared{work_.model};
             parallel::for_each(std::min(kProofsAtOnce, least.size() - begin), [&](std::size_t k) {
-                work_.model.forget_queries();
+                const part_model::PartModel::SharedQueries::Part queries{work_.model};
                 const std::size_t first = (begin + k) * kMovesAtOnce;
                 least[begin + k] = least_clearance(first, std::min(count, first + kMovesAtOnce));
             });

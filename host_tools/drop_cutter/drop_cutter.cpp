@@ -49,6 +49,7 @@ DropCutter::CcPoint DropCutter::exact_cc_point(Vec2d at, double max_error) const
     return state_->exact_cc_point(at, max_error);
 }
 
+std::size_t DropCutter::halvings() const { return state_->halvings_; }
 double DropCutter::lowest() const { return state_->lowest_; }
 double DropCutter::highest() const { return state_->highest_; }
 

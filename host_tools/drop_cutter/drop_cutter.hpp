@@ -16,6 +16,7 @@
 // edge by no more than the accuracy.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -97,6 +98,8 @@ public:
     static Section section(const CcPoint& contact, Vec2d direction);
 
     const toolpath::Tool& tool() const { return tool_; }
+    // How many pieces of the surfaces queries have halved, again ones included: what they cost.
+    std::size_t halvings() const;
     // mm: bounds of z over all surfaces, from their control points.
     double lowest() const;
     double highest() const;

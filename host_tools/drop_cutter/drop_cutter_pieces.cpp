@@ -199,7 +199,9 @@ void DropCutter::State::measure_plane(Piece& piece) const
     Vec3d normal = cross((c10 - c00) + (c11 - c01), (c01 - c00) + (c11 - c10));
     normal = normal.z < 0.0 ? -normal : normal;
     piece.graph = normal.z * kSteepest > norm(normal);
+    piece.uphill = {0.0, 0.0};
     if (!piece.graph) {
+        measure_wall(piece, normal);
         return;
     }
     const Vec2d g{-normal.x / normal.z, -normal.y / normal.z};
@@ -231,8 +233,36 @@ void DropCutter::State::measure_plane(Piece& piece) const
     piece.thickness = high - low;
 }
 
+// normal  across its corners, of any length
+void DropCutter::State::measure_wall(Piece& piece, Vec3d normal) const
+{
+    const double level = std::hypot(normal.x, normal.y);
+    if (!(level > 0.0)) {
+        return;
+    }
+    const Patch& patch = patches_[piece.patch];
+    const Vec3d* const points = points_of(piece);
+    const Vec3d* const end = points + std::size_t{patch.rows} * patch.columns;
+    const Vec3d n = normal / norm(normal);
+    const Vec2d uphill{-normal.x / level, -normal.y / level};
+    double most = -kUnbounded;
+    std::array<double, 4> ends{kUnbounded, -kUnbounded, kUnbounded, -kUnbounded};
+    for (const Vec3d* p = points; p != end; ++p) {
+        const double forth = uphill.x * p->x + uphill.y * p->y;
+        const double aside = uphill.x * p->y - uphill.y * p->x;
+        most = std::max(most, dot(n, *p));
+        ends = {std::min(forth, ends[0]), std::max(forth, ends[1]), std::min(aside, ends[2]),
+                std::max(aside, ends[3])};
+    }
+    piece.uphill = uphill;
+    piece.lateral = ends;
+    piece.z_at_origin = most;
+    piece.rise = n.z;
+}
+
 void DropCutter::State::halve(std::uint32_t index)
 {
+    ++halvings_;
     const Piece piece = pieces_[index];
     const Patch& patch = patches_[piece.patch];
     const std::size_t rows = patch.rows;

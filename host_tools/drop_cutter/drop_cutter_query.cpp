@@ -64,6 +64,29 @@ double DropCutter::State::over_plane(const Piece& piece, Vec2d at)
     return piece.graph ? piece.z_at_origin + g.x * at.x + g.y * at.y + piece.rise : kUnbounded;
 }
 
+// From the tool's axis to the rectangle of the wall, in plan. The box of a wall at an angle to the
+// axes reaches far beyond it: bounded by boxes alone, a wall was halved along its whole length under the tool.
+double DropCutter::State::square_off_wall(const Piece& wall, Vec2d at)
+{
+    const Vec2d forth = wall.uphill;
+    return square_of(excess(wall.lateral[0], wall.lateral[1], dot(forth, at))) +
+           square_of(excess(wall.lateral[2], wall.lateral[3], forth.x * at.y - forth.y * at.x));
+}
+
+// Height of the tip on the plane over the wall, taken as unlimited.
+double DropCutter::State::over_wall(const Piece& wall, Vec2d at) const
+{
+    // Steeper planes bound nothing that the rectangle does not, and rounding grows with the slope.
+    constexpr double kLeastRise = 1e-3;
+    if (wall.rise < kLeastRise) {
+        return kUnbounded;
+    }
+    const double level = std::sqrt(1.0 - wall.rise * wall.rise);
+    const double c = tool_.corner_radius;
+    const double reach = level * (dot(wall.uphill, at) + tool_.radius - c) + c;
+    return (wall.z_at_origin + reach) / wall.rise - c;
+}
+
 // Upper bound of the tip's height over this piece; -kUnbounded where the tool does not reach it, or
 // where the bound is known not to exceed `best`.
 //
@@ -94,6 +117,13 @@ double DropCutter::State::bound(const Piece& piece,
             return -kUnbounded;
         }
     }
+    const bool wall = !piece.graph && dot(piece.uphill, piece.uphill) > 0.0;
+    if (wall) {
+        square = std::max(square, square_off_wall(piece, at));
+        if (square >= r * r) {
+            return -kUnbounded;
+        }
+    }
     const Vec2d contact = at + g * piece.contact;
     const bool in_box = contact.x >= piece.x0 && contact.x <= piece.x1 && contact.y >= piece.y0 &&
                         contact.y <= piece.y1;
@@ -113,7 +143,7 @@ double DropCutter::State::bound(const Piece& piece,
     if (!piece.graph) {
         tight = whole && piece.patch != kGroup &&
                 std::max(piece.x1 - piece.x0, piece.y1 - piece.y0) < 5.0 * accuracy_;
-        return by_box;
+        return wall ? std::min(by_box, over_wall(piece, at)) : by_box;
     }
     tight = whole && piece.thickness <= query.thin;
     double least = std::min(by_plane, by_box);

@@ -30,6 +30,8 @@ struct DropCutter::State {
     // Most queries read only the first cache line of a piece.
     struct alignas(64) Piece {
         // A plane above the piece, where the piece is a graph: z = z_at_origin + gradient . (x, y).
+        // Of a wall: n . p = z_at_origin, with the unit normal n and n.z = rise; its `gradient` is
+        // that of the piece that was halved.
         Vec2d gradient;
         double z_at_origin;
         double rise;  // mm: of the tip over the plane at the tool's axis
@@ -43,8 +45,10 @@ struct DropCutter::State {
         bool outlined;        // it fills its outline, or without one its box, to all sides
         double x0, y0, x1, y1, z0;  // box, with z1
         // A box turned with the piece: its ends along (1, 0, g.x) and across that in the plane,
-        // both as unit vectors.
+        // both as unit vectors. Of a wall, which is too steep for z(x, y): its ends along and across
+        // `uphill` in plan.
         std::array<double, 4> lateral;
+        Vec2d uphill;       // of a wall: the unit vector in plan along which it rises; 0: not known
         double secant;      // of the plane's slope
         std::uint32_t net;  // index of its first control point, v fastest; the first half reuses it
         std::uint32_t patch;
@@ -121,6 +125,7 @@ struct DropCutter::State {
     void forget_many_halves();
     void measure(Piece& piece);
     void measure_plane(Piece& piece) const;
+    void measure_wall(Piece& piece, Vec3d normal) const;
     // Control points of the piece being measured.
     const Vec3d* points_of(const Piece& piece) const
     {
@@ -160,6 +165,8 @@ struct DropCutter::State {
 
     // The drop (drop_cutter_query.cpp).
     static double over_plane(const Piece& piece, Vec2d at);
+    static double square_off_wall(const Piece& wall, Vec2d at);
+    double over_wall(const Piece& wall, Vec2d at) const;
     std::uint32_t guess(Vec2d at) const;
     double bound(const Piece& piece, const Query& query, double best, bool& tight) const;
     Vec2d slope_of(const Piece& piece, Vec2d at) const;
@@ -199,6 +206,7 @@ struct DropCutter::State {
     std::vector<Vec3d> unweighted_;  // control points of the piece being measured
     std::uint32_t last_{kRoot};      // the piece that the last drop rested on
     std::uint32_t beside_{kRoot};    // the smallest piece that the last move came near to
+    std::size_t halvings_{0};
     double lowest_{kUnbounded};
     double highest_{-kUnbounded};
 };

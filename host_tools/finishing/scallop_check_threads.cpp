@@ -44,7 +44,7 @@ void ScallopCheck::share_out(std::size_t count,
         progress(static_cast<double>(begin) / static_cast<double>(count));
         const part_model::PartModel::SharedQueries shared{path_fitter_.model()};
         parallel::for_each(kCopies, [&](std::size_t copy) {
-            path_fitter_.model().forget_queries();
+            const part_model::PartModel::SharedQueries::Part queries{path_fitter_.model()};
             const std::size_t first = begin + copy * at_once;
             for (std::size_t k = first; k < std::min(count, first + at_once); ++k) {
                 work(*copies_[copy], k);

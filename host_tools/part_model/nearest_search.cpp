@@ -15,6 +15,7 @@ constexpr double kDistanceSlack = 2e-7;  // mm: how much too low a bound may be
 constexpr double kDiscSlack = 1e-5;      // for flat and bull tools: distances not strictly convex
 constexpr double kBeside = 0.01;         // mm over the nearest that still starts the next search
 constexpr double kLeastCell = 1e-7;      // mm
+constexpr int kManyCells = 256;          // of one search: edges are looked at before more of them
 
 struct Symmetric {
     double ss;
@@ -322,6 +323,28 @@ private:
         take(distance, {point, 0, 0, state_.edge_surface[edge]});
     }
 
+    // All edges nearer than what is found.
+    void look_at_edges()
+    {
+        std::vector<int> stack{0};
+        while (!stack.empty() && found_ > near_enough_) {
+            const int at = stack.back();
+            stack.pop_back();
+            const BoxTree::Node& node = state_.tree.nodes[static_cast<std::size_t>(at)];
+            if (box_distance(at) >= found_) {
+                continue;
+            }
+            if (node.child[0] >= 0) {
+                stack.insert(stack.end(), {node.child[0], node.child[1]});
+                continue;
+            }
+            const std::size_t item = static_cast<std::size_t>(-node.child[0] - 1);
+            if (item >= state_.cells.size()) {
+                look_at_item(item);
+            }
+        }
+    }
+
     void look_at_facet(std::size_t facet)
     {
         Vec3d point;
@@ -333,8 +356,16 @@ private:
     }
 
     // Depth first; depth is bounded by kLeastCell (each halving shrinks the cell).
+    // Where the nearest point of an untrimmed surface lies beyond a long trim, all cells along that are
+    // halved, as deep as they may be, in search of a point inside: the trim itself is nearer by then.
     void look_at_cell(const BezierCell& cell, double s, double t)
     {
+        if (++looked_at_ == kManyCells) {
+            look_at_edges();
+        }
+        if (looked_at_ >= kManyCells && found_ <= near_enough_) {
+            return;
+        }
         if (oriented_distance(core_, cell) >= found_ ||
             core_.distance_to_box(cell.low(), cell.high()) >= found_ ||
             state_.outside_trims(cell)) {
@@ -397,77 +428,10 @@ private:
     double bound_;
     NearestPoint place_;
     const BezierCell* first_{nullptr};
+    int looked_at_{0};  // cells
 };
 
 }  // namespace
-
-bool PartModel::State::outside_trims(const BezierCell& cell) const
-{
-    const TrimRegion& region = regions[static_cast<std::size_t>(cell.surface())];
-    if (!region.trimmed()) {
-        return false;
-    }
-    if (cell.trim() == BezierCell::Trim::kUnknown) {
-        const TrimRegion::Part part =
-            region.part(cell.u_begin(), cell.u_end(), cell.v_begin(), cell.v_end());
-        cell.set_trim(part == TrimRegion::Part::kInside    ? BezierCell::Trim::kInside
-                      : part == TrimRegion::Part::kOutside ? BezierCell::Trim::kOutside
-                                                           : BezierCell::Trim::kCut);
-    }
-    return cell.trim() == BezierCell::Trim::kOutside;
-}
-
-const BezierCell& PartModel::State::cell_at(int surface, double u, double v) const
-{
-    const Grid& grid = grids[static_cast<std::size_t>(surface)];
-    History& last_query = history();
-    if (last_query.last_surface != surface) {
-        last_query.last_surface = surface;
-        last_query.last_u = last_query.last_v = 0;
-    }
-    // The next place is usually in or beside the span of the last one.
-    const auto span = [](const std::vector<double>& breaks, double at, std::size_t& last) {
-        const bool above = last == 0 || breaks[last] <= at;
-        if (!above || (last + 1 < breaks.size() && !(at < breaks[last + 1]))) {
-            const auto next = std::upper_bound(breaks.begin() + 1, breaks.end(), at);
-            last = static_cast<std::size_t>(next - breaks.begin()) - 1;
-        }
-        return last;
-    };
-    return *cells[grid.first + span(grid.u, u, last_query.last_u) * grid.v.size() +
-                  span(grid.v, v, last_query.last_v)];
-}
-
-std::uint64_t PartModel::State::next_number()
-{
-    static std::atomic<std::uint64_t> last{0};
-    return ++last;
-}
-
-PartModel::State::History& PartModel::State::history() const
-{
-    struct Known {
-        std::uint64_t number;
-        History* history;
-    };
-    thread_local Known last{0, nullptr};
-    if (last.number != number_) {
-        const std::lock_guard lock{guard_};
-        std::unique_ptr<History>& mine = histories_[std::this_thread::get_id()];
-        if (!mine) {
-            mine = std::make_unique<History>();
-        }
-        last = {number_, mine.get()};
-    }
-    return *last.history;
-}
-
-void PartModel::State::forget_histories() const
-{
-    for (const auto& [thread, history] : histories_) {
-        *history = {};
-    }
-}
 
 NearestResult nearest(const PartModel::State& state,
                       const ToolCore& core,

@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <shared_mutex>
 #include <thread>
 #include <unordered_map>
 #include <vector>
@@ -23,6 +24,8 @@ namespace cusp::part_model {
 struct PartModel::State {
     std::atomic<std::size_t> halves{};  // how many halves of cells exist, at all levels
     std::atomic<int> sharers{};         // SharedQueries that live
+    std::shared_mutex parts;            // held by each of their parts, alone to release halves
+    std::atomic<bool> released{};       // by one of these parts
     std::vector<std::unique_ptr<BezierCell>> cells;
     std::vector<TrimRegion> regions;
     std::vector<std::array<Vec3d, 2>> edges;

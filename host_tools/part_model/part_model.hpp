@@ -191,6 +191,20 @@ public:
         SharedQueries(const SharedQueries&) = delete;
         SharedQueries& operator=(const SharedQueries&) = delete;
 
+        // One part of a loop on several threads, begun before its queries. Answers do not depend on
+        // queries before. Where many cells are kept it waits until all parts under way have ended, and
+        // releases them: a loop keeps no more than a part of each thread needs.
+        class Part {
+        public:
+            explicit Part(const PartModel& model);
+            ~Part();
+            Part(const Part&) = delete;
+            Part& operator=(const Part&) = delete;
+
+        private:
+            const PartModel& model_;
+        };
+
     private:
         const PartModel& model_;
     };

@@ -66,6 +66,53 @@ Surface strip_with_coincident_rows(double radius)
     return s;
 }
 
+Curve line(Vec2d a, Vec2d b) { return {1, {0, 0, 1, 1}, {{a.x, a.y, 0}, {b.x, b.y, 0}}, {1, 1}}; }
+
+// From u = `from` on.
+std::vector<std::vector<Curve>> trims_from(double from)
+{
+    return {{line({from, 0}, {1, 0}), line({1, 0}, {1, 1}), line({1, 1}, {from, 1}),
+             line({from, 1}, {from, 0})}};
+}
+
+// A quarter of a cylinder about z, from z = 0 up.
+Surface upright_quarter(double radius, double high, double trimmed_from)
+{
+    Surface s;
+    s.degree_u = 2;
+    s.degree_v = 1;
+    s.size_u = 3;
+    s.size_v = 2;
+    s.knots_u = {0, 0, 0, 1, 1, 1};
+    s.knots_v = {0, 0, 1, 1};
+    for (const Vec2d p : {Vec2d{radius, 0}, Vec2d{radius, radius}, Vec2d{0, radius}}) {
+        s.points.push_back({p.x, p.y, 0});
+        s.points.push_back({p.x, p.y, high});
+        s.weights.insert(s.weights.end(), 2, p.x == p.y ? std::sqrt(0.5) : 1.0);
+    }
+    s.trims = trims_from(trimmed_from);
+    return s;
+}
+
+// A level square of 2 mm that begins at `edge`, in plan, and lies beyond.
+Surface plate_from(Vec3d edge, Vec3d beyond, double z)
+{
+    Surface s;
+    s.degree_u = s.degree_v = 1;
+    s.size_u = s.size_v = 2;
+    s.knots_u = s.knots_v = {0, 0, 1, 1};
+    const Vec3d aside{-beyond.y, beyond.x, 0};
+    for (const double u : {0.0, 2.0}) {
+        for (const double v : {-1.0, 1.0}) {
+            const Vec3d p = edge + beyond * u + aside * v;
+            s.points.push_back({p.x, p.y, z});
+            s.weights.push_back(1);
+        }
+    }
+    s.trims = trims_from(0);
+    return s;
+}
+
 }  // namespace
 
 TEST_GROUP(Cells){};
@@ -115,6 +162,76 @@ TEST(Cells, AreNotReleasedWhileThreadsShareTheModel)
     }
     model.forget_many_cells();
     LONGS_EQUAL(0, model.kept_cells());
+}
+
+// Parts release cells among them, and answer as one thread that keeps all does.
+TEST(Cells, AreReleasedBetweenPartsOfALoop)
+{
+    constexpr unsigned kSeed = 5;
+    std::printf("seed %u ", kSeed);
+    std::mt19937 random{kSeed};
+    const PartModel model{{rough_sheet(random, 60, 2.0)}};
+    std::uniform_real_distribution<double> at{0, 118};
+    std::vector<Vec3d> tips(5000);
+    for (Vec3d& tip : tips) {
+        tip = {at(random), at(random), 0.05 * at(random)};
+    }
+    std::vector<double> alone;
+    for (const Vec3d& tip : tips) {
+        model.forget_queries();
+        alone.push_back(model.distance(kBall, tip, 100).distance);
+    }
+    CHECK(model.kept_cells() > 220'000);
+    std::vector<int> different(3, 0);
+    std::vector<std::size_t> most(3, 0);
+    std::vector<std::thread> threads;
+    {
+        const PartModel::SharedQueries shared{model};
+        for (std::size_t thread = 0; thread < 3; ++thread) {
+            threads.emplace_back([&, thread] {
+                for (std::size_t k = 0; k < tips.size(); ++k) {
+                    const PartModel::SharedQueries::Part part{model};
+                    different[thread] +=
+                        model.distance(kBall, tips[k], 100).distance == alone[k] ? 0 : 1;
+                    most[thread] = std::max(most[thread], model.kept_cells());
+                }
+            });
+        }
+        for (std::thread& thread : threads) {
+            thread.join();
+        }
+    }
+    for (std::size_t thread = 0; thread < 3; ++thread) {
+        LONGS_EQUAL(0, different[thread]);
+        CHECK(most[thread] < 202'000);  // 200 000 are many
+    }
+    LONGS_EQUAL(0, model.kept_cells());
+}
+
+// The nearest point of a whole cylinder is trimmed away, and as near all along it. The trim is just
+// beyond the limit: a proof halves all cells along it. It was made even where the edge of a plate is
+// nearer.
+TEST(Cells, AreFewAlongALongTrimWhereAnEdgeIsNearer)
+{
+    constexpr double kTrim = 0.437;
+    const Surface wall = upright_quarter(10, 400, kTrim);
+    const Vec3d on_trim = PartModel{{wall}}.evaluate(0, kTrim, 0.5).point;
+    for (int k = 0; k < 10; ++k) {
+        const double turned = std::atan2(on_trim.y, on_trim.x) - 0.03 - 0.01 * k;
+        const Vec3d out{std::cos(turned), std::sin(turned), 0};
+        const Vec3d tip = out * 8.0 - Vec3d{0, 0, 10};
+        const double trim = std::hypot(tip.x - on_trim.x, tip.y - on_trim.y);
+        const double least = trim - 1e-3 - kBall.radius;
+        const Surface plate = plate_from(tip - out * (trim - 0.3), out * -1.0, 395);
+
+        const PartModel alone{{wall}};
+        CHECK(alone.is_distance_at_least(kBall, tip, least));
+        CHECK(alone.kept_cells() > 1000);
+
+        const PartModel beside_plate{{wall, plate}};
+        CHECK_FALSE(beside_plate.is_distance_at_least(kBall, tip, least));
+        CHECK(beside_plate.kept_cells() < 400);
+    }
 }
 
 // Halved by length alone the strips beside the side took tens of thousands.
