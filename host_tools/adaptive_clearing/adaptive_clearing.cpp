@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "firmware/base/math.hpp"
@@ -39,13 +40,13 @@ namespace {
 constexpr double kSteered[] = {0.3, 0.1, 0.03};  // turning radii
 constexpr double kStrip = 0.04;                  // left along the walls by the first of them
 constexpr double kLeastStrip = 0.002;            // more than a step around an island bulges
-constexpr double kRatio = 0.6;                   // from one opening to the next
+constexpr double kRatio = 0.2;                   // from one opening to the next
+constexpr double kSpot = 0.5;                    // around stock in a corner
 constexpr double kHelix = 0.3;
 constexpr double kLeastHelix = 0.02;
 constexpr double kPiece = 0.1;
-constexpr double kTargetMargin = 0.06;
-constexpr double kSteerShare = 0.98;     // of the engagement
-constexpr double kLinkEngagement = 0.3;  // radians, most of a link through swept ground
+constexpr double kTargetMargin = 0.2;
+constexpr double kSteerShare = 0.995;  // of the engagement
 constexpr int kPoleGrid = 48;
 constexpr double kMoreWay = 1.3;  // than the area over the width of a straight cut
 constexpr double kMostProgress = 0.99;
@@ -75,6 +76,12 @@ Box2d grown_box(Box2d box, double by)
     return {box.x0 - by, box.y0 - by, box.x1 + by, box.y1 + by};
 }
 
+double distance_to(const Box2d& box, Vec2d p)
+{
+    return std::hypot(std::max({box.x0 - p.x, 0.0, p.x - box.x1}),
+                      std::max({box.y0 - p.y, 0.0, p.y - box.y1}));
+}
+
 class Planner {
 public:
     Planner(const Region2d& region, const AdaptiveSettings& settings)
@@ -83,6 +90,7 @@ public:
           walls_{region},
           box_{grown_box(box_of(region), settings.tool_radius)},
           swept_{box_, settings.tool_radius},
+          links_{swept_, walls_, settings.wall_clearance},
           expected_{kMoreWay * area(region) /
                     (settings.tool_radius * (1.0 - std::cos(settings.max_engagement)))}
     {
@@ -90,30 +98,22 @@ public:
 
     AdaptivePath plan()
     {
-        double opened = 0.0;
         const double finest = finest_turn();
+        double opened = 0.0;
         for (const double share : kSteered) {
             const double turn = share * radius_;
             if (opened > 0.0 && turn < finest) {
                 break;
             }
-            for (double at = kRatio * opened; at > turn; at *= kRatio) {
-                cut_walls(opened, at, 0);
-                opened = at;
-            }
             if (opened > 0.0) {
-                cut_walls(opened, turn, 0);
+                narrow(opened, turn);
             }
             steer(turn,
                   opened > 0.0 ? std::max(kStrip * turn, kLeastStrip * radius_) : kStrip * radius_);
-            cut_walls(turn, turn, 0);
+            cut_walls(turn, turn, box_, 0);
             opened = turn;
         }
-        for (double at = opened * kRatio; at > finest; at *= kRatio) {
-            cut_walls(opened, at, 0);
-            opened = at;
-        }
-        cut_walls(opened, finest, 0);
+        narrow(opened, finest);
         cut_rest();
         cut_slivers();
         return std::move(result_);
@@ -121,10 +121,15 @@ public:
 
 private:
     // The part of the region that a turn of this radius reaches.
-    Region2d opened(double radius) const
+    const Region2d& opened(double radius)
     {
+        const auto known = opened_.find(radius);
+        if (known != opened_.end()) {
+            return known->second;
+        }
         const Region2d inner = walls_.at(settings_.wall_clearance + radius);
-        return inner.contours.empty() ? inner : grown(inner, radius);
+        return opened_.emplace(radius, inner.contours.empty() ? inner : grown(inner, radius))
+            .first->second;
     }
 
     void steer(double turn, double strip)
@@ -150,6 +155,7 @@ private:
                 if (!pose) {
                     break;
                 }
+                link_to(pose->at);
                 const SteeredPass pass = steered_pass(space, *pose);
                 if (pass.path.empty()) {
                     starts.drop(pose->at);
@@ -211,14 +217,42 @@ private:
         return best;
     }
 
-    // Along the walls of the region opened by the radius `to`; `from` is the one of before.
-    void cut_walls(double from, double to, int depth)
+    // Where the region opened by the radius `to` still has stock, one place after the other: passes
+    // along its walls for radii in between.
+    void narrow(double from, double to)
     {
-        constexpr int kMostDepth = 3;
-        const Region2d region = opened(to);
+        std::vector<Box2d> spots;
+        for (const Contour& contour : opened(to).contours) {
+            for (const std::vector<Edge>& path :
+                 stretches(contour, least_sliver(), 2 * kPi, box_).paths) {
+                spots.push_back(grown_box(box_of(Region2d{{path}}), kSpot * radius_));
+            }
+        }
+        while (!spots.empty()) {
+            const auto next =
+                std::min_element(spots.begin(), spots.end(), [&](const Box2d& a, const Box2d& b) {
+                    return distance_to(a, at_) < distance_to(b, at_);
+                });
+            const Box2d spot = *next;
+            spots.erase(next);
+            double before = from;
+            for (double at = kRatio * from; before > to; at = std::max(kRatio * at, to)) {
+                cut_walls(before, std::max(at, to), spot, 0);
+                before = std::max(at, to);
+            }
+        }
+    }
+
+    // Along the walls of the region opened by the radius `to`; `from` is the one of before.
+    void cut_walls(double from, double to, const Box2d& spot, int depth)
+    {
+        constexpr int kMostDepth = 1;
         bool left = false;
-        for (const Contour& contour : region.contours) {
-            for (const std::vector<Edge>& path : stretches(contour, least_sliver())) {
+        for (const Contour& contour : opened(to).contours) {
+            const WallPasses passes =
+                stretches(contour, least_sliver(), settings_.max_engagement, spot);
+            left = left || passes.left;
+            for (const std::vector<Edge>& path : passes.paths) {
                 if (is_bounded(path)) {
                     cut(path);
                 } else {
@@ -227,8 +261,8 @@ private:
             }
         }
         if (left && depth < kMostDepth && from > 1.05 * to) {
-            cut_walls(from, std::sqrt(from * to), depth + 1);
-            cut_walls(std::sqrt(from * to), to, depth + 1);
+            cut_walls(from, std::sqrt(from * to), spot, depth + 1);
+            cut_walls(std::sqrt(from * to), to, spot, depth + 1);
         }
     }
 
@@ -236,12 +270,13 @@ private:
     // bound opens. What rounding may leave in corners stays.
     void cut_rest()
     {
-        const Region2d finest = opened(finest_turn());
+        const Region2d& finest = opened(finest_turn());
         const Region2d whole = walls_.at(settings_.wall_clearance);
         for (const Region2d* region : {&finest, &whole}) {
             const double sliver = region == &finest ? least_sliver() : 2.0 * settings_.corner;
             for (const Contour& contour : region->contours) {
-                for (const std::vector<Edge>& path : stretches(contour, sliver)) {
+                for (const std::vector<Edge>& path :
+                     stretches(contour, sliver, 2 * kPi, box_).paths) {
                     enter_at(path.front().start);
                     cut(path);
                 }
@@ -303,16 +338,25 @@ private:
         at_ = place;
     }
 
-    double least_sliver() const { return std::min(0.004 * radius_, 0.5 * settings_.corner); }
+    // At least what the swept area, of discs and chords, misses.
+    double least_sliver() const
+    {
+        return std::max(std::min(0.004 * radius_, 0.5 * settings_.corner),
+                        settings_.tolerance + 0.0004 * radius_);
+    }
 
     double finest_turn() const
     {
         return std::max(settings_.corner / (std::sqrt(2.0) - 1.0), 1e-3 * radius_);
     }
 
-    std::vector<std::vector<Edge>> stretches(const Contour& contour, double sliver) const
+    WallPasses stretches(const Contour& contour,
+                         double sliver,
+                         double most,
+                         const Box2d& spot) const
     {
-        return uncut_stretches(contour, {swept_, walls_, settings_.wall_clearance, sliver});
+        return uncut_stretches(contour, {swept_, walls_, settings_.wall_clearance, sliver, most,
+                                         settings_.tolerance, spot});
     }
 
     bool is_bounded(const std::vector<Edge>& path) const
@@ -323,9 +367,19 @@ private:
         });
     }
 
+    // Before the path is swept: the link meets the stock there is then.
+    void link_to(Vec2d start)
+    {
+        link_.clear();
+        if (!result_.runs.empty()) {
+            link_ = links_.between(at_, start);
+        }
+    }
+
     // Measures and sweeps the path piece by piece.
     void cut(const std::vector<Edge>& path)
     {
+        link_to(path.front().start);
         OverEngagement over{};
         for (const Edge& edge : path) {
             const int n =
@@ -358,12 +412,8 @@ private:
     {
         AdaptiveRun run;
         run.path = path;
-        const Edge way = line_edge(at_, path.front().start);
-        run.linked = !result_.runs.empty() &&
-                     (length(way) < 1e-6 ||
-                      (length(way) < 20.0 * radius_ &&
-                       is_path_clear(walls_, way, settings_.wall_clearance) &&
-                       swept_.engagement_bound(way, kLinkEngagement) <= kLinkEngagement));
+        run.link = std::move(link_);
+        link_.clear();
         for (const Edge& edge : path) {
             const int n =
                 std::max(1, static_cast<int>(std::ceil(length(edge) / (2.0 * kPiece * radius_))));
@@ -384,9 +434,12 @@ private:
     RegionOffset walls_;
     Box2d box_;
     SweptArea swept_;
-    double expected_;  // mm of way
+    KeepDownLinks links_;
+    std::vector<LinkLeg> link_;  // to the next run
+    double expected_;            // mm of way
     AdaptivePath result_;
-    std::vector<Vec2d> places_;  // where the tool has been
+    std::map<double, Region2d> opened_;  // by radius
+    std::vector<Vec2d> places_;          // where the tool has been
     Vec2d at_{};
 };
 
@@ -401,6 +454,9 @@ AdaptivePath clear_adaptively(const Region2d& region, const AdaptiveSettings& se
     for (AdaptiveRun& run : path.runs) {
         for (Edge& edge : run.path) {
             edge = mirrored(edge);
+        }
+        for (LinkLeg& leg : run.link) {
+            leg.end.x = -leg.end.x;
         }
         if (run.helix) {
             run.helix->centre.x = -run.helix->centre.x;

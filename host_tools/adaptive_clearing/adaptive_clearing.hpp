@@ -17,6 +17,7 @@
 #include <optional>
 #include <vector>
 
+#include "host_tools/adaptive_clearing/keep_down_links.hpp"
 #include "host_tools/job/job.hpp"
 #include "host_tools/offset/offset.hpp"
 
@@ -42,8 +43,7 @@ struct EntryHelix {
 struct AdaptiveRun {
     std::optional<EntryHelix> helix;  // then there is no path
     std::vector<offset::Edge> path;
-    // The straight line from the end of the run before is swept, and clear of the walls.
-    bool linked{};
+    std::vector<LinkLeg> link;  // from the end of the run before; empty: the tool lifts
 };
 
 // Where the bound could not be kept.

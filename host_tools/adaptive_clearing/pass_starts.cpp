@@ -16,14 +16,18 @@ using offset::Edge;
 using offset::edges_of;
 using offset::EdgeTree;
 using offset::left_normal;
+using offset::length;
+using offset::point_on;
 using offset::Region2d;
 
 namespace {
 
 constexpr double kStartPitch = 1.0 / 12;  // radii
+constexpr double kPlaces = 0.101;         // radii between places: a step of a pass
 constexpr int kDirections = 32;
 constexpr double kProbes[] = {1.03, 1.08, 1.15};  // radii from the place
 constexpr double kUpstream = 0.5;                 // radii
+constexpr double kNear = 0.45;                    // radii
 constexpr int kMostUpstream = 4000;
 constexpr double kSame = 1e-9;
 
@@ -74,7 +78,10 @@ void PassStarts::add(Vec2d place) { buckets_[bucket(place)].push_back({place}); 
 void PassStarts::add(const std::vector<Edge>& path)
 {
     for (const Edge& edge : path) {
-        add(edge.end);
+        const int n = std::max(1, static_cast<int>(std::ceil(length(edge) / (kPlaces * radius_))));
+        for (int i = 1; i <= n; ++i) {
+            add(point_on(edge, static_cast<double>(i) / n));
+        }
     }
 }
 
@@ -137,26 +144,42 @@ std::optional<Pose> PassStarts::pose_at(Vec2d place, const SteeringSpace& space)
     return std::nullopt;
 }
 
-Pose PassStarts::upstream(Pose pose, const SteeringSpace& space) const
+// Those that are not dropped, the nearest first.
+std::vector<PassStarts::Place*> PassStarts::places_near(Vec2d point, double reach)
+{
+    std::vector<std::pair<double, Place*>> near;
+    for (int dy = -1; dy <= 1; ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+            for (Place& p : buckets_[bucket(point + Vec2d{dx * size_, dy * size_})]) {
+                const double d = norm(p.at - point);
+                if (!p.dropped && d < reach) {
+                    near.emplace_back(d, &p);
+                }
+            }
+        }
+    }
+    std::stable_sort(near.begin(), near.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<Place*> result;
+    result.reserve(near.size());
+    for (const auto& [d, place] : near) {
+        result.push_back(place);
+    }
+    return result;
+}
+
+Pose PassStarts::upstream(Pose pose, const SteeringSpace& space)
 {
     const Pose first = pose;
     for (int i = 0; i < kMostUpstream; ++i) {
         const Vec2d behind = pose.at - pose.heading * (kUpstream * radius_);
         std::optional<Pose> best;
-        double nearest = 0.45 * radius_;
-        for (int dy = -1; dy <= 1; ++dy) {
-            for (int dx = -1; dx <= 1; ++dx) {
-                for (const Place& p : buckets_[bucket(behind + Vec2d{dx * size_, dy * size_})]) {
-                    const double d = norm(p.at - behind);
-                    if (p.dropped || d >= nearest) {
-                        continue;
-                    }
-                    const std::optional<Pose> there = pose_at(p.at, space);
-                    if (there && dot(there->heading, pose.heading) > 0.5) {
-                        best = there;
-                        nearest = d;
-                    }
-                }
+        for (Place* const p : places_near(behind, kNear * radius_)) {
+            const std::optional<Pose> there = pose_at(p->at, space);
+            p->dropped = !there;
+            if (there && dot(there->heading, pose.heading) > 0.5) {
+                best = there;
+                break;
             }
         }
         if (!best || (i > 4 && norm(best->at - first.at) < kUpstream * radius_)) {

@@ -33,7 +33,8 @@ private:
     };
     std::optional<Pose> pose_at(Vec2d place, const SteeringSpace& space) const;
     bool is_stock(Vec2d point, const SweptArea& swept) const;
-    Pose upstream(Pose pose, const SteeringSpace& space) const;
+    Pose upstream(Pose pose, const SteeringSpace& space);
+    std::vector<Place*> places_near(Vec2d point, double reach);
     std::size_t bucket(Vec2d point) const;
 
     double radius_;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "firmware/base/math.hpp"
+
 namespace cusp::adaptive_clearing {
 
 using offset::arc_edge;
@@ -49,27 +51,67 @@ Edge step_from(Pose pose, double curvature, double radius)
 struct Step {
     Edge edge;
     double engagement_bound;
+    double ahead;  // radians: of the second half of a step on
 };
+
+// Steps with the same turn are one edge, up to a radius of way and a third of a turn.
+std::vector<Edge> joined(const std::vector<Edge>& steps, double radius)
+{
+    constexpr double kMostSweep = 2 * kPi / 3;
+    std::vector<Edge> path;
+    for (const Edge& step : steps) {
+        if (path.empty() || path.back().turn != step.turn ||
+            std::abs(path.back().radius - step.radius) > 1e-9 * radius ||
+            length(path.back()) + length(step) > radius ||
+            sweep(path.back()) + sweep(step) > kMostSweep) {
+            path.push_back(step);
+        } else {
+            path.back().end = step.end;
+        }
+    }
+    return path;
+}
 
 class Steering {
 public:
     explicit Steering(const SteeringSpace& space) : space_{space}, radius_{space.swept.radius()} {}
 
     // The step with the greatest turn to the right that is allowed; none if there is none.
+    //
+    // A turn that may be kept up keeps passes even. One that only the tightest turn away from the
+    // stock can follow leads into corners.
     std::optional<Step> next(Pose pose)
+    {
+        std::optional<Step> step = greatest_turn(pose, Next::kOn);
+        if (step) {
+            known_curvature_ = last_;
+            known_ = step->ahead;
+            return step;
+        }
+        known_curvature_ = kUnbounded;
+        return greatest_turn(pose, Next::kAway);
+    }
+
+private:
+    enum class Next { kOn, kAway };
+
+    std::optional<Step> greatest_turn(Pose pose, Next after)
     {
         double right = -1.0 / (kRightTurn * radius_);
         double left = 1.0 / space_.turn_radius;
-        // The turn of the step before is near.
+        // The turn of the step before is near, and kept where a little more is not allowed.
         std::optional<Step> best;
         bool is_right_open = true;
         const double guess = kGuess / radius_;
-        for (const double near : {last_ - guess, last_ + guess}) {
+        for (const double near : {last_ - guess, last_, last_ + guess}) {
             if (near <= right || near >= left) {
                 continue;
             }
-            if (std::optional<Step> edge = allowed(pose, near)) {
-                best = edge;
+            if (const std::optional<Step> step = allowed(pose, near, after)) {
+                if (near == last_) {
+                    return step;
+                }
+                best = step;
                 left = near;
                 break;
             }
@@ -77,29 +119,28 @@ public:
             is_right_open = false;
         }
         if (is_right_open) {
-            if (std::optional<Step> edge = allowed(pose, right)) {
+            if (const std::optional<Step> step = allowed(pose, right, after)) {
                 last_ = right;
-                return edge;
+                return step;
             }
         }
         if (!best) {
-            best = allowed(pose, left);
+            best = allowed(pose, left, after);
         }
         for (int i = 0; best && i < kBisections && (left - right) * radius_ > kPrecision; ++i) {
             const double middle = 0.5 * (left + right);
-            if (std::optional<Step> edge = allowed(pose, middle)) {
-                best = edge;
+            if (const std::optional<Step> step = allowed(pose, middle, after)) {
+                best = step;
                 left = middle;
             } else {
                 right = middle;
             }
         }
-        last_ = left;
+        last_ = best ? left : last_;
         return best;
     }
 
-private:
-    std::optional<Step> allowed(Pose pose, double curvature) const
+    std::optional<Step> allowed(Pose pose, double curvature, Next after) const
     {
         const Edge edge = step_from(pose, curvature, radius_);
         const Pose end{edge.end, tangent_at_end(edge)};
@@ -107,18 +148,27 @@ private:
             !has_room_to_turn(space_, {point_on(edge, 0.5), tangent_on(edge, 0.5)})) {
             return std::nullopt;
         }
-        const double second = bound_of_half(edge, 0.75);
-        const double first = second > space_.max_engagement ? second : bound_of_half(edge, 0.25);
+        // The look farthest ahead is the one that refuses most.
+        const double left = 1.0 / space_.turn_radius;
+        double ahead = 0.0;
+        if (after == Next::kOn || curvature < left) {
+            const Edge on = step_from(end, after == Next::kOn ? curvature : left, radius_);
+            ahead = bound_of_half(on, after == Next::kOn ? 0.75 : 0.25);
+        }
+        if (ahead > space_.max_engagement) {
+            return std::nullopt;
+        }
+        // The step before looked there: stock only goes.
+        const bool is_known = after == Next::kOn && curvature == known_curvature_;
+        const double second = is_known ? known_ : bound_of_half(edge, 0.75);
+        if (second > space_.max_engagement) {
+            return std::nullopt;
+        }
+        const double first = bound_of_half(edge, 0.25);
         if (first > space_.max_engagement) {
             return std::nullopt;
         }
-        // From its end there is a way on: away from the stock as tightly as may be.
-        const double left = 1.0 / space_.turn_radius;
-        if (curvature < left &&
-            bound_of_half(step_from(end, left, radius_), 0.25) > space_.max_engagement) {
-            return std::nullopt;
-        }
-        return Step{edge, std::max(first, second)};
+        return Step{edge, std::max(first, second), ahead};
     }
 
     // Of the half of the edge about its place at `share`, as SweptArea::engagement_bound().
@@ -132,6 +182,9 @@ private:
     const SteeringSpace& space_;
     double radius_;
     double last_{0.0};
+    // What was seen on from the step before, for the same turn.
+    double known_curvature_{kUnbounded};
+    double known_{};
 };
 
 }  // namespace
@@ -170,6 +223,7 @@ SteeredPass steered_pass(const SteeringSpace& space, Pose pose)
         }
     }
     pass.path.resize(cut);
+    pass.path = joined(pass.path, radius);
     return pass;
 }
 

@@ -24,6 +24,7 @@ constexpr double kPitch = 1.0 / 12;  // radii: of cells
 constexpr double kDiscSpacing = 0.05;
 constexpr double kLongestPiece = 0.1;  // radii: its half is within kMostSlack with a tolerance
 constexpr double kShortestPiece = 0.001;
+constexpr std::size_t kNoCell = static_cast<std::size_t>(-1);
 
 // Unit vectors to the middles of the arcs.
 const std::array<Vec2d, kArcs>& directions()
@@ -48,19 +49,21 @@ SweptArea::SweptArea(const Box2d& box, double radius)
       per_mm_{1.0 / pitch_},
       columns_{std::max(1, static_cast<int>(std::ceil((box.x1 - box.x0) / pitch_)))},
       rows_{std::max(1, static_cast<int>(std::ceil((box.y1 - box.y0) / pitch_)))},
-      cells_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_))
+      is_swept_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_)),
+      cells_(is_swept_.size())
 {
 }
 
-const SweptArea::Cell* SweptArea::cell_at(Vec2d point) const
+// kNoCell outside of the box.
+std::size_t SweptArea::cell_at(Vec2d point) const
 {
     const double x = (point.x - corner_.x) * per_mm_;
     const double y = (point.y - corner_.y) * per_mm_;
     if (!(x >= 0.0 && y >= 0.0 && x < columns_ && y < rows_)) {
-        return nullptr;
+        return kNoCell;
     }
-    return &cells_[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) +
-                   static_cast<std::size_t>(x)];
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(x);
 }
 
 void SweptArea::add_disc(Vec2d centre, double radius)
@@ -83,16 +86,17 @@ void SweptArea::add_disc(Vec2d centre, double radius)
         for (int i = column(centre.x - outer); i <= column(centre.x + outer); ++i) {
             const double dx = corner_.x + (i + 0.5) * pitch_ - centre.x;
             const double d2 = dx * dx + dy * dy;
-            Cell& cell = cells_[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
-                                static_cast<std::size_t>(i)];
-            if (cell.swept || d2 > outer * outer) {
+            const std::size_t cell =
+                static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
+                static_cast<std::size_t>(i);
+            if (is_swept_[cell] != 0 || d2 > outer * outer) {
                 continue;
             }
             if (d2 <= inner * inner) {
-                cell.swept = true;
-                std::vector<std::uint32_t>{}.swap(cell.discs);
+                is_swept_[cell] = 1;
+                Discs{}.swap(cells_[cell]);
             } else {
-                put(index, cell, centre + Vec2d{dx, dy});
+                put(index, cells_[cell], centre + Vec2d{dx, dy});
             }
         }
     }
@@ -109,18 +113,17 @@ bool SweptArea::is_hidden(std::uint32_t disc, std::uint32_t by, Vec2d middle) co
     return b.radius >= a.radius && dot(middle - (a.centre + b.centre) * 0.5, way) >= reach;
 }
 
-void SweptArea::put(std::uint32_t disc, Cell& cell, Vec2d middle) const
+void SweptArea::put(std::uint32_t disc, Discs& discs, Vec2d middle) const
 {
-    for (const std::uint32_t other : cell.discs) {
+    for (const std::uint32_t other : discs) {
         if (is_hidden(disc, other, middle)) {
             return;
         }
     }
-    cell.discs.erase(
-        std::remove_if(cell.discs.begin(), cell.discs.end(),
-                       [&](std::uint32_t other) { return is_hidden(other, disc, middle); }),
-        cell.discs.end());
-    cell.discs.push_back(disc);
+    discs.erase(std::remove_if(discs.begin(), discs.end(),
+                               [&](std::uint32_t other) { return is_hidden(other, disc, middle); }),
+                discs.end());
+    discs.push_back(disc);
 }
 
 void SweptArea::add(const Edge& edge, double tolerance)
@@ -173,22 +176,22 @@ double SweptArea::engagement(Vec2d centre, Vec2d heading, double slack, double w
     const auto at_arc = [&](int i) {
         return cell_at(centre + table[static_cast<std::size_t>((i + 4 * kArcs) % kArcs)] * radius_);
     };
-    const auto is_swept = [](const Cell* cell) {
-        return cell != nullptr && cell->swept;
+    const auto is_swept = [this](std::size_t cell) {
+        return cell != kNoCell && is_swept_[cell] != 0;
     };
     for (int i = first; i <= last; ++i) {
-        const Cell* cell = at_arc(i);
-        if (cell == nullptr) {
+        const std::size_t cell = at_arc(i);
+        if (cell == kNoCell) {
             continue;
         }
-        if (cell->swept) {
+        if (is_swept_[cell] != 0) {
             const int begin = i;
             for (; i < last && is_swept(at_arc(i + 1)); ++i) {
             }
             covered_.push_back({begin * arc - at, (i + 1) * arc - at});
             continue;
         }
-        for (const std::uint32_t k : cell->discs) {
+        for (const std::uint32_t k : cells_[cell]) {
             if (seen_[k] != look_) {
                 seen_[k] = look_;
                 add_covered(discs_[k], centre, heading, slack);
@@ -242,16 +245,21 @@ std::vector<Vec2d> SweptArea::standing(const Region2d& region) const
     constexpr int kFiner = 6;
     const EdgeTree tree{edges_of(region)};
     std::vector<Vec2d> result;
-    for (int j = 0; j < rows_ * kFiner; ++j) {
-        for (int i = 0; i < columns_ * kFiner; ++i) {
-            const Vec2d p = corner_ + Vec2d{i + 0.5, j + 0.5} * (pitch_ / kFiner);
-            const Cell* cell = cell_at(p);
-            if (cell != nullptr && cell->swept) {
-                i += kFiner - 1 - i % kFiner;
+    for (int j = 0; j < rows_; ++j) {
+        for (int i = 0; i < columns_; ++i) {
+            const Vec2d first = corner_ + Vec2d{i + 0.0, j + 0.0} * pitch_;
+            const Vec2d middle = first + Vec2d{0.5, 0.5} * pitch_;
+            // A cell that no edge meets lies on one side.
+            if (is_swept_[cell_at(middle)] != 0 ||
+                (!tree.any_nearer(middle, pitch_) && !tree.surrounds(middle))) {
                 continue;
             }
-            if (!contains(p) && tree.surrounds(p)) {
-                result.push_back(p);
+            for (int k = 0; k < kFiner * kFiner; ++k) {
+                const Vec2d p =
+                    first + Vec2d{k % kFiner + 0.5, k / kFiner + 0.5} * (pitch_ / kFiner);
+                if (!contains(p) && tree.surrounds(p)) {
+                    result.push_back(p);
+                }
             }
         }
     }
@@ -260,15 +268,15 @@ std::vector<Vec2d> SweptArea::standing(const Region2d& region) const
 
 bool SweptArea::contains(Vec2d point) const
 {
-    const Cell* cell = cell_at(point);
-    if (cell == nullptr) {
+    const std::size_t cell = cell_at(point);
+    if (cell == kNoCell) {
         return false;
     }
     const auto covers = [&](std::uint32_t k) {
         const Vec2d d = point - discs_[k].centre;
         return dot(d, d) <= discs_[k].radius * discs_[k].radius;
     };
-    return cell->swept || std::any_of(cell->discs.begin(), cell->discs.end(), covers);
+    return is_swept_[cell] != 0 || std::any_of(cells_[cell].begin(), cells_[cell].end(), covers);
 }
 
 }  // namespace cusp::adaptive_clearing

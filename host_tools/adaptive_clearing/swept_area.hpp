@@ -59,18 +59,15 @@ private:
         Vec2d centre;
         double radius;
     };
-    struct Cell {
-        bool swept{};  // with all points within kGrown of it
-        // The nearest disc of each of its points is among them; none where it is swept.
-        std::vector<std::uint32_t> discs;
-    };
+    // The nearest disc of each point of a cell is among them; none where the cell is swept.
+    using Discs = std::vector<std::uint32_t>;
     struct Interval {
         double from;
         double to;
     };
     bool is_hidden(std::uint32_t disc, std::uint32_t by, Vec2d middle) const;
-    void put(std::uint32_t disc, Cell& cell, Vec2d middle) const;
-    const Cell* cell_at(Vec2d point) const;
+    void put(std::uint32_t disc, Discs& discs, Vec2d middle) const;
+    std::size_t cell_at(Vec2d point) const;
     void add_covered(const Disc& disc, Vec2d centre, Vec2d heading, double slack) const;
     double bound_of_piece(
         const offset::Edge& edge, double from, double to, double limit, double tolerance) const;
@@ -81,7 +78,8 @@ private:
     double per_mm_;  // cells
     int columns_;
     int rows_;
-    std::vector<Cell> cells_;
+    std::vector<std::uint8_t> is_swept_;  // cells with all points within kGrown of them
+    std::vector<Discs> cells_;
     std::vector<Disc> discs_;
     // Of the last engagement(): which discs were seen, and what they cover.
     mutable std::vector<std::uint32_t> seen_;

@@ -7,15 +7,19 @@
 #include <optional>
 
 #include "firmware/base/math.hpp"
+#include "host_tools/offset/edge_tree.hpp"
 
 namespace cusp::adaptive_clearing {
 
 using offset::arc_edge;
 using offset::between;
+using offset::Box2d;
+using offset::box_of;
 using offset::Contour;
 using offset::Edge;
 using offset::left_normal;
 using offset::length;
+using offset::meet;
 using offset::point_on;
 using offset::tangent_at_end;
 using offset::tangent_at_start;
@@ -29,6 +33,11 @@ constexpr double kBeyond = 0.1;       // radii before and behind the stock
 constexpr double kJoined = 0.4;       // radii: nearer stretches are one
 constexpr double kLeadAngle = kPi / 5;
 constexpr double kShortest = 1e-6;  // mm
+
+bool is_inside(const Box2d& box, Vec2d p)
+{
+    return p.x >= box.x0 && p.x <= box.x1 && p.y >= box.y0 && p.y <= box.y1;
+}
 
 struct Stretch {
     double from;  // mm along the contour
@@ -59,6 +68,14 @@ std::vector<Edge> part_of(const Contour& contour, Stretch stretch)
 bool is_clear(const WallSpace& space, Vec2d centre, double slack)
 {
     return !space.walls.any_nearer(centre, space.wall_clearance - slack);
+}
+
+// The tool can not be there before a pass.
+bool is_in_stock(Vec2d place, const WallSpace& space)
+{
+    constexpr double kSunk = 0.02;  // radii
+    return space.swept.engagement(place, {1.0, 0.0}, -kSunk * space.swept.radius(), 0.5 * kPi) >
+           10.0 * kBarelyOpen;
 }
 
 // A tangent arc from swept ground onto the start of the path; none where there is no room.
@@ -97,48 +114,104 @@ std::optional<Edge> lead_out(const Edge& last, const WallSpace& space)
     return std::nullopt;
 }
 
-// Lengths along the contour between which stock is; in order.
-std::vector<Stretch> stretches_of(const Contour& contour, const WallSpace& space)
-{
-    const double radius = space.swept.radius();
-    std::vector<Stretch> found;
-    double at = 0.0;
-    for (const Edge& edge : contour) {
-        const double size = length(edge);
-        const int n = std::max(edge.turn != 0 ? 4 : 1,
-                               static_cast<int>(std::ceil(size / (kStations * radius))));
-        for (int i = 0; i < n; ++i) {
-            const double share = (i + 0.5) / n;
-            if (space.swept.engagement(point_on(edge, share), tangent_on(edge, share),
-                                       -space.sliver) < kBarelyOpen) {
+// Lengths along the contour between which stock is, in order, none over a piece where the
+// engagement would be over the limit.
+class StretchFinder {
+public:
+    StretchFinder(const Contour& contour, const WallSpace& space) : contour_{contour}, space_{space}
+    {
+    }
+
+    std::vector<Stretch> find()
+    {
+        const double pitch = kStations * space_.swept.radius();
+        double at = 0.0;
+        for (const Edge& edge : contour_) {
+            const double size = length(edge);
+            if (!meet(box_of(edge), space_.spot)) {
+                at += size;
                 continue;
             }
-            const Stretch stock{at + size * i / n - kBeyond * radius,
-                                at + size * (i + 1) / n + kBeyond * radius};
-            if (!found.empty() && stock.from < found.back().to + kJoined * radius) {
-                found.back().to = stock.to;
-            } else {
-                found.push_back(stock);
+            const int n =
+                std::max(edge.turn != 0 ? 4 : 1, static_cast<int>(std::ceil(size / pitch)));
+            for (int i = 0; i < n; ++i) {
+                const double share = (i + 0.5) / n;
+                const Vec2d place = point_on(edge, share);
+                if (is_inside(space_.spot, place) &&
+                    space_.swept.engagement(place, tangent_on(edge, share), -space_.sliver) >=
+                        kBarelyOpen) {
+                    add(edge, i, n, at);
+                }
             }
+            at += size;
         }
-        at += size;
+        join_ends(at);
+        return std::move(found_);
     }
-    return found;
-}
+
+    bool has_barrier() const { return barrier_end_ > 0.0; }
+
+private:
+    // The piece of the edge that begins `at` mm along the contour.
+    void add(const Edge& edge, int i, int n, double at)
+    {
+        const double radius = space_.swept.radius();
+        const double size = length(edge);
+        const double begin = at + size * i / n;
+        const double end = at + size * (i + 1) / n;
+        const Edge piece = between(edge, point_on(edge, static_cast<double>(i) / n),
+                                   point_on(edge, (i + 1.0) / n));
+        if (space_.swept.engagement_bound(piece, space_.max_engagement, space_.tolerance) >
+            space_.max_engagement) {
+            if (!found_.empty()) {
+                found_.back().to = std::min(found_.back().to, begin);
+            }
+            first_barrier_ = std::min(first_barrier_, begin);
+            barrier_end_ = end;
+            return;
+        }
+        const Stretch stock{
+            std::max(begin - kBeyond * radius, barrier_end_ > 0.0 ? barrier_end_ : -kUnbounded),
+            end + kBeyond * radius};
+        if (!found_.empty() && barrier_end_ <= found_.back().to &&
+            stock.from < found_.back().to + kJoined * radius &&
+            barrier_end_ <= found_.back().from) {
+            found_.back().to = stock.to;
+        } else {
+            found_.push_back(stock);
+        }
+    }
+
+    // The last stretch continues in the first one.
+    void join_ends(double whole)
+    {
+        if (found_.size() > 1 && barrier_end_ <= found_.back().from &&
+            first_barrier_ >= found_.front().to &&
+            found_.front().from + whole < found_.back().to + kJoined * space_.swept.radius()) {
+            found_.front().from = found_.back().from - whole;
+            found_.pop_back();
+        }
+    }
+
+    const Contour& contour_;
+    const WallSpace& space_;
+    std::vector<Stretch> found_;
+    double first_barrier_{kUnbounded};
+    double barrier_end_{0.0};
+};
 
 }  // namespace
 
-std::vector<std::vector<Edge>> uncut_stretches(const Contour& contour, const WallSpace& space)
+WallPasses uncut_stretches(const Contour& contour, const WallSpace& space)
 {
     const double radius = space.swept.radius();
     const double whole = length(contour);
-    std::vector<Stretch> found = stretches_of(contour, space);
-    if (found.size() > 1 && found.front().from + whole < found.back().to + kJoined * radius) {
-        found.front().from = found.back().from - whole;
-        found.pop_back();
-    }
-    std::vector<std::vector<Edge>> result;
-    for (Stretch stretch : found) {
+    StretchFinder finder{contour, space};
+    WallPasses result;
+    for (Stretch stretch : finder.find()) {
+        if (stretch.to - stretch.from < kShortest) {
+            continue;
+        }
         if (stretch.to - stretch.from > whole - kJoined * radius) {
             // Starts in the middle of the longest edge.
             const auto longest = std::max_element(
@@ -160,12 +233,16 @@ std::vector<std::vector<Edge>> uncut_stretches(const Contour& contour, const Wal
         }
         if (const std::optional<Edge> lead = lead_in(path.front(), space)) {
             path.insert(path.begin(), *lead);
+        } else if (space.max_engagement < kPi && is_in_stock(path.front().start, space)) {
+            result.left = true;
+            continue;
         }
         if (const std::optional<Edge> lead = lead_out(path.back(), space)) {
             path.push_back(*lead);
         }
-        result.push_back(std::move(path));
+        result.paths.push_back(std::move(path));
     }
+    result.left = finder.has_barrier();
     return result;
 }
 

@@ -44,6 +44,7 @@ namespace {
 constexpr double kDegrees = kPi / 180.0;
 constexpr double kHelixSlope = 0.0524;  // 3 degrees
 constexpr double kLevel = 1e-6;         // mm: heights of a level floor differ by less
+constexpr double kRaised = 0.2;         // mm: of rapid moves in swept ground
 constexpr std::size_t kNamedPlaces = 5;
 
 double level_of(const Operation& operation)
@@ -103,11 +104,19 @@ public:
                 continue;
             }
             const Vec2d start = run.path.front().start;
-            if (!run.linked) {
+            if (run.link.empty()) {
                 // Below it slivers may remain beside the tool: not at rapid.
                 writer_.approach(start, std::min(above + kRapidClearance, writer_.clearance_z()));
+                writer_.line(MoveKind::kPlunge, {start.x, start.y, z});
             }
-            writer_.line(run.linked ? MoveKind::kLink : MoveKind::kPlunge, {start.x, start.y, z});
+            for (std::size_t i = 0; i < run.link.size(); ++i) {
+                // Free legs do not rub on the floor.
+                const bool raised =
+                    run.link[i].free || (i + 1 < run.link.size() && run.link[i + 1].free);
+                const Vec2d to = run.link[i].end;
+                writer_.line(run.link[i].free ? MoveKind::kRapid : MoveKind::kLink,
+                             {to.x, to.y, raised ? z + kRaised : z});
+            }
             for (const Edge& edge : run.path) {
                 cut(edge, z);
             }

@@ -1,5 +1,6 @@
 // Adaptive clearing of random pockets, cut again on a raster: the engagement keeps its bound, all
-// that contour clearing cuts is cut, and every path keeps its clearance from walls.
+// that contour clearing cuts is cut, every path keeps its clearance from walls, and links at rapid
+// meet no stock.
 //
 // Not judged: stock within two cells of what the tool reaches, runs that the plan lists as over the
 // bound, and a thousandth of the way, where the raster may find more than kRasterDegrees too much.
@@ -39,7 +40,27 @@ struct Found {
     Vec2d uncut_at{};
     double nearest{1e9};  // mm: the least clearance from the walls
     Vec2d nearest_at{};
+    double rapid{};  // mm in stock of the free legs of links
 };
+
+// mm of the link's free legs in stock. A link that ends elsewhere than at `to` is in stock as a
+// whole.
+double rapid_in_stock(
+    const RasterCutter& cutter, const std::vector<LinkLeg>& link, Vec2d from, Vec2d to, double step)
+{
+    double found = 0.0;
+    Vec2d at = from;
+    for (const LinkLeg& leg : link) {
+        const double size = distance(at, leg.end);
+        const int n = static_cast<int>(std::ceil(size / step));
+        for (int i = 0; leg.free && i <= n; ++i) {
+            const Vec2d place = at + (leg.end - at) * (static_cast<double>(i) / std::max(n, 1));
+            found += cutter.engagement(place, unit(leg.end - at)) > 0.0 ? step : 0.0;
+        }
+        at = leg.end;
+    }
+    return link.empty() || distance(at, to) < 1e-9 ? found : kUnbounded;
+}
 
 bool is_listed(const AdaptivePath& path, const std::vector<Edge>& run)
 {
@@ -56,11 +77,16 @@ Found judge(const Region2d& region, const AdaptiveSettings& settings, const Adap
     const RegionOffset walls{region};
     RasterCutter cutter{region, radius, pitch, 2.0 * pitch};
     Found found;
+    Vec2d tool{};
     for (const AdaptiveRun& run : path.runs) {
         if (run.helix) {
             cutter.remove_disc(run.helix->centre, radius + run.helix->radius);
+            tool = run.helix->centre + Vec2d{run.helix->radius, 0.0};
             continue;
         }
+        found.rapid +=
+            rapid_in_stock(cutter, run.link, tool, run.path.front().start, kStep * radius);
+        tool = run.path.back().end;
         const bool listed = is_listed(path, run.path);
         cutter.cut(run.path.front().start);
         for (const Edge& edge : run.path) {
@@ -107,18 +133,18 @@ void check(const Region2d& region, const AdaptiveSettings& settings, unsigned nu
     for (const OverEngagement& over : path.over) {
         listed += over.length;
     }
-    const bool good = found.over <= 0.001 * found.way && found.uncut <= 0.0 &&
+    const bool good = found.over <= 0.001 * found.way && found.uncut <= 0.0 && found.rapid <= 0.0 &&
                       (path.runs.empty() || found.nearest >= settings.wall_clearance - 1e-4);
     if (!good || std::getenv("CUSP_PROPERTY_PRINT") != nullptr) {
         std::printf(
             "case %u: R %.3f wall %.3f asked %.1f: %zu runs, %.0f mm, bound %.2f, %zu over "
             "%.2f mm; in metal %.0f mm, over %.3f mm, worst %.1f at %.3f,%.3f; uncut %.4f "
-            "mm2 at %.3f,%.3f; nearest %.5f at %.3f,%.3f\n",
+            "mm2 at %.3f,%.3f; nearest %.5f at %.3f,%.3f; rapid in metal %.3f mm\n",
             number, settings.tool_radius, settings.wall_clearance,
             settings.max_engagement / kDegrees, path.runs.size(), path.length,
             path.engagement_bound / kDegrees, path.over.size(), listed, found.way, found.over,
             found.worst, found.worst_at.x, found.worst_at.y, found.uncut, found.uncut_at.x,
-            found.uncut_at.y, found.nearest, found.nearest_at.x, found.nearest_at.y);
+            found.uncut_at.y, found.nearest, found.nearest_at.x, found.nearest_at.y, found.rapid);
     }
     CHECK(path.engagement_bound <= settings.max_engagement);
     CHECK(good);

@@ -178,7 +178,7 @@ TEST(DropCutter, OfARingDoesNotCoverWhatIsInside)
     CHECK(std::abs(place->x) + std::abs(place->y) < 4);
 }
 
-// A wavy wall at an angle to the axes, from nearly upright to overhanging. Bounded by boxes
+// A wavy wall at an angle to the axes, from nearly vertical to overhanging. Bounded by boxes
 // along the axes alone, a drop beside it halved thousands of pieces: most of the wall under the tool.
 TEST(DropCutter, HalvesFewPiecesOfATurnedWall)
 {
