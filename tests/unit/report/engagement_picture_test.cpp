@@ -13,7 +13,7 @@ using namespace cusp::verify;
 TEST_GROUP(EngagementPicture)
 {
     Verification result;
-    const job::Job job;
+    const job::Job job{};
 
     // Along x, a step of 1 mm for each angle.
     void setup() override
