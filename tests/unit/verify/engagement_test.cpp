@@ -316,7 +316,7 @@ std::string random_way(std::mt19937& random)
 
 // Both look at one place of the tool; where the load changes within the reach of the mean they
 // differ. So most of the way is to agree, and all sums. The limits guard what was measured on 50 such
-// paths, the worst of each: 84 % of the way within a pitch of width, the mean off by 1.7 degrees, the
+// paths, the worst of each: 84 % of it within a pitch of width, the mean off by 1.7 degrees, the
 // way over the limit by 3.5 % of all and air by 7 %.
 TEST(Engagement, OfRandomPathsIsThatOfAFinerRaster)
 {
