@@ -322,7 +322,7 @@ TEST(Engagement, OfRandomPathsIsThatOfAFinerRaster)
 {
     std::mt19937 random{20261123};
     settings.max_engagement = 60;
-    for (int path = 0; path < 4; ++path) {
+    for (int path = 0; path < 2; ++path) {
         const EngagementFigures& found = figures(random_way(random));
         const ToolPositions& run = result.positions.front();
         PlainRaster raster;
