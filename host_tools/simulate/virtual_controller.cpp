@@ -141,6 +141,9 @@ private:
     {
         constexpr unsigned kSlices = 32;
         bool busy = false;
+        // Read before the look at the line: a sender that reconnects in between would find its
+        // first line read, and the answer dropped because nobody was there.
+        const std::string received = end_.read();
         const bool had_peer = end_.has_peer();
         if (end_.update_peer()) {
             say("a sender has connected");
@@ -150,7 +153,7 @@ private:
         } else if (had_peer && !end_.has_peer()) {
             say("the sender has disconnected");
         }
-        to_controller_.put(end_.read());
+        to_controller_.put(received);
         const std::string arrived = to_controller_.take();
         if (controller_.is_on()) {
             controller_.board().byte_link.send(arrived);

@@ -6,8 +6,12 @@ usage: senders_test.py CUSP [unittest options]
 Each sender's habits are those that its documents and source describe; docs/senders.md has the list and
 the runs of the senders themselves. A tap counts every byte and answer.
 """
+import os
+import random
 import re
+import select
 import sys
+import threading
 import time
 import unittest
 
@@ -253,6 +257,27 @@ class Connections(SenderTest):
                 self.assertEqual(port.ask("")[1], "ok")
                 port.wait_state("Idle")
         self.assertEqual(self.mill.where()[0], 5.0)
+
+
+    def test_no_line_of_a_sender_that_comes_at_once_is_lost(self):
+        """The controller once looked for a sender, then read: 4 of 3000 lines had no answer."""
+        with VirtualMill(CUSP, tap=False) as mill:
+            threading.Thread(target=mill.process.stdout.read, daemon=True).start()
+            seed = 1
+            random_number = random.Random(seed)
+            lost = 0
+            for _ in range(1000):
+                port = os.open(mill.port, os.O_RDWR | os.O_NOCTTY)
+                os.write(port, b"\n")
+                heard = b""
+                while b"ok" not in heard and select.select([port], [], [], 2)[0]:
+                    heard += os.read(port, 4096)
+                lost += b"ok" not in heard
+                os.close(port)
+                end = time.perf_counter() + 0.002 * random_number.random()
+                while time.perf_counter() < end:
+                    pass
+            self.assertEqual(lost, 0, f"seed {seed}")
 
 
 class Answers(SenderTest):
