@@ -107,8 +107,10 @@ int run_demo(const DemoOptions& options)
     plan_output.program = program;
     plan_output.stats = out / "plan.json";
     const Plan plan = plan_program(job, "job " + job.file, plan_output);
-    const Verification cut =
-        verify_program(job, program, {}, {out / "verify.json", out / "path.svg", out / "left.svg"});
+    verify::VerifySettings settings;
+    settings.engagement = true;
+    const Verification cut = verify_program(
+        job, program, settings, {out / "verify.json", out / "path.svg", out / "left.svg"});
     write_text(out / "verify.txt", verification_text(cut));
     if (options.traces) {
         mill.vcd_file = out / "pocket.vcd";

@@ -128,23 +128,31 @@ Json verification_of(const RunFacts& facts)
 {
     const VerifyFigures& f = facts.verification->figures;
     const verify::VerifyBounds& bounds = facts.verification->bounds;
-    return {{"floor_tolerance", bounds.floor_tolerance},
-            {"plan_tolerance", bounds.plan_tolerance},
-            {"scallop_bound_mm", optional(f.scallop_bound)},
-            {"gouge_max_mm", f.gouge_max},
-            {"ball_gouge_max_mm", optional(f.ball_gouge_max)},
-            {"wall_gouge_max_mm", optional(f.wall_gouge_max)},
-            {"rapid_cut_max_mm", f.rapid_cut_max},
-            {"rapid_cut_bound_mm", bounds.rapid_cut},
-            {"scallop_max_mm", f.scallop_max},
-            {"scallop_p99_mm", f.scallop_p99},
-            {"uncovered_share", f.uncovered_share},
-            {"uncovered_bound", bounds.uncovered_share},
-            {"uncut_share", f.uncut_share},
-            {"unreachable_share", f.unreachable_share},
-            {"cut_depth_max_mm", f.cut_depth_max},
-            {"left_volume_mm3", f.left_volume},
-            {"broken", facts.verification->broken}};
+    Json out{{"floor_tolerance", bounds.floor_tolerance},
+             {"plan_tolerance", bounds.plan_tolerance},
+             {"scallop_bound_mm", optional(f.scallop_bound)},
+             {"gouge_max_mm", f.gouge_max},
+             {"ball_gouge_max_mm", optional(f.ball_gouge_max)},
+             {"wall_gouge_max_mm", optional(f.wall_gouge_max)},
+             {"rapid_cut_max_mm", f.rapid_cut_max},
+             {"rapid_cut_bound_mm", bounds.rapid_cut},
+             {"scallop_max_mm", f.scallop_max},
+             {"scallop_p99_mm", f.scallop_p99},
+             {"uncovered_share", f.uncovered_share},
+             {"uncovered_bound", bounds.uncovered_share},
+             {"uncut_share", f.uncut_share},
+             {"unreachable_share", f.unreachable_share},
+             {"cut_depth_max_mm", f.cut_depth_max},
+             {"left_volume_mm3", f.left_volume},
+             {"broken", facts.verification->broken}};
+    if (f.engagement) {
+        out["engagement"] = {{"max_deg", f.engagement->angle_max},
+                             {"line", f.engagement->line},
+                             {"limit_deg", optional(f.engagement->limit)},
+                             {"over_mm", optional(f.engagement->over_length)},
+                             {"air_mm", f.engagement->air_length}};
+    }
+    return out;
 }
 
 }  // namespace

@@ -55,6 +55,17 @@ std::string program_blocks(const ProgramReading& reading)
            deflated_block("data-rapid", std::string(reading.rapid.begin(), reading.rapid.end()));
 }
 
+std::string record_blocks(RunRecord& record)
+{
+    std::string data = data_block("data-samples", record.samples().finish()) +
+                       deflated_block("data-lines", record.line_runs().text()) +
+                       deflated_block("data-path", record.vertices().finish().text());
+    if (record.engagement()) {
+        data += deflated_block("data-engagement", record.engagement()->finish().text());
+    }
+    return data;
+}
+
 // Set points are encoded, and their deviation is measured, while the program runs.
 SimulationResult run(const std::string& program,
                      const RunPageOptions& options,
@@ -95,7 +106,9 @@ std::optional<Verification> cut(const std::string& program,
                                 std::string& why)
 {
     try {
-        return verify::verify(*options.job, program, {}, options.verifying);
+        verify::VerifySettings settings;
+        settings.engagement = true;
+        return verify::verify(*options.job, program, settings, options.verifying);
     } catch (const InputError& error) {
         why = error.what();
         return std::nullopt;
@@ -143,6 +156,9 @@ RunPage run_page(const std::string& program, const RunPageOptions& options)
     ProgramReading reading;
     std::string program_data;
     RunRecord record{reading, cut_part != nullptr ? kSpacingShare * grid.pitch : kAnySpacing};
+    if (cut_part != nullptr && cut_part->figures.engagement) {
+        record.follow_engagement(*cut_part);
+    }
     parallel::TaskQueue encoding{kMostWaiting};
     encoding.add([&] {
         reading = read_program_lines(program);
@@ -161,10 +177,7 @@ RunPage run_page(const std::string& program, const RunPageOptions& options)
                    cut_part,
                    why,
                    {}};
-    std::string data = data_block("data-samples", record.samples().finish()) +
-                       deflated_block("data-lines", record.line_runs().text()) +
-                       deflated_block("data-path", record.vertices().finish().text()) +
-                       program_data;
+    std::string data = record_blocks(record) + program_data;
     if (cut_part != nullptr) {
         facts.worst = worst_places(*cut_part, options.job->stock_top);
         data += data_block("data-stock", stock_frames(record.path(), *options.job, grid)) +

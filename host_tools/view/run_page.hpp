@@ -21,7 +21,8 @@ struct RunPageOptions {
     // set_point, path and measures_deviation are overwritten. The page does not show the sum of edges.
     simulate::SimulationOptions simulation;
     const job::Job* job{nullptr};  // null: only path and tool
-    // Verification of this program against the job; null: run_page() verifies.
+    // Verification of this program against the job; null: run_page() verifies. Without engagement the
+    // page has no chart of it.
     const verify::Verification* verification{nullptr};
     // Called with the fraction of the verification that is done.
     std::function<void(double share)> verifying;

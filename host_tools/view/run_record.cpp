@@ -47,6 +47,9 @@ void RunRecord::add(const program_run::SetPoint& point)
     path_.add(to_millimetres(point.at), ticks(), tool, reading_.rapid[now] != 0);
     vertices_.add(point.at, point.on_path ? deviation_.add_set_point(point.at) : 0.0, corner);
     samples_.add(point.at);
+    if (engagement_) {
+        engagement_->add(to_millimetres(point.at), point.line);
+    }
 }
 
 void RunRecord::end_line_run()

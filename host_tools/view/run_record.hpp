@@ -1,4 +1,5 @@
-// RunRecord: encodes the set points of a run for a page, and measures their deviation, tick by tick.
+// RunRecord: encodes the set points of a run for a page, and measures their deviation, tick by
+// tick.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +10,8 @@
 #include "firmware/path/move.hpp"
 #include "host_tools/program_run/path_deviation.hpp"
 #include "host_tools/program_run/program_run.hpp"
+#include "host_tools/verify/verify.hpp"
+#include "host_tools/view/engagement_samples.hpp"
 #include "host_tools/view/path_vertices.hpp"
 #include "host_tools/view/program_reading.hpp"
 #include "host_tools/view/sample_blocks.hpp"
@@ -33,6 +36,12 @@ public:
     // spacing  mm between the positions that cut the stock
     RunRecord(const ProgramReading& reading, double spacing) : reading_{reading}, path_{spacing} {}
 
+    // The engagement of the ticks that follow is recorded too; `cut` must outlive this.
+    void follow_engagement(const verify::Verification& cut)
+    {
+        engagement_.emplace(cut.positions, cut.engagement);
+    }
+
     // The next ticks.
     void add(const RunPiece& batch);
 
@@ -49,6 +58,7 @@ public:
     SampleBlocks& samples() { return samples_; }
     PathVertices& vertices() { return vertices_; }
     const CuttingPath& path() const { return path_; }
+    std::optional<EngagementSamples>& engagement() { return engagement_; }
 
     // Format: u32 runs of one line; for each its length in ticks (varint) and the difference of its
     // line to that of the previous run (zigzag varint).
@@ -63,6 +73,7 @@ private:
     SampleBlocks samples_;
     PathVertices vertices_;
     CuttingPath path_;
+    std::optional<EngagementSamples> engagement_;
     Bytes runs_;
     std::uint64_t run_count_{0};
     std::uint64_t run_ticks_{0};

@@ -254,6 +254,55 @@ test("with a job: stock at the cursor, bounds, and the worst places", async () =
   await close();
 });
 
+// The corners of a closed loop as a DXF.
+const outline = (corners) => ["0", "SECTION", "2", "ENTITIES", "0", "LWPOLYLINE", "8", "0", "90", String(corners.length), "70", "1",
+  ...corners.flatMap(([x, y]) => ["10", String(x), "20", String(y)]), "0", "ENDSEC", "0", "EOF", ""].join("\n");
+
+// A slot of 40 mm through the stock, air on the way back, a step aside, then a pass at 60 degrees, and again air.
+test("with a job: the engagement of the tool at the cursor, and its chart", async () => {
+  const job = write("engagement.toml", `units = "mm"
+[tool]
+shape = "flat"
+diameter = 6.0
+[cutting]
+feed = 600.0
+plunge_feed = 300.0
+[stock]
+top = 0.0
+bottom = -10.0
+x = [0.0, 50.0]
+y = [0.0, 40.0]
+[[operation]]
+strategy = "pocket"
+boundary = "outline.dxf"
+depth = 2.0
+clearing = "adaptive"
+max_engagement = 90.0
+`);
+  write("outline.dxf", outline([[2, 2], [48, 2], [48, 38], [2, 38]]));
+  const program = write("slot.ngc", "G21 G90 F600\nG0 Z5\nG0 X5 Y20\nG1 Z-2\nG1 X45\nG1 X5\nG1 Y21.5\nG1 X45\nG1 X5\nG0 Z5\nM30\n");
+  const { page, faults, close } = await openPage(browser, pageOf(program, "--job", job).file);
+  const expected = { 2: 0, 3: 0, 5: 180, 6: 0, 8: 60, 9: 0 };
+  for (const [line, degrees] of Object.entries(expected)) {
+    for (const share of [0.3, 0.5, 0.7]) {
+      const [from, to] = await page.evaluate((k) => window.cusp.linesAt(k), Number(line));
+      const at = await seek(page, from + share * (to - from));
+      assert.equal(at.line, Number(line));
+      assert.ok(Math.abs(at.engagement_deg - degrees) <= 3, `line ${line}: ${at.engagement_deg} degrees, not ${degrees}`);
+    }
+  }
+  assert.equal(await page.locator(".charts .chart").count(), 5);
+  assert.match(await page.locator(".charts").innerText(), /Engagement\s+degrees/);
+  assert.match(await page.locator(".facts").innerText(), /Engagement\s+180 °\s+90 °\s+broken/);
+  assert.match(await page.locator(".readout").innerText(), /Engagement\s*0°/);
+  assert.deepEqual(faults, []);
+  await close();
+  const bare = await openPage(browser, pageOf(program).file);
+  assert.equal(await bare.page.locator(".charts .chart").count(), 4);
+  assert.equal((await state(bare.page)).engagement_deg, undefined);
+  await bare.close();
+});
+
 test("run() gives what cusp sim gives, or says that there is no core", async () => {
   const program = path.join(programs, "square.ngc"), { stats } = figures(program);
   const { page, faults, close } = await openPage(browser, pageOf(program).file);

@@ -1,13 +1,14 @@
-// Charts over time: each axis' velocity, acceleration and jerk relative to their limits, and the speed along the path.
+// Charts over time: each axis' velocity, acceleration and jerk relative to their limits, the speed along the path, and the
+// tool's engagement where it is known.
 import uPlot from "uplot";
 import { axisColours } from "./colours";
 import { element, swatch } from "./elements";
-import { kBucket, kBucketStep, kSpeedChannel } from "./run_data";
+import { kBucket, kBucketStep, kEngagementChannel, kSpeedChannel } from "./run_data";
 import type { Timeline } from "./timeline";
 
 const kTitle = 16;  // px above a plot, as page.css has it
 
-interface Panel { title: string; unit: string; channels: number[]; scale: (channel: number) => number; top: number }
+interface Panel { title: string; unit: string; channels: number[]; scale: (channel: number) => number; top: number; limit?: number }
 
 // Steps of the axis of time: none below a set point's millisecond, which is what the labels show.
 const kSeconds = [0, 1, 2, 3, 4, 5, 6, 7].flatMap((e) => [1, 2, 5].map((f) => f * 10 ** e / 1000));
@@ -22,6 +23,7 @@ export class Charts {
   constructor(private readonly host: HTMLElement, private readonly timeline: Timeline, private dark: boolean) {
     this.from = timeline.timeOf(0);
     this.to = timeline.timeOf(timeline.run.ticks - 1);
+    document.documentElement.style.setProperty("--chart-rows", String(this.panels().length));
     this.build();
     timeline.onChange(() => this.showCursor());
     new ResizeObserver(() => this.resize()).observe(host);
@@ -41,6 +43,8 @@ export class Charts {
       { title: "Acceleration", unit: "% of limit", channels: [3, 4, 5], scale: share(limits.acceleration), top: 112 },
       { title: "Jerk", unit: "% of limit", channels: [6, 7, 8], scale: share(limits.jerk), top: 112 },
       { title: "Feed", unit: "mm/min", channels: [kSpeedChannel], scale: () => 60, top: 0 },
+      ...this.timeline.run.engagement ? [{ title: "Engagement", unit: "degrees", channels: [kEngagementChannel], scale: () => 1, top: 0,
+        limit: this.timeline.facts.verification?.engagement?.limit_deg ?? undefined }] : [],
     ];
   }
 
@@ -61,7 +65,7 @@ export class Charts {
       const last = k === panels.length - 1;
       const axis = { stroke: text, grid: { stroke: grid, width: 1 }, ticks: { show: false }, font: "11px system-ui, sans-serif" };
       const plot = new uPlot({
-        ...this.sizeOf(last), legend: { show: false }, padding: [2, 8, last ? 0 : 5, 0],
+        ...this.sizeOf(last), legend: { show: false }, padding: [2, 22, last ? 0 : 5, 0],
         cursor: { drag: { x: true, y: false, setScale: false }, y: false, points: { show: false } },
         scales: {
           x: { time: false, auto: false, range: () => [this.from, this.to] },
@@ -73,9 +77,9 @@ export class Charts {
         ],
         series: [{}, ...panel.channels.map((channel) => ({
           stroke: panel.channels.length > 1 ? colours[channel % 3] : (this.dark ? "#d0d6dd" : "#39424d"), width: 1, points: { show: false },
-        }))],
+        })), ...panel.limit ? [{ stroke: text, width: 1, dash: [4, 4], points: { show: false } }] : []],
         hooks: { setSelect: [(u: uPlot) => this.select(u)] },
-      }, [[], ...panel.channels.map(() => [])] as unknown as uPlot.AlignedData, box);
+      }, [[], ...panel.channels.map(() => []), ...panel.limit ? [[]] : []] as unknown as uPlot.AlignedData, box);
       const mark = element("div", { class: "chart-cursor" });
       plot.over.append(mark);
       this.marks.push(mark);
@@ -91,7 +95,7 @@ export class Charts {
   }
 
   private sizeOf(last: boolean): { width: number; height: number } {
-    const box = this.host.getBoundingClientRect(), rows = 4;
+    const box = this.host.getBoundingClientRect(), rows = this.panels().length;
     const each = Math.max(Math.floor((box.height - 26) / rows) - kTitle, 30);
     return { width: Math.max(Math.floor(box.width), 120), height: each + (last ? 24 : 0) };
   }
@@ -149,10 +153,11 @@ export class Charts {
         }
         return out;
       });
-      this.plots[p].setData([times, ...rows], false);
+      const { limit } = panel, most = limit ? Math.max(limit * 1.3 / 1.08, ...rows[0]) : Math.max(...rows[0], 1);
+      this.plots[p].setData([times, ...rows, ...limit ? [times.map(() => limit)] : []], false);
       this.plots[p].batch(() => {
         this.plots[p].setScale("x", { min: this.from, max: this.to });
-        this.plots[p].setScale("y", { min: 0, max: panel.top || Math.max(...rows[0], 1) * 1.08 });
+        this.plots[p].setScale("y", { min: 0, max: panel.top || most * 1.08 });
       });
     });
     this.filling = false;
@@ -164,6 +169,7 @@ export class Charts {
     const { axes, ticks } = this.timeline.run;
     if (tick < 0 || tick >= ticks) return 0;
     const at = (axis: number, back: number) => axes[axis][Math.max(tick - back, 0)];
+    if (channel === kEngagementChannel) return this.timeline.run.engagement?.[Math.floor(tick / kBucket)] ?? 0;
     if (channel === kSpeedChannel) return Math.hypot(at(0, 0) - at(0, 1), at(1, 0) - at(1, 1), at(2, 0) - at(2, 1)) * 1e-3;
     const axis = channel % 3;
     if (channel < 3) return Math.abs(at(axis, 0) - at(axis, 1)) * 1e-3;

@@ -37,7 +37,7 @@ export function transport(timeline: Timeline): HTMLElement[] {
 // Position, line, speed and tool at the cursor.
 export function readout(timeline: Timeline): HTMLElement {
   const out = element("div", { class: "readout" });
-  const names = ["X", "Y", "Z", "Feed", "Line", "Tool"];
+  const names = ["X", "Y", "Z", "Feed", "Line", "Tool", ...timeline.run.engagement ? ["Engagement"] : []];
   const cells = names.map((name) => {
     const value = element("span", { class: "number" });
     out.append(element("span", { class: "name" }, name), value);
@@ -49,6 +49,7 @@ export function readout(timeline: Timeline): HTMLElement {
     cells[3].textContent = `${figure(60 * Math.hypot(...state.velocity), 4)} mm/min`;
     cells[4].textContent = state.line > 0 ? String(state.line) : "–";
     cells[5].textContent = state.tool > 0 ? `T${state.tool}` : "–";
+    if (state.engagement_deg !== undefined) cells[6].textContent = `${state.engagement_deg}°`;
   };
   timeline.onChange(show);
   show();

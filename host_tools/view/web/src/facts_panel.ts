@@ -59,6 +59,7 @@ function boundRows(facts: PageFacts): Content[][] {
     add("Scallop (99 %)", v.scallop_p99_mm, v.scallop_bound_mm);
     add("Over scallop", v.uncovered_share, v.uncovered_bound, "%");
   }
+  if (v.engagement?.limit_deg) add("Engagement", v.engagement.max_deg, v.engagement.limit_deg, "°", v.engagement.over_mm ? 0 : 180);
   return rows;
 }
 

@@ -29,7 +29,7 @@ export async function loadRun(facts: PageFacts): Promise<Run> {
   if (typeof DecompressionStream === "undefined") throw new Error("this browser is too old: it has no DecompressionStream");
   const request: UnpackRequest = {
     samples: takeBlock("samples"), lines: takeBlock("lines"), path: takeBlock("path"), program: takeBlock("program"),
-    rapid: takeBlock("rapid"), stock: takeBlock("stock"), left: takeBlock("left"),
+    rapid: takeBlock("rapid"), stock: takeBlock("stock"), left: takeBlock("left"), engagement: takeBlock("engagement"),
     limits: [facts.limits.velocity, facts.limits.acceleration, facts.limits.jerk],
     farthest: facts.farthest_nm,
   };

@@ -27,6 +27,7 @@ export interface Verification {
   rapid_cut_max_mm: number; rapid_cut_bound_mm: number; scallop_max_mm: number; scallop_p99_mm: number;
   uncovered_share: number; uncovered_bound: number; uncut_share: number; unreachable_share: number;
   cut_depth_max_mm: number; left_volume_mm3: number; broken: string[];
+  engagement?: { max_deg: number; line: number; limit_deg: number | null; over_mm: number | null; air_mm: number };
 }
 
 // host_tools/view/run_facts.cpp writes it.
@@ -50,9 +51,10 @@ export type Axis = Int32Array | Float64Array;
 // Greatest absolute values in buckets of ticks: kBucket ticks at level 0, kBucketStep times more at each further level.
 export const kBucket = 16;
 export const kBucketStep = 8;
-// Channels: velocity X Y Z, acceleration X Y Z, jerk X Y Z, speed along the path; mm and s.
-export const kChannels = 10;
+// Channels: velocity X Y Z, acceleration X Y Z, jerk X Y Z, speed along the path; mm and s. Then the engagement, degrees.
+export const kChannels = 11;
 export const kSpeedChannel = 9;
+export const kEngagementChannel = 10;
 
 export interface Stock {
   nx: number; ny: number; x0: number; y0: number; pitch: number; low: number; high: number;
@@ -80,6 +82,7 @@ export interface Run {
   lineStart: Uint32Array;     // byte of line k at k - 1, and the number of bytes
   rapid: Uint8Array;          // of line k at k
   peaks: Float32Array[][];    // [level][channel]
+  engagement: Uint8Array | null;  // greatest of each kBucket ticks, degrees
   stock: Stock | null;
   left: LeftMap | null;
 }

@@ -1,9 +1,10 @@
 // Position of the cursor and its listeners: the only state that all parts of the page share.
-import { upperBound } from "./run_data";
+import { kBucket, upperBound } from "./run_data";
 import type { PageFacts, Run, Section, Triple } from "./run_data";
 
 export interface RunState {
   t_s: number; line: number; position_mm: Triple; velocity: Triple; acceleration: Triple; jerk: Triple; tool: number;
+  engagement_deg?: number;  // where it is known
 }
 
 export class Timeline {
@@ -83,6 +84,7 @@ export class Timeline {
       acceleration: each((c) => at(c, 0) - 2 * at(c, 1) + at(c, 2)),
       jerk: each((c) => (at(c, 0) - 3 * at(c, 1) + 3 * at(c, 2) - at(c, 3)) * 1e3),
       tool: this.sectionOf(line).tool,
+      ...this.run.engagement ? { engagement_deg: this.run.engagement[Math.floor(this.tick / kBucket)] } : {},
     };
   }
 

@@ -1,5 +1,5 @@
 // Decodes the page's data to arrays: the counterpart of host_tools/view/byte_text.hpp, sample_blocks.hpp and path_vertices.hpp.
-import { kBucket, kBucketStep, kChannels, kSpeedChannel } from "./run_data";
+import { kBucket, kBucketStep, kChannels, kEngagementChannel, kSpeedChannel } from "./run_data";
 import type { Axis, LeftMap, Run, Stock, Triple } from "./run_data";
 
 // Seven bits in each character, the highest first.
@@ -133,7 +133,7 @@ export function lineStarts(program: Uint8Array): Uint32Array {
 }
 
 // Peaks of all channels, and the values that colour the vertices of the path.
-export function measure(samples: Samples, vertexTick: Uint32Array, limits: Triple[]) {
+export function measure(samples: Samples, vertexTick: Uint32Array, limits: Triple[], engagement: Uint8Array | null) {
   const { ticks, axes } = samples;
   const peaks: Float32Array[][] = [];
   const make = (count: number) => Array.from({ length: kChannels }, () => new Float32Array(count));
@@ -170,6 +170,7 @@ export function measure(samples: Samples, vertexTick: Uint32Array, limits: Tripl
     while (vertexTick[vertex] < k) ++vertex;
     if (k === vertexTick[vertex]) vertexSpeed[vertex] = speed;
   }
+  if (engagement) level[kEngagementChannel].set(engagement);
   while (peaks[peaks.length - 1][0].length > 512) {
     const fine = peaks[peaks.length - 1], coarse = make(Math.ceil(fine[0].length / kBucketStep));
     for (let c = 0; c < kChannels; ++c) {

@@ -3,7 +3,7 @@ import type { Run, Triple } from "./run_data";
 import { bytesOfText, inflate, lineStarts, measure, unpackLeft, unpackLineRuns, unpackPath, unpackSamples, unpackStock } from "./unpack";
 
 export interface UnpackRequest {
-  samples: string; lines: string; path: string; program: string; rapid: string; stock: string; left: string;
+  samples: string; lines: string; path: string; program: string; rapid: string; stock: string; left: string; engagement: string;
   limits: Triple[];  // velocity, acceleration, jerk
   farthest: number;  // nm from the first set point
 }
@@ -15,9 +15,10 @@ async function unpack(request: UnpackRequest): Promise<Run> {
   const path = unpackPath(await inflated(request.path));
   const program = await inflated(request.program);
   const stock = request.stock ? await unpackStock(bytesOfText(request.stock)) : null;
+  const engagement = request.engagement ? await inflated(request.engagement) : null;
   return {
     ...samples, ...unpackLineRuns(await inflated(request.lines)), ...path,
-    ...measure(samples, path.vertexTick, request.limits),
+    ...measure(samples, path.vertexTick, request.limits, engagement), engagement,
     program, lineStart: lineStarts(program), rapid: await inflated(request.rapid), stock,
     left: stock && request.left ? await unpackLeft(bytesOfText(request.left), stock.nx * stock.ny) : null,
   };
