@@ -22,7 +22,7 @@ const core = option("core");
 
 const settings = {
   bundle: true, minify: true, format: "iife", target: "es2022", write: false, legalComments: "none",
-  absWorkingDir: here, loader: { ".css": "text" },
+  absWorkingDir: here, loader: { ".css": "text", ".ngc": "text" },
 };
 
 async function bundled(entry) {

@@ -119,8 +119,7 @@ export class Charts {
     this.to = this.from + width;
     this.fill();
   }
-  zoomOut(): void { this.show(-Infinity, Infinity); this.whole(); }
-  private whole(): void {
+  zoomOut(): void {
     this.from = this.timeline.timeOf(0);
     this.to = this.timeline.timeOf(this.timeline.run.ticks - 1);
     this.fill();

@@ -11,3 +11,7 @@ declare module "licences" {
   const text: string;
   export default text;
 }
+declare module "*.ngc" {
+  const program: string;
+  export default program;
+}

@@ -1,4 +1,5 @@
 // The playground: runs a program with settings on the firmware's core; provides `window.cusp.run`.
+import firstProgram from "../first.ngc";
 import type { Settings } from "./core/core";
 import { drawProgram, hasCore, runProgram, settingTable } from "./core/run_program";
 import { button, duration, element } from "./elements";
@@ -8,28 +9,6 @@ import { ProfileCharts, type Limits } from "./playground/profile_charts";
 import { ProgramPanel } from "./playground/program_panel";
 import { resultPanel } from "./playground/result_panel";
 import { SettingsPanel } from "./playground/settings_panel";
-
-const START = `(a square with round corners, a circle, and a corner that is cut)
-G21 G90 G17 G64 P0.02
-G0 Z5
-G0 X10 Y0
-G1 Z-1 F600
-G1 X40 F3000
-G3 X50 Y10 I0 J10
-G1 Y40
-G3 X40 Y50 I-10 J0
-G1 X10
-G3 X0 Y40 I0 J-10
-G1 Y10
-G3 X10 Y0 I10 J0
-G0 Z5
-G0 X40 Y25
-G1 Z-1 F600
-G2 X40 Y25 I-15 J0 F4000
-G0 Z5
-G1 X0 Y0 F6000
-M30
-`;
 
 const parts = { program: place("program", "Program"), stage: place("stage", "Path"), facts: place("facts", "Result and settings"), charts: place("charts", "Charts") };
 const name = element("h1", {}, "cusp playground");
@@ -140,7 +119,7 @@ async function build(): Promise<void> {
   parts.facts.tabIndex = 0;
   const settings = new SettingsPanel(await settingTable(), () => void run(editor));
   Object.assign(editor, {
-    program: new ProgramPanel(parts.program, START), settings, path: new PathView(parts.stage, isDark),
+    program: new ProgramPanel(parts.program, firstProgram), settings, path: new PathView(parts.stage, isDark),
     charts: new ProfileCharts(parts.charts, isDark), run: head.run, stop: head.stop,
   });
   parts.facts.append(result, settings.host);

@@ -46,7 +46,7 @@ export class Scene {
   constructor(private readonly canvas: HTMLCanvasElement, private readonly timeline: Timeline) {
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
-    const { run, facts } = timeline;
+    const { run } = timeline;
     const box = this.box();
     this.centre = box.getCenter(new THREE.Vector3()).toArray();
     this.extent = Math.max(box.getSize(new THREE.Vector3()).length(), 1e-3);
@@ -72,7 +72,8 @@ export class Scene {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.zoomToCursor = true;
     this.controls.addEventListener("change", () => this.moved());
-    this.showBounds(facts.verification?.floor_tolerance ?? 0);
+    const bounds = this.leftBounds();
+    if (bounds) this.part?.showLeft(bounds);
     timeline.onChange(() => this.ask());
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement!);
     this.resize();
@@ -88,12 +89,6 @@ export class Scene {
       box.expandByPoint(new THREE.Vector3(x0, y0, low)).expandByPoint(new THREE.Vector3(x0 + nx * pitch, y0 + ny * pitch, high));
     }
     return box;
-  }
-
-  private showBounds(gouge: number): void {
-    const bounds = this.leftBounds();
-    if (!bounds) return;
-    this.part?.showLeft({ gouge: gouge > 0 ? gouge : bounds.scallop, scallop: bounds.scallop });
   }
 
   // mm: limits of gouge and stock left.
