@@ -37,6 +37,8 @@ FAULTS = {
                           "    flag_clear().write(raised & kAllFlags);\n",
                           "    const std::uint32_t raised = flags().read();\n"),
     "halves swapped": (PLAYER, "finish_half(first_over ? 1 : 0)", "finish_half(first_over ? 0 : 1)"),
+    "half that plays by the counter": (PLAYER, "finish_half(first_over ? 1 : 0)",
+                                       "finish_half(stream().ndtr.read() > kPulseTicksPerFrame ? 0 : 1)"),
     "gate shorter than a frame": (PLAYER, "kGateMargin = 20;", "kGateMargin = -200;"),
     "gate two frames long": (PLAYER, "kGateMargin = 20;", "kGateMargin = 1000;"),
     "pace off by one": (PLAYER, "kServoTicksPerSecond) - 1);", "kServoTicksPerSecond));"),
