@@ -140,6 +140,7 @@ Plan plan_job(Job& job, const MachineRates& rates, std::FILE* said)
                 job, fmt::format("operation {}, {}", operation.number, operation.strategy),
                 result.path);
             add_rounding(job, result);
+            result.operation = operation.number;
             operations.push_back(std::move(result));
         }
     }
@@ -216,6 +217,7 @@ Plan plan_program(Job& job, const std::string& title, const PlanOutput& output)
         throw InputError(fmt::format("{}: there is nothing to cut: {}", job.file,
                                      fmt::join(plan.warnings, "; ")));
     }
+    refuse_contacts(job, plan);
     if (const auto warning = stock_warning(job, plan)) {
         plan.warnings.push_back(*warning);
     }
