@@ -428,16 +428,13 @@ Verification verify(const Job& job,
     VerifyFigures& figures = result.figures;
     figures.moves = result.program.counts;
 
-    double least_radius = job.tools.front().radius;
-    for (const Tool& tool : job.tools) {
-        least_radius = std::min(least_radius, tool.radius);
-    }
+    const double least = least_radius(job.tools);
     constexpr double kSpacingsPerRadius = 20;
     const double spacing =
-        settings.spacing.value_or(std::min(kDefaultSpacing, least_radius / kSpacingsPerRadius));
+        settings.spacing.value_or(std::min(kDefaultSpacing, least / kSpacingsPerRadius));
     std::vector<ToolPositions> runs =
         positions_of(job, result.program, program_file, spacing, figures);
-    result.grid = make_grid(job, scene, least_radius, settings.pitch);
+    result.grid = make_grid(job, scene, least, settings.pitch);
 
     MachinedStock stock{result.grid, job.stock_top};
     const std::vector<Tool> tools = finishing_tools(job, runs);
