@@ -10,6 +10,7 @@
 
 #include "host_tools/cancellation/cancellation.hpp"
 #include "host_tools/cli/post_fit.hpp"
+#include "host_tools/cli/rest_of_job.hpp"
 #include "host_tools/cli/share_progress.hpp"
 #include "host_tools/cli/simulated_times.hpp"
 #include "host_tools/cli/stock_warning.hpp"
@@ -107,7 +108,7 @@ void put_in_order(const Job& job,
     }
 }
 
-Plan plan_job(Job& job, const MachineRates& rates, std::FILE* said)
+Plan plan_job(Job& job, const MachineRates& rates, RestOfJob& rest, std::FILE* said)
 {
     constexpr double kQuiet = 0.5;  // s
     Plan plan;
@@ -125,10 +126,11 @@ Plan plan_job(Job& job, const MachineRates& rates, std::FILE* said)
             (*progress)(share);
         };
         std::vector<PlannedOperation> results = planned(job, operation, plan);
+        rest.keep(job, operation, results);
         job.report_progress(1.0);
         const double seconds = seconds_since(begin) / static_cast<double>(results.size());
         for (PlannedOperation& result : results) {
-            if (result.path.moves.empty()) {
+            if (result.path.moves.empty() && !result.stats.rest) {
                 const auto& why = result.stats.warnings;
                 plan.warnings.insert(plan.warnings.end(), why.begin(), why.end());
                 continue;
@@ -211,7 +213,8 @@ Plan plan_program(Job& job, const std::string& title, const PlanOutput& output)
     rates.exact_stop = !(output.blend > 0);
     check_post(job, output.blend);
     leave_room_for_rounding(job);
-    Plan plan = plan_job(job, rates, output.said);
+    RestOfJob rest{job};
+    Plan plan = plan_job(job, rates, rest, output.said);
     if (plan.operations.empty()) {
         throw InputError(fmt::format("{}: there is nothing to cut: {}", job.file,
                                      fmt::join(plan.warnings, "; ")));

@@ -47,6 +47,12 @@ Json operation_stats(const PlannedOperation& operation, const PathMeasure& measu
         const bool whole = value == std::floor(value) && std::abs(value) < 1e15;
         out[name] = whole ? Json(static_cast<std::int64_t>(value)) : Json(value);
     }
+    if (stats.rest) {
+        out["rest_machining"] = {{"programs", stats.rest->programs},
+                                 {"removed_mm", stats.rest->removed_mm},
+                                 {"kept_mm", stats.rest->kept_mm},
+                                 {"tolerance_mm", stats.rest->tolerance_mm}};
+    }
     if (!stats.warnings.empty()) {
         out["warnings"] = stats.warnings;
     }

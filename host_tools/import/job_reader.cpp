@@ -410,6 +410,7 @@ void JobReader::read_operation(const toml::table& entry, std::size_t index)
     }
     operation.number = static_cast<int>(index);
     operation.strategy = *strategy;
+    operation.after = read_programs(table, "after", folder_);
     read_tool_choice(table, operation);
     read_common(table, operation);
     read_depths(table, operation);
@@ -441,7 +442,7 @@ Job JobReader::read(const std::string& text)
     read_units(top);
     tools_.emplace(top, file_, folder_, unit_);
     read_cutting(top);
-    const StockTable stock{top.table("stock"), file_, unit_, job_};
+    const StockTable stock{top.table("stock"), file_, folder_, unit_, job_};
     read_fixtures(top);
     job_.post = read_post(top.text("post").value_or("cusp"), folder_);
     job_.group_by_tool = top.flag("group_by_tool").value_or(true);

@@ -66,6 +66,7 @@ constexpr OperationKey kOperationKeys[]{
     {"diameter", "drill"},
     {"peck", "drill"},
     {"overhang", "face"},
+    {"after", ""},
     {"width", "chamfer"}};
 
 // Whether the list, with commas between them, holds the word.
@@ -102,7 +103,7 @@ std::vector<std::string> cutting_keys() { return {"feed", "plunge_feed", "spindl
 
 std::vector<std::string> stock_keys()
 {
-    return {"top", "clearance", "bottom", "x", "y", "margin", "margin_top", "margin_bottom"};
+    return {"top", "clearance", "bottom", "x", "y", "margin", "margin_top", "margin_bottom", "program"};
 }
 
 std::vector<std::string> placing_keys()

@@ -2,6 +2,7 @@
 #include "host_tools/import/stock_table.hpp"
 
 #include "host_tools/import/known_keys.hpp"
+#include "host_tools/import/placing_reader.hpp"
 #include "host_tools/import/stock_top.hpp"
 
 #include "fmt/format.h"
@@ -17,8 +18,27 @@ const toml::table kNoStock;
 
 }  // namespace
 
+std::vector<std::string> read_programs(JobTable& table,
+                                       const char* key,
+                                       const std::filesystem::path& folder)
+{
+    std::vector<std::string> files;
+    const auto names = table.texts(key);
+    for (const std::string& name : names.value_or(std::vector<std::string>{})) {
+        files.push_back(path_in(folder, name));
+        if (!std::filesystem::is_regular_file(files.back())) {
+            table.refuse(key, fmt::format("names {}, which is no file", files.back()));
+        }
+    }
+    if (names && names->empty()) {
+        table.refuse(key, "names no program");
+    }
+    return files;
+}
+
 StockTable::StockTable(const toml::table* table,
                        const std::string& file,
+                       const std::filesystem::path& folder,
                        double millimetres,
                        Job& job)
     : keys_{table == nullptr ? kNoStock : *table, file, "stock", stock_keys()}, unit_{millimetres}
@@ -31,6 +51,7 @@ StockTable::StockTable(const toml::table* table,
     read_margin();
     margin_top_ = keys_.length("margin_top", kNotNegative, unit_);
     margin_bottom_ = keys_.length("margin_bottom", kNotNegative, unit_);
+    job.stock_programs = read_programs(keys_, "program", folder);
     const auto refuse_both = [&](bool both, const char* margin, const char* place) {
         if (both) {
             keys_.refuse(margin, fmt::format("is given beside {}: one of them", place));

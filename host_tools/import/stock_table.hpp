@@ -2,13 +2,23 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "host_tools/import/job_table.hpp"
 #include "host_tools/job/job.hpp"
 
 namespace cusp::import {
+
+// The programs that a key names, of programs that have been cut before; none where it is absent.
+// Throws InputError where one is no file.
+//
+// folder  that they are relative to
+std::vector<std::string> read_programs(JobTable& table,
+                                       const char* key,
+                                       const std::filesystem::path& folder);
 
 class StockTable {
 public:
@@ -16,11 +26,13 @@ public:
     //
     // table        [stock]; null: the job has none
     // file         of the job, for messages
+    // folder       that programs are relative to
     // millimetres  of one unit of the job
     //
     // Errors, here and below: InputError with line, key, value and limit.
     StockTable(const toml::table* table,
                const std::string& file,
+               const std::filesystem::path& folder,
                double millimetres,
                job::Job& job);
 

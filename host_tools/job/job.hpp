@@ -95,6 +95,8 @@ struct Operation {
     std::optional<double> max_engagement;
     // parallel_planes; most between passes of pocket, face and v_carve
     std::optional<double> step_over;
+    // Programs that have been cut before, beside those of the stock: only what they leave is cut.
+    std::vector<std::string> after;
     // pocket, profile, drill, face, engrave, v_carve, chamfer; a pocket's floor and boundary are set too
     std::optional<Prismatic> prismatic;
 };
@@ -137,6 +139,8 @@ struct Job {
     std::optional<double> stock_bottom;
     std::optional<std::array<double, 2>> stock_x;
     std::optional<std::array<double, 2>> stock_y;
+    // Programs that have been cut before: the stock is what they leave.
+    std::vector<std::string> stock_programs;
     std::vector<Fixture> fixtures;
     bool group_by_tool{true};
     std::vector<Operation> operations;

@@ -478,7 +478,9 @@ std::vector<std::size_t> write_program(std::ostream& out,
     writer.begin(operations);
     for (const PlannedOperation& operation : operations) {
         begins.push_back(static_cast<std::size_t>(out.tellp() - start));
-        writer.operation(operation.path);
+        if (!operation.path.moves.empty()) {
+            writer.operation(operation.path);
+        }
     }
     writer.end();
     return begins;

@@ -27,7 +27,7 @@ struct ProgramForm {
 // leave the planned one by more than 1.5 of the last decimal are halved.
 //
 // The form of the program: header comment; modes; `G0 Z` alone; the operations, with changes of
-// tool between them; retract; end. post.hpp has the lines.
+// tool between them (none for one without moves); retract; end. post.hpp has the lines.
 //
 // Precondition: without NURBS in the post there are none in the operations.
 //

@@ -71,6 +71,14 @@ struct Toolpath {
     std::optional<DrillCycle> cycle{};
 };
 
+// What rest machining left of an operation (rest_machining).
+struct RestFigures {
+    std::vector<std::string> programs;  // that were cut before
+    double removed_mm{};                // of the feed moves as planned: left out
+    double kept_mm{};
+    double tolerance_mm{};  // stock thinner than this stays
+};
+
 // Statistics of every planner; planners add their own counts.
 struct OperationStats {
     std::string strategy;
@@ -86,6 +94,7 @@ struct OperationStats {
     // loops, isocurves, layers, cells, backtracks...
     std::vector<std::pair<std::string, double>> counts;
     std::vector<std::string> warnings;  // rest material, slots: for people
+    std::optional<RestFigures> rest{};
 };
 
 // A planned operation. Where nothing is to be cut it has no moves, and stats.warnings say why.

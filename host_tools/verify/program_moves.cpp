@@ -12,6 +12,7 @@
 #include "host_tools/dialect/refusal.hpp"
 #include "host_tools/files/files.hpp"
 #include "host_tools/input_error/input_error.hpp"
+#include "host_tools/verify/tool_comment.hpp"
 
 #include "fmt/format.h"
 
@@ -19,6 +20,7 @@ namespace cusp::verify {
 
 using dialect::refusal;
 using toolpath::MoveCounts;
+using toolpath::Tool;
 
 namespace {
 
@@ -125,6 +127,7 @@ public:
     {
         ++number_;
         commented_tool_ = tool_in_comment(line).value_or(commented_tool_);
+        take_tool(line);
         const bool was_curve = is_curve(interpreter_.modal().motion);
         const Status status = interpreter_.execute(line, number_);
         if (!status) {
@@ -159,6 +162,19 @@ public:
     }
 
 private:
+    void take_tool(std::string_view line)
+    {
+        const std::optional<Tool> tool = tool_of_comment(line);
+        if (!tool) {
+            return;
+        }
+        const auto [known, is_new] = program_.tools.emplace(tool->number, *tool);
+        if (!is_new && !is_same_cutter(known->second, *tool)) {
+            throw InputError(fmt::format("{}:{}: tool {} is another one than in a comment before",
+                                         file_, number_, tool->number));
+        }
+    }
+
     // The interpreter's moves are the spindle's: with a tool length in force the tip is that much lower.
     path::Move of_the_tip(path::Move move) const
     {

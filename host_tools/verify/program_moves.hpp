@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -17,13 +18,15 @@ struct ProgramMove {
 
 struct Program {
     std::vector<ProgramMove> moves;
+    std::map<int, toolpath::Tool> tools;  // that comments describe: tool_comment.hpp
     toolpath::MoveCounts counts;  // a NURBS of many pieces counts once
 };
 
 // Machine coordinates are program coordinates: offsets are those of a fresh controller, with the
 // tool at x = y = 0 and at `start_z`.
 //
-// Errors: InputError with the line and the controller's error.
+// Errors: InputError with the line and the controller's error, or where comments describe one tool
+// in two ways.
 Program read_program(const std::string& file, double start_z);
 
 // Points of a move, mm, at most `spacing` apart; with its end, without its start.

@@ -8,6 +8,7 @@
 #include "host_tools/job/fixture_clearance.hpp"
 #include "host_tools/part_model/part_model.hpp"
 #include "host_tools/verify/cut_regions.hpp"
+#include "host_tools/verify/earlier_programs.hpp"
 #include "host_tools/verify/floor_judgement.hpp"
 #include "host_tools/verify/level_judgement.hpp"
 #include "host_tools/verify/wall_distance.hpp"
@@ -353,7 +354,7 @@ void cut_stock(const std::vector<ToolPositions>& runs,
 void sum_engagement(const Job& job,
                     const std::vector<ToolPositions>& runs,
                     std::optional<double> asked,
-                    const MachinedStock& stock,
+                    double removed_volume,
                     Verification& result)
 {
     EngagementFigures& figures = result.figures.engagement.emplace();
@@ -361,7 +362,7 @@ void sum_engagement(const Job& job,
         add_engagement(runs[k], engagement_limit(job, runs[k].tool, asked), result.grid.pitch,
                        result.engagement[k], figures);
     }
-    figures.removed_volume = stock.removed_volume();
+    figures.removed_volume = removed_volume;
     figures.seconds = programmed_seconds(result.program);
 }
 
@@ -441,9 +442,11 @@ Verification verify(const Job& job,
 
     MachinedStock stock{result.grid, job.stock_top};
     const std::vector<Tool> tools = finishing_tools(job, runs);
+    const double removed_before = cut_earlier_programs(job, spacing, stock);
     cut_stock(runs, spacing, settings.engagement, progress, stock, result);
     if (settings.engagement) {
-        sum_engagement(job, runs, settings.max_engagement, stock, result);
+        sum_engagement(job, runs, settings.max_engagement, stock.removed_volume() - removed_before,
+                       result);
     }
     progress(1.0);
 

@@ -109,7 +109,9 @@ struct Verification {
 // left: that scallop and the floor tolerance, everywhere. Rapid moves: no cut. Slivers beside
 // cliffs may be high along the normal, and yet thin.
 //
-// Errors: InputError if the program cannot be read or names a tool that the job lacks.
+// The programs of the job's stock, and those its operations come after, are cut first.
+//
+// Errors: InputError if a program cannot be read or names a tool that the job lacks.
 Verification verify(const job::Job& job,
                     const std::string& program_file,
                     const VerifySettings& settings,

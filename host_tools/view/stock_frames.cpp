@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "host_tools/verify/earlier_programs.hpp"
+
 namespace cusp::view {
 
 using job::Job;
 using toolpath::Tool;
+using verify::cut_earlier_programs;
+using verify::earlier_positions;
 using verify::HeightGrid;
 using verify::MachinedStock;
 using verify::ToolPositions;
@@ -39,9 +43,14 @@ std::vector<std::uint16_t> steps_of(const std::vector<double>& heights, double l
     return out;
 }
 
-double lowest_tip(const CuttingPath& path, double top)
+double lowest_tip(const CuttingPath& path, const Job& job, double top)
 {
     double low = top;
+    for (const ToolPositions& run : earlier_positions(job, kUnbounded)) {
+        for (const Vec3d tip : run.tips) {
+            low = std::min(low, tip.z);
+        }
+    }
     for (const CuttingPath::Run& run : path.runs()) {
         for (const Vec3d tip : run.tips) {
             low = std::min(low, tip.z);
@@ -107,7 +116,7 @@ Bytes framed(const HeightGrid& grid,
 Bytes stock_frames(const CuttingPath& path, const Job& job, const HeightGrid& grid)
 {
     const double high = job.stock_top;
-    const double low = lowest_tip(path, high);
+    const double low = lowest_tip(path, job, high);
     std::size_t positions = 0;
     for (const CuttingPath::Run& run : path.runs()) {
         positions += run.tips.size();
@@ -128,6 +137,10 @@ Bytes stock_frames(const CuttingPath& path, const Job& job, const HeightGrid& gr
         last = std::move(now);
         ticks.push_back(static_cast<double>(tick));
     };
+    cut_earlier_programs(job, grid.pitch, stock);
+    if (stock.removed_volume() > 0) {
+        keep_frame(0);
+    }
     std::size_t left = each;
     std::uint64_t tick = 0;
     for (const CuttingPath::Run& run : path.runs()) {

@@ -1,0 +1,100 @@
+// The stock is what earlier programs and earlier operations leave.
+#include "host_tools/cli/rest_of_job.hpp"
+
+#include <algorithm>
+
+#include "fmt/format.h"
+#include "fmt/ranges.h"
+
+namespace cusp::cli {
+
+using job::Job;
+using job::Operation;
+using job::ToleranceSide;
+using rest_machining::EndProfile;
+using rest_machining::keep_rest;
+using rest_machining::rest_tolerance;
+using rest_machining::RestTolerance;
+using rest_machining::SweptStock;
+using rest_machining::take_away;
+using toolpath::PlannedOperation;
+using verify::earlier_cuts;
+using verify::earlier_programs;
+using verify::EarlierCut;
+
+namespace {
+
+std::vector<std::string> programs_before(const Job& job, const Operation& operation)
+{
+    std::vector<std::string> files = job.stock_programs;
+    for (const std::string& file : operation.after) {
+        if (std::find(files.begin(), files.end(), file) == files.end()) {
+            files.push_back(file);
+        }
+    }
+    return files;
+}
+
+void cut_from(const std::vector<EarlierCut>& cuts, SweptStock& stock)
+{
+    constexpr double kChord = 1e-3;  // mm
+    for (const EarlierCut& cut : cuts) {
+        stock.add(EndProfile{cut.tool, cut.is_chord ? kChord : 0.0}, cut.from, cut.to);
+    }
+}
+
+}  // namespace
+
+RestOfJob::RestOfJob(Job& job)
+{
+    for (const std::string& file : earlier_programs(job)) {
+        cuts_.emplace(file, earlier_cuts(job, file));
+    }
+    for (Operation& operation : job.operations) {
+        if (programs_before(job, operation).empty()) {
+            continue;
+        }
+        const RestTolerance found = rest_tolerance(operation);
+        tolerances_.insert_or_assign(operation.number, found);
+        const double tolerance = found.surface;
+        const double least =
+            operation.tolerance_side == ToleranceSide::kOutside ? operation.floor_tolerance : 0;
+        if (operation.scallop && *operation.scallop - tolerance > least) {
+            *operation.scallop -= tolerance;
+        }
+    }
+}
+
+void RestOfJob::keep(const Job& job,
+                     const Operation& operation,
+                     std::vector<PlannedOperation>& results)
+{
+    if (cuts_.empty()) {
+        return;
+    }
+    const std::vector<std::string> programs = programs_before(job, operation);
+    for (PlannedOperation& result : results) {
+        if (!programs.empty() && !result.path.moves.empty()) {
+            SweptStock stock{job.stock_top};
+            for (const std::string& file : programs) {
+                cut_from(cuts_.at(file), stock);
+            }
+            for (const toolpath::Toolpath& path : paths_) {
+                take_away(path, stock);
+            }
+            keep_rest(stock, job, {programs, tolerances_.at(operation.number)}, result);
+        }
+        paths_.push_back(result.path);
+    }
+    const bool nothing = std::all_of(results.begin(), results.end(), [](const auto& result) {
+        return result.stats.rest && result.path.moves.empty();
+    });
+    if (nothing && !results.empty()) {
+        results.front().stats.warnings.push_back(fmt::format(
+            "operation {}, {}: nothing thicker than {:g} mm stands after {}: nothing is cut",
+            operation.number, operation.strategy, tolerances_.at(operation.number).surface,
+            fmt::join(programs, ", ")));
+    }
+}
+
+}  // namespace cusp::cli

@@ -1,0 +1,45 @@
+// Rest machining: of a planned path only what still meets stock, after earlier programs.
+//
+//     SweptStock stock{job.stock_top};
+//     take_away(earlier_path, stock);                       // or stock.add() for each move
+//     keep_rest(stock, job, {{"a.ngc"}, rest_tolerance(operation)}, planned);
+//     planned.stats.rest->removed_mm;                       // of feed moves; the rest is kept_mm
+//
+// Independent of strategies: a stretch whose tool, reduced by the tolerance all round, provably
+// meets no stock is left out. What is kept begins and ends a quarter of the tool's diameter before
+// and after stock, in air.
+#pragma once
+
+#include "host_tools/job/job.hpp"
+#include "host_tools/rest_machining/swept_stock.hpp"
+#include "host_tools/toolpath/toolpath.hpp"
+
+namespace cusp::rest_machining {
+
+// Stock that is thinner is not cut again, mm.
+struct RestTolerance {
+    double surface;  // square to the surface; above 0.002
+    double wall;     // across the upright side of a flat end; at least `surface`
+};
+
+// Surface: the smaller of the operation's tolerances, at least 0.003; with a scallop no more than
+// half of what that leaves over floor_tolerance. Wall: of a 2.5-D operation its plan_tolerance.
+RestTolerance rest_tolerance(const job::Operation& operation);
+
+// Takes what the path's feed moves sweep out of the stock. Arcs and curves as chords within
+// 0.001 mm, by a tool smaller by as much.
+void take_away(const toolpath::Toolpath& path, SweptStock& stock);
+
+struct RestRequest {
+    std::vector<std::string> programs;  // that left the stock, for comments and figures
+    RestTolerance tolerance;
+};
+
+// Leaves out of the operation what cuts nothing of the stock, and sets stats.rest. Where nothing meets stock the operation has no moves. The figures of an operation that is changed:
+// retracts is counted anew, scallop_bound_mm is more by the tolerance.
+void keep_rest(const SweptStock& stock,
+               const job::Job& job,
+               const RestRequest& request,
+               toolpath::PlannedOperation& operation);
+
+}  // namespace cusp::rest_machining

@@ -1,0 +1,56 @@
+// From the end of one kept stretch to the start of the next: along a link in proven air, or over
+// the clearance height and down where the ground is open.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "host_tools/job/job.hpp"
+#include "host_tools/rest_machining/swept_stock.hpp"
+#include "host_tools/toolpath/toolpath_writer.hpp"
+
+namespace cusp::rest_machining {
+
+class RestTransitions {
+public:
+    // stock, job, path  outlive this; of the path: tool and feeds
+    // moves             that are written to
+    RestTransitions(const SweptStock& stock,
+                    const job::Job& job,
+                    const toolpath::Toolpath& path,
+                    std::vector<toolpath::ToolMove>& moves);
+
+    // Writes what leads to a place that the tool may reach through air.
+    //
+    // at_rest_height  the path came down to it by a rapid
+    void go_to(Vec3d place, bool at_rest_height);
+
+    // Writes feed moves and takes what they cut out of the stock of later descents.
+    void cut(const std::vector<toolpath::ToolMove>& moves);
+
+    void retract() { writer_.retract(); }
+    int retracts() const { return writer_.retracts(); }
+
+    // s that leaving one place and coming to another takes over the clearance height
+    double seconds_over(Vec3d from, Vec3d to) const;
+
+private:
+    struct Entry {
+        Vec2d place;
+        double rapid_z;  // the rapid ends here
+    };
+
+    const SweptStock& stock_;
+    const job::Job& job_;
+    const toolpath::Toolpath& path_;
+    toolpath::ToolpathWriter writer_;
+    SweptStock cut_;  // what was cut so far is taken from it
+
+    bool is_open(Vec2d place, double z) const;
+    bool is_link_clear(Vec3d from, Vec3d to) const;
+    bool keeps_off_fixtures(Vec2d place, double z) const;
+    Entry entry_to(Vec3d place, bool at_rest_height) const;
+    std::optional<Entry> entry_beside(Vec3d place) const;
+};
+
+}  // namespace cusp::rest_machining

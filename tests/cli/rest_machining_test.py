@@ -1,0 +1,212 @@
+"""Rest machining after earlier programs, judged by a raster cutter of its own.
+
+usage: rest_machining_test.py CUSP [--count POCKETS] [--first SEED]
+
+Each random pocket is cut by a 10 mm tool, then by a 3 mm tool that knows what the first left. The raster finds what is
+left with the second in full and with the second as planned for the rest, rapids in metal, and the cut in air.
+"""
+import argparse
+import json
+import math
+import pathlib
+import random
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy
+
+ARGUMENTS = argparse.ArgumentParser()
+ARGUMENTS.add_argument("cusp")
+ARGUMENTS.add_argument("--count", type=int, default=4)
+ARGUMENTS.add_argument("--first", type=int, default=1)
+ARGUMENTS = ARGUMENTS.parse_args()
+CUSP = str(pathlib.Path(ARGUMENTS.cusp).resolve())
+PITCH = 0.2    # mm, of the raster
+STEP = 0.1     # mm, between places of a tool
+WALL = 0.03    # mm: plan_tolerance, and what rounding and places leave
+FLOOR = 0.004  # mm
+AIR = 0.15     # of the cut in air of the whole operation
+WORD = re.compile(r"([A-Z])([-+.\d]+)")
+
+JOB = """
+[[tool]]
+number = 1
+shape = "flat"
+diameter = 10
+[[tool]]
+number = 2
+shape = "flat"
+diameter = 3
+[cutting]
+feed = 1000
+plunge_feed = 300
+[stock]
+top = 0
+{stock}
+[[operation]]
+strategy = "pocket"
+boundary = "part.dxf#pocket"
+tool = {tool}
+depth = 5
+max_depth = 2.5
+output = "{output}"
+{more}
+"""
+
+
+class Raster:
+    """Heights of the stock; cuts with flat tools."""
+
+    def __init__(self, width, height):
+        self.x = numpy.arange(-8, width + 8, PITCH)
+        self.y = numpy.arange(-8, height + 8, PITCH) + PITCH / 3
+        self.z = numpy.zeros((len(self.x), len(self.y)))
+
+    def under(self, x, y, radius):
+        i0, i1 = numpy.searchsorted(self.x, [x - radius, x + radius])
+        j0, j1 = numpy.searchsorted(self.y, [y - radius, y + radius])
+        inside = (self.x[i0:i1, None] - x) ** 2 + (self.y[None, j0:j1] - y) ** 2 <= radius ** 2
+        return self.z[i0:i1, j0:j1], inside
+
+    def depth(self, place, radius):
+        z, inside = self.under(place[0], place[1], radius)
+        return float(numpy.max(z[inside] - place[2], initial=0))
+
+    def cut(self, place, radius):
+        """Returns how deep."""
+        z, inside = self.under(place[0], place[1], radius)
+        deepest = float(numpy.max(z[inside] - place[2], initial=0))
+        if deepest > 0:
+            z[inside] = numpy.minimum(z[inside], place[2])
+        return max(0.0, deepest)
+
+
+def places_of(text):
+    """Of each move: whether it is rapid, and its places."""
+    at, mode = numpy.zeros(3), "0"
+    for line in text.splitlines():
+        words = dict(WORD.findall(re.sub(r"\(.*?\)", "", line)))
+        if words.get("G", mode) in ("0", "1", "2", "3"):
+            mode = words.get("G", mode)
+        elif "X" not in words:
+            continue
+        end = numpy.array([float(words.get(axis, old)) for axis, old in zip("XYZ", at)])
+        if (end == at).all() and "I" not in words and "J" not in words:
+            continue
+        if mode in ("0", "1"):
+            count = max(1, math.ceil(math.dist(end, at) / STEP))
+            yield mode == "0", [at + (end - at) * k / count for k in range(1, count + 1)]
+        else:
+            centre = at[:2] + [float(words.get("I", 0)), float(words.get("J", 0))]
+            begin, finish = at[:2] - centre, end[:2] - centre
+            turn = math.atan2(finish[1], finish[0]) - math.atan2(begin[1], begin[0])
+            turn = turn % (2 * math.pi) or 2 * math.pi
+            turn = turn if mode == "3" else turn - 2 * math.pi or -2 * math.pi
+            radius = math.hypot(*begin)
+            count = max(1, math.ceil(abs(turn) * radius / STEP))
+            start = math.atan2(begin[1], begin[0])
+            yield False, [numpy.array([centre[0] + radius * math.cos(start + turn * k / count),
+                                       centre[1] + radius * math.sin(start + turn * k / count),
+                                       at[2] + (end[2] - at[2]) * k / count]) for k in range(1, count + 1)]
+        at = end
+
+
+class Cut:
+    """A program cut into a raster."""
+
+    def __init__(self, raster, text, radius, less=0.0):
+        self.worst_rapid, self.feed, self.air = 0.0, 0, 0
+        for rapid, places in places_of(text):
+            for place in places:
+                if rapid:
+                    self.worst_rapid = max(self.worst_rapid, raster.depth(place, radius - WALL) - FLOOR)
+                else:
+                    self.feed += 1
+                    self.air += raster.depth(place, radius) <= FLOOR
+                    raster.cut(place, radius - less)
+
+
+def loop(points):
+    corners = "".join(f"10\n{x:.4f}\n20\n{y:.4f}\n" for x, y in points)
+    return f"0\nLWPOLYLINE\n8\npocket\n90\n{len(points)}\n70\n1\n{corners}"
+
+
+def random_pocket(seed):
+    """Loops of a pocket with slanted sides, a notch or a neck, and sometimes an island."""
+    draw = random.Random(seed)
+    width, height = draw.uniform(30, 44), draw.uniform(24, 32)
+    skew = draw.uniform(-3, 3)
+    notch = draw.uniform(4, height - 14)
+    left = draw.uniform(0.35, 0.5) * width
+    right = left + draw.uniform(2, 6)
+    outer = [(0, 0), (width, skew), (width + skew, height), (right, height), (right, height - notch), (left, height - notch),
+             (left, height), (0, height)]
+    loops = [loop(outer)]
+    if draw.random() < 0.5:
+        x, y = draw.uniform(right + 11, width - 4), draw.uniform(11, 12)
+        loops.append(f"0\nCIRCLE\n8\npocket\n10\n{x:.4f}\n20\n{y:.4f}\n40\n{draw.uniform(1, 3):.4f}\n")
+    return width + abs(skew), height + abs(skew), "".join(loops), draw.choice(["lines", "arcs"])
+
+
+class RestMachining(unittest.TestCase):
+    def setUp(self):
+        self.scratch = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.scratch.name)
+
+    def tearDown(self):
+        self.scratch.cleanup()
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text)
+
+    def cusp(self, status, *arguments):
+        result = subprocess.run([CUSP, *arguments], cwd=self.folder, text=True, timeout=600, stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT)
+        self.assertEqual(status, result.returncode, f"{arguments}: {result.stdout}")
+        return result.stdout
+
+    def job(self, name, tool, output="lines", stock="", more=""):
+        self.write(name, JOB.format(tool=tool, output=output, stock=stock, more=more))
+
+    def plan(self, job, program):
+        said = self.cusp(0, "plan", job, "-o", program, "--stats", program + ".json")
+        return (self.folder / program).read_text(), json.loads((self.folder / (program + ".json")).read_text()), said
+
+    def drawing(self, loops):
+        self.write("part.dxf", f"0\nSECTION\n2\nENTITIES\n{loops}0\nENDSEC\n0\nEOF\n")
+
+    def pockets(self):
+        for seed in range(ARGUMENTS.first, ARGUMENTS.first + ARGUMENTS.count):
+            width, height, loops, output = random_pocket(seed)
+            self.drawing(loops)
+            self.job("first.toml", 1, output)
+            self.job("full.toml", 2, output)
+            self.job("rest.toml", 2, output, 'program = ["first.ngc"]')
+            yield seed, [Raster(width, height) for _ in range(3)]
+
+    def test_leaves_no_more_than_the_whole_operation(self):
+        for seed, (whole, rest, repeated) in self.pockets():
+            first, _, _ = self.plan("first.toml", "first.ngc")
+            full, full_stats, _ = self.plan("full.toml", "full.ngc")
+            kept, stats, _ = self.plan("rest.toml", "rest.ngc")
+            Cut(whole, first, 5, WALL)
+            Cut(whole, full, 1.5, WALL)
+            Cut(rest, first, 5)
+            Cut(repeated, first, 5)
+            air = Cut(repeated, full, 1.5).air
+            cut = Cut(rest, kept, 1.5)
+            worst = float(numpy.max(rest.z - whole.z))
+            print(f"seed {seed}: left {worst:.4f}, rapid {cut.worst_rapid:.4f}, air {cut.air * STEP:.0f} of {air * STEP:.0f} mm, metal {(cut.feed - cut.air) * STEP:.0f} mm, "
+                  f"{full_stats['estimated_s']:.0f} s in full, {stats['estimated_s']:.0f} s")
+            self.assertLessEqual(worst, FLOOR, f"seed {seed}")
+            self.assertLessEqual(cut.worst_rapid, 0, f"seed {seed}")
+            self.assertLessEqual(cut.air, AIR * air, f"seed {seed}")
+            self.assertLess(stats["estimated_s"], 0.3 * full_stats["estimated_s"], f"seed {seed}")
+            self.assertIn("all bounds hold", self.cusp(0, "verify", "rest.toml", "rest.ngc", "--grid", "0.3"))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
