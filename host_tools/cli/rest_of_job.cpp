@@ -37,7 +37,7 @@ std::vector<std::string> programs_before(const Job& job, const Operation& operat
 
 void cut_from(const std::vector<EarlierCut>& cuts, SweptStock& stock)
 {
-    constexpr double kChord = 1e-3;  // mm
+    constexpr double kChord = 2e-4;  // mm
     for (const EarlierCut& cut : cuts) {
         stock.add(EndProfile{cut.tool, cut.is_chord ? kChord : 0.0}, cut.from, cut.to);
     }
@@ -59,7 +59,7 @@ RestOfJob::RestOfJob(Job& job)
         const double tolerance = found.surface;
         const double least =
             operation.tolerance_side == ToleranceSide::kOutside ? operation.floor_tolerance : 0;
-        if (operation.scallop && *operation.scallop - tolerance > least) {
+        if (operation.scallop && !operation.rest_tolerance && *operation.scallop - tolerance > least) {
             *operation.scallop -= tolerance;
         }
     }

@@ -15,7 +15,7 @@ namespace cusp::cli {
 class RestOfJob {
 public:
     // Lowers the scallop of each operation that is rest machined by what rest machining may leave,
-    // so that the two together are what the job asks for.
+    // so that the two together are what the job asks for. Not where the job has a rest_tolerance.
     //
     // Errors: InputError where a program can't be read or its tool is not known.
     explicit RestOfJob(job::Job& job);

@@ -80,6 +80,7 @@ private:
     void read_operation(const toml::table& table, std::size_t index);
     std::vector<Operation> read_pockets(JobTable& table, Operation operation);
     void read_common(JobTable& table, Operation& operation);
+    void read_rest(JobTable& table, Operation& operation);
     void read_depths(JobTable& table, Operation& operation);
     void read_tool_choice(JobTable& table, Operation& operation);
     static void read_clearing(JobTable& table, Operation& operation);
@@ -205,6 +206,16 @@ void JobReader::read_common(JobTable& table, Operation& operation)
             ? Traversal::kZigzag
             : Traversal::kOneWay;
     operation.allowance = length(table, "allowance", kNotNegative, 0.0);
+}
+
+void JobReader::read_rest(JobTable& table, Operation& operation)
+{
+    constexpr Range kRestTolerance{0.001, 1};
+    operation.after = read_programs(table, "after", folder_);
+    operation.rest_tolerance = length(table, "rest_tolerance", kRestTolerance);
+    if (operation.rest_tolerance && operation.after.empty() && job_.stock_programs.empty()) {
+        table.refuse("rest_tolerance", "needs after, or program in [stock]");
+    }
 }
 
 void JobReader::read_depths(JobTable& table, Operation& operation)
@@ -410,7 +421,7 @@ void JobReader::read_operation(const toml::table& entry, std::size_t index)
     }
     operation.number = static_cast<int>(index);
     operation.strategy = *strategy;
-    operation.after = read_programs(table, "after", folder_);
+    read_rest(table, operation);
     read_tool_choice(table, operation);
     read_common(table, operation);
     read_depths(table, operation);

@@ -67,6 +67,7 @@ constexpr OperationKey kOperationKeys[]{
     {"peck", "drill"},
     {"overhang", "face"},
     {"after", ""},
+    {"rest_tolerance", ""},
     {"width", "chamfer"}};
 
 // Whether the list, with commas between them, holds the word.

@@ -97,6 +97,7 @@ struct Operation {
     std::optional<double> step_over;
     // Programs that have been cut before, beside those of the stock: only what they leave is cut.
     std::vector<std::string> after;
+    std::optional<double> rest_tolerance;  // mm: stock thinner than this may stay
     // pocket, profile, drill, face, engrave, v_carve, chamfer; a pocket's floor and boundary are set too
     std::optional<Prismatic> prismatic;
 };

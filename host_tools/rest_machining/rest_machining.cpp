@@ -14,7 +14,6 @@ namespace cusp::rest_machining {
 
 using job::Job;
 using job::Operation;
-using job::ToleranceSide;
 using toolpath::end_of;
 using toolpath::LineTo;
 using toolpath::MoveKind;
@@ -26,11 +25,11 @@ using toolpath::Toolpath;
 
 namespace {
 
-constexpr double kChord = 1e-3;           // mm: of arcs and curves
-constexpr double kRunIn = 0.25;           // of the diameter
-constexpr double kLeastTolerance = 3e-3;  // mm
-constexpr double kNothing = 1e-6;         // mm
-constexpr double kShortAir = 1.5;         // mm: at the start of a run, where a descent comes to stock
+constexpr double kChord = 2e-4;    // mm: of arcs and curves
+constexpr double kRunIn = 0.25;    // of the diameter
+constexpr double kNothing = 1e-6;  // mm
+// mm: at the start of a run, where a descent comes to stock
+constexpr double kShortAir = 1.5;
 
 // Without their folders.
 std::string names_of(const std::vector<std::string>& programs)
@@ -187,13 +186,13 @@ RestPath rest_of_holes(const SweptStock& stock,
 
 RestTolerance rest_tolerance(const Operation& operation)
 {
+    constexpr double kOfScallop = 1.0 / 20;
+    constexpr double kLeast = 1e-3;  // mm
     double tolerance = std::min(operation.plan_tolerance, operation.floor_tolerance);
     if (operation.scallop) {
-        const double spent =
-            operation.tolerance_side == ToleranceSide::kOutside ? operation.floor_tolerance : 0;
-        tolerance = std::min(tolerance, (*operation.scallop - spent) / 2);
+        tolerance = std::min(tolerance, kOfScallop * *operation.scallop);
     }
-    tolerance = std::max(tolerance, kLeastTolerance);
+    tolerance = std::max(operation.rest_tolerance.value_or(tolerance), kLeast);
     return {tolerance, operation.prismatic ? std::max(tolerance, operation.plan_tolerance) : tolerance};
 }
 
@@ -234,7 +233,7 @@ void keep_rest(const SweptStock& stock,
         operation.stats.scallop_bound_mm += tolerance;
     }
     path.comments.push_back(
-        fmt::format("rest machining after {}: {:.0f} of {:.0f} mm, where more than {:g} mm stands",
+        fmt::format("rest machining after {}: {:.0f} of {:.0f} mm, tolerance {:g} mm",
                     names_of(request.programs), rest.kept, rest.kept + rest.removed, tolerance));
 }
 

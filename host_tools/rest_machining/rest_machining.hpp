@@ -18,16 +18,16 @@ namespace cusp::rest_machining {
 
 // Stock that is thinner is not cut again, mm.
 struct RestTolerance {
-    double surface;  // square to the surface; above 0.002
+    double surface;  // square to the surface; at least 0.001
     double wall;     // across the upright side of a flat end; at least `surface`
 };
 
-// Surface: the smaller of the operation's tolerances, at least 0.003; with a scallop no more than
-// half of what that leaves over floor_tolerance. Wall: of a 2.5-D operation its plan_tolerance.
+// Surface: the operation's rest_tolerance; without one the smaller of its tolerances and of a
+// twentieth of its scallop, at least 0.001. Wall: of a 2.5-D operation no less than its plan_tolerance.
 RestTolerance rest_tolerance(const job::Operation& operation);
 
 // Takes what the path's feed moves sweep out of the stock. Arcs and curves as chords within
-// 0.001 mm, by a tool smaller by as much.
+// 0.0002 mm, by a tool smaller by as much.
 void take_away(const toolpath::Toolpath& path, SweptStock& stock);
 
 struct RestRequest {

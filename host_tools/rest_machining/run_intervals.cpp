@@ -22,7 +22,7 @@ using toolpath::Toolpath;
 
 namespace {
 
-constexpr double kChord = 1e-3;             // mm: of arcs and curves
+constexpr double kChord = 2e-4;             // mm: of arcs and curves
 constexpr double kShortestShare = 1.0 / 8;  // of the radius: of a piece that is asked about
 constexpr double kLongestShare = 4;
 constexpr double kSameLength = 1e-9;  // mm

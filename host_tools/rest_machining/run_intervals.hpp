@@ -26,7 +26,7 @@ public:
 
     // Where the tool meets stock, to an eighth of its radius; a NURBS wholly or not at all.
     //
-    // inner  the tool less what may stand, and less 0.001 mm that chords lie beside curves
+    // inner  the tool less what may stand, and less 0.0002 mm that chords lie beside curves
     std::vector<RunInterval> in_stock(const SweptStock& stock, const EndProfile& inner) const;
 
     // Longer by `by` mm at both ends, up to the ends of the run; no end is inside a NURBS.

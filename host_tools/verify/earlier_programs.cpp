@@ -17,7 +17,7 @@ using toolpath::Tool;
 namespace {
 
 constexpr double kStartHigh = 1000;  // mm over the stock: above any program's start
-constexpr double kChord = 1e-3;      // mm
+constexpr double kChord = 2e-4;      // mm
 constexpr double kCurveStep = 0.05;  // mm: of NURBS
 
 [[noreturn]] void refuse_tool(const Job& job, const std::string& file, int number)

@@ -14,7 +14,7 @@ namespace cusp::verify {
 // A straight feed move of a known tool.
 struct EarlierCut {
     toolpath::Tool tool;
-    bool is_chord;  // of an arc or a curve, which it leaves by at most 0.001 mm
+    bool is_chord;  // of an arc or a curve, which it leaves by at most 0.0002 mm
     Vec3d from;
     Vec3d to;
 };

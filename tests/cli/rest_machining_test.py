@@ -28,7 +28,7 @@ PITCH = 0.2    # mm, of the raster
 STEP = 0.1     # mm, between places of a tool
 WALL = 0.03    # mm: plan_tolerance, and what rounding and places leave
 FLOOR = 0.004  # mm
-AIR = 0.15     # of the cut in air of the whole operation
+AIR = 0.2      # of the cut in air of the whole operation
 WORD = re.compile(r"([A-Z])([-+.\d]+)")
 
 JOB = """
@@ -206,6 +206,89 @@ class RestMachining(unittest.TestCase):
             self.assertLessEqual(cut.air, AIR * air, f"seed {seed}")
             self.assertLess(stats["estimated_s"], 0.3 * full_stats["estimated_s"], f"seed {seed}")
             self.assertIn("all bounds hold", self.cusp(0, "verify", "rest.toml", "rest.ngc", "--grid", "0.3"))
+
+    def simple_pocket(self, output="arcs"):
+        self.drawing(loop([(0, 0), (34, 2), (30, 24), (0, 24)]))
+        self.job("first.toml", 1, output)
+        return self.plan("first.toml", "first.ngc")[0]
+
+    def test_takes_the_tool_of_a_foreign_program_from_the_job(self):
+        first = self.simple_pocket()
+        bare = re.sub(r"\(.*?\)\n", "", first)
+        self.assertIn("G2", bare + first.replace("G3", "G2"))
+        self.job("rest.toml", 2, "arcs", 'program = "first.ngc"')
+        known, _, _ = self.plan("rest.toml", "known.ngc")
+        self.write("first.ngc", bare)
+        foreign, _, _ = self.plan("rest.toml", "foreign.ngc")
+        self.assertEqual(known, foreign)
+
+    def test_refuses_a_program_whose_tool_is_not_known(self):
+        first = self.simple_pocket()
+        self.write("other.ngc", first)
+        self.job("rest.toml", 2, stock='program = ["first.ngc"]')
+        bare = re.sub(r"\(.*?\)\n", "", first)
+        self.write("first.ngc", bare.replace("T1", "T7"))
+        for command in (["plan", "rest.toml", "-o", "rest.ngc"], ["verify", "rest.toml", "other.ngc"]):
+            said = self.cusp(2, *command)
+            self.assertIn("first.ngc: tool 7 is not known", said)
+            self.assertIn("rest.toml has no [[tool]] with number = 7", said)
+        self.write("first.ngc", bare.replace("T1\n", ""))
+        self.assertIn("first.ngc: its tool is not known: there is neither a T word",
+                      self.cusp(2, "plan", "rest.toml", "-o", "rest.ngc"))
+        self.write("first.ngc", first + "(tool 1 flat diameter 8 mm)\n")
+        self.plan("rest.toml", "rest.ngc")  # after the program's end
+        self.write("first.ngc", first.replace("T1\n", "T1\n(tool 1 flat diameter 8 mm)\n"))
+        self.assertIn("tool 1 is another one than in a comment before",
+                      self.cusp(2, "plan", "rest.toml", "-o", "rest.ngc"))
+
+    def test_refuses_bad_keys(self):
+        self.simple_pocket()
+        for stock, more, wanted in (
+                ('program = "none.ngc"', "", "none.ngc, which is no file"), ("program = []", "", "names no program"),
+                ("", 'after = ["first.ngc", "none.ngc"]', "operation 1: after: names none.ngc"),
+                ("", "rest_tolerance = 0.1", "rest_tolerance: needs after, or program in [stock]"),
+                ("", 'after = "first.ngc"\nrest_tolerance = 2', "rest_tolerance")):
+            self.job("rest.toml", 2, stock=stock, more=more)
+            said = self.cusp(2, "plan", "rest.toml", "-o", "rest.ngc")
+            self.assertIn(wanted, said)
+            self.assertIn("rest.toml:", said)
+
+    def test_of_nothing_is_an_empty_operation_and_a_warning(self):
+        first = self.simple_pocket()
+        self.job("again.toml", 1, "arcs", more='after = "first.ngc"')
+        again, stats, said = self.plan("again.toml", "again.ngc")
+        self.assertIn("warning: operation 1, pocket: nothing thicker than 0.001 mm stands after first.ngc", said)
+        self.assertFalse([rapid for rapid, _ in places_of(again) if not rapid])
+        self.assertEqual(0, stats["operations"][0]["rest_machining"]["kept_mm"])
+        self.assertEqual(["first.ngc"], stats["operations"][0]["rest_machining"]["programs"])
+        self.assertGreater(stats["operations"][0]["rest_machining"]["removed_mm"], 100)
+        self.cusp(0, "sim", "again.ngc")
+        self.assertIn("all bounds hold", self.cusp(0, "verify", "again.toml", "again.ngc", "--grid", "0.3"))
+
+    def test_is_verified_from_the_stock_that_the_programs_leave(self):
+        self.simple_pocket()
+        self.job("rest.toml", 2, "arcs", more='after = "first.ngc"')
+        self.plan("rest.toml", "rest.ngc")
+        self.cusp(0, "verify", "rest.toml", "rest.ngc", "--grid", "0.3", "--stats", "rest.json")
+        volume = json.loads((self.folder / "rest.json").read_text())["removed_mm3"]
+        # four corners of the larger tool, 5 mm deep
+        self.assertTrue(4 * 5 * 0.5 * (1 - math.pi / 4) * (5 ** 2 - 1.5 ** 2) < volume < 600, volume)
+        self.job("full.toml", 2, "arcs")
+        self.assertIn("of operation 1 (pocket)", self.cusp(1, "verify", "full.toml", "rest.ngc", "--grid", "0.3"))
+
+    def test_of_operations_of_one_job_comes_after_those_before_it(self):
+        self.simple_pocket()
+        self.write("half.ngc", "(tool 1 flat diameter 10 mm)\nT1\nG0 Z5\nG0 X10 Y12\nG1 Z-2 F300\nG1 X22 F900\nG0 Z5\nM30\n")
+        self.job("both.toml", 1, "arcs", 'program = "half.ngc"')
+        text = (self.folder / "both.toml").read_text()
+        second = text[text.index("[[operation]]"):].replace("tool = 1", "tool = 2")
+        self.write("both.toml", text + second)
+        _, stats, _ = self.plan("both.toml", "both.ngc")
+        by_tool = {tool: [sum(o["rest_machining"][key] for o in stats["operations"] if o["tool"] == tool)
+                          for key in ("kept_mm", "removed_mm")] for tool in (1, 2)}
+        self.assertGreater(by_tool[1][0], by_tool[1][1])      # most stands
+        self.assertLess(by_tool[2][0], 0.2 * by_tool[2][1])   # corners alone
+        self.assertIn("all bounds hold", self.cusp(0, "verify", "both.toml", "both.ngc", "--grid", "0.3"))
 
 
 if __name__ == "__main__":
