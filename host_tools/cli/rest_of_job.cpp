@@ -59,7 +59,8 @@ RestOfJob::RestOfJob(Job& job)
         const double tolerance = found.surface;
         const double least =
             operation.tolerance_side == ToleranceSide::kOutside ? operation.floor_tolerance : 0;
-        if (operation.scallop && !operation.rest_tolerance && *operation.scallop - tolerance > least) {
+        if (operation.scallop && !operation.rest_tolerance &&
+            *operation.scallop - tolerance > least) {
             *operation.scallop -= tolerance;
         }
     }
@@ -91,7 +92,7 @@ void RestOfJob::keep(const Job& job,
     });
     if (nothing && !results.empty()) {
         results.front().stats.warnings.push_back(fmt::format(
-            "operation {}, {}: nothing thicker than {:g} mm stands after {}: nothing is cut",
+            "operation {}, {}: nothing thicker than {:g} mm is left after {}: nothing is cut",
             operation.number, operation.strategy, tolerances_.at(operation.number).surface,
             fmt::join(programs, ", ")));
     }

@@ -20,7 +20,7 @@ public:
     // Errors: InputError where a program can't be read or its tool is not known.
     explicit RestOfJob(job::Job& job);
 
-    // Leaves in the results of an operation what still stands after its programs and after the
+    // Leaves in the results of an operation what is still stock after its programs and after the
     // operations of the job before it. Does nothing in a job without earlier programs.
     void keep(const job::Job& job,
               const job::Operation& operation,
@@ -28,8 +28,8 @@ public:
 
 private:
     std::map<std::string, std::vector<verify::EarlierCut>> cuts_;  // by program
-    std::map<int, rest_machining::RestTolerance> tolerances_;  // by the number of the operation
-    std::vector<toolpath::Toolpath> paths_;                    // of the job so far
+    std::map<int, rest_machining::RestTolerance> tolerances_;      // by the number of the operation
+    std::vector<toolpath::Toolpath> paths_;                        // of the job so far
 };
 
 }  // namespace cusp::cli

@@ -104,7 +104,8 @@ std::vector<std::string> cutting_keys() { return {"feed", "plunge_feed", "spindl
 
 std::vector<std::string> stock_keys()
 {
-    return {"top", "clearance", "bottom", "x", "y", "margin", "margin_top", "margin_bottom", "program"};
+    return {"top",    "clearance",  "bottom",        "x",      "y",
+            "margin", "margin_top", "margin_bottom", "program"};
 }
 
 std::vector<std::string> placing_keys()

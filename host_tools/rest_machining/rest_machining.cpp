@@ -25,7 +25,6 @@ using toolpath::Toolpath;
 
 namespace {
 
-constexpr double kChord = 2e-4;    // mm: of arcs and curves
 constexpr double kRunIn = 0.25;    // of the diameter
 constexpr double kNothing = 1e-6;  // mm
 // mm: at the start of a run, where a descent comes to stock
@@ -69,11 +68,10 @@ std::vector<RunInterval> joined(const std::vector<RunInterval>& intervals,
 {
     std::vector<RunInterval> out;
     for (const RunInterval& next : intervals) {
-        if (!out.empty() &&
-            (next.begin <= out.back().end ||
-             run.seconds(path, {out.back().end, next.begin}) <=
-                 transitions.seconds_over(run.point_at(out.back().end),
-                                          run.point_at(next.begin)))) {
+        if (!out.empty() && (next.begin <= out.back().end ||
+                             run.seconds(path, {out.back().end, next.begin}) <=
+                                 transitions.seconds_over(run.point_at(out.back().end),
+                                                          run.point_at(next.begin)))) {
             out.back().end = std::max(out.back().end, next.end);
         } else {
             out.push_back(next);
@@ -85,9 +83,9 @@ std::vector<RunInterval> joined(const std::vector<RunInterval>& intervals,
 // The tool less the tolerance, and less what chords lie beside curves.
 EndProfile inner_end(const Tool& tool, const RestTolerance& tolerance)
 {
-    EndProfile end{tool, tolerance.surface - kChord};
+    EndProfile end{tool, tolerance.surface - kChordError};
     if (tool.corner_radius <= 0 && !is_conical(tool)) {
-        end.radius = std::max(0.0, tool.radius - tolerance.wall + kChord);
+        end.radius = std::max(0.0, tool.radius - tolerance.wall + kChordError);
         end.flat = end.radius;
     }
     return end;
@@ -174,7 +172,8 @@ RestPath rest_of_holes(const SweptStock& stock,
             FeedRun feed{at};
             feed.add(move);
             length += feed.length();
-            meets_stock = meets_stock || !feed.in_stock(stock, inner_end(path.tool, tolerance)).empty();
+            meets_stock =
+                meets_stock || !feed.in_stock(stock, inner_end(path.tool, tolerance)).empty();
         }
         at = end;
     }
@@ -193,13 +192,14 @@ RestTolerance rest_tolerance(const Operation& operation)
         tolerance = std::min(tolerance, kOfScallop * *operation.scallop);
     }
     tolerance = std::max(operation.rest_tolerance.value_or(tolerance), kLeast);
-    return {tolerance, operation.prismatic ? std::max(tolerance, operation.plan_tolerance) : tolerance};
+    return {tolerance,
+            operation.prismatic ? std::max(tolerance, operation.plan_tolerance) : tolerance};
 }
 
 void take_away(const Toolpath& path, SweptStock& stock)
 {
     const EndProfile whole{path.tool};
-    const EndProfile inner{path.tool, kChord};
+    const EndProfile inner{path.tool, kChordError};
     Vec3d at{};
     for (const ToolMove& move : path.moves) {
         if (move.kind == MoveKind::kRapid) {
@@ -207,7 +207,7 @@ void take_away(const Toolpath& path, SweptStock& stock)
             continue;
         }
         const EndProfile& end = std::holds_alternative<LineTo>(move.shape) ? whole : inner;
-        for (const Vec3d p : points_of(move, at, kChord)) {
+        for (const Vec3d p : points_of(move, at, kChordError)) {
             stock.add(end, at, p);
             at = p;
         }
@@ -223,7 +223,8 @@ void keep_rest(const SweptStock& stock,
     Toolpath& path = operation.path;
     RestPath rest = path.cycle ? rest_of_holes(stock, job, request.tolerance, path)
                                : rest_of_runs(stock, job, request.tolerance, path);
-    operation.stats.rest = toolpath::RestFigures{request.programs, rest.removed, rest.kept, tolerance};
+    operation.stats.rest =
+        toolpath::RestFigures{request.programs, rest.removed, rest.kept, tolerance};
     if (rest.removed <= kNothing) {
         return;
     }

@@ -19,7 +19,7 @@ namespace cusp::rest_machining {
 // Stock that is thinner is not cut again, mm.
 struct RestTolerance {
     double surface;  // square to the surface; at least 0.001
-    double wall;     // across the upright side of a flat end; at least `surface`
+    double wall;     // across the vertical side of a flat end; at least `surface`
 };
 
 // Surface: the operation's rest_tolerance; without one the smaller of its tolerances and of a

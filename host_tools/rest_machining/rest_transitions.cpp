@@ -23,9 +23,9 @@ using toolpath::Toolpath;
 
 namespace {
 
-constexpr double kBeside = 0.1;      // mm: free beside a tool that descends by a rapid
-constexpr double kTouch = 1e-3;      // mm: that a link may touch
-constexpr double kOverGround = 0.02; // mm
+constexpr double kFreeBeside = 0.1;   // mm: free beside a tool that descends by a rapid
+constexpr double kTouch = 1e-3;       // mm: that a link may touch
+constexpr double kOverGround = 0.02;  // mm
 constexpr double kSecondsPerMinute = 60;
 // Of the controller's default machine, as in toolpath_measure.hpp.
 constexpr double kRapidInPlan = 100;  // mm/s
@@ -58,8 +58,8 @@ double RestTransitions::seconds_over(Vec3d from, Vec3d to) const
 bool RestTransitions::is_open(Vec2d place, double z) const
 {
     EndProfile end{path_.tool};
-    end.radius += kBeside;
-    end.flat += kBeside;
+    end.radius += kFreeBeside;
+    end.flat += kFreeBeside;
     const Vec3d tip{place.x, place.y, z};
     const ToolSweep tool{end, tip, tip};
     if (stock_.is_clear(tool)) {
@@ -96,9 +96,8 @@ std::optional<RestTransitions::Entry> RestTransitions::entry_beside(Vec3d place)
     for (const double share : {0.25, 0.6, 1.0}) {
         for (int i = 0; i < kDirections; ++i) {
             const double angle = 2 * kPi * i / kDirections;
-            const Vec2d beside =
-                in_plan(place) +
-                Vec2d{std::cos(angle), std::sin(angle)} * (share * path_.tool.radius);
+            const Vec2d beside = in_plan(place) + Vec2d{std::cos(angle), std::sin(angle)} *
+                                                      (share * path_.tool.radius);
             if (is_open(beside, place.z + kOverGround) &&
                 is_link_clear({beside.x, beside.y, place.z}, place) &&
                 keeps_off_fixtures(beside, place.z)) {

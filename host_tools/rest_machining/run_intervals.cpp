@@ -22,7 +22,6 @@ using toolpath::Toolpath;
 
 namespace {
 
-constexpr double kChord = 2e-4;             // mm: of arcs and curves
 constexpr double kShortestShare = 1.0 / 8;  // of the radius: of a piece that is asked about
 constexpr double kLongestShare = 4;
 constexpr double kSameLength = 1e-9;  // mm
@@ -34,7 +33,7 @@ double length_of(const ToolMove& move, Vec3d start)
     }
     double sum = 0;
     Vec3d at = start;
-    for (const Vec3d p : points_of(move, start, kChord)) {
+    for (const Vec3d p : points_of(move, start, kChordError)) {
         sum += norm(p - at);
         at = p;
     }
@@ -113,7 +112,7 @@ std::vector<RunInterval> FeedRun::in_stock(const SweptStock& stock, const EndPro
             Vec3d at = part.begin > 0 ? point_at(begin_of(k) + part.begin * whole) : start_of(k);
             bool clear = !is_long;
             if (clear) {
-                for (const Vec3d p : points_of(piece(k, part.begin, part.end), at, kChord)) {
+                for (const Vec3d p : points_of(piece(k, part.begin, part.end), at, kChordError)) {
                     clear = clear && stock.is_clear({inner, at, p});
                     at = p;
                 }
@@ -155,8 +154,7 @@ double FeedRun::seconds(const Toolpath& path, const RunInterval& interval) const
         if (begin_of(k) >= interval.end) {
             break;
         }
-        const double way =
-            std::min(interval.end, ends_[k]) - std::max(interval.begin, begin_of(k));
+        const double way = std::min(interval.end, ends_[k]) - std::max(interval.begin, begin_of(k));
         sum += kSecondsPerMinute * std::max(0.0, way) / feed_of(path, moves_[k], start_of(k));
     }
     return sum;

@@ -8,6 +8,9 @@
 
 namespace cusp::rest_machining {
 
+// mm: between a curve and the chords that are looked at
+inline constexpr double kChordError = 2e-4;
+
 // From `begin` to `end` mm of a run's length.
 struct RunInterval {
     double begin;
@@ -26,7 +29,7 @@ public:
 
     // Where the tool meets stock, to an eighth of its radius; a NURBS wholly or not at all.
     //
-    // inner  the tool less what may stand, and less 0.0002 mm that chords lie beside curves
+    // inner  the tool less the tolerance, and less kChordError
     std::vector<RunInterval> in_stock(const SweptStock& stock, const EndProfile& inner) const;
 
     // Longer by `by` mm at both ends, up to the ends of the run; no end is inside a NURBS.

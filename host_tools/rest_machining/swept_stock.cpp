@@ -9,13 +9,14 @@ namespace cusp::rest_machining {
 
 namespace {
 
-constexpr double kRounding = 1e-7;     // mm
-constexpr double kLeastHalf = 1e-3;    // mm: of the smallest square
-constexpr int kMostCells = 20000;      // of one proof
+constexpr double kRounding = 1e-7;            // mm
+constexpr double kLeastHalf = 1e-3;           // mm: of the smallest square
+constexpr int kMostCells = 20000;             // of one proof
 constexpr std::size_t kMostKept = 1U << 20U;  // cells in memory
 constexpr double kMostBuckets = 250000;
-constexpr double kBucket = 1.0;   // mm
-constexpr double kBeside = 20.0;  // mm: of buckets beside all sweeps, where tools may be in part
+constexpr double kBucket = 1.0;  // mm
+constexpr double kBesideSweeps =
+    20.0;  // mm: of buckets beside all sweeps, where tools may be in part
 
 }  // namespace
 
@@ -67,9 +68,9 @@ void SweptStock::prepare() const
         low = {std::min(low.x, sweep.low().x), std::min(low.y, sweep.low().y)};
         high = {std::max(high.x, sweep.high().x), std::max(high.y, sweep.high().y)};
     }
-    origin_ = sweeps_.empty() ? Vec2d{0, 0} : low - Vec2d{kBeside, kBeside};
+    origin_ = sweeps_.empty() ? Vec2d{0, 0} : low - Vec2d{kBesideSweeps, kBesideSweeps};
     const Vec2d extent =
-        sweeps_.empty() ? Vec2d{0, 0} : high - low + Vec2d{2 * kBeside, 2 * kBeside};
+        sweeps_.empty() ? Vec2d{0, 0} : high - low + Vec2d{2 * kBesideSweeps, 2 * kBesideSweeps};
     size_ = std::max(kBucket, std::sqrt(extent.x * extent.y / kMostBuckets));
     columns_ = static_cast<std::size_t>(extent.x / size_) + 1;
     rows_ = static_cast<std::size_t>(extent.y / size_) + 1;
@@ -146,9 +147,9 @@ std::int32_t SweptStock::children_of(std::int32_t cell, const Square& square) co
         const auto first = static_cast<std::int32_t>(cells_.size());
         const double h = square.half / 2;
         for (const Vec2d off : {Vec2d{-h, -h}, Vec2d{h, -h}, Vec2d{-h, h}, Vec2d{h, h}}) {
-            cells_.push_back({lowest_in({square.middle + off, h},
-                                        cells_[static_cast<std::size_t>(cell)].sweeps),
-                              -1});
+            cells_.push_back(
+                {lowest_in({square.middle + off, h}, cells_[static_cast<std::size_t>(cell)].sweeps),
+                 -1});
         }
         cells_[static_cast<std::size_t>(cell)].children = first;
     }
@@ -156,7 +157,9 @@ std::int32_t SweptStock::children_of(std::int32_t cell, const Square& square) co
 }
 
 // Whether one sweep, or the stock's top, is nowhere in the square above the plane.
-bool SweptStock::is_covered(std::int32_t cell, const Square& square, const SupportPlane& plane) const
+bool SweptStock::is_covered(std::int32_t cell,
+                            const Square& square,
+                            const SupportPlane& plane) const
 {
     const double h = square.half;
     const std::array corners{square.middle + Vec2d{-h, -h}, square.middle + Vec2d{h, -h},

@@ -14,7 +14,7 @@
 
 namespace cusp::rest_machining {
 
-// Without sides: it goes on in x and y for ever.
+// Without sides: it continues in x and y without end.
 class SweptStock {
 public:
     // top  z of the uncut stock

@@ -148,11 +148,11 @@ double ToolSweep::height(Vec2d p) const
 // least over t.
 SupportPlane ToolSweep::plane_below(Vec2d p) const
 {
-    constexpr double kInside = 0.98;  // of the radius: a ball's side is upright at its rim
+    constexpr double kInside = 0.98;  // of the radius: a ball's side is vertical at its rim
     const Vec2d foot = axis(std::clamp(dot(p - in_plan(from_), way_), 0.0, length_));
     const double off = norm(p - foot);
-    const Vec2d q = off > kInside * end_.radius ? foot + (p - foot) * (kInside * end_.radius / off)
-                                                : p;
+    const Vec2d q =
+        off > kInside * end_.radius ? foot + (p - foot) * (kInside * end_.radius / off) : p;
     const double place = std::max(0.0, lowest_place(q));
     const Vec2d out = q - axis(place);
     const double distance = norm(out);

@@ -50,7 +50,7 @@ public:
 
     double radius() const { return end_.radius; }
     double lowest() const { return from_.z < to_.z ? from_.z : to_.z; }
-    Vec2d low() const;   // corner of the box in plan
+    Vec2d low() const;  // corner of the box in plan
     Vec2d high() const;
     Vec3d from() const { return from_; }
     Vec3d to() const { return to_; }

@@ -16,22 +16,24 @@ using toolpath::Tool;
 
 namespace {
 
-constexpr double kStartHigh = 1000;  // mm over the stock: above any program's start
-constexpr double kChord = 2e-4;      // mm
-constexpr double kCurveStep = 0.05;  // mm: of NURBS
+constexpr double kStartHigh = 1000;     // mm over the stock: above any program's start
+constexpr double kEarlierChord = 2e-4;  // mm
+constexpr double kCurveStep = 0.05;     // mm: of NURBS
 
 [[noreturn]] void refuse_tool(const Job& job, const std::string& file, int number)
 {
     if (number == 0) {
-        throw InputError(fmt::format(
-            "{}: its tool is not known: there is neither a T word nor a comment such as \"(tool 1 flat "
-            "diameter 6 mm)\" before its first cut, and {} has {} tools",
-            file, job.file, job.tools.size()));
+        throw InputError(
+            fmt::format("{}: its tool is not known: there is neither a T word nor a comment such "
+                        "as \"(tool 1 flat "
+                        "diameter 6 mm)\" before its first cut, and {} has {} tools",
+                        file, job.file, job.tools.size()));
     }
-    throw InputError(fmt::format(
-        "{}: tool {} is not known: there is no comment such as \"(tool {} flat diameter 6 mm)\", and "
-        "{} has no [[tool]] with number = {}",
-        file, number, number, job.file, number));
+    throw InputError(
+        fmt::format("{}: tool {} is not known: there is no comment such as \"(tool {} flat "
+                    "diameter 6 mm)\", and "
+                    "{} has no [[tool]] with number = {}",
+                    file, number, number, job.file, number));
 }
 
 const Tool& tool_of_program(const Job& job,
@@ -56,7 +58,7 @@ double spacing_for(const path::Move& move)
 {
     if (const auto* arc = std::get_if<path::Arc>(&move.path)) {
         const double radius = std::max(arc->radius, arc->radius + arc->radius_change);
-        return std::sqrt(8 * std::max(radius, kChord) * kChord);
+        return std::sqrt(8 * std::max(radius, kEarlierChord) * kEarlierChord);
     }
     return std::holds_alternative<path::Line>(move.path) ? kUnbounded : kCurveStep;
 }

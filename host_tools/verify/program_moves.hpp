@@ -19,7 +19,7 @@ struct ProgramMove {
 struct Program {
     std::vector<ProgramMove> moves;
     std::map<int, toolpath::Tool> tools;  // that comments describe: tool_comment.hpp
-    toolpath::MoveCounts counts;  // a NURBS of many pieces counts once
+    toolpath::MoveCounts counts;          // a NURBS of many pieces counts once
 };
 
 // Machine coordinates are program coordinates: offsets are those of a fresh controller, with the

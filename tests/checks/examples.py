@@ -8,13 +8,13 @@ import pathlib
 import sys
 import tomllib
 
-KEYS = ("floor", "intersect", "boundary", "islands")
+KEYS = ("floor", "intersect", "boundary", "islands", "after")
 
 
 def files_of(job):
-    for operation in job.get("operation", []):
-        for key in KEYS:
-            named = operation.get(key, [])
+    for table, keys in [(job.get("stock", {}), ("program",)), *((table, KEYS) for table in job.get("operation", []))]:
+        for key in keys:
+            named = table.get(key, [])
             yield from [named] if isinstance(named, str) else named
 
 

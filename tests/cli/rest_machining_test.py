@@ -257,7 +257,7 @@ class RestMachining(unittest.TestCase):
         first = self.simple_pocket()
         self.job("again.toml", 1, "arcs", more='after = "first.ngc"')
         again, stats, said = self.plan("again.toml", "again.ngc")
-        self.assertIn("warning: operation 1, pocket: nothing thicker than 0.001 mm stands after first.ngc", said)
+        self.assertIn("warning: operation 1, pocket: nothing thicker than 0.001 mm is left after first.ngc", said)
         self.assertFalse([rapid for rapid, _ in places_of(again) if not rapid])
         self.assertEqual(0, stats["operations"][0]["rest_machining"]["kept_mm"])
         self.assertEqual(["first.ngc"], stats["operations"][0]["rest_machining"]["programs"])
@@ -286,7 +286,7 @@ class RestMachining(unittest.TestCase):
         _, stats, _ = self.plan("both.toml", "both.ngc")
         by_tool = {tool: [sum(o["rest_machining"][key] for o in stats["operations"] if o["tool"] == tool)
                           for key in ("kept_mm", "removed_mm")] for tool in (1, 2)}
-        self.assertGreater(by_tool[1][0], by_tool[1][1])      # most stands
+        self.assertGreater(by_tool[1][0], by_tool[1][1])      # most is left
         self.assertLess(by_tool[2][0], 0.2 * by_tool[2][1])   # corners alone
         self.assertIn("all bounds hold", self.cusp(0, "verify", "both.toml", "both.ngc", "--grid", "0.3"))
 

@@ -55,7 +55,7 @@ TEST(RestMachining, changes_nothing_in_uncut_stock)
     CHECK(planned.path.comments.empty());
 }
 
-TEST(RestMachining, leaves_no_move_where_nothing_stands)
+TEST(RestMachining, leaves_no_move_where_nothing_is_left)
 {
     cleared(-5, 105);
     keep();
@@ -64,9 +64,9 @@ TEST(RestMachining, leaves_no_move_where_nothing_stands)
     DOUBLES_EQUAL(0, planned.stats.rest->kept_mm, 0);
 }
 
-TEST(RestMachining, comes_to_a_standing_wall_through_air_and_leaves_it_so)
+TEST(RestMachining, comes_to_what_is_left_through_air_and_leaves_it_so)
 {
-    // stands from x = 45 to 55: the tool meets it from 43 to 57
+    // stock is left from x = 45 to 55: the tool meets it from 43 to 57
     cleared(-5, 40);
     cleared(60, 105);
     keep();
@@ -103,9 +103,8 @@ TEST(RestMachining, goes_on_through_a_short_gap_and_over_a_long_one)
 TEST(RestMachining, keeps_a_curve_whole_that_meets_stock_anywhere)
 {
     cleared(-5, 55);
-    planned.path.moves[3] = {
-        MoveKind::kCut,
-        NurbsTo{{1, {0, 0, 1, 1}, {{0, 0, -2}, {60, 0, -2}}, {1, 1}}}};
+    planned.path.moves[3] = {MoveKind::kCut,
+                             NurbsTo{{1, {0, 0, 1, 1}, {{0, 0, -2}, {60, 0, -2}}, {1, 1}}}};
     add(MoveKind::kRapid, {60, 0, 5});
     planned.path.moves[4] = {MoveKind::kRapid, LineTo{{60, 0, 5}}};
     keep();

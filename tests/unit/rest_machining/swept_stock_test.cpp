@@ -34,7 +34,7 @@ double sampled_depth(const SweptStock& stock, const ToolSweep& tool)
 
 }  // namespace
 
-TEST_GROUP(SweptStock) {};
+TEST_GROUP(SweptStock){};
 
 TEST(SweptStock, is_as_high_as_the_lowest_sweep_or_its_top)
 {

@@ -60,7 +60,7 @@ double sampled_height(const Tool& tool, Vec3d from, Vec3d to, Vec2d p)
 
 }  // namespace
 
-TEST_GROUP(ToolSweep) {};
+TEST_GROUP(ToolSweep){};
 
 TEST(ToolSweep, its_lower_side_is_the_lowest_of_the_tool_on_the_way)
 {
