@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "host_tools/cancellation/cancellation.hpp"
+
 #include "fmt/format.h"
 #include "fmt/ranges.h"
 
@@ -76,6 +78,9 @@ void RestOfJob::keep(const Job& job,
     const std::vector<std::string> programs = programs_before(job, operation);
     for (PlannedOperation& result : results) {
         if (!programs.empty() && !result.path.moves.empty()) {
+            cancellation::set_work(
+                fmt::format("looking for what is left for operation {} ({}) of {}",
+                            operation.number, operation.strategy, job.file));
             SweptStock stock{job.stock_top};
             for (const std::string& file : programs) {
                 cut_from(cuts_.at(file), stock);

@@ -18,6 +18,7 @@ using toolpath::kRapidClearance;
 using toolpath::LineTo;
 using toolpath::MoveKind;
 using toolpath::points_of;
+using toolpath::Tool;
 using toolpath::ToolMove;
 using toolpath::Toolpath;
 
@@ -31,6 +32,15 @@ constexpr double kSecondsPerMinute = 60;
 constexpr double kRapidInPlan = 100;  // mm/s
 constexpr double kRapidAxial = 50;
 constexpr double kStop = 0.1;  // s
+
+// The tool with room beside it.
+ToolSweep descending(const Tool& tool, Vec3d tip)
+{
+    EndProfile end{tool};
+    end.radius += kFreeBeside;
+    end.flat += kFreeBeside;
+    return {end, tip, tip};
+}
 
 }  // namespace
 
@@ -55,19 +65,20 @@ double RestTransitions::seconds_over(Vec3d from, Vec3d to) const
            kSecondsPerMinute * kRapidClearance / path_.plunge_feed + kStops * kStop;
 }
 
+bool RestTransitions::is_open_at_first(Vec2d place, double z) const
+{
+    return stock_.is_clear(descending(path_.tool, {place.x, place.y, z}));
+}
+
 bool RestTransitions::is_open(Vec2d place, double z) const
 {
-    EndProfile end{path_.tool};
-    end.radius += kFreeBeside;
-    end.flat += kFreeBeside;
-    const Vec3d tip{place.x, place.y, z};
-    const ToolSweep tool{end, tip, tip};
-    if (stock_.is_clear(tool)) {
+    if (is_open_at_first(place, z)) {
         return true;
     }
     if (cut_.sweeps() == 0) {
         return false;
     }
+    const ToolSweep tool = descending(path_.tool, {place.x, place.y, z});
     SweptStock near{stock_.top()};
     near.add_near(cut_, tool.low(), tool.high());
     if (near.sweeps() == 0) {
@@ -98,7 +109,7 @@ std::optional<RestTransitions::Entry> RestTransitions::entry_beside(Vec3d place)
             const double angle = 2 * kPi * i / kDirections;
             const Vec2d beside = in_plan(place) + Vec2d{std::cos(angle), std::sin(angle)} *
                                                       (share * path_.tool.radius);
-            if (is_open(beside, place.z + kOverGround) &&
+            if (is_open_at_first(beside, place.z + kOverGround) &&
                 is_link_clear({beside.x, beside.y, place.z}, place) &&
                 keeps_off_fixtures(beside, place.z)) {
                 return Entry{beside, place.z + kRapidClearance};

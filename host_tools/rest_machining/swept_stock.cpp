@@ -30,13 +30,27 @@ void SweptStock::add(const EndProfile& end, Vec3d from, Vec3d to)
 
 void SweptStock::add_near(const SweptStock& other, Vec2d low, Vec2d high)
 {
-    for (const ToolSweep& sweep : other.sweeps_) {
+    const auto add = [&](const ToolSweep& sweep) {
         if (sweep.low().x < high.x && low.x < sweep.high().x && sweep.low().y < high.y &&
             low.y < sweep.high().y) {
             sweeps_.push_back(sweep);
             prepared_ = false;
         }
+    };
+    if (!other.prepared_) {
+        std::for_each(other.sweeps_.begin(), other.sweeps_.end(), add);
+        return;
     }
+    std::vector<std::uint32_t> found;
+    for (std::size_t i = other.column_of(low.x); i <= other.column_of(high.x); ++i) {
+        for (std::size_t j = other.row_of(low.y); j <= other.row_of(high.y); ++j) {
+            const std::vector<std::uint32_t>& here = other.listed_[i * other.rows_ + j];
+            found.insert(found.end(), here.begin(), here.end());
+        }
+    }
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    std::for_each(found.begin(), found.end(), [&](std::uint32_t k) { add(other.sweeps_[k]); });
 }
 
 std::size_t SweptStock::column_of(double x) const

@@ -70,13 +70,15 @@ std::vector<EarlierCut> earlier_cuts(const Job& job, const std::string& file)
     const Program program = read_program(file, job.stock_top + kStartHigh);
     std::vector<EarlierCut> cuts;
     std::vector<Vec3d> points;
-    // the place before the first move is not known
-    for (std::size_t k = 1; k < program.moves.size(); ++k) {
+    for (std::size_t k = 0; k < program.moves.size(); ++k) {
         const ProgramMove& m = program.moves[k];
         if (is_rapid(m)) {
             continue;
         }
         const Tool& tool = tool_of_program(job, file, program, m.tool);
+        if (k == 0) {
+            continue;  // the place before the first move is not known
+        }
         const bool is_chord = !std::holds_alternative<path::Line>(m.move.path);
         points.clear();
         append_points(m.move, spacing_for(m.move), points);
@@ -114,8 +116,9 @@ std::vector<ToolPositions> earlier_positions(const Job& job, double spacing)
         int current = -1;
         for (std::size_t k = 1; k < program.moves.size(); ++k) {
             const ProgramMove& m = program.moves[k];
-            if (is_rapid(m) && current < 0) {
-                continue;  // before the first cut the tool need not be known
+            if (is_rapid(m) && m.tool != current) {
+                current = -1;  // a tool that cuts nothing need not be known
+                continue;
             }
             if (m.tool != current) {
                 current = m.tool;
