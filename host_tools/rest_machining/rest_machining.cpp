@@ -120,7 +120,7 @@ RestPath rest_of_runs(const SweptStock& stock,
                       const Toolpath& path)
 {
     RestPath rest;
-    RestTransitions transitions{stock, job, path, rest.moves};
+    RestTransitions transitions{stock, job, path, inner_end(path.tool, tolerance), rest.moves};
     for (const FeedRun& run : runs_of(path)) {
         double kept = 0;
         for (const RunInterval& interval : kept_of(run, stock, path, tolerance, transitions)) {

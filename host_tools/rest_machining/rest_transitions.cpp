@@ -47,10 +47,12 @@ ToolSweep descending(const Tool& tool, Vec3d tip)
 RestTransitions::RestTransitions(const SweptStock& stock,
                                  const Job& job,
                                  const Toolpath& path,
+                                 const EndProfile& inner,
                                  std::vector<ToolMove>& moves)
     : stock_{stock},
       job_{job},
       path_{path},
+      inner_{inner},
       writer_{moves, {job.stock_top + job.clearance, {}, path.tool.radius}},
       cut_{stock.top()}
 {
@@ -93,6 +95,15 @@ bool RestTransitions::is_link_clear(Vec3d from, Vec3d to) const
     return stock_.is_clear({EndProfile{path_.tool, kTouch}, from, to});
 }
 
+// Only at its end the tool may touch stock by the tolerance, as it does at the place.
+bool RestTransitions::is_way_in_clear(Vec3d beside, Vec3d place) const
+{
+    const double length = norm(place - beside);
+    const double share = std::max(0.0, 1 - kFreeBeside / length);
+    return stock_.is_clear({inner_, beside, place}) &&
+           is_link_clear(beside, beside + share * (place - beside));
+}
+
 bool RestTransitions::keeps_off_fixtures(Vec2d place, double z) const
 {
     const Vec3d from{place.x, place.y, writer_.clearance_z()};
@@ -110,7 +121,7 @@ std::optional<RestTransitions::Entry> RestTransitions::entry_beside(Vec3d place)
             const Vec2d beside = in_plan(place) + Vec2d{std::cos(angle), std::sin(angle)} *
                                                       (share * path_.tool.radius);
             if (is_open_at_first(beside, place.z + kOverGround) &&
-                is_link_clear({beside.x, beside.y, place.z}, place) &&
+                is_way_in_clear({beside.x, beside.y, place.z}, place) &&
                 keeps_off_fixtures(beside, place.z)) {
                 return Entry{beside, place.z + kRapidClearance};
             }

@@ -14,10 +14,12 @@ namespace cusp::rest_machining {
 class RestTransitions {
 public:
     // stock, job, path  outlive this; of the path: tool and feeds
+    // inner             the tool less the tolerance, which places of the path may touch stock by
     // moves             that are written to
     RestTransitions(const SweptStock& stock,
                     const job::Job& job,
                     const toolpath::Toolpath& path,
+                    const EndProfile& inner,
                     std::vector<toolpath::ToolMove>& moves);
 
     // Writes what leads to a place that the tool may reach through air.
@@ -43,6 +45,7 @@ private:
     const SweptStock& stock_;
     const job::Job& job_;
     const toolpath::Toolpath& path_;
+    EndProfile inner_;
     toolpath::ToolpathWriter writer_;
     SweptStock cut_;  // what was cut so far is taken from it
 
@@ -50,6 +53,7 @@ private:
     bool is_open_at_first(Vec2d place, double z) const;
     bool is_open(Vec2d place, double z) const;
     bool is_link_clear(Vec3d from, Vec3d to) const;
+    bool is_way_in_clear(Vec3d beside, Vec3d place) const;
     bool keeps_off_fixtures(Vec2d place, double z) const;
     Entry entry_to(Vec3d place, bool at_rest_height) const;
     std::optional<Entry> entry_beside(Vec3d place) const;

@@ -212,6 +212,22 @@ class RestMachining(unittest.TestCase):
         self.job("first.toml", 1, output)
         return self.plan("first.toml", "first.ngc")[0]
 
+    def test_cuts_what_is_left_of_floor_and_walls(self):
+        self.drawing(loop([(0, 0), (34, 2), (30, 24), (0, 24)]))
+        self.job("first.toml", 1)
+        self.write("first.toml", (self.folder / "first.toml").read_text().replace("depth = 5", "depth = 4.9"))
+        self.job("full.toml", 2)
+        self.job("rest.toml", 2, stock='program = ["first.ngc"]')
+        first, full, kept = (self.plan(name + ".toml", name + ".ngc")[0] for name in ("first", "full", "rest"))
+        whole, rest = Raster(36, 26), Raster(36, 26)
+        Cut(whole, first, 5, WALL)
+        Cut(whole, full, 1.5, WALL)
+        Cut(rest, first, 5)
+        self.assertGreater(float(numpy.max(rest.z - whole.z)), 0.05)
+        self.assertLessEqual(Cut(rest, kept, 1.5).worst_rapid, 0)
+        self.assertLessEqual(float(numpy.max(rest.z - whole.z)), FLOOR)
+        self.assertIn("all bounds hold", self.cusp(0, "verify", "rest.toml", "rest.ngc", "--grid", "0.3"))
+
     def test_takes_the_tool_of_a_foreign_program_from_the_job(self):
         first = self.simple_pocket()
         bare = re.sub(r"\(.*?\)\n", "", first)

@@ -84,6 +84,22 @@ TEST(RestMachining, comes_to_what_is_left_through_air_and_leaves_it_so)
                  planned.path.comments.front().c_str());
 }
 
+TEST(RestMachining, comes_down_beside_a_wall_that_the_tool_would_touch)
+{
+    cleared(-5, 40);
+    cleared(60, 105);
+    for (std::size_t k = 0; k < planned.path.moves.size(); ++k) {
+        std::get<LineTo>(planned.path.moves[k].shape).end.y = 3.005;  // 0.005 mm into the wall
+    }
+    keep();
+    const std::vector<ToolMove>& moves = planned.path.moves;
+    LONGS_EQUAL(6, moves.size());
+    CHECK(moves[1].kind == MoveKind::kRapid && moves[2].kind == MoveKind::kPlunge);
+    CHECK(moves[3].kind == MoveKind::kLink);
+    CHECK(end(1).y < 3.0 - 0.1);
+    DOUBLES_EQUAL(3.005, end(3).y, 0);
+}
+
 TEST(RestMachining, goes_on_through_a_short_gap_and_over_a_long_one)
 {
     cleared(20, 24);   // a gap of 6 mm
