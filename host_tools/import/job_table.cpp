@@ -164,6 +164,31 @@ std::optional<std::vector<double>> JobTable::numbers(const char* key, Range rang
     return out;
 }
 
+std::optional<std::vector<std::array<double, 2>>> JobTable::pairs(const char* key,
+                                                                  Range range,
+                                                                  const char* words)
+{
+    const toml::node* node = find(key);
+    if (node == nullptr) {
+        return std::nullopt;
+    }
+    const auto refuse_form = [&] {
+        refuse(key, fmt::format("a list of pairs is needed: [{}, ...]", words));
+    };
+    if (!node->is_array()) {
+        refuse_form();
+    }
+    std::vector<std::array<double, 2>> out;
+    for (const toml::node& entry : *node->as_array()) {
+        const toml::array* pair = entry.as_array();
+        if (pair == nullptr || pair->size() != 2) {
+            refuse_form();
+        }
+        out.push_back({checked((*pair)[0], key, range), checked((*pair)[1], key, range)});
+    }
+    return out;
+}
+
 std::optional<std::array<double, 2>> JobTable::interval(const char* key, Range range)
 {
     const toml::node* node = find(key);

@@ -45,6 +45,12 @@ public:
     std::optional<std::vector<double>> numbers(const char* key, Range range);
     // A single number counts as a list of one.
     std::optional<std::vector<double>> one_or_more(const char* key, Range range);
+    // Pairs of numbers, [[a, b], ...].
+    //
+    // words  of a pair, such as "[diameter, length]"
+    std::optional<std::vector<std::array<double, 2>>> pairs(const char* key,
+                                                            Range range,
+                                                            const char* words);
     // One number, which is both ends, or [least, greatest].
     std::optional<std::array<double, 2>> interval(const char* key, Range range);
     // Two numbers [min, max], min below max, in mm, of numbers in units of `millimetres`.

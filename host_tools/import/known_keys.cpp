@@ -95,9 +95,10 @@ std::vector<std::string> library_keys() { return {"units", "tool"}; }
 
 std::vector<std::string> tool_keys()
 {
-    return {"number",      "shape",        "diameter",    "corner_radius", "tip_angle",
-            "taper_angle", "tip_diameter", "name",        "flutes",        "flute_length",
-            "length",      "feed",         "plunge_feed", "spindle",       "coolant"};
+    return {"number",      "shape",          "diameter", "corner_radius",    "tip_angle",
+            "taper_angle", "tip_diameter",   "name",     "flutes",           "flute_length",
+            "length",      "shank_diameter", "holder",   "holder_clearance", "feed",
+            "plunge_feed", "spindle",        "coolant"};
 }
 
 std::vector<std::string> cutting_keys() { return {"feed", "plunge_feed", "spindle"}; }

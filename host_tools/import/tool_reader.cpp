@@ -16,6 +16,31 @@ using toolpath::ToolShape;
 
 namespace {
 
+// What is above the flutes.
+void read_body(JobTable& keys, double millimetres, job::ToolFacts& facts)
+{
+    facts.shank_diameter = keys.length("shank_diameter", kPositive, millimetres);
+    if (facts.shank_diameter && !facts.flute_length) {
+        keys.refuse("shank_diameter", "needs flute_length: the shank begins above the flutes");
+    }
+    if (const auto cylinders = keys.pairs("holder", kPositive, "[diameter, length]")) {
+        if (cylinders->empty()) {
+            keys.refuse("holder", "is empty: a holder is at least one [diameter, length]");
+        }
+        if (!facts.length) {
+            keys.refuse("holder", "needs length: how far the tool is out of the holder");
+        }
+        for (const auto& [diameter, length] : *cylinders) {
+            facts.holder.push_back({diameter * millimetres, length * millimetres});
+        }
+    }
+    const auto clearance = keys.length("holder_clearance", kNotNegative, millimetres);
+    if (clearance && !facts.shank_diameter && facts.holder.empty()) {
+        keys.refuse("holder_clearance", "needs shank_diameter or holder");
+    }
+    facts.holder_clearance = clearance.value_or(job::kHolderClearance);
+}
+
 // A depth of cut is judged by them when the job is planned.
 job::ToolFacts read_facts(JobTable& keys, double millimetres)
 {
@@ -29,6 +54,7 @@ job::ToolFacts read_facts(JobTable& keys, double millimetres)
         keys.refuse("flute_length", fmt::format("is {:g} mm, the tool is {:g} mm long",
                                                 *facts.flute_length, *facts.length));
     }
+    read_body(keys, millimetres, facts);
     return facts;
 }
 

@@ -105,12 +105,19 @@ struct Operation {
 // Fraction of an operation's progress at which roughing ends, where a finish follows.
 inline constexpr double kRoughingDone = 0.5;
 
+inline constexpr double kHolderClearance = 0.5;  // mm, where none is given
+
 // Data of a tool's library besides shape and rates.
 struct ToolFacts {
     std::string name;
     int flutes{};                        // 0: none given
     std::optional<double> flute_length;  // mm
     std::optional<double> length;        // mm, out of the holder
+    // mm, of the shank from the flutes to the holder; only with flute_length
+    std::optional<double> shank_diameter{};
+    // Cylinders of the holder, each {diameter, length} in mm, from its lower face up; only with length.
+    std::vector<std::array<double, 2>> holder{};
+    double holder_clearance{kHolderClearance};  // mm, that shank and holder keep to stock
 };
 
 // A fixture that holds the stock: a box or a vertical cylinder, from the table to `top`. Neither tool nor
