@@ -85,7 +85,9 @@ void add_verify_command(CLI::App& app, Work& work)
         "Gouge and scallop are measured square to the surface, in mm, whatever the job's units.\n"
         "Exit status 1 where a bound of the job does not hold: floor_tolerance (gouge),\n"
         "plan_tolerance (walls), scallop (on 99 % of what the tools reach; stock on the rest may\n"
-        "be no thicker than scallop and floor_tolerance), or where a rapid move cuts stock.\n"
+        "be no thicker than scallop and floor_tolerance), where a rapid move cuts stock, or where "
+        "stock is cut beyond the\n"
+        "flutes or touches shank or holder (docs/job_file.md, [tool]).\n"
         "The engagement is looked for with --stats, --engagement-picture, --max-engagement, and\n"
         "where an operation has max_engagement.");
     auto options = std::make_shared<VerifyOptions>();

@@ -18,6 +18,7 @@ using job::Job;
 using report::engagement_picture;
 using report::left_picture;
 using report::path_picture;
+using verify::ContactFigures;
 using verify::EngagementFigures;
 using verify::ToolFigures;
 using verify::Verification;
@@ -61,6 +62,20 @@ void add_engagement_to(Json& out, const EngagementFigures& f)
     out["removed_mm3_per_min"] = rounded(f.seconds > 0 ? 60 * f.removed_volume / f.seconds : 0);
 }
 
+void add_contacts_to(Json& out, const std::vector<ContactFigures>& contacts)
+{
+    for (const ContactFigures& f : contacts) {
+        const std::string name = name_of_figure(f.part);
+        out[name] = rounded(f.depth);
+        if (f.depth > 0) {
+            const std::string begin = name.substr(0, name.size() - std::string{"mm"}.size());
+            out[begin + "at_mm"] = {rounded(f.tip.x), rounded(f.tip.y), rounded(f.tip.z)};
+            out[begin + "line"] = f.line;
+            out[begin + "tool"] = f.tool;
+        }
+    }
+}
+
 Json stats_of(const Verification& result)
 {
     const VerifyFigures& f = result.figures;
@@ -82,6 +97,7 @@ Json stats_of(const Verification& result)
         }
     };
     optional("fixture_hit_max_mm", f.fixture_hit_max);
+    add_contacts_to(out, f.contacts);
     optional("ball_gouge_max_mm", f.ball_gouge_max);
     optional("wall_gouge_max_mm", f.wall_gouge_max);
     optional("wall_left_max_mm", f.wall_left_max);

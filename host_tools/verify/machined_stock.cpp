@@ -8,6 +8,7 @@
 #include "host_tools/nurbs/plan_vector.hpp"
 #include "host_tools/verify/bands.hpp"
 #include "host_tools/verify/engagement_trace.hpp"
+#include "host_tools/verify/tool_contact.hpp"
 
 namespace cusp::verify {
 
@@ -103,6 +104,7 @@ MachinedStock::MachinedStock(const HeightGrid& grid, double top)
 CutFigures MachinedStock::cut_band(const ToolPositions& positions,
                                    double spacing,
                                    EngagementTrace* trace,
+                                   ContactTrace* contact,
                                    std::size_t band,
                                    std::size_t begin,
                                    std::size_t end)
@@ -119,6 +121,9 @@ CutFigures MachinedStock::cut_band(const ToolPositions& positions,
         }
         if (trace != nullptr) {
             trace->look(heights_, k, band, begin, end);
+        }
+        if (contact != nullptr) {
+            contact->look(heights_, k, band, begin, end);
         }
         const double depth = cut_at(tool, tip, shrink, begin, end);
         if (trace != nullptr && depth > 0) {
@@ -248,13 +253,14 @@ void MachinedStock::sweep_cone(
 CutFigures MachinedStock::cut(const ToolPositions& positions,
                               double spacing,
                               const Progress& progress,
-                              EngagementTrace* trace)
+                              EngagementTrace* trace,
+                              ContactTrace* contact)
 {
     std::vector<CutFigures> bands(kBands);
     std::mutex guard;
     std::size_t done = 0;
     for_each_band(grid_.nx, [&](std::size_t begin, std::size_t end, std::size_t band) {
-        bands[band] = cut_band(positions, spacing, trace, band, begin, end);
+        bands[band] = cut_band(positions, spacing, trace, contact, band, begin, end);
         const std::lock_guard lock{guard};
         progress(static_cast<double>(++done) / static_cast<double>(kBands));
     });

@@ -10,6 +10,7 @@
 
 namespace cusp::verify {
 
+class ContactTrace;
 class EngagementTrace;
 
 struct CutFigures {
@@ -31,10 +32,12 @@ public:
     // spacing  mm between positions: depths are measured with a tool reduced by the height of the
     //          slivers between two positions
     // trace    looks at the stock before each position; may be null
+    // contact  likewise
     CutFigures cut(const ToolPositions& positions,
                    double spacing,
                    const Progress& progress,
-                   EngagementTrace* trace = nullptr);
+                   EngagementTrace* trace = nullptr,
+                   ContactTrace* contact = nullptr);
 
     const std::vector<double>& heights() const { return heights_; }
     double top() const { return top_; }
@@ -44,6 +47,7 @@ private:
     CutFigures cut_band(const ToolPositions& positions,
                         double spacing,
                         EngagementTrace* trace,
+                        ContactTrace* contact,
                         std::size_t band,
                         std::size_t begin,
                         std::size_t end);

@@ -11,6 +11,7 @@
 #include "host_tools/verify/earlier_programs.hpp"
 #include "host_tools/verify/floor_judgement.hpp"
 #include "host_tools/verify/level_judgement.hpp"
+#include "host_tools/verify/stock_grid.hpp"
 #include "host_tools/verify/wall_distance.hpp"
 
 #include "fmt/format.h"
@@ -28,9 +29,6 @@ using toolpath::ToolShape;
 
 namespace {
 
-constexpr double kDefaultPitch = 0.173;  // no simple ratio to common stepovers
-constexpr double kDefaultSpacing = 0.1;
-constexpr double kMostCells = 4e6;
 // Rapid moves that cut deeper than slivers and rounding.
 constexpr double kRapidCutAllowed = 0.005;
 // mm: accuracy of the chords of walls and of the height map.
@@ -167,37 +165,6 @@ std::vector<ToolPositions> positions_of(const Job& job,
     return runs;
 }
 
-HeightGrid make_grid(const Job& job,
-                     const Scene& scene,
-                     double least_radius,
-                     std::optional<double> pitch)
-{
-    PartBox box = part_box(scene.surfaces, scene.mesh);
-    if (const auto plan = prismatic_box(job)) {
-        box.x_low = std::min(box.x_low, plan->low.x);
-        box.x_high = std::max(box.x_high, plan->high.x);
-        box.y_low = std::min(box.y_low, plan->low.y);
-        box.y_high = std::max(box.y_high, plan->high.y);
-    }
-    if (job.stock_x) {
-        box.x_low = std::min(box.x_low, (*job.stock_x)[0]);
-        box.x_high = std::max(box.x_high, (*job.stock_x)[1]);
-    }
-    if (job.stock_y) {
-        box.y_low = std::min(box.y_low, (*job.stock_y)[0]);
-        box.y_high = std::max(box.y_high, (*job.stock_y)[1]);
-    }
-    const double width = box.x_high - box.x_low;
-    const double height = box.y_high - box.y_low;
-    constexpr double kPitchesPerRadius = 16;
-    const double wanted = pitch.value_or(std::min(kDefaultPitch, least_radius / kPitchesPerRadius));
-    const double used = std::max(wanted, std::sqrt(width * height / kMostCells));
-    const auto count = [&](double length) {
-        return std::max<std::size_t>(1, static_cast<std::size_t>(length / used));
-    };
-    return {box.x_low + used / 2, box.y_low + used / 2, used, count(width), count(height), true};
-}
-
 // Depth of gouges by balls, by exact distances.
 std::optional<double> ball_gouge(const Scene& scene,
                                  const std::vector<ToolPositions>& runs,
@@ -270,6 +237,19 @@ void find_fixture_hits(const Job& job,
     }
 }
 
+void judge_contacts(Verification& result)
+{
+    for (const ContactFigures& f : result.figures.contacts) {
+        if (f.depth > 0) {
+            result.broken.push_back(fmt::format(
+                "{} {:.4g} by tool {} at x {:.3f} y {:.3f} z {:.3f}, line {}: {} of {:.2f} mm "
+                "would do",
+                name_of_figure(f.part), f.depth, f.tool, f.tip.x, f.tip.y, f.tip.z, f.line,
+                f.part == BodyPart::kHolder ? "a length" : "flutes", f.long_enough));
+        }
+    }
+}
+
 void judge(const Scene& scene, Verification& result)
 {
     const VerifyFigures& f = result.figures;
@@ -289,6 +269,7 @@ void judge(const Scene& scene, Verification& result)
         result.broken.push_back(fmt::format("fixture_hit_max_mm {:.4g}, {}, is over {:.4g}",
                                             *f.fixture_hit_max, f.fixture_hit_at, kFixtureAllowed));
     }
+    judge_contacts(result);
     if (f.level_left) {
         result.broken.push_back(
             fmt::format("left {:.4g} mm over the level of operation {} ({}) at x {:.3f} y {:.3f}",
@@ -312,8 +293,30 @@ void judge(const Scene& scene, Verification& result)
     }
 }
 
-// Cuts the stock run by run; fills the figures of depths, and the engagement if it is wanted.
-void cut_stock(const std::vector<ToolPositions>& runs,
+void add_contacts(const Job& job,
+                  const ToolPositions& run,
+                  const std::vector<BodyContact>& found,
+                  std::vector<ContactFigures>& figures)
+{
+    for (const BodyContact& contact : found) {
+        const auto known = std::find_if(figures.begin(), figures.end(),
+                                        [&](const auto& f) { return f.part == contact.part; });
+        ContactFigures& worst =
+            known != figures.end() ? *known : figures.emplace_back(ContactFigures{contact.part});
+        if (contact.depth > worst.depth) {
+            worst = {contact.part,
+                     contact.depth,
+                     run.tips[contact.position],
+                     run.lines[contact.position],
+                     run.tool.number,
+                     long_enough(job, run.tool, contact)};
+        }
+    }
+}
+
+// Cuts the stock run by run; fills the figures of depths, contacts and the engagement if it is wanted.
+void cut_stock(const Job& job,
+               const std::vector<ToolPositions>& runs,
                double spacing,
                bool engagement,
                const Progress& progress,
@@ -330,6 +333,8 @@ void cut_stock(const std::vector<ToolPositions>& runs,
         if (engagement) {
             trace.emplace(result.grid, run);
         }
+        ContactTrace contact{result.grid, run, tool_discs(job, run.tool, kProgramSlack),
+                             stock_around(job, result.grid)};
         const CutFigures cut = stock.cut(
             run, spacing,
             [&](double share) {
@@ -337,7 +342,8 @@ void cut_stock(const std::vector<ToolPositions>& runs,
                     (static_cast<double>(done) + share * static_cast<double>(run.tips.size())) /
                     static_cast<double>(figures.tool_positions));
             },
-            trace ? &*trace : nullptr);
+            trace ? &*trace : nullptr, contact.is_idle() ? nullptr : &contact);
+        add_contacts(job, run, contact.finish(), figures.contacts);
         if (trace) {
             result.engagement.push_back(trace->finish());
         }
@@ -429,21 +435,15 @@ Verification verify(const Job& job,
     VerifyFigures& figures = result.figures;
     figures.moves = result.program.counts;
 
-    double least_radius = job.tools.front().radius;
-    for (const Tool& tool : job.tools) {
-        least_radius = std::min(least_radius, tool.radius);
-    }
-    constexpr double kSpacingsPerRadius = 20;
-    const double spacing =
-        settings.spacing.value_or(std::min(kDefaultSpacing, least_radius / kSpacingsPerRadius));
+    const double spacing = settings.spacing.value_or(position_spacing(job));
     std::vector<ToolPositions> runs =
         positions_of(job, result.program, program_file, spacing, figures);
-    result.grid = make_grid(job, scene, least_radius, settings.pitch);
+    result.grid = stock_grid(job, part_box(scene.surfaces, scene.mesh), settings.pitch);
 
     MachinedStock stock{result.grid, job.stock_top};
     const std::vector<Tool> tools = finishing_tools(job, runs);
     const double removed_before = cut_earlier_programs(job, spacing, stock);
-    cut_stock(runs, spacing, settings.engagement, progress, stock, result);
+    cut_stock(job, runs, spacing, settings.engagement, progress, stock, result);
     if (settings.engagement) {
         sum_engagement(job, runs, settings.max_engagement, stock.removed_volume() - removed_before,
                        result);

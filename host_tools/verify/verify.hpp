@@ -16,6 +16,7 @@
 #include "host_tools/verify/machined_stock.hpp"
 #include "host_tools/verify/part_heights.hpp"
 #include "host_tools/verify/program_moves.hpp"
+#include "host_tools/verify/tool_contact.hpp"
 
 namespace cusp::verify {
 
@@ -48,6 +49,17 @@ struct ToolFigures {
     double cut_depth_max{};
 };
 
+// The worst contact of a part of any tool with stock, mm along the axis and with the clearance.
+struct ContactFigures {
+    BodyPart part;
+    double depth{};
+    // Where there is one:
+    Vec3d tip{};
+    std::uint32_t line{};
+    int tool{};            // its number
+    double long_enough{};  // mm: flutes, or the tool out of its holder
+};
+
 // In mm; heights are along the normal.
 struct VerifyFigures {
     toolpath::MoveCounts moves;
@@ -63,6 +75,8 @@ struct VerifyFigures {
     // The deepest into a fixture grown by its margin, and where; nothing where the job has none.
     std::optional<double> fixture_hit_max;
     std::string fixture_hit_at;  // fixture and place; empty where there is no hit
+    // Of each part that the job gives lengths of, for a tool of the program.
+    std::vector<ContactFigures> contacts;
     double cut_depth_max{};
     std::vector<ToolFigures> tools;  // those that cut, in the order of their first cut
     double unreachable_share{};      // of the part, where no tool of the program fits
