@@ -142,6 +142,7 @@ Plan plan_job(Job& job, const MachineRates& rates, RestOfJob& rest, std::FILE* s
                 job, fmt::format("operation {}, {}", operation.number, operation.strategy),
                 result.path);
             add_rounding(job, result);
+            result.operation = operation.number;
             operations.push_back(std::move(result));
         }
     }
@@ -219,6 +220,7 @@ Plan plan_program(Job& job, const std::string& title, const PlanOutput& output)
         throw InputError(fmt::format("{}: there is nothing to cut: {}", job.file,
                                      fmt::join(plan.warnings, "; ")));
     }
+    refuse_contacts(job, plan);
     if (const auto warning = stock_warning(job, plan)) {
         plan.warnings.push_back(*warning);
     }

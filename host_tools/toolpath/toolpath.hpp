@@ -101,6 +101,7 @@ struct OperationStats {
 struct PlannedOperation {
     Toolpath path;
     OperationStats stats;
+    int operation{0};  // its number in the job
 };
 
 }  // namespace cusp::toolpath

@@ -407,7 +407,7 @@ tool = "6mm ball"
                      library=self.LIBRARY + "flute_length = 20\nlength = 10\n")
 
     def test_a_tool_that_is_too_short_is_a_warning(self):
-        for keys, words in (("flute_length = 2\n", "its flutes are 2 mm long: its shank may rub"),
+        for keys, words in (("flute_length = 2.5\n", "its flutes are 2.5 mm long: its shank may rub"),
                             ("length = 2\n", "it is 2 mm long: its holder may touch")):
             self.write("tools.toml", self.LIBRARY.replace('name = "6mm ball"\n', 'name = "6mm ball"\n' + keys))
             self.write("job.toml", self.JOB)
