@@ -72,6 +72,28 @@ Json run_facts(const RunFacts& facts)
             {"errors", errors}};
 }
 
+// What is above the cutter, where the job has it.
+void add_body(const job::Job& job, const Tool& tool, Json& entry)
+{
+    const auto found = job.tool_facts.find(tool.number);
+    if (found == job.tool_facts.end()) {
+        return;
+    }
+    const job::ToolFacts& facts = found->second;
+    if (facts.flute_length) {
+        entry["flute_length"] = *facts.flute_length;
+    }
+    if (facts.length) {
+        entry["length"] = *facts.length;
+    }
+    if (facts.shank_diameter) {
+        entry["shank_diameter"] = *facts.shank_diameter;
+    }
+    if (!facts.holder.empty()) {
+        entry["holder"] = facts.holder;
+    }
+}
+
 Json tools_of(const RunFacts& facts)
 {
     Json out = Json::array();
@@ -89,6 +111,7 @@ Json tools_of(const RunFacts& facts)
                 entry["tip_angle"] = tool->tip_angle;
                 entry["tip_radius"] = tool->tip_radius;
             }
+            add_body(*facts.job, *tool, entry);
         }
         if (facts.verification != nullptr) {
             for (const ToolFigures& figures : facts.verification->figures.tools) {

@@ -15,6 +15,7 @@ export interface ToolFacts {
   number: number; time_s: number;
   shape?: "ball" | "flat" | "bull" | "vee" | "drill" | "taper"; radius?: number; corner_radius?: number;
   tip_angle?: number; tip_radius?: number;  // of a cone: radians, mm
+  flute_length?: number; length?: number; shank_diameter?: number; holder?: [number, number][];  // diameter, length; mm
   cut_length_mm?: number; cut_depth_max_mm?: number;
 }
 

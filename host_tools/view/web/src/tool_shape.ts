@@ -36,8 +36,11 @@ export function toolGeometry(tool: Cutter | null, size: number): THREE.BufferGeo
         points.push(new THREE.Vector2(flat + corner * Math.sin(angle), corner * (1 - Math.cos(angle))));
       }
     }
-    const flutes = Math.max(5 * radius, end + radius), shank = flutes + 5 * radius;
-    points.push(new THREE.Vector2(radius, flutes), new THREE.Vector2(0.92 * radius, flutes), new THREE.Vector2(0.92 * radius, shank), new THREE.Vector2(0, shank));
+    const flutes = tool.flute_length ? Math.max(tool.flute_length, end) : Math.max(5 * radius, end + radius);
+    const neck = (tool.shank_diameter ?? 1.84 * radius) / 2; let top = Math.max(tool.length ?? flutes + 5 * radius, flutes);
+    points.push(new THREE.Vector2(radius, flutes), new THREE.Vector2(neck, flutes), new THREE.Vector2(neck, top));
+    for (const [diameter, length] of tool.holder ?? []) points.push(new THREE.Vector2(diameter / 2, top), new THREE.Vector2(diameter / 2, top += length));
+    points.push(new THREE.Vector2(0, top));
   } else {
     points.push(new THREE.Vector2(0, 0), new THREE.Vector2(0.012 * size, 0.05 * size), new THREE.Vector2(0.012 * size, 0.16 * size), new THREE.Vector2(0, 0.16 * size));
   }
