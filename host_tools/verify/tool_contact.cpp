@@ -29,6 +29,13 @@ double radius_at(const Tool& tool, double above)
            std::sqrt(std::max(0.0, tool.corner_radius * tool.corner_radius - below * below));
 }
 
+// mm over the tip, at which the cutter has its whole radius.
+double end_height(const Tool& tool)
+{
+    return is_conical(tool) ? (tool.radius - tool.tip_radius) / std::tan(tool.tip_angle / 2)
+                            : tool.corner_radius;
+}
+
 // mm: what passes at several heights along a wall may differ by.
 double flute_slack(const Job& job)
 {
@@ -55,15 +62,21 @@ std::vector<ToolDisc> tool_discs(const Job& job, const Tool& tool, double slack)
     const ToolFacts& facts = found->second;
     const double clearance = facts.holder_clearance;
     std::vector<ToolDisc> discs;
-    const auto add = [&](BodyPart part, double radius, double above, double tolerated) {
-        if (radius > slack + tolerated) {
-            discs.push_back(
-                {part, radius - slack - tolerated, above, std::max(kTouch, slack + tolerated)});
+    const auto add = [&](BodyPart part, double radius, double above, double least) {
+        if (radius > slack) {
+            discs.push_back({part, radius - slack, above, std::max(kTouch, slack + least)});
         }
     };
     if (facts.flute_length) {
-        add(BodyPart::kBeyondFlutes, radius_at(tool, *facts.flute_length), *facts.flute_length,
-            flute_slack(job));
+        const double least = flute_slack(job);
+        const double above = *facts.flute_length;
+        add(BodyPart::kBeyondFlutes, radius_at(tool, above) - least, above, least);
+        constexpr int kSteps = 4;  // up the cutter's round or sloping part beyond the flutes
+        const double more = std::max(0.0, end_height(tool) - above) / kSteps;
+        for (int k = 1; k <= kSteps && more > 0; ++k) {
+            add(BodyPart::kBeyondFlutes, radius_at(tool, above + k * more) - least, above,
+                k * more + least);
+        }
     }
     if (facts.shank_diameter && *facts.shank_diameter / 2 > tool.radius) {
         add(BodyPart::kShank, *facts.shank_diameter / 2 + clearance,

@@ -206,7 +206,36 @@ TEST(ToolContact, NeedsLengthsOfTheTool)
     DOUBLES_EQUAL(19.5, discs[3].above, 1e-12);
 }
 
-TEST(ToolContact, StockStandsAroundAPocketUnlessTheJobGivesItsExtent)
+// Of a vee of 90 degrees, 10 mm high: beyond its flutes only what its cone cuts.
+TEST(ToolContact, OfAConeThatIsHigherThanItsFlutes)
+{
+    toolpath::Tool vee{1, toolpath::ToolShape::kVee, 10, 0};
+    vee.tip_angle = 1.5707963267948966;
+    job.tools = {vee};
+    facts().flute_length = 4;
+    const HeightGrid grid{0, 0, 0.173, 200, 200, true};
+    const auto depth = [&](double z, double radius) {
+        MachinedStock stock{grid, 0};
+        const ToolPositions hole{
+            {2, toolpath::ToolShape::kFlat, radius, 0}, {{17, 17, -20}}, {false}, {1}};
+        stock.cut(hole, kSpacing, [](double) {});
+        const ToolPositions positions{vee, {{17, 17, z}}, {false}, {1}};
+        ContactTrace trace{grid, positions, tool_discs(job, vee), nothing_around()};
+        stock.cut(
+            positions, kSpacing, [](double) {}, nullptr, &trace);
+        double deepest = 0;
+        for (const BodyContact& contact : trace.finish()) {
+            deepest = std::max(deepest, contact.depth);
+        }
+        return deepest;
+    };
+    DOUBLES_EQUAL(2, depth(-6, 2), 1e-9);
+    DOUBLES_EQUAL(0, depth(-4, 2), 1e-9);
+    DOUBLES_EQUAL(0, depth(-9, 9.3), 1e-9);  // the hole is wider than the cone at the stock's top
+    DOUBLES_EQUAL(8, depth(-12, 9.3), 1e-9);
+}
+
+TEST(ToolContact, ThereIsStockAroundAPocketUnlessTheJobGivesItsExtent)
 {
     const HeightGrid grid{0, 0, 1, 20, 20, false};
     job::Operation pocket;
