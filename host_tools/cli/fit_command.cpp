@@ -9,7 +9,7 @@
 #include "host_tools/cli/share_progress.hpp"
 #include "host_tools/files/files.hpp"
 #include "host_tools/input_error/input_error.hpp"
-#include "host_tools/program_fit/fit_program.hpp"
+#include "host_tools/program_fit/program_fit.hpp"
 
 #include "CLI/CLI.hpp"
 #include "fmt/format.h"

@@ -1,19 +1,4 @@
-// The Grbl dialect from the sender's side: answers of a controller (this file), lines to send
-// (program_lines.hpp), flow control (flow_window.hpp).
-//
-//     ProgramLines program{"part.ngc"};
-//     FlowWindow window;
-//     while (const std::optional<ProgramLine> line = program.next()) {
-//         const std::size_t size = line->text.size() + 1;
-//         while (!window.fits(size)) {
-//             const Answer answer = parse_answer(receive_line());
-//             if (answer.kind == AnswerKind::kOk) {
-//                 window.answered();
-//             }
-//         }
-//         window.sent(line->number, size);
-//         send(line->text + '\n');
-//     }
+// Answers of a controller: status reports, errors, alarms, messages, one line each.
 #pragma once
 
 #include <cstdint>

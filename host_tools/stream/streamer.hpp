@@ -20,9 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "host_tools/dialect/answer.hpp"
-#include "host_tools/dialect/flow_window.hpp"
-#include "host_tools/dialect/program_lines.hpp"
+#include "host_tools/dialect/dialect.hpp"
 #include "host_tools/stream/checked_window.hpp"
 #include "host_tools/stream/controller_facts.hpp"
 #include "host_tools/stream/executed_line.hpp"

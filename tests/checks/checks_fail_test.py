@@ -159,20 +159,36 @@ class ChecksOfTheTree(unittest.TestCase):
     def test_front_doors_need_a_row_and_an_example(self):
         self.assertEqual(self.run_check("front_doors.py")[0], 2)
         self.write("firmware/base/vec.hpp", "// Vectors.\n//\n//   Vec3d v{1, 2, 3};\n#pragma once\n")
-        self.write("docs/architecture.md", "| `firmware/base` | `vec.hpp` |\n")
+        self.write("docs/architecture.md", "| `firmware/base` | `vec.hpp` | its first type |\n")
         self.assertEqual(self.run_check("front_doors.py")[0], 0)
         self.write("firmware/path/line.hpp", "// Lines.\n")
         status, text = self.run_check("front_doors.py")
         self.assertEqual(status, 1)
         self.assertIn("firmware/path has no row", text)
-        self.write("docs/architecture.md", "| `firmware/base` | `vec.hpp` |\n| `firmware/path` | `line.hpp` |\n")
+        self.write("docs/architecture.md", "| `firmware/base` | `vec.hpp` | its first type |\n| `firmware/path` | `line.hpp` | x |\n")
         status, text = self.run_check("front_doors.py")
         self.assertEqual(status, 1)
         self.assertIn("firmware/path/line.hpp:1: the opening comment of a front door needs an example", text)
-        self.write("docs/architecture.md", "| `firmware/base` | `vec.hpp` |\n| `firmware/path` | `arc.hpp` |\n")
+        self.write("docs/architecture.md", "| `firmware/base` | `vec.hpp` | its first type |\n| `firmware/path` | `arc.hpp` | |\n")
         self.assertIn("firmware/path/arc.hpp does not exist", self.run_check("front_doors.py")[1])
 
     def test_sizes_refuses_long_files_and_functions_and_private_parts_first(self):
+    def test_front_doors_have_the_name_of_the_module_or_a_reason(self):
+        text = "// Lines.\n//\n//   Line line;\n#pragma once\nclass LineSet final {\n};\n"
+        self.write("firmware/path/line_set.hpp", text)
+        for row, wrong in (("| `line_set.hpp` | |", "needs the name path.hpp"),
+                           ("| `line_set.hpp` | class `Line` |", "does not define the class Line "),
+                           ("| `line_set.hpp` | class `LineSet` |", None),
+                           ("| `line_set.hpp` | the first of its types |", None)):
+            self.write("docs/architecture.md", f"| `firmware/path` {row}\n")
+            status, said = self.run_check("front_doors.py")
+            self.assertEqual(status, 1 if wrong else 0, said)
+            self.assertIn(wrong or "1 modules", said)
+        self.write("firmware/path/path.hpp", text)
+        self.assertIn("is not path.hpp, which exists", self.run_check("front_doors.py")[1])
+        self.write("docs/architecture.md", "| `firmware/path` | `path.hpp` | a reason |\n")
+        self.assertIn("no reason needed", self.run_check("front_doors.py")[1])
+
         self.assertEqual(self.run_check("sizes.py")[0], 2)
         body = "\n".join(["    step();"] * 56)
         function = "namespace cusp {\n\n%sint cut(int a,\n        int b)\n{\n" + body + "\n%s}\n\n}  // namespace cusp\n"

@@ -1,5 +1,5 @@
 // A run with its input and output files.
-#include "host_tools/simulate/simulation.hpp"
+#include "host_tools/simulate/simulate.hpp"
 
 #include <chrono>
 #include <memory>

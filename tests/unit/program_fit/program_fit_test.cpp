@@ -1,5 +1,5 @@
 // Whole programs: words kept, modal state restored, tolerance held, real size.
-#include "host_tools/program_fit/fit_program.hpp"
+#include "host_tools/program_fit/program_fit.hpp"
 
 #include <cmath>
 #include <cstdio>

@@ -1,5 +1,5 @@
 // Whole programs through the whole firmware, judged by invariants.
-#include "host_tools/simulate/simulation.hpp"
+#include "host_tools/simulate/simulate.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Sorts lines into runs and others, and writes fitted moves for the runs.
-#include "host_tools/program_fit/fit_program.hpp"
+#include "host_tools/program_fit/program_fit.hpp"
 
 #include <algorithm>
 #include <optional>
