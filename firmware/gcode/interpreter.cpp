@@ -1,6 +1,8 @@
 // The checks of one line in Grbl's order, and what it leaves behind.
 #include "firmware/gcode/interpreter.hpp"
 
+#include "firmware/base/inch.hpp"
+
 namespace cusp::gcode {
 namespace {
 
@@ -101,7 +103,6 @@ Status check_path_control(LineContext& line) noexcept
     if (motion_takes_p(command)) {
         return Error::kGcodeAxisCommandConflict;
     }
-    constexpr double kMillimetresPerInch = 25.4;
     const double tolerance =
         to_double(command.value('P')) * (command.modal.inches ? kMillimetresPerInch : 1);
     if (tolerance > kMaxTolerance) {

@@ -1,4 +1,5 @@
 // Targets, feeds and the moves of one line.
+#include "firmware/base/inch.hpp"
 #include "firmware/gcode/line_context.hpp"
 
 namespace cusp::gcode {
@@ -210,7 +211,6 @@ float path_tolerance(const ModalState& modal, float default_tolerance) noexcept
 Status check_feed(LineContext& line, bool was_inverse_time) noexcept
 {
     constexpr double kMaxFeed = 1e9;
-    constexpr double kMillimetresPerInch = 25.4;
     Command& command = line.command;
     ModalState& modal = command.modal;
     const bool moves = command.axis_use == AxisUse::kMotion && needs_feed(modal.motion);

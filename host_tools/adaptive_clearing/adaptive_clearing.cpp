@@ -48,7 +48,7 @@ constexpr double kPiece = 0.1;
 constexpr double kTargetMargin = 0.2;
 constexpr double kSteerShare = 0.995;  // of the engagement
 constexpr int kPoleGrid = 48;
-constexpr double kMoreWay = 1.3;  // than the area over the width of a straight cut
+constexpr double kMoreLength = 1.3;  // times the area over the width of a straight cut
 constexpr double kMostProgress = 0.99;
 
 Edge mirrored(const Edge& e)
@@ -91,7 +91,7 @@ public:
           box_{grown_box(box_of(region), settings.tool_radius)},
           swept_{box_, settings.tool_radius},
           links_{swept_, walls_, settings.wall_clearance},
-          expected_{kMoreWay * area(region) /
+          expected_{kMoreLength * area(region) /
                     (settings.tool_radius * (1.0 - std::cos(settings.max_engagement)))}
     {
     }
@@ -292,7 +292,7 @@ private:
             return;
         }
         constexpr double kMargin = 0.02;
-        for (const Vec2d p : swept_.standing(grown(whole, (1.0 - kMargin) * radius_))) {
+        for (const Vec2d p : swept_.uncut_points(grown(whole, (1.0 - kMargin) * radius_))) {
             if (!swept_.contains(p)) {
                 cut_sliver(p);
             }

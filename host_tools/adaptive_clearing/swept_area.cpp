@@ -22,7 +22,7 @@ constexpr int kArcs = 128;           // of the circle
 constexpr double kGrown = 0.025;     // radii: over half of such an arc
 constexpr double kPitch = 1.0 / 12;  // radii: of cells
 constexpr double kDiscSpacing = 0.05;
-constexpr double kLongestPiece = 0.1;  // radii: its half is within kMostSlack with a tolerance
+constexpr double kLongestPiece = 0.1;  // radii: its half is within kMaxShrink with a tolerance
 constexpr double kShortestPiece = 0.001;
 constexpr std::size_t kNoCell = static_cast<std::size_t>(-1);
 
@@ -70,11 +70,11 @@ void SweptArea::add_disc(Vec2d centre, double radius)
 {
     const auto index = static_cast<std::uint32_t>(discs_.size());
     discs_.push_back({centre, radius});
-    seen_.push_back(0);
+    last_query_.push_back(0);
     const double diagonal = std::sqrt(0.5) * pitch_ + kGrown * radius_;
-    const double inner = radius - kMostSlack * radius_ - diagonal;
-    // Discs count as larger by up to as much (a negative slack).
-    const double outer = radius + kMostSlack * radius_ + diagonal;
+    const double inner = radius - kMaxShrink * radius_ - diagonal;
+    // A negative `shrink` enlarges the disc by up to as much.
+    const double outer = radius + kMaxShrink * radius_ + diagonal;
     const auto column = [&](double x) {
         return std::clamp(static_cast<int>((x - corner_.x) / pitch_), 0, columns_ - 1);
     };
@@ -139,9 +139,9 @@ void SweptArea::add(const Edge& edge, double tolerance)
 }
 
 // Adds the part of the tool's circle that lies in the disc, as angles from the heading.
-void SweptArea::add_covered(const Disc& disc, Vec2d centre, Vec2d heading, double slack) const
+void SweptArea::add_covered(const Disc& disc, Vec2d centre, Vec2d heading, double shrink) const
 {
-    const double r = disc.radius - slack;
+    const double r = disc.radius - shrink;
     const Vec2d to = disc.centre - centre;
     const double d = norm(to);
     if (d + radius_ <= r) {
@@ -163,10 +163,10 @@ void SweptArea::add_covered(const Disc& disc, Vec2d centre, Vec2d heading, doubl
     }
 }
 
-double SweptArea::engagement(Vec2d centre, Vec2d heading, double slack, double widened) const
+double SweptArea::engagement(Vec2d centre, Vec2d heading, double shrink, double widened) const
 {
     const double most = std::min(0.5 * kPi + widened, kPi);
-    ++look_;
+    ++query_;
     covered_.clear();
     const double arc = 2 * kPi / kArcs;
     const double at = std::atan2(heading.y, heading.x);
@@ -192,9 +192,9 @@ double SweptArea::engagement(Vec2d centre, Vec2d heading, double slack, double w
             continue;
         }
         for (const std::uint32_t k : cells_[cell]) {
-            if (seen_[k] != look_) {
-                seen_[k] = look_;
-                add_covered(discs_[k], centre, heading, slack);
+            if (last_query_[k] != query_) {
+                last_query_[k] = query_;
+                add_covered(discs_[k], centre, heading, shrink);
             }
         }
     }
@@ -218,9 +218,9 @@ double SweptArea::bound_of_piece(
 {
     const double middle = 0.5 * (from + to);
     const double size = (to - from) * length(edge);
-    const double slack = 0.5 * size + (edge.turn != 0 ? tolerance : 0.0);
+    const double shrink = 0.5 * size + (edge.turn != 0 ? tolerance : 0.0);
     const double turn = 0.5 * (to - from) * sweep(edge);
-    const double most = engagement(point_on(edge, middle), tangent_on(edge, middle), slack, turn);
+    const double most = engagement(point_on(edge, middle), tangent_on(edge, middle), shrink, turn);
     if (most <= limit || size < 2.0 * kShortestPiece * radius_) {
         return most;
     }
@@ -240,7 +240,7 @@ double SweptArea::engagement_bound(const Edge& edge, double limit, double tolera
     return most;
 }
 
-std::vector<Vec2d> SweptArea::standing(const Region2d& region) const
+std::vector<Vec2d> SweptArea::uncut_points(const Region2d& region) const
 {
     constexpr int kFiner = 6;
     const EdgeTree tree{edges_of(region)};

@@ -21,8 +21,8 @@ namespace cusp::adaptive_clearing {
 
 class SweptArea {
 public:
-    // Of the radius: the largest slack of engagement().
-    static constexpr double kMostSlack = 0.06;
+    // In radii: the largest `shrink` of engagement().
+    static constexpr double kMaxShrink = 0.06;
 
     // box     of the places that the tool's circle may reach
     // radius  mm, of the tool, > 0
@@ -36,10 +36,10 @@ public:
     // Radians of the tool's circle at `centre` that are not swept, of those within a quarter turn
     // and `widened` (radians) of the unit vector `heading`.
     //
-    // slack  mm, at most kMostSlack radii: discs are taken as smaller by it. For the tool anywhere
-    //        within `slack` of the centre the result is an upper bound, with headings up to
+    // shrink  mm, at most kMaxShrink radii: discs are taken as smaller by it. For the tool anywhere
+    //        within `shrink` of the centre the result is an upper bound, with headings up to
     //        `widened` off. Negative: stock thinner than that does not count.
-    double engagement(Vec2d centre, Vec2d heading, double slack = 0.0, double widened = 0.0) const;
+    double engagement(Vec2d centre, Vec2d heading, double shrink = 0.0, double widened = 0.0) const;
 
     // An upper bound, in radians, of the engagement while the tool moves along the edge, or along
     // chords of it within `tolerance` (mm). Pieces of the edge are halved down to 0.001 radii until
@@ -49,8 +49,8 @@ public:
     // Whether the point is swept.
     bool contains(Vec2d point) const;
 
-    // Points of a raster of a 72nd of the radius in the region that are not swept.
-    std::vector<Vec2d> standing(const offset::Region2d& region) const;
+    // Points in the region that are not swept, of a raster with a pitch of radius / 72.
+    std::vector<Vec2d> uncut_points(const offset::Region2d& region) const;
 
     double radius() const { return radius_; }
 
@@ -68,7 +68,7 @@ private:
     bool is_hidden(std::uint32_t disc, std::uint32_t by, Vec2d middle) const;
     void put(std::uint32_t disc, Discs& discs, Vec2d middle) const;
     std::size_t cell_at(Vec2d point) const;
-    void add_covered(const Disc& disc, Vec2d centre, Vec2d heading, double slack) const;
+    void add_covered(const Disc& disc, Vec2d centre, Vec2d heading, double shrink) const;
     double bound_of_piece(
         const offset::Edge& edge, double from, double to, double limit, double tolerance) const;
 
@@ -81,9 +81,9 @@ private:
     std::vector<std::uint8_t> is_swept_;  // cells with all points within kGrown of them
     std::vector<Discs> cells_;
     std::vector<Disc> discs_;
-    // Of the last engagement(): which discs were seen, and what they cover.
-    mutable std::vector<std::uint32_t> seen_;
-    mutable std::uint32_t look_{0};
+    // Scratch of engagement(): discs already visited, and the angles that they cover.
+    mutable std::vector<std::uint32_t> last_query_;
+    mutable std::uint32_t query_{0};
     mutable std::vector<Interval> covered_;
 };
 

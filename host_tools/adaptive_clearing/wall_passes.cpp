@@ -65,9 +65,9 @@ std::vector<Edge> part_of(const Contour& contour, Stretch stretch)
     return part;
 }
 
-bool is_clear(const WallSpace& space, Vec2d centre, double slack)
+bool is_clear(const WallSpace& space, Vec2d centre, double max_error)
 {
-    return !space.walls.any_nearer(centre, space.wall_clearance - slack);
+    return !space.walls.any_nearer(centre, space.wall_clearance - max_error);
 }
 
 // The tool can not be there before a pass.

@@ -85,14 +85,14 @@ public:
                 trace(0, 0, kAlways, out);
             }
             for (int k = 1; k <= most; ++k) {
-                trace(0, k, {2.0 * k - kOverlap, kEndless}, out);
-                trace(0, -k, {2.0 * k - kOverlap, kEndless}, out);
+                trace(0, k, {2.0 * k - kOverlap, kInfinite}, out);
+                trace(0, -k, {2.0 * k - kOverlap, kInfinite}, out);
             }
             return out;
         }
         for (int k = 1; k <= most; ++k) {
-            trace(-1, k, {2.0 * k - kOverlap, kEndless}, out);
-            trace(1, -k, {2.0 * k - kOverlap, kEndless}, out);
+            trace(-1, k, {2.0 * k - kOverlap, kInfinite}, out);
+            trace(1, -k, {2.0 * k - kOverlap, kInfinite}, out);
         }
         for (int k = 0; k <= most; ++k) {
             trace(0, 0, {2.0 * k + 1 - kOverlap, 2.0 * k + 2 + kOverlap}, out);
@@ -108,9 +108,9 @@ public:
         const double widest = *std::max_element(width_.begin(), width_.end());
         const std::size_t most = static_cast<std::size_t>(std::max(0.0, std::floor(0.5 * widest)));
         // v of the passes in the middle, below and above, at the last node and at this one;
-        // kNoPlace where there is no such pass.
-        std::vector<double> last(2 * most + 1, kNoPlace);
-        std::vector<double> here(last.size(), kNoPlace);
+        // kInfinite where there is no such pass.
+        std::vector<double> last(2 * most + 1, kInfinite);
+        std::vector<double> here(last.size(), kInfinite);
         double sum = 0;
         std::size_t before = 0;
         for (std::size_t i = 0; i < table_.u.size();
@@ -120,14 +120,14 @@ public:
             here.front() = v_of(i, 0, 0);
             for (std::size_t k = 1; k <= most; ++k) {
                 const int steps = static_cast<int>(k);
-                here[2 * k - 1] = steps <= count ? v_of(i, -side, steps) : kNoPlace;
-                here[2 * k] = steps <= count ? v_of(i, side, -steps) : kNoPlace;
+                here[2 * k - 1] = steps <= count ? v_of(i, -side, steps) : kInfinite;
+                here[2 * k] = steps <= count ? v_of(i, side, -steps) : kInfinite;
             }
             const double middle_width =
                 width_[before] - 2 * std::floor(0.5 * std::min(width_[before], width_[i]));
             const std::size_t first = from_middle || middle_width > 1 ? 0 : 1;
             for (std::size_t k = first; i > 0 && k < here.size(); ++k) {
-                if (last[k] != kNoPlace && here[k] != kNoPlace) {
+                if (last[k] != kInfinite && here[k] != kInfinite) {
                     sum += table_.length(before, last[k], table_.u[i] - table_.u[before],
                                          here[k] - last[k]);
                 }
@@ -139,13 +139,11 @@ public:
     }
 
 private:
-    static constexpr double kEndless = kInfinite;
-    static constexpr double kNoPlace = kInfinite;
     struct Range {
         double above;
         double up_to;
     };
-    static constexpr Range kAlways{-1, kEndless};
+    static constexpr Range kAlways{-1, kInfinite};
 
     // The v at `steps` from a side of the strip. side  -1: low side, 0: middle, 1: high side
     double v_of(std::size_t i, int side, double steps) const

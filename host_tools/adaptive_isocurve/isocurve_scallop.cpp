@@ -13,7 +13,6 @@ using part_model::centre_slopes;
 
 namespace {
 
-constexpr double kUnreached = kInfinite;
 constexpr int kTurns = 8;
 constexpr double kBeside = 0.01;  // of the distance to the neighbour
 constexpr double kLeastShare = 0.1;
@@ -29,7 +28,7 @@ double entry(Vec3d q, Vec3d n, double radius)
     const double a = dot(n, n);
     const double b = dot(q, n);
     const double square = b * b - a * (dot(q, q) - radius * radius);
-    return square < 0 || a == 0 ? kUnreached : (-b - std::sqrt(square)) / a;
+    return square < 0 || a == 0 ? kInfinite : (-b - std::sqrt(square)) / a;
 }
 
 }  // namespace
@@ -77,7 +76,7 @@ bool IsocurveScallop::counts_as_straight(const Uncut& left) const
 double IsocurveScallop::uncut_by_pass(Sweep& sweep, double towards, Vec3d p, Vec3d normal)
 {
     const DomainCurve& curve = *sweep.place.curve;
-    double least = kUnreached;
+    double least = kInfinite;
     for (int k = 0; k <= kFollowed; ++k) {
         const Uncut left = uncut_by(sweep, p, normal);
         if (counts_as_straight(left)) {
@@ -130,7 +129,7 @@ double IsocurveScallop::balanced(Sweep low, Sweep high, double sufficient, bool 
     const double width = end - begin;
     double from = begin;
     double to = end;
-    double bound = kUnreached;
+    double bound = kInfinite;
     double v = from + share_ * width;
     for (int turn = 0; turn < kTurns; ++turn) {
         const SurfacePoint p = cut_->at(v);
@@ -149,7 +148,7 @@ double IsocurveScallop::balanced(Sweep low, Sweep high, double sufficient, bool 
         }
         (excess > 0 ? to : from) = v;
         // The difference is nearly linear across; its size at the ends is about the stepover.
-        const double scale = std::isfinite(excess) ? 2 * std::max(by_low, by_high) : kUnreached;
+        const double scale = std::isfinite(excess) ? 2 * std::max(by_low, by_high) : kInfinite;
         const double guess = v - 0.5 * width * excess / (2 * scale);
         v = std::isfinite(guess) && guess > from && guess < to ? guess : 0.5 * (from + to);
     }

@@ -38,13 +38,6 @@ double roundest(const std::vector<Tool>& tools)
     return corner;
 }
 
-double least_radius(const std::vector<Tool>& tools)
-{
-    return std::min_element(tools.begin(), tools.end(),
-                            [](const Tool& a, const Tool& b) { return a.radius < b.radius; })
-        ->radius;
-}
-
 std::vector<double> given_levels(const Job& job,
                                  const Operation& operation,
                                  double top,

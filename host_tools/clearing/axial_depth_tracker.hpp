@@ -40,7 +40,7 @@ public:
                                               double share);
 
     // z at which a tip descending at the place, over the moves, or anywhere on the circle first
-    // touches stock; -kUnbounded if there is none.
+    // touches stock; -kUnbounded, no bound, where there is none.
     double stock_top_at(Vec2d place) const;
     double stock_top_over(Vec3d start, const std::vector<toolpath::ToolMove>& moves) const;
     double stock_top_around(Vec2d centre, double radius) const;

@@ -26,7 +26,7 @@ public:
     void set_tool(const toolpath::Tool& tool);
 
     // z at which a tip descending at `at` first touches stock, with the part of the tool within
-    // that share of its radius; -kUnbounded if there is none.
+    // that share of its radius; -kUnbounded, no bound, where there is none.
     double contact_height(Vec2d at, double share = 1.0) const;
 
     // Removes the sweep of the tool on a straight move. Returns the deepest cut, mm.

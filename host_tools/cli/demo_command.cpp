@@ -5,7 +5,7 @@
 #include <system_error>
 #include <unistd.h>
 
-#include "host_tools/cli/commands.hpp"
+#include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/demo_summary.hpp"
 #include "host_tools/cli/examples_folder.hpp"
 #include "host_tools/cli/plan_program.hpp"

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "host_tools/cli/plan_statistics.hpp"
-#include "host_tools/simulate/simulation.hpp"
+#include "host_tools/simulate/simulate.hpp"
 #include "host_tools/verify/verify.hpp"
 
 namespace cusp::cli {

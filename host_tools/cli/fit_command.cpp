@@ -5,7 +5,7 @@
 #include <sstream>
 #include <string>
 
-#include "host_tools/cli/commands.hpp"
+#include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/share_progress.hpp"
 #include "host_tools/files/files.hpp"
 #include "host_tools/input_error/input_error.hpp"

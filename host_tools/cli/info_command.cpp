@@ -3,7 +3,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "host_tools/cli/commands.hpp"
+#include "firmware/base/inch.hpp"
+#include "host_tools/cli/cli.hpp"
 #include "host_tools/files/files.hpp"
 #include "host_tools/import/part_geometry_reader.hpp"
 #include "host_tools/part_info/part_info.hpp"
@@ -75,7 +76,7 @@ int run_info(const InfoOptions& options)
         throw InputError(fmt::format("--tolerance is {} mm, a number from 0.0001 to 10 is needed",
                                      options.tolerance));
     }
-    const double millimetres = options.units == "inch" ? toolpath::kInch : 1.0;
+    const double millimetres = options.units == "inch" ? kMillimetresPerInch : 1.0;
     std::vector<PartInfo> parts;
     std::string text;
     for (const std::string& file : options.files) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host_tools/cli/commands.hpp"
+#include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/version_text.hpp"
 #include "host_tools/input_error/input_error.hpp"
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "host_tools/cancellation/cancellation.hpp"
-#include "host_tools/cli/commands.hpp"
+#include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/one_line_options.hpp"
 #include "host_tools/cli/plan_program.hpp"
 #include "host_tools/cli/plan_statistics.hpp"

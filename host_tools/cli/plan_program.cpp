@@ -8,6 +8,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "firmware/base/inch.hpp"
 #include "host_tools/cancellation/cancellation.hpp"
 #include "host_tools/cli/post_fit.hpp"
 #include "host_tools/cli/rest_of_job.hpp"
@@ -180,7 +181,7 @@ std::string program_of(const Job& job, const std::string& title, double blend, P
     ProgramForm form{
         "cusp " CUSP_VERSION ", " + title, job.inch, job.stock_top + job.clearance, {}, job.post};
     if (blend > 0) {
-        form.blend_tolerance = blend * (job.inch ? toolpath::kInch : 1.0);
+        form.blend_tolerance = blend * (job.inch ? kMillimetresPerInch : 1.0);
     }
     std::ostringstream lines;
     const std::vector<std::size_t> begins = write_program(lines, form, plan.operations);

@@ -44,7 +44,8 @@ Json operation_stats(const PlannedOperation& operation, const PathMeasure& measu
              {"scallop_bound_mm", stats.scallop_bound_mm},
              {"estimated_s", measured.estimated_s}};
     for (const auto& [name, value] : stats.counts) {
-        const bool whole = value == std::floor(value) && std::abs(value) < 1e15;
+        constexpr double kMostWhole = 1e15;  // more have no exact neighbours
+        const bool whole = value == std::floor(value) && std::abs(value) < kMostWhole;
         out[name] = whole ? Json(static_cast<std::int64_t>(value)) : Json(value);
     }
     if (stats.rest) {

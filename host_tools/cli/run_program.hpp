@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "host_tools/simulate/simulation.hpp"
+#include "host_tools/simulate/simulate.hpp"
 
 namespace cusp::cli {
 

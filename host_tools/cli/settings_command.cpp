@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <string>
 
-#include "host_tools/cli/commands.hpp"
+#include "host_tools/cli/cli.hpp"
 #include "host_tools/simulate/settings_file.hpp"
 
 namespace cusp::cli {

@@ -7,7 +7,7 @@
 
 #include "firmware/base/machine_limits.hpp"
 #include "firmware/base/pulse_frame.hpp"
-#include "host_tools/cli/commands.hpp"
+#include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/interruption.hpp"
 #include "host_tools/cli/run_program.hpp"
 #include "host_tools/files/files.hpp"
@@ -16,7 +16,7 @@
 #include "host_tools/report/motion_picture.hpp"
 #include "host_tools/simulate/fault_command.hpp"
 #include "host_tools/simulate/settings_file.hpp"
-#include "host_tools/simulate/simulation.hpp"
+#include "host_tools/simulate/simulate.hpp"
 #include "host_tools/simulate/virtual_controller.hpp"
 
 namespace cusp::cli {

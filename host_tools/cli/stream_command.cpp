@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "host_tools/cli/commands.hpp"
+#include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/interruption.hpp"
 #include "host_tools/input_error/input_error.hpp"
 #include "host_tools/simulate/settings_file.hpp"

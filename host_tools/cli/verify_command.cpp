@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "host_tools/cancellation/cancellation.hpp"
-#include "host_tools/cli/commands.hpp"
+#include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/resource_options.hpp"
 #include "host_tools/cli/verify_program.hpp"
 #include "host_tools/import/import.hpp"

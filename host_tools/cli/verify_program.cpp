@@ -6,7 +6,7 @@
 #include "host_tools/cancellation/cancellation.hpp"
 #include "host_tools/cli/share_progress.hpp"
 #include "host_tools/files/files.hpp"
-#include "host_tools/report/pictures.hpp"
+#include "host_tools/report/report.hpp"
 
 #include "fmt/format.h"
 #include "nlohmann/json.hpp"

@@ -1,7 +1,7 @@
 // cusp view: a run as one page for any browser.
 #include <memory>
 
-#include "host_tools/cli/commands.hpp"
+#include "host_tools/cli/cli.hpp"
 #include "host_tools/cli/interruption.hpp"
 #include "host_tools/cli/share_progress.hpp"
 #include "host_tools/files/files.hpp"

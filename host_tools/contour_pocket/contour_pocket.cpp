@@ -255,7 +255,7 @@ private:
         const DropCutter roughed_floor{operation_.floor, tool, tolerances_.accuracy};
         const double depth = layer_depth(operation_);
         const double higher = rough.left + highest_over(tool, operation_.tool);
-        const double slack = 0.02 * radius;
+        const double max_error = 0.02 * radius;
         const auto fits = [&](Vec2d p) {
             if (walls_.clearance(p) >= rough.wall_clearance - std::min(larger, 0.0)) {
                 return true;
@@ -264,8 +264,8 @@ private:
         };
         const double bottom = rough.heights.empty() ? job_.stock_top : rough.heights.back();
         const auto roughed = [&](Vec2d p) {
-            const double left = std::max(roughed_floor.tip_height(p, slack), bottom) + higher;
-            return fits(p) && left < floor_.tip_height(p, slack) + depth;
+            const double left = std::max(roughed_floor.tip_height(p, max_error), bottom) + higher;
+            return fits(p) && left < floor_.tip_height(p, max_error) + depth;
         };
         std::vector<bool> beside;
         for (const ClearingPass& pass : cleared.passes) {

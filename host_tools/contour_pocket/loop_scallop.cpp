@@ -217,18 +217,19 @@ Vec2d LoopScallop::inside_rim(Vec2d at, Vec2d touched) const
 LoopScallop::Probe LoopScallop::probe(Vec2d at) const
 {
     const Tool& tool = floor_.tool();
-    const double slack = 0.02 * tolerances_.scallop_height;
+    const double max_error = 0.02 * tolerances_.scallop_height;
     if (!ball_) {
-        const DropCutter::CcPoint contact = floor_.exact_cc_point(at, slack);
-        const Vec3d p = contact.surface.point;
-        const Vec3d n = contact.normal;
-        const Vec2d touched = inside_rim(at, {p.x, p.y});
-        const double side = contact.z + profile_height(tool, distance(at, touched));
-        if (contact.found && std::abs(side - p.z) * n.z < 0.1 * tolerances_.scallop_height) {
-            return {at, contact.z, touched, p.z, {-n.x / n.z, -n.y / n.z}, 1.0 / n.z};
+        if (const auto contact = floor_.exact_cc_point(at, max_error)) {
+            const Vec3d p = contact->surface.point;
+            const Vec3d n = contact->normal;
+            const Vec2d touched = inside_rim(at, {p.x, p.y});
+            const double side = contact->z + profile_height(tool, distance(at, touched));
+            if (std::abs(side - p.z) * n.z < 0.1 * tolerances_.scallop_height) {
+                return {at, contact->z, touched, p.z, {-n.x / n.z, -n.y / n.z}, 1.0 / n.z};
+            }
         }
     }
-    const std::optional<DropCutter::ClPoint> cl = floor_.drop(at, slack);
+    const std::optional<DropCutter::ClPoint> cl = floor_.drop(at, max_error);
     if (!cl) {
         return {at, -kUnbounded, at, std::nullopt, {}, 1.0};
     }
@@ -279,7 +280,7 @@ double LoopScallop::uncut(const Probe& probe, bool stretches) const
     }
     const double share = std::max(0.0, left_at(probe.touched, probe.at) - *probe.floor) /
                          (probe.secant * scallop_share_ * allowed(probe.secant));
-    return stretches && ball_ && share > 1.0 && clear_square_to(probe) ? 1.0 : share;
+    return stretches && ball_ && share > 1.0 && is_low_along_normal(probe) ? 1.0 : share;
 }
 
 // The highest ridge between the n + 1 probes of a cross line, from the heights left at them.

@@ -105,7 +105,7 @@ private:
     Probe probe(Vec2d at) const;
     double allowed(double secant) const;
     double uncut(const Probe& probe, bool stretches) const;
-    bool clear_square_to(const Probe& probe) const;
+    bool is_low_along_normal(const Probe& probe) const;
     struct Lowest {
         Vec2d at;
         double height;  // of the tip: z

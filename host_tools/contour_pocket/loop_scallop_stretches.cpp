@@ -87,7 +87,7 @@ void LoopScallop::stretches_on(const Edge& edge,
 }
 
 // Whether the stock above the contact is no higher than allowed, along the normal.
-bool LoopScallop::clear_square_to(const Probe& probe) const
+bool LoopScallop::is_low_along_normal(const Probe& probe) const
 {
     const double high = scallop_share_ * allowed(probe.secant);
     const Vec2d way = probe.gradient * (-1.0 / probe.secant);

@@ -148,30 +148,32 @@ double LoopSpacing::with_partial_loops(const Region2d& ring, double step) const
 }
 
 // Accurate to a fiftieth of the scallop's height.
-DropCutter::CcPoint LoopSpacing::contact(Vec2d at) const
+LoopSpacing::Contact LoopSpacing::contact(Vec2d at) const
 {
     return floor_.cc_point(at, 0.02 * tolerances_.scallop_height);
 }
 
-double LoopSpacing::allowed(const DropCutter::CcPoint& contact, Vec2d direction) const
+// Without a contact as on a level floor.
+double LoopSpacing::allowed(const Contact& contact, Vec2d direction) const
 {
-    const DropCutter::Section section = DropCutter::section(contact, direction);
+    const DropCutter::Section section =
+        contact ? DropCutter::section(*contact, direction) : DropCutter::Section{};
     return plan_stepover(floor_.tool(), tolerances_.scallop_height, section);
 }
 
 // The scallop is half a stepover away, where the floor may have another curvature.
-void LoopSpacing::across(Vec2d at, const DropCutter::CcPoint& here, Vec2d direction)
+void LoopSpacing::across(Vec2d at, const Contact& here, Vec2d direction)
 {
     const double first = allowed(here, direction);
-    const DropCutter::CcPoint half = contact(at + direction * (0.5 * first));
+    const Contact half = contact(at + direction * (0.5 * first));
     const double interval = std::min({least_, first, allowed(half, direction)});
     least_ = interval;
-    if (!scallops_ || !here.found || !half.found) {
+    if (!scallops_ || !here || !half) {
         return;
     }
-    const DropCutter::CcPoint there = contact(at + direction * first);
-    if (!as_expected(here, half, direction, 0.5 * first) ||
-        (there.found && !as_expected(half, there, direction, 0.5 * first))) {
+    const Contact there = contact(at + direction * first);
+    if (!as_expected(*here, *half, direction, 0.5 * first) ||
+        (there && !as_expected(*half, *there, direction, 0.5 * first))) {
         least_ = by_scallop(at, direction, interval);
     }
 }
@@ -189,8 +191,8 @@ bool LoopSpacing::as_expected(const DropCutter::CcPoint& a,
     const double by_slopes = 0.5 * apart * (from.slope + to.slope);
     const double bend = 0.5 * (bend_of_tip(floor_.tool(), from) + bend_of_tip(floor_.tool(), to));
     const double turned = to.slope - from.slope - bend * apart;
-    const double slack = 0.1 * tolerances_.scallop_height;
-    return std::abs(rise - by_slopes) < slack && std::abs(turned) * apart < 4.0 * slack;
+    const double max_error = 0.1 * tolerances_.scallop_height;
+    return std::abs(rise - by_slopes) < max_error && std::abs(turned) * apart < 4.0 * max_error;
 }
 
 double LoopSpacing::by_scallop(Vec2d at, Vec2d direction, double widest) const
@@ -264,9 +266,9 @@ LoopSpacing::Sample LoopSpacing::sample(const Edge& edge, double share)
 void LoopSpacing::refine(const Edge& edge, double whole, const Sample& a, const Sample& b)
 {
     const double apart = (b.share - a.share) * whole;
-    const bool known = a.contact.found && b.contact.found;
+    const bool known = a.contact && b.contact;
     if (!scallops_ || apart < kSamplesApart * floor_.tool().radius ||
-        (known && as_expected(a.contact, b.contact, unit(a.direction + b.direction), apart))) {
+        (known && as_expected(*a.contact, *b.contact, unit(a.direction + b.direction), apart))) {
         return;
     }
     const Sample middle = sample(edge, 0.5 * (a.share + b.share));
@@ -277,7 +279,7 @@ void LoopSpacing::refine(const Edge& edge, double whole, const Sample& a, const 
 void LoopSpacing::around(Vec2d at)
 {
     constexpr int kDirections = 12;
-    const DropCutter::CcPoint here = contact(at);
+    const Contact here = contact(at);
     for (int i = 0; i < kDirections; ++i) {
         const double angle = 2 * kPi * i / kDirections;
         across(at, here, {std::cos(angle), std::sin(angle)});

@@ -1,6 +1,8 @@
 // Spacing of the rings of loops: how far inward from a ring the next one may lie.
 #pragma once
 
+#include <optional>
+
 #include "host_tools/contour_pocket/pocket_task.hpp"
 #include "host_tools/drop_cutter/drop_cutter.hpp"
 
@@ -46,16 +48,17 @@ public:
     double with_partial_loops(const offset::Region2d& ring, double step) const;
 
 private:
+    using Contact = std::optional<drop_cutter::DropCutter::CcPoint>;
     struct Sample {
         double share;  // of the edge
         Vec2d direction;
-        drop_cutter::DropCutter::CcPoint contact;
+        Contact contact;
     };
     Sample sample(const offset::Edge& edge, double share);
     void refine(const offset::Edge& edge, double whole, const Sample& a, const Sample& b);
-    drop_cutter::DropCutter::CcPoint contact(Vec2d at) const;
-    double allowed(const drop_cutter::DropCutter::CcPoint& contact, Vec2d direction) const;
-    void across(Vec2d at, const drop_cutter::DropCutter::CcPoint& here, Vec2d direction);
+    Contact contact(Vec2d at) const;
+    double allowed(const Contact& contact, Vec2d direction) const;
+    void across(Vec2d at, const Contact& here, Vec2d direction);
     bool as_expected(const drop_cutter::DropCutter::CcPoint& a,
                      const drop_cutter::DropCutter::CcPoint& b,
                      Vec2d direction,

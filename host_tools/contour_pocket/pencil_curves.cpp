@@ -25,7 +25,7 @@ namespace {
 constexpr double kGrid = 0.125;             // of the tool's radius
 constexpr double kMostPencilCells = 600.0;  // a side
 constexpr double kTurn = 0.15;              // of the slope
-constexpr double kUpright = 20.0;           // larger changes of the slope are jumps
+constexpr double kSteepest = 20.0;          // larger changes of the slope are jumps
 constexpr double kLongestStep = 0.1;        // of the radius
 constexpr double kShortestStep = 2e-3;      // of the radius
 constexpr double kBeside = 0.35;            // of a step: search beside its end
@@ -165,7 +165,7 @@ private:
         }
         const double rise = b.cl.z - a.cl.z;
         const double turn = bend(a, b).turn;
-        const bool jump = std::abs(rise) > search_.jump || turn > kUpright;
+        const bool jump = std::abs(rise) > search_.jump || turn > kSteepest;
         if (!jump && turn < kTurn) {
             return std::nullopt;
         }
@@ -196,7 +196,7 @@ private:
         Vec2d way;  // direction of the line; zero at its start
         std::size_t line;
         std::size_t point;
-        double gone;  // mm: distance along the line from its start
+        double along;  // mm: distance along the line from its start
     };
 
     Cell cell_of(Vec2d p) const
@@ -237,13 +237,13 @@ private:
         return nearest;
     }
 
-    void mark(Vec2d from, Vec2d to, std::size_t line, std::size_t point, double gone)
+    void mark(Vec2d from, Vec2d to, std::size_t line, std::size_t point, double along)
     {
         const int n = 1 + static_cast<int>(2.0 * distance(from, to) / traced_cell_);
         const Vec2d way = distance(from, to) > 0.0 ? unit(to - from) : Vec2d{};
         for (int i = 1; i <= n; ++i) {
             const Vec2d p = from + (to - from) * (static_cast<double>(i) / n);
-            traced_[cell_of(p)].push_back({p, way, line, point, gone});
+            traced_[cell_of(p)].push_back({p, way, line, point, along});
         }
     }
 
@@ -396,11 +396,11 @@ private:
             const Vec2d side = left_normal(way) * (kBeside * step);
             const auto found = between(ahead - side, ahead + side);
             if (found) {
-                const Vec2d gone = found->at - from.at;
-                const double error = std::abs(dot(gone, left_normal(way)));
+                const Vec2d step_taken = found->at - from.at;
+                const double error = std::abs(dot(step_taken, left_normal(way)));
                 const double room = (found->jump ? 4.0 : 40.0) * search_.fine;
                 if (error <= room || step < 2.0 * shortest) {
-                    const Vec2d on = unit(gone);
+                    const Vec2d on = unit(step_taken);
                     step *= error < 0.3 * room ? 1.5 : 1.0;
                     step = std::min(step, kLongestStep * radius_);
                     return Step{*found, on};
@@ -428,7 +428,7 @@ private:
         const std::size_t line = lines_.size() - 1;
         std::vector<PencilPoint>& points = lines_.back().points;
         double step = 0.25 * kLongestStep * radius_;
-        double gone = 0.0;
+        double along = 0.0;
         for (int i = 0; i < kMostPoints; ++i) {
             const PencilPoint last = points.back();
             const auto on = next(last, way, step);
@@ -436,14 +436,14 @@ private:
                 return;
             }
             const double apart = distance(last.at, on->point.at);
-            gone += apart;
+            along += apart;
             const double reach = std::min(0.7 * apart, 0.7 * traced_cell_);
             // A line that returns beside its start would never end.
             const auto far_back = [&](const Traced& place) {
-                const double since = place.point < first_of_way_back_ ? 0.0 : place.gone;
-                const bool far = place.line != line || gone - since > 4.0 * traced_cell_;
-                const bool along = std::abs(dot(place.way, on->way)) > kParallel;
-                return far && (!along || passes_by(place, on->point.at));
+                const double since = place.point < first_of_way_back_ ? 0.0 : place.along;
+                const bool far = place.line != line || along - since > 4.0 * traced_cell_;
+                const bool parallel = std::abs(dot(place.way, on->way)) > kParallel;
+                return far && (!parallel || passes_by(place, on->point.at));
             };
             const auto met = traced_near(on->point.at, reach, far_back);
             points.push_back(on->point);
@@ -453,7 +453,7 @@ private:
                     distance(points.front().at, on->point.at) < 4.0 * traced_cell_;
                 return;
             }
-            mark(last.at, on->point.at, line, points.size() - 1, gone);
+            mark(last.at, on->point.at, line, points.size() - 1, along);
             way = on->way;
         }
     }

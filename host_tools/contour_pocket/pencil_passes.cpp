@@ -24,7 +24,7 @@ using toolpath::Tool;
 namespace {
 
 constexpr double kPencilSamplesApart = 0.1;  // of the radius: distance of samples
-constexpr double kWorthOn = 3.0;             // radii: a pass continues over shorter gaps
+constexpr double kLongestGap = 3.0;          // radii: a pass continues over shorter gaps
 constexpr double kFarthest = 4.0;            // of `distance`
 constexpr double kFragment = 2.0;            // radii: shorter lines
 constexpr double kLifted = 0.02;             // of the radius: length of a pass that may be raised
@@ -175,7 +175,7 @@ private:
     // Passes continue over short gaps instead of retracting.
     void fill_openings(const std::vector<Vec2d>& path, std::vector<bool>& kept) const
     {
-        const double longest = kWorthOn * floor_.tool().radius;
+        const double longest = kLongestGap * floor_.tool().radius;
         std::size_t last = path.size();
         double since = 0.0;
         for (std::size_t i = 0; i < path.size(); ++i) {

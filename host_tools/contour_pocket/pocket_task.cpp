@@ -224,14 +224,14 @@ void check_work(const Job& job,
     }
 }
 
-int layer_count(const Job& job, const Operation& operation, double deep, double of)
+int layer_count(const Job& job, const Operation& operation, double whole_depth, double max_depth)
 {
-    const double count = std::ceil(deep / of - 1e-9);
+    const double count = std::ceil(whole_depth / max_depth - 1e-9);
     if (count > kMostLayers) {
         const std::string key = operation.max_depth ? "max_depth " : "layers of ";
         throw InputError(operation_text(job, operation) + key +
-                         number_text(operation.max_depth.value_or(of)) + " mm makes " +
-                         number_text(count) + " layers of " + number_text(deep) +
+                         number_text(operation.max_depth.value_or(max_depth)) + " mm makes " +
+                         number_text(count) + " layers of " + number_text(whole_depth) +
                          " mm, the limit is " + number_text(kMostLayers));
     }
     return std::max(1, static_cast<int>(count));

@@ -44,9 +44,12 @@ void check_work(const job::Job& job,
                 const offset::Region2d& region,
                 const ToleranceSplit& tolerances);
 
-// Number of layers no deeper than `of` in a depth (mm), at least one. Errors: InputError if too
-// many.
-int layer_count(const job::Job& job, const job::Operation& operation, double deep, double of);
+// Number of layers, at least one, of at most `max_depth` each over the whole depth (mm). Errors:
+// InputError if there are too many.
+int layer_count(const job::Job& job,
+                const job::Operation& operation,
+                double whole_depth,
+                double max_depth);
 
 // Errors: InputError if a point of the boundary or of an island has no floor. With several surfaces
 // or trims inner points are checked too, every quarter of the tool's radius (coarser in pockets of

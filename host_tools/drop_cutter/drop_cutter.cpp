@@ -39,12 +39,12 @@ double DropCutter::move_clearance(Vec3d a, Vec3d b, double margin) const
 
 bool DropCutter::covers(Vec2d at) const { return state_->covers(at); }
 
-DropCutter::CcPoint DropCutter::cc_point(Vec2d at, double max_error) const
+std::optional<DropCutter::CcPoint> DropCutter::cc_point(Vec2d at, double max_error) const
 {
     return state_->cc_point(at, max_error);
 }
 
-DropCutter::CcPoint DropCutter::exact_cc_point(Vec2d at, double max_error) const
+std::optional<DropCutter::CcPoint> DropCutter::exact_cc_point(Vec2d at, double max_error) const
 {
     return state_->exact_cc_point(at, max_error);
 }

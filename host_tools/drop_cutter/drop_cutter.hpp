@@ -52,7 +52,8 @@ public:
     // more.
     std::optional<ClPoint> drop(Vec2d at, double max_error = 0.0) const;
 
-    // The z of drop(); -kUnbounded where no surface lies under the tool.
+    // The z of drop() as a lower bound of the tip: -kUnbounded, no bound, where no surface lies under
+    // the tool.
     double tip_height(Vec2d at, double max_error = 0.0) const;
 
     // The place in plan where the tool over `at` touches the surface, as drop() found it.
@@ -76,16 +77,15 @@ public:
 
     // The surface at the cutter contact.
     struct CcPoint {
-        double z;  // mm, of the tip; -kUnbounded where no surface lies under the tool
+        double z;  // mm, of the tip
         nurbs::SurfacePoint surface;
         Vec3d normal;
-        // false where no surface lies under the tool, or it is vertical or singular there
-        bool found;
     };
-    // The contact as accurate as the thin piece that the tool rests on.
-    CcPoint cc_point(Vec2d at, double max_error) const;
-    // The exact contact on that piece.
-    CcPoint exact_cc_point(Vec2d at, double max_error) const;
+    // The contact as accurate as the thin piece that the tool rests on; none where no surface lies
+    // under the tool, or the surface is vertical or singular there.
+    std::optional<CcPoint> cc_point(Vec2d at, double max_error) const;
+    // The exact contact on that piece, or none as above.
+    std::optional<CcPoint> exact_cc_point(Vec2d at, double max_error) const;
 
     // The section through the surface at a contact, in a plan direction (unit vector) across a
     // path.
@@ -93,7 +93,6 @@ public:
         double curvature;    // 1/mm: normal curvature in the direction; > 0 where convex
         double slope;        // of the floor in the direction, across the path
         double slope_along;  // of the floor to the left of the direction, along the path
-        bool found;          // that of the contact
     };
     static Section section(const CcPoint& contact, Vec2d direction);
 

@@ -148,7 +148,6 @@ double DropCutter::State::ball_clearance(const Piece& piece,
 // above and below it.
 double DropCutter::State::apart_from_plate(const Piece& piece, Vec3d a, Vec3d b) const
 {
-    constexpr double kEndless = 1e200;
     const Outline& outline = outlines_[piece.outline];
     const Vec2d g = piece.gradient;
     const double cos_slope = 1.0 / piece.secant;
@@ -187,7 +186,7 @@ double DropCutter::State::apart_from_plate(const Piece& piece, Vec3d a, Vec3d b)
         if (side.begin > side.end) {
             continue;
         }
-        if (side.end - side.begin > kEndless) {
+        if (side.begin == -kUnbounded || side.end == kUnbounded) {
             return 0.0;
         }
         const auto place = [&](double forth) {

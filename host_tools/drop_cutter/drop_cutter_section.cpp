@@ -46,10 +46,10 @@ bool DropCutter::State::covers(Vec2d at)
 }
 
 // u, v  of the piece's patch, 0 to 1
-DropCutter::CcPoint DropCutter::State::cc_point_on(const Piece& piece,
-                                                   double height,
-                                                   double u,
-                                                   double v) const
+std::optional<DropCutter::CcPoint> DropCutter::State::cc_point_on(const Piece& piece,
+                                                                  double height,
+                                                                  double u,
+                                                                  double v) const
 {
     const Patch& patch = patches_[piece.patch];
     const SurfacePoint s =
@@ -57,14 +57,17 @@ DropCutter::CcPoint DropCutter::State::cc_point_on(const Piece& piece,
                        patch.v0 + (patch.v1 - patch.v0) * v);
     const Vec3d n = upward_normal(s);
     const double bend = s.du.x * s.dv.y - s.du.y * s.dv.x;
-    return {height, s, n, std::abs(bend) >= 1e-12 && n.z >= 1e-3};
+    if (!(std::abs(bend) >= 1e-12 && n.z >= 1e-3)) {
+        return std::nullopt;
+    }
+    return CcPoint{height, s, n};
 }
 
-DropCutter::CcPoint DropCutter::State::cc_point(Vec2d at, double max_error)
+std::optional<DropCutter::CcPoint> DropCutter::State::cc_point(Vec2d at, double max_error)
 {
     const std::optional<ClPoint> cl = drop(at, max_error);
     if (!cl) {
-        return {-kUnbounded, {}, {}, false};
+        return std::nullopt;
     }
     const Piece& piece = pieces_[cl->piece];
     return cc_point_on(piece, cl->z, middle_of(piece.u), middle_of(piece.v));
@@ -72,11 +75,11 @@ DropCutter::CcPoint DropCutter::State::cc_point(Vec2d at, double max_error)
 
 // Two steps of Newton's method, from the middle of the piece, towards the place whose normal leads
 // to the tool.
-DropCutter::CcPoint DropCutter::State::exact_cc_point(Vec2d at, double max_error)
+std::optional<DropCutter::CcPoint> DropCutter::State::exact_cc_point(Vec2d at, double max_error)
 {
     const std::optional<ClPoint> cl = drop(at, max_error);
     if (!cl) {
-        return {-kUnbounded, {}, {}, false};
+        return std::nullopt;
     }
     constexpr int kSteps = 2;
     const Piece& piece = pieces_[cl->piece];
@@ -84,10 +87,10 @@ DropCutter::CcPoint DropCutter::State::exact_cc_point(Vec2d at, double max_error
     const double corner = tool_.corner_radius;
     double u = middle_of(piece.u);
     double v = middle_of(piece.v);
-    CcPoint contact = cc_point_on(piece, cl->z, u, v);
-    for (int i = 0; i < kSteps && contact.found; ++i) {
-        const SurfacePoint& s = contact.surface;
-        const Vec3d n = contact.normal;
+    std::optional<CcPoint> contact = cc_point_on(piece, cl->z, u, v);
+    for (int i = 0; i < kSteps && contact; ++i) {
+        const SurfacePoint& s = contact->surface;
+        const Vec3d n = contact->normal;
         const double steep = std::hypot(n.x, n.y);
         const double out = steep > 0.0 ? (tool_.radius - corner) / steep + corner : corner;
         const Vec2d aside = at - in_plan(n) * out - in_plan(s.point);
@@ -103,9 +106,6 @@ DropCutter::CcPoint DropCutter::State::exact_cc_point(Vec2d at, double max_error
 
 DropCutter::Section DropCutter::section(const CcPoint& contact, Vec2d direction)
 {
-    if (!contact.found) {
-        return {0.0, 0.0, 0.0, false};
-    }
     const SurfacePoint& s = contact.surface;
     const Vec3d n = contact.normal;
     // du : dv of the direction, which is x_u du + x_v dv in plan.
@@ -116,7 +116,7 @@ DropCutter::Section DropCutter::section(const CcPoint& contact, Vec2d direction)
     const Vec3d second = s.duu * (du * du) + s.duv * (2.0 * du * dv) + s.dvv * (dv * dv);
     const Vec2d gradient{-n.x / n.z, -n.y / n.z};
     return {-dot(second, n) / dot(tangent, tangent), tangent.z,
-            dot(gradient, left_normal(direction)), true};
+            dot(gradient, left_normal(direction))};
 }
 
 }  // namespace cusp::drop_cutter

@@ -23,8 +23,8 @@ struct DropCutter::State {
     void check_edge_gouges(double allowed);
     double move_clearance(Vec3d a, Vec3d b, double margin);
     bool covers(Vec2d at);
-    CcPoint cc_point(Vec2d at, double max_error);
-    CcPoint exact_cc_point(Vec2d at, double max_error);
+    std::optional<CcPoint> cc_point(Vec2d at, double max_error);
+    std::optional<CcPoint> exact_cc_point(Vec2d at, double max_error);
 
     static constexpr std::size_t kStack = 256;
     // Most queries read only the first cache line of a piece.
@@ -183,7 +183,7 @@ struct DropCutter::State {
     NextStep next_step(const Piece& piece, double here, double length, double tilt) const;
 
     // The contact (drop_cutter_section.cpp).
-    CcPoint cc_point_on(const Piece& piece, double height, double u, double v) const;
+    std::optional<CcPoint> cc_point_on(const Piece& piece, double height, double u, double v) const;
 
     toolpath::Tool tool_;
     double accuracy_;

@@ -54,7 +54,7 @@ LowestPositionSearch::LowestPositionSearch(
 double LowestPositionSearch::height_under(Vec3d centre, Vec3d place) const
 {
     const double under = square(corner_) - square_off_flat(flat_, {centre.x, centre.y}, place);
-    return under < 0 ? kNowhere : centre.z - std::sqrt(under);
+    return under < 0 ? kInfinite : centre.z - std::sqrt(under);
 }
 
 // halvings  of the grid's pitch
@@ -128,7 +128,7 @@ std::vector<LowestPositionSearch::Position> LowestPositionSearch::starts_over(Ve
 // How low a tool resting on the known contacts cuts over the point: a lower bound.
 double LowestPositionSearch::lowest_known(Vec3d place, Vec2d at) const
 {
-    double centre = -kNowhere;
+    double centre = -kInfinite;
     for (const Vec3d& contact : contacts_) {
         const double up = square(contact_corner_) - square_off_flat(flat_, at, contact);
         if (up >= 0) {
@@ -153,7 +153,7 @@ Vec2d LowestPositionSearch::improved(Vec3d place, Vec2d at)
         }
         const double depth = std::sqrt(under);
         const double limit = best + depth;
-        double centre = -kNowhere;
+        double centre = -kInfinite;
         for (std::size_t i = 0; i < contacts_.size(); ++i) {
             const Vec3d c = contacts_[i];
             const double up = corner_square - square_off_flat(flat, to, c);
@@ -412,7 +412,7 @@ LowestPositionSearch::DroppedTool drop_tool(const DropCutter& floor, double x, d
 {
     const std::optional<DropCutter::ClPoint> cl = floor.drop({x, y});
     if (!cl) {
-        return {{x, y, LowestPositionSearch::kNowhere}, {}};
+        return {{x, y, kInfinite}, {}};
     }
     const Tool& tool = floor.tool();
     const Vec2d touched = floor.cc_place({x, y}, *cl);

@@ -30,11 +30,10 @@ class LowestPositionSearch {
 public:
     // A dropped tool and its contact.
     struct DroppedTool {
-        Vec3d centre;  // corner radius above the tip: the centre of a ball; z is kNowhere where
+        Vec3d centre;  // corner radius above the tip: the centre of a ball; z is kInfinite where
                        // the tool touches nothing, or where it is not allowed
         Vec3d contact;
     };
-    static constexpr double kNowhere = kInfinite;
     using Drop = std::function<DroppedTool(double x, double y)>;
 
     // tool      that cuts
@@ -64,7 +63,7 @@ public:
 
     DroppedTool drop_at(double x, double y) const { return drop_(x, y); }
 
-    // How low the tool with this centre cuts over the point: z, mm; kNowhere where it misses it.
+    // How low the tool with this centre cuts over the point: z, mm; kInfinite where it misses it.
     double height_under(Vec3d centre, Vec3d place) const;
     double pitch() const { return pitch_; }
 

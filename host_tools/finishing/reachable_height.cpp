@@ -44,7 +44,7 @@ ReachableHeight::ReachableHeight(const std::vector<Surface>& surfaces,
 // An edge that the tool would gouge counts as one more contact.
 LowestPositionSearch::DroppedTool ReachableHeight::drop_at(double x, double y, Edges edges)
 {
-    LowestPositionSearch::DroppedTool rest{{x, y, LowestPositionSearch::kNowhere}, {}};
+    LowestPositionSearch::DroppedTool rest{{x, y, kInfinite}, {}};
     if (surfaces_.empty()) {
         if (const auto on_mesh = path_fitter_.model().drop_ball(x, y, contact_radius_)) {
             rest = {on_mesh->centre, on_mesh->point};
@@ -123,12 +123,13 @@ std::optional<ReachableHeight::Position> ReachableHeight::beside(Vec3d place,
                                                                  double exact_below,
                                                                  Edges edges)
 {
-    for (double off = kLeastOffBrink; off < kMostOffBrink * search_.pitch(); off *= 2) {
+    for (double distance = kLeastOffBrink; distance < kMostOffBrink * search_.pitch();
+         distance *= 2) {
         std::optional<Position> best;
         for (int k = 0; k < kWays; ++k) {
             const double turn = 2 * kPi * k / kWays;
-            const double x = brink.x + off * std::cos(turn);
-            const double y = brink.y + off * std::sin(turn);
+            const double x = brink.x + distance * std::cos(turn);
+            const double y = brink.y + distance * std::sin(turn);
             if (search_.height_under(drop_at(x, y, edges).centre, place) > exact_below) {
                 continue;
             }

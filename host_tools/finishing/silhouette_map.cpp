@@ -20,7 +20,6 @@ namespace {
 
 constexpr double kMostSquares = 4e6;
 constexpr std::size_t kMostSamples = 1000;  // of a patch, each way
-constexpr double kOpen = -kInfinite;
 
 enum class Facing : std::uint8_t { kUnknown, kTrimmed, kUp, kDown };
 
@@ -35,9 +34,9 @@ SilhouetteMap::SilhouetteMap(const std::vector<Surface>& surfaces,
     pitch_ = std::max(pitch, std::sqrt(size.x * size.y / kMostSquares));
     nx_ = static_cast<std::size_t>(size.x / pitch_) + 1;
     ny_ = static_cast<std::size_t>(size.y / pitch_) + 1;
-    top_.assign(nx_ * ny_, kOpen);
+    top_.assign(nx_ * ny_, -kInfinite);
     places_.resize(nx_ * ny_);
-    silhouette_.assign(nx_ * ny_, kOpen);
+    silhouette_.assign(nx_ * ny_, -kInfinite);
     for (std::size_t number = 0; number < surfaces.size(); ++number) {
         for (const BezierPatch& patch : bezier_patches(surfaces[number])) {
             sample(surfaces[number], static_cast<int>(number), patch, model);
@@ -103,7 +102,7 @@ double SilhouetteMap::least_around(double x, double y) const
     const double at_y = std::floor((y - y0_) / pitch_);
     if (!(at_x >= 1 && at_y >= 1 && at_x + 1 < static_cast<double>(nx_) &&
           at_y + 1 < static_cast<double>(ny_))) {
-        return kOpen;
+        return -kInfinite;
     }
     const double* first =
         &top_[(static_cast<std::size_t>(at_x) - 1) * ny_ + static_cast<std::size_t>(at_y) - 1];
@@ -123,7 +122,7 @@ double SilhouetteMap::highest_silhouette(Vec2d low, Vec2d high) const
         const double after = std::max(0.0, std::floor((at - begin) / pitch_) + 2);
         return std::min(count, static_cast<std::size_t>(after));
     };
-    double highest = kOpen;
+    double highest = -kInfinite;
     for (std::size_t i = first(low.x, x0_); i < end(high.x, x0_, nx_); ++i) {
         for (std::size_t j = first(low.y, y0_); j < end(high.y, y0_, ny_); ++j) {
             highest = std::max(highest, silhouette_[i * ny_ + j]);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "firmware/base/inch.hpp"
 #include "host_tools/drop_cutter/floor_coverage.hpp"
 #include "host_tools/offset/contour_fit.hpp"
 #include "host_tools/offset/region_check.hpp"
@@ -82,7 +83,7 @@ void refuse_grid_pocket(const Job& job, const std::string& what)
 std::string length_text(const Job& job, double mm)
 {
     char text[64];
-    const double value = job.inch ? mm / toolpath::kInch : mm;
+    const double value = job.inch ? mm / kMillimetresPerInch : mm;
     const bool tiny = value != 0 && std::abs(value) < 1e-4;
     std::snprintf(text, sizeof text, tiny ? "%.3g" : job.inch ? "%.6f" : "%.5f", value);
     return std::string{text} + (job.inch ? " in" : " mm");

@@ -271,12 +271,12 @@ private:
 
     void read_lattice(Cell c, int& evaluations)
     {
-        lattice_.assign(static_cast<std::size_t>((nx_ + 1) * (ny_ + 1)), std::nan(""));
+        lattice_.assign(static_cast<std::size_t>((nx_ + 1) * (ny_ + 1)), kNoValue);
         for (int j = 0; j <= ny_; ++j) {
             for (int i = 0; i <= nx_; ++i) {
                 const Vec2d at = spot(c, i, j);
                 if (surface_.to_wall_pass(at) > -1e-6) {
-                    lattice_[index(i, j)] = surface_.height(at).value_or(std::nan(""));
+                    lattice_[index(i, j)] = surface_.height(at).value_or(kNoValue);
                     ++evaluations;
                 }
             }

@@ -21,7 +21,6 @@ namespace {
 constexpr double kHeightsShare = 0.15;  // of the planning time
 // Share of max_depth for the distance of layers: where even that is too deep, passes are added.
 constexpr double kLeastStep = 0.85;
-constexpr double kNoHeight = std::numeric_limits<double>::quiet_NaN();
 
 // Bends of links around an arc of the wall pass: the intersections of its tangents, one for each
 // third of a turn; near wide corners also points on the arc, for narrow pockets.
@@ -160,7 +159,7 @@ void PocketSpace::add_clearances(NavigationRules& rules) const
 
 std::vector<double> heights_over(const PocketSpace& pocket, const ClPathFitter& follower)
 {
-    std::vector<double> out(pocket.grid.size(), kNoHeight);
+    std::vector<double> out(pocket.grid.size(), kNoValue);
     for (std::size_t i = 0; i < out.size(); ++i) {
         const Cell c = pocket.grid.cell(i);
         if (c.column == 0) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "firmware/base/inch.hpp"
 #include "host_tools/hull_rough/roughing.hpp"
 
 namespace cusp::hull_rough {
@@ -160,7 +161,7 @@ LayerPlan planned_layers(const Job& job,
 // where a layer would become thicker than most_depth (mm).
 void round_up(LayerPlan& plan, double most_depth, bool inch)
 {
-    const double digit = inch ? 25.4e-5 : 1e-4;
+    const double digit = inch ? 1e-5 * kMillimetresPerInch : 1e-4;
     constexpr double kSame = 1e-4;  // of a digit
     std::vector<double> planes{plan.planes.front()};
     for (std::size_t i = 1; i < plan.planes.size(); ++i) {

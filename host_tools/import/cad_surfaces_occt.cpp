@@ -104,7 +104,7 @@ std::size_t add_loose_faces(const TopoDS_Shape& shape, std::vector<SolidFace>& f
 // The least u and v of all ends of edges.
 gp_Pnt2d least_corner(const TopoDS_Face& face)
 {
-    gp_Pnt2d least{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
+    gp_Pnt2d least{kUnbounded, kUnbounded};
     for (TopExp_Explorer edges{face, TopAbs_EDGE}; edges.More(); edges.Next()) {
         double first = 0;
         double last = 0;

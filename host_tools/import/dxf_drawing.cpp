@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "firmware/base/inch.hpp"
 #include "host_tools/files/files.hpp"
 #include "host_tools/import/number_ranges.hpp"
 #include "host_tools/input_error/input_error.hpp"

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "firmware/base/inch.hpp"
 #include "firmware/base/math.hpp"
 #include "host_tools/files/files.hpp"
 #include "host_tools/import/fixture_reader.hpp"

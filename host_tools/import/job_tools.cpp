@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/base/inch.hpp"
 #include "host_tools/files/files.hpp"
 #include "host_tools/files/program_data.hpp"
 #include "host_tools/import/known_keys.hpp"

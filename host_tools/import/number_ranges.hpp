@@ -9,8 +9,6 @@ struct Range {
     bool above_low{false};  // `low` itself is not allowed
 };
 
-inline constexpr double kMillimetresPerInch = 25.4;
-
 // mm, mm/min, rpm
 inline constexpr double kLargest = 1e6;
 inline constexpr Range kPositive{0, kLargest, true};

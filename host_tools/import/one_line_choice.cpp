@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/base/inch.hpp"
 #include "host_tools/import/mesh_file.hpp"
 #include "host_tools/import/one_line_check.hpp"
 #include "host_tools/import/placing.hpp"
@@ -27,7 +28,7 @@ struct Defaults {
     double feed_of_diameter;  // a minute and unit of the diameter
 };
 constexpr Defaults kMetric{"mm", 1.0, 0.01, 0.3, 5.0, 1200.0, 1e3, 0.01, 200.0};
-constexpr Defaults kInch{"inch", 25.4, 4e-4, 0.012, 0.2, 47.0, 1e4, 4e-4, 200.0};
+constexpr Defaults kInch{"inch", kMillimetresPerInch, 4e-4, 0.012, 0.2, 47.0, 1e4, 4e-4, 200.0};
 
 constexpr double kSpindle = 12000;  // rpm
 constexpr double kAllowanceOfDiameter = 0.05;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "firmware/base/inch.hpp"
 #include "host_tools/files/files.hpp"
 
 #include "Model/COM/NMR_DLLInterfaces.h"
@@ -23,8 +24,9 @@ struct Unit {
     const char* name;
     double millimetres;
 };
-constexpr Unit kUnits[]{{"micron", 1e-3}, {"millimeter", 1}, {"centimeter", 10},
-                        {"inch", 25.4},   {"foot", 304.8},   {"meter", 1000}};
+constexpr Unit kUnits[]{{"micron", 1e-3},   {"millimeter", 1},
+                        {"centimeter", 10}, {"inch", kMillimetresPerInch},
+                        {"foot", 304.8},    {"meter", 1000}};
 
 // Row vectors: a point is (x y z 1) times the four rows.
 struct Placed {

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <vector>
 
+#include "firmware/base/inch.hpp"
 #include "host_tools/import/number_ranges.hpp"
 #include "host_tools/input_error/input_error.hpp"
 

@@ -8,11 +8,16 @@
 
 namespace cusp {
 
+// "Nothing" in numbers. A query that may find nothing returns a std::optional; these are for bounds
+// and rasters. tests/checks/constants.py refuses others.
+//
+// The bound that is not set, and the least of no values.
 inline constexpr double kInfinite = std::numeric_limits<double>::infinity();
-// A coordinate or distance beyond every real one, in mm: what a search for the least starts at, or
-// a limit that is not set. Finite, so that 0 * kUnbounded and kUnbounded - kUnbounded are 0, where
-// kInfinite gives NaN. "Nothing found" is a std::optional instead.
+// As kInfinite, for coordinates and distances (mm) that are calculated with: 0 * kUnbounded and
+// kUnbounded - kUnbounded are 0, where kInfinite gives NaN.
 inline constexpr double kUnbounded = 1e300;
+// A value of a raster where nothing determines one. Equal to nothing: ask std::isnan().
+inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 struct Vec2d {
     double x{};

@@ -1,6 +1,7 @@
 // PartInfo as lines for a terminal.
 #include <cmath>
 
+#include "firmware/base/inch.hpp"
 #include "host_tools/part_info/part_info.hpp"
 
 #include "fmt/format.h"
@@ -14,7 +15,6 @@ using job::PartLayer;
 
 namespace {
 
-constexpr double kInch = 25.4;
 constexpr std::size_t kMostListed = 40;  // loops or chains of a layer
 
 // With up to `digits` decimals, and no zeros at the end.
@@ -80,7 +80,7 @@ void add_box(const PartInfo& info, Lines& lines)
         c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
     }
     if (name.rfind("in", 0) == 0) {
-        size += " = " + sizes(kInch, "inch");
+        size += " = " + sizes(kMillimetresPerInch, "inch");
     }
     lines.add("size", size);
 }

@@ -6,7 +6,7 @@
 
 #include "host_tools/report/colour_scale.hpp"
 #include "host_tools/report/picture_frame.hpp"
-#include "host_tools/report/pictures.hpp"
+#include "host_tools/report/report.hpp"
 
 #include "fmt/format.h"
 

@@ -7,7 +7,7 @@
 
 #include "host_tools/report/colour_scale.hpp"
 #include "host_tools/report/picture_frame.hpp"
-#include "host_tools/report/pictures.hpp"
+#include "host_tools/report/report.hpp"
 #include "host_tools/verify/cut_regions.hpp"
 #include "host_tools/verify/part_heights.hpp"
 
@@ -36,7 +36,7 @@ std::vector<Vec3d> points_of(const path::Move& move)
     std::vector<Vec3d> points{to_millimetres(move.start)};
     double spacing = kSpacing;
     if (std::holds_alternative<path::Line>(move.path)) {
-        spacing = std::numeric_limits<double>::infinity();
+        spacing = kUnbounded;
     } else if (const auto* arc = std::get_if<path::Arc>(&move.path)) {
         spacing = std::max(kSpacing, std::sqrt(8 * arc->radius * kSagitta));
     }
@@ -64,7 +64,7 @@ Extent extent_of(const Job& job, const Program& program)
         box.y_low = std::min(box.y_low, plan->low.y);
         box.y_high = std::max(box.y_high, plan->high.y);
     }
-    Extent extent{{box.x_low, box.x_high, box.y_low, box.y_high}, 1e9, -1e9};
+    Extent extent{{box.x_low, box.x_high, box.y_low, box.y_high}, kUnbounded, -kUnbounded};
     for (std::size_t k = 1; k < program.moves.size(); ++k) {
         const path::Move& move = program.moves[k].move;
         if (move.kind == path::MoveKind::kRapid) {

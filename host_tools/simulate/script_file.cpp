@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "host_tools/input_error/input_error.hpp"
-#include "host_tools/simulate/simulation.hpp"
+#include "host_tools/simulate/simulate.hpp"
 
 namespace cusp::simulate {
 

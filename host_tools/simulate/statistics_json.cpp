@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "host_tools/simulate/simulation.hpp"
+#include "host_tools/simulate/simulate.hpp"
 
 namespace cusp::simulate {
 namespace {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <map>
 
+#include "firmware/base/inch.hpp"
 #include "firmware/machine/tool_changer.hpp"
 #include "host_tools/stream/streamer.hpp"
 
@@ -169,9 +170,8 @@ Position Streamer::machine_position() const
     if (!status.machine_position && status.work_position) {
         at = *status.work_position + progress_.work_offset;
     }
-    constexpr double kInch = 25.4;
     const bool inches = facts_.settings().on(machine::Setting::kReportInches);
-    return to_position(inches ? at * kInch : at);
+    return to_position(inches ? at * kMillimetresPerInch : at);
 }
 
 void Streamer::prepare_record()

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <exception>
 
-#include "host_tools/simulate/simulation.hpp"
+#include "host_tools/simulate/simulate.hpp"
 
 namespace cusp::stream {
 

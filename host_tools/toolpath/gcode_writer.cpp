@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "firmware/base/inch.hpp"
 #include "firmware/base/math.hpp"
 #include "host_tools/nurbs/knot_insertion.hpp"
 #include "host_tools/toolpath/arc_geometry.hpp"
@@ -43,7 +44,7 @@ public:
         : out_{out},
           form_{form},
           post_{form.post},
-          unit_{form.inch ? kInch : 1.0},
+          unit_{form.inch ? kMillimetresPerInch : 1.0},
           decimals_{form.post.decimals(form.inch)},
           scale_{std::llround(std::pow(10.0, decimals_))},
           grain_{unit_ / static_cast<double>(scale_)},

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/base/inch.hpp"
+
 namespace cusp::toolpath {
 namespace {
 
@@ -28,7 +30,7 @@ std::string in_form(const std::string& text, CommentForm form)
 
 double rounding_of(const Post& post, bool inch)
 {
-    const double unit = inch ? kInch : 1.0;
+    const double unit = inch ? kMillimetresPerInch : 1.0;
     return kMostRounding * unit * std::pow(10.0, -post.decimals(inch));
 }
 

@@ -12,8 +12,6 @@
 
 namespace cusp::toolpath {
 
-inline constexpr double kInch = 25.4;  // mm
-
 enum class ArcForm : std::uint8_t { kCentre, kRadius };
 enum class CommentForm : std::uint8_t { kParentheses, kSemicolon, kNone };
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 namespace cusp::toolpath {
 
@@ -37,6 +38,9 @@ bool is_conical(const Tool& tool);
 
 // mm: the radius of the level bottom; 0 for a ball, a drill, and a vee with a sharp tip.
 double flat_radius(const Tool& tool);
+
+// mm: the radius of the thinnest tool; infinite if there is none.
+double least_radius(const std::vector<Tool>& tools);
 
 // Height of the tool's lower side over its tip at distance `d` from its axis; infinity beyond the
 // radius.

@@ -37,6 +37,15 @@ double flat_radius(const Tool& tool)
     return is_conical(tool) ? tool.tip_radius : tool.radius - tool.corner_radius;
 }
 
+double least_radius(const std::vector<Tool>& tools)
+{
+    double least = kInfinite;
+    for (const Tool& tool : tools) {
+        least = std::min(least, tool.radius);
+    }
+    return least;
+}
+
 double profile_height(const Tool& tool, double d)
 {
     if (!(d <= tool.radius)) {

@@ -9,7 +9,8 @@ namespace cusp::verify {
 
 namespace {
 
-constexpr double kFarSquare = 1e20;
+// For points that are not marked. Finite, since parabolas of such points are intersected.
+constexpr double kUnmarked = 1e20;
 
 // values[i] = min over k of values[k] + (i - k)^2
 void transform_line(std::vector<double>& values)
@@ -25,7 +26,7 @@ void transform_line(std::vector<double>& values)
     };
     std::size_t last = 0;
     at[0] = 0;
-    from[0] = -kFarSquare * 4;
+    from[0] = -kUnmarked * 4;
     for (std::size_t q = 1; q < n; ++q) {
         double s = meet(at[last], q);
         while (s <= from[last] && last > 0) {
@@ -55,7 +56,7 @@ std::vector<double> distances_from(const std::vector<char>& marked, const Height
     std::vector<double> line(grid.ny);
     for (std::size_t i = 0; i < grid.nx; ++i) {
         for (std::size_t j = 0; j < grid.ny; ++j) {
-            line[j] = marked[grid.index(i, j)] != 0 ? 0.0 : kFarSquare;
+            line[j] = marked[grid.index(i, j)] != 0 ? 0.0 : kUnmarked;
         }
         transform_line(line);
         for (std::size_t j = 0; j < grid.ny; ++j) {
@@ -70,7 +71,7 @@ std::vector<double> distances_from(const std::vector<char>& marked, const Height
         transform_line(line);
         for (std::size_t i = 0; i < grid.nx; ++i) {
             const double d = line[i];
-            square[grid.index(i, j)] = d < kFarSquare / 2 ? grid.pitch * std::sqrt(d) : kUnbounded;
+            square[grid.index(i, j)] = d < kUnmarked / 2 ? grid.pitch * std::sqrt(d) : kUnbounded;
         }
     }
     return square;

@@ -17,22 +17,11 @@ using toolpath::Tool;
 
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kFlush = 1e-6;  // mm: files are not exact
-constexpr double kFar = std::numeric_limits<double>::infinity();
-
-double least_radius(const std::vector<Tool>& tools)
-{
-    double least = kFar;
-    for (const Tool& tool : tools) {
-        least = std::min(least, tool.radius);
-    }
-    return least;
-}
 
 double clearance(const std::vector<WallDistance>& walls, double x, double y)
 {
-    double least = kFar;
+    double least = kInfinite;
     for (const WallDistance& wall : walls) {
         least = std::min(least, wall.at(x, y));
     }
@@ -51,7 +40,7 @@ std::vector<double> best_heights(const FloorQuestion& q,
                                  const HeightGrid& level,
                                  const std::vector<double>& part)
 {
-    std::vector<double> best(level.size(), kFar);
+    std::vector<double> best(level.size(), kInfinite);
     for (const Tool& tool : q.tools) {
         const auto n = static_cast<std::size_t>(std::ceil(tool.radius / level.pitch)) + 1;
         const HeightGrid wide = grown(level, n);
@@ -283,7 +272,7 @@ void fill_figures(const Sums& sums, std::size_t cells, VerifyFigures& figures)
 // mm: distance of each point from the walls.
 std::vector<double> wall_clearances(const FloorQuestion& q)
 {
-    std::vector<double> clear(q.grid.size(), kFar);
+    std::vector<double> clear(q.grid.size(), kInfinite);
     for_each_band(q.grid.nx, [&](std::size_t begin, std::size_t end, std::size_t) {
         for (std::size_t i = begin; i < end && !q.walls.empty(); ++i) {
             for (std::size_t j = 0; j < q.grid.ny; ++j) {
@@ -311,8 +300,8 @@ FloorMaps judge_floor(const FloorQuestion& q, VerifyFigures& figures)
     PartHeights part = part_heights(q.surfaces, q.mesh, q.grid);
     Ideal ideal = ideal_heights(q, part);
     const double radius = least_radius(q.tools);
-    const double bound = q.scallop.value_or(kFar);
-    std::vector<double> left(q.grid.size(), kNone);
+    const double bound = q.scallop.value_or(kInfinite);
+    std::vector<double> left(q.grid.size(), kNoValue);
     std::vector<double> gouge(q.grid.size(), 0.0);
     const std::vector<double> clear = wall_clearances(q);
     if (q.scallop) {
@@ -320,7 +309,7 @@ FloorMaps judge_floor(const FloorQuestion& q, VerifyFigures& figures)
     }
     Sums sums;
     std::size_t cells = 0;
-    double wall_left = -kFar;
+    double wall_left = -kInfinite;
     for (std::size_t k = 0; k < q.grid.size(); ++k) {
         if (!std::isfinite(part.z[k])) {
             continue;
@@ -340,7 +329,7 @@ FloorMaps judge_floor(const FloorQuestion& q, VerifyFigures& figures)
         // uncut stock within the bound needs no cut
         const bool done =
             touched || (q.top - ideal.height[k]) * part.cosine[k] <= q.scallop.value_or(kFlush);
-        left[k] = done ? (q.cut[k] - ideal.height[k]) * part.cosine[k] : kFar;
+        left[k] = done ? (q.cut[k] - ideal.height[k]) * part.cosine[k] : kInfinite;
         if (!reached) {
             wall_left = std::max(wall_left, left[k]);
             continue;
@@ -354,7 +343,7 @@ FloorMaps judge_floor(const FloorQuestion& q, VerifyFigures& figures)
                 std::max(0.0, q.cut[k] - part.z[k]) * q.grid.pitch * q.grid.pitch;
         }
     }
-    if (!q.walls.empty() && wall_left > -kFar) {
+    if (!q.walls.empty() && wall_left > -kInfinite) {
         figures.wall_left_max = wall_left;
     }
     figures.scallop_bound = q.scallop;

@@ -18,7 +18,7 @@ FloorSamples::FloorSamples(const HeightGrid& grid, const std::vector<double>& he
 
 LowestPositionSearch::DroppedTool FloorSamples::drop_ball(double radius, double x, double y) const
 {
-    LowestPositionSearch::DroppedTool best{{x, y, -LowestPositionSearch::kNowhere}, {}};
+    LowestPositionSearch::DroppedTool best{{x, y, -kInfinite}, {}};
     const std::size_t i_end = grid_.end_column(x + radius);
     const std::size_t j_begin = grid_.first_row(y - radius);
     const std::size_t j_end = grid_.end_row(y + radius);
@@ -41,7 +41,7 @@ LowestPositionSearch::DroppedTool FloorSamples::drop_ball(double radius, double 
         }
     }
     if (!std::isfinite(best.centre.z)) {
-        best.centre.z = LowestPositionSearch::kNowhere;
+        best.centre.z = kInfinite;
     }
     return best;
 }

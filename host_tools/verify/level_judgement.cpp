@@ -18,8 +18,6 @@ using job::ProfileSide;
 
 namespace {
 
-constexpr double kNoFigure = std::numeric_limits<double>::quiet_NaN();
-
 struct Cuts {
     double gouge{};
     double wall{};
@@ -47,7 +45,7 @@ public:
         : q_{question},
           figures_{figures},
           regions_{cut_regions(q_.job, q_.grid)},
-          maps_{std::vector<double>(q_.grid.size(), kNoFigure),
+          maps_{std::vector<double>(q_.grid.size(), kNoValue),
                 std::vector<double>(q_.grid.size(), 0.0),
                 std::vector<double>(q_.grid.size(), q_.job.stock_top)}
     {

@@ -221,7 +221,7 @@ PartHeights part_heights(const std::vector<Surface>& surfaces,
                          const std::vector<std::array<Vec3d, 3>>& triangles,
                          const HeightGrid& grid)
 {
-    PartHeights heights{std::vector<double>(grid.size(), -std::numeric_limits<double>::infinity()),
+    PartHeights heights{std::vector<double>(grid.size(), -kInfinite),
                         std::vector<double>(grid.size(), 1.0),
                         std::vector<std::array<float, 2>>(grid.size())};
     for (const Surface& surface : surfaces) {
@@ -243,7 +243,7 @@ PartHeights part_heights(const std::vector<Surface>& surfaces,
         fill(triangle, grid, heights);
     }
     for (double& z : heights.z) {
-        z = std::isfinite(z) ? z : std::numeric_limits<double>::quiet_NaN();
+        z = std::isfinite(z) ? z : kNoValue;
     }
     return heights;
 }
@@ -251,9 +251,8 @@ PartHeights part_heights(const std::vector<Surface>& surfaces,
 PartBox part_box(const std::vector<Surface>& surfaces,
                  const std::vector<std::array<Vec3d, 3>>& triangles)
 {
-    constexpr double kFar = std::numeric_limits<double>::infinity();
     constexpr int kSamples = 24;
-    PartBox box{kFar, -kFar, kFar, -kFar, kFar, -kFar};
+    PartBox box{kInfinite, -kInfinite, kInfinite, -kInfinite, kInfinite, -kInfinite};
     const auto widen = [&box](Vec3d p) {
         box = {std::min(box.x_low, p.x),  std::max(box.x_high, p.x), std::min(box.y_low, p.y),
                std::max(box.y_high, p.y), std::min(box.z_low, p.z),  std::max(box.z_high, p.z)};

@@ -31,9 +31,8 @@ double distance_to(const Tool& tool, Vec3d tip, Vec3d place)
 ResidualThickness::ResidualThickness(const std::vector<ToolPositions>& runs, double top)
     : runs_{runs}
 {
-    constexpr double kFar = std::numeric_limits<double>::infinity();
-    Vec2d low{kFar, kFar};
-    Vec2d high{-kFar, -kFar};
+    Vec2d low{kInfinite, kInfinite};
+    Vec2d high{-kInfinite, -kInfinite};
     const auto for_each_position = [&](auto visit) {
         for (std::size_t run = 0; run < runs.size(); ++run) {
             for (std::size_t k = 0; k < runs[run].tips.size(); ++k) {
@@ -43,7 +42,7 @@ ResidualThickness::ResidualThickness(const std::vector<ToolPositions>& runs, dou
             }
         }
     };
-    double least = kFar;
+    double least = kInfinite;
     for (const ToolPositions& run : runs) {
         widest_ = std::max(widest_, run.tool.radius);
         least = std::min(least, run.tool.radius);

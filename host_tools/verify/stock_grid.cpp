@@ -9,22 +9,13 @@
 namespace cusp::verify {
 
 using job::Job;
-using toolpath::Tool;
+using toolpath::least_radius;
 
 namespace {
 
 constexpr double kDefaultPitch = 0.173;  // no simple ratio to common stepovers
 constexpr double kDefaultSpacing = 0.1;
 constexpr double kMostCells = 4e6;
-
-double least_radius(const Job& job)
-{
-    double least = job.tools.front().radius;
-    for (const Tool& tool : job.tools) {
-        least = std::min(least, tool.radius);
-    }
-    return least;
-}
 
 }  // namespace
 
@@ -49,7 +40,7 @@ HeightGrid stock_grid(const Job& job, PartBox parts, std::optional<double> pitch
     const double height = box.y_high - box.y_low;
     constexpr double kPitchesPerRadius = 16;
     const double wanted =
-        pitch.value_or(std::min(kDefaultPitch, least_radius(job) / kPitchesPerRadius));
+        pitch.value_or(std::min(kDefaultPitch, least_radius(job.tools) / kPitchesPerRadius));
     const double used = std::max(wanted, std::sqrt(width * height / kMostCells));
     const auto count = [&](double length) {
         return std::max<std::size_t>(1, static_cast<std::size_t>(length / used));
@@ -60,7 +51,7 @@ HeightGrid stock_grid(const Job& job, PartBox parts, std::optional<double> pitch
 double position_spacing(const Job& job)
 {
     constexpr double kSpacingsPerRadius = 20;
-    return std::min(kDefaultSpacing, least_radius(job) / kSpacingsPerRadius);
+    return std::min(kDefaultSpacing, least_radius(job.tools) / kSpacingsPerRadius);
 }
 
 }  // namespace cusp::verify

@@ -13,7 +13,6 @@ using toolpath::ToolShape;
 
 namespace {
 
-constexpr double kUnreached = LowestPositionSearch::kNowhere;
 constexpr double kPitch = 0.125;        // radii, of the grid of drops
 constexpr double kDropAccuracy = 1e-4;  // mm
 constexpr double kAgrees = 3e-4;        // mm
@@ -71,12 +70,12 @@ LowestPositionSearch::DroppedTool ToolAccess::drop_on_samples(const Cutter& cutt
                                                               double y) const
 {
     return within_walls(cutter, x, y) ? samples_.drop_ball(cutter.grown_tool.radius, x, y)
-                                      : LowestPositionSearch::DroppedTool{{x, y, kUnreached}, {}};
+                                      : LowestPositionSearch::DroppedTool{{x, y, kInfinite}, {}};
 }
 
 LowestPositionSearch::DroppedTool ToolAccess::drop_at(Cutter& cutter, double x, double y)
 {
-    LowestPositionSearch::DroppedTool rest{{x, y, kUnreached}, {}};
+    LowestPositionSearch::DroppedTool rest{{x, y, kInfinite}, {}};
     if (!within_walls(cutter, x, y)) {
         return rest;
     }
@@ -92,7 +91,7 @@ LowestPositionSearch::DroppedTool ToolAccess::drop_at(Cutter& cutter, double x, 
         }
         if (const auto tip = model_->drop_height(cutter.grown_tool, x, y)) {
             const double height = *tip + cutter.grown_tool.corner_radius;
-            if (rest.centre.z == kUnreached || height > rest.centre.z) {
+            if (rest.centre.z == kInfinite || height > rest.centre.z) {
                 rest.centre.z = height;
                 rest.contact =
                     model_->distance(cutter.grown_tool, {x, y, *tip}, kTouches).nearest.point;
@@ -104,7 +103,7 @@ LowestPositionSearch::DroppedTool ToolAccess::drop_at(Cutter& cutter, double x, 
 
 double ToolAccess::lowest_over(Vec3d place, Vec3d normal, double exact_below)
 {
-    double lowest = kUnreached;
+    double lowest = kInfinite;
     for (Cutter& cutter : cutters_) {
         // the position of a tool that touches the point
         const double level = std::hypot(normal.x, normal.y);
@@ -117,7 +116,7 @@ double ToolAccess::lowest_over(Vec3d place, Vec3d normal, double exact_below)
         if (cutter.on_samples &&
             (cutter.failures < kMostFailures || ++cutter.skipped % kAgain == 0)) {
             // The first lower position suffices: the floor itself then decides.
-            const double sufficient = std::nextafter(lower, -kUnreached);
+            const double sufficient = std::nextafter(lower, -kInfinite);
             const auto hoped = cutter.on_samples->lowest_over(place, lower, sufficient, touching);
             if (hoped && hoped->height >= lower) {
                 cutter.failures = 0;

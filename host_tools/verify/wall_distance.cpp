@@ -30,9 +30,8 @@ double distance_to(Vec2d p, Vec2d a, Vec2d b)
 WallDistance::WallDistance(const Loop& loop, bool outer, double cap) : outer_{outer}, cap_{cap}
 {
     const std::vector<Vec2d> line = loop_polyline(loop, kChord);
-    constexpr double kFar = std::numeric_limits<double>::infinity();
-    Vec2d low{kFar, kFar};
-    Vec2d high{-kFar, -kFar};
+    Vec2d low{kInfinite, kInfinite};
+    Vec2d high{-kInfinite, -kInfinite};
     for (const Vec2d p : line) {
         low = {std::min(low.x, p.x), std::min(low.y, p.y)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y)};

@@ -27,8 +27,6 @@ using verify::Verification;
 
 namespace {
 
-// mm: spacing without a stock.
-constexpr double kAnySpacing = 1e9;
 // Distance of tool positions in pitches of the stock's grid.
 constexpr double kSpacingShare = 0.4;
 // Batches of set points that wait to be encoded: some 13 MB.
@@ -155,7 +153,8 @@ RunPage run_page(const std::string& program, const RunPageOptions& options)
     const HeightGrid grid = cut_part != nullptr ? coarse_grid(cut_part->grid) : HeightGrid{};
     ProgramReading reading;
     std::string program_data;
-    RunRecord record{reading, cut_part != nullptr ? kSpacingShare * grid.pitch : kAnySpacing};
+    RunRecord record{reading, cut_part != nullptr ? kSpacingShare * grid.pitch
+                                                  : std::numeric_limits<double>::infinity()};
     if (cut_part != nullptr && cut_part->figures.engagement) {
         record.follow_engagement(*cut_part);
     }

@@ -12,7 +12,7 @@
 #include <string>
 
 #include "host_tools/job/job.hpp"
-#include "host_tools/simulate/simulation.hpp"
+#include "host_tools/simulate/simulate.hpp"
 #include "host_tools/verify/verify.hpp"
 
 namespace cusp::view {

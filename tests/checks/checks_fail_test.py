@@ -211,6 +211,20 @@ class ChecksOfTheTree(unittest.TestCase):
         self.assertIn("501 lines; limit 500", self.run_check("sizes.py")[1])
 
     def test_glossary_refuses_a_noun_that_it_lacks(self):
+    def test_constants_refuses_other_names_for_nothing_and_for_the_inch(self):
+        self.assertEqual(self.run_check("constants.py")[0], 2)
+        place = "host_tools/clearing/loops.cpp"
+        for line, wrong in (("double least = kUnbounded;  // not 1e300", None), ("constexpr double kMost = 1e12;  // mm", None),
+                            ('text("1e9");', None), ("double small = 1e-9;", None), ("double least = 1e300;", "1e300 is"),
+                            ("box = {1e9, -1e9};", "1e9 is"), ("constexpr double kFar = kInfinite;", "a second name"),
+                            ("constexpr double kFar{-kUnbounded};", "a second name"),
+                            ("double least = std::numeric_limits<double>::max();", "numeric_limits<double>::max is"),
+                            ("double left = std::nan(\"\");", "std::nan( is"), ("double unit = inch ? 25.4 : 1.0;", "25.4 is")):
+            self.write(place, f"\n{line}\n")
+            status, said = self.run_check("constants.py")
+            self.assertEqual(status, 1 if wrong else 0, said)
+            self.assertIn(f"{place}:2: {wrong}" if wrong else "1 files", said)
+
         self.assertEqual(self.run_check("glossary.py")[0], 2)
         self.write("docs/glossary.md", "| word | meaning |\n| pencil pass, ring | along a wall |\n")
         self.write("host_tools/clearing/rings.hpp", "struct PencilRings {\n};\nclass RingWriter : public Base {\n};\n")

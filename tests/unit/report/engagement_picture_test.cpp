@@ -4,7 +4,7 @@
 #include "CppUTest/TestHarness.h"
 
 #include "host_tools/report/colour_scale.hpp"
-#include "host_tools/report/pictures.hpp"
+#include "host_tools/report/report.hpp"
 
 using namespace cusp;
 using namespace cusp::report;

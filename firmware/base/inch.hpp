@@ -1,0 +1,8 @@
+// The inch, exactly.
+#pragma once
+
+namespace cusp {
+
+inline constexpr double kMillimetresPerInch = 25.4;
+
+}  // namespace cusp
